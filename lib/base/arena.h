@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Arena: memory that is handed out piece by piece and given back all at once.
+ *
+ * A scene and a model are built from many small objects that live exactly as long as their owner, so one call
+ * frees them. Memory is zeroed and aligned for any type. A failed allocation returns NULL and sets `failed`, so
+ * that a builder may check once at the end.
+ */
+#ifndef FBD_BASE_ARENA_H
+#define FBD_BASE_ARENA_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+struct arena_chunk;
+
+struct arena {
+    struct arena_chunk *chunks;
+    bool failed; /* true once any allocation has failed */
+};
+
+/* `count` zeroed objects of `size` bytes, or NULL when memory is out or count * size overflows. */
+void *arena_array(struct arena *arena, size_t count, size_t size);
+
+/* A zero-terminated copy of the first `length` bytes of `text`, or NULL. */
+char *arena_text(struct arena *arena, const char *text, size_t length);
+
+/* printf into the arena; NULL when memory is out. */
+char *arena_printf(struct arena *arena, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Give everything back; the arena is then empty and may be used again. */
+void arena_free(struct arena *arena);
+
+#define ARENA_NEW(arena, type) ((type *)arena_array((arena), 1, sizeof(type)))
+#define ARENA_ARRAY(arena, count, type) ((type *)arena_array((arena), (count), sizeof(type)))
+
+#endif

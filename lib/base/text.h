@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Growing text buffer for output, and numbers that do not depend on the locale.
+ */
+#ifndef FBD_BASE_TEXT_H
+#define FBD_BASE_TEXT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+struct text {
+    char *data; /* zero-terminated once anything was added */
+    size_t length, capacity;
+    bool failed; /* memory ran out; later additions are ignored */
+};
+
+void text_add(struct text *text, const char *string);
+void text_add_bytes(struct text *text, const char *bytes, size_t length);
+void text_printf(struct text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* `value` with `digits` significant digits as %g writes it, always with a decimal point. */
+void text_number(struct text *text, double value, int digits);
+
+/* Pad with blanks up to display column `column` of the current line (UTF-8 counted by characters). */
+void text_pad(struct text *text, size_t column);
+
+/* `string` between double quotes with JSON's escapes. */
+void text_json_string(struct text *text, const char *string);
+
+void text_free(struct text *text);
+
+/* The number of characters that a UTF-8 string takes on a terminal, one column each. */
+size_t text_width(const char *string);
+
+#endif
