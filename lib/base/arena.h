@@ -3,8 +3,8 @@
  * Arena: memory that is handed out piece by piece and given back all at once.
  *
  * A scene and a model are built from many small objects that live exactly as long as their owner, so one call
- * frees them. Memory is zeroed and aligned for any type. A failed allocation returns NULL and sets `failed`, so
- * that a builder may check once at the end.
+ * frees them. Memory is zeroed and aligned for any type. A failed allocation returns NULL and sets `failed`,
+ * so that a builder may check once at the end.
  */
 #ifndef FBD_BASE_ARENA_H
 #define FBD_BASE_ARENA_H
@@ -31,7 +31,7 @@ char *arena_printf(struct arena *arena, const char *format, ...) __attribute__((
 /* Give everything back; the arena is then empty and may be used again. */
 void arena_free(struct arena *arena);
 
-#define ARENA_NEW(arena, type) ((type *)arena_array((arena), 1, sizeof(type)))
+#define ARENA_NEW(arena, type)          ((type *)arena_array((arena), 1, sizeof(type)))
 #define ARENA_ARRAY(arena, count, type) ((type *)arena_array((arena), (count), sizeof(type)))
 
 #endif

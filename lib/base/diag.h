@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Diagnostics: everything that is wrong with a file, collected in the order of discovery and sorted by position
- * when it is shown. The public face is `fbd_errors` in fbd.h.
+ * Diagnostics: everything that is wrong with a file, collected in the order of discovery and sorted by
+ * position when it is shown. The public face is `fbd_errors` in fbd.h.
  */
 #ifndef FBD_BASE_DIAG_H
 #define FBD_BASE_DIAG_H

@@ -1,0 +1,231 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/diag.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { most_notes = 200 }; /* a file with more faults than this is not a model file */
+
+fbd_errors *fbd_errors_new(void)
+{
+    fbd_errors *errors = calloc(1, sizeof *errors);
+    if (errors) errors->limit = most_notes;
+    return errors;
+}
+
+void fbd_errors_free(fbd_errors *errors)
+{
+    if (!errors) return;
+    arena_free(&errors->arena);
+    free(errors->sorted);
+    free(errors);
+}
+
+size_t fbd_errors_count(const fbd_errors *errors)
+{
+    return errors->count;
+}
+
+size_t fbd_errors_failed(const fbd_errors *errors)
+{
+    return errors->errors + (errors->out_of_memory ? 1 : 0);
+}
+
+static char *format_text(struct arena *arena, const char *format, va_list args)
+{
+    va_list again;
+    va_copy(again, args);
+    int length = vsnprintf(NULL, 0, format, again);
+    va_end(again);
+    char *text = length < 0 ? NULL : arena_array(arena, (size_t)length + 1, 1);
+    if (text) vsnprintf(text, (size_t)length + 1, format, args);
+    return text;
+}
+
+static void add_note(fbd_errors *errors, fbd_error note, const char *format, va_list args)
+{
+    if (!errors) return;
+    if (note.severity == FBD_ERROR) errors->errors++;
+    if (errors->count >= errors->limit) return;
+    struct diag_note *entry = ARENA_NEW(&errors->arena, struct diag_note);
+    char *message = entry ? format_text(&errors->arena, format, args) : NULL;
+    if (!message) {
+        errors->out_of_memory = true;
+        return;
+    }
+    entry->error = note;
+    entry->error.message = message;
+    entry->error.file = errors->file;
+    if (errors->last)
+        errors->last->next = entry;
+    else
+        errors->first = entry;
+    errors->last = entry;
+    errors->count++;
+    free(errors->sorted);
+    errors->sorted = NULL;
+}
+
+void diag_add(fbd_errors *errors, fbd_severity severity, const char *id, struct pos at, const char *hint,
+              const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    fbd_error note = {.severity = severity, .id = id, .hint = hint, .line = at.line, .column = at.column};
+    add_note(errors, note, format, args);
+    va_end(args);
+}
+
+void diag_add_within(fbd_errors *errors, const char *id, struct pos at, struct pos context, const char *hint,
+                     const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    fbd_error note = {.severity = FBD_ERROR,
+                      .id = id,
+                      .hint = hint,
+                      .line = at.line,
+                      .column = at.column,
+                      .context_line = context.line,
+                      .context_column = context.column};
+    add_note(errors, note, format, args);
+    va_end(args);
+}
+
+void diag_out_of_memory(fbd_errors *errors)
+{
+    if (errors) errors->out_of_memory = true;
+}
+
+const char *diag_hint(fbd_errors *errors, const char *format, ...)
+{
+    if (!errors) return NULL;
+    va_list args;
+    va_start(args, format);
+    char *text = format_text(&errors->arena, format, args);
+    va_end(args);
+    return text;
+}
+
+/* ---- the nearest name */
+
+enum { longest_name = 48 };
+
+static size_t smallest(size_t a, size_t b, size_t c)
+{
+    size_t least = a < b ? a : b;
+    return least < c ? least : c;
+}
+
+static char lower(char c)
+{
+    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
+
+/* Optimal string alignment distance without regard to case: insertions, deletions, replacements and swaps of
+ * neighbours (Damerau 1964). Names longer than `longest_name` count as far away. */
+static size_t distance(const char *a, const char *b)
+{
+    size_t n = strlen(a), m = strlen(b);
+    if (n > longest_name || m > longest_name) return longest_name;
+    size_t rows[3][longest_name + 1];
+    size_t *before = rows[0], *last = rows[1], *now = rows[2];
+    for (size_t j = 0; j <= m; j++) last[j] = before[j] = j;
+    for (size_t i = 1; i <= n; i++) {
+        now[0] = i;
+        for (size_t j = 1; j <= m; j++) {
+            bool same = lower(a[i - 1]) == lower(b[j - 1]);
+            now[j] = smallest(last[j] + 1, now[j - 1] + 1, last[j - 1] + (same ? 0 : 1));
+            bool swapped =
+                i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
+            if (swapped && before[j - 2] + 1 < now[j]) now[j] = before[j - 2] + 1;
+        }
+        size_t *spare = before;
+        before = last;
+        last = now;
+        now = spare;
+    }
+    return last[m];
+}
+
+static bool starts_with(const char *name, const char *start)
+{
+    size_t length = strlen(start);
+    return length >= 3 && strncmp(name, start, length) == 0;
+}
+
+const char *diag_nearest(fbd_errors *errors, const char *wrong, const char *const *names, size_t count)
+{
+    size_t best = count, least = 1 + strlen(wrong) / 3;
+    for (size_t i = 0; i < count; i++) {
+        size_t d =
+            starts_with(names[i], wrong) || starts_with(wrong, names[i]) ? 1 : distance(wrong, names[i]);
+        if (d < least || (d == least && best == count)) {
+            least = d;
+            best = i;
+        }
+    }
+    if (best < count) return diag_hint(errors, "did you mean `%s`?", names[best]);
+    enum { most_listed = 24 };
+    char list[512] = "";
+    size_t used = 0;
+    for (size_t i = 0; i < count && i < most_listed; i++) {
+        int n = snprintf(list + used, sizeof list - used, "%s%s", i ? ", " : "", names[i]);
+        if (n < 0 || (size_t)n >= sizeof list - used) break;
+        used += (size_t)n;
+    }
+    return count ? diag_hint(errors, "one of: %s%s", list, count > most_listed ? ", ..." : "") : NULL;
+}
+
+/* ---- showing */
+
+static int by_position(const void *left, const void *right)
+{
+    const fbd_error *a = *(fbd_error *const *)left, *b = *(fbd_error *const *)right;
+    if (a->line != b->line) return a->line < b->line ? -1 : 1;
+    if (a->column != b->column) return a->column < b->column ? -1 : 1;
+    return 0;
+}
+
+static bool sort_notes(fbd_errors *errors)
+{
+    errors->sorted = calloc(errors->count ? errors->count : 1, sizeof *errors->sorted);
+    if (!errors->sorted) return false;
+    size_t i = 0;
+    for (struct diag_note *note = errors->first; note; note = note->next) errors->sorted[i++] = &note->error;
+    /* qsort is not stable: notes at one place keep their order because they are sorted by insertion. */
+    for (size_t k = 1; k < errors->count; k++)
+        for (size_t j = k; j > 0 && by_position(&errors->sorted[j - 1], &errors->sorted[j]) > 0; j--) {
+            fbd_error *spare = errors->sorted[j];
+            errors->sorted[j] = errors->sorted[j - 1];
+            errors->sorted[j - 1] = spare;
+        }
+    return true;
+}
+
+const fbd_error *fbd_errors_get(fbd_errors *errors, size_t index)
+{
+    static const fbd_error no_memory = {.severity = FBD_ERROR,
+                                        .id = "out-of-memory",
+                                        .message = "out of memory"};
+    if (index < errors->count && (errors->sorted || sort_notes(errors))) return errors->sorted[index];
+    return errors->out_of_memory && index == errors->count ? &no_memory : NULL;
+}
+
+void fbd_errors_print(fbd_errors *errors, FILE *stream)
+{
+    const fbd_error *e;
+    for (size_t i = 0; (e = fbd_errors_get(errors, i)) != NULL; i++) {
+        if (e->file) fprintf(stream, "%s:", e->file);
+        if (e->line) fprintf(stream, "%d:%d:", e->line, e->column);
+        fprintf(stream, "%s%s: %s [%s]\n", e->file || e->line ? " " : "",
+                e->severity == FBD_ERROR ? "error" : "warning", e->message, e->id);
+        if (e->context_line)
+            fprintf(stream, "    while reading what starts at line %d, column %d\n", e->context_line,
+                    e->context_column);
+        if (e->hint) fprintf(stream, "    hint: %s\n", e->hint);
+    }
+    if (errors->errors > errors->limit)
+        fprintf(stream, "... and %zu more errors\n", errors->errors - errors->limit);
+}

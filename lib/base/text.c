@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/text.h"
+
+#include <locale.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool text_reserve(struct text *text, size_t more)
+{
+    if (text->failed) return false;
+    if (text->capacity - text->length > more) return true;
+    size_t capacity = text->capacity ? text->capacity : 1024;
+    while (capacity - text->length <= more) capacity *= 2;
+    char *data = realloc(text->data, capacity);
+    if (!data) {
+        text->failed = true;
+        return false;
+    }
+    text->data = data;
+    text->capacity = capacity;
+    return true;
+}
+
+void text_add_bytes(struct text *text, const char *bytes, size_t length)
+{
+    if (!text_reserve(text, length)) return;
+    memcpy(text->data + text->length, bytes, length);
+    text->length += length;
+    text->data[text->length] = '\0';
+}
+
+void text_add(struct text *text, const char *string)
+{
+    text_add_bytes(text, string, strlen(string));
+}
+
+void text_printf(struct text *text, const char *format, ...)
+{
+    va_list args, again;
+    va_start(args, format);
+    va_copy(again, args);
+    int length = vsnprintf(NULL, 0, format, args);
+    va_end(args);
+    if (length >= 0 && text_reserve(text, (size_t)length + 1)) {
+        vsnprintf(text->data + text->length, (size_t)length + 1, format, again);
+        text->length += (size_t)length;
+    }
+    va_end(again);
+}
+
+void text_number(struct text *text, double value, int digits)
+{
+    char buffer[64];
+    if (value == 0) value = 0; /* -0 and 0 read the same */
+    int length = snprintf(buffer, sizeof buffer, "%.*g", digits, value);
+    if (length < 0) return;
+    const char *point = localeconv()->decimal_point;
+    char *found = point[0] != '.' || point[1] ? strstr(buffer, point) : NULL;
+    if (found) {
+        *found = '.';
+        memmove(found + 1, found + strlen(point), strlen(found + strlen(point)) + 1);
+    }
+    text_add(text, buffer);
+}
+
+void text_pad(struct text *text, size_t column)
+{
+    size_t start = text->length;
+    while (start > 0 && text->data[start - 1] != '\n') start--;
+    size_t width = text->length > start ? text_width(text->data + start) : 0;
+    for (; width < column; width++) text_add(text, " ");
+}
+
+void text_json_string(struct text *text, const char *string)
+{
+    text_add(text, "\"");
+    for (const char *c = string; *c; c++) {
+        unsigned char byte = (unsigned char)*c;
+        if (byte == '"' || byte == '\\')
+            text_printf(text, "\\%c", byte);
+        else if (byte == '\n')
+            text_add(text, "\\n");
+        else if (byte == '\t')
+            text_add(text, "\\t");
+        else if (byte < 0x20 || byte == 0x7f)
+            text_printf(text, "\\u%04x", byte);
+        else
+            text_add_bytes(text, c, 1);
+    }
+    text_add(text, "\"");
+}
+
+void text_free(struct text *text)
+{
+    free(text->data);
+    *text = (struct text){0};
+}
+
+size_t text_width(const char *string)
+{
+    size_t width = 0;
+    for (; *string; string++) width += ((unsigned char)*string & 0xC0) != 0x80;
+    return width;
+}
