@@ -27,7 +27,8 @@ void *arena_array(struct arena *arena, size_t count, size_t size)
         arena->failed = true;
         return NULL;
     }
-    size_t wanted = round_up(count * size ? count * size : 1);
+    size_t bytes = count * size;
+    size_t wanted = round_up(bytes > 0 ? bytes : 1);
     struct arena_chunk *chunk = arena->chunks;
     if (!chunk || chunk->size - chunk->used < wanted) {
         size_t room = wanted > chunk_size ? wanted : chunk_size;

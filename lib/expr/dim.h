@@ -2,8 +2,8 @@
  *
  * Physical dimensions: powers of mass, length and time.
  *
- * Plane angle carries no dimension (1 rad = 1), as in the SI. Exponents are kept in twelfths, so that square, cube
- * and fourth roots stay exact.
+ * Plane angle carries no dimension (1 rad = 1), as in the SI. Exponents are kept in twelfths, so that square,
+ * cube and fourth roots stay exact.
  */
 #ifndef FBD_EXPR_DIM_H
 #define FBD_EXPR_DIM_H
@@ -17,22 +17,22 @@ struct dim {
     short mass, length, time; /* in twelfths */
 };
 
-#define DIM(M, L, T) ((struct dim){(M) * dim_unit, (L) * dim_unit, (T) * dim_unit})
+#define DIM(M, L, T) ((struct dim){(M)*dim_unit, (L)*dim_unit, (T)*dim_unit})
 
-#define DIM_NONE         DIM(0, 0, 0)
-#define DIM_MASS         DIM(1, 0, 0)
-#define DIM_LENGTH       DIM(0, 1, 0)
-#define DIM_TIME         DIM(0, 0, 1)
-#define DIM_VELOCITY     DIM(0, 1, -1)
-#define DIM_ACCELERATION DIM(0, 1, -2)
-#define DIM_RATE         DIM(0, 0, -1) /* rad/s */
-#define DIM_RATE_CHANGE  DIM(0, 0, -2) /* rad/s^2 */
-#define DIM_FORCE        DIM(1, 1, -2)
-#define DIM_MOMENT       DIM(1, 2, -2) /* also energy, and torsional stiffness (N m/rad) */
-#define DIM_POWER        DIM(1, 2, -3)
-#define DIM_INERTIA      DIM(1, 2, 0)
-#define DIM_STIFFNESS    DIM(1, 0, -2)
-#define DIM_DAMPING      DIM(1, 0, -1) /* N s/m */
+#define DIM_NONE            DIM(0, 0, 0)
+#define DIM_MASS            DIM(1, 0, 0)
+#define DIM_LENGTH          DIM(0, 1, 0)
+#define DIM_TIME            DIM(0, 0, 1)
+#define DIM_VELOCITY        DIM(0, 1, -1)
+#define DIM_ACCELERATION    DIM(0, 1, -2)
+#define DIM_RATE            DIM(0, 0, -1) /* rad/s */
+#define DIM_RATE_CHANGE     DIM(0, 0, -2) /* rad/s^2 */
+#define DIM_FORCE           DIM(1, 1, -2)
+#define DIM_MOMENT          DIM(1, 2, -2) /* also energy, and torsional stiffness (N m/rad) */
+#define DIM_POWER           DIM(1, 2, -3)
+#define DIM_INERTIA         DIM(1, 2, 0)
+#define DIM_STIFFNESS       DIM(1, 0, -2)
+#define DIM_DAMPING         DIM(1, 0, -1) /* N s/m */
 #define DIM_ANGULAR_DAMPING DIM(1, 2, -1) /* N m s/rad */
 #define DIM_QUADRATIC_DRAG  DIM(1, -1, 0) /* N s^2/m^2 */
 

@@ -2,25 +2,30 @@
  *
  * Expressions: text once, numbers ever after.
  *
- * A scalar of the model file (`30 deg`, `4[N/s]*t`, `-k*x - k3*x^3`) is compiled once to a compact program. Evaluation yields
- * the value, exact derivatives by dual numbers (first order) and hyper-dual numbers (second order), never allocates, and may
- * run in many threads on one program. Constants are folded: an expression of constants is one number.
+ * A scalar of the model file (`30 deg`, `4[N/s]*t`, `-k*x - k3*x^3`) is compiled once to a compact program.
+ * Evaluation yields the value, exact derivatives by dual numbers (first order) and hyper-dual numbers (second
+ * order), never allocates, and may run in many threads on one program. Constants are folded: an expression of
+ * constants is one number.
  *
- * Grammar (loosest first):  or | and | not | comparison (< <= > >= ==) | + - | * / | unary - + | ^ (right to left) | call, name, number, ( ).
- * A literal takes a unit in brackets: 5[N], 0.1[N*m*s/rad]. A whole scalar that is a number followed by a unit (`30 deg`, `-5 lbf`)
- * is a quantity. Anything else of the form `5 N + ...` is an error that shows the brackets.
+ * Grammar (loosest first):  or | and | not | comparison (< <= > >= ==) | + - | * / | unary - + | ^ (right to
+ * left) | call, name, number, ( ). A literal takes a unit in brackets: 5[N], 0.1[N*m*s/rad]. A whole scalar
+ * that is a number followed by a unit (`30 deg`, `-5 lbf`) is a quantity. Anything else of the form `5 N +
+ * ...` is an error that shows the brackets.
  *
- * Functions: sin cos tan asin acos atan atan2 sinh cosh tanh exp ln log (= ln) log10 sqrt cbrt hypot pow abs sign min max
- * floor ceil round mod(a, b), step(u) (0 below zero, 1 above), pulse(t, start, width) (1 inside), square(u) (+1 in the first half of each
- * unit period of u, -1 in the second), sawtooth(u) (u - floor(u)), clamp(u, low, high), if(condition, a, b). Constants: pi.
+ * Functions: sin cos tan asin acos atan atan2 sinh cosh tanh exp ln log (= ln) log10 sqrt cbrt hypot pow abs
+ * sign min max floor ceil round mod(a, b), step(u) (0 below zero, 1 above), pulse(t, start, width) (1
+ * inside), square(u) (+1 in the first half of each unit period of u, -1 in the second), sawtooth(u) (u -
+ * floor(u)), clamp(u, low, high), if(condition, a, b). Constants: pi.
  *
- * Dimensions are checked everywhere. A bare literal (no unit) takes whatever dimension it needs, and so does a product with such a factor.
- * Exponents must be numbers when the base has a dimension. Angles are pure numbers.
+ * Dimensions are checked everywhere. A bare literal (no unit) takes whatever dimension it needs, and so does
+ * a product with such a factor. Exponents must be numbers when the base has a dimension. Angles are pure
+ * numbers.
  *
- * KINKS. Functions that are not smooth (abs sign min max step pulse square floor mod clamp if and comparisons ...) are switches: each has a branch
- * (a small integer), and evaluation with given branches follows the smooth formula of that branch, beyond its end if need be. The caller
- * holds the branches, sees from the margins when a branch ends, locates that instant, and crosses over. So no integrator ever
- * straddles a kink. Without branches (NULL) evaluation takes the plain value.
+ * KINKS. Functions that are not smooth (abs sign min max step pulse square floor mod clamp if and comparisons
+ * ...) are switches: each has a branch (a small integer), and evaluation with given branches follows the
+ * smooth formula of that branch, beyond its end if need be. The caller holds the branches, sees from the
+ * margins when a branch ends, locates that instant, and crosses over. So no integrator ever straddles a kink.
+ * Without branches (NULL) evaluation takes the plain value.
  */
 #ifndef FBD_EXPR_EXPR_H
 #define FBD_EXPR_EXPR_H
@@ -35,7 +40,12 @@ struct expr;
 
 /* What a name means. */
 struct symbol {
-    enum { symbol_unknown, symbol_constant, symbol_variable, symbol_failed } kind; /* failed: a note was given already */
+    enum {
+        symbol_unknown,
+        symbol_constant,
+        symbol_variable,
+        symbol_failed
+    } kind; /* failed: a note was given already */
     struct dim dim;
     bool free;    /* a constant given as a bare number: takes any dimension */
     double value; /* of a constant */
@@ -44,9 +54,11 @@ struct symbol {
 
 /* The names that an expression may use. */
 struct scope {
-    /* The meaning of `name` (dots included: `crank.theta`), asked at most once for each place where it stands. */
+    /* The meaning of `name` (dots included: `crank.theta`), asked at most once for each place where it
+     * stands. */
     struct symbol (*lookup)(void *context, const char *name, struct pos at);
-    /* All names that may be used here, for hints; returns their number, *names lives as long as the scope. May be NULL. */
+    /* All names that may be used here, for hints; returns their number, *names lives as long as the scope.
+     * May be NULL. */
     size_t (*names)(void *context, const char *const **names);
     void *context;
     enum unit_system units;
@@ -62,19 +74,21 @@ struct expr_want {
     const char *what; /* for messages: "mass", "friction.static" */
 };
 
-/* Compile `text`, which starts at `at` in its file. Memory comes from `arena`. NULL with at least one note in `errors` when it is wrong; columns
- * point at the offending token. Limits: 16 384 characters, nesting 100, 4 096 operations (id `expression-too-long`).
- * Ids: `expression-syntax`, `unknown-name`, `unknown-function`, `argument-count`, `wrong-dimension`, `unknown-unit`, `unit-syntax`, `unit-needs-brackets`,
- * `not-constant`, `not-finite` (a constant part that is inf or nan, as 1/0), `bare-angle` (warning). */
-const struct expr *expr_compile(struct arena *arena, const char *text, struct pos at, const struct scope *scope,
-                                const struct expr_want *want, fbd_errors *errors);
+/* Compile `text`, which starts at `at` in its file. Memory comes from `arena`. NULL with at least one note in
+ * `errors` when it is wrong; columns point at the offending token. Limits: 16 384 characters, nesting 100, 4
+ * 096 operations (id `expression-too-long`). Ids: `expression-syntax`, `unknown-name`, `unknown-function`,
+ * `argument-count`, `wrong-dimension`, `unknown-unit`, `unit-syntax`, `unit-needs-brackets`, `not-constant`,
+ * `not-finite` (a constant part that is inf or nan, as 1/0), `bare-angle` (warning). */
+const struct expr *expr_compile(struct arena *arena, const char *text, struct pos at,
+                                const struct scope *scope, const struct expr_want *want, fbd_errors *errors);
 
-/* An equation `left = right` or a comparison `left < right`, split at its only top-level relation: yields both sides separately, with equal
- * dimensions checked. *relation is '=', '<', '>' (<= and >= count as < and >) or 0 when there is none (then *right is NULL). False with notes on error.
- * `want->any_dim` is the usual choice. */
+/* An equation `left = right` or a comparison `left < right`, split at its only top-level relation: yields
+ * both sides separately, with equal dimensions checked. *relation is '=', '<', '>' (<= and >= count as < and
+ * >) or 0 when there is none (then *right is NULL). False with notes on error. `want->any_dim` is the usual
+ * choice. */
 bool expr_compile_relation(struct arena *arena, const char *text, struct pos at, const struct scope *scope,
-                           const struct expr_want *want, fbd_errors *errors, const struct expr **left, char *relation,
-                           const struct expr **right);
+                           const struct expr_want *want, fbd_errors *errors, const struct expr **left,
+                           char *relation, const struct expr **right);
 
 /* A constant expression without text. */
 const struct expr *expr_constant(struct arena *arena, double value, struct dim dim);
@@ -93,7 +107,8 @@ bool expr_uses_time(const struct expr *expr);
 /* The slots k >= 1 that it depends on, ascending, without t; returns their number. */
 size_t expr_variables(const struct expr *expr, const int **slots);
 
-/* ---- evaluating; y is the caller's vector, slot k is y[k - 1]; `branch` are this program's branches or NULL */
+/* ---- evaluating; y is the caller's vector, slot k is y[k - 1]; `branch` are this program's branches or NULL
+ */
 
 double expr_eval(const struct expr *expr, double t, const double *y, const int *branch);
 
@@ -105,7 +120,8 @@ double expr_eval_along(const struct expr *expr, double t, const double *y, doubl
 double expr_eval_slot(const struct expr *expr, double t, const double *y, int slot, const int *branch,
                       double *derivative);
 
-/* Value, d/da, d/db and d2/(da db) for slots a and b: hyper-dual numbers (Fike & Alonso 2011, AIAA 2011-886). */
+/* Value, d/da, d/db and d2/(da db) for slots a and b: hyper-dual numbers (Fike & Alonso 2011, AIAA 2011-886).
+ */
 double expr_eval_second(const struct expr *expr, double t, const double *y, int slot_a, int slot_b,
                         const int *branch, double *d_a, double *d_b, double *d_ab);
 
@@ -117,16 +133,17 @@ size_t expr_switches(const struct expr *expr);
 /* True when switch `index` depends on nothing but t (its crossings can be found before a step is taken). */
 bool expr_switch_is_time(const struct expr *expr, size_t index);
 
-/* Two margins for each switch, positive inside the branch, negative beyond its end; +HUGE_VAL for an end that does not exist. Evaluated with
- * the given branches (so that they are smooth functions of the state). `margins` has 2 * expr_switches entries.
- * With `rates` not NULL, also their derivatives along (dt, dy). */
-void expr_margins(const struct expr *expr, double t, const double *y, double dt, const double *dy, const int *branch,
-                  double *margins, double *rates);
+/* Two margins for each switch, positive inside the branch, negative beyond its end; +HUGE_VAL for an end that
+ * does not exist. Evaluated with the given branches (so that they are smooth functions of the state).
+ * `margins` has 2 * expr_switches entries. With `rates` not NULL, also their derivatives along (dt, dy). */
+void expr_margins(const struct expr *expr, double t, const double *y, double dt, const double *dy,
+                  const int *branch, double *margins, double *rates);
 
-/* Choose the branches at a point from the values; where a switching function is zero to rounding, by its rate along (dt, dy), the
- * direction in which the motion goes on. `keep` (may be NULL) marks switches whose branch in `branch` is already decided and stays. */
-void expr_resolve(const struct expr *expr, double t, const double *y, double dt, const double *dy, const bool *keep,
-                  int *branch);
+/* Choose the branches at a point from the values; where a switching function is zero to rounding, by its rate
+ * along (dt, dy), the direction in which the motion goes on. `keep` (may be NULL) marks switches whose branch
+ * in `branch` is already decided and stays. */
+void expr_resolve(const struct expr *expr, double t, const double *y, double dt, const double *dy,
+                  const bool *keep, int *branch);
 
 /* The branch on the other side of end `end` (0 or 1) of switch `index`. */
 int expr_branch_beyond(const struct expr *expr, size_t index, int end, int branch);

@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Scene: what a model file says, checked and typed, and nothing that follows from it.
+ *
+ * Every number is in the coherent units of the scene's own system, angles in radians. Positions point into
+ * the file, so that later stages can name the line of what they refuse. The scene owns all its memory.
+ *
+ * Coordinates are numbered through all bodies in file order: coordinate i has position q[i] and rate v[i]; in
+ * expressions slot 0 is t, slot 1 + i is q[i], slot 1 + n + i is v[i], with n coordinates in all.
+ */
+#ifndef FBD_SCENE_SCENE_H
+#define FBD_SCENE_SCENE_H
+
+#include "base/arena.h"
+#include "base/diag.h"
+#include "base/vec.h"
+#include "expr/expr.h"
+
+enum { most_coordinates_of_a_body = 3 };
+
+/* A number or an expression; `expr` is NULL when the file does not give it. */
+struct value {
+    const struct expr *expr;
+    struct pos at;
+};
+
+/* A point of a body (in its frame) or of the ground. */
+struct point {
+    enum point_kind {
+        point_absent, /* not given */
+        point_fixed,  /* `where` */
+        point_G,      /* the centre of mass, which the model knows */
+    } kind;
+    struct vec where;
+    struct pos at;
+};
+
+struct named_point {
+    const char *name;
+    struct vec where;
+};
+
+/* ---- inertia */
+
+enum shape_kind {
+    shape_point,
+    shape_rod,             /* slender, along x */
+    shape_sphere,          /* solid */
+    shape_cylinder,        /* solid cylinder or disc, symmetric about x */
+    shape_hollow_cylinder, /* symmetric about x */
+    shape_prism,           /* sides a, b, c along x, y, z */
+    shape_ring,            /* thin, symmetric about x */
+    shape_given,           /* moment of inertia stated in the file */
+};
+
+/* One part of a body. `axis` ('x', 'y', 'z') is the axis of the shape that faces the plane, i.e. is
+ * perpendicular to the drawing. */
+struct part {
+    const char *name; /* NULL for a body that is its own part */
+    struct pos at;
+    enum shape_kind shape;
+    char axis;
+    double mass;         /* negative for a hole */
+    double length;       /* rod, cylinders; 0 when not needed and not given */
+    double radius;       /* sphere, disc, ring; outer radius of a hollow cylinder */
+    double inner_radius; /* hollow cylinder */
+    double side[3];      /* prism: a, b, c */
+    struct vec center;   /* its centre of mass in the body frame */
+    double angle;        /* of the shape's x axis in the body frame [rad] */
+    double inertia;      /* shape_given: moment of inertia ... */
+    struct point about;  /* ... about this point (point_G: about its own centre) */
+    bool about_pivot;    /* ... or about the point that sits on the pivot */
+};
+
+/* ---- motion */
+
+enum motion_kind {
+    motion_slide,    /* x along one line */
+    motion_pivot,    /* theta about a fixed axis */
+    motion_particle, /* x, y */
+    motion_planar,   /* x, y, theta */
+};
+
+enum { ground_body = -1 };
+
+struct motion {
+    enum motion_kind kind;
+    struct pos at;
+    int parent;         /* body that it moves on, or ground_body */
+    double along;       /* slide: direction of +x in the parent frame [rad] */
+    struct vec through; /* slide: where x = 0; pivot: the axis O; both in the parent frame */
+    struct vec point;   /* pivot: the point of the body that sits on the axis, in the body frame */
+};
+
+/* ---- what acts */
+
+enum load_kind {
+    load_gravity,
+    load_normal,
+    load_friction,
+    load_applied,
+    load_spring,
+    load_damper,
+    load_drag,
+    load_potential,
+    moment_applied,
+    moment_spring,
+    moment_damper,
+    moment_friction,
+    moment_potential,
+};
+
+/* One entry of `forces` or `moments`. Fields that a kind does not use are zero. */
+struct load {
+    enum load_kind kind;
+    const char *name; /* unique within the body */
+    struct pos at;
+
+    /* applied force: either `value` along `angle` (or along the slide when no angle is given), or components.
+     * Moment: `value`. */
+    struct value value, angle, fx, fy;
+    bool body_frame;    /* angle and components turn with the body */
+    struct point point; /* where it acts on the body; absent: at G */
+
+    /* spring, damper: toward `anchor`, a point of the ground; without one, along the body's own coordinate */
+    struct point anchor;
+    double stiffness;   /* N/m or N m/rad */
+    double free_length; /* spring with an anchor; neutral coordinate without */
+    double coefficient; /* damper: N s/m or N m s/rad */
+
+    double linear, quadratic; /* drag: N s/m, N s^2/m^2 */
+
+    /* friction: coefficients (force) or limits in N m (moment) */
+    struct value mu_s, mu_k;
+    struct value
+        surface_speed; /* velocity of the surface along +x (moment: angular velocity of the bearing) */
+
+    struct value potential; /* V as a function of the body's coordinates (and t) */
+
+    enum normal_side {
+        side_up,
+        side_left,
+        side_right
+    } side;         /* normal: which side of +x the surface pushes to */
+    bool two_sided; /* normal: a guide that also pulls */
+};
+
+/* A derivation by the user: an equation that must hold. */
+struct hand {
+    const char *text;
+    struct pos at;
+    const struct expr *left, *right; /* over the extended slots below */
+    const struct expr *when;         /* truth value: where it claims to hold; NULL everywhere */
+};
+
+/* A hand equation may use more names than a force: slot 1 + 2 n + k for k in this list. */
+enum hand_slot {
+    hand_acceleration, /* v_dot, or the body's coordinates in order */
+    hand_mass = hand_acceleration + most_coordinates_of_a_body, /* m */
+    hand_I_G,                                                   /* about the centre of mass */
+    hand_I_O,                                                   /* about the pivot */
+    hand_L,                                                     /* distance from O to G */
+    hand_N,                                                     /* normal force */
+    hand_mu_s,
+    hand_mu_k, /* also `mu` */
+    hand_slots,
+};
+
+struct body {
+    const char *name;
+    struct pos at;
+    bool complete; /* false when errors in it were reported: later checks leave it alone */
+    struct motion motion;
+    int first, count; /* its coordinates */
+    size_t part_count, point_count, load_count, hand_count;
+    struct part *parts;
+    struct named_point *points; /* all names: given ones and those of its shape */
+    struct load *loads;         /* in file order: forces, then moments */
+    struct hand *hands;
+};
+
+struct coordinate {
+    int body;
+    const char *name, *rate_name, *acceleration_name; /* "x", "v", "v_dot" */
+    struct dim dim, rate_dim;
+    bool angle;
+    double initial, initial_rate;
+};
+
+/* ---- the rest */
+
+struct parameter {
+    const char *name;
+    struct pos at;
+    double value;
+    struct dim dim;
+    bool bare; /* given without a unit */
+    bool used;
+};
+
+struct user_event {
+    const char *name;
+    struct pos at;
+    const char *text;
+    const struct expr *left, *right; /* crosses where left - right = 0; right may be NULL */
+    int direction;                   /* +1 rising, -1 falling, 0 both */
+    bool stop;
+};
+
+struct simulate {
+    struct value until; /* expr NULL when the file has no `simulate` */
+    double tolerance;   /* 0 when not given */
+    double step;        /* fixed step, 0 for automatic */
+    double every;       /* output interval, 0 for the default */
+    const char *method; /* NULL for the default */
+    struct pos method_at;
+};
+
+struct scene {
+    struct arena arena;
+    const char *file, *title; /* title "" when not given */
+    enum unit_system units;
+    struct vec gravity; /* acceleration, straight down by default */
+    double datum;       /* height y at which the potential energy of gravity is zero */
+    size_t parameter_count, body_count, event_count;
+    struct parameter *parameters;
+    struct body *bodies;
+    struct user_event *events;
+    struct simulate simulate;
+    size_t coordinate_count;
+    struct coordinate *coordinates;
+};
+
+/* Parameters set from outside, as text: `--set f1=50 N`. */
+struct override {
+    const char *name, *value;
+};
+
+/* Read a model file from memory. Everything wrong with it is noted in `errors` in one go; the result then is
+ * NULL or a scene whose faulty bodies are not `complete`. `file` names the text in messages. */
+struct scene *scene_read(const char *text, size_t length, const char *file, const struct override *overrides,
+                         size_t override_count, fbd_errors *errors);
+
+void scene_free(struct scene *scene);
+
+#endif
