@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Instant: where a scene is, and in which discrete modes.
+ *
+ * y = [q_1 .. q_n, v_1 .. v_n]. Between events the modes are fixed and everything is a smooth function of (t,
+ * y); the modes change at located events only.
+ */
+#ifndef FBD_DYNAMICS_INSTANT_H
+#define FBD_DYNAMICS_INSTANT_H
+
+#include "model/model.h"
+
+/* What a friction pair does. */
+enum slip { slip_minus = -1, stick = 0, slip_plus = 1 };
+
+struct instant {
+    double t;
+    const double *y;
+    const int *branch; /* plan.branches: of the switches in formulas */
+    const int *slip;   /* plan.friction_count: enum slip */
+    const int *pull;   /* plan.friction_count: sign of the normal force of a two-sided guide, +1 otherwise */
+};
+
+/* A direction in which everything varies: (dt, dy). */
+struct direction {
+    double dt;
+    const double *dy;
+};
+
+static inline const int *formula_branches(const struct formula *formula, const struct instant *at)
+{
+    return formula->branch < 0 ? NULL : at->branch + formula->branch;
+}
+
+static inline double formula_value(const struct formula *formula, const struct instant *at)
+{
+    if (!formula->expr) return formula->constant;
+    return expr_eval(formula->expr, at->t, at->y, formula_branches(formula, at));
+}
+
+/* The value, and its variation along a direction. */
+static inline double formula_along(const struct formula *formula, const struct instant *at,
+                                   const struct direction *along, double *variation)
+{
+    *variation = 0;
+    if (!formula->expr) return formula->constant;
+    return expr_eval_along(formula->expr, at->t, at->y, along->dt, along->dy, formula_branches(formula, at),
+                           variation);
+}
+
+#endif

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What the files that compile a scene share.
+ */
+#ifndef FBD_MODEL_BUILDER_H
+#define FBD_MODEL_BUILDER_H
+
+#include "model/model.h"
+
+/* Affine and sine terms are first summed per slot, then packed. */
+struct builder {
+    struct model *model;
+    fbd_errors *errors;
+    struct affine_term *affine; /* slots */
+    struct sine_term *sine;     /* slots */
+};
+
+/* The formula of a value of the scene; registers its switches. */
+struct formula builder_formula(struct builder *builder, const struct value *value, int body, int load);
+
+struct formula formula_constant(double value);
+static inline bool formula_given(const struct formula *formula)
+{
+    return formula->expr != NULL || formula->constant != 0;
+}
+static inline bool formula_is_constant(const struct formula *formula)
+{
+    return formula->expr == NULL;
+}
+
+/* Fill the plan from the bodies and loads of the model. False when memory is out. */
+bool plan_build(struct builder *builder);
+
+/* Decide for each load whether a potential energy exists, and say why. */
+bool classify_loads(struct builder *builder);
+
+#endif

@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "model/builder.h"
+
+#include <stdlib.h>
+
+struct formula formula_constant(double value)
+{
+    return (struct formula){.constant = value};
+}
+
+struct formula builder_formula(struct builder *builder, const struct value *value, int body, int load)
+{
+    struct formula formula = {.branch = -1};
+    if (!value->expr) return formula;
+    if (expr_is_constant(value->expr)) return formula_constant(expr_value(value->expr));
+    formula.expr = value->expr;
+    size_t switches = expr_switches(value->expr);
+    if (switches > 0) {
+        struct plan *plan = &builder->model->plan;
+        formula.branch = plan->branches;
+        plan->branches += (int)switches;
+        plan->kinks[plan->kink_count++] = (struct kink){formula, body, load, switches};
+    }
+    return formula;
+}
+
+/* ---- bodies */
+
+static void set_slide(struct model_body *body)
+{
+    const struct motion *motion = &body->source->motion;
+    body->e = vec_unit(motion->along);
+    body->n = vec_perp(body->e);
+    body->origin = motion->through;
+    enum normal_side side = side_up;
+    for (size_t i = 0; i < body->source->load_count; i++)
+        if (body->source->loads[i].kind == load_normal) side = body->source->loads[i].side;
+    const double upright = 1e-12; /* on a vertical line no side is up: left of +x it is */
+    if (side == side_right || (side == side_up && body->n.y < -upright)) body->n = vec_scale(-1, body->n);
+}
+
+static void check_inertia(const struct model_body *body, fbd_errors *errors)
+{
+    const struct inertia *inertia = &body->inertia;
+    struct pos at = body->source->at;
+    bool turns = body->kind == motion_pivot || body->kind == motion_planar;
+    double least = body->kind == motion_pivot ? body->I_O : inertia->I_G;
+    if (!isfinite(inertia->mass) || !isfinite(inertia->I_G))
+        diag_add(errors, FBD_ERROR, "bad-inertia", at, "check for quantities near the limits of a double",
+                 "the mass or moment of inertia of `%s` is not finite", body->name);
+    else if (inertia->mass <= 0)
+        diag_add(errors, FBD_ERROR, "bad-inertia", at, "holes must weigh less than what they are cut from",
+                 "the total mass of `%s` is %g: it must be positive", body->name, inertia->mass);
+    else if (inertia->I_G < 0)
+        diag_add(errors, FBD_ERROR, "bad-inertia", at,
+                 "does each hole lie within the body, and is it smaller?",
+                 "the moment of inertia of `%s` about its centre of mass is %g: no body has that", body->name,
+                 inertia->I_G);
+    else if (turns && least <= 0)
+        diag_add(errors, FBD_ERROR, "bad-inertia", at,
+                 "give it a `shape`, `parts` or `inertia`, or let it move as a particle or on a slide",
+                 "`%s` turns but has no moment of inertia about %s", body->name,
+                 body->kind == motion_pivot ? "its pivot" : "its centre of mass");
+}
+
+static void set_body(struct model_body *body, const struct body *source, int n, fbd_errors *errors)
+{
+    const struct motion *motion = &source->motion;
+    *body = (struct model_body){.source = source,
+                                .name = source->name,
+                                .kind = motion->kind,
+                                .first = source->first,
+                                .count = source->count,
+                                .n = n,
+                                .normal_slot = -1,
+                                .friction = -1};
+    body->inertia = inertia_of_parts(source->parts, source->part_count, motion->point);
+    if (motion->kind == motion_slide) set_slide(body);
+    if (motion->kind == motion_pivot) {
+        body->origin = motion->through;
+        body->pin = motion->point;
+        body->I_O = inertia_about(&body->inertia, motion->point);
+    }
+    body->arm = vec_sub(body->inertia.G, body->pin);
+    body->L = vec_norm(body->arm);
+    check_inertia(body, errors);
+}
+
+/* ---- loads */
+
+static struct vec resolve_point(const struct point *point, const struct model_body *body)
+{
+    return point->kind == point_fixed ? point->where : body->inertia.G;
+}
+
+static void set_load(struct builder *builder, struct model_load *load, const struct load *source, int body)
+{
+    const struct model *model = builder->model;
+    int index = (int)(load - model->loads);
+    load->source = source;
+    load->body = body;
+    load->point = resolve_point(&source->point, &model->bodies[body]);
+    load->linked =
+        (source->kind == load_spring || source->kind == load_damper) && source->anchor.kind != point_absent;
+    load->anchor = source->anchor.where;
+    load->value = builder_formula(builder, &source->value, body, index);
+    load->angle = builder_formula(builder, &source->angle, body, index);
+    load->fx = builder_formula(builder, &source->fx, body, index);
+    load->fy = builder_formula(builder, &source->fy, body, index);
+    load->potential = builder_formula(builder, &source->potential, body, index);
+}
+
+static void set_loads(struct builder *builder)
+{
+    struct model *model = builder->model;
+    int next = 0;
+    for (size_t b = 0; b < model->body_count; b++) {
+        struct model_body *body = &model->bodies[b];
+        body->first_load = next;
+        body->load_count = (int)body->source->load_count;
+        for (int i = 0; i < body->load_count; i++, next++)
+            set_load(builder, &model->loads[next], &body->source->loads[i], (int)b);
+    }
+}
+
+/* ---- the whole */
+
+static bool allocate(struct model *model)
+{
+    const struct scene *scene = model->scene;
+    enum { formulas_of_a_load = 8 }; /* value, angle, fx, fy, potential, mu_s, mu_k, surface_speed */
+    model->body_count = scene->body_count;
+    for (size_t b = 0; b < scene->body_count; b++) model->load_count += scene->bodies[b].load_count;
+    model->bodies = ARENA_ARRAY(&model->arena, model->body_count, struct model_body);
+    model->loads = ARENA_ARRAY(&model->arena, model->load_count, struct model_load);
+    size_t formulas = formulas_of_a_load * model->load_count + 2 * scene->event_count;
+    model->plan.watches = ARENA_ARRAY(&model->arena, scene->event_count, struct watch);
+    model->plan.kinks = ARENA_ARRAY(&model->arena, formulas, struct kink);
+    return !model->arena.failed;
+}
+
+/* User events come last, so that loads keep the first branches. */
+static void set_watches(struct builder *builder)
+{
+    struct model *model = builder->model;
+    const struct scene *scene = model->scene;
+    for (size_t i = 0; i < scene->event_count; i++) {
+        const struct user_event *event = &scene->events[i];
+        struct value left = {event->left, event->at}, right = {event->right, event->at};
+        struct watch *watch = &model->plan.watches[model->plan.watch_count++];
+        watch->source = event;
+        watch->left = builder_formula(builder, &left, -1, -1);
+        watch->right = builder_formula(builder, &right, -1, -1);
+    }
+}
+
+struct model *model_compile(struct scene *scene, fbd_errors *errors)
+{
+    struct model *model = calloc(1, sizeof *model);
+    if (!model) {
+        diag_out_of_memory(errors);
+        scene_free(scene);
+        return NULL;
+    }
+    model->scene = scene;
+    struct builder builder = {.model = model, .errors = errors};
+    bool done = allocate(model);
+    for (size_t b = 0; done && b < scene->body_count; b++)
+        if (scene->bodies[b].complete)
+            set_body(&model->bodies[b], &scene->bodies[b], (int)scene->coordinate_count, errors);
+    if (done && fbd_errors_failed(errors) == 0) {
+        set_loads(&builder);
+        done = plan_build(&builder) && classify_loads(&builder);
+        set_watches(&builder);
+    }
+    if (!done) diag_out_of_memory(errors);
+    if (fbd_errors_failed(errors) > 0) {
+        model_free(model);
+        return NULL;
+    }
+    return model;
+}
+
+void model_free(struct model *model)
+{
+    if (!model) return;
+    scene_free(model->scene);
+    free(model->source);
+    arena_free(&model->arena);
+    free(model);
+}

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Model: the scene compiled, constant ever after, shareable by threads.
+ *
+ * A model holds two views of the same scene. The bodies and their loads, by name, serve equations, ledgers
+ * and drawings. The plan (plan.h) serves the right-hand side: dense lists of the effects that the scene has
+ * and nothing else.
+ */
+#ifndef FBD_MODEL_MODEL_H
+#define FBD_MODEL_MODEL_H
+
+#include "model/inertia.h"
+#include "model/plan.h"
+#include "scene/scene.h"
+
+struct model_body {
+    const struct body *source;
+    const char *name;
+    enum motion_kind kind;
+    int first, count;       /* its coordinates */
+    int n;                  /* coordinates of the whole scene: rates stand n entries after positions */
+    struct inertia inertia; /* mass, G in the body frame, I_G */
+    double I_O;             /* pivot: about the axis */
+    double L;               /* pivot: distance from O to G */
+    struct vec origin;      /* slide: where x = 0; pivot: the axis O */
+    struct vec arm;  /* pivot: from the axis to G; planar: from the frame's origin to G; in the body frame */
+    struct vec pin;  /* pivot: the point of the body that sits on the axis, in the body frame */
+    struct vec e, n; /* slide: direction of +x; direction that the surface pushes to */
+    int normal_slot; /* slide whose normal force is needed: slot of the forces along n, else -1 */
+    int friction;    /* index into plan.frictions, or -1 */
+    int first_load, load_count;
+};
+
+/* A load with everything that it refers to resolved. */
+struct model_load {
+    const struct load *source;
+    int body;
+    struct vec point;  /* where it acts, body frame */
+    struct vec anchor; /* spring, damper: the other end, on the ground */
+    bool linked;       /* spring or damper that has another end */
+    struct formula value, angle, fx, fy, potential;
+
+    /* How its work is accounted for. */
+    bool conservative;  /* a potential energy is known or found by quadrature */
+    bool workless;      /* acts across the motion: normal force */
+    bool by_quadrature; /* V = -integral of the force from `reference` */
+    double reference;   /* coordinate where V = 0 */
+    const char *why;    /* the reason, for --explain */
+};
+
+struct model {
+    struct arena arena;
+    struct scene *scene; /* owned */
+    char *source;        /* the file's text, owned: hand derivations are checked under changed parameters */
+    size_t source_length;
+    size_t body_count, load_count;
+    struct model_body *bodies;
+    struct model_load *loads;
+    struct plan plan;
+};
+
+/* Compile a scene; the model takes the scene over, also when it fails. NULL with notes in `errors`: masses
+ * and inertias that no body can have
+ * (`bad-inertia`), ... */
+struct model *model_compile(struct scene *scene, fbd_errors *errors);
+
+void model_free(struct model *model);
+
+#endif

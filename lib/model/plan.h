@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Plan: what the right-hand side does, and nothing else.
+ *
+ * Every effect ends in slots. Slot i < n is the generalized force of coordinate i (a force along a slide, a
+ * moment about a pivot, ...). The slots that follow are the sums of the forces across slides whose normal
+ * force is needed. For each kind of effect there is one dense list, empty when no body lists it. Constants
+ * are folded: on a slide, gravity, constant pushes, springs along the line and viscous dampers together are a
+ * single affine term.
+ *
+ * Dry friction is not a term: it depends on a mode (stick, slip+, slip-) and on the normal force, so it comes
+ * after the terms.
+ */
+#ifndef FBD_MODEL_PLAN_H
+#define FBD_MODEL_PLAN_H
+
+#include "base/vec.h"
+#include "expr/expr.h"
+
+struct user_event;
+
+/* An expression in use: a constant, or a program with the place of its branches. */
+struct formula {
+    const struct expr *expr; /* NULL: absent, or a constant already read */
+    double constant;
+    int branch; /* of its first switch in the state's branches */
+};
+
+/* slot += c0 - kq q - kv v */
+struct affine_term {
+    int slot, coordinate;
+    double c0, kq, kv;
+};
+
+/* slot += s sin(q) + c cos(q): a constant force on a turning body */
+struct sine_term {
+    int slot, coordinate;
+    double s, c;
+};
+
+/* slot -= k |v| v */
+struct square_term {
+    int slot, coordinate;
+    double k;
+};
+
+/* slot += scale * value(t, q, v) */
+struct formula_term {
+    int slot;
+    double scale;
+    struct formula value;
+};
+
+/* slot -= dV/dq */
+struct potential_term {
+    int slot, coordinate;
+    struct formula V;
+};
+
+/* A spring and damper between a point of a body and a point of the ground. */
+struct link_term {
+    int body;
+    struct vec point, anchor;
+    double stiffness, free_length, damping;
+};
+
+/* Drag on a point of a body that moves in the plane. */
+struct drag_term {
+    int body;
+    struct vec point;
+    double linear, quadratic;
+};
+
+/* A force of size `value` in the direction `angle`, in the world or turning with the body, at a point of a
+ * body. */
+struct force_term {
+    int body;
+    struct vec point;
+    bool body_frame;
+    struct formula value, angle;
+};
+
+/* One friction pair: a body on its slide, or a bearing. */
+struct friction {
+    int body, load, coordinate;
+    int normal_slot; /* -1 for a bearing, whose limits are moments */
+    bool two_sided;  /* a guide: friction goes with |N| */
+    struct formula mu_s, mu_k, surface_speed;
+    bool moving;    /* the surface moves */
+    double inertia; /* m or I_O */
+};
+
+/* A normal force that must not become a pull. */
+struct contact {
+    int body, load, slot;
+};
+
+/* The switches of one formula (see expr.h). */
+struct kink {
+    struct formula formula;
+    int body, load; /* where it stands; -1 for a user event */
+    size_t count;
+};
+
+/* A planar body whose centre of mass is not at the origin of its frame: its three equations are coupled. */
+struct offset_body {
+    int body, first;
+    double mass, I_G;
+    struct vec arm; /* from the origin to G, body frame */
+};
+
+/* A user event: something happens where left - right crosses zero. */
+struct watch {
+    const struct user_event *source;
+    struct formula left, right;
+};
+
+struct plan {
+    int n;                   /* coordinates */
+    int slots;               /* n + normal slots */
+    double *inverse_inertia; /* n: 1/m, 1/I_O or 1/I_G */
+
+    size_t affine_count, sine_count, square_count, formula_count, potential_count, link_count, drag_count,
+        force_count;
+    struct affine_term *affine;
+    struct sine_term *sine;
+    struct square_term *square;
+    struct formula_term *formulas;
+    struct potential_term *potentials;
+    struct link_term *links;
+    struct drag_term *drags;
+    struct force_term *forces;
+
+    size_t friction_count, contact_count, kink_count, offset_count, watch_count;
+    struct friction *frictions;
+    struct contact *contacts;
+    struct kink *kinks;
+    struct offset_body *offsets;
+    struct watch *watches;
+
+    int branches;        /* ints that a state keeps for the kinks */
+    bool *slot_constant; /* slots: the sum never changes */
+};
+
+#endif
