@@ -16,7 +16,7 @@ double body_angle(const struct model_body *body, const struct instant *at)
 
 struct pose body_pose(const struct model_body *body, const struct instant *at)
 {
-    const double *q = at->y + body->first, *v = q + body->n;
+    const double *q = at->y + body->first, *v = at->y + body->first_rate;
     switch (body->kind) {
     case motion_slide:
         return (struct pose){vec_add(body->origin, vec_scale(q[0], body->e)), body->e,
@@ -43,7 +43,7 @@ struct motion_of_point point_motion(const struct model_body *body, const struct 
 struct motion_of_point point_variation(const struct model_body *body, const struct pose *pose,
                                        struct vec point, const struct direction *along)
 {
-    const double *dq = along->dy + body->first, *dv = dq + body->n;
+    const double *dq = along->dy + body->first, *dv = along->dy + body->first_rate;
     if (body->kind == motion_slide)
         return (struct motion_of_point){vec_scale(dq[0], body->e), vec_scale(dv[0], body->e)};
     if (body->kind == motion_particle) return (struct motion_of_point){{dq[0], dq[1]}, {dv[0], dv[1]}};

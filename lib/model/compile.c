@@ -71,7 +71,7 @@ static void set_body(struct model_body *body, const struct body *source, int n, 
                                 .kind = motion->kind,
                                 .first = source->first,
                                 .count = source->count,
-                                .n = n,
+                                .first_rate = n + source->first,
                                 .normal_slot = -1,
                                 .friction = -1};
     body->inertia = inertia_of_parts(source->parts, source->part_count, motion->point);

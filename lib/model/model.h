@@ -18,7 +18,7 @@ struct model_body {
     const char *name;
     enum motion_kind kind;
     int first, count;       /* its coordinates */
-    int n;                  /* coordinates of the whole scene: rates stand n entries after positions */
+    int first_rate;         /* index of its first rate in y */
     struct inertia inertia; /* mass, G in the body frame, I_G */
     double I_O;             /* pivot: about the axis */
     double L;               /* pivot: distance from O to G */
