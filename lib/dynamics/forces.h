@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The plan's terms summed into slots: everything that acts except dry friction.
+ */
+#ifndef FBD_DYNAMICS_FORCES_H
+#define FBD_DYNAMICS_FORCES_H
+
+#include "dynamics/kinematics.h"
+
+/* slots[plan.slots]: generalized forces of the coordinates, then the sums of forces across slides. */
+void force_slots(const struct model *model, const struct instant *at, double *slots);
+
+/* Their variation along a direction (exact, no differences). */
+void force_slots_along(const struct model *model, const struct instant *at, const struct direction *along,
+                       double *variation);
+
+/* Project a force f at a point with the given motion onto a body's slots. */
+void add_force(const struct model_body *body, const struct pose *pose, struct motion_of_point point,
+               struct vec f, double *slots);
+
+#endif

@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dynamics/forward.h"
+
+#include <string.h>
+
+/* ---- planar bodies whose frame's origin O is not their centre of mass
+ *
+ * With r = R(theta) arm from O to G, F and M_O the sums of forces and moments about O:
+ *     a_G = F / m,   alpha = (M_O - r x F) / I_G,   a_O = a_G - alpha k x r + omega^2 r */
+
+static void offset_accelerations(const struct offset_body *body, const struct instant *at, int n,
+                                 const double *slots, double *a)
+{
+    int i = body->first;
+    struct vec r = vec_turn(vec_unit(at->y[i + 2]), body->arm), F = {slots[i], slots[i + 1]};
+    double omega = at->y[n + i + 2], alpha = (slots[i + 2] - vec_cross(r, F)) / body->I_G;
+    struct vec a_O = vec_add(vec_scale(1 / body->mass, F),
+                             vec_sub(vec_scale(omega * omega, r), vec_scale(alpha, vec_perp(r))));
+    a[i] = a_O.x;
+    a[i + 1] = a_O.y;
+    a[i + 2] = alpha;
+}
+
+static void offset_variations(const struct offset_body *body, const struct instant *at, int n,
+                              const struct direction *along, const double *slots, const double *slots_along,
+                              double *a_along)
+{
+    int i = body->first;
+    struct vec r = vec_turn(vec_unit(at->y[i + 2]), body->arm), F = {slots[i], slots[i + 1]};
+    struct vec dr = vec_scale(along->dy[i + 2], vec_perp(r)), dF = {slots_along[i], slots_along[i + 1]};
+    double omega = at->y[n + i + 2], d_omega = along->dy[n + i + 2];
+    double alpha = (slots[i + 2] - vec_cross(r, F)) / body->I_G;
+    double d_alpha = (slots_along[i + 2] - vec_cross(dr, F) - vec_cross(r, dF)) / body->I_G;
+    struct vec d = vec_scale(1 / body->mass, dF);
+    d = vec_sub(d, vec_add(vec_scale(d_alpha, vec_perp(r)), vec_scale(alpha, vec_perp(dr))));
+    d = vec_add(d, vec_add(vec_scale(2 * omega * d_omega, r), vec_scale(omega * omega, dr)));
+    a_along[i] = d.x;
+    a_along[i + 1] = d.y;
+    a_along[i + 2] = d_alpha;
+}
+
+/* ---- the stages */
+
+static void add_kinetic_friction(const struct model *model, const struct instant *at, double *slots)
+{
+    const struct plan *plan = &model->plan;
+    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
+        if (at->slip[pair] == stick) continue;
+        const struct friction *friction = &plan->frictions[pair];
+        double press = friction->normal_slot < 0 ? 1 : -at->pull[pair] * slots[friction->normal_slot];
+        slots[friction->coordinate] -= at->slip[pair] * formula_value(&friction->mu_k, at) * press;
+    }
+}
+
+static void hold_sticking(const struct model *model, const struct instant *at, double *a)
+{
+    const struct plan *plan = &model->plan;
+    for (int pair = 0; pair < (int)plan->friction_count; pair++)
+        if (at->slip[pair] == stick)
+            friction_surface_speed(&plan->frictions[pair], at, &a[plan->frictions[pair].coordinate]);
+}
+
+void accelerations(const struct model *model, const struct instant *at, double *slots, double *a)
+{
+    const struct plan *plan = &model->plan;
+    force_slots(model, at, slots);
+    if (plan->friction_count > 0) add_kinetic_friction(model, at, slots);
+    for (int i = 0; i < plan->n; i++) a[i] = plan->inverse_inertia[i] * slots[i];
+    for (size_t i = 0; i < plan->offset_count; i++)
+        offset_accelerations(&plan->offsets[i], at, plan->n, slots, a);
+    if (plan->friction_count > 0) hold_sticking(model, at, a);
+}
+
+void accelerations_along(const struct model *model, const struct instant *at, const struct direction *along,
+                         double *slots, double *slots_along, double *a_along)
+{
+    const struct plan *plan = &model->plan;
+    force_slots(model, at, slots);
+    force_slots_along(model, at, along, slots_along);
+    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
+        if (at->slip[pair] == stick) continue;
+        struct friction_values rate = friction_along(model, pair, at, slots, along, slots_along);
+        slots_along[plan->frictions[pair].coordinate] += rate.force;
+    }
+    for (int i = 0; i < plan->n; i++) a_along[i] = plan->inverse_inertia[i] * slots_along[i];
+    for (size_t i = 0; i < plan->offset_count; i++)
+        offset_variations(&plan->offsets[i], at, plan->n, along, slots, slots_along, a_along);
+    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
+        if (at->slip[pair] != stick) continue;
+        const struct friction *friction = &plan->frictions[pair];
+        double jerk = 0, d_a, d_b;
+        if (friction->surface_speed.expr)
+            expr_eval_second(friction->surface_speed.expr, at->t, at->y, 0, 0,
+                             formula_branches(&friction->surface_speed, at), &d_a, &d_b, &jerk);
+        a_along[friction->coordinate] = jerk * along->dt;
+    }
+}
+
+void state_rates(const struct model *model, const struct instant *at, double *slots, double *dydt)
+{
+    const struct plan *plan = &model->plan;
+    size_t n = (size_t)plan->n;
+    memcpy(dydt, at->y + n, n * sizeof *dydt);
+    accelerations(model, at, slots, dydt + n);
+    double acceleration;
+    for (int pair = 0; pair < (int)plan->friction_count; pair++)
+        if (at->slip[pair] == stick)
+            dydt[plan->frictions[pair].coordinate] =
+                friction_surface_speed(&plan->frictions[pair], at, &acceleration);
+}
+
+void state_jacobian(const struct model *model, const struct instant *at, double *scratch, double *dfdy,
+                    double *dfdt)
+{
+    const struct plan *plan = &model->plan;
+    size_t n = (size_t)plan->n, size = 2 * n, slot_count = (size_t)plan->slots;
+    double *slots = scratch, *slots_along = slots + slot_count, *dy = slots_along + slot_count,
+           *column = dy + size;
+    memset(dfdy, 0, size * size * sizeof *dfdy);
+    memset(dy, 0, size * sizeof *dy);
+    for (size_t j = 0; j < size; j++) {
+        struct direction along = {0, dy};
+        dy[j] = 1;
+        accelerations_along(model, at, &along, slots, slots_along, column);
+        dy[j] = 0;
+        for (size_t i = 0; i < n; i++) dfdy[(n + i) * size + j] = column[i];
+        if (j >= n) dfdy[(j - n) * size + j] = 1;
+    }
+    struct direction in_time = {1, dy};
+    memset(dfdt, 0, n * sizeof *dfdt);
+    accelerations_along(model, at, &in_time, slots, slots_along, dfdt + n);
+    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
+        if (at->slip[pair] != stick) continue;
+        size_t i = (size_t)plan->frictions[pair].coordinate;
+        dfdy[i * size + n + i] = 0;
+        friction_surface_speed(&plan->frictions[pair], at, &dfdt[i]);
+    }
+}

@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dynamics/friction.h"
+
+#include <float.h>
+
+double friction_surface_speed(const struct friction *friction, const struct instant *at, double *acceleration)
+{
+    *acceleration = 0;
+    if (!friction->surface_speed.expr) return friction->surface_speed.constant;
+    return expr_eval_slot(friction->surface_speed.expr, at->t, at->y, 0,
+                          formula_branches(&friction->surface_speed, at), acceleration);
+}
+
+struct friction_values friction_at(const struct model *model, int pair, const struct instant *at,
+                                   const double *slots)
+{
+    const struct friction *friction = &model->plan.frictions[pair];
+    struct friction_values values = {0};
+    double press = 1; /* a bearing states its limits as moments */
+    if (friction->normal_slot >= 0) {
+        values.N = -slots[friction->normal_slot];
+        press = at->pull[pair] * values.N;
+    }
+    values.limit_static = formula_value(&friction->mu_s, at) * press;
+    values.limit_kinetic = formula_value(&friction->mu_k, at) * press;
+    double acceleration;
+    friction_surface_speed(friction, at, &acceleration);
+    values.hold = friction->inertia * acceleration - slots[friction->coordinate];
+    values.force = at->slip[pair] == stick ? values.hold : -at->slip[pair] * values.limit_kinetic;
+    return values;
+}
+
+struct friction_values friction_along(const struct model *model, int pair, const struct instant *at,
+                                      const double *slots, const struct direction *along,
+                                      const double *slots_along)
+{
+    const struct friction *friction = &model->plan.frictions[pair];
+    struct friction_values rate = {0};
+    double press = 1, d_press = 0, d_mu;
+    if (friction->normal_slot >= 0) {
+        rate.N = -slots_along[friction->normal_slot];
+        press = -at->pull[pair] * slots[friction->normal_slot];
+        d_press = at->pull[pair] * rate.N;
+    }
+    double mu = formula_along(&friction->mu_s, at, along, &d_mu);
+    rate.limit_static = d_mu * press + mu * d_press;
+    mu = formula_along(&friction->mu_k, at, along, &d_mu);
+    rate.limit_kinetic = d_mu * press + mu * d_press;
+    double jerk = 0, d_a, d_b;
+    if (friction->surface_speed.expr)
+        expr_eval_second(friction->surface_speed.expr, at->t, at->y, 0, 0,
+                         formula_branches(&friction->surface_speed, at), &d_a, &d_b, &jerk);
+    rate.hold = friction->inertia * jerk * along->dt - slots_along[friction->coordinate];
+    rate.force = at->slip[pair] == stick ? rate.hold : -at->slip[pair] * rate.limit_kinetic;
+    return rate;
+}
+
+enum slip friction_decide(const struct friction_values *now, const struct friction_values *rate)
+{
+    /* With mu_k > mu_s (nobody's friction, but anybody's file) slipping would start against itself: then the
+     * larger one holds. */
+    double limit = fmax(now->limit_static, now->limit_kinetic);
+    double excess = fabs(now->hold) - limit;
+    const double rounding = 8 * DBL_EPSILON * (fabs(now->hold) + limit);
+    if (fabs(excess) <= rounding) {
+        double d_limit = now->limit_static >= now->limit_kinetic ? rate->limit_static : rate->limit_kinetic;
+        excess = (now->hold > 0 ? rate->hold : -rate->hold) - d_limit;
+    }
+    if (excess <= 0) return stick;
+    return now->hold < 0 ? slip_plus : slip_minus; /* the other forces push by -hold */
+}

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Dry (Coulomb) friction as modes.
+ *
+ * A pair slips (+1, -1: the sign of the velocity relative to its surface) or sticks (0). With N the normal
+ * force of a slide:
+ *
+ *     slip    f = -slip mu_k |N|,  while slip (v - s) > 0
+ *     stick   f = H, whatever holds the body on the surface: H = m s' - sum of the other forces,  while |H|
+ * <= mu_s |N|
+ *
+ * with s(t) the velocity of the surface. On a straight fixed line N follows from the forces across it alone,
+ * N = -sum f . n, so that friction and normal force are not coupled. For a bearing the limits are moments and
+ * I_O takes the place of m.
+ */
+#ifndef FBD_DYNAMICS_FRICTION_H
+#define FBD_DYNAMICS_FRICTION_H
+
+#include "dynamics/forces.h"
+
+/* What a pair does at an instant, from the slots without friction. */
+struct friction_values {
+    double N;             /* signed normal force [N]; 0 for a bearing */
+    double limit_static;  /* mu_s |N| or the static moment */
+    double limit_kinetic; /* mu_k |N| or the kinetic moment */
+    double hold;          /* H: the friction that would hold the body on its surface */
+    double force;         /* the friction force (moment) along +x in the present mode */
+};
+
+double friction_surface_speed(const struct friction *friction, const struct instant *at,
+                              double *acceleration);
+
+struct friction_values friction_at(const struct model *model, int pair, const struct instant *at,
+                                   const double *slots);
+
+/* The variations of N, limits and hold along a direction; `force` varies accordingly. */
+struct friction_values friction_along(const struct model *model, int pair, const struct instant *at,
+                                      const double *slots, const struct direction *along,
+                                      const double *slots_along);
+
+/* The mode that follows for a pair whose relative velocity is zero: it sticks while the force needed is
+ * within the static limit, else it slips the way the other forces push. `slots_along` is the variation along
+ * the motion: it decides when the force needed is at the limit to rounding. */
+enum slip friction_decide(const struct friction_values *now, const struct friction_values *rate);
+
+#endif

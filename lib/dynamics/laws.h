@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Force laws that act at a point: the force on the body, and its variation when the point's position and
+ * velocity vary.
+ */
+#ifndef FBD_DYNAMICS_LAWS_H
+#define FBD_DYNAMICS_LAWS_H
+
+#include "dynamics/kinematics.h"
+
+/* Spring and damper from the body's point p to a fixed anchor A, with d = p - A, l = |d|, u = d / l:
+ *
+ *     f = -(k (l - l0) + c l') u,    l' = u . p'
+ *
+ * A spring of no free length pulls with -k d, also at l = 0, where a damper has no direction and gives
+ * nothing. */
+struct link_law {
+    struct vec anchor;
+    double stiffness, free_length, damping;
+};
+
+struct vec link_force(const struct link_law *law, struct motion_of_point at);
+struct vec link_variation(const struct link_law *law, struct motion_of_point at, struct motion_of_point d);
+
+/* Drag against the velocity v of the point: f = -(c + k |v|) v. */
+struct drag_law {
+    double linear, quadratic;
+};
+
+struct vec drag_force(const struct drag_law *law, struct vec v);
+struct vec drag_variation(const struct drag_law *law, struct vec v, struct vec dv);
+
+#endif
