@@ -98,14 +98,10 @@ static void formula_variations(const struct plan *plan, const struct instant *at
 /* ---- forces at points */
 
 void add_force(const struct model_body *body, const struct pose *pose, struct motion_of_point point,
-               struct vec f, double *slots)
+               struct vec f, double *own)
 {
-    double *own = slots + body->first;
     switch (body->kind) {
-    case motion_slide:
-        own[0] += vec_dot(f, body->e);
-        if (body->normal_slot >= 0) slots[body->normal_slot] += vec_dot(f, body->n);
-        return;
+    case motion_slide: own[0] += vec_dot(f, body->e); return;
     case motion_pivot: own[0] += vec_cross(vec_sub(point.p, pose->origin), f); return;
     case motion_planar: own[2] += vec_cross(vec_sub(point.p, pose->origin), f); break;
     case motion_particle: break;
@@ -114,13 +110,20 @@ void add_force(const struct model_body *body, const struct pose *pose, struct mo
     own[1] += f.y;
 }
 
-/* The variation of what add_force adds: df at the point, and f on an arm that varies by the motion of the
- * point about the origin. */
-static void add_force_variation(const struct model_body *body, const struct pose *pose,
-                                struct motion_of_point point, struct vec f, struct vec df,
-                                const struct direction *along, struct motion_of_point d, double *slots)
+static void add_to_slots(const struct model_body *body, const struct pose *pose, struct motion_of_point point,
+                         struct vec f, double *slots)
 {
-    add_force(body, pose, point, df, slots);
+    add_force(body, pose, point, f, slots + body->first);
+    if (body->normal_slot >= 0) slots[body->normal_slot] += vec_dot(f, body->n);
+}
+
+/* The variation of what add_to_slots adds: df at the point, and f on an arm that varies by the motion of the
+ * point about the origin. */
+static void add_variation(const struct model_body *body, const struct pose *pose,
+                          struct motion_of_point point, struct vec f, struct vec df,
+                          const struct direction *along, struct motion_of_point d, double *slots)
+{
+    add_to_slots(body, pose, point, df, slots);
     if (body->kind == motion_pivot) slots[body->first] += vec_cross(d.p, f);
     if (body->kind == motion_planar) {
         const double *dq = along->dy + body->first;
@@ -141,14 +144,14 @@ static void point_terms(const struct model *model, const struct instant *at, dou
         struct pose pose = body_pose(body, at);
         struct motion_of_point point = point_motion(body, &pose, plan->links[i].point);
         struct link_law law = law_of_link(&plan->links[i]);
-        add_force(body, &pose, point, link_force(&law, point), slots);
+        add_to_slots(body, &pose, point, link_force(&law, point), slots);
     }
     for (size_t i = 0; i < plan->drag_count; i++) {
         const struct model_body *body = &model->bodies[plan->drags[i].body];
         struct pose pose = body_pose(body, at);
         struct motion_of_point point = point_motion(body, &pose, plan->drags[i].point);
         struct drag_law law = {plan->drags[i].linear, plan->drags[i].quadratic};
-        add_force(body, &pose, point, drag_force(&law, point.v), slots);
+        add_to_slots(body, &pose, point, drag_force(&law, point.v), slots);
     }
     for (size_t i = 0; i < plan->force_count; i++) {
         const struct force_term *term = &plan->forces[i];
@@ -157,7 +160,7 @@ static void point_terms(const struct model *model, const struct instant *at, dou
         struct vec d = vec_unit(formula_value(&term->angle, at));
         if (term->body_frame) d = vec_turn(pose.rotation, d);
         struct vec f = vec_scale(formula_value(&term->value, at), d);
-        add_force(body, &pose, point_motion(body, &pose, term->point), f, slots);
+        add_to_slots(body, &pose, point_motion(body, &pose, term->point), f, slots);
     }
 }
 
@@ -176,8 +179,8 @@ static void force_term_variation(const struct model *model, const struct force_t
     }
     struct vec f = vec_scale(value, d);
     struct vec df = vec_add(vec_scale(d_value, d), vec_scale(d_angle, vec_perp(f)));
-    add_force_variation(body, &pose, point_motion(body, &pose, term->point), f, df, along,
-                        point_variation(body, &pose, term->point, along), slots);
+    add_variation(body, &pose, point_motion(body, &pose, term->point), f, df, along,
+                  point_variation(body, &pose, term->point, along), slots);
 }
 
 static void point_variations(const struct model *model, const struct instant *at,
@@ -190,8 +193,8 @@ static void point_variations(const struct model *model, const struct instant *at
         struct motion_of_point point = point_motion(body, &pose, plan->links[i].point);
         struct motion_of_point d = point_variation(body, &pose, plan->links[i].point, along);
         struct link_law law = law_of_link(&plan->links[i]);
-        add_force_variation(body, &pose, point, link_force(&law, point), link_variation(&law, point, d),
-                            along, d, slots);
+        add_variation(body, &pose, point, link_force(&law, point), link_variation(&law, point, d), along, d,
+                      slots);
     }
     for (size_t i = 0; i < plan->drag_count; i++) {
         const struct model_body *body = &model->bodies[plan->drags[i].body];
@@ -199,8 +202,8 @@ static void point_variations(const struct model *model, const struct instant *at
         struct motion_of_point point = point_motion(body, &pose, plan->drags[i].point);
         struct motion_of_point d = point_variation(body, &pose, plan->drags[i].point, along);
         struct drag_law law = {plan->drags[i].linear, plan->drags[i].quadratic};
-        add_force_variation(body, &pose, point, drag_force(&law, point.v), drag_variation(&law, point.v, d.v),
-                            along, d, slots);
+        add_variation(body, &pose, point, drag_force(&law, point.v), drag_variation(&law, point.v, d.v),
+                      along, d, slots);
     }
     for (size_t i = 0; i < plan->force_count; i++)
         force_term_variation(model, &plan->forces[i], at, along, slots);

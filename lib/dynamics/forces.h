@@ -14,8 +14,9 @@ void force_slots(const struct model *model, const struct instant *at, double *sl
 void force_slots_along(const struct model *model, const struct instant *at, const struct direction *along,
                        double *variation);
 
-/* Project a force f at a point with the given motion onto a body's slots. */
+/* Add a force f at a point with the given motion to the generalized forces `own` of its body's coordinates.
+ */
 void add_force(const struct model_body *body, const struct pose *pose, struct motion_of_point point,
-               struct vec f, double *slots);
+               struct vec f, double *own);
 
 #endif

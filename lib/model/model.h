@@ -31,6 +31,19 @@ struct model_body {
     int first_load, load_count;
 };
 
+/* Where a load's potential energy comes from. */
+enum potential_kind {
+    potential_none,       /* not conservative; its work is integrated */
+    potential_workless,   /* acts across the motion */
+    potential_gravity,    /* V = m g h */
+    potential_spring,     /* V = k (q - q0)^2 / 2 */
+    potential_link,       /* V = k (l - l0)^2 / 2 */
+    potential_constant,   /* constant force in the world: V = -f . p */
+    potential_linear,     /* constant generalized force: V = -Q q */
+    potential_given,      /* V stated in the file */
+    potential_quadrature, /* V = -integral of Q(q) dq from `reference` */
+};
+
 /* A load with everything that it refers to resolved. */
 struct model_load {
     const struct load *source;
@@ -39,13 +52,9 @@ struct model_load {
     struct vec anchor; /* spring, damper: the other end, on the ground */
     bool linked;       /* spring or damper that has another end */
     struct formula value, angle, fx, fy, potential;
-
-    /* How its work is accounted for. */
-    bool conservative;  /* a potential energy is known or found by quadrature */
-    bool workless;      /* acts across the motion: normal force */
-    bool by_quadrature; /* V = -integral of the force from `reference` */
-    double reference;   /* coordinate where V = 0 */
-    const char *why;    /* the reason, for --explain */
+    enum potential_kind potential_kind;
+    double reference; /* potential_quadrature: the coordinate where V = 0 */
+    const char *why;  /* conservative or not, and the reason */
 };
 
 struct model {

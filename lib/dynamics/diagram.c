@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dynamics/diagram.h"
+
+#include "dynamics/laws.h"
+
+size_t diagram_arrows(const struct model *model, int body)
+{
+    return (size_t)model->bodies[body].load_count + 1;
+}
+
+double arrow_moment(const struct arrow *arrow, struct vec about)
+{
+    return arrow->couple + vec_cross(vec_sub(arrow->point, about), arrow->force);
+}
+
+struct vec mass_center_acceleration(const struct model_body *body, const struct instant *at, const double *a)
+{
+    const double *own = a + body->first;
+    if (body->kind == motion_slide) return vec_scale(own[0], body->e);
+    if (body->kind == motion_particle) return (struct vec){own[0], own[1]};
+    /* a_G = a_O + alpha k x r - omega^2 r */
+    struct pose pose = body_pose(body, at);
+    struct vec r = vec_turn(pose.rotation, body->arm);
+    double alpha = own[body->count - 1];
+    struct vec turning = vec_sub(vec_scale(alpha, vec_perp(r)), vec_scale(pose.omega * pose.omega, r));
+    return body->kind == motion_pivot ? turning : vec_add((struct vec){own[0], own[1]}, turning);
+}
+
+/* ---- forces by kind */
+
+struct vec applied_force(const struct model_body *body, const struct model_load *load,
+                         const struct pose *pose, const struct instant *at)
+{
+    const struct load *source = load->source;
+    struct vec f;
+    if (source->fx.expr || source->fy.expr)
+        f = (struct vec){formula_value(&load->fx, at), formula_value(&load->fy, at)};
+    else if (!source->angle.expr)
+        return vec_scale(formula_value(&load->value, at), body->e);
+    else
+        f = vec_scale(formula_value(&load->value, at), vec_unit(formula_value(&load->angle, at)));
+    return source->body_frame ? vec_turn(pose->rotation, f) : f;
+}
+
+static struct vec link_or_line_force(const struct model_body *body, const struct model_load *load,
+                                     struct motion_of_point point, const struct instant *at)
+{
+    const struct load *source = load->source;
+    if (load->linked) {
+        struct link_law law = {load->anchor, source->stiffness, source->free_length, source->coefficient};
+        return link_force(&law, point);
+    }
+    double stretch = at->y[body->first] - source->free_length;
+    return vec_scale(-(source->stiffness * stretch + source->coefficient * at->y[body->first_rate]), body->e);
+}
+
+/* -dV/dq of each of the body's coordinates: a force in the plane, a force along the slide, a moment about the
+ * axis. */
+static void potential_arrow(const struct model_body *body, const struct model_load *load,
+                            const struct instant *at, struct arrow *arrow)
+{
+    double f[most_coordinates_of_a_body] = {0};
+    if (load->potential.expr)
+        for (int k = 0; k < body->count; k++) {
+            expr_eval_slot(load->potential.expr, at->t, at->y, 1 + body->first + k,
+                           formula_branches(&load->potential, at), &f[k]);
+            f[k] = -f[k];
+        }
+    if (body->kind == motion_slide) arrow->force = vec_scale(f[0], body->e);
+    if (body->kind == motion_pivot) arrow->couple = f[0];
+    if (body->count > 1) arrow->force = (struct vec){f[0], f[1]};
+    if (body->kind == motion_planar) { /* V is a function of the frame's origin */
+        arrow->point = (struct vec){at->y[body->first], at->y[body->first + 1]};
+        arrow->couple = f[2];
+    }
+}
+
+static void set_arrow(const struct model *model, const struct model_body *body, const struct model_load *load,
+                      const struct pose *pose, const struct instant *at, const double *slots,
+                      struct arrow *arrow)
+{
+    const struct load *source = load->source;
+    struct motion_of_point point = point_motion(body, pose, load->point);
+    arrow->point = point.p;
+    switch (source->kind) {
+    case load_gravity: arrow->force = vec_scale(body->inertia.mass, model->scene->gravity); break;
+    case load_normal: break; /* a reaction: set from the sum of the others */
+    case load_friction:
+        arrow->force = vec_scale(friction_at(model, body->friction, at, slots).force, body->e);
+        break;
+    case moment_friction: arrow->couple = friction_at(model, body->friction, at, slots).force; break;
+    case load_applied: arrow->force = applied_force(body, load, pose, at); break;
+    case load_spring:
+    case load_damper: arrow->force = link_or_line_force(body, load, point, at); break;
+    case load_drag: {
+        struct drag_law law = {source->linear, source->quadratic};
+        arrow->force = drag_force(&law, point.v);
+        break;
+    }
+    case load_potential:
+    case moment_potential: potential_arrow(body, load, at, arrow); break;
+    case moment_applied: arrow->couple = formula_value(&load->value, at); break;
+    case moment_spring:
+        arrow->couple = -source->stiffness * (at->y[body->first + body->count - 1] - source->free_length);
+        break;
+    case moment_damper:
+        arrow->couple = -source->coefficient * at->y[body->first_rate + body->count - 1];
+        break;
+    }
+}
+
+/* ---- shares and reactions */
+
+static void set_share(const struct model_body *body, const struct pose *pose, struct arrow *arrow)
+{
+    struct motion_of_point point = {.p = arrow->point};
+    add_force(body, pose, point, arrow->force, arrow->share);
+    if (body->kind == motion_pivot || body->kind == motion_planar)
+        arrow->share[body->count - 1] += arrow->couple;
+}
+
+static double share_power(const struct model_body *body, const struct instant *at, const struct arrow *arrow)
+{
+    double power = 0;
+    for (int k = 0; k < body->count; k++) power += arrow->share[k] * at->y[body->first_rate + k];
+    return power;
+}
+
+/* The force that keeps the body on its axis or line: m a_G minus all that is listed; on a line, across it
+ * only. */
+static struct vec guiding_force(const struct model_body *body, const struct instant *at, const double *a,
+                                struct vec listed)
+{
+    struct vec needed = vec_scale(body->inertia.mass, mass_center_acceleration(body, at, a));
+    struct vec reaction = vec_sub(needed, listed);
+    return body->kind == motion_pivot ? reaction : vec_scale(vec_dot(reaction, body->n), body->n);
+}
+
+size_t diagram_fill(const struct model *model, int index, const struct instant *at, const double *a,
+                    double *scratch, struct arrow *arrows)
+{
+    const struct model_body *body = &model->bodies[index];
+    struct pose pose = body_pose(body, at);
+    struct vec listed = {0, 0};
+    int normal = -1;
+    if (body->friction >= 0) force_slots(model, at, scratch);
+    for (int i = 0; i < body->load_count; i++) {
+        const struct model_load *load = &model->loads[body->first_load + i];
+        arrows[i] = (struct arrow){.name = load->source->name, .load = body->first_load + i};
+        if (load->source->kind == load_normal) normal = i;
+        set_arrow(model, body, load, &pose, at, scratch, &arrows[i]);
+        listed = vec_add(listed, arrows[i].force);
+        set_share(body, &pose, &arrows[i]);
+        arrows[i].power = share_power(body, at, &arrows[i]);
+    }
+    size_t count = (size_t)body->load_count;
+    bool guided = body->kind == motion_slide || body->kind == motion_pivot;
+    if (!guided) return count;
+    struct vec reaction = guiding_force(body, at, a, listed);
+    if (normal >= 0) {
+        arrows[normal].force = reaction;
+        return count;
+    }
+    struct vec where =
+        body->kind == motion_pivot ? body->origin : point_motion(body, &pose, body->inertia.G).p;
+    arrows[count] = (struct arrow){.name = body->kind == motion_pivot ? "pin" : "guide",
+                                   .load = -1,
+                                   .force = reaction,
+                                   .point = where};
+    return count + 1;
+}

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The free-body diagram as numbers: every named force and moment on a body at an instant, with its point,
+ * components, share of each equation and power, and the reaction that the motion's guide adds.
+ *
+ * This is the by-name view of the physics; the plan's terms (forces.h) are the fast view. Both are held
+ * against each other by tests: the shares add up to inertia times acceleration.
+ */
+#ifndef FBD_DYNAMICS_DIAGRAM_H
+#define FBD_DYNAMICS_DIAGRAM_H
+
+#include "dynamics/forward.h"
+
+/* One arrow of the diagram. */
+struct arrow {
+    const char *name;
+    int load;                                 /* index into model.loads, -1 for a reaction */
+    struct vec force;                         /* in the world */
+    struct vec point;                         /* where it acts, in the world */
+    double couple;                            /* a moment by itself */
+    double share[most_coordinates_of_a_body]; /* of the generalized force of each of the body's coordinates */
+    double power;
+};
+
+/* The most arrows that a body of this model can have, reactions included. */
+size_t diagram_arrows(const struct model *model, int body);
+
+/* Fill `arrows` for one body; returns their number. `slots` (plan.slots) and `a` (n) are the results of
+ * accelerations() at the same instant; `scratch` has plan.slots entries. The reaction, if any, comes last:
+ * `pin` of a pivot, `guide` of a slide without a normal force. */
+size_t diagram_fill(const struct model *model, int body, const struct instant *at, const double *a,
+                    double *scratch, struct arrow *arrows);
+
+/* The world components of an applied force. */
+struct vec applied_force(const struct model_body *body, const struct model_load *load,
+                         const struct pose *pose, const struct instant *at);
+
+/* The acceleration of the body's centre of mass. */
+struct vec mass_center_acceleration(const struct model_body *body, const struct instant *at, const double *a);
+
+/* The moment of an arrow about a point. */
+double arrow_moment(const struct arrow *arrow, struct vec about);
+
+#endif

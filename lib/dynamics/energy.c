@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dynamics/energy.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_integration.h>
+#include <string.h>
+
+double kinetic_energy(const struct model_body *body, const struct instant *at)
+{
+    const double *v = at->y + body->first_rate;
+    double m = body->inertia.mass;
+    switch (body->kind) {
+    case motion_slide: return m * v[0] * v[0] / 2;
+    case motion_pivot: return body->I_O * v[0] * v[0] / 2;
+    case motion_particle: return m * (v[0] * v[0] + v[1] * v[1]) / 2;
+    case motion_planar: break;
+    }
+    struct pose pose = body_pose(body, at);
+    struct vec v_G = point_motion(body, &pose, body->inertia.G).v;
+    return (m * vec_dot(v_G, v_G) + body->inertia.I_G * pose.omega * pose.omega) / 2;
+}
+
+/* ---- V by quadrature */
+
+struct integrand {
+    const struct model_body *body;
+    const struct model_load *load;
+    struct instant at;
+    double *y; /* scratch: a state whose coordinate is varied */
+};
+
+/* The generalized force of a load of one coordinate that depends on nothing else. */
+static double force_at(double q, void *context)
+{
+    struct integrand *integrand = context;
+    const struct model_body *body = integrand->body;
+    const struct model_load *load = integrand->load;
+    const struct load *source = load->source;
+    integrand->y[body->first] = q;
+    if (source->kind == moment_applied) return formula_value(&load->value, &integrand->at);
+    struct pose pose = body_pose(body, &integrand->at);
+    struct vec f = applied_force(body, load, &pose, &integrand->at);
+    double share = 0;
+    add_force(body, &pose, point_motion(body, &pose, load->point), f, &share);
+    return share;
+}
+
+static double by_quadrature(const struct model *model, const struct model_load *load,
+                            const struct instant *at, double *scratch)
+{
+    enum { intervals = 200 };
+    const struct model_body *body = &model->bodies[load->body];
+    struct integrand integrand = {body, load, *at, scratch};
+    memset(scratch, 0, 2 * (size_t)model->plan.n * sizeof *scratch);
+    integrand.at.y = scratch;
+    integrand.at.branch = NULL; /* plain values: the integral crosses kinks */
+    gsl_function function = {force_at, &integrand};
+    gsl_integration_workspace *workspace = gsl_integration_workspace_alloc(intervals);
+    if (!workspace) return NAN;
+    double work, error;
+    int status = gsl_integration_qag(&function, load->reference, at->y[body->first], 0, 1e-12, intervals,
+                                     GSL_INTEG_GAUSS21, workspace, &work, &error);
+    gsl_integration_workspace_free(workspace);
+    /* Rounding may keep it from 1e-12: the result is still the best that there is. */
+    return status == GSL_SUCCESS || status == GSL_EROUND ? -work : NAN;
+}
+
+/* ---- V of a load */
+
+static double constant_force_potential(const struct model_body *body, const struct model_load *load,
+                                       const struct pose *pose, const struct instant *at)
+{
+    struct vec f = applied_force(body, load, pose, at);
+    return -vec_dot(f, point_motion(body, pose, load->point).p);
+}
+
+/* The constant generalized force is the share of the load in its body's equation. */
+static double linear_potential(const struct model_body *body, const struct model_load *load,
+                               const struct pose *pose, const struct instant *at)
+{
+    double q = at->y[body->first + body->count - 1];
+    if (load->source->kind == moment_applied) return -formula_value(&load->value, at) * q;
+    double share = 0;
+    add_force(body, pose, point_motion(body, pose, load->point), applied_force(body, load, pose, at), &share);
+    return -share * q;
+}
+
+double potential_energy(const struct model *model, const struct model_load *load, const struct instant *at,
+                        double *scratch)
+{
+    const struct model_body *body = &model->bodies[load->body];
+    const struct load *source = load->source;
+    struct pose pose = body_pose(body, at);
+    switch (load->potential_kind) {
+    case potential_none:
+    case potential_workless: return 0;
+    case potential_gravity: {
+        struct vec height = point_motion(body, &pose, body->inertia.G).p;
+        height.y -= model->scene->datum;
+        return -body->inertia.mass * vec_dot(model->scene->gravity, height);
+    }
+    case potential_spring: {
+        double stretch = at->y[body->first + body->count - 1] - source->free_length;
+        return source->stiffness * stretch * stretch / 2;
+    }
+    case potential_link: {
+        struct vec reach = vec_sub(point_motion(body, &pose, load->point).p, load->anchor);
+        double stretch = vec_norm(reach) - source->free_length;
+        return source->stiffness * stretch * stretch / 2;
+    }
+    case potential_constant: return constant_force_potential(body, load, &pose, at);
+    case potential_linear: return linear_potential(body, load, &pose, at);
+    case potential_given: return formula_value(&load->potential, at);
+    case potential_quadrature: return by_quadrature(model, load, at, scratch);
+    }
+    return 0;
+}

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Kinetic energy of bodies and potential energy of their conservative loads.
+ */
+#ifndef FBD_DYNAMICS_ENERGY_H
+#define FBD_DYNAMICS_ENERGY_H
+
+#include "dynamics/diagram.h"
+
+/* m v_G^2 / 2 + I_G omega^2 / 2; for a pivot I_O omega^2 / 2. */
+double kinetic_energy(const struct model_body *body, const struct instant *at);
+
+/* V of a load at an instant; 0 when it has none. A load by quadrature is integrated from its reference (GSL's
+ * QAG, relative 1e-12): `scratch` has 2 n entries. NAN when that fails, with GSL's error handler called. */
+double potential_energy(const struct model *model, const struct model_load *load, const struct instant *at,
+                        double *scratch);
+
+#endif

@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Which forces are conservative, and why.
+ *
+ * A force of one coordinate that depends on that coordinate alone is conservative: V(q) = -integral Q dq. A
+ * constant force fixed in the world is so for any motion. What depends on time, on a rate or on another body
+ * is not; its work is integrated along the motion.
+ */
+#include "model/builder.h"
+
+struct verdict {
+    enum potential_kind kind;
+    const char *why;
+};
+
+/* What a formula depends on, seen from one body. */
+struct dependence {
+    bool time, rate, other, place;
+};
+
+static void add_dependence(const struct model_body *body, const struct formula *formula,
+                           struct dependence *sum)
+{
+    if (formula_is_constant(formula)) return;
+    const int *slots;
+    size_t count = expr_variables(formula->expr, &slots);
+    sum->time |= expr_uses_time(formula->expr);
+    for (size_t i = 0; i < count; i++) {
+        int index = slots[i] - 1;
+        bool own = index >= body->first && index < body->first + body->count;
+        bool own_rate = index >= body->first_rate && index < body->first_rate + body->count;
+        sum->place |= own;
+        sum->rate |= own_rate;
+        sum->other |= !own && !own_rate;
+    }
+}
+
+static const char *why_not(const struct dependence *on)
+{
+    if (on->time) return "not conservative: it depends on time";
+    if (on->rate) return "not conservative: it depends on velocity";
+    return "not conservative: it depends on the motion of another body";
+}
+
+static struct verdict judge_applied(const struct model_body *body, const struct model_load *load)
+{
+    struct dependence on = {0};
+    add_dependence(body, &load->value, &on);
+    add_dependence(body, &load->angle, &on);
+    add_dependence(body, &load->fx, &on);
+    add_dependence(body, &load->fy, &on);
+    bool moment = load->source->kind == moment_applied;
+    bool one_coordinate = body->kind == motion_slide || body->kind == motion_pivot;
+    if (on.time || on.rate || on.other) return (struct verdict){potential_none, why_not(&on)};
+    if (on.place)
+        return one_coordinate
+                   ? (struct verdict){potential_quadrature,
+                                      "conservative: it depends on the one coordinate alone; V by quadrature"}
+                   : (struct verdict){potential_none,
+                                      "not known to be conservative: it depends on the place in the "
+                                      "plane (write it as a `potential` if it has one)"};
+    if (moment || body->kind == motion_slide || (load->source->body_frame && one_coordinate))
+        return (struct verdict){potential_linear, moment
+                                                      ? "conservative: a constant moment, V = -M theta"
+                                                      : "conservative: constant along the motion, V = -f x"};
+    if (load->source->body_frame && body->kind == motion_planar)
+        return (struct verdict){potential_none, "not conservative: it turns with the body"};
+    return (struct verdict){potential_constant, "conservative: a constant force, V = -f . p"};
+}
+
+static struct verdict judge(const struct model_body *body, const struct model_load *load)
+{
+    static const char linear_spring[] = "conservative: V = k (stretch)^2 / 2";
+    static const char dissipative[] = "not conservative: it depends on velocity";
+    switch (load->source->kind) {
+    case load_gravity: return (struct verdict){potential_gravity, "conservative: V = m g h"};
+    case load_normal: return (struct verdict){potential_workless, "does no work: it acts across the motion"};
+    case load_spring:
+        return (struct verdict){load->linked ? potential_link : potential_spring, linear_spring};
+    case moment_spring: return (struct verdict){potential_spring, linear_spring};
+    case load_damper:
+    case moment_damper:
+    case load_drag: return (struct verdict){potential_none, dissipative};
+    case load_friction:
+    case moment_friction:
+        return (struct verdict){potential_none,
+                                "not conservative: it opposes the motion, whichever way that goes"};
+    case load_potential:
+    case moment_potential: {
+        struct dependence on = {0};
+        add_dependence(body, &load->potential, &on);
+        if (on.time || on.other) return (struct verdict){potential_none, why_not(&on)};
+        return (struct verdict){potential_given, "conservative: V is given"};
+    }
+    case load_applied:
+    case moment_applied: break;
+    }
+    return judge_applied(body, load);
+}
+
+/* V is counted from q = 0, or from the start where the force has no value at 0. `origin` is a state of zeros.
+ */
+static double reference_of(const struct model *model, const struct model_load *load, const double *origin)
+{
+    const struct formula *formulas[] = {&load->value, &load->angle, &load->fx, &load->fy};
+    for (size_t i = 0; i < sizeof formulas / sizeof *formulas; i++)
+        if (!formula_is_constant(formulas[i]) && !isfinite(expr_eval(formulas[i]->expr, 0, origin, NULL)))
+            return model->scene->coordinates[model->bodies[load->body].first].initial;
+    return 0;
+}
+
+bool classify_loads(struct builder *builder)
+{
+    struct model *model = builder->model;
+    const double *origin = ARENA_ARRAY(&model->arena, 2 * model->scene->coordinate_count, double);
+    if (!origin) return false;
+    for (size_t i = 0; i < model->load_count; i++) {
+        struct model_load *load = &model->loads[i];
+        struct verdict verdict = judge(&model->bodies[load->body], load);
+        load->potential_kind = verdict.kind;
+        load->why = verdict.why;
+        if (verdict.kind == potential_quadrature) load->reference = reference_of(model, load, origin);
+    }
+    return true;
+}
