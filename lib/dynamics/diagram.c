@@ -3,7 +3,7 @@
 
 #include "dynamics/laws.h"
 
-size_t diagram_arrows(const struct model *model, int body)
+size_t diagram_arrows(const struct fbd_model *model, int body)
 {
     return (size_t)model->bodies[body].load_count + 1;
 }
@@ -75,9 +75,9 @@ static void potential_arrow(const struct model_body *body, const struct model_lo
     }
 }
 
-static void set_arrow(const struct model *model, const struct model_body *body, const struct model_load *load,
-                      const struct pose *pose, const struct instant *at, const double *slots,
-                      struct arrow *arrow)
+static void set_arrow(const struct fbd_model *model, const struct model_body *body,
+                      const struct model_load *load, const struct pose *pose, const struct instant *at,
+                      const double *slots, struct arrow *arrow)
 {
     const struct load *source = load->source;
     struct motion_of_point point = point_motion(body, pose, load->point);
@@ -136,7 +136,7 @@ static struct vec guiding_force(const struct model_body *body, const struct inst
     return body->kind == motion_pivot ? reaction : vec_scale(vec_dot(reaction, body->n), body->n);
 }
 
-size_t diagram_fill(const struct model *model, int index, const struct instant *at, const double *a,
+size_t diagram_fill(const struct fbd_model *model, int index, const struct instant *at, const double *a,
                     double *scratch, struct arrow *arrows)
 {
     const struct model_body *body = &model->bodies[index];

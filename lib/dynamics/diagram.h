@@ -23,12 +23,12 @@ struct arrow {
 };
 
 /* The most arrows that a body of this model can have, reactions included. */
-size_t diagram_arrows(const struct model *model, int body);
+size_t diagram_arrows(const struct fbd_model *model, int body);
 
 /* Fill `arrows` for one body; returns their number. `slots` (plan.slots) and `a` (n) are the results of
  * accelerations() at the same instant; `scratch` has plan.slots entries. The reaction, if any, comes last:
  * `pin` of a pivot, `guide` of a slide without a normal force. */
-size_t diagram_fill(const struct model *model, int body, const struct instant *at, const double *a,
+size_t diagram_fill(const struct fbd_model *model, int body, const struct instant *at, const double *a,
                     double *scratch, struct arrow *arrows);
 
 /* The world components of an applied force. */

@@ -45,7 +45,7 @@ static double force_at(double q, void *context)
     return share;
 }
 
-static double by_quadrature(const struct model *model, const struct model_load *load,
+static double by_quadrature(const struct fbd_model *model, const struct model_load *load,
                             const struct instant *at, double *scratch)
 {
     enum { intervals = 200 };
@@ -85,8 +85,8 @@ static double linear_potential(const struct model_body *body, const struct model
     return -share * q;
 }
 
-double potential_energy(const struct model *model, const struct model_load *load, const struct instant *at,
-                        double *scratch)
+double potential_energy(const struct fbd_model *model, const struct model_load *load,
+                        const struct instant *at, double *scratch)
 {
     const struct model_body *body = &model->bodies[load->body];
     const struct load *source = load->source;

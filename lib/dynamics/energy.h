@@ -12,7 +12,7 @@ double kinetic_energy(const struct model_body *body, const struct instant *at);
 
 /* V of a load at an instant; 0 when it has none. A load by quadrature is integrated from its reference (GSL's
  * QAG, relative 1e-12): `scratch` has 2 n entries. NAN when that fails, with GSL's error handler called. */
-double potential_energy(const struct model *model, const struct model_load *load, const struct instant *at,
-                        double *scratch);
+double potential_energy(const struct fbd_model *model, const struct model_load *load,
+                        const struct instant *at, double *scratch);
 
 #endif

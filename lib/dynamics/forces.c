@@ -136,7 +136,7 @@ static struct link_law law_of_link(const struct link_term *term)
     return (struct link_law){term->anchor, term->stiffness, term->free_length, term->damping};
 }
 
-static void point_terms(const struct model *model, const struct instant *at, double *slots)
+static void point_terms(const struct fbd_model *model, const struct instant *at, double *slots)
 {
     const struct plan *plan = &model->plan;
     for (size_t i = 0; i < plan->link_count; i++) {
@@ -164,7 +164,7 @@ static void point_terms(const struct model *model, const struct instant *at, dou
     }
 }
 
-static void force_term_variation(const struct model *model, const struct force_term *term,
+static void force_term_variation(const struct fbd_model *model, const struct force_term *term,
                                  const struct instant *at, const struct direction *along, double *slots)
 {
     const struct model_body *body = &model->bodies[term->body];
@@ -183,7 +183,7 @@ static void force_term_variation(const struct model *model, const struct force_t
                   point_variation(body, &pose, term->point, along), slots);
 }
 
-static void point_variations(const struct model *model, const struct instant *at,
+static void point_variations(const struct fbd_model *model, const struct instant *at,
                              const struct direction *along, double *slots)
 {
     const struct plan *plan = &model->plan;
@@ -211,7 +211,7 @@ static void point_variations(const struct model *model, const struct instant *at
 
 /* ---- all of them; lists that a scene does not fill cost a comparison */
 
-void force_slots(const struct model *model, const struct instant *at, double *slots)
+void force_slots(const struct fbd_model *model, const struct instant *at, double *slots)
 {
     const struct plan *plan = &model->plan;
     memset(slots, 0, (size_t)plan->slots * sizeof *slots);
@@ -220,7 +220,7 @@ void force_slots(const struct model *model, const struct instant *at, double *sl
     if (plan->link_count + plan->drag_count + plan->force_count > 0) point_terms(model, at, slots);
 }
 
-void force_slots_along(const struct model *model, const struct instant *at, const struct direction *along,
+void force_slots_along(const struct fbd_model *model, const struct instant *at, const struct direction *along,
                        double *variation)
 {
     const struct plan *plan = &model->plan;

@@ -8,10 +8,10 @@
 #include "dynamics/kinematics.h"
 
 /* slots[plan.slots]: generalized forces of the coordinates, then the sums of forces across slides. */
-void force_slots(const struct model *model, const struct instant *at, double *slots);
+void force_slots(const struct fbd_model *model, const struct instant *at, double *slots);
 
 /* Their variation along a direction (exact, no differences). */
-void force_slots_along(const struct model *model, const struct instant *at, const struct direction *along,
+void force_slots_along(const struct fbd_model *model, const struct instant *at, const struct direction *along,
                        double *variation);
 
 /* Add a force f at a point with the given motion to the generalized forces `own` of its body's coordinates.

@@ -41,7 +41,7 @@ static void offset_variations(const struct offset_body *body, const struct insta
 
 /* ---- the stages */
 
-static void add_kinetic_friction(const struct model *model, const struct instant *at, double *slots)
+static void add_kinetic_friction(const struct fbd_model *model, const struct instant *at, double *slots)
 {
     const struct plan *plan = &model->plan;
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
@@ -52,7 +52,7 @@ static void add_kinetic_friction(const struct model *model, const struct instant
     }
 }
 
-static void hold_sticking(const struct model *model, const struct instant *at, double *a)
+static void hold_sticking(const struct fbd_model *model, const struct instant *at, double *a)
 {
     const struct plan *plan = &model->plan;
     for (int pair = 0; pair < (int)plan->friction_count; pair++)
@@ -60,7 +60,7 @@ static void hold_sticking(const struct model *model, const struct instant *at, d
             friction_surface_speed(&plan->frictions[pair], at, &a[plan->frictions[pair].coordinate]);
 }
 
-void accelerations(const struct model *model, const struct instant *at, double *slots, double *a)
+void accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a)
 {
     const struct plan *plan = &model->plan;
     force_slots(model, at, slots);
@@ -71,8 +71,8 @@ void accelerations(const struct model *model, const struct instant *at, double *
     if (plan->friction_count > 0) hold_sticking(model, at, a);
 }
 
-void accelerations_along(const struct model *model, const struct instant *at, const struct direction *along,
-                         double *slots, double *slots_along, double *a_along)
+void accelerations_along(const struct fbd_model *model, const struct instant *at,
+                         const struct direction *along, double *slots, double *slots_along, double *a_along)
 {
     const struct plan *plan = &model->plan;
     force_slots(model, at, slots);
@@ -96,7 +96,7 @@ void accelerations_along(const struct model *model, const struct instant *at, co
     }
 }
 
-void state_rates(const struct model *model, const struct instant *at, double *slots, double *dydt)
+void state_rates(const struct fbd_model *model, const struct instant *at, double *slots, double *dydt)
 {
     const struct plan *plan = &model->plan;
     size_t n = (size_t)plan->n;
@@ -109,7 +109,7 @@ void state_rates(const struct model *model, const struct instant *at, double *sl
                 friction_surface_speed(&plan->frictions[pair], at, &acceleration);
 }
 
-void state_jacobian(const struct model *model, const struct instant *at, double *scratch, double *dfdy,
+void state_jacobian(const struct fbd_model *model, const struct instant *at, double *scratch, double *dfdy,
                     double *dfdt)
 {
     const struct plan *plan = &model->plan;

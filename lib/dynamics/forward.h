@@ -9,18 +9,18 @@
 
 /* a[n] at an instant. On return slots[plan.slots] hold the generalized forces with kinetic friction included
  * (a sticking coordinate's slot has none) and the sums across slides. */
-void accelerations(const struct model *model, const struct instant *at, double *slots, double *a);
+void accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a);
 
 /* The variation of the accelerations along a direction. `slots` and `slots_along` (plan.slots each) are
  * scratch. */
-void accelerations_along(const struct model *model, const struct instant *at, const struct direction *along,
-                         double *slots, double *slots_along, double *a_along);
+void accelerations_along(const struct fbd_model *model, const struct instant *at,
+                         const struct direction *along, double *slots, double *slots_along, double *a_along);
 
 /* dydt[2 n] for an integrator. A sticking coordinate moves with its surface. */
-void state_rates(const struct model *model, const struct instant *at, double *slots, double *dydt);
+void state_rates(const struct fbd_model *model, const struct instant *at, double *slots, double *dydt);
 
 /* The exact Jacobian: dfdy[2n x 2n] row by row and dfdt[2n]. `scratch` has 2 plan.slots + 3 n entries. */
-void state_jacobian(const struct model *model, const struct instant *at, double *scratch, double *dfdy,
+void state_jacobian(const struct fbd_model *model, const struct instant *at, double *scratch, double *dfdy,
                     double *dfdt);
 
 #endif

@@ -11,7 +11,7 @@ double friction_surface_speed(const struct friction *friction, const struct inst
                           formula_branches(&friction->surface_speed, at), acceleration);
 }
 
-struct friction_values friction_at(const struct model *model, int pair, const struct instant *at,
+struct friction_values friction_at(const struct fbd_model *model, int pair, const struct instant *at,
                                    const double *slots)
 {
     const struct friction *friction = &model->plan.frictions[pair];
@@ -30,7 +30,7 @@ struct friction_values friction_at(const struct model *model, int pair, const st
     return values;
 }
 
-struct friction_values friction_along(const struct model *model, int pair, const struct instant *at,
+struct friction_values friction_along(const struct fbd_model *model, int pair, const struct instant *at,
                                       const double *slots, const struct direction *along,
                                       const double *slots_along)
 {

@@ -30,11 +30,11 @@ struct friction_values {
 double friction_surface_speed(const struct friction *friction, const struct instant *at,
                               double *acceleration);
 
-struct friction_values friction_at(const struct model *model, int pair, const struct instant *at,
+struct friction_values friction_at(const struct fbd_model *model, int pair, const struct instant *at,
                                    const double *slots);
 
 /* The variations of N, limits and hold along a direction; `force` varies accordingly. */
-struct friction_values friction_along(const struct model *model, int pair, const struct instant *at,
+struct friction_values friction_along(const struct fbd_model *model, int pair, const struct instant *at,
                                       const double *slots, const struct direction *along,
                                       const double *slots_along);
 

@@ -16,7 +16,7 @@ enum slip { slip_minus = -1, stick = 0, slip_plus = 1 };
 struct instant {
     double t;
     const double *y;
-    const int *branch; /* plan.branches: of the switches in formulas */
+    const int *branch; /* plan.branches: of the switches in formulas; NULL for plain values */
     const int *slip;   /* plan.friction_count: enum slip */
     const int *pull;   /* plan.friction_count: sign of the normal force of a two-sided guide, +1 otherwise */
 };
@@ -29,7 +29,7 @@ struct direction {
 
 static inline const int *formula_branches(const struct formula *formula, const struct instant *at)
 {
-    return formula->branch < 0 ? NULL : at->branch + formula->branch;
+    return formula->branch < 0 || !at->branch ? NULL : at->branch + formula->branch;
 }
 
 static inline double formula_value(const struct formula *formula, const struct instant *at)

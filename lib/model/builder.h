@@ -9,7 +9,7 @@
 
 /* Affine and sine terms are first summed per slot, then packed. */
 struct builder {
-    struct model *model;
+    struct fbd_model *model;
     fbd_errors *errors;
     struct affine_term *affine; /* slots */
     struct sine_term *sine;     /* slots */

@@ -100,7 +100,7 @@ static struct verdict judge(const struct model_body *body, const struct model_lo
 
 /* V is counted from q = 0, or from the start where the force has no value at 0. `origin` is a state of zeros.
  */
-static double reference_of(const struct model *model, const struct model_load *load, const double *origin)
+static double reference_of(const struct fbd_model *model, const struct model_load *load, const double *origin)
 {
     const struct formula *formulas[] = {&load->value, &load->angle, &load->fx, &load->fy};
     for (size_t i = 0; i < sizeof formulas / sizeof *formulas; i++)
@@ -111,7 +111,7 @@ static double reference_of(const struct model *model, const struct model_load *l
 
 bool classify_loads(struct builder *builder)
 {
-    struct model *model = builder->model;
+    struct fbd_model *model = builder->model;
     const double *origin = ARENA_ARRAY(&model->arena, 2 * model->scene->coordinate_count, double);
     if (!origin) return false;
     for (size_t i = 0; i < model->load_count; i++) {

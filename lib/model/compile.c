@@ -95,7 +95,7 @@ static struct vec resolve_point(const struct point *point, const struct model_bo
 
 static void set_load(struct builder *builder, struct model_load *load, const struct load *source, int body)
 {
-    const struct model *model = builder->model;
+    const struct fbd_model *model = builder->model;
     int index = (int)(load - model->loads);
     load->source = source;
     load->body = body;
@@ -112,7 +112,7 @@ static void set_load(struct builder *builder, struct model_load *load, const str
 
 static void set_loads(struct builder *builder)
 {
-    struct model *model = builder->model;
+    struct fbd_model *model = builder->model;
     int next = 0;
     for (size_t b = 0; b < model->body_count; b++) {
         struct model_body *body = &model->bodies[b];
@@ -125,7 +125,7 @@ static void set_loads(struct builder *builder)
 
 /* ---- the whole */
 
-static bool allocate(struct model *model)
+static bool allocate(struct fbd_model *model)
 {
     const struct scene *scene = model->scene;
     enum { formulas_of_a_load = 8 }; /* value, angle, fx, fy, potential, mu_s, mu_k, surface_speed */
@@ -142,7 +142,7 @@ static bool allocate(struct model *model)
 /* User events come last, so that loads keep the first branches. */
 static void set_watches(struct builder *builder)
 {
-    struct model *model = builder->model;
+    struct fbd_model *model = builder->model;
     const struct scene *scene = model->scene;
     for (size_t i = 0; i < scene->event_count; i++) {
         const struct user_event *event = &scene->events[i];
@@ -154,9 +154,9 @@ static void set_watches(struct builder *builder)
     }
 }
 
-struct model *model_compile(struct scene *scene, fbd_errors *errors)
+struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors)
 {
-    struct model *model = calloc(1, sizeof *model);
+    struct fbd_model *model = calloc(1, sizeof *model);
     if (!model) {
         diag_out_of_memory(errors);
         scene_free(scene);
@@ -181,7 +181,7 @@ struct model *model_compile(struct scene *scene, fbd_errors *errors)
     return model;
 }
 
-void model_free(struct model *model)
+void model_free(struct fbd_model *model)
 {
     if (!model) return;
     scene_free(model->scene);

@@ -57,7 +57,7 @@ struct model_load {
     const char *why;  /* conservative or not, and the reason */
 };
 
-struct model {
+struct fbd_model {
     struct arena arena;
     struct scene *scene; /* owned */
     char *source;        /* the file's text, owned: hand derivations are checked under changed parameters */
@@ -71,8 +71,8 @@ struct model {
 /* Compile a scene; the model takes the scene over, also when it fails. NULL with notes in `errors`: masses
  * and inertias that no body can have
  * (`bad-inertia`), ... */
-struct model *model_compile(struct scene *scene, fbd_errors *errors);
+struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors);
 
-void model_free(struct model *model);
+void model_free(struct fbd_model *model);
 
 #endif

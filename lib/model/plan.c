@@ -255,7 +255,7 @@ static void add_load(struct builder *builder, struct model_body *body, int index
 }
 
 /* A slide keeps the sum of forces across its line when the normal force is watched or friction needs it. */
-static void plan_normals(struct model *model)
+static void plan_normals(struct fbd_model *model)
 {
     struct plan *plan = &model->plan;
     for (size_t b = 0; b < model->body_count; b++) {
@@ -277,7 +277,7 @@ static void plan_normals(struct model *model)
 
 static bool allocate(struct builder *builder)
 {
-    struct model *model = builder->model;
+    struct fbd_model *model = builder->model;
     struct plan *plan = &model->plan;
     struct arena *arena = &model->arena;
     size_t loads = model->load_count, most_slots = model->scene->coordinate_count + model->body_count;
@@ -299,7 +299,7 @@ static bool allocate(struct builder *builder)
     return !arena->failed;
 }
 
-static void plan_inertias(struct model *model)
+static void plan_inertias(struct fbd_model *model)
 {
     struct plan *plan = &model->plan;
     for (size_t b = 0; b < model->body_count; b++) {
@@ -334,7 +334,7 @@ static void pack(struct builder *builder)
 }
 
 /* General terms reach every slot of their body. */
-static void mark_body_slots(struct model *model, int b)
+static void mark_body_slots(struct fbd_model *model, int b)
 {
     const struct model_body *body = &model->bodies[b];
     for (int k = 0; k < body->count; k++) model->plan.slot_constant[body->first + k] = false;
@@ -343,7 +343,7 @@ static void mark_body_slots(struct model *model, int b)
 
 bool plan_build(struct builder *builder)
 {
-    struct model *model = builder->model;
+    struct fbd_model *model = builder->model;
     struct plan *plan = &model->plan;
     if (!allocate(builder)) return false;
     plan_normals(model);

@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dynamics/modes.h"
+
+#include <float.h>
+#include <string.h>
+
+double slip_velocity(const struct fbd_model *model, int pair, const struct instant *at)
+{
+    const struct friction *friction = &model->plan.frictions[pair];
+    double v = at->y[model->plan.n + friction->coordinate], acceleration;
+    double s = friction_surface_speed(friction, at, &acceleration);
+    return fabs(v - s) <= 4 * DBL_EPSILON * fabs(s) ? 0 : v - s;
+}
+
+void modes_hold(struct fbd_state *state)
+{
+    const struct plan *plan = &state->model->plan;
+    struct instant at = state_instant(state);
+    double acceleration;
+    for (int pair = 0; pair < (int)plan->friction_count; pair++)
+        if (state->slip[pair] == stick)
+            state->y[plan->n + plan->frictions[pair].coordinate] =
+                friction_surface_speed(&plan->frictions[pair], &at, &acceleration);
+}
+
+/* The direction in which the state goes on: (1, v, a). Stored in the last 2 n entries of the scratch. */
+static struct direction flow_of(struct fbd_state *state)
+{
+    const struct plan *plan = &state->model->plan;
+    size_t n = (size_t)plan->n;
+    double *dy = state->scratch + 2 * (size_t)plan->slots;
+    memcpy(dy, state->y + n, n * sizeof *dy);
+    memcpy(dy + n, state->a, n * sizeof *dy);
+    return (struct direction){1, dy};
+}
+
+static bool settle_branches(struct fbd_state *state, const struct decided *decided,
+                            const struct direction *flow)
+{
+    const struct plan *plan = &state->model->plan;
+    bool same = true;
+    for (size_t i = 0; i < plan->kink_count; i++) {
+        const struct kink *kink = &plan->kinks[i];
+        int *branch = state->branch + kink->formula.branch;
+        int before = 0,
+            after = 0; /* a sum of the branches tells whether one has changed, since one pass moves one way */
+        const bool *keep = decided && decided->branches ? decided->branches + kink->formula.branch : NULL;
+        for (size_t k = 0; k < kink->count; k++) before = 31 * before + branch[k];
+        expr_resolve(kink->formula.expr, state->t, state->y, flow->dt, flow->dy, keep, branch);
+        for (size_t k = 0; k < kink->count; k++) after = 31 * after + branch[k];
+        same = same && before == after;
+    }
+    return same;
+}
+
+static bool settle_slips(struct fbd_state *state, const struct decided *decided, const struct direction *flow)
+{
+    const struct fbd_model *model = state->model;
+    const struct plan *plan = &model->plan;
+    double *slots = state->scratch, *slots_along = slots + plan->slots;
+    struct instant at = state_instant(state);
+    bool same = true;
+    force_slots(model, &at, slots);
+    force_slots_along(model, &at, flow, slots_along);
+    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
+        if (plan->frictions[pair].two_sided && !(decided && decided->slips && decided->slips[pair]))
+            state->pull[pair] = slots[plan->frictions[pair].normal_slot] > 0 ? -1 : 1;
+        if (decided && decided->slips && decided->slips[pair]) continue;
+        double v = slip_velocity(model, pair, &at);
+        enum slip next = v > 0 ? slip_plus : slip_minus;
+        if (v == 0) {
+            struct friction_values now = friction_at(model, pair, &at, slots);
+            struct friction_values rate = friction_along(model, pair, &at, slots, flow, slots_along);
+            next = friction_decide(&now, &rate);
+        }
+        same = same && state->slip[pair] == (int)next;
+        state->slip[pair] = next;
+    }
+    return same;
+}
+
+bool modes_settle(struct fbd_state *state, const struct decided *decided)
+{
+    enum { most_passes = 12 };
+    const struct plan *plan = &state->model->plan;
+    bool first = true;
+    for (int pass = 0; pass < most_passes; pass++) {
+        state_evaluate(state);
+        if (plan->kink_count + plan->friction_count == 0) return true;
+        struct direction flow = flow_of(state);
+        bool same = settle_branches(state, decided, &flow);
+        if (plan->friction_count > 0) same = settle_slips(state, decided, &flow) && same;
+        if (same && !first) {
+            modes_hold(state);
+            state_evaluate(state);
+            return true;
+        }
+        first = false;
+    }
+    return false;
+}

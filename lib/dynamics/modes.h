@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Modes: which branch every switch is on and what every friction pair does, decided at the start and after
+ * each event.
+ *
+ * A decision needs the rates of change, which need the modes: so the choice is repeated until it does not
+ * change. Where a switching function is not zero the first pass is final; the repetition serves those that
+ * sit exactly at their threshold.
+ */
+#ifndef FBD_DYNAMICS_MODES_H
+#define FBD_DYNAMICS_MODES_H
+
+#include "dynamics/state.h"
+
+/* What an event has decided already and must stay: NULL, or arrays of plan.branches and plan.friction_count
+ * flags. */
+struct decided {
+    const bool *branches;
+    const bool *slips;
+};
+
+/* Settle all modes at the state. Relative velocities of pairs that stick are set to exactly zero. On return
+ * state_evaluate has been done. False when no choice agrees with itself (a scene whose forces fight at their
+ * thresholds). */
+bool modes_settle(struct fbd_state *state, const struct decided *decided);
+
+/* The velocity of a pair relative to its surface. */
+double slip_velocity(const struct fbd_model *model, int pair, const struct instant *at);
+
+/* Give the rates of sticking coordinates the exact velocity of their surface. */
+void modes_hold(struct fbd_state *state);
+
+#endif

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dynamics/state.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static size_t scratch_size(const struct plan *plan)
+{
+    return 2 * (size_t)plan->slots + 3 * (size_t)plan->n;
+}
+
+struct fbd_state *state_new(const struct fbd_model *model)
+{
+    const struct plan *plan = &model->plan;
+    size_t n = (size_t)plan->n, doubles = 3 * n + (size_t)plan->slots + scratch_size(plan);
+    size_t ints = (size_t)plan->branches + 2 * plan->friction_count;
+    struct fbd_state *state = calloc(1, sizeof *state + doubles * sizeof(double) + ints * sizeof(int));
+    if (!state) return NULL;
+    state->model = model;
+    state->y = (double *)(state + 1);
+    state->a = state->y + 2 * n;
+    state->slots = state->a + n;
+    state->scratch = state->slots + plan->slots;
+    state->branch = (int *)(state->scratch + scratch_size(plan));
+    state->slip = state->branch + plan->branches;
+    state->pull = state->slip + plan->friction_count;
+    for (size_t i = 0; i < n; i++) {
+        state->y[i] = model->scene->coordinates[i].initial;
+        state->y[n + i] = model->scene->coordinates[i].initial_rate;
+    }
+    for (size_t i = 0; i < plan->friction_count; i++) state->pull[i] = 1;
+    return state;
+}
+
+void state_free(struct fbd_state *state)
+{
+    free(state);
+}
+
+void state_copy(struct fbd_state *to, const struct fbd_state *from)
+{
+    const struct plan *plan = &from->model->plan;
+    size_t n = (size_t)plan->n;
+    to->t = from->t;
+    memcpy(to->y, from->y, 2 * n * sizeof *to->y);
+    memcpy(to->a, from->a, n * sizeof *to->a);
+    memcpy(to->slots, from->slots, (size_t)plan->slots * sizeof *to->slots);
+    memcpy(to->branch, from->branch, (size_t)plan->branches * sizeof *to->branch);
+    memcpy(to->slip, from->slip, plan->friction_count * sizeof *to->slip);
+    memcpy(to->pull, from->pull, plan->friction_count * sizeof *to->pull);
+}
+
+void state_evaluate(struct fbd_state *state)
+{
+    struct instant at = state_instant(state);
+    accelerations(state->model, &at, state->slots, state->a);
+}

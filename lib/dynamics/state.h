@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * State: the time, coordinates, rates and modes of one run, with the scratch that dynamics needs. One
+ * allocation.
+ */
+#ifndef FBD_DYNAMICS_STATE_H
+#define FBD_DYNAMICS_STATE_H
+
+#include "dynamics/forward.h"
+
+struct fbd_state {
+    const struct fbd_model *model;
+    double t;
+    double *y;                 /* 2 n: coordinates, then rates */
+    double *a;                 /* n: accelerations, by state_evaluate */
+    double *slots;             /* plan.slots: generalized forces, by state_evaluate */
+    int *branch, *slip, *pull; /* modes, see instant.h */
+    double *scratch;           /* 2 plan.slots + 3 n */
+};
+
+/* A state at the scene's initial values, t = 0, modes not yet settled. NULL when memory is out. */
+struct fbd_state *state_new(const struct fbd_model *model);
+void state_free(struct fbd_state *state);
+
+/* Make `to` equal to `from`; both belong to the same model. */
+void state_copy(struct fbd_state *to, const struct fbd_state *from);
+
+static inline struct instant state_instant(const struct fbd_state *state)
+{
+    return (struct instant){state->t, state->y, state->branch, state->slip, state->pull};
+}
+
+/* Accelerations and slots at the state, modes as they are. */
+void state_evaluate(struct fbd_state *state);
+
+#endif

@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solve/scan.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+enum { most_depth = 30 };
+
+struct scan_point {
+    double t;
+    double *values, *rates;
+    double *doubt; /* how far the functions may be from their cubic in the interval that ends here */
+};
+
+bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *context)
+{
+    enum { points = most_depth + 4, arrays = 3 };
+    *scan = (struct scan){.count = count, .sample = sample, .context = context};
+    scan->points = calloc(points, sizeof *scan->points);
+    scan->memory = calloc(points * arrays * count + 1, sizeof *scan->memory);
+    scan->rough = calloc(2 * count + 1, sizeof *scan->rough);
+    if (!scan->points || !scan->memory || !scan->rough) {
+        scan_free(scan);
+        return false;
+    }
+    scan->crossed = scan->rough + count;
+    double *next = scan->memory;
+    for (int i = 0; i < points; i++, next += arrays * count)
+        scan->points[i] = (struct scan_point){0, next, next + count, next + 2 * count};
+    return true;
+}
+
+void scan_free(struct scan *scan)
+{
+    free(scan->points);
+    free(scan->memory);
+    free(scan->rough);
+    *scan = (struct scan){0};
+}
+
+/* ---- the cubic through values and rates at both ends, on s in [0, 1]: c0 + c1 s + c2 s^2 + c3 s^3 */
+
+struct cubic {
+    double c0, c1, c2, c3;
+};
+
+static struct cubic cubic_between(const struct scan_point *a, const struct scan_point *b, size_t i)
+{
+    double h = b->t - a->t, d = b->values[i] - a->values[i], ra = h * a->rates[i], rb = h * b->rates[i];
+    return (struct cubic){a->values[i], ra, 3 * d - 2 * ra - rb, ra + rb - 2 * d};
+}
+
+static double cubic_at(const struct cubic *c, double s)
+{
+    return c->c0 + s * (c->c1 + s * (c->c2 + s * c->c3));
+}
+
+/* The place of the interior minimum, or -1. The minimum of a cubic is the zero of its slope where the
+ * curvature is positive. */
+static double cubic_minimum(const struct cubic *c)
+{
+    double root = c->c2 * c->c2 - 3 * c->c3 * c->c1;
+    if (!(root > 0)) return -1;
+    double q = c->c2 + copysign(sqrt(root), c->c2); /* the stable form of the quadratic formula */
+    double first = q != 0 ? -c->c1 / q : -1, second = c->c3 != 0 ? -q / (3 * c->c3) : -1;
+    double s[2] = {first, second};
+    for (int k = 0; k < 2; k++)
+        if (s[k] > 0 && s[k] < 1 && c->c2 + 3 * c->c3 * s[k] > 0) return s[k];
+    return -1;
+}
+
+/* A zero of a cubic that changes sign from + to - over [0, 1]: Newton kept inside a shrinking bracket. */
+static double cubic_zero(const struct cubic *c)
+{
+    double low = 0, high = 1, s = c->c0 / (c->c0 - cubic_at(c, 1));
+    for (int i = 0; i < 60 && high - low > DBL_EPSILON; i++) {
+        if (!(s > low && s < high)) s = (low + high) / 2;
+        double value = cubic_at(c, s), slope = c->c1 + s * (2 * c->c2 + s * 3 * c->c3);
+        if (value >= 0)
+            low = s;
+        else
+            high = s;
+        double next = slope != 0 ? s - value / slope : -1;
+        if (fabs(next - s) <= DBL_EPSILON) return s;
+        s = next;
+    }
+    return s;
+}
+
+/* ---- looking */
+
+static int take_sample(struct scan *scan, struct scan_point *point, double t)
+{
+    point->t = t;
+    scan->samples++;
+    return scan->sample(scan->context, t, point->values, point->rates);
+}
+
+static bool active(const struct scan_point *a, const struct scan_point *b, size_t i)
+{
+    return a->values[i] < HUGE_VAL && b->values[i] < HUGE_VAL;
+}
+
+static bool crosses(const struct scan_point *a, const struct scan_point *b, size_t i)
+{
+    return active(a, b, i) && a->values[i] >= 0 && b->values[i] < 0;
+}
+
+static bool any_crosses(const struct scan *scan, const struct scan_point *a, const struct scan_point *b)
+{
+    for (size_t i = 0; i < scan->count; i++)
+        if (crosses(a, b, i)) return true;
+    return false;
+}
+
+/* Does function i ask for a sample inside (a, b)? */
+static bool doubtful(const struct scan_point *a, const struct scan_point *b, size_t i)
+{
+    if (!active(a, b, i)) return false;
+    double doubt = b->doubt[i], size = fmax(fabs(a->values[i]), fabs(b->values[i]));
+    if (doubt > size / 2) return true;
+    if (a->values[i] < 0 || b->values[i] < 0) return false;
+    struct cubic c = cubic_between(a, b, i);
+    double s = cubic_minimum(&c);
+    /* A minimum well above zero needs no second look; at zero itself (a start from rest) there is none
+     * inside. */
+    return s > 0 && cubic_at(&c, s) - doubt < 0;
+}
+
+static bool any_doubtful(const struct scan *scan, const struct scan_point *a, const struct scan_point *b)
+{
+    for (size_t i = 0; i < scan->count; i++)
+        if (doubtful(a, b, i)) return true;
+    return false;
+}
+
+/* Compare the sample m with the cubics between a and b. The error of a cubic falls with the fourth power of
+ * the interval; a quarter is a safe share for each half. Returns the largest doubt relative to how much its
+ * function changes. */
+static double set_doubts(const struct scan *scan, const struct scan_point *a, struct scan_point *m,
+                         struct scan_point *b)
+{
+    double worst = 0;
+    for (size_t i = 0; i < scan->count; i++) {
+        m->doubt[i] = 0;
+        if (!scan->rough[i] || !active(a, b, i) || !(m->values[i] < HUGE_VAL)) {
+            b->doubt[i] = 0;
+            continue;
+        }
+        struct cubic c = cubic_between(a, b, i);
+        double off = fabs(m->values[i] - cubic_at(&c, (m->t - a->t) / (b->t - a->t)));
+        double change = fabs(m->values[i] - a->values[i]) + fabs(b->values[i] - m->values[i]);
+        double size = fabs(a->values[i]) + fabs(m->values[i]) + fabs(b->values[i]);
+        if (off <= 64 * DBL_EPSILON * size) off = 0;
+        if (change > 0 && off / change > worst) worst = off / change;
+        m->doubt[i] = b->doubt[i] = off / 4;
+    }
+    return worst;
+}
+
+/* ---- the first zero between a (none negative that was not) and b (at least one negative) */
+
+/* The estimate of the first zero from the cubics of all functions that cross. */
+static double first_estimate(const struct scan *scan, const struct scan_point *a, const struct scan_point *b)
+{
+    double first = 1;
+    for (size_t i = 0; i < scan->count; i++) {
+        if (!crosses(a, b, i)) continue;
+        struct cubic c = cubic_between(a, b, i);
+        double s = cubic_zero(&c);
+        if (s < first) first = s;
+    }
+    return a->t + first * (b->t - a->t);
+}
+
+static void exchange(struct scan_point *x, struct scan_point *y)
+{
+    struct scan_point spare = *x;
+    *x = *y;
+    *y = spare;
+}
+
+/* Shrink [a, b] to two roundings. The cubics converge to the zero fast but from one side, so once an estimate
+ * stops moving the other side is fetched by steps that grow from a rounding; every third step is a bisection,
+ * so that nothing is slow. `m` is a spare point. */
+static int locate(struct scan *scan, struct scan_point *a, struct scan_point *b, struct scan_point *m)
+{
+    double unit = 2 * DBL_EPSILON * fmax(fabs(a->t), fabs(b->t)), reach = unit;
+    for (int step = 1; b->t - a->t > unit; step++) {
+        double t = first_estimate(scan, a, b), width = b->t - a->t;
+        if (step % 4 == 0)
+            t = a->t + width / 2;
+        else if (t - a->t < reach)
+            t = a->t + fmin(reach, width / 2), reach *= 8;
+        else if (b->t - t < reach)
+            t = b->t - fmin(reach, width / 2), reach *= 8;
+        if (!(t > a->t && t < b->t)) break;
+        int status = take_sample(scan, m, t);
+        if (status) return status;
+        exchange(m, any_crosses(scan, a, m) ? b : a);
+    }
+    scan->t = b->t;
+    for (size_t i = 0; i < scan->count; i++) scan->crossed[i] = crosses(a, b, i);
+    return 1;
+}
+
+static int look(struct scan *scan, struct scan_point *a, struct scan_point *b, int depth)
+{
+    struct scan_point *m = &scan->points[3 + depth];
+    bool deeper = depth < most_depth && any_doubtful(scan, a, b);
+    if (!deeper) return any_crosses(scan, a, b) ? locate(scan, a, b, m) : 0;
+    double t = a->t + (b->t - a->t) / 2;
+    if (!(t > a->t && t < b->t)) return any_crosses(scan, a, b) ? locate(scan, a, b, m) : 0;
+    int status = take_sample(scan, m, t);
+    if (status) return status;
+    set_doubts(scan, a, m, b);
+    status = look(scan, a, m, depth + 1);
+    return status ? status : look(scan, m, b, depth + 1);
+}
+
+int scan_interval(struct scan *scan, double from, double to)
+{
+    struct scan_point *a = &scan->points[0], *b = &scan->points[1], *m = &scan->points[2];
+    scan->resolved = HUGE_VAL;
+    if (scan->count == 0) return 0;
+    int status = take_sample(scan, a, from);
+    if (!status) status = take_sample(scan, b, to);
+    /* Not the middle: a periodic function would fool it most easily there. */
+    if (!status) status = take_sample(scan, m, from + 0.4690 * (to - from));
+    if (status) return status;
+    double off = set_doubts(scan, a, m, b);
+    if (off > 0.1) scan->resolved = (to - from) * (off > 0.5 ? 0.5 : 1);
+    status = look(scan, a, m, 0);
+    return status ? status : look(scan, m, b, 0);
+}

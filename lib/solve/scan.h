@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Scan: the first instant in an interval at which one of several smooth functions becomes negative.
+ *
+ * The functions are known at any t with their rates. Between two samples each is compared with its cubic
+ * Hermite interpolant: a sign change brackets a zero; an interior minimum of the cubic near zero, or a
+ * function that the cubic does not follow, is sampled more finely. So a function that dips below zero and
+ * comes back within one step is seen (an even root as well, to the accuracy of the samples), as long as it
+ * changes no faster than the samples tell. Functions marked `rough` are checked against one interior sample
+ * at least in every interval.
+ */
+#ifndef FBD_SOLVE_SCAN_H
+#define FBD_SOLVE_SCAN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Fill values[count] and rates[count] at t; +HUGE_VAL for a function that is not active. Non-zero stops the
+ * scan and is returned. */
+typedef int scan_sampler(void *context, double t, double *values, double *rates);
+
+struct scan {
+    size_t count;
+    scan_sampler *sample;
+    void *context;
+    bool *rough;   /* count, filled by the caller */
+    bool *crossed; /* count: result, which functions became negative at `t` */
+    double t;      /* result: the first instant at which one is negative, within two roundings of its zero */
+    double resolved; /* result: an interval length that the functions bear; HUGE_VAL when they are smooth over
+                        all of it */
+    long samples;    /* counted */
+    struct scan_point *points; /* pool for the recursion */
+    double *memory;
+};
+
+/* False when memory is out. */
+bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *context);
+void scan_free(struct scan *scan);
+
+/* Look at (from, to]. 1: found, see `t` and `crossed`; 0: nothing; negative: what the sampler returned.
+ * Functions that start at or below zero are looked at once they have been seen positive, except those that
+ * are still negative at the end. */
+int scan_interval(struct scan *scan, double from, double to);
+
+#endif

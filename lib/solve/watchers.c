@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solve/watchers.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- which functions a plan needs */
+
+static void add(struct watcher_set *set, struct watcher watcher)
+{
+    if (set->watchers) set->watchers[set->count] = watcher;
+    set->count++;
+}
+
+static void add_kinks(struct watchers *watchers, const struct plan *plan)
+{
+    for (size_t i = 0; i < plan->kink_count; i++) {
+        const struct kink *kink = &plan->kinks[i];
+        for (size_t part = 0; part < kink->count; part++) {
+            bool timed = expr_switch_is_time(kink->formula.expr, part);
+            for (int end = 0; end < 2; end++)
+                add(timed ? &watchers->timed : &watchers->moving,
+                    (struct watcher){watch_kink, (int)i, (int)part, end, true});
+        }
+    }
+}
+
+static bool always_the_same(const struct plan *plan, const struct friction *friction)
+{
+    return plan->slot_constant[friction->coordinate] && !friction->surface_speed.expr &&
+           !friction->mu_s.expr && !friction->mu_k.expr &&
+           (friction->normal_slot < 0 || plan->slot_constant[friction->normal_slot]);
+}
+
+static void add_frictions(struct watchers *watchers, const struct plan *plan)
+{
+    for (size_t i = 0; i < plan->friction_count; i++) {
+        const struct friction *friction = &plan->frictions[i];
+        bool moving_surface = friction->surface_speed.expr != NULL;
+        add(&watchers->moving, (struct watcher){watch_slip_stop, (int)i, 0, 0, moving_surface});
+        if (!always_the_same(plan, friction))
+            for (int end = 0; end < 2; end++)
+                add(&watchers->moving, (struct watcher){watch_stick_limit, (int)i, 0, end, true});
+        if (friction->two_sided && !plan->slot_constant[friction->normal_slot])
+            add(&watchers->moving, (struct watcher){watch_normal_turns, (int)i, 0, 0, true});
+    }
+}
+
+static void add_all(struct watchers *watchers, const struct plan *plan)
+{
+    add_kinks(watchers, plan);
+    add_frictions(watchers, plan);
+    for (size_t i = 0; i < plan->contact_count; i++)
+        if (!plan->slot_constant[plan->contacts[i].slot])
+            add(&watchers->moving, (struct watcher){watch_contact, (int)i, 0, 0, true});
+    for (size_t i = 0; i < plan->watch_count; i++)
+        add(&watchers->moving, (struct watcher){watch_user, (int)i, 0, 0, true});
+}
+
+bool watchers_init(struct watchers *watchers, const struct fbd_model *model)
+{
+    const struct plan *plan = &model->plan;
+    size_t margins = 0;
+    for (size_t i = 0; i < plan->kink_count; i++)
+        if (plan->kinks[i].count > margins) margins = plan->kinks[i].count;
+    *watchers = (struct watchers){0};
+    add_all(watchers, plan); /* once to count, once to fill */
+    size_t timed = watchers->timed.count, moving = watchers->moving.count;
+    watchers->timed = (struct watcher_set){calloc(timed + 1, sizeof(struct watcher)), 0};
+    watchers->moving = (struct watcher_set){calloc(moving + 1, sizeof(struct watcher)), 0};
+    watchers->scratch = calloc(4 * margins + 1, sizeof(double));
+    watchers->armed = calloc(plan->watch_count + 1, sizeof(int));
+    if (!watchers->timed.watchers || !watchers->moving.watchers || !watchers->scratch || !watchers->armed) {
+        watchers_free(watchers);
+        return false;
+    }
+    add_all(watchers, plan);
+    return true;
+}
+
+void watchers_free(struct watchers *watchers)
+{
+    free(watchers->timed.watchers);
+    free(watchers->moving.watchers);
+    free(watchers->scratch);
+    free(watchers->armed);
+    *watchers = (struct watchers){0};
+}
+
+/* ---- their values */
+
+/* Where and along what a set is evaluated. */
+struct view {
+    struct fbd_state *state;
+    struct instant at;
+    struct direction flow;
+    const double *slots, *slots_along; /* without friction */
+};
+
+static double user_value(const struct watch *watch, const struct view *view, double *rate)
+{
+    double left_rate, right_rate;
+    double left = formula_along(&watch->left, &view->at, &view->flow, &left_rate);
+    double right = formula_along(&watch->right, &view->at, &view->flow, &right_rate);
+    *rate = left_rate - right_rate;
+    return left - right;
+}
+
+static double friction_value(const struct watcher *watcher, const struct view *view, double *rate)
+{
+    const struct fbd_model *model = view->state->model;
+    const struct friction *friction = &model->plan.frictions[watcher->index];
+    int slip = view->at.slip[watcher->index];
+    *rate = 0;
+    if (watcher->kind == watch_slip_stop) {
+        if (slip == stick) return HUGE_VAL;
+        double acceleration, speed = friction_surface_speed(friction, &view->at, &acceleration);
+        size_t index = (size_t)(model->plan.n + friction->coordinate);
+        *rate = slip * (view->flow.dy[index] - acceleration);
+        return slip * (view->at.y[index] - speed);
+    }
+    if (watcher->kind == watch_stick_limit && slip != stick) return HUGE_VAL;
+    struct friction_values now = friction_at(model, watcher->index, &view->at, view->slots);
+    struct friction_values d =
+        friction_along(model, watcher->index, &view->at, view->slots, &view->flow, view->slots_along);
+    if (watcher->kind == watch_normal_turns) {
+        *rate = view->at.pull[watcher->index] * d.N;
+        return view->at.pull[watcher->index] * now.N;
+    }
+    int side = watcher->end == 0 ? 1 : -1;
+    bool kinetic = now.limit_kinetic > now.limit_static; /* as in friction_decide */
+    *rate = (kinetic ? d.limit_kinetic : d.limit_static) - side * d.hold;
+    return (kinetic ? now.limit_kinetic : now.limit_static) - side * now.hold;
+}
+
+static void kink_margins(const struct watchers *watchers, const struct kink *kink, const struct view *view)
+{
+    double *margins = watchers->scratch, *rates = margins + 2 * kink->count;
+    expr_margins(kink->formula.expr, view->at.t, view->at.y, view->flow.dt, view->flow.dy,
+                 formula_branches(&kink->formula, &view->at), margins, rates);
+}
+
+/* The rates of change at (t, y) in the present modes, and the forces without friction and how they vary. */
+static void set_flow(struct view *view)
+{
+    struct fbd_state *state = view->state;
+    const struct plan *plan = &state->model->plan;
+    double *slots = state->scratch, *slots_along = slots + plan->slots, *dy = slots_along + plan->slots;
+    state_rates(state->model, &view->at, slots, dy);
+    view->flow = (struct direction){1, dy};
+    force_slots(state->model, &view->at, slots);
+    force_slots_along(state->model, &view->at, &view->flow, slots_along);
+    view->slots = slots;
+    view->slots_along = slots_along;
+}
+
+void watchers_evaluate(const struct watchers *watchers, const struct watcher_set *set,
+                       struct fbd_state *state, double t, const double *y, double *values, double *rates)
+{
+    const struct plan *plan = &state->model->plan;
+    struct view view = {.state = state,
+                        .at = {t, y, state->branch, state->slip, state->pull},
+                        .flow = {1, NULL}};
+    if (set != &watchers->timed) set_flow(&view);
+    int last_kink = -1;
+    for (size_t i = 0; i < set->count; i++) {
+        const struct watcher *watcher = &set->watchers[i];
+        switch (watcher->kind) {
+        case watch_kink: {
+            const struct kink *kink = &plan->kinks[watcher->index];
+            if (watcher->index != last_kink) kink_margins(watchers, kink, &view);
+            last_kink = watcher->index;
+            size_t entry = 2 * (size_t)watcher->part + (size_t)watcher->end;
+            values[i] = watchers->scratch[entry];
+            rates[i] = watchers->scratch[2 * kink->count + entry];
+            break;
+        }
+        case watch_contact:
+            values[i] = -view.slots[plan->contacts[watcher->index].slot];
+            rates[i] = -view.slots_along[plan->contacts[watcher->index].slot];
+            break;
+        case watch_user: {
+            int armed = watchers->armed[watcher->index];
+            double value = user_value(&plan->watches[watcher->index], &view, &rates[i]);
+            values[i] = armed == 0 ? HUGE_VAL : armed * value;
+            rates[i] *= armed;
+            break;
+        }
+        case watch_slip_stop:
+        case watch_stick_limit:
+        case watch_normal_turns: values[i] = friction_value(watcher, &view, &rates[i]); break;
+        }
+    }
+}
+
+void watchers_arm(struct watchers *watchers, struct fbd_state *state)
+{
+    const struct plan *plan = &state->model->plan;
+    if (plan->watch_count == 0) return;
+    struct view view = {.state = state, .at = state_instant(state)};
+    set_flow(&view);
+    for (size_t i = 0; i < plan->watch_count; i++) {
+        if (watchers->armed[i] != 0) continue;
+        double rate, value = user_value(&plan->watches[i], &view, &rate);
+        double side = value != 0 ? value : rate;
+        watchers->armed[i] = side > 0 ? 1 : side < 0 ? -1 : 0;
+    }
+}

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Event functions: smooth functions of (t, y) that are positive while the modes of a state last.
+ *
+ * They come from the plan and exist only for what can happen: a friction force that is constant and within
+ * its limit has none. Functions of time alone form a set of their own, since their zeros are known before a
+ * step is taken.
+ */
+#ifndef FBD_SOLVE_WATCHERS_H
+#define FBD_SOLVE_WATCHERS_H
+
+#include "dynamics/modes.h"
+
+enum watcher_kind {
+    watch_kink,         /* a branch of a switch ends; index: kink, part: switch, end 0 or 1 */
+    watch_stick_limit,  /* the force needed to stick reaches its limit; index: pair, end 0: +x pull, 1: -x */
+    watch_slip_stop,    /* the relative velocity reaches zero; index: pair */
+    watch_normal_turns, /* the normal force of a two-sided guide with friction changes its side; index: pair
+                         */
+    watch_contact,      /* a normal force reaches zero; index: contact */
+    watch_user,         /* a user event; index: watch */
+};
+
+struct watcher {
+    enum watcher_kind kind;
+    int index, part, end;
+    bool rough; /* not resolved by the steps of the motion alone: its course within a step is checked */
+};
+
+struct watcher_set {
+    struct watcher *watchers;
+    size_t count;
+};
+
+struct watchers {
+    struct watcher_set timed;  /* functions of t alone */
+    struct watcher_set moving; /* all others */
+    double *scratch;           /* margins and rates of one kink */
+    int *armed;                /* per user event: +1 or -1, the side where it is; 0 while it sits on zero */
+};
+
+/* Build the sets for a model; false when memory is out (then all is freed). */
+bool watchers_init(struct watchers *watchers, const struct fbd_model *model);
+void watchers_free(struct watchers *watchers);
+
+/* values[count] and rates[count] (along the motion) of a set at an instant. +HUGE_VAL and 0 for what cannot
+ * happen in the present modes. `state` lends its modes and scratch; (t, y) may be any point of a step. `flow`
+ * is NULL to leave the rates out. */
+void watchers_evaluate(const struct watchers *watchers, const struct watcher_set *set,
+                       struct fbd_state *state, double t, const double *y, double *values, double *rates);
+
+/* Arm user events that have left zero; call at the start and after each accepted step. */
+void watchers_arm(struct watchers *watchers, struct fbd_state *state);
+
+#endif
