@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# A thin front to meson and ninja. On Debian, what is missing to build or to test is installed first.
+
+BUILD = build
+MODEL = models/kinetics/incline.yaml
+MESON_OPTIONS =
+
+all: $(BUILD)/build.ninja
+	ninja -C $(BUILD)
+
+run: all
+	$(BUILD)/apps/fbd-run $(MODEL)
+
+test: $(BUILD)/.tests
+	ninja -C $(BUILD)
+	.ci/test $(BUILD) --no-rebuild
+
+sanitize: $(BUILD)-sanitize/.tests
+	ninja -C $(BUILD)-sanitize
+	.ci/test $(BUILD)-sanitize --no-rebuild
+
+valgrind: $(BUILD)/.tests
+	ninja -C $(BUILD)
+	.ci/test $(BUILD) --no-rebuild --setup valgrind --suite unit --suite hard
+
+bench: $(BUILD)/.tests
+	ninja -C $(BUILD)
+	meson test -C $(BUILD) --no-rebuild --benchmark --verbose
+
+check-format: $(BUILD)/.lint
+	.ci/lint $(BUILD) format
+
+format: $(BUILD)/.lint
+	find lib apps tests -name '*.[ch]' -exec clang-format -i {} +
+
+lint: $(BUILD)/.lint
+	.ci/lint $(BUILD)
+
+install: all
+	meson install -C $(BUILD) --no-rebuild
+
+clean:
+	rm -rf $(BUILD) $(BUILD)-*
+
+$(BUILD)/build.ninja:
+	.ci/install-packages run
+	meson setup $(BUILD) $(MESON_OPTIONS)
+
+$(BUILD)-sanitize/build.ninja:
+	.ci/install-packages run
+	meson setup $(BUILD)-sanitize -Db_sanitize=address,undefined $(MESON_OPTIONS)
+
+# A build that was set up before cmocka was there has no tests yet.
+%/.tests: | %/build.ninja
+	.ci/install-packages run test
+	meson configure $* -Dtests=enabled
+	touch $@
+
+%/.lint: | %/.tests
+	.ci/install-packages run test lint
+	touch $@
+
+.PHONY: all run test sanitize valgrind bench check-format format lint install clean
+.SECONDARY:

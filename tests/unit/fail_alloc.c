@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fail_alloc.h"
+
+#include <stdint.h>
+
+/* NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp): --wrap dictates the names. */
+
+/* The linker's option --wrap gives these names: calls of malloc come to __wrap_malloc, and the C library's
+ * own is left as __real_malloc. */
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t count, size_t size);
+void *__real_realloc(void *memory, size_t size);
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_realloc(void *memory, size_t size);
+
+static size_t asked;
+static size_t first_failing = SIZE_MAX;
+static size_t last_failing = SIZE_MAX;
+static bool failed;
+
+static void start(size_t first, size_t last)
+{
+    asked = 0;
+    first_failing = first;
+    last_failing = last;
+    failed = false;
+}
+
+void fail_alloc_at(size_t n)
+{
+    start(n, n);
+}
+
+void fail_alloc_from(size_t n)
+{
+    start(n, SIZE_MAX);
+}
+
+bool fail_alloc_end(void)
+{
+    first_failing = last_failing = SIZE_MAX;
+    return failed;
+}
+
+size_t fail_alloc_count(void)
+{
+    return asked;
+}
+
+static bool refuse(void)
+{
+    size_t n = asked++;
+    bool refused = n >= first_failing && n <= last_failing;
+    failed = failed || refused;
+    return refused;
+}
+
+void *__wrap_malloc(size_t size)
+{
+    return refuse() ? NULL : __real_malloc(size);
+}
+
+void *__wrap_calloc(size_t count, size_t size)
+{
+    return refuse() ? NULL : __real_calloc(count, size);
+}
+
+void *__wrap_realloc(void *memory, size_t size)
+{
+    return refuse() ? NULL : __real_realloc(memory, size);
+}
+
+/* NOLINTEND(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp) */
