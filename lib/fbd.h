@@ -181,7 +181,7 @@ typedef enum fbd_event_kind {
     FBD_EVENT_REVERSAL,     /* a slipping body stops and slips back at once */
     FBD_EVENT_CONTACT_LOST, /* a normal force reaches zero: the run ends, since the scene is no longer true */
     FBD_EVENT_USER,         /* an event of the file */
-    FBD_EVENT_KINK,         /* a force passes from one branch to another */
+    FBD_EVENT_SWITCH,       /* an expression passes from one branch to another (step, abs, if, ...) */
 } fbd_event_kind;
 
 typedef struct fbd_event {
@@ -192,7 +192,7 @@ typedef struct fbd_event {
     const char *detail;
 } fbd_event;
 
-/* "breakaway", "stick", "reversal", "contact_lost", "user", "kink" */
+/* "breakaway", "stick", "reversal", "contact_lost", "user", "switch" */
 FBD_API const char *fbd_event_kind_name(fbd_event_kind kind);
 
 typedef enum fbd_outcome {

@@ -44,7 +44,7 @@ static bool settle_branches(struct fbd_state *state, const struct decided *decid
         int *branch = state->branch + kink->formula.branch;
         int before = 0,
             after = 0; /* a sum of the branches tells whether one has changed, since one pass moves one way */
-        const bool *keep = decided && decided->branches ? decided->branches + kink->formula.branch : NULL;
+        const bool *keep = decided ? decided->branches + kink->formula.branch : NULL;
         for (size_t k = 0; k < kink->count; k++) before = 31 * before + branch[k];
         expr_resolve(kink->formula.expr, state->t, state->y, flow->dt, flow->dy, keep, branch);
         for (size_t k = 0; k < kink->count; k++) after = 31 * after + branch[k];
@@ -63,9 +63,9 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
     force_slots(model, &at, slots);
     force_slots_along(model, &at, flow, slots_along);
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        if (plan->frictions[pair].two_sided && !(decided && decided->slips && decided->slips[pair]))
+        if (plan->frictions[pair].two_sided && !(decided && decided->pulls[pair]))
             state->pull[pair] = slots[plan->frictions[pair].normal_slot] > 0 ? -1 : 1;
-        if (decided && decided->slips && decided->slips[pair]) continue;
+        if (decided && decided->slips[pair]) continue;
         double v = slip_velocity(model, pair, &at);
         enum slip next = v > 0 ? slip_plus : slip_minus;
         if (v == 0) {

@@ -12,14 +12,13 @@
 
 #include "dynamics/state.h"
 
-/* What an event has decided already and must stay: NULL, or arrays of plan.branches and plan.friction_count
- * flags. */
+/* What an event has decided already and must stay: flags for plan.branches, and for plan.friction_count pairs. */
 struct decided {
-    const bool *branches;
-    const bool *slips;
+    bool *branches;
+    bool *slips, *pulls;
 };
 
-/* Settle all modes at the state. Relative velocities of pairs that stick are set to exactly zero. On return
+/* Settle all modes at the state; `decided` may be NULL. Relative velocities of pairs that stick are set to exactly zero. On return
  * state_evaluate has been done. False when no choice agrees with itself (a scene whose forces fight at their
  * thresholds). */
 bool modes_settle(struct fbd_state *state, const struct decided *decided);

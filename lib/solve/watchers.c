@@ -176,7 +176,8 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
             break;
         }
         case watch_contact:
-            values[i] = -view.slots[plan->contacts[watcher->index].slot];
+            values[i] = watchers_contact_slack(state->model, &plan->contacts[watcher->index]) -
+                        view.slots[plan->contacts[watcher->index].slot];
             rates[i] = -view.slots_along[plan->contacts[watcher->index].slot];
             break;
         case watch_user: {
@@ -205,4 +206,9 @@ void watchers_arm(struct watchers *watchers, struct fbd_state *state)
         double side = value != 0 ? value : rate;
         watchers->armed[i] = side > 0 ? 1 : side < 0 ? -1 : 0;
     }
+}
+
+double watchers_contact_slack(const struct fbd_model *model, const struct contact *contact)
+{
+    return 1e-13 * model->bodies[contact->body].inertia.mass * vec_norm(model->scene->gravity);
 }

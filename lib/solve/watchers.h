@@ -52,4 +52,8 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
 /* Arm user events that have left zero; call at the start and after each accepted step. */
 void watchers_arm(struct watchers *watchers, struct fbd_state *state);
 
+/* A normal force is lost when it is below minus this: the rounding of the weight, so that a body that only
+ * just touches is not thrown off. */
+double watchers_contact_slack(const struct fbd_model *model, const struct contact *contact);
+
 #endif

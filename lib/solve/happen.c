@@ -1,0 +1,180 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What happens at an event: branches cross over, bodies stick, break away or reverse, contacts are lost, user
+ * events are noted.
+ */
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "solve/run.h"
+
+/* ---- the log */
+
+static struct run_event *note(struct run *run, fbd_event_kind kind, int body, int load, int watch)
+{
+    if (run->event_count == run->event_room) {
+        size_t room = run->event_room ? 2 * run->event_room : 16;
+        struct run_event *events = realloc(run->events, room * sizeof *events);
+        if (!events) {
+            run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
+            return NULL;
+        }
+        run->events = events;
+        run->event_room = room;
+    }
+    struct run_event *event = &run->events[run->event_count++];
+    *event = (struct run_event){.t = run->state->t, .kind = kind, .body = body, .load = load, .watch = watch};
+    return event;
+}
+
+static void note_friction(struct run *run, fbd_event_kind kind, int pair)
+{
+    const struct friction *friction = &run->model->plan.frictions[pair];
+    struct run_event *event = note(run, kind, friction->body, friction->load, -1);
+    if (!event) return;
+    struct instant at = state_instant(run->state);
+    double *slots = run->during->scratch;
+    force_slots(run->model, &at, slots);
+    struct friction_values values = friction_at(run->model, pair, &at, slots);
+    event->force = values.force;
+    event->limit = values.limit_static;
+}
+
+/* ---- events by kind */
+
+static void cross_kink(struct run *run, const struct watcher *watcher)
+{
+    const struct kink *kink = &run->model->plan.kinks[watcher->index];
+    int index = kink->formula.branch + watcher->part;
+    int *branch = &run->state->branch[index];
+    *branch = expr_branch_beyond(kink->formula.expr, (size_t)watcher->part, watcher->end, *branch);
+    run->decided.branches[index] = true;
+    note(run, FBD_EVENT_SWITCH, kink->body, kink->load, -1);
+}
+
+/* The relative velocity is zero by the event, so it is made zero exactly; settling decides what follows. */
+static void stop_slipping(struct run *run, int pair)
+{
+    const struct friction *friction = &run->model->plan.frictions[pair];
+    struct instant at = state_instant(run->state);
+    double acceleration;
+    run->state->y[run->model->plan.n + friction->coordinate] =
+        friction_surface_speed(friction, &at, &acceleration);
+}
+
+static void user_event(struct run *run, int watch)
+{
+    const struct user_event *source = run->model->plan.watches[watch].source;
+    int *armed = &run->watchers.armed[watch];
+    int direction = -*armed;
+    *armed = 0; /* armed again once it has left zero */
+    if (source->direction != 0 && source->direction != direction) return;
+    note(run, FBD_EVENT_USER, -1, -1, watch);
+    if (source->stop && run->outcome == FBD_GOING) run->outcome = FBD_STOPPED;
+}
+
+static void happen(struct run *run, const struct watcher *watcher)
+{
+    int index = watcher->index;
+    switch (watcher->kind) {
+    case watch_kink: cross_kink(run, watcher); break;
+    case watch_stick_limit:
+        run->state->slip[index] = watcher->end == 0 ? slip_minus : slip_plus;
+        run->decided.slips[index] = true;
+        break;
+    case watch_slip_stop: stop_slipping(run, index); break;
+    case watch_normal_turns:
+        run->state->pull[index] = -run->state->pull[index];
+        run->decided.pulls[index] = true;
+        break;
+    case watch_contact: break; /* run_check_contacts */
+    case watch_user: user_event(run, index); break;
+    }
+}
+
+/* ---- after the modes have settled */
+
+/* What each pair has done is read off its modes before and after, whichever event was the cause. */
+static void note_frictions(struct run *run, const bool *moving)
+{
+    const struct watcher_set *set = &run->watchers.moving;
+    for (int pair = 0; pair < (int)run->model->plan.friction_count; pair++) {
+        int before = run->during->slip[pair], after = run->state->slip[pair];
+        bool stopped = false;
+        for (size_t i = 0; moving && i < set->count; i++)
+            stopped |=
+                moving[i] && set->watchers[i].kind == watch_slip_stop && set->watchers[i].index == pair;
+        if (before == stick && after != stick) note_friction(run, FBD_EVENT_BREAKAWAY, pair);
+        if (before != stick && after == stick) note_friction(run, FBD_EVENT_STICK, pair);
+        if (stopped && after != stick && after != before) note_friction(run, FBD_EVENT_REVERSAL, pair);
+    }
+}
+
+void run_check_contacts(struct run *run)
+{
+    const struct fbd_model *model = run->model;
+    for (size_t i = 0; i < model->plan.contact_count; i++) {
+        const struct contact *contact = &model->plan.contacts[i];
+        double N = -run->state->slots[contact->slot];
+        if (!(N < -watchers_contact_slack(model, contact))) continue;
+        note(run, FBD_EVENT_CONTACT_LOST, contact->body, contact->load, -1);
+        run_fail(run, FBD_BROKEN,
+                 "at t = %.9g `%s` leaves its surface: the normal force would have to pull (N = %.6g). "
+                 "Declare the "
+                 "normal force `two_sided` if it is a guide, or end the run before",
+                 run->state->t, model->bodies[contact->body].name, N);
+    }
+}
+
+void run_apply_touched(struct run *run)
+{
+    const struct plan *plan = &run->model->plan;
+    struct instant at = state_instant(run->state);
+    for (size_t i = 0; i < plan->watch_count; i++) {
+        int armed = run->watchers.armed[i];
+        double value =
+            formula_value(&plan->watches[i].left, &at) - formula_value(&plan->watches[i].right, &at);
+        if (armed != 0 && armed * value <= 0) user_event(run, (int)i);
+    }
+}
+
+/* Events that crowd at one instant never let time pass: a sliding mode that no friction entry declares, or an
+ * infinite sequence. */
+static void count_crowd(struct run *run)
+{
+    enum { most_at_once = 200 };
+    double span = 1e-12 * fmax(fabs(run->state->t), run->options.until);
+    run->crowd = run->state->t - run->last_event <= span ? run->crowd + 1 : 0;
+    run->last_event = run->state->t;
+    if (run->crowd < most_at_once || run->outcome != FBD_GOING) return;
+    const struct run_event *event = &run->events[run->event_count - 1];
+    const char *name = event->load >= 0    ? run->model->loads[event->load].source->name
+                       : event->watch >= 0 ? run->model->plan.watches[event->watch].source->name
+                                           : "an expression";
+    run_fail(run, FBD_FAILED,
+             "at t = %.9g events chatter: `%s` changes its branch again and again while no time passes. A "
+             "force that "
+             "jumps against the motion, as c*sign(v), is dry friction: declare it as `friction`",
+             run->state->t, name);
+}
+
+void run_apply(struct run *run, const bool *timed, const bool *moving)
+{
+    const struct plan *plan = &run->model->plan;
+    const struct watcher_set *sets[] = {&run->watchers.timed, &run->watchers.moving};
+    const bool *crossed[] = {timed, moving};
+    memset(run->decided.branches, 0, ((size_t)plan->branches + 2 * plan->friction_count) * sizeof(bool));
+    for (int s = 0; s < 2; s++)
+        for (size_t i = 0; crossed[s] && i < sets[s]->count; i++)
+            if (crossed[s][i]) happen(run, &sets[s]->watchers[i]);
+    if (!modes_settle(run->state, &run->decided) && run->outcome == FBD_GOING)
+        run_fail(run, FBD_FAILED,
+                 "at t = %.9g no choice of branches and of stick or slip agrees with the forces",
+                 run->state->t);
+    note_frictions(run, moving);
+    run_apply_touched(run);
+    run_check_contacts(run);
+    run->restart = true;
+    if (run->outcome == FBD_GOING) count_crowd(run);
+}

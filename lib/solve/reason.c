@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Why a run ended early, in the words of the scene: time, body, quantity and what to try.
+ */
+#include <gsl/gsl_errno.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "solve/run.h"
+
+void run_fail(struct run *run, fbd_outcome outcome, const char *format, ...)
+{
+    if (run->outcome != FBD_GOING && run->outcome != FBD_STOPPED) return; /* the first reason is the cause */
+    run->outcome = outcome;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(run->reason, sizeof run->reason, format, args);
+    va_end(args);
+}
+
+static const char *body_of(const struct run *run, size_t element)
+{
+    size_t n = (size_t)run->model->plan.n;
+    const struct scene *scene = run->model->scene;
+    return run->model->bodies[scene->coordinates[element % n].body].name;
+}
+
+/* The coordinate whose motion is the fastest: where a solution runs away, it is this one. */
+static size_t fastest(const struct run *run)
+{
+    size_t n = (size_t)run->model->plan.n, worst = 0;
+    double most = -1;
+    for (size_t i = 0; i < n; i++) {
+        double v = fabs(run->y[n + i]), a = fabs(run->f[n + i]), rate = v > 0 ? a / v : 0;
+        if (rate > most) most = rate, worst = i;
+    }
+    return worst;
+}
+
+static void explain_not_finite(struct run *run)
+{
+    size_t n = (size_t)run->model->plan.n, element = run->system.last_element % (2 * n);
+    run_fail(
+        run, FBD_FAILED,
+        "a force on `%s` is not finite at t = %.9g, just beyond the last good state at t = %.9g: an "
+        "expression "
+        "leaves its domain there (a division by zero, a root or logarithm of a negative number). End the run "
+        "before by an event, or restrict the expression",
+        body_of(run, element), run->system.last_time, run->state->t);
+}
+
+void run_fail_step(struct run *run, enum stepper_status status)
+{
+    const struct stepper_counts *counts = stepper_get_counts(run->stepper);
+    bool not_finite = run->system.last_code == system_not_finite;
+    if (status == stepper_misuse) {
+        run_fail(run, FBD_FAILED, "the method `%s` cannot be used here", run->options.method->name);
+    } else if (not_finite && (status == stepper_bad_function || counts->last != rejected_error)) {
+        explain_not_finite(run);
+    } else if (counts->last == rejected_iteration) {
+        run_fail(run, FBD_FAILED,
+                 "at t = %.9g the implicit equations of `%s` were not solved (body `%s`). Try another method "
+                 "or a smaller "
+                 "tolerance",
+                 run->state->t, run->options.method->name, body_of(run, fastest(run)));
+    } else {
+        run_fail(run, FBD_FAILED,
+                 "the step size underflows at t = %.9g: `%s` moves ever faster, as towards a singular point, "
+                 "and no step is "
+                 "small enough. End the run before by an event, or look for a missing force",
+                 run->state->t, body_of(run, fastest(run)));
+    }
+}

@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solve/run.h"
+
+#include <float.h>
+#include <gsl/gsl_errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- the system that the stepper sees */
+
+static int rates(double t, const double y[], double dydt[], void *context)
+{
+    struct run *run = context;
+    struct fbd_state *during = run->during;
+    struct instant at = {t, y, during->branch, during->slip, during->pull};
+    state_rates(run->model, &at, during->slots, dydt);
+    return GSL_SUCCESS;
+}
+
+static int jacobian(double t, const double y[], double *dfdy, double dfdt[], void *context)
+{
+    struct run *run = context;
+    struct fbd_state *during = run->during;
+    struct instant at = {t, y, during->branch, during->slip, during->pull};
+    state_jacobian(run->model, &at, during->scratch, dfdy, dfdt);
+    return GSL_SUCCESS;
+}
+
+static int sample_timed(void *context, double t, double *values, double *rate)
+{
+    struct run *run = context;
+    watchers_evaluate(&run->watchers, &run->watchers.timed, run->during, t, run->state->y, values, rate);
+    return 0;
+}
+
+static int sample_moving(void *context, double t, double *values, double *rate)
+{
+    struct run *run = context;
+    if (stepper_dense(run->stepper, t, run->sample) != GSL_SUCCESS) return -1;
+    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, t, run->sample, values, rate);
+    return 0;
+}
+
+/* ---- making and freeing */
+
+static bool make_stepper(struct run *run)
+{
+    size_t n = (size_t)run->model->plan.n;
+    bool *angle = calloc(n + 1, sizeof *angle);
+    if (!angle) return false;
+    for (size_t i = 0; i < n; i++) angle[i] = run->model->scene->coordinates[i].angle;
+    struct stepper_options options = {.method = run->options.method,
+                                      .layout = {.pairs = n, .angle = angle},
+                                      .tolerance = run->options.tolerance,
+                                      .h_fixed = run->options.step};
+    run->stepper = stepper_alloc(&options);
+    free(angle);
+    return run->stepper != NULL;
+}
+
+static bool make_decided(struct decided *decided, const struct plan *plan)
+{
+    size_t branches = (size_t)plan->branches, pairs = plan->friction_count;
+    decided->branches = calloc(branches + 2 * pairs + 1, sizeof(bool));
+    if (!decided->branches) return false;
+    decided->slips = decided->branches + branches;
+    decided->pulls = decided->slips + pairs;
+    return true;
+}
+
+static bool make_scans(struct run *run)
+{
+    if (!watchers_init(&run->watchers, run->model)) return false;
+    const struct watcher_set *timed = &run->watchers.timed, *moving = &run->watchers.moving;
+    if (!scan_init(&run->timed, timed->count, sample_timed, run)) return false;
+    if (!scan_init(&run->moving, moving->count, sample_moving, run)) return false;
+    for (size_t i = 0; i < timed->count; i++) run->timed.rough[i] = timed->watchers[i].rough;
+    for (size_t i = 0; i < moving->count; i++) run->moving.rough[i] = moving->watchers[i].rough;
+    return true;
+}
+
+static bool make_run(struct run *run)
+{
+    const struct plan *plan = &run->model->plan;
+    size_t n = (size_t)plan->n;
+    run->state = state_new(run->model);
+    run->during = state_new(run->model);
+    run->y = calloc(6 * n + 1, sizeof *run->y);
+    if (!run->state || !run->during || !run->y || !make_scans(run)) return false;
+    run->f = run->y + 2 * n;
+    run->sample = run->f + 2 * n;
+    run->values = calloc(2 * run->moving.count + 1, sizeof *run->values);
+    if (!run->values) return false;
+    gsl_odeiv2_system system = {rates, jacobian, 2 * n, run};
+    counted_system_init(&run->system, &system);
+    return make_decided(&run->decided, plan) && make_stepper(run);
+}
+
+static void start(struct run *run)
+{
+    run->restart = true;
+    run->from = run->state->t;
+    if (!modes_settle(run->state, NULL)) {
+        run_fail(run, FBD_FAILED,
+                 "at the start no choice of branches and of stick or slip agrees with the forces");
+        return;
+    }
+    watchers_arm(&run->watchers, run->state);
+    run_check_contacts(run);
+    if (run->outcome == FBD_GOING && !(run->options.until > run->state->t)) run->outcome = FBD_DONE;
+}
+
+struct run *run_new(const struct fbd_model *model, const struct run_options *options)
+{
+    struct run *run = calloc(1, sizeof *run);
+    if (!run) return NULL;
+    run->model = model;
+    run->options = *options;
+    run->last_event = -HUGE_VAL;
+    if (!make_run(run)) {
+        run_free(run);
+        return NULL;
+    }
+    start(run);
+    return run;
+}
+
+void run_free(struct run *run)
+{
+    if (!run) return;
+    stepper_free(run->stepper);
+    scan_free(&run->timed);
+    scan_free(&run->moving);
+    watchers_free(&run->watchers);
+    state_free(run->state);
+    state_free(run->during);
+    free(run->decided.branches);
+    free(run->events);
+    free(run->y);
+    free(run->values);
+    free(run);
+}
+
+/* ---- one turn */
+
+/* Start the stepper at the present state. */
+static bool restart(struct run *run)
+{
+    memcpy(run->y, run->state->y, 2 * (size_t)run->model->plan.n * sizeof *run->y);
+    int status =
+        stepper_reset(run->stepper, &run->system, run->state->t, run->y, run->f, run->options.until, &run->h);
+    if (status != GSL_SUCCESS) {
+        run_fail_step(run, stepper_bad_function);
+        return false;
+    }
+    run->restart = false;
+    return true;
+}
+
+/* The next event of time alone within reach of a step, or the end of the run. */
+static double next_time(struct run *run, bool *found)
+{
+    const double stretch = 1.02; /* the stepper may lengthen a step by 1 % to end at its limit */
+    double reach = fmin(run->options.until, run->state->t + stretch * run->h);
+    *found = scan_interval(&run->timed, run->state->t, reach) == 1;
+    return *found ? fmin(run->timed.t, run->options.until) : run->options.until;
+}
+
+/* Go back to the event that the scan has found and improve its time: the partial step has the full accuracy
+ * of the method, the dense output may have less. Newton on the function that reaches zero first; y and f are
+ * left at the result. */
+static bool polish(struct run *run, double step_end, double *t)
+{
+    enum { most_steps = 4 };
+    const struct scan *scan = &run->moving;
+    double *values = run->values, *rate = values + scan->count;
+    for (int step = 0;; step++) {
+        if (stepper_partial(run->stepper, &run->system, *t, run->y, run->f) != GSL_SUCCESS) return false;
+        if (step == most_steps) return true;
+        watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, *t, run->y, values, rate);
+        double move = HUGE_VAL;
+        for (size_t i = 0; i < scan->count; i++)
+            if (scan->crossed[i] && rate[i] < 0) move = fmin(move, -values[i] / rate[i]);
+        double next = *t + move;
+        if (!(next > run->from && next < step_end) || fabs(move) <= 4 * DBL_EPSILON * fabs(next)) return true;
+        *t = next;
+    }
+}
+
+/* Look for the first event in (from, t]; on return *t is its time, with y and f there. 1 found, 0 none, -1
+ * failed. */
+static int find_event(struct run *run, double *t)
+{
+    int found = scan_interval(&run->moving, run->from, *t);
+    if (run->moving.resolved < HUGE_VAL) run->h = fmin(run->h, run->moving.resolved);
+    if (found <= 0) return found;
+    double when = run->moving.t;
+    if (when < *t) {
+        if (!polish(run, *t, &when)) return -1;
+        *t = when;
+    }
+    return 1;
+}
+
+static void accept(struct run *run, double t)
+{
+    size_t n = (size_t)run->model->plan.n;
+    run->state->t = t;
+    memcpy(run->state->y, run->y, 2 * n * sizeof *run->y);
+    modes_hold(run->state);
+    memcpy(run->y, run->state->y, 2 * n * sizeof *run->y);
+}
+
+fbd_outcome run_advance(struct run *run)
+{
+    if (run->outcome != FBD_GOING) return run->outcome;
+    run->from = run->state->t;
+    state_copy(run->during, run->state);
+    if (run->restart && !restart(run)) return run->outcome;
+    bool timed;
+    double limit = next_time(run, &timed), t = run->from;
+    enum stepper_status status = stepper_step(run->stepper, &run->system, &t, run->y, run->f, &run->h, limit);
+    if (status != stepper_ok) {
+        run_fail_step(run, status);
+        return run->outcome;
+    }
+    int moving = find_event(run, &t);
+    if (moving < 0) {
+        run_fail_step(run, stepper_bad_function);
+        return run->outcome;
+    }
+    accept(run, t);
+    timed = timed && t == limit;
+    bool at_end = t >= run->options.until;
+    if (moving || timed)
+        run_apply(run, timed ? run->timed.crossed : NULL, moving ? run->moving.crossed : NULL);
+    else
+        state_evaluate(run->state);
+    if (at_end) run_apply_touched(run);
+    if (run->outcome == FBD_GOING && at_end) run->outcome = FBD_DONE;
+    if (run->outcome == FBD_GOING) watchers_arm(&run->watchers, run->state);
+    return run->outcome;
+}
+
+bool run_look(struct run *run, double t, struct fbd_state *state)
+{
+    state_copy(state, run->during);
+    state->t = t;
+    if (t == run->state->t)
+        memcpy(state->y, run->state->y, 2 * (size_t)run->model->plan.n * sizeof *state->y);
+    else if (stepper_dense(run->stepper, t, state->y) != GSL_SUCCESS)
+        return false;
+    modes_hold(state);
+    state_evaluate(state);
+    return true;
+}

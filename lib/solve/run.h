@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Run: the loop that carries a scene through time.
+ *
+ * One turn of the loop: find the next event of time alone; make one accepted step, at most to there; look on
+ * the step's dense output for the first other event; if there is one, go back to it by a partial step and
+ * polish its time by Newton; apply all events of that instant; settle the modes; start the stepper anew.
+ * Between events everything is smooth, so every method keeps its order.
+ */
+#ifndef FBD_SOLVE_RUN_H
+#define FBD_SOLVE_RUN_H
+
+#include "dynamics/modes.h"
+#include "solve/scan.h"
+#include "solve/stepper.h"
+#include "solve/watchers.h"
+
+struct run_options {
+    double until;
+    double tolerance;
+    double step; /* fixed size, or 0 */
+    const struct method *method;
+};
+
+struct run_event {
+    double t;
+    fbd_event_kind kind;
+    int body, load, watch; /* -1 where it does not apply */
+    double force, limit; /* friction: the force after the event (that holds or slides) and the static limit */
+};
+
+enum { reason_size = 400 };
+
+struct run {
+    const struct fbd_model *model;
+    struct run_options options;
+    struct fbd_state *state;  /* at the end of the last step, modes for what follows */
+    struct fbd_state *during; /* modes of the last step; its scratch serves samples within it */
+    double from;              /* start of the last step; it ends at state->t */
+    double h;                 /* step size proposed */
+    bool restart;             /* the stepper has to start anew */
+    fbd_outcome outcome;
+    char reason[reason_size];
+
+    struct watchers watchers;
+    struct scan timed, moving;
+    struct stepper *stepper;
+    struct counted_system system;
+    double *y, *f, *sample; /* 2 n each */
+    double *values;         /* moving event functions and their rates */
+    struct decided decided;
+
+    struct run_event *events;
+    size_t event_count, event_room;
+    double last_event; /* time of the last one; events that crowd at one instant are counted */
+    int crowd;
+};
+
+/* A run at the start of the model, modes settled, events of t = 0 applied. NULL when memory is out. */
+struct run *run_new(const struct fbd_model *model, const struct run_options *options);
+void run_free(struct run *run);
+
+/* One turn of the loop. */
+fbd_outcome run_advance(struct run *run);
+
+/* The state at t in [from, state->t] of the last step, with the modes of that step; evaluated (accelerations
+ * are there). */
+bool run_look(struct run *run, double t, struct fbd_state *state);
+
+/* ---- for the files of the loop */
+
+/* Apply what has happened at run->state: `timed` and `moving` flag the functions of each set that have
+ * crossed; NULL for none. Settles the modes. */
+void run_apply(struct run *run, const bool *timed, const bool *moving);
+
+/* User events whose function is exactly zero at run->state (a body came to rest there, or the run ends there)
+ * happen now. */
+void run_apply_touched(struct run *run);
+
+/* Check normal forces at run->state; ends the run when one is negative. */
+void run_check_contacts(struct run *run);
+
+/* End the run with a reason. */
+void run_fail_step(struct run *run, enum stepper_status status);
+void run_fail(struct run *run, fbd_outcome outcome, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+#endif
