@@ -235,6 +235,81 @@ FBD_API fbd_stats fbd_simulation_stats(const fbd_simulation *simulation);
 /* Why it ended: one sentence with time, body, quantity and what to try; "" while all is well. */
 FBD_API const char *fbd_simulation_reason(const fbd_simulation *simulation);
 
+/* ---------------------------------------------------------------- recording a whole run */
+
+/* Takes a piece of text; non-zero stops the run. */
+typedef int fbd_write(void *context, const char *text, size_t length);
+
+typedef struct fbd_recording {
+    double every;   /* output interval; 0 for the file's, else 1/500 of the run */
+    bool ledger;    /* with a column for each force and its work, and for the energies */
+    fbd_write *csv; /* where CSV goes, or NULL */
+    void *csv_context;
+} fbd_recording;
+
+/* Energies of the scene, in its units of energy. work: what the forces without a potential have done since
+ * the start; residual: change of kinetic + potential - work. */
+typedef struct fbd_energy {
+    double kinetic, potential, work, residual;
+    double initial_kinetic, initial_potential;
+} fbd_energy;
+
+/* A run from start to end, with its ledger. */
+typedef struct fbd_result fbd_result;
+
+/* Carry a simulation to its end. NULL when memory is out. The simulation must outlive the result. */
+FBD_API fbd_result *fbd_simulation_run(fbd_simulation *simulation, const fbd_recording *recording);
+FBD_API void fbd_result_free(fbd_result *result);
+
+FBD_API fbd_outcome fbd_result_outcome(const fbd_result *result);
+FBD_API fbd_state *fbd_result_state(fbd_result *result); /* the last good state; owned by the result */
+FBD_API fbd_energy fbd_result_energy(const fbd_result *result);
+
+/* The work that a force or moment of a body has done since the start; NAN when there is no such name. */
+FBD_API double fbd_result_work(const fbd_result *result, const char *body, const char *load);
+
+/* The same as text, to be freed with free(); NULL when memory is out. */
+FBD_API char *fbd_result_report(fbd_result *result);
+FBD_API char *fbd_result_json(fbd_result *result);
+
+/* ---------------------------------------------------------------- looking at a model */
+
+/* The assembled equations, term by term, as text. To be freed with free(), as all texts below; NULL when
+ * memory is out. */
+FBD_API char *fbd_equations_text(fbd_state *state);
+
+/* What is simulated and what is not, and which forces are conservative and why. */
+FBD_API char *fbd_explain(const fbd_model *model, const fbd_options *options);
+
+/* Linearisation about an equilibrium. */
+typedef struct fbd_linearization fbd_linearization;
+
+/* Find the equilibrium near `state` (GSL's hybrid Newton method on the accelerations, rates zero), take the
+ * exact Jacobian and its eigenvalues. NULL with a note in `errors` when there is none near (`no-equilibrium`)
+ * or friction holds a body (`sticks`). `state` is moved to the equilibrium. */
+FBD_API fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *errors);
+FBD_API void fbd_linearization_free(fbd_linearization *linearization);
+
+/* The system matrix A of x' = A x, x = (q - q0, v), row by row, 2n x 2n. */
+FBD_API size_t fbd_linearization_size(const fbd_linearization *linearization);
+FBD_API const double *fbd_linearization_matrix(const fbd_linearization *linearization);
+
+/* One eigenvalue lambda of A. Frequency |lambda| [rad/s] and damping ratio -Re/|lambda| (NAN for lambda = 0).
+ */
+typedef struct fbd_mode {
+    double re, im, frequency, damping_ratio;
+} fbd_mode;
+
+FBD_API fbd_mode fbd_linearization_mode(const fbd_linearization *linearization, size_t index);
+FBD_API char *fbd_linearization_text(const fbd_linearization *linearization);
+
+/* Hold every `hand:` derivation of the model against the assembly at many random admissible states (and
+ * parameters; the seed is printed). The number of equations that differ, or -1 when memory is out; *text says
+ * yes, or by how much and in which term each differs. */
+FBD_API int fbd_check_hand(const fbd_model *model, unsigned seed, char **text);
+
+FBD_API const char *fbd_version(void);
+
 #ifdef __cplusplus
 }
 #endif

@@ -84,6 +84,7 @@ bool modes_settle(struct fbd_state *state, const struct decided *decided)
     enum { most_passes = 12 };
     const struct plan *plan = &state->model->plan;
     bool first = true;
+    state->settled = true;
     for (int pass = 0; pass < most_passes; pass++) {
         state_evaluate(state);
         if (plan->kink_count + plan->friction_count == 0) return true;

@@ -10,6 +10,7 @@
 
 struct fbd_state {
     const struct fbd_model *model;
+    bool settled; /* the modes agree with t and y */
     double t;
     double *y;                 /* 2 n: coordinates, then rates */
     double *a;                 /* n: accelerations, by state_evaluate */

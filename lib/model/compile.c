@@ -170,7 +170,8 @@ struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors)
             set_body(&model->bodies[b], &scene->bodies[b], (int)scene->coordinate_count, errors);
     if (done && fbd_errors_failed(errors) == 0) {
         set_loads(&builder);
-        done = plan_build(&builder) && classify_loads(&builder);
+        model->labels = labels_make(&model->arena, scene);
+        done = model->labels && plan_build(&builder) && classify_loads(&builder);
         set_watches(&builder);
     }
     if (!done) diag_out_of_memory(errors);

@@ -10,6 +10,7 @@
 #define FBD_MODEL_MODEL_H
 
 #include "model/inertia.h"
+#include "model/labels.h"
 #include "model/plan.h"
 #include "scene/scene.h"
 
@@ -65,6 +66,7 @@ struct fbd_model {
     size_t body_count, load_count;
     struct model_body *bodies;
     struct model_load *loads;
+    const struct label *labels; /* of the coordinates */
     struct plan plan;
 };
 

@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "output/csv.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { digits = 17, default_rows = 500 };
+
+/* ---- columns of forces: a slide shows the component along itself (normal force: across), a pivot the moment
+ * about its axis, a body in the plane its components */
+
+static void force_headers(struct csv *csv, const struct model_body *body, const char *name)
+{
+    struct text *line = &csv->line;
+    const char *force = force_unit(csv->model), *moment = moment_unit(csv->model);
+    if (body->count == 1) {
+        text_printf(line, ",%s.%s [%s]", body->name, name, body->kind == motion_pivot ? moment : force);
+        return;
+    }
+    text_printf(line, ",%s.%s.x [%s],%s.%s.y [%s]", body->name, name, force, body->name, name, force);
+    if (body->kind == motion_planar) text_printf(line, ",%s.%s.moment [%s]", body->name, name, moment);
+}
+
+static void ledger_headers(struct csv *csv)
+{
+    const struct fbd_model *model = csv->model;
+    const char *energy = energy_unit(model);
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
+        for (int i = 0; i < body->load_count; i++) {
+            const char *name = model->loads[body->first_load + i].source->name;
+            force_headers(csv, body, name);
+            text_printf(&csv->line, ",%s.%s.work [%s]", body->name, name, energy);
+        }
+        if (body->kind == motion_pivot)
+            text_printf(&csv->line, ",%s.pin.x [%s],%s.pin.y [%s]", body->name, force_unit(model), body->name,
+                        force_unit(model));
+    }
+    text_printf(&csv->line,
+                ",energy.kinetic [%s],energy.potential [%s],energy.work [%s],energy.residual [%s]", energy,
+                energy, energy, energy);
+}
+
+static void headers(struct csv *csv)
+{
+    const struct fbd_model *model = csv->model;
+    text_add(&csv->line, "t [s]");
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
+        const struct label *labels = model->labels + body->first;
+        for (int k = 0; k < body->count; k++)
+            text_printf(&csv->line, ",%s [%s]", labels[k].name, labels[k].unit);
+        for (int k = 0; k < body->count; k++)
+            text_printf(&csv->line, ",%s [%s]", labels[k].rate_name, labels[k].rate_unit);
+    }
+    if (csv->ledger) ledger_headers(csv);
+}
+
+/* ---- rows */
+
+static void number(struct csv *csv, double value)
+{
+    text_add(&csv->line, ",");
+    text_number(&csv->line, value, digits);
+}
+
+static void force_values(struct csv *csv, const struct model_body *body, const struct arrow *arrow)
+{
+    bool normal = csv->model->loads[arrow->load].source->kind == load_normal;
+    number(csv, normal ? vec_dot(arrow->force, body->n) : arrow->share[0]);
+    for (int k = 1; k < body->count; k++) number(csv, arrow->share[k]);
+}
+
+static void ledger_values(struct csv *csv, const struct fbd_state *state)
+{
+    const struct fbd_model *model = csv->model;
+    struct instant at = state_instant(state);
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
+        diagram_fill(model, (int)b, &at, state->a, csv->probe->scratch, csv->arrows);
+        for (int i = 0; i < body->load_count; i++) {
+            force_values(csv, body, &csv->arrows[i]);
+            number(csv, ledger_work(csv->ledger, state, (size_t)(body->first_load + i), csv->work));
+        }
+        if (body->kind == motion_pivot) {
+            number(csv, csv->arrows[body->load_count].force.x);
+            number(csv, csv->arrows[body->load_count].force.y);
+        }
+    }
+    fbd_energy energy = ledger_energy(csv->ledger, state, csv->work);
+    number(csv, energy.kinetic);
+    number(csv, energy.potential);
+    number(csv, energy.work);
+    number(csv, energy.residual);
+}
+
+static bool put_line(struct csv *csv)
+{
+    text_add(&csv->line, "\n");
+    if (csv->line.failed || csv->write(csv->context, csv->line.data, csv->line.length) != 0)
+        csv->failed = true;
+    csv->line.length = 0;
+    return !csv->failed;
+}
+
+static bool row(struct csv *csv, const struct fbd_state *state)
+{
+    const struct fbd_model *model = csv->model;
+    text_number(&csv->line, state->t, digits);
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
+        for (int k = 0; k < body->count; k++) number(csv, state->y[body->first + k]);
+        for (int k = 0; k < body->count; k++) number(csv, state->y[body->first_rate + k]);
+    }
+    if (csv->ledger) ledger_values(csv, state);
+    return put_line(csv);
+}
+
+/* A row inside the last step: the integrals up to there start from those at the step's beginning. */
+static bool row_within(struct csv *csv, struct run *run, double t)
+{
+    if (!run_look(run, t, csv->probe)) return false;
+    if (csv->ledger) {
+        memcpy(csv->work, csv->ledger->work, csv->model->load_count * sizeof *csv->work);
+        if (!ledger_integrate(csv->ledger, run, run->from, t, csv->work)) return false;
+    }
+    return row(csv, csv->probe);
+}
+
+/* ---- the file */
+
+bool csv_begin(struct csv *csv, const struct fbd_model *model, struct ledger *ledger,
+               const fbd_recording *recording, double until, struct fbd_state *start)
+{
+    double every = recording->every > 0 ? recording->every : model->scene->simulate.every;
+    size_t most = 1;
+    for (size_t b = 0; b < model->body_count; b++)
+        if (diagram_arrows(model, (int)b) > most) most = diagram_arrows(model, (int)b);
+    *csv = (struct csv){.model = model,
+                        .ledger = recording->ledger ? ledger : NULL,
+                        .write = recording->csv,
+                        .context = recording->csv_context,
+                        .start = start->t,
+                        .until = until,
+                        .every = every > 0 ? every : (until - start->t) / default_rows,
+                        .next = 1};
+    csv->probe = state_new(model);
+    csv->arrows = calloc(most, sizeof *csv->arrows);
+    csv->work = calloc(model->load_count + 1, sizeof *csv->work);
+    if (!csv->probe || !csv->arrows || !csv->work) return false;
+    headers(csv);
+    return put_line(csv) && row(csv, start);
+}
+
+bool csv_step(struct csv *csv, struct run *run, bool event)
+{
+    double end = run->state->t, t;
+    /* A regular row at the very end, or the last row, belongs to the end; a row within rounding of it is not
+     * written twice. */
+    const double near = 1e-9 * csv->every;
+    while (csv->every > 0 && (t = csv->start + (double)csv->next * csv->every) < end - near) {
+        if (!row_within(csv, run, t)) return false;
+        csv->next++;
+    }
+    bool regular = csv->every > 0 && fabs(csv->start + (double)csv->next * csv->every - end) <= near;
+    if (regular) csv->next++;
+    bool last = run->outcome != FBD_GOING;
+    if (!regular && !event && !last) return true;
+    if (csv->ledger) {
+        memcpy(csv->work, csv->ledger->work, csv->model->load_count * sizeof *csv->work);
+        if (!ledger_integrate(csv->ledger, run, run->from, end, csv->work)) return false;
+    }
+    return row(csv, run->state);
+}
+
+void csv_free(struct csv *csv)
+{
+    text_free(&csv->line);
+    state_free(csv->probe);
+    free(csv->arrows);
+    free(csv->work);
+}

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * CSV: one header line, a row at every output time and at every event.
+ */
+#ifndef FBD_OUTPUT_CSV_H
+#define FBD_OUTPUT_CSV_H
+
+#include "output/result.h"
+
+struct csv {
+    const struct fbd_model *model;
+    struct ledger *ledger; /* NULL without force and energy columns */
+    fbd_write *write;
+    void *context;
+    double start, every, until;
+    long next; /* index of the next regular row: t = start + next * every */
+    struct text line;
+    struct fbd_state *probe;
+    struct arrow *arrows;
+    double *work; /* integrals up to the row */
+    bool failed;  /* memory or the writer */
+};
+
+/* Write the header and the row of the start. False when memory is out or the writer refused. */
+bool csv_begin(struct csv *csv, const struct fbd_model *model, struct ledger *ledger,
+               const fbd_recording *recording, double until, struct fbd_state *start);
+
+/* Rows within the last step of the run; to be called before ledger_step. `event` adds a row at its end. */
+bool csv_step(struct csv *csv, struct run *run, bool event);
+
+void csv_free(struct csv *csv);
+
+#endif

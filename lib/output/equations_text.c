@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The assembled equations as a person reads them.
+ */
+#include <stdlib.h>
+
+#include "dynamics/friction.h"
+#include "output/equations.h"
+#include "output/terms.h"
+
+enum { value_column = 22, unit_column = 40, remark_column = 48 };
+
+static const char *side_of_equation(const struct model_body *body, int part)
+{
+    switch (body->kind) {
+    case motion_slide: return "sum of forces along x";
+    case motion_pivot: return "sum of moments about O";
+    case motion_particle:
+    case motion_planar: break;
+    }
+    return part == 0   ? "sum of forces along x"
+           : part == 1 ? "sum of forces along y"
+                       : "sum of moments about G";
+}
+
+static void write_row(struct text *text, const char *name, double value, const char *unit, const char *remark)
+{
+    text_printf(text, "    %s", name);
+    text_pad(text, value_column);
+    if (value >= 0 || value != value) text_add(text, " "); /* room for a sign */
+    text_number(text, value, 9);
+    text_pad(text, unit_column);
+    text_add(text, unit);
+    if (remark[0]) {
+        text_pad(text, remark_column);
+        text_add(text, remark);
+    }
+    text_add(text, "\n");
+}
+
+static void write_equation(struct text *text, struct fbd_state *state, const struct equation *equation)
+{
+    const struct fbd_model *model = state->model;
+    const struct model_body *body = &model->bodies[equation->body];
+    const fbd_equation *e = &equation->public;
+    const char *G = body->kind == motion_planar && equation->part < 2 ? " of G" : "";
+    text_printf(text, "  %s.%s: %s %s%s = %s\n", e->body, e->coordinate, e->inertia_name,
+                e->acceleration_name, G, side_of_equation(body, equation->part));
+    for (size_t i = 0; i < e->term_count; i++) {
+        char remark[term_remark_size];
+        term_remark(state, body->first_load + (int)i, equation->part, remark);
+        write_row(text, e->terms[i].name, e->terms[i].value, e->unit, remark);
+    }
+    write_row(text, "sum", e->sum, e->unit, "");
+    write_row(text, e->inertia_name, e->inertia, e->inertia_unit, "");
+    char name[64];
+    snprintf(name, sizeof name, "%s%s", e->acceleration_name, G);
+    write_row(text, name, e->acceleration, e->acceleration_unit, term_mode(state, equation->body));
+}
+
+static void write_body(struct text *text, const struct fbd_state *state, int b)
+{
+    const struct fbd_model *model = state->model;
+    const struct model_body *body = &model->bodies[b];
+    const struct label *label = &model->labels[body->first + body->count - 1];
+    if (body->kind != motion_pivot) return;
+    text_printf(text, "  %s turns about O: I_O = ", body->name);
+    text_number(text, body->I_O, 9);
+    text_printf(text, " %s, m = ", label->inertia_unit);
+    text_number(text, body->inertia.mass, 9);
+    text_printf(text, " %s, L = |OG| = ", model->scene->units == unit_si ? "kg" : "slug");
+    text_number(text, body->L, 9);
+    text_printf(text, " %s\n", model->scene->units == unit_si ? "m" : "ft");
+}
+
+void equations_write(struct text *text, struct fbd_state *state)
+{
+    fbd_equations *all = fbd_assemble(state);
+    if (!all) {
+        text->failed = true;
+        return;
+    }
+    text_add(text, "Equations at t = ");
+    text_number(text, state->t, 9);
+    text_add(text, " s\n");
+    int last = -1;
+    for (size_t i = 0; i < all->count; i++) {
+        if (all->equations[i].body != last) write_body(text, state, all->equations[i].body);
+        last = all->equations[i].body;
+        write_equation(text, state, &all->equations[i]);
+    }
+    fbd_equations_free(all);
+}
+
+char *fbd_equations_text(fbd_state *state)
+{
+    struct text text = {0};
+    equations_write(&text, state);
+    if (text.failed) text_free(&text);
+    return text.data;
+}

@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "output/ledger.h"
+
+#include <stdlib.h>
+
+#include "dynamics/energy.h"
+
+static size_t most_arrows(const struct fbd_model *model)
+{
+    size_t most = 1;
+    for (size_t b = 0; b < model->body_count; b++) {
+        size_t count = diagram_arrows(model, (int)b);
+        if (count > most) most = count;
+    }
+    return most;
+}
+
+static double kinetic(const struct fbd_model *model, const struct instant *at)
+{
+    double sum = 0;
+    for (size_t b = 0; b < model->body_count; b++) sum += kinetic_energy(&model->bodies[b], at);
+    return sum;
+}
+
+bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fbd_state *start)
+{
+    size_t loads = model->load_count;
+    *ledger = (struct ledger){.model = model};
+    ledger->integrated = calloc(loads + 1, sizeof *ledger->integrated);
+    ledger->work = calloc(2 * loads + 1, sizeof *ledger->work);
+    ledger->arrows = calloc(most_arrows(model), sizeof *ledger->arrows);
+    ledger->scratch = calloc(2 * (size_t)model->plan.n + 1, sizeof *ledger->scratch);
+    ledger->probe = state_new(model);
+    if (!ledger->integrated || !ledger->work || !ledger->arrows || !ledger->scratch || !ledger->probe) {
+        ledger_free(ledger);
+        return false;
+    }
+    ledger->initial_potential = ledger->work + loads;
+    struct instant at = state_instant(start);
+    ledger->initial_kinetic = kinetic(model, &at);
+    for (size_t i = 0; i < loads; i++) {
+        const struct model_load *load = &model->loads[i];
+        ledger->integrated[i] = load->potential_kind == potential_none;
+        ledger->any |= ledger->integrated[i];
+        ledger->initial_potential[i] = potential_energy(model, load, &at, ledger->scratch);
+        ledger->initial_sum += ledger->initial_potential[i];
+    }
+    return true;
+}
+
+void ledger_free(struct ledger *ledger)
+{
+    free(ledger->integrated);
+    free(ledger->work);
+    free(ledger->arrows);
+    free(ledger->scratch);
+    state_free(ledger->probe);
+    *ledger = (struct ledger){0};
+}
+
+/* Add weight * power of every integrated load at the probe. */
+static void add_powers(struct ledger *ledger, double weight, double *work)
+{
+    const struct fbd_model *model = ledger->model;
+    struct instant at = state_instant(ledger->probe);
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
+        bool wanted = false;
+        for (int i = 0; i < body->load_count; i++) wanted |= ledger->integrated[body->first_load + i];
+        if (!wanted) continue;
+        diagram_fill(model, (int)b, &at, ledger->probe->a, ledger->probe->scratch, ledger->arrows);
+        for (int i = 0; i < body->load_count; i++)
+            if (ledger->integrated[body->first_load + i])
+                work[body->first_load + i] += weight * ledger->arrows[i].power;
+    }
+}
+
+bool ledger_integrate(struct ledger *ledger, struct run *run, double from, double to, double *work)
+{
+    /* Gauss-Legendre, five points on [-1, 1]: x = 0, sqrt(5 -+ 2 sqrt(10/7)) / 3 (Abramowitz & Stegun,
+     * table 25.4). */
+    static const double x[] = {-0.906179845938663992797626878299, -0.538469310105683091036314420700, 0,
+                               0.538469310105683091036314420700, 0.906179845938663992797626878299};
+    static const double w[] = {0.236926885056189087514264040720, 0.478628670499366468041291514836,
+                               0.568888888888888888888888888889, 0.478628670499366468041291514836,
+                               0.236926885056189087514264040720};
+    double middle = (from + to) / 2, half = (to - from) / 2;
+    if (!ledger->any || !(half > 0)) return true;
+    for (int k = 0; k < 5; k++) {
+        if (!run_look(run, middle + half * x[k], ledger->probe)) return false;
+        add_powers(ledger, half * w[k], work);
+    }
+    return true;
+}
+
+bool ledger_step(struct ledger *ledger, struct run *run)
+{
+    return ledger_integrate(ledger, run, run->from, run->state->t, ledger->work);
+}
+
+double ledger_work(struct ledger *ledger, const struct fbd_state *state, size_t index, const double *work)
+{
+    const struct model_load *load = &ledger->model->loads[index];
+    if (ledger->integrated[index]) return work[index];
+    struct instant at = state_instant(state);
+    return ledger->initial_potential[index] - potential_energy(ledger->model, load, &at, ledger->scratch);
+}
+
+fbd_energy ledger_energy(struct ledger *ledger, const struct fbd_state *state, const double *work)
+{
+    const struct fbd_model *model = ledger->model;
+    struct instant at = state_instant(state);
+    fbd_energy energy = {.kinetic = kinetic(model, &at),
+                         .initial_kinetic = ledger->initial_kinetic,
+                         .initial_potential = ledger->initial_sum};
+    /* Differences load by load: a datum far away does not drown the change in rounding. */
+    double change = 0;
+    for (size_t i = 0; i < model->load_count; i++) {
+        if (ledger->integrated[i]) {
+            energy.work += work[i];
+            continue;
+        }
+        double potential = potential_energy(model, &model->loads[i], &at, ledger->scratch);
+        energy.potential += potential;
+        change += potential - ledger->initial_potential[i];
+    }
+    energy.residual = energy.kinetic - energy.initial_kinetic + change - energy.work;
+    return energy;
+}

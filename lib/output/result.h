@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Result: a run carried to its end, with its ledger, for the report and for JSON.
+ */
+#ifndef FBD_OUTPUT_RESULT_H
+#define FBD_OUTPUT_RESULT_H
+
+#include "base/text.h"
+#include "output/ledger.h"
+
+/* The simulation of the public interface: a run and where its time went. */
+struct fbd_simulation {
+    struct run *run;
+    double seconds;
+    char **details; /* texts of events, made when they are asked for */
+    size_t detail_count;
+};
+
+struct fbd_result {
+    struct fbd_simulation *simulation;
+    struct ledger ledger;
+    struct fbd_state *start; /* the state at the start */
+};
+
+/* What happened, in a few words: "friction +4.81 N holds, limit 8.496 N". Writes at most `size` bytes. */
+void event_detail(const struct fbd_model *model, const struct run_event *event, char *detail, size_t size);
+
+const char *event_body(const struct fbd_model *model, const struct run_event *event);
+const char *event_name(const struct fbd_model *model, const struct run_event *event);
+
+/* Units of the scene's system. */
+const char *length_unit(const struct fbd_model *model);
+const char *force_unit(const struct fbd_model *model);
+const char *moment_unit(const struct fbd_model *model);
+const char *energy_unit(const struct fbd_model *model);
+
+#endif

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "output/terms.h"
+
+#include <stdio.h>
+
+#include "dynamics/diagram.h"
+
+/* A normal force and friction name the values that they stand for. */
+static void normal_remark(const struct fbd_state *state, const struct model_body *body, char *remark)
+{
+    if (body->normal_slot >= 0)
+        snprintf(remark, term_remark_size, "acts across: N = %.9g", -state->slots[body->normal_slot]);
+    else
+        snprintf(remark, term_remark_size, "acts across the guide");
+}
+
+static void friction_remark(struct fbd_state *state, const struct model_body *body, char *remark)
+{
+    struct instant at = state_instant(state);
+    force_slots(state->model, &at, state->scratch);
+    struct friction_values now = friction_at(state->model, body->friction, &at, state->scratch);
+    bool bearing = state->model->plan.frictions[body->friction].normal_slot < 0;
+    if (state->slip[body->friction] == stick)
+        snprintf(remark, term_remark_size, "sticks: whatever holds, up to %s = %.9g",
+                 bearing ? "M_s" : "mu_s N", now.limit_static);
+    else
+        snprintf(remark, term_remark_size, "slips: %s%s", state->slip[body->friction] > 0 ? "-" : "+",
+                 bearing ? "M_k" : "mu_k N");
+}
+
+/* Gravity on a pivot whose zero angle hangs straight down is the m g L sin(theta) of every textbook. */
+static const char *gravity_remark(const struct fbd_model *model, const struct model_body *body, int part)
+{
+    struct vec g = model->scene->gravity;
+    if (g.x != 0) return "m g";
+    switch (body->kind) {
+    case motion_slide: return body->e.y == 0 ? "acts across" : body->e.x == 0 ? "m g" : "-m g sin(along)";
+    case motion_pivot:
+        if (body->arm.x == 0) return body->arm.y < 0 ? "-m g L sin(theta)" : "m g L sin(theta)";
+        return body->arm.y == 0 && body->arm.x > 0 ? "-m g L cos(theta)" : "r_OG x m g";
+    case motion_particle:
+    case motion_planar: break;
+    }
+    return part == 1 ? "-m g" : "";
+}
+
+static const char *plain_remark(const struct model_load *load, bool turns)
+{
+    switch (load->source->kind) {
+    case load_spring: return load->linked ? "k (l - l0) toward its end" : "-k (x - x0)";
+    case moment_spring: return "-k (theta - theta0)";
+    case load_damper: return load->linked ? "-c l' along its line" : "-c v";
+    case moment_damper: return "-c omega";
+    case load_drag:
+        if (turns) return "drag at its point";
+        return load->source->quadratic == 0 ? "-c v"
+               : load->source->linear == 0  ? "-k |v| v"
+                                            : "-(c + k |v|) v";
+    case load_potential: return "-dV/dx";
+    case moment_potential: return "-dV/dtheta";
+    default: return "";
+    }
+}
+
+void term_remark(struct fbd_state *state, int index, int part, char remark[static term_remark_size])
+{
+    const struct fbd_model *model = state->model;
+    const struct model_load *load = &model->loads[index];
+    const struct model_body *body = &model->bodies[load->body];
+    remark[0] = '\0';
+    switch (load->source->kind) {
+    case load_normal: normal_remark(state, body, remark); return;
+    case load_friction:
+    case moment_friction: friction_remark(state, body, remark); return;
+    case load_gravity: snprintf(remark, term_remark_size, "%s", gravity_remark(model, body, part)); return;
+    default:
+        snprintf(remark, term_remark_size, "%s",
+                 plain_remark(load, body->kind == motion_pivot || body->kind == motion_planar));
+    }
+}
+
+const char *term_mode(const struct fbd_state *state, int body)
+{
+    int pair = state->model->bodies[body].friction;
+    if (pair < 0) return "";
+    return state->slip[pair] == stick ? "sticks" : "slips";
+}
