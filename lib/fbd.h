@@ -229,7 +229,7 @@ FBD_API void fbd_simulation_interval(const fbd_simulation *simulation, double *f
 FBD_API bool fbd_simulation_state(fbd_simulation *simulation, double t, fbd_state *state);
 
 FBD_API size_t fbd_simulation_events(const fbd_simulation *simulation);
-FBD_API fbd_event fbd_simulation_event(const fbd_simulation *simulation, size_t index);
+FBD_API fbd_event fbd_simulation_event(fbd_simulation *simulation, size_t index);
 FBD_API fbd_stats fbd_simulation_stats(const fbd_simulation *simulation);
 
 /* Why it ended: one sentence with time, body, quantity and what to try; "" while all is well. */
@@ -263,10 +263,10 @@ FBD_API void fbd_result_free(fbd_result *result);
 
 FBD_API fbd_outcome fbd_result_outcome(const fbd_result *result);
 FBD_API fbd_state *fbd_result_state(fbd_result *result); /* the last good state; owned by the result */
-FBD_API fbd_energy fbd_result_energy(const fbd_result *result);
+FBD_API fbd_energy fbd_result_energy(fbd_result *result);
 
 /* The work that a force or moment of a body has done since the start; NAN when there is no such name. */
-FBD_API double fbd_result_work(const fbd_result *result, const char *body, const char *load);
+FBD_API double fbd_result_work(fbd_result *result, const char *body, const char *load);
 
 /* The same as text, to be freed with free(); NULL when memory is out. */
 FBD_API char *fbd_result_report(fbd_result *result);

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Events in words, and the units of a scene.
+ */
+#include <stdio.h>
+
+#include "output/result.h"
+
+const char *fbd_event_kind_name(fbd_event_kind kind)
+{
+    switch (kind) {
+    case FBD_EVENT_BREAKAWAY: return "breakaway";
+    case FBD_EVENT_STICK: return "stick";
+    case FBD_EVENT_REVERSAL: return "reversal";
+    case FBD_EVENT_CONTACT_LOST: return "contact_lost";
+    case FBD_EVENT_USER: return "user";
+    case FBD_EVENT_SWITCH: return "switch";
+    }
+    return "";
+}
+
+const char *event_body(const struct fbd_model *model, const struct run_event *event)
+{
+    return event->body >= 0 ? model->bodies[event->body].name : "";
+}
+
+const char *event_name(const struct fbd_model *model, const struct run_event *event)
+{
+    if (event->watch >= 0) return model->plan.watches[event->watch].source->name;
+    return event->load >= 0 ? model->loads[event->load].source->name : "";
+}
+
+void event_detail(const struct fbd_model *model, const struct run_event *event, char *detail, size_t size)
+{
+    const char *name = event_name(model, event);
+    bool moment = event->load >= 0 && model->loads[event->load].source->kind == moment_friction;
+    const char *unit = moment ? moment_unit(model) : force_unit(model);
+    switch (event->kind) {
+    case FBD_EVENT_BREAKAWAY:
+        snprintf(detail, size, "%s slips with %+.6g %s; the static limit was %.6g %s", name, event->force,
+                 unit, event->limit, unit);
+        return;
+    case FBD_EVENT_STICK:
+        snprintf(detail, size, "%s holds with %+.6g %s; the static limit is %.6g %s", name, event->force,
+                 unit, event->limit, unit);
+        return;
+    case FBD_EVENT_REVERSAL:
+        snprintf(detail, size, "%s cannot hold it: slips back with %+.6g %s; the static limit is %.6g %s",
+                 name, event->force, unit, event->limit, unit);
+        return;
+    case FBD_EVENT_CONTACT_LOST: snprintf(detail, size, "%s reaches zero", name); return;
+    case FBD_EVENT_USER: snprintf(detail, size, "%s", name); return;
+    case FBD_EVENT_SWITCH:
+        snprintf(detail, size, "%s passes to another branch", name[0] ? name : "an event");
+        return;
+    }
+}
+
+const char *length_unit(const struct fbd_model *model)
+{
+    return model->scene->units == unit_si ? "m" : "ft";
+}
+
+const char *force_unit(const struct fbd_model *model)
+{
+    return model->scene->units == unit_si ? "N" : "lbf";
+}
+
+const char *moment_unit(const struct fbd_model *model)
+{
+    return model->scene->units == unit_si ? "N*m" : "lbf*ft";
+}
+
+const char *energy_unit(const struct fbd_model *model)
+{
+    return unit_name_energy(model->scene->units);
+}

@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * JSON: one object for a run (see docs/output.md for its contract).
+ */
+#include <stdlib.h>
+
+#include "dynamics/diagram.h"
+#include "output/equations.h"
+#include "output/result.h"
+
+enum { digits = 17 };
+
+/* JSON has no NaN and no infinity: null. */
+static void number(struct text *text, double value)
+{
+    if (isfinite(value))
+        text_number(text, value, digits);
+    else
+        text_add(text, "null");
+}
+
+static void key(struct text *text, const char *name)
+{
+    text_json_string(text, name);
+    text_add(text, ": ");
+}
+
+static void member(struct text *text, const char *name, double value, bool last)
+{
+    key(text, name);
+    number(text, value);
+    if (!last) text_add(text, ", ");
+}
+
+static const char *outcome_name(fbd_outcome outcome)
+{
+    switch (outcome) {
+    case FBD_GOING: return "going";
+    case FBD_DONE: return "done";
+    case FBD_STOPPED: return "stopped";
+    case FBD_BROKEN: return "broken";
+    case FBD_FAILED: return "failed";
+    case FBD_OUT_OF_MEMORY: return "out of memory";
+    }
+    return "";
+}
+
+static void write_final(struct text *text, const struct fbd_model *model, const struct fbd_state *state)
+{
+    text_add(text, "  \"final\": {");
+    member(text, "t", state->t, true);
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
+        text_add(text, ",\n    ");
+        key(text, body->name);
+        text_add(text, "{");
+        for (int k = 0; k < body->count; k++)
+            member(text, model->scene->coordinates[body->first + k].name, state->y[body->first + k], false);
+        for (int k = 0; k < body->count; k++)
+            member(text, model->scene->coordinates[body->first + k].rate_name, state->y[body->first_rate + k],
+                   k + 1 == body->count);
+        text_add(text, "}");
+    }
+    text_add(text, "\n  },\n");
+}
+
+static void write_events(struct text *text, fbd_simulation *simulation)
+{
+    text_add(text, "  \"events\": [");
+    for (size_t i = 0; i < fbd_simulation_events(simulation); i++) {
+        fbd_event event = fbd_simulation_event(simulation, i);
+        text_add(text, i ? ",\n    {" : "\n    {");
+        member(text, "t", event.t, false);
+        key(text, "body");
+        text_json_string(text, event.body);
+        text_add(text, ", ");
+        key(text, "kind");
+        text_json_string(text, fbd_event_kind_name(event.kind));
+        text_add(text, ", ");
+        key(text, "name");
+        text_json_string(text, event.name);
+        text_add(text, ", ");
+        key(text, "detail");
+        text_json_string(text, event.detail);
+        text_add(text, "}");
+    }
+    text_add(text, fbd_simulation_events(simulation) ? "\n  ],\n" : "],\n");
+}
+
+/* Friction says also whether it holds, and up to where. */
+static void write_friction(struct text *text, struct fbd_state *state, const struct model_body *body)
+{
+    struct instant at = state_instant(state);
+    force_slots(state->model, &at, state->scratch);
+    struct friction_values values = friction_at(state->model, body->friction, &at, state->scratch);
+    text_printf(text, ", \"mode\": \"%s\", ", state->slip[body->friction] == stick ? "stick" : "slip");
+    member(text, "limit", values.limit_static, true);
+}
+
+static void write_body_forces(struct text *text, fbd_result *result, struct fbd_state *state, int b)
+{
+    struct ledger *ledger = &result->ledger;
+    const struct fbd_model *model = ledger->model;
+    const struct model_body *body = &model->bodies[b];
+    struct instant at = state_instant(state);
+    struct pose pose = body_pose(body, &at);
+    struct vec about =
+        body->kind == motion_pivot ? body->origin : point_motion(body, &pose, body->inertia.G).p;
+    size_t count = diagram_fill(model, b, &at, state->a, state->scratch, ledger->arrows);
+    for (size_t i = 0; i < count; i++) {
+        const struct arrow *arrow = &ledger->arrows[i];
+        double work = arrow->load >= 0 ? ledger_work(ledger, state, (size_t)arrow->load, ledger->work) : 0;
+        text_add(text, i ? ",\n      " : "\n      ");
+        key(text, arrow->name);
+        text_add(text, "{");
+        member(text, "fx", arrow->force.x, false);
+        member(text, "fy", arrow->force.y, false);
+        member(text, "moment", arrow_moment(arrow, about), false);
+        member(text, "power", arrow->power, false);
+        member(text, "work", work, true);
+        if (body->friction >= 0 && arrow->load == model->plan.frictions[body->friction].load)
+            write_friction(text, state, body);
+        text_add(text, "}");
+    }
+    if (count > 0) text_add(text, "\n    ");
+}
+
+static void write_forces(struct text *text, fbd_result *result, struct fbd_state *state)
+{
+    const struct fbd_model *model = result->ledger.model;
+    text_add(text, "  \"forces\": {");
+    for (size_t b = 0; b < model->body_count; b++) {
+        text_add(text, b ? ",\n    " : "\n    ");
+        key(text, model->bodies[b].name);
+        text_add(text, "{");
+        write_body_forces(text, result, state, (int)b);
+        text_add(text, "}");
+    }
+    text_add(text, "\n  },\n");
+}
+
+static void write_energy(struct text *text, fbd_result *result)
+{
+    fbd_energy energy = fbd_result_energy(result);
+    text_add(text, "  \"energy\": {");
+    member(text, "kinetic", energy.kinetic, false);
+    member(text, "potential", energy.potential, false);
+    member(text, "work", energy.work, false);
+    member(text, "residual", energy.residual, false);
+    member(text, "initial_kinetic", energy.initial_kinetic, false);
+    member(text, "initial_potential", energy.initial_potential, true);
+    text_add(text, "},\n");
+}
+
+static void write_stats(struct text *text, const fbd_simulation *simulation)
+{
+    fbd_stats stats = fbd_simulation_stats(simulation);
+    text_add(text, "  \"stats\": {\"method\": ");
+    text_json_string(text, stats.method);
+    text_add(text, ", ");
+    member(text, "tolerance", stats.tolerance, false);
+    text_printf(text,
+                "\"steps\": %lu, \"rejected\": %lu, \"rhs\": %lu, \"jacobians\": %lu, \"events\": %lu, ",
+                stats.steps, stats.rejected, stats.rhs, stats.jacobians, stats.events);
+    member(text, "seconds", stats.seconds, false);
+    text_add(text, "\"error_estimate\": null}\n");
+}
+
+char *fbd_result_json(fbd_result *result)
+{
+    fbd_simulation *simulation = result->simulation;
+    struct run *run = simulation->run;
+    const struct fbd_model *model = run->model;
+    struct text text = {0};
+    text_add(&text, "{\n  \"title\": ");
+    text_json_string(&text, model->scene->title);
+    text_printf(&text, ",\n  \"units\": \"%s\",\n  \"outcome\": \"%s\",\n  \"reason\": ",
+                model->scene->units == unit_si ? "SI" : "US", outcome_name(run->outcome));
+    text_json_string(&text, run->reason);
+    text_add(&text, ",\n");
+    state_ready(run->state);
+    write_final(&text, model, run->state);
+    write_events(&text, simulation);
+    write_forces(&text, result, run->state);
+    write_energy(&text, result);
+    write_stats(&text, simulation);
+    text_add(&text, "}\n");
+    if (text.failed) text_free(&text);
+    return text.data;
+}

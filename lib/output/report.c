@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The report of a run: equations at the start, events, final state, forces and their work, energy, cost.
+ */
+#include <stdlib.h>
+
+#include "dynamics/diagram.h"
+#include "output/equations.h"
+#include "output/result.h"
+
+enum { digits = 9, most_events = 40 };
+
+static void value(struct text *text, const char *name, double number, const char *unit)
+{
+    text_printf(text, "%s = ", name);
+    text_number(text, number, digits);
+    text_printf(text, " %s", unit);
+}
+
+/* ---- events; switches of expressions are counted, not listed, when there are many */
+
+static void write_event(struct text *text, const fbd_event *event)
+{
+    text_add(text, "  t = ");
+    text_number(text, event->t, digits);
+    text_add(text, " s");
+    text_pad(text, 24);
+    text_add(text, event->body[0] ? event->body : "-");
+    text_pad(text, 38);
+    text_add(text, fbd_event_kind_name(event->kind));
+    text_pad(text, 52);
+    text_printf(text, "%s\n", event->detail);
+}
+
+static void write_events(struct text *text, fbd_simulation *simulation)
+{
+    size_t count = fbd_simulation_events(simulation), shown = 0, switches = 0, hidden = 0;
+    text_add(text, count ? "\nEvents\n" : "\nEvents: none\n");
+    for (size_t i = 0; i < count; i++)
+        switches += fbd_simulation_event(simulation, i).kind == FBD_EVENT_SWITCH;
+    bool with_switches = switches <= 8;
+    for (size_t i = 0; i < count; i++) {
+        fbd_event event = fbd_simulation_event(simulation, i);
+        if (event.kind == FBD_EVENT_SWITCH && !with_switches) continue;
+        if (shown < most_events || i + 1 == count) {
+            write_event(text, &event);
+            shown++;
+        } else {
+            hidden++;
+        }
+    }
+    if (hidden) text_printf(text, "  ... and %zu more (--json has all)\n", hidden);
+    if (!with_switches)
+        text_printf(text, "  and %zu switches of expressions from one branch to another\n", switches);
+}
+
+/* ---- final state and forces */
+
+static void write_final(struct text *text, const struct fbd_model *model, const struct fbd_state *state)
+{
+    text_add(text, "\nFinal state at t = ");
+    text_number(text, state->t, digits);
+    text_add(text, " s\n");
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
+        text_printf(text, "  %s", body->name);
+        for (int k = 0; k < 2 * body->count; k++) {
+            int i = body->first + k % body->count;
+            bool rate = k >= body->count;
+            const struct coordinate *c = &model->scene->coordinates[i];
+            const struct label *label = &model->labels[i];
+            text_pad(text, 16 + 26 * (size_t)k);
+            text_add(text, " ");
+            value(text, rate ? c->rate_name : c->name, state->y[rate ? i + model->plan.n : i],
+                  rate ? label->rate_unit : label->unit);
+        }
+        if (body->friction >= 0)
+            text_add(text, state->slip[body->friction] == stick ? "   (sticks)" : "   (slips)");
+        text_add(text, "\n");
+    }
+}
+
+static void write_force(struct text *text, struct ledger *ledger, const struct fbd_state *state,
+                        const struct arrow *arrow)
+{
+    const struct fbd_model *model = ledger->model;
+    text_printf(text, "    %s", arrow->name);
+    text_pad(text, 20);
+    bool couple_only = arrow->couple != 0 && arrow->force.x == 0 && arrow->force.y == 0;
+    if (!couple_only) {
+        text_add(text, " (");
+        text_number(text, arrow->force.x, 6);
+        text_add(text, ", ");
+        text_number(text, arrow->force.y, 6);
+        text_printf(text, ") %s", force_unit(model));
+    }
+    if (arrow->couple != 0) {
+        text_pad(text, couple_only ? 21 : 48);
+        text_number(text, arrow->couple, 6);
+        text_printf(text, " %s", moment_unit(model));
+    }
+    if (arrow->load < 0) {
+        text_add(text, "\n");
+        return;
+    }
+    text_pad(text, 60);
+    text_add(text, "work ");
+    text_number(text, ledger_work(ledger, state, (size_t)arrow->load, ledger->work), digits);
+    text_printf(text, " %s\n", energy_unit(model));
+}
+
+static void write_forces(struct text *text, fbd_result *result, struct fbd_state *state)
+{
+    struct ledger *ledger = &result->ledger;
+    const struct fbd_model *model = ledger->model;
+    struct instant at = state_instant(state);
+    text_add(text, "\nForces at the end, in the world's x and y, and their work since the start\n");
+    for (size_t b = 0; b < model->body_count; b++) {
+        text_printf(text, "  %s\n", model->bodies[b].name);
+        size_t count = diagram_fill(model, (int)b, &at, state->a, state->scratch, ledger->arrows);
+        for (size_t i = 0; i < count; i++) write_force(text, ledger, state, &ledger->arrows[i]);
+    }
+}
+
+/* ---- energy and cost */
+
+static void energy_row(struct text *text, const char *name, double start, double end, const char *unit)
+{
+    text_printf(text, "  %s", name);
+    text_pad(text, 22);
+    text_number(text, start, digits);
+    text_pad(text, 40);
+    text_number(text, end, digits);
+    text_pad(text, 58);
+    text_printf(text, "%s\n", unit);
+}
+
+static void write_energy(struct text *text, fbd_result *result)
+{
+    fbd_energy energy = fbd_result_energy(result);
+    const char *unit = energy_unit(result->ledger.model);
+    text_add(text, "\nEnergy                start             end\n");
+    energy_row(text, "kinetic", energy.initial_kinetic, energy.kinetic, unit);
+    energy_row(text, "potential", energy.initial_potential, energy.potential, unit);
+    energy_row(text, "work of the others", 0, energy.work, unit);
+    text_printf(text,
+                "  residual %.2e %s: change of kinetic + potential, less that work (0 for the true motion)\n",
+                energy.residual, unit);
+}
+
+static void write_cost(struct text *text, const fbd_simulation *simulation)
+{
+    fbd_stats stats = fbd_simulation_stats(simulation);
+    text_printf(text, "\nAccuracy and cost: %s at tolerance %g", stats.method, stats.tolerance);
+    text_printf(text, "\n  %lu steps (%lu rejected), %lu right-hand sides", stats.steps, stats.rejected,
+                stats.rhs);
+    if (stats.jacobians) text_printf(text, ", %lu Jacobians", stats.jacobians);
+    text_printf(text, ", %lu event samples, %.3f ms\n", stats.event_samples, 1e3 * stats.seconds);
+}
+
+char *fbd_result_report(fbd_result *result)
+{
+    fbd_simulation *simulation = result->simulation;
+    struct run *run = simulation->run;
+    const struct fbd_model *model = run->model;
+    struct text text = {0};
+    if (model->scene->title[0]) text_printf(&text, "%s\n\n", model->scene->title);
+    equations_write(&text, result->start);
+    state_ready(run->state);
+    write_events(&text, simulation);
+    if (run->reason[0]) text_printf(&text, "\nThe run ended early: %s.\n", run->reason);
+    write_final(&text, model, run->state);
+    write_forces(&text, result, run->state);
+    write_energy(&text, result);
+    write_cost(&text, simulation);
+    if (text.failed) text_free(&text);
+    return text.data;
+}
