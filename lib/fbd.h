@@ -112,6 +112,10 @@ FBD_API void fbd_state_free(fbd_state *state);
  * or a value that is not finite. Modes are settled anew by the next call that needs them, as at the start of
  * a run. */
 FBD_API bool fbd_state_set(fbd_state *state, const char *name, double value);
+
+/* The same from text with a unit ("180 deg"); the name may leave the body out when the scene has only one.
+ * False with a note in `errors`. */
+FBD_API bool fbd_state_set_text(fbd_state *state, const char *name, const char *text, fbd_errors *errors);
 FBD_API bool fbd_state_get(const fbd_state *state, const char *name, double *value);
 
 /* One named term of an equation. */

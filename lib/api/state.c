@@ -40,6 +40,56 @@ bool fbd_state_set(fbd_state *state, const char *name, double value)
     return true;
 }
 
+/* The coordinate or rate with this name, qualified or, in a scene of one body, plain; -1 when there is none.
+ */
+static int index_of(const fbd_model *model, const char *name)
+{
+    int n = (int)model->scene->coordinate_count;
+    for (int i = 0; i < n; i++) {
+        const struct coordinate *c = &model->scene->coordinates[i];
+        bool plain = model->body_count == 1;
+        if (strcmp(model->labels[i].name, name) == 0 || (plain && strcmp(c->name, name) == 0)) return i;
+        if (strcmp(model->labels[i].rate_name, name) == 0 || (plain && strcmp(c->rate_name, name) == 0))
+            return n + i;
+    }
+    return -1;
+}
+
+static struct symbol no_name(void *context, const char *name, struct pos at)
+{
+    (void)context;
+    (void)name;
+    (void)at;
+    return (struct symbol){.kind = symbol_unknown};
+}
+
+bool fbd_state_set_text(fbd_state *state, const char *name, const char *text, fbd_errors *errors)
+{
+    const fbd_model *model = state->model;
+    int n = (int)model->scene->coordinate_count, index = index_of(model, name);
+    errors->file = model->scene->file;
+    if (index < 0) {
+        diag_add(errors, FBD_ERROR, "unknown-coordinate", (struct pos){0, 0},
+                 n > 0 ? diag_hint(errors, "as `%s`", model->labels[0].name) : NULL,
+                 "there is no coordinate `%s`", name);
+        return false;
+    }
+    const struct coordinate *c = &model->scene->coordinates[index % n];
+    struct scope scope = {.lookup = no_name, .units = model->scene->units};
+    struct expr_want want = {.dim = index < n ? c->dim : c->rate_dim,
+                             .constant = true,
+                             .angle = c->angle && index < n,
+                             .what = name};
+    struct arena arena = {0};
+    const struct expr *expr = expr_compile(&arena, text, (struct pos){0, 0}, &scope, &want, errors);
+    if (expr) {
+        state->y[index] = expr_value(expr);
+        state->settled = false;
+    }
+    arena_free(&arena);
+    return expr != NULL;
+}
+
 bool fbd_state_get(const fbd_state *state, const char *name, double *value)
 {
     const double *place = strcmp(name, "t") == 0 ? &state->t : find(state, name);

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Output files that are written whole or not at all: into a temporary file beside the target, renamed at the
+ * end.
+ */
+#ifndef FBD_APPS_WHOLE_FILE_H
+#define FBD_APPS_WHOLE_FILE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+struct whole_file {
+    FILE *stream;
+    const char *path;
+    char *temporary; /* NULL for standard output */
+};
+
+/* Open for writing; "-" is standard output. False with errno set. */
+bool whole_file_open(struct whole_file *file, const char *path);
+
+/* Write a piece; non-zero when it fails. The signature is that of fbd_write. */
+int whole_file_write(void *file, const char *text, size_t length);
+
+/* Put the file in its place (`keep`) or leave nothing behind. False with errno set when that fails; nothing
+ * is left behind then either. */
+bool whole_file_close(struct whole_file *file, bool keep);
+
+#endif

@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What a scene simulates and what it does not: the plan in words.
+ */
+#include <stdlib.h>
+
+#include "base/text.h"
+#include "model/model.h"
+#include "solve/method.h"
+
+static const char *motion_words(enum motion_kind kind)
+{
+    switch (kind) {
+    case motion_slide: return "slides on a line";
+    case motion_pivot: return "turns about a fixed axis";
+    case motion_particle: return "moves in the plane as a particle";
+    case motion_planar: return "moves in the plane";
+    }
+    return "";
+}
+
+static void write_coordinates(struct text *text, const struct fbd_model *model)
+{
+    text_printf(text, "Coordinates (%d)\n", model->plan.n);
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
+        text_printf(text, "  %s %s:", body->name, motion_words(body->kind));
+        for (int k = 0; k < body->count; k++)
+            text_printf(text, " %s [%s]", model->scene->coordinates[body->first + k].name,
+                        model->labels[body->first + k].unit);
+        text_add(text, "\n");
+    }
+}
+
+static void write_loads(struct text *text, const struct fbd_model *model)
+{
+    text_add(text, "\nForces and moments simulated\n");
+    if (model->load_count == 0) text_add(text, "  none: every body keeps its velocity\n");
+    for (size_t i = 0; i < model->load_count; i++) {
+        const struct model_load *load = &model->loads[i];
+        text_printf(text, "  %s.%s", model->bodies[load->body].name, load->source->name);
+        text_pad(text, 28);
+        text_printf(text, "%s\n", load->why);
+    }
+}
+
+/* ---- what is not simulated, and what would have to be listed */
+
+struct absent {
+    enum load_kind kind;
+    bool on[4]; /* by enum motion_kind: where it could act */
+    const char *words;
+};
+
+static void write_absent(struct text *text, const struct fbd_model *model)
+{
+    static const struct absent kinds[] = {
+        {load_gravity, {true, true, true, true}, "weight: list `gravity`"},
+        {load_normal, {true, false, false, false}, "the normal force and loss of contact: list `normal`"},
+        {load_friction,
+         {true, false, false, false},
+         "dry friction: list `friction: {static: ..., kinetic: ...}`"},
+        {moment_friction, {false, true, false, false}, "friction in the bearing: list it under `moments`"},
+        {load_drag, {true, true, true, true}, "drag: list `drag: {linear: ..., quadratic: ...}`"},
+    };
+    text_add(text, "\nNot simulated, because not listed\n");
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
+        for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+            bool listed = !kinds[k].on[body->kind];
+            for (int i = 0; i < body->load_count; i++)
+                listed |= model->loads[body->first_load + i].source->kind == kinds[k].kind;
+            if (!listed) text_printf(text, "  %s: %s\n", body->name, kinds[k].words);
+        }
+    }
+}
+
+static void write_list(struct text *text, size_t count, const char *words)
+{
+    if (count > 0) text_printf(text, "  %zu %s\n", count, words);
+}
+
+static void write_plan(struct text *text, const struct fbd_model *model)
+{
+    const struct plan *plan = &model->plan;
+    text_add(text, "\nThe right-hand side evaluates\n");
+    write_list(text, plan->affine_count,
+               "affine terms c0 - k q - c v (constants, springs and dampers folded)");
+    write_list(text, plan->sine_count, "terms s sin q + c cos q (constant forces on turning bodies)");
+    write_list(text, plan->square_count, "terms k |v| v");
+    write_list(text, plan->formula_count, "formulas in a fixed direction");
+    write_list(text, plan->potential_count, "slopes of potentials");
+    write_list(text, plan->link_count, "springs or dampers between two points");
+    write_list(text, plan->drag_count, "drags in the plane");
+    write_list(text, plan->force_count, "formulas whose direction changes");
+    write_list(text, plan->friction_count, "dry frictions, as modes stick and slip");
+    write_list(text, plan->offset_count, "bodies whose frame is not at their centre of mass");
+    text_add(text, "\nEvents watched\n");
+    size_t switches = 0;
+    for (size_t i = 0; i < plan->kink_count; i++) switches += plan->kinks[i].count;
+    if (plan->friction_count + plan->contact_count + switches + plan->watch_count == 0)
+        text_add(text, "  none\n");
+    write_list(text, plan->friction_count, "friction pairs: stopping, sticking, breaking away");
+    write_list(text, plan->contact_count, "normal forces that must not become a pull");
+    write_list(text, switches, "switches in expressions (abs, step, if, ...)");
+    write_list(text, plan->watch_count, "events of the file");
+}
+
+char *fbd_explain(const fbd_model *model, const fbd_options *options)
+{
+    struct text text = {0};
+    write_coordinates(&text, model);
+    write_loads(&text, model);
+    write_absent(&text, model);
+    write_plan(&text, model);
+    const char *name = options->method ? options->method : model->scene->simulate.method;
+    const struct method *method = name ? method_find(name) : NULL;
+    bool asked = method != NULL;
+    if (!method) method = method_at(0);
+    text_printf(&text, "\nMethod: %s (%s), %s\n", method->name, method->description,
+                asked ? "as asked for" : "the default");
+    if (text.failed) text_free(&text);
+    return text.data;
+}

@@ -1,0 +1,295 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "output/hand.h"
+
+#include <float.h>
+#include <gsl/gsl_rng.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { parameter_draws = 12, states_of_a_draw = 24, tries_of_a_state = 8 };
+
+bool hand_agrees(const struct hand_sample *sample)
+{
+    return fabs(sample->lack) <= 1e-9 * sample->size;
+}
+
+/* ---- drawing */
+
+static double between(gsl_rng *rng, double low, double high)
+{
+    return low + (high - low) * gsl_rng_uniform(rng);
+}
+
+/* The model with its parameters changed by up to 30 %, or NULL when the file does not allow it. */
+static fbd_model *changed_model(const fbd_model *model, gsl_rng *rng)
+{
+    const struct scene *scene = model->scene;
+    size_t count = scene->parameter_count;
+    fbd_setting *settings = calloc(count + 1, sizeof *settings);
+    char(*values)[32] = calloc(count + 1, sizeof *values);
+    fbd_errors *errors = fbd_errors_new();
+    fbd_model *changed = NULL;
+    if (settings && values && errors) {
+        for (size_t i = 0; i < count; i++) {
+            struct text text = {0};
+            text_number(&text, scene->parameters[i].value * between(rng, 0.7, 1.3), 17);
+            snprintf(values[i], sizeof values[i], "%s", text.data ? text.data : "0");
+            text_free(&text);
+            settings[i] = (fbd_setting){scene->parameters[i].name, values[i]};
+        }
+        changed = fbd_model_parse(model->source, model->source_length, scene->file, settings, count, errors);
+    }
+    fbd_errors_free(errors);
+    free(values);
+    free(settings);
+    return changed;
+}
+
+/* Random coordinates and rates of the size of the initial ones, at least one unit; angles all around. */
+static void draw_state(gsl_rng *rng, struct fbd_state *state)
+{
+    const struct scene *scene = state->model->scene;
+    size_t n = scene->coordinate_count;
+    const struct value *until = &scene->simulate.until;
+    double duration = until->expr ? expr_value(until->expr) : 1;
+    state->t = between(rng, 0, duration);
+    for (size_t i = 0; i < n; i++) {
+        const struct coordinate *c = &scene->coordinates[i];
+        double reach = c->angle ? 3.14159 : fmax(1, 2 * fabs(c->initial)),
+               speed = fmax(1, 2 * fabs(c->initial_rate));
+        state->y[i] = between(rng, -reach, reach);
+        state->y[n + i] = between(rng, -speed, speed);
+    }
+    state->settled = false;
+}
+
+static bool admissible(struct fbd_state *state)
+{
+    const struct plan *plan = &state->model->plan;
+    state->settled = true;
+    if (!modes_settle(state, NULL)) return false;
+    for (int i = 0; i < plan->n; i++)
+        if (!isfinite(state->a[i])) return false;
+    for (size_t i = 0; i < plan->contact_count; i++)
+        if (-state->slots[plan->contacts[i].slot] < 0) return false;
+    return true;
+}
+
+/* ---- one equation at one state */
+
+/* The state and what else a hand equation may name, see enum hand_slot. */
+static void extend(const struct fbd_state *state, int b, const struct arrow *arrows, size_t arrow_count,
+                   double *y)
+{
+    const struct fbd_model *model = state->model;
+    const struct model_body *body = &model->bodies[b];
+    size_t n = (size_t)model->plan.n;
+    double *extra = y + 2 * n;
+    memcpy(y, state->y, 2 * n * sizeof *y);
+    memset(extra, 0, hand_slots * sizeof *extra);
+    for (int k = 0; k < body->count; k++) extra[hand_acceleration + k] = state->a[body->first + k];
+    extra[hand_mass] = body->inertia.mass;
+    extra[hand_I_G] = body->inertia.I_G;
+    extra[hand_I_O] = body->I_O;
+    extra[hand_L] = body->L;
+    for (size_t i = 0; i < arrow_count; i++)
+        if (arrows[i].load >= 0 && model->loads[arrows[i].load].source->kind == load_normal)
+            extra[hand_N] = vec_dot(arrows[i].force, body->n);
+    if (body->friction >= 0) {
+        struct instant at = state_instant(state);
+        extra[hand_mu_s] = formula_value(&model->plan.frictions[body->friction].mu_s, &at);
+        extra[hand_mu_k] = formula_value(&model->plan.frictions[body->friction].mu_k, &at);
+    }
+}
+
+static double inertia_of(const struct model_body *body, int part)
+{
+    return body->kind == motion_pivot ? body->I_O : part == 2 ? body->inertia.I_G : body->inertia.mass;
+}
+
+/* The slope of left - right with respect to each acceleration; the one that is not zero names the coordinate.
+ */
+static int accelerated_part(const struct hand *hand, int n, int count, double t, const double *y,
+                            double *slope)
+{
+    int part = -1;
+    for (int k = 0; k < count; k++) {
+        double left, right;
+        int slot = 1 + 2 * n + hand_acceleration + k;
+        expr_eval_slot(hand->left, t, y, slot, NULL, &left);
+        expr_eval_slot(hand->right, t, y, slot, NULL, &right);
+        if (left - right == 0) continue;
+        if (part >= 0) return -1; /* several accelerations: compared side with side */
+        part = k;
+        *slope = left - right;
+    }
+    return part;
+}
+
+/* What gravity's term would be if sine and cosine were exchanged. */
+static double swapped_gravity(const struct model_body *body, const struct fbd_state *state)
+{
+    double weight = body->inertia.mass * vec_norm(state->model->scene->gravity);
+    if (body->kind == motion_slide) return -weight * body->e.x;
+    return body->kind == motion_pivot ? -weight * body->L * cos(state->y[body->first]) : 0;
+}
+
+static void take_sample(struct hand_check *check, const struct hand *hand, struct fbd_state *state, double *y)
+{
+    const struct fbd_model *model = state->model;
+    const struct model_body *body = &model->bodies[check->body];
+    struct arrow arrows[most_terms + 1];
+    struct instant at = state_instant(state);
+    size_t count = diagram_fill(model, check->body, &at, state->a, state->scratch, arrows);
+    extend(state, check->body, arrows, count, y);
+    if (hand->when && expr_eval(hand->when, state->t, y, NULL) == 0) return;
+    struct hand_sample sample = {.t = state->t,
+                                 .slip = body->friction >= 0 ? state->slip[body->friction] : 0};
+    sample.left = expr_eval(hand->left, state->t, y, NULL);
+    sample.right = expr_eval(hand->right, state->t, y, NULL);
+    if (!isfinite(sample.left) || !isfinite(sample.right)) return;
+    double slope = 0, scale = 1;
+    int part = accelerated_part(hand, model->plan.n, body->count, state->t, y, &slope);
+    check->part = part;
+    if (part >= 0) {
+        sample.I = inertia_of(body, part);
+        sample.a = state->a[body->first + part];
+        sample.a_hand = sample.a - (sample.left - sample.right) / slope;
+        scale = sample.I / slope;
+    }
+    sample.lack = scale * (sample.left - sample.right);
+    sample.size = fabs(scale) * (fabs(sample.left) + fabs(sample.right)) + DBL_MIN;
+    for (int i = 0; i < body->load_count; i++) {
+        sample.terms[i] = arrows[i].share[part < 0 ? 0 : part];
+        sample.size += fabs(sample.terms[i]);
+    }
+    sample.I_G = body->inertia.I_G;
+    sample.L = body->L;
+    sample.m_L2 = body->inertia.mass * body->L * body->L;
+    sample.gravity_swapped = swapped_gravity(body, state);
+    for (int k = 0; k < body->count; k++) {
+        sample.q[k] = state->y[body->first + k];
+        sample.v[k] = state->y[body->first_rate + k];
+    }
+    check->samples[check->count++] = sample;
+}
+
+/* Draw states of one model and sample every one that is admissible and moves (a body at rest has no equation
+ * of motion). */
+static bool sample_model(struct hand_check *check, const fbd_model *model, gsl_rng *rng)
+{
+    const struct hand *hand = &model->scene->bodies[check->body].hands[check->index];
+    struct fbd_state *state = state_new(model);
+    double *y = calloc(2 * (size_t)model->plan.n + hand_slots + 1, sizeof *y);
+    bool done = state && y;
+    for (int i = 0; done && i < states_of_a_draw; i++)
+        for (int k = 0; k < tries_of_a_state && check->count < most_samples; k++) {
+            draw_state(rng, state);
+            if (!admissible(state)) continue;
+            take_sample(check, hand, state, y);
+            break;
+        }
+    free(y);
+    state_free(state);
+    return done;
+}
+
+/* ---- the verdict */
+
+struct tally {
+    size_t states, agree;
+    double worst;
+};
+
+static struct tally tally_of(const struct hand_check *check, int slip)
+{
+    struct tally tally = {0};
+    for (size_t i = 0; i < check->count; i++) {
+        const struct hand_sample *sample = &check->samples[i];
+        if (sample->slip != slip) continue;
+        tally.states++;
+        tally.agree += hand_agrees(sample);
+        tally.worst = fmax(tally.worst, fabs(sample->lack) / sample->size);
+    }
+    return tally;
+}
+
+static bool write_verdict(const struct hand_check *check, struct text *text)
+{
+    struct tally none = tally_of(check, 0), plus = tally_of(check, 1), minus = tally_of(check, -1);
+    size_t states = none.states + plus.states + minus.states;
+    size_t agree = none.agree + plus.agree + minus.agree;
+    double worst = fmax(none.worst, fmax(plus.worst, minus.worst));
+    if (states == 0) {
+        text_add(text, "  not checked: no admissible state was found where it claims to hold\n");
+        return false;
+    }
+    if (agree == states) {
+        text_printf(text, "  agrees at %zu random states (worst difference %.1e of the terms)\n", states,
+                    worst);
+        return true;
+    }
+    /* With friction an equation may claim one direction of motion: the one where it agrees everywhere. */
+    for (int slip = 1; slip >= -1; slip -= 2) {
+        struct tally one = slip > 0 ? plus : minus;
+        if (one.states == 0 || one.agree != one.states || none.states > 0) continue;
+        text_printf(
+            text,
+            "  agrees at %zu random states that slip toward %cx (worst difference %.1e of the terms);\n"
+            "  toward %cx friction has the other sign: write sign(v) for both, or say `when: v %c 0`\n",
+            one.states, slip > 0 ? '+' : '-', one.worst, slip > 0 ? '-' : '+', slip > 0 ? '>' : '<');
+        return true;
+    }
+    text_printf(text, "  differs at %zu of %zu random states\n", states - agree, states);
+    hand_diagnose(check, none.states > 0 ? 0 : plus.states > 0 ? 1 : -1, text);
+    return false;
+}
+
+/* Check one equation; 1 differs, 0 agrees, -1 out of memory. */
+static int check_one(struct hand_check *check, gsl_rng *rng, struct text *text)
+{
+    const struct fbd_model *model = check->model;
+    const struct body *body = &model->scene->bodies[check->body];
+    const struct hand *hand = &body->hands[check->index];
+    check->count = 0;
+    check->part = -1;
+    text_printf(text, "%s: %s\n", body->name, hand->text);
+    if (body->load_count > most_terms) {
+        text_printf(text, "  not checked: more than %d forces\n", most_terms);
+        return 1;
+    }
+    if (!sample_model(check, model, rng)) return -1;
+    for (int draw = 1; draw < parameter_draws; draw++) {
+        fbd_model *changed = changed_model(model, rng);
+        bool done = !changed || sample_model(check, changed, rng);
+        fbd_model_free(changed);
+        if (!done) return -1;
+    }
+    return write_verdict(check, text) ? 0 : 1;
+}
+
+int fbd_check_hand(const fbd_model *model, unsigned seed, char **result)
+{
+    struct text text = {0};
+    struct hand_check check = {.model = model, .samples = calloc(most_samples, sizeof *check.samples)};
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    int differ = 0, checked = 0;
+    if (check.samples && rng) {
+        gsl_rng_set(rng, seed);
+        for (size_t b = 0; b < model->body_count; b++)
+            for (size_t i = 0; differ >= 0 && i < model->scene->bodies[b].hand_count; i++, checked++) {
+                check.body = (int)b;
+                check.index = (int)i;
+                int one = check_one(&check, rng, &text);
+                differ = one < 0 ? -1 : differ + one;
+            }
+        if (checked == 0) text_add(&text, "no body carries a `hand:` derivation\n");
+        text_printf(&text, "seed %u\n", seed);
+    }
+    bool lost = !check.samples || !rng || text.failed || differ < 0;
+    free(check.samples);
+    if (rng) gsl_rng_free(rng);
+    if (lost) text_free(&text);
+    *result = text.data;
+    return lost ? -1 : differ;
+}

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Hand derivations held against the assembly by numbers.
+ *
+ * An equation that is true is true at every state and for every value of the parameters. So it is evaluated
+ * at random ones: t, coordinates and rates are drawn, and the parameters of the file are changed by up to 30
+ * %, which tells sin from cos at 45 degrees and a forgotten mass of 1 kg from a right answer. A state is
+ * admissible where all forces are finite and no surface has to pull.
+ *
+ * The equation is linear in the acceleration: left - right = A (a - a_hand). With the inertia I of the
+ * coordinate, I (a - a_hand) is what the equation lacks, as a force or moment, whatever it was divided by. It
+ * is zero to rounding, or it is compared with the named terms to find the one at fault.
+ */
+#ifndef FBD_OUTPUT_HAND_H
+#define FBD_OUTPUT_HAND_H
+
+#include "base/text.h"
+#include "dynamics/diagram.h"
+#include "dynamics/modes.h"
+
+enum { most_samples = 512, most_terms = 40 };
+
+/* What one admissible state says about one equation. */
+struct hand_sample {
+    int slip;               /* of the body's friction; 0 without */
+    double lack;            /* I (a - a_hand), or left - right when no acceleration is in it */
+    double size;            /* magnitude of what was added up */
+    double I, a, a_hand;    /* inertia and accelerations; I = 0 when no acceleration is in the equation */
+    double I_G, m_L2, L;    /* of a pivot */
+    double gravity_swapped; /* the term of gravity with sine and cosine exchanged */
+    double terms[most_terms];
+    double t, q[most_coordinates_of_a_body], v[most_coordinates_of_a_body];
+    double left, right;
+};
+
+struct hand_check {
+    const struct fbd_model *model;
+    int body, index;
+    int part; /* coordinate whose acceleration it is about, -1 for none */
+    size_t count;
+    struct hand_sample *samples; /* most_samples */
+};
+
+/* Does a sample agree? To rounding: 1e-9 of what was added up. */
+bool hand_agrees(const struct hand_sample *sample);
+
+/* Say in which term the samples that have slip `slip` differ from the assembly, or that no single term
+ * explains it. */
+void hand_diagnose(const struct hand_check *check, int slip, struct text *text);
+
+#endif

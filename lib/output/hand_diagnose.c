@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * In which term a hand derivation differs.
+ *
+ * If the hand equation has the factor s on term T and all else right, it lacks (1 - s) T at every state. So
+ * for each named term the factor is estimated by least squares, 1 - s = sum(lack T) / sum(T T), and believed
+ * if it explains every sample. The same for the inertia, by the ratio of the accelerations, which tells I_G
+ * from I_O.
+ */
+#include "output/hand.h"
+
+/* Values of a candidate over the samples of one direction of slip. */
+typedef double candidate(const struct hand_sample *sample, int index);
+
+static double named_term(const struct hand_sample *sample, int index)
+{
+    return sample->terms[index];
+}
+
+static double gravity_exchange(const struct hand_sample *sample, int index)
+{
+    return sample->terms[index] - sample->gravity_swapped;
+}
+
+static bool same(double a, double b)
+{
+    return fabs(a - b) <= 1e-6 * (fabs(a) + fabs(b));
+}
+
+/* The factor that makes lack = factor * candidate everywhere, if there is one. */
+static bool explains(const struct hand_check *check, int slip, candidate *value, int index, double *factor)
+{
+    double top = 0, bottom = 0;
+    for (size_t i = 0; i < check->count; i++) {
+        const struct hand_sample *sample = &check->samples[i];
+        if (sample->slip != slip) continue;
+        double T = value(sample, index);
+        top += sample->lack * T;
+        bottom += T * T;
+    }
+    if (!(bottom > 0)) return false;
+    *factor = top / bottom;
+    for (size_t i = 0; i < check->count; i++) {
+        const struct hand_sample *sample = &check->samples[i];
+        if (sample->slip == slip && fabs(sample->lack - *factor * value(sample, index)) > 1e-6 * sample->size)
+            return false;
+    }
+    return true;
+}
+
+/* Is the factor s of a term 1/L (or L) at every sample? */
+static bool arm_power(const struct hand_check *check, int slip, int index, int power)
+{
+    size_t seen = 0;
+    for (size_t i = 0; i < check->count; i++) {
+        const struct hand_sample *sample = &check->samples[i];
+        if (sample->slip != slip || fabs(sample->terms[index]) < 1e-9 * sample->size) continue;
+        double s = 1 - sample->lack / sample->terms[index];
+        if (!(sample->L > 0) || same(sample->L, 1) || !same(s, power < 0 ? 1 / sample->L : sample->L))
+            return false;
+        seen++;
+    }
+    return seen > 0;
+}
+
+static bool inertia_is(const struct hand_check *check, int slip, int which)
+{
+    size_t seen = 0;
+    for (size_t i = 0; i < check->count; i++) {
+        const struct hand_sample *sample = &check->samples[i];
+        if (sample->slip != slip || fabs(sample->a) < 1e-9) continue;
+        double used = sample->I * sample->a / sample->a_hand;
+        if (!same(used, which == 0 ? sample->I_G : sample->m_L2)) return false;
+        seen++;
+    }
+    return seen > 0;
+}
+
+static void say_factor(struct text *text, const char *name, double s)
+{
+    if (same(s, -1))
+        text_printf(text, "  the term `%s` has the wrong sign\n", name);
+    else if (fabs(s) < 1e-6)
+        text_printf(text, "  the term `%s` is missing\n", name);
+    else if (same(s, 2) || same(s, 0.5))
+        text_printf(text, "  the term `%s` is off by a factor 2: the equation has %s of it\n", name,
+                    s > 1 ? "twice" : "half");
+    else
+        text_printf(text, "  the term `%s` has the factor %.6g instead of 1\n", name, s);
+}
+
+static bool blame_inertia(const struct hand_check *check, int slip, struct text *text)
+{
+    if (check->part < 0) return false;
+    const struct model_body *body = &check->model->bodies[check->body];
+    if (body->kind == motion_pivot && inertia_is(check, slip, 0)) {
+        text_add(text,
+                 "  wrong reference point: the moment of inertia is the one about G; about the axis it is\n"
+                 "  I_O = I_G + m L^2\n");
+        return true;
+    }
+    if (body->kind == motion_pivot && inertia_is(check, slip, 1)) {
+        text_add(
+            text,
+            "  the moment of inertia is that of a point mass, m L^2; I_O = I_G + m L^2 has I_G as well\n");
+        return true;
+    }
+    double first = 0;
+    for (size_t i = 0; i < check->count; i++) {
+        const struct hand_sample *sample = &check->samples[i];
+        if (sample->slip != slip || fabs(sample->a) < 1e-9) continue;
+        double ratio = sample->a / sample->a_hand;
+        if (first == 0) first = ratio;
+        if (!isfinite(ratio) || !same(ratio, first)) return false;
+    }
+    if (first == 0 || same(first, 1)) return false;
+    text_printf(text, "  the inertia is %.6g times the assembled one (all terms agree among each other)\n",
+                first);
+    return true;
+}
+
+static bool blame_term(const struct hand_check *check, int slip, struct text *text)
+{
+    const struct model_body *body = &check->model->bodies[check->body];
+    for (int i = 0; i < body->load_count; i++) {
+        const struct load *load = check->model->loads[body->first_load + i].source;
+        double factor;
+        if (body->kind == motion_pivot && arm_power(check, slip, i, -1)) {
+            text_printf(text, "  the moment arm is missing: the term `%s` stands as a force, without L\n",
+                        load->name);
+            return true;
+        }
+        if (body->kind == motion_pivot && arm_power(check, slip, i, 1)) {
+            text_printf(text, "  the term `%s` has the moment arm L once too often\n", load->name);
+            return true;
+        }
+        if (load->kind == load_gravity && explains(check, slip, gravity_exchange, i, &factor) &&
+            same(factor, 1)) {
+            text_printf(text, "  sine and cosine are exchanged in the term `%s`\n", load->name);
+            return true;
+        }
+        if (explains(check, slip, named_term, i, &factor)) {
+            say_factor(text, load->name, 1 - factor);
+            return true;
+        }
+    }
+    return false;
+}
+
+static const struct hand_sample *worst_sample(const struct hand_check *check, int slip)
+{
+    const struct hand_sample *worst = NULL;
+    for (size_t i = 0; i < check->count; i++) {
+        const struct hand_sample *sample = &check->samples[i];
+        if (sample->slip != slip) continue;
+        if (!worst || fabs(sample->lack) / sample->size > fabs(worst->lack) / worst->size) worst = sample;
+    }
+    return worst;
+}
+
+/* The state where it is worst, with all terms: enough to find the fault by hand. */
+static void show_worst(const struct hand_check *check, int slip, struct text *text)
+{
+    const struct hand_sample *worst = worst_sample(check, slip);
+    if (!worst) return;
+    const struct fbd_model *model = check->model;
+    const struct model_body *body = &model->bodies[check->body];
+    text_printf(text, "  at t = %.6g", worst->t);
+    for (int k = 0; k < body->count; k++) {
+        const struct coordinate *c = &model->scene->coordinates[body->first + k];
+        text_printf(text, ", %s = %.6g, %s = %.6g", c->name, worst->q[k], c->rate_name, worst->v[k]);
+    }
+    text_printf(text, ": left %.9g, right %.9g\n  assembled there:", worst->left, worst->right);
+    for (int i = 0; i < body->load_count; i++)
+        text_printf(text, " %s %.9g%s", model->loads[body->first_load + i].source->name, worst->terms[i],
+                    i + 1 < body->load_count ? "," : "");
+    text_add(text, "\n");
+}
+
+void hand_diagnose(const struct hand_check *check, int slip, struct text *text)
+{
+    if (!blame_inertia(check, slip, text) && !blame_term(check, slip, text))
+        text_add(text, "  no single term explains the difference\n");
+    show_worst(check, slip, text);
+}

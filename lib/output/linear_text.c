@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * A linearisation as a person reads it.
+ */
+#include "base/text.h"
+#include "solve/linearize.h"
+
+enum { digits = 9 };
+
+static const double two_pi = 6.283185307179586;
+
+static void write_equilibrium(struct text *text, const struct fbd_linearization *linear)
+{
+    text_add(text, "Equilibrium\n");
+    for (size_t i = 0; i < linear->size / 2; i++) {
+        const struct label *label = &linear->model->labels[i];
+        text_printf(text, "  %s = ", label->name);
+        text_number(text, linear->q[i], digits);
+        text_printf(text, " %s\n", label->unit);
+    }
+}
+
+static void write_matrix(struct text *text, const struct fbd_linearization *linear)
+{
+    size_t size = linear->size, n = size / 2;
+    enum { largest = 12, width = 17 };
+    if (size > largest) {
+        text_printf(text, "\nA is %zu x %zu\n", size, size);
+        return;
+    }
+    text_add(text, "\nx' = A x for the deviations x = (");
+    for (size_t i = 0; i < size; i++)
+        text_printf(text, "%s%s", i ? ", " : "",
+                    i < n ? linear->model->labels[i].name : linear->model->labels[i - n].rate_name);
+    text_add(text, "), A =\n");
+    for (size_t i = 0; i < size; i++) {
+        for (size_t j = 0; j < size; j++) {
+            text_pad(text, 2 + width * j);
+            text_add(text, linear->A[i * size + j] < 0 ? "" : " ");
+            text_number(text, linear->A[i * size + j], digits);
+        }
+        text_add(text, "\n");
+    }
+}
+
+static const char *kind_of(const fbd_mode *mode)
+{
+    double small = 1e-12 * mode->frequency;
+    if (mode->frequency == 0) return "free motion";
+    if (mode->re > small) return "unstable: grows";
+    if (mode->im == 0) return "decays without oscillation";
+    return mode->re < -small ? "oscillates and decays" : "oscillates";
+}
+
+static void write_mode(struct text *text, const fbd_mode *mode)
+{
+    text_add(text, "  ");
+    text_number(text, mode->re, digits);
+    if (mode->im != 0) {
+        text_add(text, mode->im > 0 ? " + " : " - ");
+        text_number(text, fabs(mode->im), digits);
+        text_add(text, " i");
+    }
+    text_add(text, " 1/s");
+    text_pad(text, 36);
+    if (mode->frequency > 0) {
+        text_add(text, "w0 = ");
+        text_number(text, mode->frequency, digits);
+        text_add(text, " rad/s (");
+        text_number(text, mode->frequency / two_pi, digits);
+        text_add(text, " Hz, period ");
+        text_number(text, two_pi / mode->frequency, digits);
+        text_add(text, " s), zeta = ");
+        text_number(text, fabs(mode->damping_ratio) < 1e-12 ? 0 : mode->damping_ratio, digits);
+        text_add(text, "; ");
+    }
+    text_printf(text, "%s\n", kind_of(mode));
+}
+
+char *fbd_linearization_text(const fbd_linearization *linear)
+{
+    struct text text = {0};
+    write_equilibrium(&text, linear);
+    write_matrix(&text, linear);
+    text_add(&text, "\nEigenvalues\n");
+    for (size_t i = 0; i < linear->size; i++)
+        if (linear->modes[i].im >= 0) write_mode(&text, &linear->modes[i]); /* the conjugate says the same */
+    if (text.failed) text_free(&text);
+    return text.data;
+}

@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solve/linearize.h"
+
+#include <gsl/gsl_eigen.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_multiroots.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/diag.h"
+#include "dynamics/modes.h"
+
+/* ---- equilibrium: a(q, v = 0) = 0 by GSL's hybridsj with the exact Jacobian */
+
+struct balance {
+    struct fbd_state *state;
+    double *work; /* scratch of state_jacobian, then dfdy and dfdt */
+};
+
+static void set_coordinates(struct fbd_state *state, const gsl_vector *q)
+{
+    size_t n = (size_t)state->model->plan.n;
+    for (size_t i = 0; i < n; i++) {
+        state->y[i] = gsl_vector_get(q, i);
+        state->y[n + i] = 0;
+    }
+}
+
+static int forces(const gsl_vector *q, void *context, gsl_vector *f)
+{
+    struct balance *balance = context;
+    struct fbd_state *state = balance->state;
+    set_coordinates(state, q);
+    state_evaluate(state);
+    for (size_t i = 0; i < f->size; i++) gsl_vector_set(f, i, state->a[i]);
+    return GSL_SUCCESS;
+}
+
+static int slopes(const gsl_vector *q, void *context, gsl_matrix *J)
+{
+    struct balance *balance = context;
+    struct fbd_state *state = balance->state;
+    size_t n = J->size1, size = 2 * n;
+    double *dfdy = balance->work, *dfdt = dfdy + size * size;
+    set_coordinates(state, q);
+    struct instant at = state_instant(state);
+    state_jacobian(state->model, &at, state->scratch, dfdy, dfdt);
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++) gsl_matrix_set(J, i, j, dfdy[(n + i) * size + j]);
+    return GSL_SUCCESS;
+}
+
+static int both(const gsl_vector *q, void *context, gsl_vector *f, gsl_matrix *J)
+{
+    forces(q, context, f);
+    return slopes(q, context, J);
+}
+
+/* The size that accelerations have at a place where nothing balances: what zero is measured against. */
+static double typical_acceleration(const struct fbd_state *state)
+{
+    double most = vec_norm(state->model->scene->gravity);
+    for (int i = 0; i < state->model->plan.n; i++) most = fmax(most, fabs(state->a[i]));
+    return most;
+}
+
+static double imbalance(const gsl_vector *f)
+{
+    double most = 0;
+    for (size_t i = 0; i < f->size; i++) most = fmax(most, fabs(gsl_vector_get(f, i)));
+    return most;
+}
+
+static bool find_balance(struct balance *balance)
+{
+    enum { most_iterations = 200 };
+    struct fbd_state *state = balance->state;
+    size_t n = (size_t)state->model->plan.n;
+    gsl_multiroot_function_fdf function = {forces, slopes, both, n, balance};
+    gsl_vector *q = gsl_vector_alloc(n);
+    gsl_multiroot_fdfsolver *solver = gsl_multiroot_fdfsolver_alloc(gsl_multiroot_fdfsolver_hybridsj, n);
+    bool found = false;
+    if (q && solver) {
+        for (size_t i = 0; i < n; i++) gsl_vector_set(q, i, state->y[i]);
+        forces(q, balance, solver->f);
+        double zero = 1e-13 * typical_acceleration(state);
+        int status = gsl_multiroot_fdfsolver_set(solver, &function, q);
+        for (int i = 0; i < most_iterations && status == GSL_SUCCESS && imbalance(solver->f) > zero; i++)
+            status = gsl_multiroot_fdfsolver_iterate(solver);
+        set_coordinates(state, solver->x);
+        state_evaluate(state);
+        /* Where rounding keeps it from `zero`, the last digits of a position are at fault: still a balance.
+         */
+        found = imbalance(solver->f) <= 1e4 * zero;
+    }
+    if (solver) gsl_multiroot_fdfsolver_free(solver);
+    if (q) gsl_vector_free(q);
+    return found;
+}
+
+/* ---- eigenvalues */
+
+/* By frequency, then the one with the positive imaginary part first. */
+static int by_frequency(const void *left, const void *right)
+{
+    const fbd_mode *a = left, *b = right;
+    double difference = a->frequency - b->frequency;
+    if (fabs(difference) > 1e-12 * (a->frequency + b->frequency)) return difference < 0 ? -1 : 1;
+    return a->im > b->im ? -1 : a->im < b->im ? 1 : a->re < b->re ? -1 : 1;
+}
+
+static bool find_modes(struct fbd_linearization *linear)
+{
+    size_t size = linear->size;
+    gsl_matrix *A = gsl_matrix_alloc(size, size); /* is overwritten */
+    gsl_vector_complex *values = gsl_vector_complex_alloc(size);
+    gsl_eigen_nonsymm_workspace *work = gsl_eigen_nonsymm_alloc(size);
+    bool done = false;
+    if (A && values && work) {
+        for (size_t i = 0; i < size; i++)
+            for (size_t j = 0; j < size; j++) gsl_matrix_set(A, i, j, linear->A[i * size + j]);
+        gsl_eigen_nonsymm_params(0, 1, work); /* balanced: coordinates have different units */
+        done = gsl_eigen_nonsymm(A, values, work) == GSL_SUCCESS;
+        for (size_t i = 0; done && i < size; i++) {
+            gsl_complex lambda = gsl_vector_complex_get(values, i);
+            double re = GSL_REAL(lambda), im = GSL_IMAG(lambda), frequency = hypot(re, im);
+            linear->modes[i] = (fbd_mode){re, im, frequency, frequency > 0 ? -re / frequency : NAN};
+        }
+        qsort(linear->modes, size, sizeof *linear->modes, by_frequency);
+    }
+    if (work) gsl_eigen_nonsymm_free(work);
+    if (values) gsl_vector_complex_free(values);
+    if (A) gsl_matrix_free(A);
+    return done;
+}
+
+/* ---- the whole */
+
+static bool refuse_sticking(const struct fbd_state *state, fbd_errors *errors)
+{
+    const struct plan *plan = &state->model->plan;
+    if (plan->friction_count == 0) return false;
+    const struct fbd_model *model = state->model;
+    diag_add(errors, FBD_ERROR, "sticks", model->loads[plan->frictions[0].load].source->at,
+             "leave the friction out to see the motion about the balance of the other forces",
+             "`%s` has dry friction: at rest it sticks, and a body that sticks has no linear motion",
+             model->bodies[plan->frictions[0].body].name);
+    return true;
+}
+
+fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *errors)
+{
+    const struct fbd_model *model = state->model;
+    size_t n = (size_t)model->plan.n, size = 2 * n;
+    errors->file = model->scene->file;
+    if (refuse_sticking(state, errors)) return NULL;
+    fbd_linearization *linear = calloc(1, sizeof *linear);
+    double *work = calloc(size * size + size + 1, sizeof *work);
+    struct balance balance = {state, work};
+    bool made = linear && work;
+    if (made) {
+        *linear = (struct fbd_linearization){.model = model,
+                                             .size = size,
+                                             .A = work,
+                                             .modes = calloc(size + 1, sizeof(fbd_mode)),
+                                             .q = calloc(n + 1, sizeof(double))};
+        made = linear->modes && linear->q && modes_settle(state, NULL);
+    }
+    if (made && !find_balance(&balance)) {
+        diag_add(errors, FBD_ERROR, "no-equilibrium", (struct pos){0, 0},
+                 "start nearer to it: set the initial values, or give --at",
+                 "no equilibrium was found near the start");
+        fbd_linearization_free(linear);
+        return NULL;
+    }
+    if (made) {
+        memcpy(linear->q, state->y, n * sizeof *linear->q);
+        struct instant at = state_instant(state);
+        state_jacobian(model, &at, state->scratch, linear->A, linear->A + size * size);
+        made = find_modes(linear);
+    }
+    if (made) return linear;
+    diag_out_of_memory(errors);
+    if (!linear) free(work);
+    fbd_linearization_free(linear);
+    return NULL;
+}
+
+void fbd_linearization_free(fbd_linearization *linearization)
+{
+    if (!linearization) return;
+    free(linearization->A);
+    free(linearization->modes);
+    free(linearization->q);
+    free(linearization);
+}
+
+size_t fbd_linearization_size(const fbd_linearization *linearization)
+{
+    return linearization->size;
+}
+
+const double *fbd_linearization_matrix(const fbd_linearization *linearization)
+{
+    return linearization->A;
+}
+
+fbd_mode fbd_linearization_mode(const fbd_linearization *linearization, size_t index)
+{
+    return linearization->modes[index];
+}
