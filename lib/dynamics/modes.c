@@ -34,23 +34,18 @@ static struct direction flow_of(struct fbd_state *state)
     return (struct direction){1, dy};
 }
 
-static bool settle_branches(struct fbd_state *state, const struct decided *decided,
-                            const struct direction *flow)
+static bool settle_branches(struct fbd_state *state, const struct decided *decided, const struct direction *flow)
 {
     const struct plan *plan = &state->model->plan;
-    bool same = true;
+    size_t size = (size_t)plan->branches * sizeof *state->branch;
+    memcpy(state->branch_before, state->branch, size);
     for (size_t i = 0; i < plan->kink_count; i++) {
         const struct kink *kink = &plan->kinks[i];
-        int *branch = state->branch + kink->formula.branch;
-        int before = 0,
-            after = 0; /* a sum of the branches tells whether one has changed, since one pass moves one way */
-        const bool *keep = decided ? decided->branches + kink->formula.branch : NULL;
-        for (size_t k = 0; k < kink->count; k++) before = 31 * before + branch[k];
-        expr_resolve(kink->formula.expr, state->t, state->y, flow->dt, flow->dy, keep, branch);
-        for (size_t k = 0; k < kink->count; k++) after = 31 * after + branch[k];
-        same = same && before == after;
+        int first = kink->formula.branch;
+        const bool *keep = decided ? decided->branches + first : NULL;
+        expr_resolve(kink->formula.expr, state->t, state->y, flow->dt, flow->dy, keep, state->branch + first);
     }
-    return same;
+    return memcmp(state->branch_before, state->branch, size) == 0;
 }
 
 static bool settle_slips(struct fbd_state *state, const struct decided *decided, const struct direction *flow)

@@ -13,7 +13,7 @@ struct fbd_state *state_new(const struct fbd_model *model)
 {
     const struct plan *plan = &model->plan;
     size_t n = (size_t)plan->n, doubles = 3 * n + (size_t)plan->slots + scratch_size(plan);
-    size_t ints = (size_t)plan->branches + 2 * plan->friction_count;
+    size_t ints = 2 * ((size_t)plan->branches + plan->friction_count);
     struct fbd_state *state = calloc(1, sizeof *state + doubles * sizeof(double) + ints * sizeof(int));
     if (!state) return NULL;
     state->model = model;
@@ -24,6 +24,7 @@ struct fbd_state *state_new(const struct fbd_model *model)
     state->branch = (int *)(state->scratch + scratch_size(plan));
     state->slip = state->branch + plan->branches;
     state->pull = state->slip + plan->friction_count;
+    state->branch_before = state->pull + plan->friction_count;
     for (size_t i = 0; i < n; i++) {
         state->y[i] = model->scene->coordinates[i].initial;
         state->y[n + i] = model->scene->coordinates[i].initial_rate;

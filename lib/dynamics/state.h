@@ -16,6 +16,7 @@ struct fbd_state {
     double *a;                 /* n: accelerations, by state_evaluate */
     double *slots;             /* plan.slots: generalized forces, by state_evaluate */
     int *branch, *slip, *pull; /* modes, see instant.h */
+    int *branch_before;        /* scratch for settling: plan.branches */
     double *scratch;           /* 2 plan.slots + 3 n */
 };
 

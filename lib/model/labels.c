@@ -5,15 +5,12 @@
 
 enum { unit_size = 48 };
 
-static const char *unit_of(struct arena *arena, struct dim dim, bool angle, enum unit_system system)
+static const char *unit_of(struct arena *arena, struct dim dim, enum unit_system system)
 {
-    char text[unit_size], full[unit_size + 4];
+    char text[unit_size];
     unit_name(dim, system, text, sizeof text);
-    if (!angle) return arena_text(arena, text, strlen(text));
-    /* Angles have no dimension: "1/s" is rad/s here. */
-    const char *rest = strncmp(text, "1/", 2) == 0 ? text + 1 : "";
-    snprintf(full, sizeof full, "rad%s", rest);
-    return arena_text(arena, full, strlen(full));
+    return text[0] ? arena_text(arena, text, strlen(text))
+                   : "rad"; /* what has no dimension here is an angle */
 }
 
 const struct label *labels_make(struct arena *arena, const struct scene *scene)
@@ -28,11 +25,11 @@ const struct label *labels_make(struct arena *arena, const struct scene *scene)
             .name = arena_printf(arena, "%s.%s", body, c->name),
             .rate_name = arena_printf(arena, "%s.%s", body, c->rate_name),
             .acceleration_name = c->acceleration_name,
-            .unit = unit_of(arena, c->dim, c->angle, scene->units),
-            .rate_unit = unit_of(arena, c->rate_dim, c->angle, scene->units),
-            .acceleration_unit = unit_of(arena, per_time, c->angle, scene->units),
-            .force_unit = unit_of(arena, c->angle ? DIM_MOMENT : DIM_FORCE, false, scene->units),
-            .inertia_unit = unit_of(arena, c->angle ? DIM_INERTIA : DIM_MASS, false, scene->units),
+            .unit = unit_of(arena, c->dim, scene->units),
+            .rate_unit = unit_of(arena, c->rate_dim, scene->units),
+            .acceleration_unit = unit_of(arena, per_time, scene->units),
+            .force_unit = unit_of(arena, c->angle ? DIM_MOMENT : DIM_FORCE, scene->units),
+            .inertia_unit = unit_of(arena, c->angle ? DIM_INERTIA : DIM_MASS, scene->units),
         };
     }
     return arena->failed ? NULL : labels;

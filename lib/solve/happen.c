@@ -63,12 +63,15 @@ static void stop_slipping(struct run *run, int pair)
         friction_surface_speed(friction, &at, &acceleration);
 }
 
-static void user_event(struct run *run, int watch)
+/* `touched`: the function is exactly zero and may go either way; otherwise it has passed to the other side.
+ */
+static void user_event(struct run *run, int watch, bool touched)
 {
     const struct user_event *source = run->model->plan.watches[watch].source;
     int *armed = &run->watchers.armed[watch];
     int direction = -*armed;
-    *armed = 0; /* armed again once it has left zero */
+    *armed = touched ? 0 : direction;
+    run->watchers.fired[watch] = true;
     if (source->direction != 0 && source->direction != direction) return;
     note(run, FBD_EVENT_USER, -1, -1, watch);
     if (source->stop && run->outcome == FBD_GOING) run->outcome = FBD_STOPPED;
@@ -89,7 +92,7 @@ static void happen(struct run *run, const struct watcher *watcher)
         run->decided.pulls[index] = true;
         break;
     case watch_contact: break; /* run_check_contacts */
-    case watch_user: user_event(run, index); break;
+    case watch_user: user_event(run, index, false); break;
     }
 }
 
@@ -135,7 +138,7 @@ void run_apply_touched(struct run *run)
         int armed = run->watchers.armed[i];
         double value =
             formula_value(&plan->watches[i].left, &at) - formula_value(&plan->watches[i].right, &at);
-        if (armed != 0 && armed * value <= 0) user_event(run, (int)i);
+        if (armed != 0 && !run->watchers.fired[i] && armed * value <= 0) user_event(run, (int)i, value == 0);
     }
 }
 

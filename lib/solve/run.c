@@ -206,6 +206,7 @@ static void accept(struct run *run, double t)
 {
     size_t n = (size_t)run->model->plan.n;
     run->state->t = t;
+    memset(run->watchers.fired, 0, run->model->plan.watch_count * sizeof *run->watchers.fired);
     memcpy(run->state->y, run->y, 2 * n * sizeof *run->y);
     modes_hold(run->state);
     memcpy(run->y, run->state->y, 2 * n * sizeof *run->y);

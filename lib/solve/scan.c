@@ -119,7 +119,7 @@ static bool doubtful(const struct scan_point *a, const struct scan_point *b, siz
 {
     if (!active(a, b, i)) return false;
     double doubt = b->doubt[i], size = fmax(fabs(a->values[i]), fabs(b->values[i]));
-    if (doubt > size / 2) return true;
+    if (doubt > size / 16) return true; /* the cubic is not the function: nothing it says can be believed */
     if (a->values[i] < 0 || b->values[i] < 0) return false;
     struct cubic c = cubic_between(a, b, i);
     double s = cubic_minimum(&c);

@@ -70,7 +70,9 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model)
     watchers->moving = (struct watcher_set){calloc(moving + 1, sizeof(struct watcher)), 0};
     watchers->scratch = calloc(4 * margins + 1, sizeof(double));
     watchers->armed = calloc(plan->watch_count + 1, sizeof(int));
-    if (!watchers->timed.watchers || !watchers->moving.watchers || !watchers->scratch || !watchers->armed) {
+    watchers->fired = calloc(plan->watch_count + 1, sizeof(bool));
+    if (!watchers->timed.watchers || !watchers->moving.watchers || !watchers->scratch || !watchers->armed ||
+        !watchers->fired) {
         watchers_free(watchers);
         return false;
     }
@@ -84,6 +86,7 @@ void watchers_free(struct watchers *watchers)
     free(watchers->moving.watchers);
     free(watchers->scratch);
     free(watchers->armed);
+    free(watchers->fired);
     *watchers = (struct watchers){0};
 }
 

@@ -37,6 +37,7 @@ struct watchers {
     struct watcher_set moving; /* all others */
     double *scratch;           /* margins and rates of one kink */
     int *armed;                /* per user event: +1 or -1, the side where it is; 0 while it sits on zero */
+    bool *fired;               /* per user event: it happened at this instant */
 };
 
 /* Build the sets for a model; false when memory is out (then all is freed). */
