@@ -77,33 +77,41 @@ static void write_absent(struct text *text, const struct fbd_model *model)
 
 static void write_list(struct text *text, size_t count, const char *words)
 {
-    if (count > 0) text_printf(text, "  %zu %s\n", count, words);
+    if (count > 0) text_printf(text, "  %3zu  %s\n", count, words);
+}
+
+/* A normal force that is constant is looked at once, at the start. */
+static size_t watched_contacts(const struct plan *plan)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < plan->contact_count; i++) count += !plan->slot_constant[plan->contacts[i].slot];
+    return count;
 }
 
 static void write_plan(struct text *text, const struct fbd_model *model)
 {
     const struct plan *plan = &model->plan;
-    text_add(text, "\nThe right-hand side evaluates\n");
+    text_add(text, "\nTerms of the right-hand side\n");
     write_list(text, plan->affine_count,
-               "affine terms c0 - k q - c v (constants, springs and dampers folded)");
-    write_list(text, plan->sine_count, "terms s sin q + c cos q (constant forces on turning bodies)");
-    write_list(text, plan->square_count, "terms k |v| v");
-    write_list(text, plan->formula_count, "formulas in a fixed direction");
-    write_list(text, plan->potential_count, "slopes of potentials");
-    write_list(text, plan->link_count, "springs or dampers between two points");
-    write_list(text, plan->drag_count, "drags in the plane");
-    write_list(text, plan->force_count, "formulas whose direction changes");
-    write_list(text, plan->friction_count, "dry frictions, as modes stick and slip");
-    write_list(text, plan->offset_count, "bodies whose frame is not at their centre of mass");
+               "affine: c0 - k q - c v (constants, springs along the motion and viscous dampers in one)");
+    write_list(text, plan->sine_count, "sine: s sin q + c cos q (constant forces on a turning body)");
+    write_list(text, plan->square_count, "quadratic drag: k |v| v");
+    write_list(text, plan->formula_count, "formula in a fixed direction");
+    write_list(text, plan->potential_count, "slope of a potential");
+    write_list(text, plan->link_count, "spring or damper between two points");
+    write_list(text, plan->drag_count, "drag in the plane");
+    write_list(text, plan->force_count, "formula whose direction changes");
+    write_list(text, plan->friction_count, "dry friction, as modes stick and slip");
+    write_list(text, plan->offset_count, "body whose frame is not at its centre of mass");
     text_add(text, "\nEvents watched\n");
     size_t switches = 0;
     for (size_t i = 0; i < plan->kink_count; i++) switches += plan->kinks[i].count;
-    if (plan->friction_count + plan->contact_count + switches + plan->watch_count == 0)
+    if (plan->friction_count + watched_contacts(plan) + switches + plan->watch_count == 0)
         text_add(text, "  none\n");
-    write_list(text, plan->friction_count, "friction pairs: stopping, sticking, breaking away");
-    write_list(text, plan->contact_count, "normal forces that must not become a pull");
-    write_list(text, switches, "switches in expressions (abs, step, if, ...)");
-    write_list(text, plan->watch_count, "events of the file");
+    write_list(text, plan->friction_count, "friction: stopping, sticking, breaking away");
+    write_list(text, watched_contacts(plan), "normal force that must not become a pull");
+    write_list(text, switches, "switch in an expression (abs, step, if, ...)");
+    write_list(text, plan->watch_count, "event of the file");
 }
 
 char *fbd_explain(const fbd_model *model, const fbd_options *options)

@@ -152,6 +152,7 @@ static void take_sample(struct hand_check *check, const struct hand *hand, struc
     int part = accelerated_part(hand, model->plan.n, body->count, state->t, y, &slope);
     check->part = part;
     if (part >= 0) {
+        sample.coefficient = slope;
         sample.I = inertia_of(body, part);
         sample.a = state->a[body->first + part];
         sample.a_hand = sample.a - (sample.left - sample.right) / slope;

@@ -153,7 +153,7 @@ static const struct hand_sample *worst_sample(const struct hand_check *check, in
     for (size_t i = 0; i < check->count; i++) {
         const struct hand_sample *sample = &check->samples[i];
         if (sample->slip != slip) continue;
-        if (!worst || fabs(sample->lack) / sample->size > fabs(worst->lack) / worst->size) worst = sample;
+        if (!worst || fabs(sample->lack) > fabs(worst->lack)) worst = sample;
     }
     return worst;
 }
@@ -177,9 +177,21 @@ static void show_worst(const struct hand_check *check, int slip, struct text *te
     text_add(text, "\n");
 }
 
+/* With one term on the right, a wrong factor there and a wrong inertia look the same. An equation whose left
+ * side has the very inertia of the assembly has its fault elsewhere. */
+static bool inertia_is_right(const struct hand_check *check, int slip)
+{
+    for (size_t i = 0; i < check->count; i++) {
+        const struct hand_sample *sample = &check->samples[i];
+        if (sample->slip == slip && !same(sample->coefficient, sample->I)) return false;
+    }
+    return true;
+}
+
 void hand_diagnose(const struct hand_check *check, int slip, struct text *text)
 {
-    if (!blame_inertia(check, slip, text) && !blame_term(check, slip, text))
-        text_add(text, "  no single term explains the difference\n");
+    bool found = !inertia_is_right(check, slip) && blame_inertia(check, slip, text);
+    if (!found) found = blame_term(check, slip, text);
+    if (!found) text_add(text, "  no single term explains the difference\n");
     show_worst(check, slip, text);
 }

@@ -63,7 +63,11 @@ static void write_mode(struct text *text, const fbd_mode *mode)
     }
     text_add(text, " 1/s");
     text_pad(text, 36);
-    if (mode->frequency > 0) {
+    if (mode->im == 0 && mode->frequency > 0) {
+        text_add(text, "time constant ");
+        text_number(text, 1 / mode->frequency, digits);
+        text_add(text, " s; ");
+    } else if (mode->frequency > 0) {
         text_add(text, "w0 = ");
         text_number(text, mode->frequency, digits);
         text_add(text, " rad/s (");
