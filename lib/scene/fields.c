@@ -1,0 +1,332 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/fields.h"
+
+#include "scene/values.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { most_fields = 40 };
+
+/* The field with this key and its offset in the structure of the group; the base of the group comes first. */
+static const struct field *find_field(const struct group *group, const char *key, size_t *offset)
+{
+    if (group->base) {
+        const struct field *field = find_field(group->base, key, offset);
+        if (field) {
+            *offset += group->base_offset;
+            return field;
+        }
+    }
+    for (size_t i = 0; i < group->count; i++) {
+        if (strcmp(group->fields[i].key, key) != 0) continue;
+        *offset = group->fields[i].offset;
+        return &group->fields[i];
+    }
+    return NULL;
+}
+
+static bool has_field(const struct group *group, const char *key)
+{
+    size_t offset;
+    return find_field(group, key, &offset) != NULL;
+}
+
+static size_t list_keys(const struct group *group, const char **keys)
+{
+    size_t count = group->base ? list_keys(group->base, keys) : 0;
+    for (size_t i = 0; i < group->count && count < most_fields; i++)
+        if (group->fields[i].type != field_later && group->fields[i].type != field_ignored)
+            keys[count++] = group->fields[i].key;
+    return count;
+}
+
+/* ---- keys that do not belong */
+
+static bool is_kind(const struct kinds *kinds, const char *name)
+{
+    for (size_t i = 0; i < kinds->count; i++)
+        if (strcmp(kinds->kinds[i].name, name) == 0) return true;
+    return false;
+}
+
+/* A key that stands one level too high, as slips of indentation leave it; NULL when it is none of those. */
+static const char *misplaced(fbd_errors *errors, const struct group *group, const char *key)
+{
+    if (group == &body_group && is_kind(&force_kinds, key))
+        return diag_hint(errors, "put it into the list of the body: `forces: [%s]`", key);
+    if (group == &body_group && is_kind(&motion_kinds, key))
+        return diag_hint(errors, "write it under `motion`: `motion: {%s: ...}`", key);
+    if (group == &scene_group && has_field(&body_group, key))
+        return "it belongs to a body: indent it below the name of the body, under `bodies`";
+    if (group == &scene_group && has_field(&simulate_group, key)) return "it belongs under `simulate`";
+    if (group == &scene_group && has_field(&ground_group, key)) return "it belongs under `ground`";
+    return NULL;
+}
+
+/* What textbooks and other programs call a key of this group; NULL when the word is not one of theirs. */
+static const char *translated(fbd_errors *errors, const struct group *group, const char *word)
+{
+    static const char *const words[][2] = {{"mu_s", "static"},
+                                           {"mu_k", "kinetic"},
+                                           {"mu_d", "kinetic"},
+                                           {"dynamic", "kinetic"},
+                                           {"mu", "coefficient"},
+                                           {"c", "coefficient"},
+                                           {"k", "stiffness"},
+                                           {"l0", "free_length"},
+                                           {"x0", "neutral"},
+                                           {"rest_length", "free_length"},
+                                           {"U", "V"},
+                                           {"energy", "V"},
+                                           {"magnitude", "value"},
+                                           {"force", "value"},
+                                           {"moment", "value"},
+                                           {"direction", "angle"},
+                                           {"weight", "mass"},
+                                           {"m", "mass"},
+                                           {"r", "radius"},
+                                           {"R", "radius"},
+                                           {"diameter", "radius"},
+                                           {"I", "inertia"},
+                                           {"position", "center"},
+                                           {"position", "x"},
+                                           {"v0", "v"},
+                                           {"x0", "x"},
+                                           {"velocity", "v"},
+                                           {"speed", "v"},
+                                           {"angle", "theta"},
+                                           {"theta0", "theta"},
+                                           {"omega0", "omega"},
+                                           {"angle", "along"},
+                                           {"duration", "until"},
+                                           {"end", "until"},
+                                           {"tol", "tolerance"},
+                                           {"dt", "step"},
+                                           {"solver", "method"},
+                                           {"stepper", "method"},
+                                           {"condition", "when"},
+                                           {"action", "then"}};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        size_t offset;
+        const struct field *field =
+            strcmp(word, words[i][0]) == 0 ? find_field(group, words[i][1], &offset) : NULL;
+        if (field) return diag_hint(errors, "the key is `%s`: %s", field->key, field->doc);
+    }
+    return NULL;
+}
+
+static void note_unknown_key(struct reader *reader, const struct group *group, const struct pair *pair)
+{
+    const char *hint = NULL, *colon = strchr(pair->key, ':');
+    if (colon && colon > pair->key && colon[1])
+        hint = diag_hint(reader->errors, "put a blank after the colon: `%.*s: %s`", (int)(colon - pair->key),
+                         pair->key, colon + 1);
+    if (strstr(pair->key, "\xC2\xA0"))
+        hint = "it holds a no-break space (U+00A0), as pasted text does: type a blank in its place";
+    if (!hint) hint = misplaced(reader->errors, group, pair->key);
+    if (!hint) hint = translated(reader->errors, group, pair->key);
+    if (!hint) {
+        const char *names[most_fields];
+        hint = diag_nearest(reader->errors, pair->key, names, list_keys(group, names));
+    }
+    diag_add(reader->errors, FBD_ERROR, "unknown-key", pair->at, hint, "%s has no key `%s`", group->name,
+             pair->key);
+}
+
+static void note_no_mapping(struct reader *reader, const struct group *group, const struct node *node)
+{
+    const char *names[most_fields];
+    size_t count = list_keys(group, names), used = 0;
+    char list[256] = "";
+    for (size_t i = 0; i < count; i++) {
+        int n = snprintf(list + used, sizeof list - used, "%s%s", i ? ", " : "", names[i]);
+        if (n < 0 || (size_t)n >= sizeof list - used) break;
+        used += (size_t)n;
+    }
+    diag_add(reader->errors, FBD_ERROR, "wrong-type", node->at,
+             diag_hint(reader->errors, "its keys: %s", list), "%s must be a mapping of keys, not %s",
+             group->name, value_found(reader, node));
+}
+
+static void note_missing_key(struct reader *reader, const struct group *group, const struct field *field,
+                             struct pos owner)
+{
+    bool number = field->type == field_number || field->type == field_value;
+    const char *hint = number ? diag_hint(reader->errors, "add for example `%s: %s` (%s)", field->key,
+                                          quantity_example(field->quantity), field->doc)
+                              : diag_hint(reader->errors, "add `%s`: %s", field->key, field->doc);
+    diag_add(reader->errors, FBD_ERROR, "missing-key", owner, hint, "%s needs `%s`", group->name, field->key);
+}
+
+/* ---- reading */
+
+static bool read_node(struct reader *reader, const struct field *field, const struct node *node,
+                      const struct node **place)
+{
+    const char *key = field->key;
+    if (field->type == field_list && node->kind != node_list)
+        return value_refuse(reader, node, key, "a list", "write each entry on a line of its own: `- ...`");
+    if (field->type == field_map && node->kind != node_map)
+        return value_refuse(reader, node, key, "a mapping",
+                            "write `name: value` pairs below it, indented, or in braces");
+    if (field->type == field_scalar && node->kind != node_scalar)
+        return value_refuse(reader, node, key, "text",
+                            node->kind == node_null ? NULL : "put an expression that has brackets in quotes");
+    if (node->kind == node_null) {
+        diag_add(reader->errors, FBD_ERROR, "missing-value", node->at, field->doc,
+                 "`%s` has no value: give one, or leave the key out", key);
+        return false;
+    }
+    *place = node;
+    return true;
+}
+
+static bool read_field(struct reader *reader, const struct field *field, const struct pair *pair,
+                       const struct scope *scope, void *place)
+{
+    const struct node *node = pair->value;
+    const char *key = field->key;
+    switch (field->type) {
+    case field_text: return value_text(reader, node, key, place);
+    case field_name: return value_name(reader, node, key, place);
+    case field_flag: return value_flag(reader, node, key, place);
+    case field_choice: return value_choice(reader, node, key, field->choices, field->choice_count, place);
+    case field_number: return value_number(reader, node, key, field->quantity, field->flags, place);
+    case field_value: return value_formula(reader, node, key, field->quantity, field->flags, scope, place);
+    case field_vector: return value_vector(reader, node, key, field->quantity, place);
+    case field_any:
+    case field_scalar:
+    case field_list:
+    case field_map: return read_node(reader, field, node, place);
+    case field_ignored: return true;
+    case field_later:
+        diag_add(reader->errors, FBD_ERROR, "not-supported", pair->at, field->doc,
+                 "`%s` is not in this version", key);
+        return false;
+    }
+    return false;
+}
+
+static bool check_required(struct reader *reader, const struct group *group, const struct node *map,
+                           struct pos owner)
+{
+    bool fine = !group->base || check_required(reader, group->base, map, owner);
+    for (size_t i = 0; i < group->count; i++) {
+        const struct field *field = &group->fields[i];
+        if (!(field->flags & required) || node_find(map, field->key)) continue;
+        note_missing_key(reader, group, field, owner);
+        fine = false;
+    }
+    return fine;
+}
+
+bool fields_read(struct reader *reader, const struct group *group, const struct node *node, struct pos owner,
+                 const struct scope *scope, void *keys)
+{
+    char *start = keys;
+    size_t offset = 0;
+    const struct field *brief = group->brief ? find_field(group, group->brief, &offset) : NULL;
+    bool single = node && (node->kind == node_scalar || node->kind == node_list);
+    if (brief && single && (node->kind == node_scalar || brief->type == field_any)) {
+        const struct pair pair = {group->brief, node->at, node};
+        return read_field(reader, brief, &pair, scope, start + offset);
+    }
+    if (node && node->kind == node_null) node = NULL;
+    if (node && node->kind != node_map) {
+        note_no_mapping(reader, group, node);
+        return false;
+    }
+    bool fine = true;
+    for (size_t i = 0; node && i < node->count; i++) {
+        const struct pair *pair = &node->pairs[i];
+        const struct field *field = find_field(group, pair->key, &offset);
+        if (!field) note_unknown_key(reader, group, pair);
+        if (!field || !read_field(reader, field, pair, scope, start + offset)) fine = false;
+    }
+    return check_required(reader, group, node, owner) && fine;
+}
+
+/* ---- kinds */
+
+static const struct kind *find_kind(struct reader *reader, const struct kinds *kinds, const char *name,
+                                    struct pos at)
+{
+    enum { most_kinds = 16 };
+    const char *names[most_kinds];
+    for (size_t i = 0; i < kinds->count && i < most_kinds; i++) {
+        names[i] = kinds->kinds[i].name;
+        if (strcmp(names[i], name) == 0) return &kinds->kinds[i];
+    }
+    diag_add(reader->errors, FBD_ERROR, "unknown-kind", at,
+             diag_nearest(reader->errors, name, names, kinds->count), "no %s is called `%.40s`", kinds->noun,
+             name);
+    return NULL;
+}
+
+/* A mapping with several keys: two kinds at once, or what belongs to a kind beside it instead of inside. */
+static void note_several_keys(struct reader *reader, const struct kinds *kinds, const struct node *map)
+{
+    const struct pair *kind = NULL, *other = NULL;
+    for (size_t i = 0; i < map->count; i++) {
+        const struct pair *pair = &map->pairs[i];
+        if (!is_kind(kinds, pair->key)) {
+            if (!other) other = pair;
+        } else if (!kind) {
+            kind = pair;
+        } else {
+            bool list = kinds != &motion_kinds;
+            diag_add(reader->errors, FBD_ERROR, "conflicting-keys", pair->at,
+                     list ? "make a list of them: start each with `- `" : "a body moves in one way: choose",
+                     "`%s` and `%s` stand in one entry", kind->key, pair->key);
+            return;
+        }
+    }
+    if (!kind) {
+        find_kind(reader, kinds, map->pairs[0].key, map->pairs[0].at);
+        return;
+    }
+    const char *hint = diag_hint(reader->errors, "indent it deeper than `%s`, or write `%s: {%s: ...}`",
+                                 kind->key, kind->key, other->key);
+    diag_add(reader->errors, FBD_ERROR, "unknown-key", other->at, hint, "`%s` stands beside `%s`, not in it",
+             other->key, kind->key);
+}
+
+bool kind_read(struct reader *reader, const struct kinds *kinds, const struct node *node, const char *what,
+               struct chosen *chosen)
+{
+    if (node->kind == node_scalar) {
+        *chosen = (struct chosen){find_kind(reader, kinds, node->text, node->at), NULL, node->at};
+        return chosen->kind != NULL;
+    }
+    if (node->kind != node_map || node->count == 0) {
+        const char *hint =
+            diag_hint(reader->errors, "write its kind, as `%s`, or `kind: {...}`", kinds->kinds[0].name);
+        char wanted[24];
+        snprintf(wanted, sizeof wanted, "a %s", kinds->noun);
+        return value_refuse(reader, node, what, wanted, hint);
+    }
+    if (node->count > 1) {
+        note_several_keys(reader, kinds, node);
+        return false;
+    }
+    const struct pair *pair = &node->pairs[0];
+    *chosen = (struct chosen){find_kind(reader, kinds, pair->key, pair->at),
+                              pair->value->kind == node_null ? NULL : pair->value, pair->at};
+    return chosen->kind != NULL;
+}
+
+bool fields_exclude(struct reader *reader, const struct node *map, const char *key, const char *other,
+                    const char *hint)
+{
+    const struct pair *first = node_find(map, key), *second = node_find(map, other);
+    if (!first || !second) return true;
+    if (first > second) {
+        const struct pair *later = first;
+        first = second;
+        second = later;
+    }
+    diag_add(reader->errors, FBD_ERROR, "conflicting-keys", second->at, hint, "`%s` excludes `%s`",
+             first->key, second->key);
+    return false;
+}

@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/language.h"
+
+static const struct choice unit_systems[] = {
+    {"SI", unit_si, "kg, m, s, N, rad"},
+    {"US", unit_us, "slug, ft, s, lbf, rad"},
+};
+
+static const struct field scene_fields[] = {
+    FIELD_NUMBER(offsetof(struct scene_keys, version), "fbd", a_number, 0,
+                 "version of the model language: 1"),
+    FIELD_IGNORED("$schema", "where an editor finds the schema; ignored"),
+    FIELD_TEXT(offsetof(struct scene_keys, title), "title", "one line that names the model in reports"),
+    FIELD_TEXT(offsetof(struct scene_keys, description), "description", "what the model is about; ignored"),
+    FIELD_CHOICE(offsetof(struct scene_keys, units), "units", unit_systems,
+                 "units of bare numbers and of all output"),
+    FIELD_NODE(offsetof(struct scene_keys, gravity), "gravity", field_any, 0, NULL,
+               "acceleration of gravity: a magnitude, straight down, or a pair [gx, gy]"),
+    FIELD_NUMBER(offsetof(struct scene_keys, datum), "datum", a_length, 0,
+                 "height y at which the potential energy of gravity is zero"),
+    FIELD_NODE(offsetof(struct scene_keys, parameters), "parameters", field_map, 0, NULL,
+               "named constants: name: quantity or expression of other parameters"),
+    FIELD_NODE(offsetof(struct scene_keys, ground), "ground", field_map, 0, &ground_group,
+               "named points and lines that do not move"),
+    FIELD_NODE(offsetof(struct scene_keys, bodies), "bodies", field_map, required, &body_group,
+               "each body by its name: what it is, how it moves, what acts on it"),
+    FIELD_NODE(offsetof(struct scene_keys, simulate), "simulate", field_map, 0, &simulate_group,
+               "how long to run, how accurately, and when to stop"),
+    FIELD_NODE(offsetof(struct scene_keys, output), "output", field_map, 0, &output_group,
+               "what a run writes"),
+    FIELD_LATER("couplings", "this version has single bodies on the ground: pins, ropes, gears and rods "
+                             "between bodies come later"),
+    FIELD_LATER("contacts",
+                "this version has no contact between bodies: a surface is a `slide` with `normal`"),
+};
+
+const struct group scene_group = {"the file", NULL, FIELDS(scene_fields), NULL, 0, "a model"};
+
+static const struct field output_fields[] = {
+    FIELD_NUMBER(offsetof(struct output_keys, every), "every", a_time, positive,
+                 "time between two rows of output"),
+};
+
+const struct group output_group = {"`output`", NULL, FIELDS(output_fields), NULL, 0, "what a run writes"};
+
+static const struct field ground_fields[] = {
+    FIELD_NODE(offsetof(struct ground_keys, points), "points", field_map, 0, NULL, "name: [x, y]"),
+    FIELD_NODE(offsetof(struct ground_keys, lines), "lines", field_map, 0, &line_group,
+               "name: a line to slide on"),
+};
+
+const struct group ground_group = {"`ground`", NULL, FIELDS(ground_fields),
+                                   NULL,       0,    "named points and lines that do not move"};
+
+static const struct field line_fields[] = {
+    FIELD_NODE(offsetof(struct line_keys, through), "through", field_any, 0, NULL,
+               "a point of the line: [x, y] or a point of the ground; default [0, 0]"),
+    FIELD_NUMBER(offsetof(struct line_keys, along), "along", an_angle, required,
+                 "direction, from the x axis"),
+};
+
+const struct group line_group = {"a line", NULL, FIELDS(line_fields), NULL, 0, "a straight line"};
+
+static const struct field simulate_fields[] = {
+    FIELD_VALUE(offsetof(struct simulate_keys, until), "until", a_time, required | positive,
+                "time at which the run ends"),
+    FIELD_NUMBER(offsetof(struct simulate_keys, tolerance), "tolerance", a_number, positive,
+                 "error allowed in one step, relative to the size of the motion; at most 0.1"),
+    FIELD_TEXT(offsetof(struct simulate_keys, method), "method", "name of the stepper, or `auto`"),
+    FIELD_NUMBER(offsetof(struct simulate_keys, step), "step", a_time, positive,
+                 "fixed step instead of an automatic one"),
+    FIELD_NUMBER(offsetof(struct simulate_keys, every), "every", a_time, positive,
+                 "the same as `output: {every: ...}`"),
+    FIELD_NODE(offsetof(struct simulate_keys, output), "output", field_map, 0, &output_group,
+               "what a run writes"),
+    FIELD_NODE(offsetof(struct simulate_keys, events), "events", field_any, 0, &event_group,
+               "instants to find: a list of conditions"),
+};
+
+const struct group simulate_group = {"`simulate`", NULL, FIELDS(simulate_fields), NULL, 0, "how to run"};
+
+static const struct choice directions[] = {
+    {"both", 0, "whenever the two sides are equal"},
+    {"rising", 1, "when left minus right grows through zero"},
+    {"falling", -1, "when left minus right falls through zero"},
+};
+
+static const struct choice outcomes[] = {
+    {"go_on", event_goes_on, "note the instant and go on"},
+    {"stop", event_stops, "end the run there"},
+};
+
+static const struct field event_fields[] = {
+    FIELD_NAME(offsetof(struct event_keys, name), "name", "name of the event in the report"),
+    FIELD_NODE(offsetof(struct event_keys, when), "when", field_scalar, required, NULL,
+               "an expression that passes zero, or two sides with `=`, `<` or `>`"),
+    FIELD_CHOICE(offsetof(struct event_keys, direction), "direction", directions, "which crossings count"),
+    FIELD_CHOICE(offsetof(struct event_keys, then), "then", outcomes, "what follows; default go_on"),
+    FIELD_FLAG(offsetof(struct event_keys, stop), "stop", "true: the same as `then: stop`"),
+};
+
+const struct group event_group = {"an event", "when", FIELDS(event_fields), NULL, 0, "an instant to find"};
+
+static const struct field hand_fields[] = {
+    FIELD_NODE(offsetof(struct hand_keys, equation), "equation", field_scalar, required, NULL,
+               "left = right"),
+    FIELD_NODE(offsetof(struct hand_keys, when), "when", field_scalar, 0, NULL,
+               "a condition: where the equation claims to hold"),
+};
+
+const struct group hand_group = {
+    "a derivation", "equation", FIELDS(hand_fields),
+    NULL,           0,          "an equation by hand, which the assembly is held against"};

@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Language: every key of a model file as data.
+ *
+ * A group is a mapping with known keys; a field is one of them: its key, its type, its physical dimension,
+ * and where its value goes in the plain structure that belongs to the group. One reader (fields.h) serves all
+ * groups, so that unknown, missing and mistyped keys are answered alike everywhere. Whatever is more than one
+ * key at a time (which keys exclude each other, what depends on the motion) stays in the read_*.c files.
+ */
+#ifndef FBD_SCENE_LANGUAGE_H
+#define FBD_SCENE_LANGUAGE_H
+
+#include "scene/node.h"
+#include "scene/quantity.h"
+#include "scene/scene.h"
+
+#include <stddef.h>
+
+enum field_type {
+    field_text,    /* const char * */
+    field_name,    /* const char *, an identifier */
+    field_flag,    /* bool */
+    field_choice,  /* int, one of the field's choices */
+    field_number,  /* double: a constant of the field's quantity */
+    field_value,   /* struct value: may vary with whatever the scope of the group names */
+    field_vector,  /* struct vec: a pair [x, y] of the field's quantity */
+    field_any,     /* const struct node *, read by its own code */
+    field_scalar,  /* const struct node *, one piece of text */
+    field_list,    /* const struct node * */
+    field_map,     /* const struct node * */
+    field_ignored, /* read by other programs */
+    field_later,   /* has no meaning in this version (`not-supported`); `doc` says what to do */
+};
+
+enum field_flag_bits {
+    required = 1,
+    positive = 2,     /* above zero (`out-of-range`) */
+    not_negative = 4, /* zero or above */
+};
+
+struct choice {
+    const char *name;
+    int value;
+    const char *doc;
+};
+
+struct field {
+    const char *key;
+    enum field_type type;
+    enum quantity quantity;
+    unsigned flags;
+    size_t offset;
+    const struct choice *choices;
+    size_t choice_count;
+    const struct group *group; /* of a mapping, or of the entries of a list or mapping */
+    const char *doc;
+};
+
+struct group {
+    const char *name;  /* in messages: "a body", "`simulate`" */
+    const char *brief; /* the key that is meant when a single value stands in place of the mapping, or NULL */
+    const struct field *fields;
+    size_t count;
+    const struct group *base; /* more fields, at `base_offset` of the structure; or NULL */
+    size_t base_offset;
+    const char *doc;
+};
+
+/* One of several groups, chosen by the key that stands before it: `slide: {...}`, `spring: {...}`. */
+struct kind {
+    const char *name;
+    int value;
+    const struct group *group;
+    unsigned motions;      /* bits 1 << motion_kind: where it makes sense */
+    const char *elsewhere; /* hint for other motions */
+};
+
+struct kinds {
+    const char *noun; /* in messages: "force" */
+    const struct kind *kinds;
+    size_t count;
+};
+
+/* ---- the groups and the structures that they fill */
+
+struct scene_keys {
+    double version;
+    const char *title, *description;
+    int units;
+    double datum;
+    const struct node *gravity, *parameters, *ground, *bodies, *simulate, *output;
+};
+
+struct output_keys {
+    double every;
+};
+
+struct ground_keys {
+    const struct node *points, *lines;
+};
+
+struct line_keys {
+    const struct node *through;
+    double along;
+};
+
+struct simulate_keys {
+    struct value until;
+    double tolerance, step, every;
+    const char *method;
+    const struct node *output, *events;
+};
+
+struct event_keys {
+    const char *name;
+    const struct node *when;
+    int direction, then;
+    bool stop;
+};
+
+enum { event_goes_on, event_stops };
+
+/* What a part and a body without parts have in common. */
+struct part_keys {
+    double mass;
+    int shape, axis;
+    double length, radius, outer_radius, inner_radius, a, b, c, angle;
+    struct vec from, to, center;
+    const struct node *inertia;
+};
+
+struct body_keys {
+    const char *description;
+    struct part_keys part;
+    const struct node *parts, *points, *motion, *initial, *forces, *moments, *hand;
+};
+
+struct inertia_keys {
+    double value;
+    const struct node *about;
+};
+
+struct slide_keys {
+    double along;
+    const struct node *through, *line;
+};
+
+struct pivot_keys {
+    const struct node *at, *point;
+};
+
+/* In the order of the body's coordinates. */
+struct initial_keys {
+    double q[most_coordinates_of_a_body], v[most_coordinates_of_a_body];
+};
+
+struct load_keys {
+    struct load load;
+    const char *name;
+    const struct node *value, *at, *to;
+    double neutral;
+    struct value coefficient;
+    int side, frame;
+};
+
+enum { frame_world, frame_body };
+
+struct hand_keys {
+    const struct node *equation, *when;
+};
+
+extern const struct group scene_group, ground_group, line_group, simulate_group, output_group, event_group;
+extern const struct group body_group, part_group, inertia_group, hand_group;
+extern const struct group initial_groups[]; /* by enum motion_kind */
+extern const struct kinds motion_kinds, force_kinds, moment_kinds;
+
+/* ---- how a table is written: one row for each key, `at` being the offset in the structure */
+
+#define FIELD_PLAIN(key, type, quantity, flags, at, doc)                                                     \
+    {                                                                                                        \
+        key, type, quantity, flags, at, NULL, 0, NULL, doc                                                   \
+    }
+
+#define FIELD_TEXT(at, key, doc)                    FIELD_PLAIN(key, field_text, a_number, 0, at, doc)
+#define FIELD_NAME(at, key, doc)                    FIELD_PLAIN(key, field_name, a_number, 0, at, doc)
+#define FIELD_FLAG(at, key, doc)                    FIELD_PLAIN(key, field_flag, a_number, 0, at, doc)
+#define FIELD_NUMBER(at, key, quantity, flags, doc) FIELD_PLAIN(key, field_number, quantity, flags, at, doc)
+#define FIELD_VALUE(at, key, quantity, flags, doc)  FIELD_PLAIN(key, field_value, quantity, flags, at, doc)
+#define FIELD_VECTOR(at, key, quantity, doc)        FIELD_PLAIN(key, field_vector, quantity, 0, at, doc)
+#define FIELD_IGNORED(key, doc)                     FIELD_PLAIN(key, field_ignored, a_number, 0, 0, doc)
+#define FIELD_LATER(key, doc)                       FIELD_PLAIN(key, field_later, a_number, 0, 0, doc)
+#define FIELD_CHOICE(at, key, table, doc)                                                                    \
+    {                                                                                                        \
+        key, field_choice, a_number, 0, at, FIELDS(table), NULL, doc                                         \
+    }
+#define FIELD_NODE(at, key, type, flags, group, doc)                                                         \
+    {                                                                                                        \
+        key, type, a_number, flags, at, NULL, 0, group, doc                                                  \
+    }
+
+#define FIELDS(table) (table), sizeof(table) / sizeof *(table)
+
+#endif

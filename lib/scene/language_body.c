@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/language.h"
+
+/* ---- what a body is */
+
+static const struct choice shapes[] = {
+    {"point", shape_point, "all mass in one point"},
+    {"rod", shape_rod, "slender, along x"},
+    {"sphere", shape_sphere, "solid"},
+    {"cylinder", shape_cylinder, "solid, symmetric about x"},
+    {"disc", shape_cylinder, "the same as cylinder"},
+    {"disk", shape_cylinder, "the same as cylinder"},
+    {"solid_cylinder", shape_cylinder, "the same as cylinder"},
+    {"hollow_cylinder", shape_hollow_cylinder, "symmetric about x"},
+    {"prism", shape_prism, "solid, sides a, b, c along x, y, z"},
+    {"rectangular_prism", shape_prism, "the same as prism"},
+    {"ring", shape_ring, "thin, symmetric about x"},
+    {"thin_ring", shape_ring, "the same as ring"},
+};
+
+static const struct choice axes[] = {
+    {"x", 'x', "the shape's x axis faces the plane"},
+    {"y", 'y', "the shape's y axis faces the plane"},
+    {"z", 'z', "the shape's z axis faces the plane"},
+};
+
+static const struct field part_fields[] = {
+    FIELD_NUMBER(offsetof(struct part_keys, mass), "mass", a_mass, 0,
+                 "its mass; below zero for a hole in a part"),
+    FIELD_CHOICE(offsetof(struct part_keys, shape), "shape", shapes, "its form; default point"),
+    FIELD_CHOICE(
+        offsetof(struct part_keys, axis), "axis", axes,
+        "the axis of the shape that is perpendicular to the drawing; default x for a cylinder or ring, "
+        "z for the rest"),
+    FIELD_NUMBER(offsetof(struct part_keys, length), "length", a_length, positive,
+                 "length of a rod or cylinder"),
+    FIELD_NUMBER(offsetof(struct part_keys, radius), "radius", a_length, positive,
+                 "radius of a sphere, cylinder or ring"),
+    FIELD_NUMBER(offsetof(struct part_keys, outer_radius), "outer_radius", a_length, positive,
+                 "outer radius of a hollow cylinder"),
+    FIELD_NUMBER(offsetof(struct part_keys, inner_radius), "inner_radius", a_length, not_negative,
+                 "inner radius of a hollow cylinder"),
+    FIELD_NUMBER(offsetof(struct part_keys, a), "a", a_length, positive, "side of a prism along its x axis"),
+    FIELD_NUMBER(offsetof(struct part_keys, b), "b", a_length, positive, "side of a prism along its y axis"),
+    FIELD_NUMBER(offsetof(struct part_keys, c), "c", a_length, positive, "side of a prism along its z axis"),
+    FIELD_VECTOR(offsetof(struct part_keys, from), "from", a_length, "left end of a rod, in the body frame"),
+    FIELD_VECTOR(offsetof(struct part_keys, to), "to", a_length, "right end of a rod, in the body frame"),
+    FIELD_VECTOR(offsetof(struct part_keys, center), "center", a_length,
+                 "its centre of mass in the body frame; default [0, 0]"),
+    FIELD_NUMBER(offsetof(struct part_keys, angle), "angle", an_angle, 0,
+                 "of its x axis in the body frame; default 0"),
+    FIELD_NODE(offsetof(struct part_keys, inertia), "inertia", field_any, 0, &inertia_group,
+               "its moment of inertia, about its centre of mass or as `about` says"),
+};
+
+const struct group part_group = {"a part", NULL, FIELDS(part_fields), NULL, 0, "one piece of a body"};
+
+static const struct field inertia_fields[] = {
+    FIELD_NUMBER(offsetof(struct inertia_keys, value), "value", an_inertia, required,
+                 "the moment of inertia"),
+    FIELD_NODE(offsetof(struct inertia_keys, about), "about", field_any, 0, NULL,
+               "G, O (the pivot), a point of the body or [x, y]; default G"),
+};
+
+const struct group inertia_group = {"`inertia`", "value", FIELDS(inertia_fields),
+                                    NULL,        0,       "a moment of inertia that is known"};
+
+static const struct field body_fields[] = {
+    FIELD_TEXT(offsetof(struct body_keys, description), "description", "what it is; ignored"),
+    FIELD_NODE(offsetof(struct body_keys, parts), "parts", field_map, 0, &part_group,
+               "name: a piece of the body"),
+    FIELD_NODE(offsetof(struct body_keys, points), "points", field_map, 0, NULL,
+               "name: [x, y] in the body frame"),
+    FIELD_NODE(offsetof(struct body_keys, motion), "motion", field_any, required, NULL,
+               "slide, pivot, particle or planar"),
+    FIELD_NODE(offsetof(struct body_keys, initial), "initial", field_map, 0, NULL,
+               "coordinates and rates at t = 0; default 0"),
+    FIELD_NODE(offsetof(struct body_keys, forces), "forces", field_any, 0, NULL,
+               "list of the forces that act on it"),
+    FIELD_NODE(offsetof(struct body_keys, moments), "moments", field_any, 0, NULL,
+               "list of the moments that act on it"),
+    FIELD_NODE(offsetof(struct body_keys, hand), "hand", field_any, 0, &hand_group,
+               "equations derived by hand, to be checked"),
+};
+
+const struct group body_group = {"a body",
+                                 NULL,
+                                 FIELDS(body_fields),
+                                 &part_group,
+                                 offsetof(struct body_keys, part),
+                                 "a rigid body: what it is, how it moves, what acts on it"};
+
+/* ---- how it moves */
+
+#define ON_LATER FIELD_LATER("on", "this version has single bodies on the ground: leave `on` out")
+
+static const struct field slide_fields[] = {
+    FIELD_NUMBER(offsetof(struct slide_keys, along), "along", an_angle, 0,
+                 "direction of +x; default 0: to the right"),
+    FIELD_NODE(offsetof(struct slide_keys, through), "through", field_any, 0, NULL,
+               "where x = 0: [x, y] or a point of the ground; default [0, 0]"),
+    FIELD_NODE(offsetof(struct slide_keys, line), "line", field_scalar, 0, NULL,
+               "a line of the ground, instead of `along` and `through`"),
+    ON_LATER,
+};
+
+static const struct group slide_group = {"a slide", NULL, FIELDS(slide_fields),
+                                         NULL,      0,    "one coordinate x along a line"};
+
+static const struct field pivot_fields[] = {
+    FIELD_NODE(offsetof(struct pivot_keys, at), "at", field_any, 0, NULL,
+               "the fixed axis O: [x, y] or a point of the ground; default [0, 0]"),
+    FIELD_NODE(offsetof(struct pivot_keys, point), "point", field_any, 0, NULL,
+               "the point of the body on the axis: a name or [x, y]; default the origin of the body frame"),
+    ON_LATER,
+};
+
+static const struct group pivot_group = {"a pivot", NULL, FIELDS(pivot_fields),
+                                         NULL,      0,    "one coordinate theta about a fixed axis"};
+
+static const struct field free_fields[] = {ON_LATER};
+
+static const struct group particle_group = {
+    "a particle", NULL, FIELDS(free_fields), NULL, 0, "coordinates x, y of a body that does not turn"};
+
+static const struct group planar_group = {"a planar motion",
+                                          NULL,
+                                          FIELDS(free_fields),
+                                          NULL,
+                                          0,
+                                          "coordinates x, y of the frame's origin, and theta"};
+
+static const struct kind motions[] = {
+    {"slide", motion_slide, &slide_group, ~0u, NULL},
+    {"pivot", motion_pivot, &pivot_group, ~0u, NULL},
+    {"particle", motion_particle, &particle_group, ~0u, NULL},
+    {"planar", motion_planar, &planar_group, ~0u, NULL},
+};
+
+const struct kinds motion_kinds = {"motion", FIELDS(motions)};
+
+/* ---- where it starts */
+
+#define POSITION(index, key)                                                                                 \
+    FIELD_NUMBER(offsetof(struct initial_keys, q[index]), key, a_length, 0, "position at t = 0")
+#define SPEED(index, key)                                                                                    \
+    FIELD_NUMBER(offsetof(struct initial_keys, v[index]), key, a_velocity, 0, "velocity at t = 0")
+#define ANGLE(index)                                                                                         \
+    FIELD_NUMBER(offsetof(struct initial_keys, q[index]), "theta", an_angle, 0, "angle at t = 0")
+#define ANGLE_RATE(index)                                                                                    \
+    FIELD_NUMBER(offsetof(struct initial_keys, v[index]), "omega", an_angular_velocity, 0,                   \
+                 "angular velocity at t = 0")
+
+static const struct field slide_initial[] = {POSITION(0, "x"), SPEED(0, "v")};
+static const struct field pivot_initial[] = {ANGLE(0), ANGLE_RATE(0)};
+static const struct field particle_initial[] = {POSITION(0, "x"), POSITION(1, "y"), SPEED(0, "vx"),
+                                                SPEED(1, "vy")};
+static const struct field planar_initial[] = {POSITION(0, "x"), POSITION(1, "y"), ANGLE(2),
+                                              SPEED(0, "vx"),   SPEED(1, "vy"),   ANGLE_RATE(2)};
+
+const struct group initial_groups[] = {
+    [motion_slide] = {"`initial` of a slide", NULL, FIELDS(slide_initial), NULL, 0, "state at t = 0"},
+    [motion_pivot] = {"`initial` of a pivot", NULL, FIELDS(pivot_initial), NULL, 0, "state at t = 0"},
+    [motion_particle] = {"`initial` of a particle", NULL, FIELDS(particle_initial), NULL, 0,
+                         "state at t = 0"},
+    [motion_planar] = {"`initial` of a planar body", NULL, FIELDS(planar_initial), NULL, 0, "state at t = 0"},
+};

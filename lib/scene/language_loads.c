@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/language.h"
+
+enum {
+    on_slide = 1u << motion_slide,
+    on_pivot = 1u << motion_pivot,
+    on_planar = 1u << motion_planar,
+    on_all = on_slide | on_pivot | on_planar | 1u << motion_particle,
+    on_turning = on_pivot | on_planar,
+};
+
+#define LOAD(member) offsetof(struct load_keys, load.member)
+
+/* `name`, which every load may have. */
+static const struct field name_fields[] = {
+    FIELD_NAME(offsetof(struct load_keys, name), "name", "its name in all output; default its kind"),
+};
+static const struct group named = {"a load", NULL, FIELDS(name_fields), NULL, 0, "anything with a name"};
+
+#define LOAD_GROUP(title, brief, table, doc)                                                                 \
+    {                                                                                                        \
+        title, brief, FIELDS(table), &named, 0, doc                                                          \
+    }
+#define BARE_GROUP(title, doc)                                                                               \
+    {                                                                                                        \
+        title, NULL, NULL, 0, &named, 0, doc                                                                 \
+    }
+
+/* ---- forces */
+
+static const struct choice sides[] = {
+    {"up", side_up, "the side of the line that is up"},
+    {"left", side_left, "to the left of +x"},
+    {"right", side_right, "to the right of +x"},
+};
+
+static const struct choice frames[] = {
+    {"world", frame_world, "directions stay as the body turns"},
+    {"body", frame_body, "directions turn with the body; on a slide they are counted from +x"},
+};
+
+#define AT_ROW                                                                                               \
+    FIELD_NODE(offsetof(struct load_keys, at), "at", field_any, 0, NULL,                                     \
+               "point of the body: a name or [x, y]; default G")
+#define TO_ROW                                                                                               \
+    FIELD_NODE(offsetof(struct load_keys, to), "to", field_any, 0, NULL,                                     \
+               "point of the ground: a name or [x, y]")
+
+static const struct group gravity_group = BARE_GROUP("`gravity`", "the weight, at G");
+
+static const struct field normal_fields[] = {
+    FIELD_CHOICE(offsetof(struct load_keys, side), "side", sides,
+                 "which side of the line the body is on; default up"),
+    FIELD_FLAG(LOAD(two_sided), "two_sided", "true: a guide, which also pulls; contact is never lost"),
+};
+static const struct group normal_group =
+    LOAD_GROUP("`normal`", NULL, normal_fields, "the force of the surface across a slide");
+
+static const struct field friction_fields[] = {
+    FIELD_VALUE(LOAD(mu_s), "static", a_number, not_negative, "coefficient of static friction"),
+    FIELD_VALUE(LOAD(mu_k), "kinetic", a_number, not_negative, "coefficient of kinetic friction"),
+    FIELD_VALUE(offsetof(struct load_keys, coefficient), "coefficient", a_number, not_negative,
+                "both coefficients"),
+    FIELD_VALUE(LOAD(surface_speed), "surface_speed", a_velocity, 0,
+                "velocity of the surface along +x, as of a belt; default 0"),
+};
+static const struct group friction_group =
+    LOAD_GROUP("`friction`", "coefficient", friction_fields, "dry friction on a slide with `normal`");
+
+static const struct field applied_fields[] = {
+    FIELD_NODE(offsetof(struct load_keys, value), "value", field_any, 0, NULL,
+               "its size along `angle` (on a slide: along +x), or a pair [fx, fy]"),
+    FIELD_VALUE(LOAD(angle), "angle", an_angle, 0, "its direction, from the x axis of `frame`"),
+    FIELD_VALUE(LOAD(fx), "fx", a_force, 0, "component along x"),
+    FIELD_VALUE(LOAD(fy), "fy", a_force, 0, "component along y"),
+    FIELD_CHOICE(offsetof(struct load_keys, frame), "frame", frames,
+                 "what angle and components refer to; default world"),
+    AT_ROW,
+};
+static const struct group applied_group =
+    LOAD_GROUP("an applied force", "value", applied_fields, "a given force");
+
+static const struct field spring_fields[] = {
+    FIELD_NUMBER(LOAD(stiffness), "stiffness", a_stiffness, required | not_negative, "force per length"),
+    FIELD_NUMBER(LOAD(free_length), "free_length", a_length, 0, "length without force; default 0"),
+    FIELD_NUMBER(offsetof(struct load_keys, neutral), "neutral", a_length, 0,
+                 "on a slide without `to`: the coordinate without force; default 0"),
+    AT_ROW,
+    TO_ROW,
+};
+static const struct group spring_group =
+    LOAD_GROUP("a spring", NULL, spring_fields, "a linear spring to a point of the ground, or along a slide");
+
+static const struct field damper_fields[] = {
+    FIELD_NUMBER(LOAD(coefficient), "coefficient", a_damping, required | not_negative, "force per velocity"),
+    AT_ROW,
+    TO_ROW,
+};
+static const struct group damper_group =
+    LOAD_GROUP("a damper", "coefficient", damper_fields,
+               "a linear damper to a point of the ground, or along a slide");
+
+static const struct field drag_fields[] = {
+    FIELD_NUMBER(LOAD(linear), "linear", a_damping, not_negative, "force per velocity"),
+    FIELD_NUMBER(LOAD(quadratic), "quadratic", a_quadratic_drag, not_negative, "force per velocity squared"),
+    AT_ROW,
+};
+static const struct group drag_group =
+    LOAD_GROUP("`drag`", NULL, drag_fields, "resistance against the velocity of a point");
+
+static const struct field potential_fields[] = {
+    FIELD_VALUE(LOAD(potential), "V", an_energy, required, "potential energy, of the body's coordinates"),
+};
+static const struct group potential_group =
+    LOAD_GROUP("`potential`", "V", potential_fields, "a force f = -dV/dx");
+
+static const struct kind forces[] = {
+    {"gravity", load_gravity, &gravity_group, on_all, NULL},
+    {"normal", load_normal, &normal_group, on_slide,
+     "a surface belongs to a slide: motion: {slide: {along: 30 deg}}"},
+    {"friction", load_friction, &friction_group, on_slide,
+     "dry friction of a surface belongs to a slide; a rubbing pivot has `friction` under `moments`"},
+    {"applied", load_applied, &applied_group, on_all, NULL},
+    {"spring", load_spring, &spring_group, on_all, NULL},
+    {"damper", load_damper, &damper_group, on_all, NULL},
+    {"drag", load_drag, &drag_group, on_all, NULL},
+    {"potential", load_potential, &potential_group, on_all, NULL},
+};
+
+const struct kinds force_kinds = {"force", FIELDS(forces)};
+
+/* ---- moments */
+
+static const struct field moment_applied_fields[] = {
+    FIELD_VALUE(LOAD(value), "value", a_moment, required, "counter-clockwise"),
+};
+static const struct group moment_applied_group =
+    LOAD_GROUP("an applied moment", "value", moment_applied_fields, "a given moment");
+
+static const struct field moment_spring_fields[] = {
+    FIELD_NUMBER(LOAD(stiffness), "stiffness", a_torsional_stiffness, required | not_negative,
+                 "moment per angle"),
+    FIELD_NUMBER(offsetof(struct load_keys, neutral), "neutral", an_angle, 0,
+                 "angle without moment; default 0"),
+};
+static const struct group moment_spring_group =
+    LOAD_GROUP("a torsional spring", NULL, moment_spring_fields, "a linear torsional spring to the ground");
+
+static const struct field moment_damper_fields[] = {
+    FIELD_NUMBER(LOAD(coefficient), "coefficient", a_torsional_damping, required | not_negative,
+                 "moment per angular velocity"),
+};
+static const struct group moment_damper_group =
+    LOAD_GROUP("a torsional damper", "coefficient", moment_damper_fields,
+               "a linear torsional damper to the ground");
+
+static const struct field moment_friction_fields[] = {
+    FIELD_VALUE(LOAD(mu_s), "static", a_moment, not_negative,
+                "largest moment that holds the bearing at rest"),
+    FIELD_VALUE(LOAD(mu_k), "kinetic", a_moment, not_negative, "moment while it turns"),
+    FIELD_VALUE(offsetof(struct load_keys, coefficient), "coefficient", a_moment, not_negative, "both"),
+    FIELD_VALUE(LOAD(surface_speed), "surface_speed", an_angular_velocity, 0,
+                "angular velocity of the bearing; default 0"),
+};
+static const struct group moment_friction_group =
+    LOAD_GROUP("`friction`", "coefficient", moment_friction_fields, "dry friction of a bearing, as a moment");
+
+static const struct group moment_potential_group =
+    LOAD_GROUP("`potential`", "V", potential_fields, "a moment M = -dV/dtheta");
+
+#define NO_TURNING "a slide and a particle do not turn: use `pivot` or `planar`"
+
+static const struct kind moments[] = {
+    {"applied", moment_applied, &moment_applied_group, on_turning, NO_TURNING},
+    {"spring", moment_spring, &moment_spring_group, on_turning, NO_TURNING},
+    {"damper", moment_damper, &moment_damper_group, on_turning, NO_TURNING},
+    {"friction", moment_friction, &moment_friction_group, on_turning, NO_TURNING},
+    {"potential", moment_potential, &moment_potential_group, on_turning, NO_TURNING},
+};
+
+const struct kinds moment_kinds = {"moment", FIELDS(moments)};

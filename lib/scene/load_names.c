@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The names of the loads of a body: as given, or their kind, numbered where that is taken.
+ */
+#include "scene/reader.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct given_name {
+    const char *name;
+    struct pos at;
+};
+
+static int compare(const void *a, const void *b)
+{
+    const struct given_name *p = a, *q = b;
+    int order = strcmp(p->name, q->name);
+    if (order != 0) return order;
+    return p->at.line != q->at.line ? p->at.line - q->at.line : p->at.column - q->at.column;
+}
+
+static int compare_key(const void *key, const void *element)
+{
+    return strcmp(key, ((const struct given_name *)element)->name);
+}
+
+/* Every load is a column of the output beside the coordinates of its body. */
+static bool check_given(struct reader *reader, const struct given_name *names, size_t count)
+{
+    bool fine = true;
+    for (size_t i = 0; i < count; i++) {
+        if (name_is_reserved(names[i].name)) {
+            diag_add(reader->errors, FBD_ERROR, "reserved-name", names[i].at, "choose another name",
+                     "`%s` cannot name a load: it is a coordinate or the time", names[i].name);
+            fine = false;
+        }
+        if (i == 0 || strcmp(names[i].name, names[i - 1].name) != 0) continue;
+        diag_add(reader->errors, FBD_ERROR, "duplicate-name", names[i].at, "choose another name",
+                 "another load of this body is called `%s` already, in line %d", names[i].name,
+                 names[i - 1].at.line);
+        fine = false;
+    }
+    return fine;
+}
+
+static const char *kind_name(enum load_kind kind)
+{
+    const struct kinds *const all[] = {&force_kinds, &moment_kinds};
+    for (int k = 0; k < 2; k++)
+        for (size_t i = 0; i < all[k]->count; i++)
+            if (all[k]->kinds[i].value == (int)kind) return all[k]->kinds[i].name;
+    return "load";
+}
+
+/* A force and a moment of one kind share their counter, as they share their name. */
+static enum load_kind counter_of(enum load_kind kind)
+{
+    switch (kind) {
+    case moment_applied: return load_applied;
+    case moment_spring: return load_spring;
+    case moment_damper: return load_damper;
+    case moment_friction: return load_friction;
+    case moment_potential: return load_potential;
+    default: return kind;
+    }
+}
+
+/* `applied`, `applied_2`, ...: the first from `*number` on that the file does not use itself. */
+static const char *next_name(struct reader *reader, const char *kind, int *number,
+                             const struct given_name *names, size_t count)
+{
+    for (;;) {
+        int n = ++*number;
+        const char *name = n == 1 ? kind : arena_printf(reader->arena, "%s_%d", kind, n);
+        if (!name || count == 0 || !bsearch(name, names, count, sizeof *names, compare_key)) return name;
+    }
+}
+
+bool body_loads_name(struct reader *reader, int index, const char *const *given, const struct pos *places)
+{
+    struct body *body = &reader->scene->bodies[index];
+    struct given_name *names = ARENA_ARRAY(reader->arena, body->load_count, struct given_name);
+    if (!names) return false;
+    size_t count = 0;
+    for (size_t i = 0; i < body->load_count; i++)
+        if (given[i]) names[count++] = (struct given_name){given[i], places[i]};
+    if (count > 0) qsort(names, count, sizeof *names, compare);
+    bool fine = check_given(reader, names, count);
+    int numbers[moment_potential + 1] = {0};
+    for (size_t i = 0; i < body->load_count; i++) {
+        struct load *load = &body->loads[i];
+        int *number = &numbers[counter_of(load->kind)];
+        load->name = given[i] ? given[i] : next_name(reader, kind_name(load->kind), number, names, count);
+    }
+    return fine && !reader->arena->failed;
+}

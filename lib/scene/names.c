@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/names.h"
+
+#include "expr/glyph.h"
+#include "scene/reader.h"
+#include "scene/scalar.h"
+
+#include <string.h>
+
+/* ---- coordinates */
+
+static const struct coordinate_names slide_names[] = {{"x", "v", "x_dot", "v_dot", {"a", "x_ddot"}, false}};
+static const struct coordinate_names pivot_names[] = {
+    {"theta", "omega", "theta_dot", "omega_dot", {"alpha", "theta_ddot"}, true}};
+static const struct coordinate_names planar_names[] = {
+    {"x", "vx", "x_dot", "vx_dot", {"ax", "x_ddot"}, false},
+    {"y", "vy", "y_dot", "vy_dot", {"ay", "y_ddot"}, false},
+    {"theta", "omega", "theta_dot", "omega_dot", {"alpha", "theta_ddot"}, true}};
+
+int coordinates_of(enum motion_kind kind, const struct coordinate_names **names)
+{
+    *names = kind == motion_slide ? slide_names : kind == motion_pivot ? pivot_names : planar_names;
+    return kind == motion_planar ? 3 : kind == motion_particle ? 2 : 1;
+}
+
+bool name_is_reserved(const char *name)
+{
+    static const char *const reserved[] = {"t", "pi", "x", "y", "v", "vx", "vy", "theta", "omega"};
+    for (size_t i = 0; i < sizeof reserved / sizeof *reserved; i++)
+        if (strcmp(name, reserved[i]) == 0) return true;
+    return false;
+}
+
+bool name_check(fbd_errors *errors, const char *name, struct pos at, const char *what)
+{
+    if (scalar_is_name(name)) return true;
+    const char *hint = "use letters a-z, digits and `_`, and start with a letter";
+    for (const char *c = name; *c; c++) {
+        size_t size = glyph_size(c, strlen(c));
+        const char *plain = size > 1 ? glyph_plain(c, size) : NULL;
+        if (size == 2 && strncmp(c, "\xC2\xA0", 2) == 0)
+            hint = "it holds a no-break space (U+00A0), as pasted text does: type a blank in its place";
+        if (plain) hint = diag_hint(errors, "write `%s` for `%.*s`", plain, (int)size, c);
+        if (plain) break;
+    }
+    diag_add(errors, FBD_ERROR, "bad-name", at, hint, "`%s` cannot be %s%s", name,
+             what ? "the name of " : "a name", what ? what : "");
+    return false;
+}
+
+/* ---- symbols */
+
+static const struct symbol unknown = {.kind = symbol_unknown};
+static const struct symbol failed_before = {.kind = symbol_failed};
+
+static struct symbol variable(struct dim dim, size_t slot)
+{
+    return (struct symbol){.kind = symbol_variable, .dim = dim, .slot = (int)slot};
+}
+
+static struct dim coordinate_dim(bool angle, int derivative)
+{
+    struct dim dim = angle ? DIM_NONE : DIM_LENGTH;
+    dim.time = (short)(-derivative * dim_unit);
+    return dim;
+}
+
+static bool matches(const char *name, const char *a, const char *b)
+{
+    return strcmp(name, a) == 0 || strcmp(name, b) == 0;
+}
+
+/* A coordinate, rate or (in a derivation, of the body at hand) acceleration of `body`. */
+static struct symbol coordinate_symbol(const struct names *names, int body, const char *name)
+{
+    const struct scene *scene = names->reader->scene;
+    const struct body *owner = &scene->bodies[body];
+    const struct coordinate_names *list;
+    int count = coordinates_of(owner->motion.kind, &list);
+    size_t n = scene->coordinate_count, first = (size_t)owner->first;
+    bool constant = names->place == place_constant; /* slots do not exist yet, and are not needed */
+    for (int i = 0; i < count; i++) {
+        const struct coordinate_names *c = &list[i];
+        size_t k = (size_t)i;
+        if (strcmp(name, c->name) == 0)
+            return variable(coordinate_dim(c->angle, 0), constant ? 0 : 1 + first + k);
+        if (matches(name, c->rate, c->rate_alias))
+            return variable(coordinate_dim(c->angle, 1), constant ? 0 : 1 + n + first + k);
+    }
+    return unknown;
+}
+
+static struct symbol acceleration_symbol(const struct names *names, const char *name)
+{
+    const struct scene *scene = names->reader->scene;
+    const struct coordinate_names *list;
+    int count = coordinates_of(scene->bodies[names->body].motion.kind, &list);
+    for (int i = 0; i < count; i++)
+        if (matches(name, list[i].acceleration, list[i].acceleration) ||
+            matches(name, list[i].acceleration_alias[0], list[i].acceleration_alias[1]))
+            return variable(coordinate_dim(list[i].angle, 2),
+                            1 + 2 * scene->coordinate_count + (size_t)(hand_acceleration + i));
+    return unknown;
+}
+
+/* `body.x` */
+static struct symbol dotted_symbol(const struct names *names, const char *name, const char *dot)
+{
+    const struct reader *reader = names->reader;
+    char body[node_longest_key + 1];
+    size_t length = (size_t)(dot - name);
+    if (length >= sizeof body) return unknown;
+    memcpy(body, name, length);
+    body[length] = '\0';
+    const struct pair *pair = node_find(reader->bodies, body);
+    if (!pair) return unknown;
+    int index = (int)(pair - reader->bodies->pairs);
+    if (names->place == place_constant) return variable(DIM_NONE, 0);
+    if (!reader->drafts[index].motion_known) return failed_before;
+    return coordinate_symbol(names, index, dot + 1);
+}
+
+static struct symbol own_symbol(const struct names *names, const char *name)
+{
+    const struct reader *reader = names->reader;
+    bool reserved = name_is_reserved(name);
+    if (names->place == place_constant) return reserved ? variable(DIM_NONE, 0) : unknown;
+    if (names->body == ground_body) return unknown;
+    if (!reader->drafts[names->body].motion_known) return reserved ? failed_before : unknown;
+    return coordinate_symbol(names, names->body, name);
+}
+
+/* What the assembly knows: see enum hand_slot. */
+static struct symbol hand_symbol(const struct names *names, const char *name)
+{
+    static const struct {
+        const char *name;
+        int slot;
+        struct dim dim;
+    } known[] = {
+        {"m", hand_mass, {dim_unit, 0, 0}},
+        {"I_G", hand_I_G, {dim_unit, 2 * dim_unit, 0}},
+        {"I_O", hand_I_O, {dim_unit, 2 * dim_unit, 0}},
+        {"L", hand_L, {0, dim_unit, 0}},
+        {"N", hand_N, {dim_unit, dim_unit, -2 * dim_unit}},
+        {"mu_s", hand_mu_s, {0, 0, 0}},
+        {"mu_k", hand_mu_k, {0, 0, 0}},
+        {"mu", hand_mu_k, {0, 0, 0}},
+    };
+    const struct reader *reader = names->reader;
+    const struct draft *draft = &reader->drafts[names->body];
+    if (!draft->motion_known) return failed_before;
+    bool pivot = reader->scene->bodies[names->body].motion.kind == motion_pivot;
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        int slot = known[i].slot;
+        if (strcmp(name, known[i].name) != 0) continue;
+        if ((slot == hand_I_O || slot == hand_L) && !pivot) return unknown;
+        if (slot == hand_N && !draft->has_normal) return unknown;
+        if ((slot == hand_mu_s || slot == hand_mu_k) && !draft->has_friction) return unknown;
+        return variable(known[i].dim, 1 + 2 * reader->scene->coordinate_count + (size_t)slot);
+    }
+    return acceleration_symbol(names, name);
+}
+
+static struct symbol load_symbol(const struct names *names, const char *name)
+{
+    if (strcmp(name, "m") != 0) return unknown;
+    const struct draft *draft = &names->reader->drafts[names->body];
+    if (!draft->mass_known) return failed_before;
+    return (struct symbol){.kind = symbol_constant, .dim = DIM_MASS, .value = draft->mass};
+}
+
+static struct symbol look_up(void *context, const char *name, struct pos at)
+{
+    const struct names *names = context;
+    struct reader *reader = names->reader;
+    const char *dot = strchr(name, '.');
+    if (dot) return dotted_symbol(names, name, dot);
+    if (strcmp(name, "t") == 0) return variable(DIM_TIME, 0);
+    struct symbol own = own_symbol(names, name);
+    if (own.kind != symbol_unknown) return own;
+    const struct pair *pair = node_find(reader->parameters, name);
+    if (pair) return parameter_symbol(reader, (size_t)(pair - reader->parameters->pairs), at);
+    if (strcmp(name, "g") == 0) return gravity_symbol(reader, at);
+    if (names->place == place_load) return load_symbol(names, name);
+    if (names->place == place_hand) return hand_symbol(names, name);
+    return unknown;
+}
+
+/* ---- names for hints */
+
+enum { most_known = 200 }; /* enough for a suggestion, and bounded for a scene of many bodies */
+
+static void know(struct names *names, const char *name)
+{
+    if (name && names->known_count < most_known) names->known[names->known_count++] = name;
+}
+
+static void know_coordinates(struct names *names, int body, bool dotted)
+{
+    struct reader *reader = names->reader;
+    const struct coordinate_names *list;
+    if (!reader->drafts[body].motion_known) return;
+    int count = coordinates_of(reader->scene->bodies[body].motion.kind, &list);
+    const char *prefix = reader->scene->bodies[body].name;
+    for (int i = 0; i < count && names->known_count < most_known; i++) {
+        know(names, dotted ? arena_printf(reader->arena, "%s.%s", prefix, list[i].name) : list[i].name);
+        know(names, dotted ? arena_printf(reader->arena, "%s.%s", prefix, list[i].rate) : list[i].rate);
+        if (!dotted && names->place == place_hand) know(names, list[i].acceleration);
+    }
+}
+
+static void know_all(struct names *names)
+{
+    static const char *const of_hand[] = {"m", "I_G", "I_O", "L", "N", "mu_s", "mu_k", "mu"};
+    struct reader *reader = names->reader;
+    bool constant = names->place == place_constant;
+    if (!constant && names->body != ground_body) know_coordinates(names, names->body, false);
+    for (size_t i = 0; reader->parameters && i < reader->parameters->count; i++)
+        know(names, reader->parameters->pairs[i].key);
+    know(names, "g");
+    if (!constant) know(names, "t");
+    if (names->place == place_load) know(names, "m");
+    for (size_t i = 0; names->place == place_hand && i < sizeof of_hand / sizeof *of_hand; i++)
+        if (hand_symbol(names, of_hand[i]).kind == symbol_variable) know(names, of_hand[i]);
+    for (size_t i = 0; !constant && i < reader->scene->body_count && names->known_count < most_known; i++)
+        if ((int)i != names->body || names->place == place_event) know_coordinates(names, (int)i, true);
+}
+
+static size_t list_names(void *context, const char *const **list)
+{
+    struct names *names = context;
+    if (!names->known) {
+        names->known = ARENA_ARRAY(names->reader->arena, most_known, const char *);
+        if (names->known) know_all(names);
+    }
+    *list = names->known;
+    return names->known_count;
+}
+
+struct scope names_scope(struct names *names)
+{
+    return (struct scope){.lookup = look_up,
+                          .names = list_names,
+                          .context = names,
+                          .units = names->reader->scene->units};
+}

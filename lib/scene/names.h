@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Names: what an expression of a model file may speak of, depending on where it stands.
+ *
+ * A name is looked up in this order: coordinates of the body at hand, parameters, then what the place offers:
+ * g everywhere, m in loads, the whole equation of motion in a derivation. So parameters shadow all but the
+ * coordinates, whose names are reserved. `body.x` is a coordinate of any body.
+ */
+#ifndef FBD_SCENE_NAMES_H
+#define FBD_SCENE_NAMES_H
+
+#include "expr/expr.h"
+#include "scene/scene.h"
+
+struct reader;
+
+/* The names of one coordinate. */
+struct coordinate_names {
+    const char *name, *rate, *rate_alias;
+    const char *acceleration, *acceleration_alias[2];
+    bool angle;
+};
+
+/* The coordinates of a motion; returns their number. */
+int coordinates_of(enum motion_kind kind, const struct coordinate_names **names);
+
+/* True for t, pi and the names of coordinates and rates, which nothing else may bear. */
+bool name_is_reserved(const char *name);
+
+/* Note `bad-name` when `name` is no identifier. `what` is what it names ("a body"), or NULL. */
+bool name_check(fbd_errors *errors, const char *name, struct pos at, const char *what);
+
+enum place {
+    place_constant, /* parameters and g; t and coordinates are known, to be refused as varying */
+    place_load,     /* also t, coordinates, m */
+    place_event,    /* t, coordinates; those of the only body without its name */
+    place_hand,     /* also accelerations and what the assembly knows */
+};
+
+struct names {
+    struct reader *reader;
+    enum place place;
+    int body; /* whose coordinates need no prefix, or ground_body */
+    const char **known;
+    size_t known_count;
+};
+
+/* A scope for expr_compile; `names` must live as long. */
+struct scope names_scope(struct names *names);
+
+#endif

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Bodies: the first pass over each reads what it is and how it moves, so that every body's coordinates are
+ * known when the second reads what acts on it.
+ */
+#include "scene/fields.h"
+#include "scene/reader.h"
+#include "scene/values.h"
+
+#include <string.h>
+
+bool bodies_start(struct reader *reader)
+{
+    struct scene *scene = reader->scene;
+    size_t count = reader->bodies ? reader->bodies->count : 0;
+    scene->body_count = count;
+    scene->bodies = ARENA_ARRAY(reader->arena, count, struct body);
+    reader->drafts = ARENA_ARRAY(reader->arena, count, struct draft);
+    if (!scene->bodies || !reader->drafts) return false;
+    for (size_t i = 0; i < count; i++) {
+        const struct pair *pair = &reader->bodies->pairs[i];
+        scene->bodies[i].name = arena_text(reader->arena, pair->key, strlen(pair->key));
+        scene->bodies[i].at = pair->at;
+        scene->bodies[i].motion.parent = ground_body;
+        reader->drafts[i].node = pair->value->kind == node_map ? pair->value : NULL;
+    }
+    return !reader->arena->failed;
+}
+
+static bool check_body_name(struct reader *reader, const struct body *body)
+{
+    if (!name_check(reader->errors, body->name, body->at, "a body")) return false;
+    if (strcmp(body->name, "ground") != 0) return true;
+    diag_add(reader->errors, FBD_ERROR, "reserved-name", body->at, "choose another name",
+             "`ground` cannot be a body: it is what does not move");
+    return false;
+}
+
+/* ---- points of the body */
+
+static bool is_special_point(const char *name)
+{
+    return strcmp(name, "G") == 0 || strcmp(name, "O") == 0;
+}
+
+/* The points that the file names come first; those of the shapes follow (read_part.c). */
+static bool read_given_points(struct reader *reader, int index)
+{
+    struct body *body = &reader->scene->bodies[index];
+    struct draft *draft = &reader->drafts[index];
+    const struct node *map = draft->keys.points;
+    bool fine = true;
+    for (size_t i = 0; map && i < map->count; i++) {
+        const struct pair *pair = &map->pairs[i];
+        struct vec where;
+        bool named = name_check(reader->errors, pair->key, pair->at, "a point");
+        if (is_special_point(pair->key)) {
+            diag_add(reader->errors, FBD_ERROR, "reserved-name", pair->at, "choose another name",
+                     "`%s` cannot be a point of the file: it is %s", pair->key,
+                     pair->key[0] == 'G' ? "the centre of mass" : "the pivot");
+            named = false;
+        }
+        if (!value_vector(reader, pair->value, pair->key, a_length, &where) || !named) {
+            fine = false;
+            continue;
+        }
+        const char *name = arena_text(reader->arena, pair->key, strlen(pair->key));
+        body->points[body->point_count++] = (struct named_point){name, where};
+    }
+    return fine;
+}
+
+static void note_unknown_point(struct reader *reader, int index, const struct node *node, const char *what)
+{
+    enum { most_listed = 60 };
+    const struct body *body = &reader->scene->bodies[index];
+    const char *names[most_listed] = {"G"};
+    size_t count = 1;
+    if (reader->drafts[index].motion_known && body->motion.kind == motion_pivot) names[count++] = "O";
+    for (size_t i = 0; i < body->point_count && count < most_listed; i++)
+        names[count++] = body->points[i].name;
+    diag_add(reader->errors, FBD_ERROR, "unknown-point", node->at,
+             diag_nearest(reader->errors, node->text, names, count), "`%s`: `%s` has no point %s", what,
+             body->name, value_found(reader, node));
+}
+
+/* A point that was noted as wrong where it is defined. */
+static bool is_bad_point(const struct draft *draft, const char *name)
+{
+    return node_find(draft->keys.points, name) != NULL;
+}
+
+bool body_point_read(struct reader *reader, int index, const struct node *node, const char *what,
+                     struct point *point)
+{
+    const struct body *body = &reader->scene->bodies[index];
+    const struct draft *draft = &reader->drafts[index];
+    *point = (struct point){.kind = point_fixed, .at = node->at};
+    if (node->kind == node_list) return value_vector(reader, node, what, a_length, &point->where);
+    if (node->kind != node_scalar)
+        return value_refuse(reader, node, what, "a pair [x, y] or the name of a point of the body", NULL);
+    if (strcmp(node->text, "G") == 0) {
+        point->kind = point_G;
+        return true;
+    }
+    if (strcmp(node->text, "O") == 0 && draft->motion_known && body->motion.kind == motion_pivot) {
+        point->where = body->motion.point;
+        return true;
+    }
+    for (size_t i = 0; i < body->point_count; i++) {
+        if (strcmp(node->text, body->points[i].name) != 0) continue;
+        point->where = body->points[i].where;
+        return true;
+    }
+    if (draft->motion_known && !is_bad_point(draft, node->text))
+        note_unknown_point(reader, index, node, what);
+    return false;
+}
+
+/* ---- the whole body, first pass */
+
+static size_t most_points(const struct draft *draft)
+{
+    enum { points_of_a_shape = 3 }; /* left, right, G */
+    size_t given = draft->keys.points ? draft->keys.points->count : 0;
+    size_t parts = draft->keys.parts ? draft->keys.parts->count : 1;
+    return given + points_of_a_shape * parts;
+}
+
+bool body_read(struct reader *reader, int index)
+{
+    struct body *body = &reader->scene->bodies[index];
+    struct draft *draft = &reader->drafts[index];
+    struct body_keys *keys = &draft->keys;
+    const struct node *node = reader->bodies->pairs[index].value;
+    body_parts_start(keys);
+    bool fine = check_body_name(reader, body);
+    if (!draft->node) {
+        const char *hint = "write what it is below its name, indented: mass, motion, forces, ...";
+        return value_refuse(reader, node, body->name, "a mapping", hint);
+    }
+    if (!fields_read(reader, &body_group, node, body->at, &reader->constants, keys)) fine = false;
+    body->points = ARENA_ARRAY(reader->arena, most_points(draft), struct named_point);
+    if (!body->points) return false;
+    if (!read_given_points(reader, index)) fine = false;
+    /* Parts may state their inertia about the pivot, and the pivot may be a point of a part. */
+    if (!body_parts_read(reader, index)) fine = false;
+    if (!body_motion_read(reader, index)) fine = false;
+    return fine;
+}

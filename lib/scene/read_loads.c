@@ -1,0 +1,285 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Loads: the forces and moments that a body lists.
+ */
+#include "scene/fields.h"
+#include "scene/reader.h"
+#include "scene/values.h"
+
+/* One entry while it is read. */
+struct entry {
+    struct reader *reader;
+    int body;
+    const struct motion *motion; /* NULL when it is not known */
+    struct chosen chosen;
+    struct load_keys keys;
+    struct scope scope;
+};
+
+static void note(const struct entry *entry, const char *id, struct pos at, const char *hint,
+                 const char *message)
+{
+    diag_add(entry->reader->errors, FBD_ERROR, id, at, hint, "%s", message);
+}
+
+static bool has(const struct entry *entry, const char *key)
+{
+    return node_find(entry->chosen.node, key) != NULL;
+}
+
+static bool exclude(struct entry *entry, const char *key, const char *other, const char *hint)
+{
+    return fields_exclude(entry->reader, entry->chosen.node, key, other, hint);
+}
+
+static bool is_slide(const struct entry *entry)
+{
+    return entry->motion && entry->motion->kind == motion_slide;
+}
+
+/* ---- applied forces */
+
+static bool read_component(struct entry *entry, const struct node *node, const char *what,
+                           struct value *value)
+{
+    return value_formula(entry->reader, node, what, a_force, 0, &entry->scope, value);
+}
+
+static bool read_applied_value(struct entry *entry)
+{
+    const struct node *value = entry->keys.value;
+    struct load *load = &entry->keys.load;
+    if (value->kind != node_list) return read_component(entry, value, "value", &load->value);
+    if (value->count != 2) {
+        note(entry, "wrong-type", value->at, "write [fx, fy]", "`value` must be one force or a pair");
+        return false;
+    }
+    bool x = read_component(entry, value->items[0], "value", &load->fx);
+    return read_component(entry, value->items[1], "value", &load->fy) && x;
+}
+
+static bool fill_component(struct entry *entry, const char *key, struct value *value)
+{
+    if (value->expr || has(entry, key)) return value->expr != NULL;
+    *value = (struct value){expr_constant(entry->reader->arena, 0, DIM_FORCE), entry->chosen.at};
+    return value->expr != NULL;
+}
+
+/* A size needs a direction; on a slide it has one. */
+static bool check_direction(struct entry *entry)
+{
+    if (has(entry, "angle") || !entry->motion || is_slide(entry)) return true;
+    note(entry, "missing-key", entry->chosen.at,
+         "add its direction, `angle: 0 deg` for one along x, or write `value: [fx, fy]`",
+         "an applied force needs `angle`, unless it acts on a slide");
+    return false;
+}
+
+static bool finish_applied(struct entry *entry)
+{
+    struct load *load = &entry->keys.load;
+    const char *hint = "give its size (and angle) or its components";
+    bool components = has(entry, "fx") || has(entry, "fy");
+    bool pair = entry->keys.value && entry->keys.value->kind == node_list;
+    bool fine = exclude(entry, "value", "fx", hint) && exclude(entry, "value", "fy", hint);
+    if (components && !exclude(entry, "angle", has(entry, "fx") ? "fx" : "fy", hint)) fine = false;
+    if (pair && !exclude(entry, "angle", "value", hint)) fine = false;
+    load->body_frame = entry->keys.frame == frame_body;
+    if (entry->keys.value && !read_applied_value(entry)) return false;
+    if (components && !entry->keys.value)
+        return fill_component(entry, "fx", &load->fx) && fill_component(entry, "fy", &load->fy) && fine;
+    if (!entry->keys.value && !has(entry, "value")) {
+        note(entry, "missing-key", entry->chosen.at, "add for example `value: 5 N`",
+             "an applied force needs `value`");
+        return false;
+    }
+    return (pair || components || check_direction(entry)) && fine;
+}
+
+/* ---- springs and dampers */
+
+static bool finish_anchored_spring(struct entry *entry)
+{
+    struct load *load = &entry->keys.load;
+    bool fine = true;
+    if (has(entry, "neutral")) {
+        note(entry, "not-here", node_find(entry->chosen.node, "neutral")->at,
+             "the length without force is `free_length`", "a spring between two points has no `neutral`");
+        fine = false;
+    }
+    if (load->free_length < 0) {
+        note(entry, "out-of-range", node_find(entry->chosen.node, "free_length")->value->at, NULL,
+             "`free_length` must be zero or above");
+        fine = false;
+    }
+    return fine;
+}
+
+static bool finish_link(struct entry *entry)
+{
+    struct load *load = &entry->keys.load;
+    if (entry->keys.to) {
+        load->anchor = (struct point){.kind = point_fixed, .at = entry->keys.to->at};
+        bool anchor = ground_point_read(entry->reader, entry->keys.to, "to", &load->anchor.where);
+        return finish_anchored_spring(entry) && anchor;
+    }
+    if (!entry->motion || has(entry, "to")) return true;
+    if (is_slide(entry)) {
+        if (has(entry, "neutral")) load->free_length = entry->keys.neutral;
+        return exclude(entry, "free_length", "neutral", "on a slide without `to` they mean the same");
+    }
+    diag_add(entry->reader->errors, FBD_ERROR, "missing-key", entry->chosen.at,
+             "add its other end: `to: [x, y]`, or the name of a point of the ground", "%s needs `to`",
+             entry->chosen.kind->group->name);
+    return false;
+}
+
+/* ---- friction, drag */
+
+/* One coefficient stands for both. */
+static bool finish_friction(struct entry *entry)
+{
+    struct load *load = &entry->keys.load;
+    const char *hint = "`coefficient` means both";
+    bool single = has(entry, "coefficient") || entry->keys.coefficient.expr;
+    bool fine =
+        exclude(entry, "coefficient", "static", hint) && exclude(entry, "coefficient", "kinetic", hint);
+    if (!single && !has(entry, "static") && !has(entry, "kinetic")) {
+        note(entry, "missing-key", entry->chosen.at, "add for example `static: 0.5, kinetic: 0.4`",
+             "`friction` needs `static`, `kinetic` or one `coefficient` for both");
+        return false;
+    }
+    if (single) load->mu_s = load->mu_k = entry->keys.coefficient;
+    if (!has(entry, "static") && !single) load->mu_s = load->mu_k;
+    if (!has(entry, "kinetic") && !single) load->mu_k = load->mu_s;
+    if (!load->mu_s.expr || !load->mu_k.expr) return false;
+    bool constant = expr_is_constant(load->mu_s.expr) && expr_is_constant(load->mu_k.expr);
+    if (constant && expr_value(load->mu_k.expr) > expr_value(load->mu_s.expr))
+        diag_add(entry->reader->errors, FBD_WARNING, "kinetic-above-static", load->mu_k.at,
+                 "are the two exchanged?", "kinetic friction is above static friction");
+    return fine;
+}
+
+static bool finish_drag(struct entry *entry)
+{
+    if (has(entry, "linear") || has(entry, "quadratic")) return true;
+    note(entry, "missing-key", entry->chosen.at, "add for example `linear: 0.5 N*s/m`",
+         "`drag` needs `linear` or `quadratic`");
+    return false;
+}
+
+static bool finish(struct entry *entry)
+{
+    struct load *load = &entry->keys.load;
+    switch (load->kind) {
+    case load_applied: return finish_applied(entry);
+    case load_spring:
+    case load_damper: return finish_link(entry);
+    case load_friction:
+    case moment_friction: return finish_friction(entry);
+    case load_drag: return finish_drag(entry);
+    case load_normal: load->side = (enum normal_side)entry->keys.side; return true;
+    case moment_spring: load->free_length = entry->keys.neutral; return true;
+    default: return true;
+    }
+}
+
+/* ---- entries */
+
+static bool check_place(const struct entry *entry, const struct kinds *kinds)
+{
+    const struct kind *kind = entry->chosen.kind;
+    if (!entry->motion || (kind->motions & 1u << entry->motion->kind)) return true;
+    diag_add(entry->reader->errors, FBD_ERROR, "not-here", entry->chosen.at, kind->elsewhere,
+             "the %s `%s` cannot act on this body: it moves as `%s`", kinds->noun, kind->name,
+             motion_kinds.kinds[entry->motion->kind].name);
+    return false;
+}
+
+static bool read_entry(struct entry *entry, const struct kinds *kinds, const struct node *node)
+{
+    struct reader *reader = entry->reader;
+    struct load *load = &entry->keys.load;
+    if (!kind_read(reader, kinds, node, kinds == &force_kinds ? "forces" : "moments", &entry->chosen))
+        return false;
+    load->kind = (enum load_kind)entry->chosen.kind->value;
+    load->at = entry->chosen.at;
+    if (!check_place(entry, kinds)) return false;
+    bool fine = fields_read(reader, entry->chosen.kind->group, entry->chosen.node, entry->chosen.at,
+                            &entry->scope, &entry->keys);
+    bool keyed = !entry->chosen.node || entry->chosen.node->kind == node_map;
+    if (!fine && !keyed) return false;
+    if (entry->keys.at && !body_point_read(reader, entry->body, entry->keys.at, "at", &load->point))
+        fine = false;
+    return finish(entry) && fine;
+}
+
+/* Note a second weight, a second surface, friction without a surface. */
+static bool check_together(struct reader *reader, int index)
+{
+    const struct body *body = &reader->scene->bodies[index];
+    struct draft *draft = &reader->drafts[index];
+    bool seen[load_normal + 1] = {false}, fine = true;
+    for (size_t i = 0; i < body->load_count; i++) {
+        const struct load *load = &body->loads[i];
+        if (load->kind == load_friction || load->kind == moment_friction) draft->has_friction = true;
+        if (load->kind != load_gravity && load->kind != load_normal) continue;
+        if (seen[load->kind]) {
+            diag_add(reader->errors, FBD_ERROR, "duplicate-load", load->at, "delete one of them",
+                     "`%s` acts on `%s` twice", load->kind == load_gravity ? "gravity" : "normal",
+                     body->name);
+            fine = false;
+        }
+        seen[load->kind] = true;
+    }
+    draft->has_normal = seen[load_normal];
+    for (size_t i = 0; i < body->load_count; i++) {
+        if (body->loads[i].kind != load_friction || draft->has_normal) continue;
+        diag_add(reader->errors, FBD_ERROR, "needs-normal", body->loads[i].at,
+                 "add `normal` to the list: friction is a part of the force of the surface",
+                 "`friction` on `%s` needs `normal`", body->name);
+        fine = false;
+    }
+    return fine;
+}
+
+static size_t entry_count(const struct node *list)
+{
+    return !list ? 0 : list->kind == node_list ? list->count : 1;
+}
+
+/* A list, or a single entry in its place. */
+static const struct node *entry_at(const struct node *list, size_t index)
+{
+    return list->kind == node_list ? list->items[index] : list;
+}
+
+bool body_loads_read(struct reader *reader, int index)
+{
+    struct body *body = &reader->scene->bodies[index];
+    const struct draft *draft = &reader->drafts[index];
+    const struct node *lists[] = {draft->keys.forces, draft->keys.moments};
+    const struct kinds *const kinds[] = {&force_kinds, &moment_kinds};
+    struct names names = {.reader = reader, .place = place_load, .body = index};
+    size_t most = entry_count(lists[0]) + entry_count(lists[1]);
+    const char **given = ARENA_ARRAY(reader->arena, most, const char *);
+    struct pos *places = ARENA_ARRAY(reader->arena, most, struct pos);
+    body->loads = ARENA_ARRAY(reader->arena, most, struct load);
+    if (!given || !places || !body->loads) return false;
+    bool fine = true;
+    for (int list = 0; list < 2; list++)
+        for (size_t i = 0; i < entry_count(lists[list]); i++) {
+            struct entry entry = {.reader = reader, .body = index, .scope = names_scope(&names)};
+            if (draft->motion_known) entry.motion = &body->motion;
+            bool read = read_entry(&entry, kinds[list], entry_at(lists[list], i));
+            if (!read) fine = false;
+            if (!entry.chosen.kind) continue;
+            /* A faulty load still counts: friction finds its normal, names are checked. */
+            const struct pair *name = node_find(entry.chosen.node, "name");
+            given[body->load_count] = entry.keys.name;
+            places[body->load_count] = name ? name->value->at : entry.chosen.at;
+            body->loads[body->load_count++] = entry.keys.load;
+        }
+    bool named = body_loads_name(reader, index, given, places);
+    return check_together(reader, index) && named && fine;
+}

@@ -1,0 +1,297 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Parameters, and gravity: constants that are evaluated when they are first named, so that they may stand in
+ * any order. What is being evaluated is chained on the stack; naming it again closes a circle.
+ */
+#include "scene/reader.h"
+#include "scene/values.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Evaluation recurses once for each definition that stands after its use. The limit keeps the stack small for
+ * any file; definitions in the order of their use never meet it. */
+enum { deepest_chain = 40 };
+
+/* ---- names */
+
+static int compare_names(const void *a, const void *b)
+{
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+/* Notes on a value from outside name the option in place of the file. */
+static const char *enter_override(struct reader *reader, const struct override *override)
+{
+    const char *file = reader->errors->file;
+    reader->errors->file = diag_hint(reader->errors, "--set %s", override->name);
+    return file;
+}
+
+static void note_unknown_override(struct reader *reader, const struct override *override)
+{
+    size_t count = reader->scene->parameter_count;
+    const char **names = ARENA_ARRAY(reader->arena, count, const char *);
+    if (!names) return;
+    for (size_t i = 0; i < count; i++) names[i] = reader->scene->parameters[i].name;
+    qsort(names, count, sizeof *names, compare_names);
+    const char *file = enter_override(reader, override);
+    diag_add(reader->errors, FBD_ERROR, "unknown-parameter", (struct pos){0, 0},
+             count ? diag_nearest(reader->errors, override->name, names, count)
+                   : "the file has no `parameters`",
+             "the model has no parameter `%.40s` to set", override->name);
+    reader->errors->file = file;
+}
+
+static bool apply_overrides(struct reader *reader, const struct override *overrides, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const struct node *map = reader->parameters;
+        const struct pair *pair = map ? node_find(map, overrides[i].name) : NULL;
+        if (pair)
+            reader->definitions[pair - map->pairs].override = &overrides[i];
+        else
+            note_unknown_override(reader, &overrides[i]);
+    }
+    return !reader->arena->failed;
+}
+
+static bool check_parameter_name(struct reader *reader, const struct pair *pair)
+{
+    if (!name_check(reader->errors, pair->key, pair->at, "a parameter")) return false;
+    if (!name_is_reserved(pair->key)) return true;
+    diag_add(reader->errors, FBD_ERROR, "reserved-name", pair->at,
+             diag_hint(reader->errors, "choose another name, such as `%s0`", pair->key),
+             "`%s` cannot be a parameter: it is %s", pair->key,
+             !strcmp(pair->key, "t")    ? "the time"
+             : !strcmp(pair->key, "pi") ? "the number 3.14..."
+                                        : "a coordinate");
+    return false;
+}
+
+bool parameters_start(struct reader *reader, const struct override *overrides, size_t count)
+{
+    struct scene *scene = reader->scene;
+    const struct node *map = reader->parameters;
+    scene->parameter_count = map ? map->count : 0;
+    scene->parameters = ARENA_ARRAY(reader->arena, scene->parameter_count, struct parameter);
+    reader->definitions = ARENA_ARRAY(reader->arena, scene->parameter_count, struct definition);
+    if (!scene->parameters || !reader->definitions) return false;
+    for (size_t i = 0; i < scene->parameter_count; i++) {
+        const struct pair *pair = &map->pairs[i];
+        scene->parameters[i].name = arena_text(reader->arena, pair->key, strlen(pair->key));
+        scene->parameters[i].at = pair->at;
+        reader->definitions[i].node = pair->value;
+        if (!check_parameter_name(reader, pair)) reader->definitions[i].progress = failed;
+    }
+    return apply_overrides(reader, overrides, count);
+}
+
+/* ---- evaluation */
+
+static void note_circle(struct reader *reader, const char *name, struct pos at)
+{
+    char path[400] = "";
+    size_t used = 0;
+    const struct open_definition *names[deepest_chain + 1];
+    int count = 0;
+    for (const struct open_definition *o = reader->open; o && count <= deepest_chain; o = o->outer) {
+        names[count++] = o;
+        if (strcmp(o->name, name) == 0) break;
+    }
+    for (int i = count - 1; i >= 0 && used < sizeof path; i--) {
+        int n = snprintf(path + used, sizeof path - used, "%.40s -> ", names[i]->name);
+        used += n > 0 ? (size_t)n : 0;
+    }
+    diag_add(reader->errors, FBD_ERROR, "circular-parameter", at, "give one of them a value of its own",
+             "parameters define one another in a circle: %s%.40s", path, name);
+}
+
+/* Enter the definition of `name`; false with a note when it is too deep. */
+static bool open_definition(struct reader *reader, struct open_definition *open, const char *name,
+                            struct pos at)
+{
+    if (reader->open_depth == deepest_chain) {
+        diag_add(reader->errors, FBD_ERROR, "parameter-chain", at, "write definitions before their use",
+                 "more than %d definitions wait for `%s`", deepest_chain, name);
+        return false;
+    }
+    *open = (struct open_definition){name, reader->open};
+    reader->open = open;
+    reader->open_depth++;
+    return true;
+}
+
+static void close_definition(struct reader *reader, const struct open_definition *open)
+{
+    reader->open = open->outer;
+    reader->open_depth--;
+}
+
+static const struct expr *compile_parameter(struct reader *reader, const struct node *node, const char *name)
+{
+    struct value value;
+    bool fine = value_formula(reader, node, name, a_parameter, 0, &reader->constants, &value);
+    return fine ? value.expr : NULL;
+}
+
+/* A value given from outside: text without a place in the file. */
+static const struct expr *compile_override(struct reader *reader, const struct override *override)
+{
+    const struct node node = {.kind = override->value[0] ? node_scalar : node_null,
+                              .size = 1,
+                              .height = 1,
+                              .text = override->value,
+                              .length = strlen(override->value)};
+    return compile_parameter(reader, &node, override->name);
+}
+
+/* A pure number that the file does not give as a bare one was written with a unit of angle, most likely. */
+static void warn_bare_angle(struct reader *reader, const struct parameter *parameter,
+                            const struct override *override)
+{
+    const double one_turn = 6.283185307179586;
+    if (fabs(parameter->value) <= one_turn) return;
+    diag_add(reader->errors, FBD_WARNING, "bare-angle", (struct pos){0, 0},
+             diag_hint(reader->errors, "write `%s=%.40s deg` if degrees are meant", parameter->name,
+                       override->value),
+             "`%s` is set to a bare number: %.40s rad if it is an angle", parameter->name, override->value);
+}
+
+/* Put the value of `expr` in the place of the one from the file: same dimension, or a bare number. */
+static bool replace_value(struct reader *reader, struct parameter *parameter, const struct expr *expr,
+                          const struct override *override)
+{
+    bool bare = expr_is_bare(expr);
+    parameter->value = expr_value(expr);
+    if (parameter->bare) {
+        parameter->dim = expr_dim(expr);
+        parameter->bare = bare;
+        return true;
+    }
+    if (bare && dim_equal(parameter->dim, DIM_NONE)) warn_bare_angle(reader, parameter, override);
+    if (bare || dim_equal(parameter->dim, expr_dim(expr))) return true;
+    char given[64], wanted[64];
+    unit_name(expr_dim(expr), reader->scene->units, given, sizeof given);
+    unit_name(parameter->dim, reader->scene->units, wanted, sizeof wanted);
+    diag_add(reader->errors, FBD_ERROR, "wrong-dimension", (struct pos){0, 0},
+             diag_hint(reader->errors, "the file has it in %s", *wanted ? wanted : "pure numbers"),
+             "`%s` cannot be set to `%.40s`: that is %s%s", parameter->name, override->value,
+             *given ? "in " : "a pure number", given);
+    return false;
+}
+
+static bool override_parameter(struct reader *reader, struct parameter *parameter,
+                               const struct override *override)
+{
+    const char *file = enter_override(reader, override);
+    const struct expr *expr = compile_override(reader, override);
+    bool fine = expr && replace_value(reader, parameter, expr, override);
+    reader->errors->file = file;
+    return fine;
+}
+
+static bool evaluate(struct reader *reader, size_t index)
+{
+    struct parameter *parameter = &reader->scene->parameters[index];
+    const struct definition *definition = &reader->definitions[index];
+    const struct expr *expr = compile_parameter(reader, definition->node, parameter->name);
+    if (!expr) return false;
+    parameter->value = expr_value(expr);
+    parameter->dim = expr_dim(expr);
+    parameter->bare = expr_is_bare(expr);
+    return !definition->override || override_parameter(reader, parameter, definition->override);
+}
+
+static void resolve(struct reader *reader, size_t index, struct pos at)
+{
+    struct definition *definition = &reader->definitions[index];
+    struct open_definition open;
+    if (definition->progress != untouched) return;
+    definition->progress = failed;
+    if (!open_definition(reader, &open, reader->scene->parameters[index].name, at)) return;
+    definition->progress = in_progress;
+    definition->progress = evaluate(reader, index) ? done : failed;
+    close_definition(reader, &open);
+}
+
+struct symbol parameter_symbol(struct reader *reader, size_t index, struct pos at)
+{
+    struct parameter *parameter = &reader->scene->parameters[index];
+    parameter->used = true;
+    resolve(reader, index, at);
+    enum progress progress = reader->definitions[index].progress;
+    if (progress == in_progress) note_circle(reader, parameter->name, at);
+    if (progress != done) return (struct symbol){.kind = symbol_failed};
+    return (struct symbol){.kind = symbol_constant,
+                           .dim = parameter->dim,
+                           .free = parameter->bare,
+                           .value = parameter->value};
+}
+
+void parameters_finish(struct reader *reader)
+{
+    for (size_t i = 0; i < reader->scene->parameter_count; i++)
+        resolve(reader, i, reader->scene->parameters[i].at);
+}
+
+void parameters_note_unused(struct reader *reader)
+{
+    for (size_t i = 0; i < reader->scene->parameter_count; i++) {
+        const struct parameter *parameter = &reader->scene->parameters[i];
+        if (!parameter->used)
+            diag_add(reader->errors, FBD_WARNING, "unused-parameter", parameter->at,
+                     "delete it, or use it in the model", "nothing uses the parameter `%s`", parameter->name);
+    }
+}
+
+/* ---- gravity */
+
+/* The number that belongs to the other system of units. */
+static void warn_foreign_gravity(struct reader *reader, double magnitude)
+{
+    bool us = reader->scene->units == unit_us;
+    double suspect = us ? 9.81 : 32.2;
+    if (fabs(magnitude - suspect) > 0.005 * suspect) return;
+    diag_add(reader->errors, FBD_WARNING, "suspect-gravity", reader->gravity->at,
+             us ? "write `9.81 m/s^2`, or 32.2" : "write `32.2 ft/s^2`, or 9.81",
+             "`gravity` is %g %s: that is the number of the other system of units", magnitude,
+             us ? "ft/s^2" : "m/s^2");
+}
+
+/* A magnitude means straight down; a pair is the vector. */
+static bool read_gravity(struct reader *reader)
+{
+    const struct node *node = reader->gravity;
+    struct vec *gravity = &reader->scene->gravity;
+    if (node->kind == node_list) return value_vector(reader, node, "gravity", an_acceleration, gravity);
+    double magnitude;
+    if (!value_number(reader, node, "gravity", an_acceleration, 0, &magnitude)) return false;
+    *gravity = (struct vec){0, -magnitude};
+    warn_foreign_gravity(reader, magnitude);
+    if (magnitude >= 0) return true;
+    diag_add(reader->errors, FBD_ERROR, "out-of-range", node->at,
+             "leave out the sign; for another direction write a pair [gx, gy]",
+             "`gravity` is a magnitude, straight down: it cannot be below zero");
+    return false;
+}
+
+struct symbol gravity_symbol(struct reader *reader, struct pos at)
+{
+    struct open_definition open;
+    if (reader->gravity_progress == in_progress) note_circle(reader, "gravity", at);
+    if (reader->gravity_progress == untouched) {
+        reader->gravity_progress = failed;
+        if (open_definition(reader, &open, "gravity", at)) {
+            reader->gravity_progress = in_progress;
+            reader->gravity_progress = read_gravity(reader) ? done : failed;
+            close_definition(reader, &open);
+        }
+    }
+    if (reader->gravity_progress != done) return (struct symbol){.kind = symbol_failed};
+    return (struct symbol){.kind = symbol_constant,
+                           .dim = DIM_ACCELERATION,
+                           .value = vec_norm(reader->scene->gravity)};
+}

@@ -1,0 +1,367 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Parts: shapes with their dimensions and places, whether they are a whole body or a piece of one.
+ */
+#include "scene/fields.h"
+#include "scene/reader.h"
+#include "scene/values.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The keys that describe a shape, and which of them each shape takes and needs. */
+enum dimension {
+    use_length = 1,
+    use_radius = 2,
+    use_outer_radius = 4,
+    use_inner_radius = 8,
+    use_a = 16,
+    use_b = 32,
+    use_c = 64,
+    use_from = 128,
+    use_to = 256,
+    use_angle = 512,
+    use_axis = 1024,
+    use_center = 2048,
+};
+
+static const struct {
+    const char *key;
+    unsigned bit;
+} dimensions[] = {
+    {"length", use_length},
+    {"radius", use_radius},
+    {"outer_radius", use_outer_radius},
+    {"inner_radius", use_inner_radius},
+    {"a", use_a},
+    {"b", use_b},
+    {"c", use_c},
+    {"from", use_from},
+    {"to", use_to},
+    {"angle", use_angle},
+    {"axis", use_axis},
+    {"center", use_center},
+};
+
+enum { dimension_count = sizeof dimensions / sizeof *dimensions };
+
+static unsigned taken_by(enum shape_kind shape)
+{
+    const unsigned placed = use_center | use_angle | use_axis;
+    switch (shape) {
+    case shape_rod: return placed | use_length | use_from | use_to;
+    case shape_sphere: return use_center | use_radius;
+    case shape_cylinder: return placed | use_radius | use_length;
+    case shape_hollow_cylinder: return placed | use_outer_radius | use_inner_radius | use_length;
+    case shape_prism: return placed | use_a | use_b | use_c;
+    case shape_ring: return placed | use_radius;
+    case shape_point:
+    case shape_given: break;
+    }
+    return use_center;
+}
+
+/* What the moment of inertia about the axis that faces the plane depends on. */
+static unsigned needed_by(enum shape_kind shape, char axis)
+{
+    unsigned across = axis == 'x' ? 0 : use_length;
+    switch (shape) {
+    case shape_rod: return use_length;
+    case shape_sphere:
+    case shape_ring: return use_radius;
+    case shape_cylinder: return use_radius | across;
+    case shape_hollow_cylinder: return use_outer_radius | use_inner_radius | across;
+    case shape_prism: return axis == 'x' ? use_b | use_c : axis == 'y' ? use_a | use_c : use_a | use_b;
+    case shape_point:
+    case shape_given: break;
+    }
+    return 0;
+}
+
+static char default_axis(enum shape_kind shape)
+{
+    return shape == shape_cylinder || shape == shape_hollow_cylinder || shape == shape_ring ? 'x' : 'z';
+}
+
+/* ---- checks of what is given */
+
+/* What the file calls the shape. */
+static const char *shape_word(const struct node *map, enum shape_kind shape)
+{
+    const struct pair *pair = node_find(map, "shape");
+    if (shape == shape_given) return "body of given inertia";
+    return pair && pair->value->kind == node_scalar ? pair->value->text : "point";
+}
+
+static const char *list_taken(struct reader *reader, unsigned taken)
+{
+    char list[160] = "";
+    size_t used = 0;
+    for (size_t i = 0; i < dimension_count; i++) {
+        if (!(taken & dimensions[i].bit)) continue;
+        int n = snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", dimensions[i].key);
+        used += n > 0 ? (size_t)n : 0;
+    }
+    return diag_hint(reader->errors, "it takes: %s", list);
+}
+
+static bool check_taken(struct reader *reader, const struct node *map, enum shape_kind shape)
+{
+    unsigned taken = taken_by(shape);
+    bool fine = true;
+    bool shapeless = shape == shape_point && !node_find(map, "shape");
+    for (size_t i = 0; i < dimension_count; i++) {
+        const struct pair *pair = node_find(map, dimensions[i].key);
+        if (!pair || (taken & dimensions[i].bit)) continue;
+        const char *hint =
+            shapeless ? "say which: `shape: rod`, `shape: sphere`, ..." : list_taken(reader, taken);
+        if (shapeless)
+            diag_add(reader->errors, FBD_ERROR, "not-here", pair->at, hint, "`%s` needs a `shape`",
+                     pair->key);
+        else
+            diag_add(reader->errors, FBD_ERROR, "not-here", pair->at, hint, "a %s has no `%s`",
+                     shape_word(map, shape), pair->key);
+        fine = false;
+    }
+    return fine;
+}
+
+static bool check_needed(struct reader *reader, const struct node *map, struct pos at, enum shape_kind shape,
+                         char axis)
+{
+    unsigned needed = needed_by(shape, axis);
+    bool ends = node_find(map, "from") || node_find(map, "to");
+    if (ends) needed = use_from | use_to;
+    bool fine = true;
+    for (size_t i = 0; i < dimension_count; i++) {
+        if (!(needed & dimensions[i].bit) || node_find(map, dimensions[i].key)) continue;
+        const char *hint = shape == shape_rod ? "give `length`, or both ends: `from` and `to`"
+                           : dimensions[i].bit == use_length
+                               ? "its axis of symmetry lies in the plane: with `axis: x` it faces the plane"
+                               : NULL;
+        diag_add(reader->errors, FBD_ERROR, "missing-key", at, hint, "a %s needs `%s`",
+                 shape_word(map, shape), dimensions[i].key);
+        fine = false;
+    }
+    return fine;
+}
+
+static bool check_rod(struct reader *reader, const struct node *map)
+{
+    static const char *const excluded[] = {"length", "center", "angle"};
+    const char *hint = "the ends say it all: leave the other out";
+    bool fine = true;
+    for (size_t i = 0; i < 3; i++) {
+        const char *end = node_find(map, "from") ? "from" : "to";
+        if (!fields_exclude(reader, map, end, excluded[i], hint)) fine = false;
+    }
+    return fine;
+}
+
+static bool check_tube(struct reader *reader, const struct node *map, const struct part_keys *keys)
+{
+    if (!(keys->inner_radius >= keys->outer_radius)) return true;
+    const struct pair *pair = node_find(map, "inner_radius");
+    diag_add(reader->errors, FBD_ERROR, "out-of-range", pair->value->at, NULL,
+             "`inner_radius` must be less than `outer_radius`");
+    return false;
+}
+
+/* ---- inertia as given */
+
+static bool read_inertia(struct reader *reader, int body, const struct node *map,
+                         const struct part_keys *keys, struct part *part)
+{
+    struct inertia_keys given = {0};
+    const struct pair *pair = node_find(map, "inertia");
+    bool fine = fields_exclude(reader, map, "shape", "inertia", "a shape has its moment of inertia: choose");
+    if (!fields_read(reader, &inertia_group, keys->inertia, pair->at, &reader->constants, &given))
+        return false;
+    part->inertia = given.value;
+    part->about = (struct point){.kind = point_G, .at = pair->at};
+    /* A hole has mass and moment of inertia below zero. */
+    if (given.value * keys->mass < 0) {
+        diag_add(reader->errors, FBD_ERROR, "out-of-range", keys->inertia->at, NULL,
+                 "`inertia` must have the sign of `mass`");
+        fine = false;
+    }
+    const struct node *about = given.about;
+    if (!about) return fine;
+    if (about->kind == node_scalar && strcmp(about->text, "O") == 0) {
+        part->about = (struct point){.kind = point_absent, .at = about->at};
+        part->about_pivot = true;
+        return fine;
+    }
+    return body_point_read(reader, body, about, "about", &part->about) && fine;
+}
+
+/* ---- one part */
+
+static bool place_rod(struct reader *reader, const struct node *map, const struct part_keys *keys,
+                      struct part *part)
+{
+    if (!node_find(map, "from")) return true;
+    struct vec along = vec_sub(keys->to, keys->from);
+    part->length = vec_norm(along);
+    part->angle = atan2(along.y, along.x);
+    part->center = vec_scale(0.5, vec_add(keys->from, keys->to));
+    if (part->length != 0) return true;
+    diag_add(reader->errors, FBD_ERROR, "out-of-range", node_find(map, "to")->value->at, NULL,
+             "the two ends of a rod cannot be one point");
+    return false;
+}
+
+/* Numbers that could not be read stay NaN, and no check below complains about them again. */
+static struct part_keys no_keys(void)
+{
+    return (struct part_keys){.mass = NAN,
+                              .shape = -1,
+                              .outer_radius = NAN,
+                              .inner_radius = NAN,
+                              .from = {NAN, NAN},
+                              .to = {NAN, NAN}};
+}
+
+static bool read_part(struct reader *reader, int body, const struct node *map, struct pos at,
+                      const struct part_keys *keys, struct part *part)
+{
+    bool given = keys->inertia != NULL;
+    bool unclear = (node_find(map, "shape") && keys->shape < 0) || (node_find(map, "axis") && !keys->axis);
+    enum shape_kind shape = given             ? shape_given
+                            : keys->shape < 0 ? shape_point
+                                              : (enum shape_kind)keys->shape;
+    char axis = keys->axis ? (char)keys->axis : default_axis(shape);
+    *part = (struct part){.at = at,
+                          .shape = shape,
+                          .axis = axis,
+                          .mass = keys->mass,
+                          .length = keys->length,
+                          .radius = shape == shape_hollow_cylinder ? keys->outer_radius : keys->radius,
+                          .inner_radius = shape == shape_hollow_cylinder ? keys->inner_radius : 0,
+                          .side = {keys->a, keys->b, keys->c},
+                          .center = keys->center,
+                          .angle = keys->angle};
+    bool fine = !given || read_inertia(reader, body, map, keys, part);
+    if (unclear) return false;
+    if (!check_taken(reader, map, shape)) fine = false;
+    if (!check_needed(reader, map, at, shape, axis)) fine = false;
+    if (shape == shape_rod && fine) return check_rod(reader, map) && place_rod(reader, map, keys, part);
+    if (shape == shape_hollow_cylinder && fine) return check_tube(reader, map, keys);
+    return fine;
+}
+
+/* Name the ends of a rod and the centre: `left`, or `rod.left` for a part called rod. */
+static void name_points(struct reader *reader, struct body *body, const struct part *part)
+{
+    const char *prefix = part->name ? part->name : "", *dot = part->name ? "." : "";
+    struct vec half = vec_scale(part->length / 2, vec_unit(part->angle));
+    if (part->shape == shape_rod) {
+        body->points[body->point_count++] =
+            (struct named_point){arena_printf(reader->arena, "%s%sleft", prefix, dot),
+                                 vec_sub(part->center, half)};
+        body->points[body->point_count++] =
+            (struct named_point){arena_printf(reader->arena, "%s%sright", prefix, dot),
+                                 vec_add(part->center, half)};
+    }
+    if (part->name)
+        body->points[body->point_count++] =
+            (struct named_point){arena_printf(reader->arena, "%s.G", prefix), part->center};
+}
+
+/* ---- the parts of a body */
+
+static bool check_mass(struct reader *reader, const struct node *map, struct pos at, const char *name,
+                       double mass)
+{
+    if (node_find(map, "mass")) return !isnan(mass);
+    diag_add(reader->errors, FBD_ERROR, "missing-key", at, "add for example `mass: 2 kg`",
+             "`%s` needs `mass`", name);
+    return false;
+}
+
+static bool check_positive_mass(struct reader *reader, const struct node *map, double mass)
+{
+    if (!(mass <= 0)) return true;
+    diag_add(reader->errors, FBD_ERROR, "out-of-range", node_find(map, "mass")->value->at,
+             "a hole is a part of negative mass, among others under `parts`",
+             "the `mass` of a body must be above zero");
+    return false;
+}
+
+static bool read_single(struct reader *reader, int index)
+{
+    struct body *body = &reader->scene->bodies[index];
+    struct draft *draft = &reader->drafts[index];
+    const struct part_keys *keys = &draft->keys.part;
+    body->parts = ARENA_NEW(reader->arena, struct part);
+    if (!body->parts) return false;
+    body->part_count = 1;
+    draft->mass = keys->mass;
+    draft->mass_known = check_mass(reader, draft->node, body->at, body->name, keys->mass) &&
+                        check_positive_mass(reader, draft->node, keys->mass);
+    if (!read_part(reader, index, draft->node, body->at, keys, body->parts)) return false;
+    name_points(reader, body, body->parts);
+    return draft->mass_known;
+}
+
+static bool check_no_single(struct reader *reader, const struct node *map)
+{
+    static const char *const keys[] = {"mass", "shape", "inertia"};
+    const char *hint = "a body of parts has what its parts have: give it to one of them";
+    bool fine = true;
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        if (!fields_exclude(reader, map, "parts", keys[i], hint)) fine = false;
+    for (size_t i = 0; i < dimension_count; i++)
+        if (!fields_exclude(reader, map, "parts", dimensions[i].key, hint)) fine = false;
+    return fine;
+}
+
+static bool read_named_part(struct reader *reader, int index, const struct pair *pair, struct part *part)
+{
+    struct body *body = &reader->scene->bodies[index];
+    struct draft *draft = &reader->drafts[index];
+    struct part_keys keys = no_keys();
+    bool named = name_check(reader->errors, pair->key, pair->at, "a part");
+    bool fine = fields_read(reader, &part_group, pair->value, pair->at, &reader->constants, &keys) && named;
+    if (pair->value->kind != node_map) return false;
+    bool mass = check_mass(reader, pair->value, pair->at, pair->key, keys.mass);
+    if (!read_part(reader, index, pair->value, pair->at, &keys, part)) fine = false;
+    draft->mass += keys.mass;
+    draft->mass_known = draft->mass_known && mass;
+    part->name = arena_text(reader->arena, pair->key, strlen(pair->key));
+    if (fine) name_points(reader, body, part);
+    return fine && mass;
+}
+
+static bool read_composite(struct reader *reader, int index)
+{
+    struct body *body = &reader->scene->bodies[index];
+    struct draft *draft = &reader->drafts[index];
+    const struct node *map = draft->keys.parts;
+    bool fine = check_no_single(reader, draft->node);
+    if (map->count == 0) {
+        diag_add(reader->errors, FBD_ERROR, "missing-value", map->at, "write `name: {shape: ..., mass: ...}`",
+                 "`parts` is empty");
+        return false;
+    }
+    body->parts = ARENA_ARRAY(reader->arena, map->count, struct part);
+    if (!body->parts) return false;
+    body->part_count = map->count;
+    draft->mass_known = true;
+    for (size_t i = 0; i < map->count; i++)
+        if (!read_named_part(reader, index, &map->pairs[i], &body->parts[i])) fine = false;
+    return fine;
+}
+
+void body_parts_start(struct body_keys *keys)
+{
+    keys->part = no_keys();
+}
+
+bool body_parts_read(struct reader *reader, int index)
+{
+    const struct draft *draft = &reader->drafts[index];
+    if (draft->keys.parts) return read_composite(reader, index);
+    bool faulty = node_find(draft->node, "parts") != NULL;
+    return !faulty && read_single(reader, index);
+}

@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The run: how long, how accurately, what to write, which instants to find.
+ */
+#include "scene/fields.h"
+#include "scene/reader.h"
+#include "scene/values.h"
+
+#include <string.h>
+
+/* ---- events */
+
+/* Which crossing is meant: the direction of a comparison is the one in which it becomes true. */
+static bool read_direction(struct reader *reader, const struct node *node, char relation,
+                           const struct event_keys *keys, struct user_event *event)
+{
+    int implied = relation == '<' ? -1 : relation == '>' ? 1 : 0;
+    const struct pair *given = node_find(node, "direction");
+    event->direction = given ? keys->direction : implied;
+    if (!given || implied == 0 || implied == keys->direction) return true;
+    diag_add(reader->errors, FBD_ERROR, "conflicting-keys", given->at,
+             "leave `direction` out, or write the condition with `=`",
+             "`when` becomes true when the difference is %s", implied < 0 ? "falling" : "rising");
+    return false;
+}
+
+static bool read_when(struct reader *reader, const struct node *when, char *relation,
+                      struct user_event *event)
+{
+    struct names names = {.reader = reader,
+                          .place = place_event,
+                          .body = reader->scene->body_count == 1 ? 0 : ground_body};
+    struct scope scope = names_scope(&names);
+    const struct expr_want want = {.any_dim = true, .what = "when"};
+    if (when->length == 0)
+        return value_refuse(reader, when, "when", "a condition", "write for example `x = 2[m]`");
+    event->at = when->at;
+    event->text = arena_text(reader->arena, when->text, when->length);
+    return value_relation(reader, when, &want, &scope, &event->left, relation, &event->right);
+}
+
+static bool read_event(struct reader *reader, const struct node *node, struct user_event *event)
+{
+    struct event_keys keys = {0};
+    char relation = 0;
+    bool fine = fields_read(reader, &event_group, node, node->at, &reader->constants, &keys);
+    event->at = node->at;
+    event->name = keys.name;
+    event->stop = keys.stop || keys.then == event_stops;
+    if (!fields_exclude(reader, node, "then", "stop", "`stop: true` means `then: stop`")) fine = false;
+    if (!keys.when || !read_when(reader, keys.when, &relation, event)) return false;
+    return read_direction(reader, node, relation, &keys, event) && fine;
+}
+
+static bool is_taken(const struct scene *scene, const char *name, size_t except)
+{
+    for (size_t i = 0; i < scene->event_count; i++)
+        if (i != except && scene->events[i].name && strcmp(scene->events[i].name, name) == 0) return true;
+    return false;
+}
+
+/* `event`, `event_2`, ... for those without a name; no two share one. */
+static bool name_events(struct reader *reader)
+{
+    struct scene *scene = reader->scene;
+    bool fine = true;
+    int number = 0;
+    for (size_t i = 0; i < scene->event_count; i++) {
+        struct user_event *event = &scene->events[i];
+        if (event->name && is_taken(scene, event->name, i)) {
+            diag_add(reader->errors, FBD_ERROR, "duplicate-name", event->at, "choose another name",
+                     "two events are called `%s`", event->name);
+            return false;
+        }
+        while (!event->name) {
+            number++;
+            const char *name = number == 1 ? "event" : arena_printf(reader->arena, "event_%d", number);
+            if (!name) return false;
+            if (!is_taken(scene, name, i)) event->name = name;
+        }
+    }
+    return fine;
+}
+
+static bool read_events(struct reader *reader, const struct node *node)
+{
+    enum { most_events = 1000 };
+    struct scene *scene = reader->scene;
+    bool list = node->kind == node_list, fine = true;
+    size_t count = list ? node->count : 1;
+    if (count > most_events) {
+        diag_add(reader->errors, FBD_ERROR, "too-many-events", node->at, NULL, "more than %d events",
+                 most_events);
+        return false;
+    }
+    scene->events = ARENA_ARRAY(reader->arena, count, struct user_event);
+    if (!scene->events) return false;
+    scene->event_count = count;
+    for (size_t i = 0; i < count; i++)
+        if (!read_event(reader, list ? node->items[i] : node, &scene->events[i])) fine = false;
+    return name_events(reader) && fine;
+}
+
+/* ---- the run */
+
+/* `output: {every: ...}` may stand beside `simulate` or in it, and `every` in `simulate`: one of them. */
+static bool read_output(struct reader *reader, const struct node *node, const struct pair *key)
+{
+    struct output_keys keys = {0};
+    if (!node) return true;
+    bool fine = fields_read(reader, &output_group, node, key->at, &reader->constants, &keys);
+    double *every = &reader->scene->simulate.every;
+    const struct pair *inner = node_find(node, "every");
+    if (*every > 0 && inner) {
+        diag_add(reader->errors, FBD_ERROR, "conflicting-keys", inner->at, "give it once",
+                 "the output interval is given already");
+        return false;
+    }
+    if (keys.every > 0) *every = keys.every;
+    return fine;
+}
+
+static bool check_tolerance(struct reader *reader, const struct node *map, double tolerance)
+{
+    const double most = 0.1;
+    if (tolerance <= most) return true;
+    diag_add(reader->errors, FBD_ERROR, "out-of-range", node_find(map, "tolerance")->value->at,
+             "1e-9 is careful, 1e-4 is quick", "`tolerance` must be at most %g", most);
+    return false;
+}
+
+static bool read_run(struct reader *reader, const struct node *map, struct pos at)
+{
+    struct simulate *simulate = &reader->scene->simulate;
+    struct simulate_keys keys = {0};
+    const struct pair *method = node_find(map, "method"), *output = node_find(map, "output");
+    bool fine = fields_read(reader, &simulate_group, map, at, &reader->constants, &keys);
+    if (!check_tolerance(reader, map, keys.tolerance)) fine = false;
+    *simulate = (struct simulate){.until = keys.until,
+                                  .tolerance = keys.tolerance,
+                                  .step = keys.step,
+                                  .every = keys.every,
+                                  .method = keys.method,
+                                  .method_at = method ? method->value->at : (struct pos){0, 0}};
+    if (!read_output(reader, keys.output, output)) fine = false;
+    return (!keys.events || read_events(reader, keys.events)) && fine;
+}
+
+bool simulate_read(struct reader *reader, const struct scene_keys *keys)
+{
+    const struct pair *simulate = node_find(reader->root, "simulate");
+    bool run = !keys->simulate || read_run(reader, keys->simulate, simulate->at);
+    return read_output(reader, keys->output, node_find(reader->root, "output")) && run;
+}

@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Reader: what the files that turn the tree of a model file into a scene share.
+ *
+ * The order is: names of parameters and bodies; parameters and gravity, each when it is first asked for (so
+ * they may stand in any order); the ground; of each body what it is and how it moves; the numbering of all
+ * coordinates; of each body where it starts and what acts on it; the run.
+ *
+ * A function that reads something returns false after it has noted what is wrong (or memory ran out), and its
+ * caller goes on, so that one run reports all errors of a file.
+ */
+#ifndef FBD_SCENE_READER_H
+#define FBD_SCENE_READER_H
+
+#include "scene/language.h"
+#include "scene/names.h"
+#include "scene/node.h"
+#include "scene/scene.h"
+
+enum progress { untouched, in_progress, done, failed };
+
+/* What is known of a parameter beside its place in the scene. */
+struct definition {
+    const struct node *node;
+    const struct override *override; /* or NULL */
+    enum progress progress;
+};
+
+/* A definition that is being evaluated, for naming a circle. */
+struct open_definition {
+    const char *name;
+    const struct open_definition *outer;
+};
+
+struct ground_line {
+    struct vec through;
+    double along;
+    bool valid;
+};
+
+struct ground_point {
+    struct vec where;
+    bool valid;
+};
+
+/* What is known of a body beside its place in the scene. */
+struct draft {
+    const struct node *node; /* its mapping; NULL when it has none */
+    struct body_keys keys;
+    double mass; /* total */
+    bool mass_known, motion_known;
+    bool has_normal, has_friction;
+};
+
+struct reader {
+    struct scene *scene;
+    struct arena *arena; /* of the scene */
+    fbd_errors *errors;
+
+    /* Mappings of the file, or NULL. Entry i of a mapping is parameter, body, point or line i. */
+    const struct node *root, *parameters, *bodies, *points, *lines;
+    struct definition *definitions;
+    struct draft *drafts;
+    struct ground_point *ground_points;
+    struct ground_line *ground_lines;
+
+    const struct node *gravity;
+    enum progress gravity_progress;
+    const struct open_definition *open;
+    int open_depth;
+
+    struct names constant_names;
+    struct scope constants; /* parameters, g, pi */
+};
+
+/* ---- parameters (read_parameters.c) */
+
+/* Set up names and overrides. False only when memory is out. */
+bool parameters_start(struct reader *reader, const struct override *overrides, size_t count);
+
+/* Evaluate all. */
+void parameters_finish(struct reader *reader);
+/* To be called when the whole file was read and is right. */
+void parameters_note_unused(struct reader *reader);
+
+/* What parameter `index`, named at `at`, means. */
+struct symbol parameter_symbol(struct reader *reader, size_t index, struct pos at);
+
+/* The magnitude of gravity, named at `at`. */
+struct symbol gravity_symbol(struct reader *reader, struct pos at);
+
+/* ---- the ground (read_ground.c) */
+
+bool ground_read(struct reader *reader, const struct node *node, struct pos owner);
+
+/* [x, y], or the name of a point of the ground. */
+bool ground_point_read(struct reader *reader, const struct node *node, const char *what, struct vec *where);
+
+const struct ground_line *ground_line_find(struct reader *reader, const struct node *name);
+
+/* ---- bodies */
+
+/* What it is and how it moves (read_body.c, read_part.c, read_motion.c). */
+bool bodies_start(struct reader *reader);
+bool body_read(struct reader *reader, int body);
+void body_parts_start(struct body_keys *keys);
+bool body_parts_read(struct reader *reader, int body);
+bool body_motion_read(struct reader *reader, int body);
+bool body_initial_read(struct reader *reader, int body);
+
+/* [x, y], G, O or the name of a point of the body. */
+bool body_point_read(struct reader *reader, int body, const struct node *node, const char *what,
+                     struct point *point);
+
+/* What acts on it (read_loads.c, load_names.c), and what the user derived (read_hand.c). */
+bool body_loads_read(struct reader *reader, int body);
+bool body_loads_name(struct reader *reader, int body, const char *const *names, const struct pos *places);
+bool body_hand_read(struct reader *reader, int body);
+
+/* ---- the run (read_simulate.c) */
+
+bool simulate_read(struct reader *reader, const struct scene_keys *keys);
+
+#endif

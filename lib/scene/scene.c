@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/scene.h"
+
+#include "scene/fields.h"
+#include "scene/node.h"
+#include "scene/reader.h"
+#include "scene/values.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- the top level */
+
+static const struct node *mapping(const struct node *root, const char *key)
+{
+    const struct pair *pair = node_find(root, key);
+    return pair && pair->value->kind == node_map ? pair->value : NULL;
+}
+
+/* The system of units rules every number, so it is known before any is read; fields_read answers for what is
+ * no system of units. */
+static enum unit_system find_units(const struct node *root)
+{
+    const struct pair *pair = node_find(root, "units");
+    bool us = pair && pair->value->kind == node_scalar && strcmp(pair->value->text, "US") == 0;
+    return us ? unit_us : unit_si;
+}
+
+/* 32.2 ft/s^2 is what textbooks in US units count with. */
+static void start_gravity(struct reader *reader)
+{
+    const double si = 9.81, us = 32.2;
+    const struct pair *pair = node_find(reader->root, "gravity");
+    reader->scene->gravity = (struct vec){0, reader->scene->units == unit_us ? -us : -si};
+    reader->gravity = pair ? pair->value : NULL;
+    reader->gravity_progress = !pair ? done : pair->value->kind == node_null ? failed : untouched;
+}
+
+static void check_version(struct reader *reader, const struct scene_keys *keys)
+{
+    const double version = 1;
+    const struct pair *pair = node_find(reader->root, "fbd");
+    if (!pair)
+        diag_add(reader->errors, FBD_WARNING, "missing-version", reader->root->at,
+                 "start the file with `fbd: 1`",
+                 "the file does not say which version of the language it uses");
+    else if (keys->version != 0 && keys->version != version)
+        diag_add(reader->errors, FBD_ERROR, "unsupported-version", pair->value->at, "write `fbd: 1`",
+                 "this program reads version 1 of the model language, not %s",
+                 value_found(reader, pair->value));
+}
+
+static bool read_top(struct reader *reader, struct scene_keys *keys)
+{
+    struct scene *scene = reader->scene;
+    const struct pair *ground = node_find(reader->root, "ground");
+    bool fine = fields_read(reader, &scene_group, reader->root, reader->root->at, &reader->constants, keys);
+    check_version(reader, keys);
+    scene->title = keys->title ? keys->title : "";
+    scene->datum = keys->datum;
+    if (keys->bodies && keys->bodies->count == 0) {
+        diag_add(reader->errors, FBD_ERROR, "missing-value", keys->bodies->at,
+                 "write `name: {mass: ..., motion: ...}`", "`bodies` is empty");
+        fine = false;
+    }
+    gravity_symbol(reader, reader->root->at);
+    parameters_finish(reader);
+    bool solid = ground_read(reader, keys->ground, ground ? ground->at : reader->root->at);
+    return fine && solid;
+}
+
+/* ---- bodies */
+
+/* Beyond the limit notes are counted and not kept: what follows would be read for nothing. */
+static bool is_hopeless(const struct reader *reader)
+{
+    return reader->errors->errors > reader->errors->limit || reader->arena->failed;
+}
+
+static bool number_coordinates(struct reader *reader)
+{
+    struct scene *scene = reader->scene;
+    scene->coordinates =
+        ARENA_ARRAY(reader->arena, most_coordinates_of_a_body * scene->body_count, struct coordinate);
+    if (!scene->coordinates) return false;
+    for (size_t b = 0; b < scene->body_count; b++) {
+        struct body *body = &scene->bodies[b];
+        const struct coordinate_names *names;
+        body->first = (int)scene->coordinate_count;
+        if (!reader->drafts[b].motion_known) continue;
+        body->count = coordinates_of(body->motion.kind, &names);
+        for (int i = 0; i < body->count; i++) {
+            struct coordinate *coordinate = &scene->coordinates[scene->coordinate_count++];
+            *coordinate = (struct coordinate){.body = (int)b,
+                                              .name = names[i].name,
+                                              .rate_name = names[i].rate,
+                                              .acceleration_name = names[i].acceleration,
+                                              .angle = names[i].angle};
+            coordinate->dim = names[i].angle ? DIM_NONE : DIM_LENGTH;
+            coordinate->rate_dim = names[i].angle ? DIM_RATE : DIM_VELOCITY;
+        }
+    }
+    return true;
+}
+
+static void read_bodies(struct reader *reader)
+{
+    struct scene *scene = reader->scene;
+    int count = (int)scene->body_count;
+    for (int b = 0; b < count && !is_hopeless(reader); b++) scene->bodies[b].complete = body_read(reader, b);
+    if (!number_coordinates(reader)) return;
+    for (int b = 0; b < count && !is_hopeless(reader); b++) {
+        bool initial = body_initial_read(reader, b);
+        bool loads = body_loads_read(reader, b), hand = body_hand_read(reader, b);
+        if (!initial || !loads || !hand) scene->bodies[b].complete = false;
+    }
+}
+
+/* ---- the file */
+
+static void read_scene(struct reader *reader, const struct override *overrides, size_t override_count)
+{
+    struct scene_keys keys = {0};
+    reader->scene->units = find_units(reader->root);
+    reader->parameters = mapping(reader->root, "parameters");
+    reader->bodies = mapping(reader->root, "bodies");
+    reader->constant_names = (struct names){.reader = reader, .place = place_constant, .body = ground_body};
+    reader->constants = names_scope(&reader->constant_names);
+    start_gravity(reader);
+    if (!parameters_start(reader, overrides, override_count) || !bodies_start(reader)) return;
+    read_top(reader, &keys);
+    read_bodies(reader);
+    if (!is_hopeless(reader)) simulate_read(reader, &keys);
+    if (fbd_errors_failed(reader->errors) == 0) parameters_note_unused(reader);
+}
+
+static bool check_root(struct reader *reader)
+{
+    const struct node *root = reader->root;
+    const char *hint = "a model starts with `fbd: 1` and has `bodies:`";
+    if (root->kind == node_map) return true;
+    if (root->kind == node_null)
+        diag_add(reader->errors, FBD_ERROR, "empty-file", root->at, hint, "the file holds no model");
+    else
+        diag_add(reader->errors, FBD_ERROR, "wrong-type", root->at, hint,
+                 "a model is a mapping of keys, and this file is %s", value_found(reader, root));
+    return false;
+}
+
+static struct scene *new_scene(const char *file, fbd_errors *errors)
+{
+    struct scene *scene = calloc(1, sizeof *scene);
+    if (!scene) {
+        diag_out_of_memory(errors);
+        return NULL;
+    }
+    scene->file = file ? arena_text(&scene->arena, file, strlen(file)) : NULL;
+    return scene;
+}
+
+struct scene *scene_read(const char *text, size_t length, const char *file, const struct override *overrides,
+                         size_t override_count, fbd_errors *errors)
+{
+    struct arena tree = {0};
+    struct source source;
+    errors->file = file ? diag_hint(errors, "%s", file) : NULL;
+    if (!source_open(text, length, errors, &source)) return NULL;
+    struct scene *scene = new_scene(file, errors);
+    if (!scene) return NULL;
+    struct reader reader = {.scene = scene, .arena = &scene->arena, .errors = errors};
+    reader.root = node_read(&tree, &source, errors);
+    if (reader.root && check_root(&reader)) read_scene(&reader, overrides, override_count);
+    if (scene->arena.failed || tree.failed || errors->arena.failed) diag_out_of_memory(errors);
+    bool read = reader.root && scene->coordinates && !errors->out_of_memory;
+    arena_free(&tree);
+    if (read) return scene;
+    scene_free(scene);
+    return NULL;
+}
+
+void scene_free(struct scene *scene)
+{
+    if (!scene) return;
+    arena_free(&scene->arena);
+    free(scene);
+}

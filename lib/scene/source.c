@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/source.h"
+
+#include <string.h>
+
+size_t source_decode(const char *text, size_t length, unsigned *code)
+{
+    static const unsigned least[] = {0, 0, 0x80, 0x800, 0x10000};
+    if (length == 0) return 0;
+    unsigned lead = (unsigned char)text[0];
+    size_t width = lead < 0x80   ? 1
+                   : lead < 0xC0 ? 0
+                   : lead < 0xE0 ? 2
+                   : lead < 0xF0 ? 3
+                   : lead < 0xF8 ? 4
+                                 : 0;
+    if (width == 0 || width > length) return 0;
+    unsigned value = width == 1 ? lead : lead & (0x7Fu >> width);
+    for (size_t i = 1; i < width; i++) {
+        unsigned byte = (unsigned char)text[i];
+        if ((byte & 0xC0) != 0x80) return 0;
+        value = value << 6 | (byte & 0x3F);
+    }
+    if (value < least[width] || value > 0x10FFFF || (value >= 0xD800 && value <= 0xDFFF)) return 0;
+    *code = value;
+    return width;
+}
+
+/* What a text file may not hold: C0 and C1 controls, the separators that libyaml takes for line ends and
+ * editors do not, a byte order mark in the middle, and the two code points that are no characters. */
+static bool is_control(unsigned code)
+{
+    if (code < 0x20) return code != '\t' && code != '\n' && code != '\r';
+    return (code >= 0x7F && code < 0xA0) || code == 0x2028 || code == 0x2029 || code == 0xFEFF ||
+           code == 0xFFFE || code == 0xFFFF;
+}
+
+static bool is_utf16(const char *text, size_t length)
+{
+    return length >= 2 && (memcmp(text, "\xFF\xFE", 2) == 0 || memcmp(text, "\xFE\xFF", 2) == 0);
+}
+
+static void note_bad_byte(fbd_errors *errors, struct pos at, unsigned byte)
+{
+    diag_add(errors, FBD_ERROR, "not-utf-8", at, "save the file as plain text in UTF-8",
+             "byte 0x%02X is not UTF-8 text", byte);
+}
+
+static void note_control(fbd_errors *errors, struct pos at, unsigned code)
+{
+    if (code == 0)
+        diag_add(errors, FBD_ERROR, "control-character", at,
+                 "is this a model file? it looks like binary data", "a zero byte in the text");
+    else
+        diag_add(errors, FBD_ERROR, "control-character", at, "delete it; it may be invisible in an editor",
+                 "the control character U+%04X cannot stand in a model file", code);
+}
+
+bool source_open(const char *text, size_t length, fbd_errors *errors, struct source *source)
+{
+    struct pos at = {1, 1};
+    if (length > source_most_bytes) {
+        diag_add(errors, FBD_ERROR, "file-too-large", at, NULL, "the file has %zu bytes; the limit is %d MiB",
+                 length, source_most_bytes / (1024 * 1024));
+        return false;
+    }
+    if (is_utf16(text, length)) {
+        diag_add(errors, FBD_ERROR, "not-utf-8", at, "save the file as plain text in UTF-8",
+                 "the file is UTF-16");
+        return false;
+    }
+    if (length >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) {
+        text += 3;
+        length -= 3;
+    }
+    *source = (struct source){text, length};
+    for (size_t i = 0; i < length;) {
+        unsigned code;
+        size_t width = source_decode(text + i, length - i, &code);
+        if (width == 0) {
+            note_bad_byte(errors, at, (unsigned char)text[i]);
+            return false;
+        }
+        if (is_control(code)) {
+            note_control(errors, at, code);
+            return false;
+        }
+        at.column++;
+        if (source_line_ends(text + i, text + length)) at = (struct pos){at.line + 1, 1};
+        i += width;
+    }
+    return true;
+}

@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/values.h"
+
+#include "scene/scalar.h"
+
+#include <string.h>
+
+const char *value_found(struct reader *reader, const struct node *node)
+{
+    switch (node->kind) {
+    case node_null: return "nothing";
+    case node_list: return "a list";
+    case node_map: return "a mapping";
+    case node_scalar: break;
+    }
+    enum { most_shown = 40 };
+    size_t shown = 0;
+    while (shown < node->length && shown < most_shown) {
+        unsigned code;
+        shown += source_decode(node->text + shown, node->length - shown, &code);
+    }
+    const char *text =
+        diag_hint(reader->errors, "`%.*s%s`", (int)shown, node->text, shown < node->length ? "..." : "");
+    return text ? text : "text";
+}
+
+bool value_refuse(struct reader *reader, const struct node *node, const char *what, const char *wanted,
+                  const char *hint)
+{
+    if (node->kind == node_null)
+        diag_add(reader->errors, FBD_ERROR, "missing-value", node->at, hint,
+                 "`%s` has no value: it must be %s", what, wanted);
+    else
+        diag_add(reader->errors, FBD_ERROR, "wrong-type", node->at, hint, "`%s` must be %s, not %s", what,
+                 wanted, value_found(reader, node));
+    return false;
+}
+
+/* ---- expressions */
+
+/* expr counts columns along the text. Where that was put together from several lines, the notes that came in
+ * after `last` are moved to the lines where their tokens stand. */
+static void replace_notes(struct reader *reader, const struct node *node, struct diag_note *last)
+{
+    if (!node->many_lines) return;
+    for (struct diag_note *note = last ? last->next : reader->errors->first; note; note = note->next) {
+        int offset = note->error.column - node->text_at.column;
+        if (note->error.line != node->text_at.line || offset < 0) continue;
+        struct pos at = node_place(node, (size_t)offset);
+        note->error.line = at.line;
+        note->error.column = at.column;
+    }
+}
+
+const struct expr *value_compile(struct reader *reader, const struct node *node, const struct expr_want *want,
+                                 const struct scope *scope)
+{
+    struct diag_note *last = reader->errors->last;
+    const struct expr *expr =
+        expr_compile(reader->arena, node->text, node->text_at, scope, want, reader->errors);
+    replace_notes(reader, node, last);
+    return expr;
+}
+
+bool value_relation(struct reader *reader, const struct node *node, const struct expr_want *want,
+                    const struct scope *scope, const struct expr **left, char *relation,
+                    const struct expr **right)
+{
+    struct diag_note *last = reader->errors->last;
+    bool fine = expr_compile_relation(reader->arena, node->text, node->text_at, scope, want, reader->errors,
+                                      left, relation, right);
+    replace_notes(reader, node, last);
+    return fine;
+}
+
+static const struct expr *compile(struct reader *reader, const struct node *node, const char *what,
+                                  enum quantity quantity, bool constant, const struct scope *scope)
+{
+    bool boolean;
+    bool is_number = node->kind == node_scalar && node->length > 0 &&
+                     (node->quoted || !scalar_boolean(node->text, &boolean));
+    if (!is_number) {
+        const char *hint =
+            diag_hint(reader->errors, "write for example `%s: %s`", what, quantity_example(quantity));
+        value_refuse(reader, node, what, quantity_name(quantity), hint);
+        return NULL;
+    }
+    if (!scalar_check_number(node->text, node->text_at, what, reader->errors)) return NULL;
+    const struct expr_want want = {.dim = quantity_dim(quantity),
+                                   .constant = constant,
+                                   .angle = quantity == an_angle,
+                                   .any_dim = quantity == a_parameter,
+                                   .what = what};
+    return value_compile(reader, node, &want, scope);
+}
+
+static bool check_range(struct reader *reader, const struct node *node, const char *what, unsigned flags,
+                        double number)
+{
+    const char *range = (flags & positive) && number <= 0      ? "above zero"
+                        : (flags & not_negative) && number < 0 ? "zero or above"
+                                                               : NULL;
+    if (range)
+        diag_add(reader->errors, FBD_ERROR, "out-of-range", node->at, NULL, "`%s` must be %s", what, range);
+    return !range;
+}
+
+bool value_number(struct reader *reader, const struct node *node, const char *what, enum quantity quantity,
+                  unsigned flags, double *number)
+{
+    const struct expr *expr = compile(reader, node, what, quantity, true, &reader->constants);
+    if (!expr || !check_range(reader, node, what, flags, expr_value(expr))) return false;
+    *number = expr_value(expr);
+    return true;
+}
+
+bool value_formula(struct reader *reader, const struct node *node, const char *what, enum quantity quantity,
+                   unsigned flags, const struct scope *scope, struct value *value)
+{
+    bool constant = scope == &reader->constants;
+    const struct expr *expr = compile(reader, node, what, quantity, constant, scope);
+    if (!expr) return false;
+    if (expr_is_constant(expr) && !check_range(reader, node, what, flags, expr_value(expr))) return false;
+    *value = (struct value){expr, node->at};
+    return true;
+}
+
+bool value_vector(struct reader *reader, const struct node *node, const char *what, enum quantity quantity,
+                  struct vec *vector)
+{
+    if (node->kind != node_list || node->count != 2) {
+        const char *hint =
+            diag_hint(reader->errors, "write for example `%s: [0, %s]`", what, quantity_example(quantity));
+        if (node->kind != node_list) return value_refuse(reader, node, what, "a pair [x, y]", hint);
+        diag_add(reader->errors, FBD_ERROR, "wrong-type", node->at, hint,
+                 "`%s` must be a pair [x, y], not a list of %zu", what, node->count);
+        return false;
+    }
+    bool x = value_number(reader, node->items[0], what, quantity, 0, &vector->x);
+    bool y = value_number(reader, node->items[1], what, quantity, 0, &vector->y);
+    return x && y;
+}
+
+/* ---- words */
+
+bool value_text(struct reader *reader, const struct node *node, const char *what, const char **text)
+{
+    if (node->kind != node_scalar) return value_refuse(reader, node, what, "text", NULL);
+    *text = arena_text(reader->arena, node->text, node->length);
+    return *text != NULL;
+}
+
+bool value_name(struct reader *reader, const struct node *node, const char *what, const char **name)
+{
+    return value_text(reader, node, what, name) && name_check(reader->errors, *name, node->at, NULL);
+}
+
+bool value_flag(struct reader *reader, const struct node *node, const char *what, bool *flag)
+{
+    if (node->kind != node_scalar) return value_refuse(reader, node, what, "true or false", NULL);
+    bool truth = scalar_boolean(node->text, flag);
+    if (truth && !node->quoted) return true;
+    const char *word = scalar_boolean_word(node->text);
+    const char *hint = truth  ? "leave out the quotes"
+                       : word ? diag_hint(reader->errors, "write `%s`", word)
+                              : "write `true` or `false`";
+    return value_refuse(reader, node, what, "true or false", hint);
+}
+
+bool value_choice(struct reader *reader, const struct node *node, const char *what,
+                  const struct choice *choices, size_t count, int *choice)
+{
+    enum { most_choices = 16 };
+    const char *names[most_choices];
+    for (size_t i = 0; i < count && i < most_choices; i++) {
+        names[i] = choices[i].name;
+        if (node->kind != node_scalar || strcmp(node->text, names[i]) != 0) continue;
+        *choice = choices[i].value;
+        return true;
+    }
+    if (node->kind != node_scalar) return value_refuse(reader, node, what, "one word", NULL);
+    diag_add(reader->errors, FBD_ERROR, "unknown-choice", node->at,
+             diag_nearest(reader->errors, node->text, names, count), "`%s` cannot be %s", what,
+             value_found(reader, node));
+    return false;
+}
