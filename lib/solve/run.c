@@ -175,7 +175,7 @@ static bool polish(struct run *run, double step_end, double *t)
     const struct scan *scan = &run->moving;
     double *values = run->values, *rate = values + scan->count;
     for (int step = 0;; step++) {
-        if (stepper_partial(run->stepper, &run->system, *t, run->y, run->f) != GSL_SUCCESS) return false;
+        if (stepper_partial(run->stepper, *t, run->y, run->f) != GSL_SUCCESS) return false;
         if (step == most_steps) return true;
         watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, *t, run->y, values, rate);
         double move = HUGE_VAL;

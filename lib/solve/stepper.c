@@ -1,0 +1,272 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solve/stepper.h"
+
+#include <gsl/gsl_errno.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "solve/dense.h"
+#include "solve/first_step.h"
+#include "solve/history.h"
+#include "solve/weights.h"
+
+struct stepper {
+    const struct method *method;
+    struct layout layout;
+    size_t n;
+    double h_max, h_fixed;
+    gsl_odeiv2_control *control;
+    gsl_odeiv2_step *step;
+    gsl_odeiv2_step *redo;    /* of the same type, for parts of steps: the other one keeps its dense output */
+    gsl_odeiv2_driver driver; /* GSL's steppers ask it for its control only */
+    struct dense *dense;      /* of explicit methods and msadams */
+    struct history *history;  /* of msbdf, else NULL */
+    struct stepper_counts counts;
+    bool stepped; /* a last step stands in the following */
+    struct counted_system *system;
+    double t0, t1;
+    double *y0, *f0, *y1, *f1;
+    double *yerr, *work; /* n and 3 n */
+    double memory[];
+};
+
+/* Not by gsl_odeiv2_step_alloc, which calls GSL's error handler when memory is out; its own steppers still
+ * do. */
+static gsl_odeiv2_step *step_alloc(const struct method *method, size_t n, const gsl_odeiv2_driver *driver)
+{
+    gsl_odeiv2_step *step = malloc(sizeof *step);
+    void *state = step ? (*method->type)->alloc(n) : NULL;
+    if (!state) {
+        free(step);
+        return NULL;
+    }
+    *step = (gsl_odeiv2_step){.type = *method->type, .dimension = n, .state = state};
+    if (method->needs_driver) step->type->set_driver(state, driver);
+    return step;
+}
+
+static struct stepper *state_alloc(size_t n)
+{
+    enum { vectors = 8 };
+    if (n == 0 || n > (SIZE_MAX - sizeof(struct stepper)) / (vectors * sizeof(double))) return NULL;
+    struct stepper *s = calloc(1, sizeof *s + vectors * n * sizeof(double));
+    if (!s) return NULL;
+    s->n = n;
+    s->y0 = s->memory;
+    s->f0 = s->y0 + n;
+    s->y1 = s->f0 + n;
+    s->f1 = s->y1 + n;
+    s->yerr = s->f1 + n;
+    s->work = s->yerr + n;
+    return s;
+}
+
+struct stepper *stepper_alloc(const struct stepper_options *options)
+{
+    const struct method *method = options->method;
+    if (!(options->tolerance > 0) || !(options->h_max >= 0) || !(options->h_fixed >= 0)) return NULL;
+    struct stepper *s = state_alloc(layout_size(&options->layout));
+    if (!s) return NULL;
+    s->method = method;
+    s->layout = options->layout;
+    s->layout.angle = NULL;
+    s->h_max = options->h_max > 0 ? options->h_max : INFINITY;
+    s->h_fixed = options->h_fixed;
+    s->control = weights_alloc(&options->layout, options->tolerance, step_law_for(method->estimate_order));
+    s->driver = (gsl_odeiv2_driver){.c = s->control};
+    s->dense = dense_alloc(&options->layout);
+    s->step = step_alloc(method, s->n, &s->driver);
+    bool redo = !method->multistep, history = method->multistep && method->implicit;
+    if (redo) s->redo = step_alloc(method, s->n, &s->driver);
+    if (history) s->history = history_alloc(s->n);
+    if (!s->control || !s->dense || !s->step || (redo && !s->redo) || (history && !s->history)) {
+        stepper_free(s);
+        return NULL;
+    }
+    return s;
+}
+
+void stepper_free(struct stepper *s)
+{
+    if (!s) return;
+    if (s->redo) gsl_odeiv2_step_free(s->redo);
+    if (s->step) gsl_odeiv2_step_free(s->step);
+    if (s->control) gsl_odeiv2_control_free(s->control);
+    dense_free(s->dense);
+    history_free(s->history);
+    free(s);
+}
+
+int stepper_reset(struct stepper *s, struct counted_system *system, double t, const double *y, double *f,
+                  double t_limit, double *h)
+{
+    double room = t_limit - t;
+    s->stepped = false;
+    if (!(room > 0)) return GSL_EINVAL;
+    gsl_odeiv2_step_reset(s->step);
+    int code = counted_system_rhs(system, t, y, f);
+    if (code != GSL_SUCCESS) return code;
+    weights_update(s->control, y, f);
+    if (s->history) {
+        history_clear(s->history);
+        history_add(s->history, t, y);
+    }
+    if (s->h_fixed > 0) {
+        *h = s->h_fixed;
+        return GSL_SUCCESS;
+    }
+    int first_order = s->method->multistep ? 1 : s->method->order;
+    return first_step(system, &s->layout, s->control, first_order, t, y, f, fmin(room, s->h_max), s->work, h);
+}
+
+/* A step to be tried: its size and end, and whether t_limit had a say in it. */
+struct plan {
+    double h, t1;
+    bool cut;
+};
+
+static struct plan plan_step(const struct stepper *s, double t, double h, double t_limit)
+{
+    double room = t_limit - t;
+    if (1.01 * h >= room) return (struct plan){room, t_limit, true};
+    if (s->h_fixed > 0) return (struct plan){h, t + h, false};
+    bool half = 2 * h > room;
+    if (half) h = room / 2;
+    double t1 = t + h;
+    /* The size that t1 really has, so that t and the stages agree. A multistep method would rather see a
+     * constant step. */
+    if (!s->method->multistep) h = t1 - t;
+    return (struct plan){h, t1, half};
+}
+
+/* What became of an attempt. */
+struct outcome {
+    bool accepted;
+    enum rejection why; /* if not */
+    double factor;      /* for the next step size */
+};
+
+static bool all_finite(size_t n, const double *restrict y, const double *restrict f)
+{
+    double probe = 0;
+    for (size_t i = 0; i < n; i++) probe += 0 * (y[i] + f[i]);
+    return probe == 0;
+}
+
+static struct outcome judge_failure(const struct stepper *s, const struct counted_system *system)
+{
+    if (system->last_code == system_not_finite) return (struct outcome){false, rejected_not_finite, 0.25};
+    if (system->last_code != GSL_SUCCESS) return (struct outcome){false, rejected_rhs, 0.5};
+    if (s->method->implicit || s->method->multistep) return (struct outcome){false, rejected_iteration, 0.5};
+    return (struct outcome){false, rejected_not_finite, 0.25};
+}
+
+static struct outcome judge(const struct stepper *s, double h, const double *y, const double *f)
+{
+    if (s->h_fixed > 0) return (struct outcome){all_finite(s->n, y, f), rejected_not_finite, 1};
+    double ratio = weights_ratio(s->control, h, y, s->yerr, f);
+    double factor = weights_factor(s->control, ratio, gsl_odeiv2_step_order(s->step));
+    if (ratio <= 1) return (struct outcome){true, rejected_error, factor};
+    if (ratio < INFINITY) return (struct outcome){false, rejected_error, factor};
+    bool finite = all_finite(s->n, y, f);
+    return (struct outcome){false, finite ? rejected_iteration : rejected_not_finite, factor};
+}
+
+static void keep(struct stepper *s, struct counted_system *system, double t0, double t1, const double *y,
+                 const double *f)
+{
+    s->t0 = t0;
+    s->t1 = t1;
+    memcpy(s->y1, y, s->n * sizeof *y);
+    memcpy(s->f1, f, s->n * sizeof *f);
+    weights_update(s->control, y, f);
+    dense_set(s->dense, s->method->order, t0, s->y0, s->f0, t1, s->y1, s->f1, &system->gsl, s->step);
+    if (s->history) history_add(s->history, t1, y);
+    s->system = system;
+    s->stepped = true;
+    s->counts.accepted++;
+}
+
+static enum stepper_status give_up(const struct stepper *s, double *y, double *f, enum stepper_status status)
+{
+    memcpy(y, s->y0, s->n * sizeof *y);
+    memcpy(f, s->f0, s->n * sizeof *f);
+    return status;
+}
+
+enum stepper_status stepper_step(struct stepper *s, struct counted_system *system, double *t, double *y,
+                                 double *f, double *h, double t_limit)
+{
+    double t0 = *t, room = t_limit - t0;
+    if (!(room > 0) || !(*h > 0) || system->gsl.dimension != s->n) return stepper_misuse;
+    if (s->method->implicit && !system->gsl.jacobian) return stepper_misuse;
+    s->stepped = false;
+    memcpy(s->y0, y, s->n * sizeof *y);
+    memcpy(s->f0, f, s->n * sizeof *f);
+    double proposal = s->h_fixed > 0 ? s->h_fixed : fmin(*h, s->h_max);
+    bool rejected = false;
+    for (;;) {
+        struct plan plan = plan_step(s, t0, proposal, t_limit);
+        /* The second condition ends the retries at t = 0, where there is always a smaller number. */
+        if (t0 + plan.h == t0 || plan.h < 1e-30 * room) return give_up(s, y, f, stepper_underflow);
+        system->last_code = GSL_SUCCESS;
+        int code = gsl_odeiv2_step_apply(s->step, t0, plan.h, y, s->yerr, s->f0, f, &system->gsl);
+        if (code == GSL_EBADFUNC) return give_up(s, y, f, stepper_bad_function);
+        struct outcome outcome = code == GSL_SUCCESS ? judge(s, plan.h, y, f) : judge_failure(s, system);
+        double next = plan.h * outcome.factor;
+        if (outcome.accepted) {
+            if (rejected) next = fmin(next, plan.h);
+            *h = fmin(plan.cut ? fmax(next, proposal) : next, s->h_max);
+            *t = plan.t1;
+            keep(s, system, t0, plan.t1, y, f);
+            return stepper_ok;
+        }
+        s->counts.last = outcome.why;
+        s->counts.rejected[outcome.why]++;
+        if (s->h_fixed > 0) return give_up(s, y, f, stepper_fixed_failed);
+        rejected = true;
+        proposal = next;
+        memcpy(y, s->y0, s->n * sizeof *y);
+    }
+}
+
+/* The state at t of a step of the same method from the start of the last one. */
+static int redo(struct stepper *s, double t, double *y, double *f)
+{
+    memcpy(y, s->y0, s->n * sizeof *y);
+    return gsl_odeiv2_step_apply(s->redo, s->t0, t - s->t0, y, s->yerr, s->f0, f, &s->system->gsl);
+}
+
+int stepper_dense(struct stepper *s, double t, double *y)
+{
+    if (!s->stepped || !(t >= s->t0 && t <= s->t1)) return GSL_EINVAL;
+    if (t == s->t0 || t == s->t1 || !s->method->implicit) return dense_eval(s->dense, t, y);
+    if (!s->history) return redo(s, t, y, s->work);
+    history_eval(s->history, (int)gsl_odeiv2_step_order(s->step), t, y);
+    return GSL_SUCCESS;
+}
+
+int stepper_partial(struct stepper *s, double t, double *y, double *f)
+{
+    if (s->stepped && (t == s->t0 || t == s->t1)) {
+        memcpy(y, t == s->t0 ? s->y0 : s->y1, s->n * sizeof *y);
+        memcpy(f, t == s->t0 ? s->f0 : s->f1, s->n * sizeof *f);
+        return GSL_SUCCESS;
+    }
+    if (!s->stepped || !(t > s->t0 && t < s->t1)) return GSL_EINVAL;
+    if (s->redo) return redo(s, t, y, f);
+    int code = stepper_dense(s, t, y);
+    return code == GSL_SUCCESS ? counted_system_rhs(s->system, t, y, f) : code;
+}
+
+const struct stepper_counts *stepper_get_counts(const struct stepper *s)
+{
+    return &s->counts;
+}
+
+gsl_odeiv2_control *stepper_control(struct stepper *s)
+{
+    return s->control;
+}
