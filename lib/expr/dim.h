@@ -17,7 +17,12 @@ struct dim {
     short mass, length, time; /* in twelfths */
 };
 
-#define DIM(M, L, T) ((struct dim){(M)*dim_unit, (L)*dim_unit, (T)*dim_unit})
+/* Whole powers of mass, length and time: DIM_INIT initializes an object (a static one too), DIM is a value.
+ */
+/* clang-format off */
+#define DIM_INIT(M, L, T) {(M) * dim_unit, (L) * dim_unit, (T) * dim_unit}
+/* clang-format on */
+#define DIM(M, L, T) ((struct dim)DIM_INIT(M, L, T))
 
 #define DIM_NONE            DIM(0, 0, 0)
 #define DIM_MASS            DIM(1, 0, 0)
@@ -35,6 +40,7 @@ struct dim {
 #define DIM_DAMPING         DIM(1, 0, -1) /* N s/m */
 #define DIM_ANGULAR_DAMPING DIM(1, 2, -1) /* N m s/rad */
 #define DIM_QUADRATIC_DRAG  DIM(1, -1, 0) /* N s^2/m^2 */
+#define DIM_PRESSURE        DIM(1, -1, -2)
 
 bool dim_equal(struct dim a, struct dim b);
 struct dim dim_times(struct dim a, struct dim b);

@@ -13,19 +13,30 @@
  * ...` is an error that shows the brackets.
  *
  * Functions: sin cos tan asin acos atan atan2 sinh cosh tanh exp ln log (= ln) log10 sqrt cbrt hypot pow abs
- * sign min max floor ceil round mod(a, b), step(u) (0 below zero, 1 above), pulse(t, start, width) (1
- * inside), square(u) (+1 in the first half of each unit period of u, -1 in the second), sawtooth(u) (u -
- * floor(u)), clamp(u, low, high), if(condition, a, b). Constants: pi.
+ * sign min max (two to eight arguments) floor ceil round mod(a, b) (with the sign of b), step(u) (0 below
+ * zero, 1 from zero on), pulse(t, start, width) (1 from start to start + width), square(u) (+1 in the first
+ * half of each unit period of u, -1 in the second), sawtooth(u) (u - floor(u)), clamp(u, low, high),
+ * if(condition, a, b). Constants: pi.
  *
  * Dimensions are checked everywhere. A bare literal (no unit) takes whatever dimension it needs, and so does
- * a product with such a factor. Exponents must be numbers when the base has a dimension. Angles are pure
- * numbers.
+ * a product with such a factor; so `2*x + F` passes. pi counts as a bare literal, so that sin(pi*t) needs no
+ * more units than sin(3*t). Exponents must be numbers when the base has a dimension. Angles are pure numbers.
  *
  * KINKS. Functions that are not smooth (abs sign min max step pulse square floor mod clamp if and comparisons
  * ...) are switches: each has a branch (a small integer), and evaluation with given branches follows the
  * smooth formula of that branch, beyond its end if need be. The caller holds the branches, sees from the
  * margins when a branch ends, locates that instant, and crosses over. So no integrator ever straddles a kink.
  * Without branches (NULL) evaluation takes the plain value.
+ *
+ * if(condition, a, b) evaluates only the side that is chosen; clamp and pulse are two switches each, `and`,
+ * `or` and `not` none. A switch by sign (of u, or of a - b) has the branches -1 and 1, and sign and == also
+ * 0, for what is zero and stays so: there sign is 0 and == holds. A rounding (floor, ceil, round, mod,
+ * sawtooth, square) has a branch for each of its steps. Beyond 2^31 steps it is past counting: no margins,
+ * and the plain value.
+ *
+ * DERIVATIVES are those of the smooth formula of the branch. They are finite where the derivative exists
+ * (x^2, x*abs(x), x*sqrt(x) at 0), infinite where it is (sqrt at 0), and 0 for abs (without branches) and
+ * hypot at their corner.
  */
 #ifndef FBD_EXPR_EXPR_H
 #define FBD_EXPR_EXPR_H
@@ -75,10 +86,13 @@ struct expr_want {
 };
 
 /* Compile `text`, which starts at `at` in its file. Memory comes from `arena`. NULL with at least one note in
- * `errors` when it is wrong; columns point at the offending token. Limits: 16 384 characters, nesting 100, 4
- * 096 operations (id `expression-too-long`). Ids: `expression-syntax`, `unknown-name`, `unknown-function`,
- * `argument-count`, `wrong-dimension`, `unknown-unit`, `unit-syntax`, `unit-needs-brackets`, `not-constant`,
- * `not-finite` (a constant part that is inf or nan, as 1/0), `bare-angle` (warning). */
+ * `errors` when it is wrong (no further note for a name that is symbol_failed); columns point at the
+ * offending token. A newline counts as one column. Limits: 16384 characters, nesting 100, 4096 operations,
+ * 1024 different numbers, variables and intermediate values together (id `expression-too-long`). Ids:
+ * `expression-syntax`, `unknown-name`, `unknown-function`, `argument-count`, `wrong-dimension`,
+ * `unknown-unit`, `unit-syntax`, `unit-needs-brackets`, `not-constant`, `not-finite` (a constant part that is
+ * inf or nan, as 1/0). A condition in the place of a number, or the reverse, is an `expression-syntax`.
+ * Warnings: `bare-angle`, and `hertz-as-rate` for a quantity in Hz where an angular velocity is wanted. */
 const struct expr *expr_compile(struct arena *arena, const char *text, struct pos at,
                                 const struct scope *scope, const struct expr_want *want, fbd_errors *errors);
 
@@ -101,6 +115,9 @@ bool expr_number(const char *text, size_t length, double *value);
 bool expr_is_constant(const struct expr *expr);
 double expr_value(const struct expr *expr); /* of a constant */
 bool expr_is_bare(const struct expr *expr); /* its dimension is free: a bare number decided it */
+
+/* The dimension: the one that was wanted; with any_dim that of the expression, where bare literals count as
+ * pure numbers if nothing else decides. A condition has none. */
 struct dim expr_dim(const struct expr *expr);
 bool expr_uses_time(const struct expr *expr);
 
@@ -135,17 +152,23 @@ bool expr_switch_is_time(const struct expr *expr, size_t index);
 
 /* Two margins for each switch, positive inside the branch, negative beyond its end; +HUGE_VAL for an end that
  * does not exist. Evaluated with the given branches (so that they are smooth functions of the state).
- * `margins` has 2 * expr_switches entries. With `rates` not NULL, also their derivatives along (dt, dy). */
+ * `margins` has 2 * expr_switches entries, the lower end of switch i at 2 i and the upper one at 2 i + 1.
+ * With `rates` not NULL, also their derivatives along (dt, dy), 0 for what does not exist. A switch in the
+ * side of an `if` that is not chosen is silent: both margins are +HUGE_VAL. Margins have the unit of u, and
+ * for roundings that of the branch number. */
 void expr_margins(const struct expr *expr, double t, const double *y, double dt, const double *dy,
                   const int *branch, double *margins, double *rates);
 
 /* Choose the branches at a point from the values; where a switching function is zero to rounding, by its rate
  * along (dt, dy), the direction in which the motion goes on. `keep` (may be NULL) marks switches whose branch
- * in `branch` is already decided and stays. */
+ * in `branch` is already decided and stays. With a rate of exactly zero a switch takes the side of its plain
+ * value, sign and == their branch 0. A silent switch gets branch 0. Zero to rounding means within a few
+ * bounds of the rounding error of u, which is propagated through the expression; so an instant located to the
+ * last bit is recognised. */
 void expr_resolve(const struct expr *expr, double t, const double *y, double dt, const double *dy,
                   const bool *keep, int *branch);
 
-/* The branch on the other side of end `end` (0 or 1) of switch `index`. */
+/* The branch on the other side of end `end` (0 lower, 1 upper) of switch `index`. */
 int expr_branch_beyond(const struct expr *expr, size_t index, int end, int branch);
 
 #endif

@@ -23,13 +23,15 @@ struct unit {
     struct dim dim;
     double factor;
     bool angle; /* the unit names an angle somewhere: deg, rad, rev, rpm */
+    bool hertz; /* it names Hz, which counts periods and is easily taken for an angular velocity */
 };
 
 /* Read a unit expression such as `N*m*s/rad`, `ft/s^2`, `kg m^2`, `1/s`: names of the table joined by `*`,
  * `/`, `^` with an integer exponent, `.` or blanks for a product, and parentheses; `1` may stand as a
- * numerator. The whole of `text[0..length)` must be used. False with one note in `errors` (id `unknown-unit`
- * with the nearest name as hint, or `unit-syntax`) at the right column when it is not a unit; `errors` may be
- * NULL for a silent attempt. `at` is the position of text[0]. */
+ * numerator. Products and quotients are taken from left to right: `N/m/s` is N/(m*s). The whole of
+ * `text[0..length)` must be used. False with one note in `errors` (id `unknown-unit` with the nearest name as
+ * hint, or `unit-syntax`) at the right column when it is not a unit; `errors` may be NULL for a silent
+ * attempt. `at` is the position of text[0]. */
 bool unit_parse(const char *text, size_t length, enum unit_system system, fbd_errors *errors, struct pos at,
                 struct unit *result);
 
@@ -38,6 +40,10 @@ bool unit_parse(const char *text, size_t length, enum unit_system system, fbd_er
  * dimension: this says "N*m" and "lbf*ft"; unit_name_energy says "J" for SI. */
 void unit_name(struct dim dim, enum unit_system system, char *buffer, size_t size);
 const char *unit_name_energy(enum unit_system system);
+
+/* What a quantity of dimension `dim` is called: "force", "moment or energy", "pure number"; NULL when it has
+ * no common name. */
+const char *unit_quantity(struct dim dim);
 
 /* Common spellings of the table that have dimension `dim`, as a hint: "N, kN, lbf, ..."; "" when there is
  * none. */

@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What to say about a text that is no expression. The aim is the correction, not the grammar: `5 N + x` wants
+ * brackets, `2 x` a product sign, `9.81 ms-2` another spelling of the unit.
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include "expr/parser.h"
+#include "expr/unit_table.h"
+
+static bool is_letter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+static bool is_digit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
+static bool is_word(const char *word, const char *text, size_t length)
+{
+    return strlen(word) == length && memcmp(word, text, length) == 0;
+}
+
+bool explain_is_known(const struct scope *scope, const char *name, size_t length)
+{
+    const char *const *names = NULL;
+    size_t count = scope->names ? scope->names(scope->context, &names) : 0;
+    for (size_t i = 0; i < count; i++)
+        if (is_word(names[i], name, length)) return true;
+    return is_word("t", name, length) || is_word("pi", name, length);
+}
+
+/* ---- unexpected tokens */
+
+static void stop(struct parser *p, const char *hint, const char *message)
+{
+    parse_stop(p, "expression-syntax", p->token.at, hint, message);
+}
+
+/* The lower-case form of a current token such as `AND`; NULL for other tokens. */
+static const char *shouted_word(const struct parser *p)
+{
+    static const char *const words[][2] = {{"AND", "and"}, {"And", "and"}, {"OR", "or"}, {"Or", "or"}};
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        if (lex_is(&p->lexer, &p->token, words[i][0])) return words[i][1];
+    return NULL;
+}
+
+static void explain_missing_operator(struct parser *p)
+{
+    int length = (int)p->token.length;
+    const char *text = p->lexer.text + p->token.start;
+    if (p->token.kind == token_unit) {
+        stop(p, diag_hint(p->errors, "multiply by a quantity: `*1[%.*s]`", length, text),
+             "a unit in brackets can only follow a number");
+        return;
+    }
+    const char *word = shouted_word(p);
+    const char *hint = word ? diag_hint(p->errors, "write `%s`", word) : "a product is written with `*`";
+    diag_add(p->errors, FBD_ERROR, "expression-syntax", p->token.at, hint,
+             "an operator is missing before `%.*s`", length, text);
+    parse_halt(p);
+}
+
+void explain_unexpected(struct parser *p, const char *wanted)
+{
+    if (p->stopped) return;
+    int length = (int)p->token.length;
+    const char *text = p->lexer.text + p->token.start;
+    bool value = strcmp(wanted, "a value") == 0;
+    char message[96];
+    switch (p->token.kind) {
+    case token_number:
+    case token_name:
+    case token_open:
+    case token_unit:
+        if (value)
+            stop(p, NULL,
+                 p->token.kind == token_unit ? "a number is missing before its unit" : "a value is missing");
+        else
+            explain_missing_operator(p);
+        return;
+    case token_end:
+        snprintf(message, sizeof message, "%s is missing at the end", wanted);
+        stop(p, NULL, message);
+        return;
+    case token_close: stop(p, NULL, p->nesting ? "a value is missing before `)`" : "`)` without `(`"); return;
+    case token_comma:
+        stop(p, p->nesting ? NULL : "a decimal point is written `.`",
+             value ? "a value is missing before `,`" : "`,` can only separate arguments");
+        return;
+    default:
+        snprintf(message, sizeof message, "%s is missing before `%.*s`", wanted, length, text);
+        stop(p, NULL, message);
+    }
+}
+
+/* ---- a number and a name without an operator */
+
+enum { longest_unit = 80 }; /* a longer run of names is no unit */
+
+/* The length of the longest unit that `text` begins with. */
+static size_t unit_length(const char *text, size_t length)
+{
+    struct unit unit;
+    for (size_t end = length < longest_unit ? length : longest_unit; end > 0; end--) {
+        bool whole = end == length || !is_letter(text[end]) || !is_letter(text[end - 1]);
+        bool blank = text[end - 1] == ' ' || text[end - 1] == '\t';
+        if (whole && !blank && unit_parse(text, end, unit_si, NULL, (struct pos){0}, &unit)) return end;
+    }
+    return 0;
+}
+
+static size_t skip_blanks(const char *text, size_t length, size_t from)
+{
+    while (from < length && (text[from] == ' ' || text[from] == '\t')) from++;
+    return from;
+}
+
+/* Is the rest behind a unit of `used` bytes a slip in the unit (`m/s2`, `ms-2`, `m^0.5`, `ft*lb`), rather
+ * than the next operator of an expression? */
+static bool unit_goes_wrong(const struct parser *p, const char *text, size_t length, size_t used)
+{
+    size_t next = skip_blanks(text, length, used);
+    if (next == length) return false;
+    char c = text[next];
+    if (is_digit(c) || c == '^' || c == '.' || (unsigned char)c >= 0x80u) return true;
+    if (c == '-') {
+        size_t end = next + 1;
+        while (end < length && is_digit(text[end])) end++;
+        return next == used && end > next + 1 && end == length;
+    }
+    if (c != '*' && c != '/') return false;
+    size_t name = skip_blanks(text, length, next + 1), end = name;
+    while (end < length && is_letter(text[end])) end++;
+    return end > name && p->scope->names && !explain_is_known(p->scope, text + name, end - name) &&
+           !function_exists(text + name, end - name);
+}
+
+void explain_name_after_number(struct parser *p, struct token number)
+{
+    const char *text = p->lexer.text + p->token.start, *digits = p->lexer.text + number.start;
+    size_t length = p->lexer.length - p->token.start, used = unit_length(text, length);
+    int name = (int)p->token.length, figures = (int)number.length;
+    bool known = explain_is_known(p->scope, text, p->token.length) || function_exists(text, p->token.length);
+    struct unit unit;
+    if (shouted_word(p)) {
+        explain_missing_operator(p);
+        return;
+    }
+    if (text[0] == '_') {
+        stop(p, "write 1000, not 1_000", "digits cannot be grouped");
+        return;
+    }
+    bool slip = used ? unit_goes_wrong(p, text, length, used) : !known;
+    if (slip && !unit_parse(text, length, p->scope->units, p->errors, p->token.at, &unit)) {
+        parse_halt(p);
+        return;
+    }
+    if (used) {
+        const char *hint = diag_hint(p->errors, "write `%.*s[%.*s]`", figures, digits, (int)used, text);
+        if (known)
+            hint = diag_hint(p->errors, "write `%.*s[%.*s]`, or `%.*s*%.*s` for a product", figures, digits,
+                             (int)used, text, figures, digits, name, text);
+        diag_add(p->errors, FBD_ERROR, "unit-needs-brackets", p->token.at, hint,
+                 "inside an expression the unit `%.*s` needs brackets", (int)used, text);
+    } else {
+        const char *hint = diag_hint(p->errors, "write `%.*s*%.*s`", figures, digits, name, text);
+        diag_add(p->errors, FBD_ERROR, "expression-syntax", p->token.at, hint,
+                 "an operator is missing before `%.*s`", name, text);
+    }
+    parse_halt(p);
+}
+
+/* ---- unknown names */
+
+static const char *name_hint(struct parser *p, const char *name, size_t length)
+{
+    static const char *const constants[][2] = {
+        {"e", "Euler's number is `exp(1)`"},
+        {"Pi", "write `pi`"},
+        {"PI", "write `pi`"},
+        {"inf", "numbers are finite here"},
+        {"nan", "numbers are finite here"},
+        {"true", "write a comparison"},
+        {"false", "write a comparison"},
+    };
+    const char *const *names = NULL;
+    size_t count = p->scope->names ? p->scope->names(p->scope->context, &names) : 0;
+    for (size_t i = 0; i < sizeof constants / sizeof constants[0]; i++)
+        if (strcmp(constants[i][0], name) == 0) return constants[i][1];
+    if (function_exists(name, length))
+        return diag_hint(p->errors, "`%s` is a function: write `%s(...)`", name, name);
+    if (unit_find(name, length))
+        return diag_hint(p->errors, "`%s` as a unit stands in brackets behind a number: `5[%s]`", name, name);
+    return diag_nearest(p->errors, name, names, count);
+}
+
+void explain_unknown_name(struct parser *p, struct token name)
+{
+    const char *text = arena_text(&p->builder->scratch, p->lexer.text + name.start, name.length);
+    p->failed = true;
+    if (!text) return;
+    diag_add(p->errors, FBD_ERROR, "unknown-name", name.at, name_hint(p, text, name.length),
+             "nothing is called `%s` here", text);
+    /* What follows is the argument, which without parentheses would only give a second error. */
+    if (function_exists(text, name.length)) parse_halt(p);
+}

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "expr/expr.h"
+
+#include "expr/program.h"
+
+bool expr_is_constant(const struct expr *expr)
+{
+    return expr->operations == 0 && !expr->uses_time && expr->variables == 0;
+}
+
+double expr_value(const struct expr *expr)
+{
+    return expr->constant[expr->result];
+}
+
+bool expr_is_bare(const struct expr *expr)
+{
+    return expr->bare;
+}
+
+struct dim expr_dim(const struct expr *expr)
+{
+    return expr->dim;
+}
+
+bool expr_uses_time(const struct expr *expr)
+{
+    return expr->uses_time;
+}
+
+size_t expr_variables(const struct expr *expr, const int **slots)
+{
+    *slots = expr->slots;
+    return expr->variables;
+}
+
+size_t expr_switches(const struct expr *expr)
+{
+    return expr->switches;
+}
+
+bool expr_switch_is_time(const struct expr *expr, size_t index)
+{
+    return expr->switch_at[index].time;
+}

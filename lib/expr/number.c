@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "expr/number.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "expr/expr.h"
+
+static size_t digits(const char *text, size_t length, size_t from)
+{
+    size_t end = from;
+    while (end < length && text[end] >= '0' && text[end] <= '9') end++;
+    return end - from;
+}
+
+size_t number_length(const char *text, size_t length)
+{
+    size_t at = digits(text, length, 0), whole = at;
+    if (at < length && text[at] == '.') {
+        size_t fraction = digits(text, length, at + 1);
+        if (whole == 0 && fraction == 0) return 0;
+        at += 1 + fraction;
+    }
+    if (at == 0) return 0;
+    if (at < length && (text[at] == 'e' || text[at] == 'E')) {
+        size_t sign = at + 1 < length && (text[at + 1] == '+' || text[at + 1] == '-') ? 1 : 0;
+        size_t exponent = digits(text, length, at + 1 + sign);
+        if (exponent) at += 1 + sign + exponent;
+    }
+    return at;
+}
+
+/* More digits than these never decide the rounding by their value, only by whether one of them is not zero:
+ * the longest exact decimal halfway between two doubles has 767 significant digits. */
+enum { most_digits = 770, widest_exponent = 1000000 };
+
+/* The whole number that the first `count` characters of `text` write, times 10^exponent. */
+struct decimal {
+    char text[most_digits + 16]; /* room for the exponent behind the digits */
+    int count, exponent;
+};
+
+static void add_digit(struct decimal *d, char digit, bool fraction)
+{
+    bool leading_zero = d->count == 0 && digit == '0';
+    if (!leading_zero && d->count < most_digits) {
+        d->text[d->count++] = digit;
+        if (fraction) d->exponent--;
+        return;
+    }
+    if (leading_zero) {
+        if (fraction) d->exponent--;
+        return;
+    }
+    if (digit != '0') d->text[most_digits - 1] = '1';
+    if (!fraction) d->exponent++;
+}
+
+static int read_exponent(const char *text, size_t length)
+{
+    bool negative = length > 0 && text[0] == '-';
+    int value = 0;
+    for (size_t i = length > 0 && (text[0] == '-' || text[0] == '+') ? 1 : 0; i < length; i++)
+        if (value < widest_exponent) value = value * 10 + (text[i] - '0');
+    return negative ? -value : value;
+}
+
+/* The number is rewritten as whole digits and an exponent. strtod then rounds correctly and never meets a
+ * decimal point, the only thing of a plain number that depends on the locale. */
+double number_value(const char *text, size_t length)
+{
+    struct decimal d = {.count = 0, .exponent = 0};
+    bool fraction = false;
+    for (size_t i = 0; i < length; i++) {
+        if (text[i] == '.') {
+            fraction = true;
+        } else if (text[i] == 'e' || text[i] == 'E') {
+            d.exponent += read_exponent(text + i + 1, length - i - 1);
+            break;
+        } else {
+            add_digit(&d, text[i], fraction);
+        }
+    }
+    if (d.count == 0) return 0;
+    snprintf(d.text + d.count, sizeof d.text - (size_t)d.count, "e%d", d.exponent);
+    return strtod(d.text, NULL);
+}
+
+bool expr_number(const char *text, size_t length, double *value)
+{
+    size_t sign = length > 0 && (text[0] == '-' || text[0] == '+') ? 1 : 0;
+    size_t rest = length - sign;
+    if (rest == 0 || number_length(text + sign, rest) != rest) return false;
+    double size = number_value(text + sign, rest);
+    if (isinf(size)) return false;
+    *value = sign && text[0] == '-' ? -size : size;
+    return true;
+}

@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+
+#include "expr/program.h"
+
+double whole_power(double x, int n)
+{
+    unsigned left = n < 0 ? 0u - (unsigned)n : (unsigned)n;
+    double product = 1, square = x;
+    for (; left; left >>= 1) {
+        if (left & 1u) product *= square;
+        if (left > 1) square *= square;
+    }
+    return n < 0 ? 1 / product : product;
+}
+
+/* NaN in any operand must come out: a comparison would hide it. */
+static double lesser(double x, double y)
+{
+    return x < y ? x : x >= y ? y : x + y;
+}
+
+static double greater(double x, double y)
+{
+    return x > y ? x : x <= y ? y : x + y;
+}
+
+static double sign(double x)
+{
+    return x > 0 ? 1 : x < 0 ? -1 : x;
+}
+
+static double step(double x)
+{
+    return x >= 0 ? 1 : x < 0 ? 0 : x;
+}
+
+/* The remainder with the sign of y. fmod is exact; only the turn to the sign of y may round (then up to y
+ * itself). */
+static double modulo(double x, double y)
+{
+    double rest = fmod(x, y);
+    return rest != 0 && (rest < 0) != (y < 0) ? rest + y : rest;
+}
+
+static double square_wave(double x)
+{
+    double half_periods = floor(2 * x);
+    return isnan(half_periods) ? half_periods : fmod(half_periods, 2) == 0 ? 1 : -1;
+}
+
+static double plain_switch(unsigned op, double x, double y)
+{
+    switch (op) {
+    case op_sign: return sign(x);
+    case op_abs: return fabs(x);
+    case op_step: return step(x);
+    case op_min: return lesser(x, y);
+    case op_max: return greater(x, y);
+    case op_less: return x < y;
+    case op_less_equal: return x <= y;
+    case op_greater: return x > y;
+    case op_greater_equal: return x >= y;
+    case op_equal: return x == y;
+    case op_floor: return floor(x);
+    case op_ceil: return ceil(x);
+    case op_round: return round(x);
+    case op_mod: return modulo(x, y);
+    case op_sawtooth: return x - floor(x);
+    case op_square: return square_wave(x);
+    default: return NAN;
+    }
+}
+
+double op_value(const struct instr *instr, double x, double y)
+{
+    switch (instr->op) {
+    case op_copy: return x;
+    case op_negate: return -x;
+    case op_add: return x + y;
+    case op_subtract: return x - y;
+    case op_multiply: return x * y;
+    case op_divide: return x / y;
+    case op_whole_power: return whole_power(x, instr->extra);
+    case op_power: return pow(x, y);
+    case op_sqrt: return sqrt(x);
+    case op_cbrt: return cbrt(x);
+    case op_hypot: return hypot(x, y);
+    case op_exp: return exp(x);
+    case op_ln: return log(x);
+    case op_log10: return log10(x);
+    case op_sin: return sin(x);
+    case op_cos: return cos(x);
+    case op_tan: return tan(x);
+    case op_asin: return asin(x);
+    case op_acos: return acos(x);
+    case op_atan: return atan(x);
+    case op_atan2: return atan2(x, y);
+    case op_sinh: return sinh(x);
+    case op_cosh: return cosh(x);
+    case op_tanh: return tanh(x);
+    case op_and: return x != 0 && y != 0;
+    case op_or: return x != 0 || y != 0;
+    case op_not: return x == 0;
+    default: return plain_switch(instr->op, x, y);
+    }
+}
+
+/* ---- switches */
+
+double op_plain_branch(unsigned op, double x, double y)
+{
+    switch (op) {
+    case op_sign: return sign(x);
+    case op_abs:
+    case op_step: return x >= 0 ? 1 : -1;
+    case op_min:
+    case op_less: return x < y ? -1 : 1;
+    case op_max:
+    case op_less_equal: return x <= y ? -1 : 1;
+    case op_greater: return x > y ? 1 : -1;
+    case op_greater_equal: return x >= y ? 1 : -1;
+    case op_equal: return x < y ? -1 : x > y ? 1 : 0;
+    case op_floor:
+    case op_sawtooth: return floor(x);
+    case op_ceil: return ceil(x);
+    case op_round: return round(x);
+    case op_mod: return floor(x / y);
+    case op_square: return floor(2 * x);
+    default: return 0;
+    }
+}
+
+double switch_branch(const struct instr *instr, double x, double y, const int *branch)
+{
+    int n = branch ? branch[instr->extra] : branch_limit;
+    if (n < branch_limit && n > -branch_limit) return n;
+    return op_plain_branch(instr->op, x, y);
+}
+
+double switch_value(unsigned op, double n, double x, double y)
+{
+    switch (op) {
+    case op_abs: return n < 0 ? -x : x;
+    case op_step: return n < 0 ? 0 : 1;
+    case op_min: return n < 0 ? x : y;
+    case op_max: return n < 0 ? y : x;
+    case op_less:
+    case op_less_equal: return n < 0;
+    case op_greater:
+    case op_greater_equal: return n > 0;
+    case op_equal: return n == 0;
+    case op_mod: return n == 0 ? x : x - n * y; /* y may be infinite */
+    case op_sawtooth: return x - n;
+    case op_square: return fmod(n, 2) == 0 ? 1 : -1;
+    default: return n; /* sign, floor, ceil, round */
+    }
+}

@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The compiled form of an expression.
+ *
+ * A program works on one frame of registers:
+ *
+ *     variables (t first when it is used, then slots ascending) | constants | temporaries
+ *
+ * Evaluation fills the first two parts and runs down the instructions, each of which reads two registers and
+ * writes one temporary. Leaves cost no instruction, and the frame holds whatever kind of number is wanted:
+ * doubles, dual numbers, hyper-dual numbers, or values with rates and rounding bounds.
+ */
+#ifndef FBD_EXPR_PROGRAM_H
+#define FBD_EXPR_PROGRAM_H
+
+#include "expr/expr.h"
+
+enum {
+    frame_limit = 1024,       /* registers: 32 KB of stack for hyper-dual numbers */
+    operation_limit = 4096,   /* instructions */
+    branch_limit = 2147483647 /* a branch at +-this is past counting: see switch_branch */
+};
+
+enum op {
+    op_copy,
+    op_negate,
+    op_add,
+    op_subtract,
+    op_multiply,
+    op_divide,
+    op_whole_power, /* a^extra */
+    op_power,
+    op_sqrt,
+    op_cbrt,
+    op_hypot,
+    op_exp,
+    op_ln,
+    op_log10,
+    op_sin,
+    op_cos,
+    op_tan,
+    op_asin,
+    op_acos,
+    op_atan,
+    op_atan2,
+    op_sinh,
+    op_cosh,
+    op_tanh,
+    op_and, /* truth values are 0 and 1 */
+    op_or,
+    op_not,
+
+    /* Switches with the branches -1, 0, 1 by the sign of a, or of a - b; `extra` is the index of the switch.
+     */
+    op_sign,
+    op_abs,
+    op_step,
+    op_min,
+    op_max,
+    op_less,
+    op_less_equal,
+    op_greater,
+    op_greater_equal,
+    op_equal,
+
+    /* Switches with one branch for each unit interval of a, a/b or 2a. */
+    op_floor,
+    op_ceil,
+    op_round,
+    op_mod,
+    op_sawtooth,
+    op_square,
+
+    /* Control: go on `extra` instructions further down. */
+    op_jump,
+    op_jump_unless, /* when a is 0 */
+};
+
+struct instr {
+    unsigned char op;
+    unsigned short to, a, b; /* registers; b is a where there is one operand */
+    int extra;
+};
+
+struct expr_switch {
+    enum op op;
+    bool time; /* depends on nothing but t */
+};
+
+struct expr {
+    const struct instr *code;
+    size_t operations;
+    bool uses_time;
+    size_t variables; /* without t */
+    const int *slots; /* of the variables, ascending */
+    size_t constants;
+    const double *constant;
+    size_t result; /* its register */
+    size_t switches;
+    const struct expr_switch *switch_at;
+
+    struct dim dim;
+    bool bare;
+};
+
+/* ---- the formulas of the operations, in ops.c and slopes.c */
+
+static inline bool op_is_switch(unsigned op)
+{
+    return op >= op_sign && op <= op_square;
+}
+
+static inline bool op_is_by_sign(unsigned op)
+{
+    return op >= op_sign && op <= op_equal;
+}
+
+/* True for the switches whose branch follows the sign of a difference, a - b. */
+static inline bool op_is_by_difference(unsigned op)
+{
+    return op >= op_min && op <= op_equal;
+}
+
+/* x^n by multiplication: exact for small whole numbers, and x^0 is 1 everywhere. */
+double whole_power(double x, int n);
+
+/* The value of an operation that is no control, at plain values (no branches). */
+double op_value(const struct instr *instr, double x, double y);
+
+/* The branch of a switch at plain values, as a double because that of a floor may be beyond the range of an
+ * int. */
+double op_plain_branch(unsigned op, double x, double y);
+
+/* The branch of a switch: the given one, or the plain one when there is none, or when it is past counting
+ * (then the steps are below the resolution of the numbers anyway). */
+double switch_branch(const struct instr *instr, double x, double y, const int *branch);
+
+/* The smooth formula of branch `n` of a switch. */
+double switch_value(unsigned op, double n, double x, double y);
+
+/* Value and partial derivatives with respect to the operands. */
+struct slopes {
+    double f, a, b, aa, ab, bb;
+};
+
+/* Slopes of an operation that is no control. Where a derivative does not exist but a finite value is harmless
+ * (hypot at the origin), it is 0; infinite ones (sqrt at 0) are infinite. */
+void op_slopes(const struct instr *instr, double x, double y, const int *branch, struct slopes *slopes);
+
+/* slope * rate, where an exact zero wins over what is infinite or missing: sqrt(x) of a constant x = 0 does
+ * not change, and a factor 0 hides an infinite rate, as in x*sqrt(x) at 0. */
+static inline double along(double slope, double rate)
+{
+    return slope == 0 || rate == 0 ? 0 : slope * rate;
+}
+
+#endif

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The rows behind unit.h: what each unit is, and what people write who mean one of them.
+ */
+#ifndef FBD_EXPR_UNIT_TABLE_H
+#define FBD_EXPR_UNIT_TABLE_H
+
+#include "expr/unit.h"
+
+/* A factor kept as a quotient of two doubles that are exact where the definition allows it: then lbf/in is 12
+ * lbf/ft and N/mm is 1000 N/m without rounding. */
+struct unit_ratio {
+    double over, under;
+};
+
+struct unit_row {
+    const char *name;
+    struct dim dim;
+    struct unit_ratio factor[2]; /* indexed by enum unit_system */
+    bool angle;
+};
+
+/* The row of the unit called `name[0..length)`, or NULL. */
+const struct unit_row *unit_find(const char *name, size_t length);
+
+/* What to write instead of the unknown unit `name[0..length)`, as a hint. */
+const char *unit_suggest(fbd_errors *errors, const char *name, size_t length);
+
+#endif
