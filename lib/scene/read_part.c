@@ -323,7 +323,7 @@ static bool read_named_part(struct reader *reader, int index, const struct pair 
     struct part_keys keys = no_keys();
     bool named = name_check(reader->errors, pair->key, pair->at, "a part");
     bool fine = fields_read(reader, &part_group, pair->value, pair->at, &reader->constants, &keys) && named;
-    if (pair->value->kind != node_map) return false;
+    if (pair->value->kind != node_map && pair->value->kind != node_null) return false;
     bool mass = check_mass(reader, pair->value, pair->at, pair->key, keys.mass);
     if (!read_part(reader, index, pair->value, pair->at, &keys, part)) fine = false;
     draft->mass += keys.mass;

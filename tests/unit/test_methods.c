@@ -35,16 +35,22 @@ static const struct {
 
 enum { method_count = sizeof methods / sizeof *methods };
 
-/* The error of `name` at the time of a reference number, relative to the size of the motion; *steps made. */
-static double error_of(const char *path, const char *method, double tolerance, const char *reference,
-                       const char *name, double size, unsigned long *steps)
+/* What is looked at: a coordinate of a model at the time of a reference number. */
+struct task {
+    const char *path, *reference, *coordinate;
+    double size; /* of the motion */
+    bool pendulum;
+};
+
+/* The error relative to the size of the motion, and the steps made. */
+static double error_of(const struct task *task, const char *method, double tolerance, unsigned long *steps)
 {
-    const struct reference *want = &references[reference_find(reference)];
-    struct trial trial = trial_open(path, NULL);
+    const struct reference *want = &references[reference_find(task->reference)];
+    struct trial trial = trial_open(task->path, NULL);
     trial_start(&trial, &(fbd_options){.until = want->t, .tolerance = tolerance, .method = method});
     trial_finish(&trial);
     assert_string_equal(fbd_simulation_stats(trial.simulation).method, method);
-    double error = fabs(trial_get(&trial, name) - want->value) / size;
+    double error = fabs(trial_get(&trial, task->coordinate) - want->value) / task->size;
     *steps = fbd_simulation_stats(trial.simulation).steps;
     trial_close(&trial);
     return error;
@@ -55,44 +61,50 @@ static double promised(double tolerance, unsigned long steps)
     return 2 * tolerance * (double)steps;
 }
 
-static void check_method(struct checks *checks, size_t i, const char *path, const char *reference,
-                         const char *coordinate, double size, unsigned long most)
+/* The motion holds at one tolerance, in a sensible number of steps. Returns its error. */
+static double check_tolerance(struct checks *checks, const struct task *task, const char *method,
+                              double tolerance, unsigned long most)
 {
     char what[160];
     unsigned long steps;
-    double coarse = error_of(path, methods[i].name, methods[i].coarse, reference, coordinate, size, &steps);
-    snprintf(what, sizeof what, "%s at %g: %s", methods[i].name, methods[i].coarse, reference);
-    check_close(checks, what, coarse, 0, promised(methods[i].coarse, steps));
-    double fine = error_of(path, methods[i].name, methods[i].fine, reference, coordinate, size, &steps);
-    snprintf(what, sizeof what, "%s at %g: %s", methods[i].name, methods[i].fine, reference);
-    check_close(checks, what, fine, 0, promised(methods[i].fine, steps));
-    snprintf(what, sizeof what, "%s at %g: %lu steps are no more than %lu", methods[i].name, methods[i].fine,
-             steps, most);
+    double error = error_of(task, method, tolerance, &steps);
+    snprintf(what, sizeof what, "%s at %g: %s", method, tolerance, task->reference);
+    check_close(checks, what, error, 0, promised(tolerance, steps));
+    snprintf(what, sizeof what, "%s at %g: %lu steps are no more than %lu", method, tolerance, steps, most);
     check_that(checks, what, steps <= most);
-    /* A tolerance that is smaller by 100 or more has to show. */
-    snprintf(what, sizeof what, "%s: a finer tolerance is more accurate (%.3g, %.3g)", methods[i].name,
-             coarse, fine);
-    check_that(checks, what, fine < coarse / 5 || fine < 1e-12);
+    return error;
+}
+
+/* Both tolerances of all methods; the finer one, by a factor of 100 at least, has to show. */
+static void check_methods(struct checks *checks, const struct task *task)
+{
+    for (size_t i = 0; i < method_count; i++) {
+        const char *name = methods[i].name;
+        unsigned long most = task->pendulum ? methods[i].most_pendulum : methods[i].most_oscillator;
+        double coarse = check_tolerance(checks, task, name, methods[i].coarse, most);
+        double fine = check_tolerance(checks, task, name, methods[i].fine, most);
+        char what[160];
+        snprintf(what, sizeof what, "%s: finer is more accurate (%.3g, %.3g)", name, coarse, fine);
+        check_that(checks, what, fine < coarse / 5 || fine < 1e-12);
+    }
 }
 
 static void every_method_swings_the_pendulum(void **unused)
 {
     (void)unused;
-    const double size = 3.14159265358979323846 / 3;
+    const struct task task = {"rotation/compound_pendulum.yaml", "A07.theta_2.0", "theta",
+                              3.14159265358979323846 / 3, true};
     struct checks checks = {0};
-    for (size_t i = 0; i < method_count; i++)
-        check_method(&checks, i, "rotation/compound_pendulum.yaml", "A07.theta_2.0", "theta", size,
-                     methods[i].most_pendulum);
+    check_methods(&checks, &task);
     checks_end(&checks);
 }
 
 static void every_method_moves_the_oscillator(void **unused)
 {
     (void)unused;
+    const struct task task = {"vibration/damped_oscillator.yaml", "D06.U_x_3", "x", 1, false};
     struct checks checks = {0};
-    for (size_t i = 0; i < method_count; i++)
-        check_method(&checks, i, "vibration/damped_oscillator.yaml", "D06.U_x_3", "x", 1,
-                     methods[i].most_oscillator);
+    check_methods(&checks, &task);
     checks_end(&checks);
 }
 

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Random numbers for tests: the same everywhere for the same seed, which a failing test prints.
+ */
+#ifndef TESTS_RANDOM_NUMBERS_H
+#define TESTS_RANDOM_NUMBERS_H
+
+#include <stdint.h>
+
+struct random_numbers {
+    uint64_t state; /* begins as the seed */
+};
+
+/* 64 random bits: splitmix64 (Steele, Lea and Flood, OOPSLA 2014). */
+static inline uint64_t random_bits(struct random_numbers *numbers)
+{
+    uint64_t z = numbers->state += 0x9E3779B97F4A7C15u;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return z ^ (z >> 31);
+}
+
+/* Evenly between `low` and `high`. */
+static inline double random_between(struct random_numbers *numbers, double low, double high)
+{
+    return low + (high - low) * ((double)(random_bits(numbers) >> 11) * 0x1p-53);
+}
+
+#endif
