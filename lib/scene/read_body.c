@@ -84,10 +84,11 @@ static void note_unknown_point(struct reader *reader, int index, const struct no
              body->name, value_found(reader, node));
 }
 
-/* A point that was noted as wrong where it is defined. */
-static bool is_bad_point(const struct draft *draft, const char *name)
+/* A point that may be missing only because of what was noted before. */
+static bool is_excused(const struct draft *draft, const char *name)
 {
-    return node_find(draft->keys.points, name) != NULL;
+    bool pivot = strcmp(name, "O") == 0 && !draft->motion_known;
+    return pivot || draft->faulty_parts || node_find(draft->keys.points, name);
 }
 
 bool body_point_read(struct reader *reader, int index, const struct node *node, const char *what,
@@ -112,8 +113,7 @@ bool body_point_read(struct reader *reader, int index, const struct node *node, 
         point->where = body->points[i].where;
         return true;
     }
-    if (draft->motion_known && !is_bad_point(draft, node->text))
-        note_unknown_point(reader, index, node, what);
+    if (!is_excused(draft, node->text)) note_unknown_point(reader, index, node, what);
     return false;
 }
 
@@ -144,7 +144,8 @@ bool body_read(struct reader *reader, int index)
     if (!body->points) return false;
     if (!read_given_points(reader, index)) fine = false;
     /* Parts may state their inertia about the pivot, and the pivot may be a point of a part. */
-    if (!body_parts_read(reader, index)) fine = false;
+    draft->faulty_parts = !body_parts_read(reader, index);
+    if (draft->faulty_parts) fine = false;
     if (!body_motion_read(reader, index)) fine = false;
     return fine;
 }

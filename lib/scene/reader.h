@@ -49,6 +49,7 @@ struct draft {
     struct body_keys keys;
     double mass; /* total */
     bool mass_known, motion_known;
+    bool faulty_parts; /* noted: points may be missing */
     bool has_normal, has_friction;
 };
 

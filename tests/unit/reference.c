@@ -2,8 +2,8 @@
  *
  * Reference numbers, each obtained by two independent methods without this library.
  *
- * Source: the reference answers of the project, cases A01 to A08, D03, D06, D07, copied with the tolerances stated
- * there. The units are those of the model: SI, or US for A01.
+ * Source: the reference answers of the project, cases A01 to A08, D03, D06, D07, copied with the tolerances
+ * stated there. The units are those of the model: SI, or US for A01.
  */
 #include "reference.h"
 

@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Every model of the gallery runs as it stands: it opens without a note, says what it is, agrees with its
+ * derivations by hand, and keeps its energy account.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "gallery.h"
+
+#include <dirent.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { most_path = 512 };
+
+/* Calls `test` with the path, below models/, of each model; returns their number. */
+static size_t each_model(struct checks *checks, void (*test)(struct checks *checks, const char *path))
+{
+    static const char *const topics[] = {"kinetics", "rotation", "energy", "vibration", "forcing", "plane"};
+    const char *root = getenv("FBD_SOURCE_ROOT");
+    size_t count = 0;
+    for (size_t i = 0; i < sizeof topics / sizeof *topics; i++) {
+        char path[most_path];
+        snprintf(path, sizeof path, "%s/models/%s", root ? root : ".", topics[i]);
+        DIR *folder = opendir(path);
+        assert_non_null(folder);
+        for (struct dirent *entry = readdir(folder); entry; entry = readdir(folder)) {
+            const char *dot = strrchr(entry->d_name, '.');
+            if (!dot || strcmp(dot, ".yaml") != 0) continue;
+            snprintf(path, sizeof path, "%s/%s", topics[i], entry->d_name);
+            test(checks, path);
+            count++;
+        }
+        closedir(folder);
+    }
+    return count;
+}
+
+static void check_words(struct checks *checks, const char *path)
+{
+    char file[2 * most_path], line[most_path] = "", what[2 * most_path];
+    const char *root = getenv("FBD_SOURCE_ROOT");
+    snprintf(file, sizeof file, "%s/models/%s", root ? root : ".", path);
+    FILE *stream = fopen(file, "r");
+    assert_non_null(stream);
+    const char *first = fgets(line, sizeof line, stream);
+    fclose(stream);
+    snprintf(what, sizeof what, "%s starts with a comment: what the system is", path);
+    check_that(checks, what, first && strncmp(line, "# ", 2) == 0);
+    struct trial trial = trial_open(path, NULL);
+    snprintf(what, sizeof what, "%s has a title", path);
+    check_that(checks, what, fbd_model_title(trial.model)[0] != '\0');
+    trial_close(&trial);
+}
+
+static void every_model_opens_and_says_what_it_is(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    size_t count = each_model(&checks, check_words);
+    assert_in_range(count, 25, 1000);
+    checks_end(&checks);
+}
+
+static void check_derivations(struct checks *checks, const char *path)
+{
+    struct trial trial = trial_open(path, NULL);
+    for (unsigned seed = 1; seed <= 3; seed++) {
+        char *text = NULL, what[2 * most_path];
+        int wrong = fbd_check_hand(trial.model, seed, &text);
+        snprintf(what, sizeof what, "%s agrees with its derivation, seed %u:\n%s", path, seed,
+                 text ? text : "");
+        check_that(checks, what, wrong == 0);
+        snprintf(what, sizeof what, "%s has a derivation", path);
+        check_that(checks, what, text && strstr(text, "agrees at"));
+        free(text);
+    }
+    trial_close(&trial);
+}
+
+static void every_model_agrees_with_its_derivation_by_hand(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    each_model(&checks, check_derivations);
+    checks_end(&checks);
+}
+
+/* The size of what the account is about: the largest energy, or work of a force, at the end or the start. */
+static double turned_over(struct trial *trial)
+{
+    fbd_energy energy = fbd_result_energy(trial->result);
+    double size = fmax(fabs(energy.kinetic), fabs(energy.initial_kinetic));
+    size = fmax(size, fmax(fabs(energy.potential), fabs(energy.initial_potential)));
+    fbd_equations *all = fbd_assemble(trial->state);
+    assert_non_null(all);
+    for (size_t i = 0; i < fbd_equations_count(all); i++) {
+        const fbd_equation *equation = fbd_equations_get(all, i);
+        for (size_t k = 0; k < equation->term_count; k++)
+            size = fmax(size, fabs(fbd_result_work(trial->result, equation->body, equation->terms[k].name)));
+    }
+    fbd_equations_free(all);
+    return size;
+}
+
+static void check_run(struct checks *checks, const char *path)
+{
+    char what[2 * most_path];
+    struct trial trial = trial_open(path, NULL);
+    trial_run(&trial, NULL);
+    fbd_energy energy = fbd_result_energy(trial.result);
+    snprintf(what, sizeof what, "%s runs to its end: %s", path, fbd_simulation_reason(trial.simulation));
+    check_that(checks, what, trial.outcome == FBD_DONE || trial.outcome == FBD_STOPPED);
+    snprintf(what, sizeof what, "%s: residual", path);
+    /* 1e-9 in each of up to some 500 steps. */
+    check_close(checks, what, energy.residual, 0, 5e-7 * turned_over(&trial));
+    trial_close(&trial);
+}
+
+static void every_model_runs_to_its_end_and_keeps_its_energy_account(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    each_model(&checks, check_run);
+    checks_end(&checks);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_model_opens_and_says_what_it_is),
+        cmocka_unit_test(every_model_agrees_with_its_derivation_by_hand),
+        cmocka_unit_test(every_model_runs_to_its_end_and_keeps_its_energy_account),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
