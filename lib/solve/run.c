@@ -218,6 +218,7 @@ fbd_outcome run_advance(struct run *run)
     run->from = run->state->t;
     state_copy(run->during, run->state);
     if (run->restart && !restart(run)) return run->outcome;
+    run->not_finite = stepper_get_counts(run->stepper)->rejected[rejected_not_finite];
     bool timed;
     double limit = next_time(run, &timed), t = run->from;
     enum stepper_status status = stepper_step(run->stepper, &run->system, &t, run->y, run->f, &run->h, limit);

@@ -39,6 +39,7 @@ struct run {
     double from;              /* start of the last step; it ends at state->t */
     double h;                 /* step size proposed */
     bool restart;             /* the stepper has to start anew */
+    unsigned long not_finite; /* rejections for that reason before the last step */
     fbd_outcome outcome;
     char reason[reason_size];
 

@@ -121,24 +121,24 @@ int stepper_reset(struct stepper *s, struct counted_system *system, double t, co
     return first_step(system, &s->layout, s->control, first_order, t, y, f, fmin(room, s->h_max), s->work, h);
 }
 
-/* A step to be tried: its size and end, and whether t_limit had a say in it. */
+/* A step to be tried. */
 struct plan {
-    double h, t1;
-    bool cut;
+    double asked; /* its size before t1 was rounded: what shrinks from retry to retry */
+    double h, t1; /* its size and end */
+    bool cut;     /* t_limit had a say in it */
 };
 
 static struct plan plan_step(const struct stepper *s, double t, double h, double t_limit)
 {
     double room = t_limit - t;
-    if (1.01 * h >= room) return (struct plan){room, t_limit, true};
-    if (s->h_fixed > 0) return (struct plan){h, t + h, false};
+    if (1.01 * h >= room) return (struct plan){room, room, t_limit, true};
+    if (s->h_fixed > 0) return (struct plan){h, h, t + h, false};
     bool half = 2 * h > room;
     if (half) h = room / 2;
     double t1 = t + h;
     /* The size that t1 really has, so that t and the stages agree. A multistep method would rather see a
      * constant step. */
-    if (!s->method->multistep) h = t1 - t;
-    return (struct plan){h, t1, half};
+    return (struct plan){h, s->method->multistep ? h : t1 - t, t1, half};
 }
 
 /* What became of an attempt. */
@@ -215,9 +215,8 @@ enum stepper_status stepper_step(struct stepper *s, struct counted_system *syste
         int code = gsl_odeiv2_step_apply(s->step, t0, plan.h, y, s->yerr, s->f0, f, &system->gsl);
         if (code == GSL_EBADFUNC) return give_up(s, y, f, stepper_bad_function);
         struct outcome outcome = code == GSL_SUCCESS ? judge(s, plan.h, y, f) : judge_failure(s, system);
-        double next = plan.h * outcome.factor;
         if (outcome.accepted) {
-            if (rejected) next = fmin(next, plan.h);
+            double next = plan.h * (rejected ? fmin(outcome.factor, 1) : outcome.factor);
             *h = fmin(plan.cut ? fmax(next, proposal) : next, s->h_max);
             *t = plan.t1;
             keep(s, system, t0, plan.t1, y, f);
@@ -227,7 +226,7 @@ enum stepper_status stepper_step(struct stepper *s, struct counted_system *syste
         s->counts.rejected[outcome.why]++;
         if (s->h_fixed > 0) return give_up(s, y, f, stepper_fixed_failed);
         rejected = true;
-        proposal = next;
+        proposal = plan.asked * outcome.factor;
         memcpy(y, s->y0, s->n * sizeof *y);
     }
 }

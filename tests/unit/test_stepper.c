@@ -138,7 +138,7 @@ static void every_method_reaches_its_accuracy_at_the_ends_and_within(void **stat
             }
         }
         unsigned long steps = stepper_get_counts(run.stepper)->accepted;
-        double bound = 8 * tolerance * (double)steps;
+        double bound = 16 * tolerance * (double)steps;
         print_message("# %-7s tolerance %.0e, %lu steps: error %.1e, within %.1e, partial %.1e, bound %.1e\n",
                       method->name, tolerance, steps, ends, within, partial, bound);
         assert_true(run.t == 20);
