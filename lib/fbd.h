@@ -168,7 +168,7 @@ FBD_API size_t fbd_diagram(fbd_state *state, size_t body, fbd_arrow *arrows, siz
 
 typedef struct fbd_options {
     double until;       /* end time; NAN for the file's */
-    double tolerance;   /* relative error per step; 0 for the file's, else 1e-9 */
+    double tolerance;   /* relative error per step; 0 for the file's, else 1e-10 */
     double step;        /* fixed step size, 0 for automatic or the file's */
     const char *method; /* NULL for the file's, else "dop853" */
 } fbd_options;

@@ -9,7 +9,7 @@
 #include "output/csv.h"
 #include "output/result.h"
 
-static const double default_tolerance = 1e-9;
+static const double default_tolerance = 1e-10;
 
 /* ---- options: what is given, else the file's, else the default */
 
@@ -57,7 +57,7 @@ static bool choose(const fbd_model *model, const fbd_options *options, struct ru
         bad_option(errors, "bad-option", "runs start at t = 0",
                    "the end time lies before the start or is not finite");
     if (!(chosen->tolerance > 0 && chosen->tolerance <= 0.1))
-        bad_option(errors, "bad-option", "1e-9 is the default",
+        bad_option(errors, "bad-option", "1e-10 is the default",
                    "the tolerance must be above 0 and at most 0.1");
     if (!(chosen->step >= 0) || isinf(chosen->step))
         bad_option(errors, "bad-option", NULL, "the step size must be positive");
@@ -135,7 +135,7 @@ static const char *detail_of(fbd_simulation *simulation, size_t index)
         simulation->detail_count = run->event_count;
     }
     if (!simulation->details[index]) {
-        char text[200];
+        char text[event_detail_size];
         event_detail(run->model, &run->events[index], text, sizeof text);
         simulation->details[index] = strdup(text);
     }

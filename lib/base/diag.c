@@ -157,7 +157,8 @@ static bool starts_with(const char *name, const char *start)
 
 const char *diag_nearest(fbd_errors *errors, const char *wrong, const char *const *names, size_t count)
 {
-    size_t best = count, least = 1 + strlen(wrong) / 3;
+    /* A single letter is near to every other: only its case may differ. */
+    size_t best = count, length = strlen(wrong), least = length > 1 ? 1 + length / 3 : 0;
     for (size_t i = 0; i < count; i++) {
         size_t d =
             starts_with(names[i], wrong) || starts_with(wrong, names[i]) ? 1 : distance(wrong, names[i]);

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/diag.h"
+
 enum { parameter_draws = 12, states_of_a_draw = 24, tries_of_a_state = 8 };
 
 bool hand_agrees(const struct hand_sample *sample)
@@ -20,29 +22,35 @@ static double between(gsl_rng *rng, double low, double high)
     return low + (high - low) * gsl_rng_uniform(rng);
 }
 
-/* The model with its parameters changed by up to 30 %, or NULL when the file does not allow it. */
-static fbd_model *changed_model(const fbd_model *model, gsl_rng *rng)
+/* The model with its parameters changed by up to 30 %: false when memory is out; *changed is NULL when the
+ * file does not allow these. */
+static bool changed_model(const fbd_model *model, gsl_rng *rng, fbd_model **result)
 {
     const struct scene *scene = model->scene;
     size_t count = scene->parameter_count;
     fbd_setting *settings = calloc(count + 1, sizeof *settings);
     char(*values)[32] = calloc(count + 1, sizeof *values);
     fbd_errors *errors = fbd_errors_new();
-    fbd_model *changed = NULL;
-    if (settings && values && errors) {
+    bool done = settings && values && errors;
+    *result = NULL;
+    if (done) {
         for (size_t i = 0; i < count; i++) {
             struct text text = {0};
             text_number(&text, scene->parameters[i].value * between(rng, 0.7, 1.3), 17);
-            snprintf(values[i], sizeof values[i], "%s", text.data ? text.data : "0");
+            done = done && !text.failed;
+            if (done) snprintf(values[i], sizeof values[i], "%s", text.data);
             text_free(&text);
             settings[i] = (fbd_setting){scene->parameters[i].name, values[i]};
         }
-        changed = fbd_model_parse(model->source, model->source_length, scene->file, settings, count, errors);
+        if (done)
+            *result =
+                fbd_model_parse(model->source, model->source_length, scene->file, settings, count, errors);
+        done = done && !errors->out_of_memory;
     }
     fbd_errors_free(errors);
     free(values);
     free(settings);
-    return changed;
+    return done;
 }
 
 /* Random coordinates and rates of the size of the initial ones, at least one unit; angles all around. */
@@ -261,8 +269,8 @@ static int check_one(struct hand_check *check, gsl_rng *rng, struct text *text)
     }
     if (!sample_model(check, model, rng)) return -1;
     for (int draw = 1; draw < parameter_draws; draw++) {
-        fbd_model *changed = changed_model(model, rng);
-        bool done = !changed || sample_model(check, changed, rng);
+        fbd_model *changed;
+        bool done = changed_model(model, rng, &changed) && (!changed || sample_model(check, changed, rng));
         fbd_model_free(changed);
         if (!done) return -1;
     }

@@ -64,27 +64,29 @@ static void write_final(struct text *text, const struct fbd_model *model, const 
     text_add(text, "\n  },\n");
 }
 
-static void write_events(struct text *text, fbd_simulation *simulation)
+static void text_member(struct text *text, const char *name, const char *value, bool last)
+{
+    key(text, name);
+    text_json_string(text, value);
+    if (!last) text_add(text, ", ");
+}
+
+static void write_events(struct text *text, const struct run *run)
 {
     text_add(text, "  \"events\": [");
-    for (size_t i = 0; i < fbd_simulation_events(simulation); i++) {
-        fbd_event event = fbd_simulation_event(simulation, i);
+    for (size_t i = 0; i < run->event_count; i++) {
+        const struct run_event *event = &run->events[i];
+        char detail[event_detail_size];
+        event_detail(run->model, event, detail, sizeof detail);
         text_add(text, i ? ",\n    {" : "\n    {");
-        member(text, "t", event.t, false);
-        key(text, "body");
-        text_json_string(text, event.body);
-        text_add(text, ", ");
-        key(text, "kind");
-        text_json_string(text, fbd_event_kind_name(event.kind));
-        text_add(text, ", ");
-        key(text, "name");
-        text_json_string(text, event.name);
-        text_add(text, ", ");
-        key(text, "detail");
-        text_json_string(text, event.detail);
+        member(text, "t", event->t, false);
+        text_member(text, "body", event_body(run->model, event), false);
+        text_member(text, "kind", fbd_event_kind_name(event->kind), false);
+        text_member(text, "name", event_name(run->model, event), false);
+        text_member(text, "detail", detail, true);
         text_add(text, "}");
     }
-    text_add(text, fbd_simulation_events(simulation) ? "\n  ],\n" : "],\n");
+    text_add(text, run->event_count ? "\n  ],\n" : "],\n");
 }
 
 /* Friction says also whether it holds, and up to where. */
@@ -180,7 +182,7 @@ char *fbd_result_json(fbd_result *result)
     text_add(&text, ",\n");
     state_ready(run->state);
     write_final(&text, model, run->state);
-    write_events(&text, simulation);
+    write_events(&text, run);
     write_forces(&text, result, run->state);
     write_energy(&text, result);
     write_stats(&text, simulation);

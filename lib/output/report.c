@@ -19,31 +19,33 @@ static void value(struct text *text, const char *name, double number, const char
 
 /* ---- events; switches of expressions are counted, not listed, when there are many */
 
-static void write_event(struct text *text, const fbd_event *event)
+static void write_event(struct text *text, const struct fbd_model *model, const struct run_event *event)
 {
+    char detail[event_detail_size];
+    const char *body = event_body(model, event);
+    event_detail(model, event, detail, sizeof detail);
     text_add(text, "  t = ");
     text_number(text, event->t, digits);
     text_add(text, " s");
     text_pad(text, 24);
-    text_add(text, event->body[0] ? event->body : "-");
+    text_add(text, body[0] ? body : "-");
     text_pad(text, 38);
     text_add(text, fbd_event_kind_name(event->kind));
     text_pad(text, 52);
-    text_printf(text, "%s\n", event->detail);
+    text_printf(text, "%s\n", detail);
 }
 
-static void write_events(struct text *text, fbd_simulation *simulation)
+static void write_events(struct text *text, const struct run *run)
 {
-    size_t count = fbd_simulation_events(simulation), shown = 0, switches = 0, hidden = 0;
+    enum { most_switches = 8 };
+    size_t count = run->event_count, shown = 0, switches = 0, hidden = 0;
     text_add(text, count ? "\nEvents\n" : "\nEvents: none\n");
-    for (size_t i = 0; i < count; i++)
-        switches += fbd_simulation_event(simulation, i).kind == FBD_EVENT_SWITCH;
-    bool with_switches = switches <= 8;
+    for (size_t i = 0; i < count; i++) switches += run->events[i].kind == FBD_EVENT_SWITCH;
+    bool with_switches = switches <= most_switches;
     for (size_t i = 0; i < count; i++) {
-        fbd_event event = fbd_simulation_event(simulation, i);
-        if (event.kind == FBD_EVENT_SWITCH && !with_switches) continue;
+        if (run->events[i].kind == FBD_EVENT_SWITCH && !with_switches) continue;
         if (shown < most_events || i + 1 == count) {
-            write_event(text, &event);
+            write_event(text, run->model, &run->events[i]);
             shown++;
         } else {
             hidden++;
@@ -167,7 +169,7 @@ char *fbd_result_report(fbd_result *result)
     if (model->scene->title[0]) text_printf(&text, "%s\n\n", model->scene->title);
     equations_write(&text, result->start);
     state_ready(run->state);
-    write_events(&text, simulation);
+    write_events(&text, run);
     if (run->reason[0]) text_printf(&text, "\nThe run ended early: %s.\n", run->reason);
     write_final(&text, model, run->state);
     write_forces(&text, result, run->state);

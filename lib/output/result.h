@@ -23,6 +23,8 @@ struct fbd_result {
 };
 
 /* What happened, in a few words: "friction +4.81 N holds, limit 8.496 N". Writes at most `size` bytes. */
+enum { event_detail_size = 200 };
+
 void event_detail(const struct fbd_model *model, const struct run_event *event, char *detail, size_t size);
 
 const char *event_body(const struct fbd_model *model, const struct run_event *event);

@@ -71,31 +71,73 @@ static double imbalance(const gsl_vector *f)
     return most;
 }
 
-static bool find_balance(struct balance *balance)
+/* Newton from the coordinates that the state has. */
+static bool find_balance_from(struct balance *balance, const gsl_vector *start,
+                              gsl_multiroot_fdfsolver *solver)
 {
     enum { most_iterations = 200 };
     struct fbd_state *state = balance->state;
-    size_t n = (size_t)state->model->plan.n;
+    size_t n = start->size;
     gsl_multiroot_function_fdf function = {forces, slopes, both, n, balance};
+    forces(start, balance, solver->f);
+    double zero = 1e-13 * typical_acceleration(state);
+    int status = gsl_multiroot_fdfsolver_set(solver, &function, (gsl_vector *)start);
+    for (int i = 0; i < most_iterations && status == GSL_SUCCESS && imbalance(solver->f) > zero; i++)
+        status = gsl_multiroot_fdfsolver_iterate(solver);
+    set_coordinates(state, solver->x);
+    state_evaluate(state);
+    /* Where rounding keeps it from `zero`, the last digits of a position are at fault: still a balance. */
+    return imbalance(solver->f) <= 1e4 * zero;
+}
+
+/* A start on a ridge has no way down (a rod held level: the slope of its moment is zero), and Newton may leap
+ * from near it. So starts beside it are tried as well, +-0.1, 0.2, ... 1.6 rad and the same share of a
+ * coordinate's size, and the balance nearest to the state counts. */
+static void set_start(gsl_vector *q, const struct fbd_model *model, const double *origin, int trial)
+{
+    double share = trial == 0 ? 0 : ldexp(0.1, (trial - 1) / 2) * (trial % 2 ? -1 : 1);
+    for (size_t i = 0; i < q->size; i++) {
+        double size = model->scene->coordinates[i].angle ? 1 : fmax(fabs(origin[i]), 1e-3);
+        gsl_vector_set(q, i, origin[i] + share * size);
+    }
+}
+
+static double distance_between(const double *a, const double *b, size_t n)
+{
+    double most = 0;
+    for (size_t i = 0; i < n; i++) most = fmax(most, fabs(a[i] - b[i]));
+    return most;
+}
+
+/* 1 found, 0 none near, -1 out of memory. */
+static int find_balance(struct balance *balance)
+{
+    enum { most_trials = 11 };
+    struct fbd_state *state = balance->state;
+    size_t n = (size_t)state->model->plan.n;
     gsl_vector *q = gsl_vector_alloc(n);
+    double *origin = calloc(2 * n + 1, sizeof *origin), *best = origin ? origin + n : NULL,
+           nearest = HUGE_VAL;
     gsl_multiroot_fdfsolver *solver = gsl_multiroot_fdfsolver_alloc(gsl_multiroot_fdfsolver_hybridsj, n);
-    bool found = false;
-    if (q && solver) {
-        for (size_t i = 0; i < n; i++) gsl_vector_set(q, i, state->y[i]);
-        forces(q, balance, solver->f);
-        double zero = 1e-13 * typical_acceleration(state);
-        int status = gsl_multiroot_fdfsolver_set(solver, &function, q);
-        for (int i = 0; i < most_iterations && status == GSL_SUCCESS && imbalance(solver->f) > zero; i++)
-            status = gsl_multiroot_fdfsolver_iterate(solver);
-        set_coordinates(state, solver->x);
+    bool made = q && origin && solver;
+    if (made) memcpy(origin, state->y, n * sizeof *origin);
+    for (int trial = 0; made && trial < most_trials; trial++) {
+        set_start(q, state->model, origin, trial);
+        if (!find_balance_from(balance, q, solver)) continue;
+        double distance = distance_between(state->y, origin, n);
+        /* Of two that rounding tells apart the first one stays. */
+        if (!(distance < nearest * (1 - 1e-9))) continue;
+        nearest = distance;
+        memcpy(best, state->y, n * sizeof *best);
+    }
+    if (made && nearest < HUGE_VAL) {
+        memcpy(state->y, best, n * sizeof *best);
         state_evaluate(state);
-        /* Where rounding keeps it from `zero`, the last digits of a position are at fault: still a balance.
-         */
-        found = imbalance(solver->f) <= 1e4 * zero;
     }
     if (solver) gsl_multiroot_fdfsolver_free(solver);
     if (q) gsl_vector_free(q);
-    return found;
+    free(origin);
+    return made ? nearest < HUGE_VAL : -1;
 }
 
 /* ---- eigenvalues */
@@ -166,13 +208,15 @@ fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *errors)
                                              .q = calloc(n + 1, sizeof(double))};
         made = linear->modes && linear->q && modes_settle(state, NULL);
     }
-    if (made && !find_balance(&balance)) {
+    int found = made ? find_balance(&balance) : -1;
+    if (found == 0) {
         diag_add(errors, FBD_ERROR, "no-equilibrium", (struct pos){0, 0},
                  "start nearer to it: set the initial values, or give --at",
                  "no equilibrium was found near the start");
         fbd_linearization_free(linear);
         return NULL;
     }
+    made = found > 0;
     if (made) {
         memcpy(linear->q, state->y, n * sizeof *linear->q);
         struct instant at = state_instant(state);

@@ -196,6 +196,15 @@ static enum stepper_status give_up(const struct stepper *s, double *y, double *f
     return status;
 }
 
+/* What the right-hand side said is not covered up by what comes of it: with steps of a few roundings, an
+ * implicit equation may be unsolvable. */
+static void count_rejection(struct stepper *s, enum rejection why, bool again)
+{
+    bool telling = s->counts.last == rejected_rhs || s->counts.last == rejected_not_finite;
+    s->counts.rejected[why]++;
+    if (!again || !telling || why == rejected_rhs || why == rejected_not_finite) s->counts.last = why;
+}
+
 enum stepper_status stepper_step(struct stepper *s, struct counted_system *system, double *t, double *y,
                                  double *f, double *h, double t_limit)
 {
@@ -222,8 +231,7 @@ enum stepper_status stepper_step(struct stepper *s, struct counted_system *syste
             keep(s, system, t0, plan.t1, y, f);
             return stepper_ok;
         }
-        s->counts.last = outcome.why;
-        s->counts.rejected[outcome.why]++;
+        count_rejection(s, outcome.why, rejected);
         if (s->h_fixed > 0) return give_up(s, y, f, stepper_fixed_failed);
         rejected = true;
         proposal = plan.asked * outcome.factor;

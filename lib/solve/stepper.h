@@ -48,7 +48,8 @@ enum rejection {
 struct stepper_counts {
     unsigned long accepted;
     unsigned long rejected[rejection_kinds];
-    enum rejection last; /* of the latest rejection */
+    enum rejection
+        last; /* in the latest step with rejections; not finite or rhs if that was among the reasons */
 };
 
 /* NULL when memory is out or an option is unusable. */

@@ -29,23 +29,33 @@ static inline double smaller(double a, double b)
     return a < b ? a : b;
 }
 
-/* The scale of q_i for a step of size h with velocity v and acceleration a. */
-static inline double scale_of_q(const struct weights *w, size_t i, double h, double q, double v, double a)
+/* How far q_i, and any other component, gets in a step of size h. */
+static inline double motion_of_q(double h, double v, double a)
 {
-    double scale = larger(larger(w->scale[i], fabs(q)), fabs(h * v) + fabs(h * h * a));
-    return smaller(scale, w->cap[i]);
+    return fabs(h * v) + fabs(h * h * a);
 }
 
-/* The scale of any other component. */
-static inline double scale_of(const struct weights *w, size_t i, double h, double y, double slope)
+static inline double motion_of(double h, double slope)
 {
-    return larger(larger(w->scale[i], fabs(y)), fabs(h * slope));
+    return fabs(h * slope);
 }
 
-/* The error that is allowed in y, of this scale; `hidden` is what rounding hides anyway. */
-static inline double level(const struct weights *w, double scale, double y, double hidden)
+/* The scale S_i of a component that moves by `motion` in the step; q_i is capped besides. */
+static inline double scale_of(const struct weights *w, size_t i, double y, double motion)
 {
-    return larger(larger(w->tolerance * scale, DBL_EPSILON * fabs(y)), hidden);
+    double scale = larger(w->scale[i], fabs(y));
+    return scale > 0 ? scale : motion;
+}
+
+static inline double scale_of_q(const struct weights *w, size_t i, double q, double motion)
+{
+    return smaller(scale_of(w, i, q, motion), w->cap[i]);
+}
+
+/* The error that is allowed in y; `hidden` is what is invisible for other reasons than the rounding of y. */
+static inline double level(const struct weights *w, double scale, double y, double motion, double hidden)
+{
+    return larger(larger(w->tolerance * scale, DBL_EPSILON * (fabs(y) + motion)), hidden);
 }
 
 /* What rounding of q_i hides in v_i within a step. */
@@ -67,14 +77,15 @@ double weights_ratio(const gsl_odeiv2_control *control, double h, const double *
     double ratio = 0, probe = 0; /* zero times a sum stays zero unless a term is infinite or NaN */
     for (size_t i = 0; i < n; i++) {
         double q = y[i], v = y[n + i], a = f[n + i];
-        double q_level = level(w, scale_of_q(w, i, h, q, v, a), q, 0);
-        double v_level = level(w, scale_of(w, n + i, h, v, a), v, hidden_in_v(w, i, h, q));
-        ratio = raised(ratio, yerr[i], q_level);
-        ratio = raised(ratio, yerr[n + i], v_level);
+        double q_motion = motion_of_q(h, v, a), v_motion = motion_of(h, a);
+        ratio = raised(ratio, yerr[i], level(w, scale_of_q(w, i, q, q_motion), q, q_motion, 0));
+        ratio = raised(ratio, yerr[n + i],
+                       level(w, scale_of(w, n + i, v, v_motion), v, v_motion, hidden_in_v(w, i, h, q)));
         probe += 0 * (q + v + a + yerr[i] + yerr[n + i]);
     }
     for (size_t i = 2 * n; i < w->size; i++) {
-        ratio = raised(ratio, yerr[i], level(w, scale_of(w, i, h, y[i], f[i]), y[i], 0));
+        double motion = motion_of(h, f[i]);
+        ratio = raised(ratio, yerr[i], level(w, scale_of(w, i, y[i], motion), y[i], motion, 0));
         probe += 0 * (y[i] + f[i] + yerr[i]);
     }
     return probe == 0 ? ratio : INFINITY;
@@ -100,8 +111,8 @@ void weights_scales(const gsl_odeiv2_control *control, double h, const double *y
 {
     const struct weights *w = control->state;
     size_t n = w->pairs;
-    for (size_t i = 0; i < n; i++) scales[i] = scale_of_q(w, i, h, y[i], y[n + i], f[n + i]);
-    for (size_t i = n; i < w->size; i++) scales[i] = scale_of(w, i, h, y[i], f[i]);
+    for (size_t i = 0; i < n; i++) scales[i] = scale_of_q(w, i, y[i], motion_of_q(h, y[n + i], f[n + i]));
+    for (size_t i = n; i < w->size; i++) scales[i] = scale_of(w, i, y[i], motion_of(h, f[i]));
 }
 
 void weights_update(gsl_odeiv2_control *control, const double *y, const double *f)
@@ -167,11 +178,10 @@ static int control_errlevel(void *state, const double y, const double dydt, cons
 {
     const struct weights *w = state;
     size_t n = w->pairs;
-    if (i < n)
-        *errlev = level(w, scale_of_q(w, i, h, y, dydt, w->acceleration[i]), y, 0);
-    else
-        *errlev = level(w, scale_of(w, i, h, y, dydt), y,
-                        i < 2 * n ? hidden_in_v(w, i - n, h, w->scale[i - n]) : 0);
+    double motion = i < n ? motion_of_q(h, dydt, w->acceleration[i]) : motion_of(h, dydt);
+    double scale = i < n ? scale_of_q(w, i, y, motion) : scale_of(w, i, y, motion);
+    double hidden = i >= n && i < 2 * n ? hidden_in_v(w, i - n, h, w->scale[i - n]) : 0;
+    *errlev = level(w, scale, y, motion, hidden);
     if (*errlev == 0) *errlev = w->tolerance * scale_of_group(w, i);
     if (*errlev == 0) *errlev = w->tolerance;
     return GSL_SUCCESS;

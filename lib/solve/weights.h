@@ -10,17 +10,20 @@
  *   - the running maximum of |y_i| over all accepted states (weights_update) and a floor that the caller may
  * give,
  *   - |y_i| at the end of the step,
- *   - what the component can become within the step of size h: |h v_i| + |h^2 a_i| for a coordinate q_i,
- *     |h y'_i| for any other. So a component that starts from zero has a scale from its first step.
+ *
+ * and only if these are zero what the component can become within the step: |h v_i| + |h^2 a_i| for a
+ * coordinate q_i, |h y'_i| for any other. Used always, that would be a trap: a step that has gone wrong in a
+ * stiff direction has huge slopes at its end, and so would excuse itself (the Gauss method took 6 s of a
+ * spring of 1e8 N/m in three steps).
  *
  * The scale of an angle is at most 1 rad: an angle has a natural unit, and 1e6 revolutions do not excuse an
  * error of a radian. Its rate has no such bound.
  *
- * Rounding limits what can be asked. y_i is known to eps |y_i| (eps = DBL_EPSILON), so the level is at least
- * that. And an error dv of v_i that moves q_i by less than its rounding, h dv < eps |q_i|, is invisible
- * within the step, so the level of v_i is at least eps |q_i| / h (angles count up to 1 rad here). Without it
- * a body at rest in a balance of large forces, whose acceleration is rounding noise, would be followed noise
- * and all with ever smaller steps.
+ * Rounding limits what can be asked. A step knows y_i to eps (DBL_EPSILON) times |y_i| plus what it moved, so
+ * the level is at least that. And an error dv of v_i that moves q_i by less than its rounding, h dv < eps
+ * |q_i|, is invisible within the step, so the level of v_i is at least eps |q_i| / h (angles count up to 1
+ * rad here). Without it a body at rest in a balance of large forces, whose acceleration is rounding noise,
+ * would be followed noise and all with ever smaller steps.
  *
  * The norm is the maximum over the components, not a root mean square: bodies that have nothing to do with
  * each other do not dilute each other's errors, and adding a body at rest changes no step.

@@ -258,6 +258,43 @@ static void a_ramped_force_is_held_until_the_static_limit(void **unused)
     checks_end(&checks);
 }
 
+/* On a slope of 15 deg a pull that grows with time, 50 deg above the horizontal: 35 deg above the slope. */
+static void an_oblique_pull_that_varies_loads_and_unloads_the_surface(void **unused)
+{
+    (void)unused;
+    static const char text[] = "fbd: 1\n"
+                               "bodies:\n"
+                               "  block:\n"
+                               "    mass: 3 kg\n"
+                               "    motion: {slide: {along: 15 deg}}\n"
+                               "    forces:\n"
+                               "      - gravity\n"
+                               "      - normal\n"
+                               "      - friction: {static: 0.4, kinetic: 0.25}\n"
+                               "      - applied: {name: pull, value: \"2[N/s]*t\", angle: 50 deg}\n";
+    const double m = 3, g = 9.81, slope = 15 * DEG, above = 35 * DEG;
+    static const double states[][2] = {{1, 2}, {6, 0.5}, {4, -1}, {10, -0.1}};
+    struct checks checks = {0};
+    struct trial trial = trial_parse(text);
+    for (size_t i = 0; i < 4; i++) {
+        double pull = 2 * states[i][0], v = states[i][1];
+        double N = m * g * cos(slope) - pull * sin(above), friction = -0.25 * N * sign(v);
+        double along = pull * cos(above), weight = -m * g * sin(slope);
+        trial_set(&trial, "t", states[i][0]);
+        trial_set(&trial, "v", v);
+        check_equation(&checks, &trial,
+                       &(struct expected_equation){
+                           .coordinate = "x",
+                           .inertia = m,
+                           .terms = {{"gravity", weight}, {"friction", friction}, {"pull", along}},
+                           .acceleration = pull / m * (cos(above) + 0.25 * sin(above) * sign(v)) -
+                                           g * (sin(slope) + 0.25 * cos(slope) * sign(v)),
+                           .normal = N});
+    }
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
 static void the_diagram_of_the_incline_balances_across_it(void **unused)
 {
     (void)unused;
@@ -292,6 +329,7 @@ int main(void)
         cmocka_unit_test(the_incline_splits_the_weight_and_friction_opposes),
         cmocka_unit_test(a_block_that_cannot_be_held_slides_back),
         cmocka_unit_test(a_ramped_force_is_held_until_the_static_limit),
+        cmocka_unit_test(an_oblique_pull_that_varies_loads_and_unloads_the_surface),
         cmocka_unit_test(the_diagram_of_the_incline_balances_across_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -449,13 +449,15 @@ static void a_body_in_balance_costs_few_steps(void **state)
     }
 }
 
-/* The same oscillator in other units, by powers of two: the same steps and digits. */
+/* The same oscillator in other units, by powers of two: the same steps and digits. GSL's implicit methods
+ * choose pivots by size, which depends on units, and so round differently; bsimp limits the growth of y by
+ * numbers of its own. */
 static void steps_do_not_depend_on_units(void **state)
 {
     (void)state;
     for (size_t m = 0; method_at(m); m++) {
         const struct method *method = method_at(m);
-        if (strcmp(method->name, "bsimp") == 0) continue; /* limits the growth of y by numbers of its own */
+        if (method->implicit) continue;
         struct scene one = {.omega = 1, .c = 0.1}, other = {.omega = 0x1p-20, .c = 0.1 * 0x1p-20};
         struct run a, b;
         start(&a, &one, method, tolerance_for(method), 1, 0.5, 0x1p3);
@@ -467,6 +469,28 @@ static void steps_do_not_depend_on_units(void **state)
         }
         stepper_free(a.stepper);
         stepper_free(b.stepper);
+    }
+}
+
+/* All methods, in kilograms of 1e-9 and 1e12 so to speak: y in units of 1e-9 and 1e12, time in 1e-3 and 1e3.
+ */
+static void accuracy_does_not_depend_on_units(void **state)
+{
+    (void)state;
+    const double lengths[] = {1e-9, 1e12}, times[] = {1e-3, 1e3};
+    for (size_t m = 0; method_at(m); m++) {
+        for (int k = 0; k < 2; k++) {
+            const struct method *method = method_at(m);
+            double length = lengths[k], time = times[k];
+            struct scene scene = {.omega = 1 / time};
+            struct run run;
+            start(&run, &scene, method, tolerance_for(method), length, 0, 8 * time);
+            run_to(&run, 8 * time);
+            double error = fmax(fabs(run.y[0] / length - cos(8)), fabs(run.y[1] / length * time + sin(8)));
+            assert_true(error <
+                        8 * tolerance_for(method) * (double)stepper_get_counts(run.stepper)->accepted);
+            stepper_free(run.stepper);
+        }
     }
 }
 
@@ -525,7 +549,7 @@ static void stiff_steps_can_be_looked_into(void **state)
         }
         print_message("# %s: %lu steps, error %.1e at their ends, %.1e within\n", names[m],
                       stepper_get_counts(run.stepper)->accepted, ends, within);
-        assert_true(ends < 1e-3 && within < 1e-3);
+        assert_true(ends < 1e-4 && within < 2 * ends + 1e-6);
         stepper_free(run.stepper);
     }
 }
@@ -631,6 +655,7 @@ int main(void)
         cmocka_unit_test(no_step_is_larger_than_the_bound),
         cmocka_unit_test(a_body_in_balance_costs_few_steps),
         cmocka_unit_test(steps_do_not_depend_on_units),
+        cmocka_unit_test(accuracy_does_not_depend_on_units),
         cmocka_unit_test(looking_into_steps_changes_none),
         cmocka_unit_test(stiff_steps_can_be_looked_into),
         cmocka_unit_test(an_angle_stays_accurate_over_a_million_revolutions),

@@ -118,7 +118,7 @@ static void the_scale_survives_a_passage_through_zero(void **state)
     const double top[2] = {-3, 0}, middle[2] = {0, 5}, slopes[2] = {0, 0}, yerr[2] = {3e-6, 0};
     weights_update(control, top, slopes);
     assert_true(fabs(weights_ratio(control, 0.1, middle, yerr, slopes) - 1) < 4 * DBL_EPSILON);
-    weights_forget(control); /* what is left is h v = 0.5 */
+    weights_forget(control); /* what is left is h v = 0.5, since q = 0 */
     assert_true(fabs(weights_ratio(control, 0.1, middle, yerr, slopes) - 6) < 16 * DBL_EPSILON);
     weights_set_floor(control, 0, 6);
     weights_forget(control);
@@ -137,6 +137,17 @@ static void a_component_that_starts_from_zero_is_measured_by_its_motion(void **s
     const double moving[3] = {0, 6, 0};
     weights_scales(control, 0.5, moving, f, scales);
     assert_true(scales[0] == 5); /* h v + h^2 a */
+    gsl_odeiv2_control_free(control);
+}
+
+/* A stiff direction: q errs by 1e-3 and a = 1e8 of it. */
+static void slopes_at_the_end_of_a_bad_step_excuse_nothing(void **state)
+{
+    (void)state;
+    gsl_odeiv2_control *control = control_for(1, 0, NULL, 5);
+    const double start[2] = {1, 0}, slopes[2] = {0}, y[2] = {0.9, 1}, f[2] = {1, 1e7}, yerr[2] = {1e-3, 1e-3};
+    weights_update(control, start, slopes);
+    assert_true(weights_ratio(control, 3, y, yerr, f) > 900);
     gsl_odeiv2_control_free(control);
 }
 
@@ -285,6 +296,7 @@ int main(void)
         cmocka_unit_test(an_angle_counts_up_to_one_radian_and_its_rate_in_full),
         cmocka_unit_test(the_scale_survives_a_passage_through_zero),
         cmocka_unit_test(a_component_that_starts_from_zero_is_measured_by_its_motion),
+        cmocka_unit_test(slopes_at_the_end_of_a_bad_step_excuse_nothing),
         cmocka_unit_test(rounding_noise_of_a_body_at_rest_is_no_error),
         cmocka_unit_test(the_step_follows_the_root_of_the_error_within_bounds),
         cmocka_unit_test(gsl_is_told_what_was_decided),

@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * From the file to the report with memory that runs out at each allocation in turn: no crash, no leak, and no
+ * result that looks whole but is not.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <gsl/gsl_errno.h>
+
+#include "fail_alloc.h"
+#include "fbd.h"
+
+static const char text[] = "fbd: 1\n"
+                           "parameters: {mu: 0.3, k: 4 N/m}\n"
+                           "bodies:\n"
+                           "  block:\n"
+                           "    mass: 2 kg\n"
+                           "    motion: slide\n"
+                           "    initial: {v: 1 m/s}\n"
+                           "    forces:\n"
+                           "      - gravity\n"
+                           "      - normal\n"
+                           "      - friction: mu\n"
+                           "      - applied: {value: '-k*x*step(t - 0.1[s])'}\n"
+                           "    hand: 'm*v_dot = -k*x*step(t - 0.1[s]) - mu*m*g*sign(v)'\n"
+                           "  arm:\n"
+                           "    shape: rod\n"
+                           "    mass: 1 kg\n"
+                           "    length: 1 m\n"
+                           "    motion: {pivot: {point: left}}\n"
+                           "    forces: [gravity]\n"
+                           "    moments: [{damper: {coefficient: 0.1 N*m*s/rad}}]\n"
+                           "simulate: {until: 0.4 s, events: [{when: 'block.x = 0.05[m]'}]}\n";
+
+/* A call under test: true when everything in it worked. */
+typedef bool call(void);
+
+static int swallow(void *context, const char *bytes, size_t length)
+{
+    (void)context, (void)bytes, (void)length;
+    return 0;
+}
+
+static fbd_model *load(fbd_errors **errors)
+{
+    *errors = fbd_errors_new();
+    if (!*errors) return NULL;
+    fbd_model *model = fbd_model_parse(text, strlen(text), "scene", NULL, 0, *errors);
+    if (!model) fbd_errors_free(*errors);
+    return model;
+}
+
+static bool some(char *string)
+{
+    bool there = string != NULL;
+    free(string);
+    return there;
+}
+
+static bool run_and_write(void)
+{
+    fbd_errors *errors;
+    fbd_model *model = load(&errors);
+    if (!model) return false;
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    fbd_simulation *simulation = fbd_simulation_new(model, &options, errors);
+    fbd_recording recording = {.ledger = true, .csv = swallow};
+    fbd_result *result = simulation ? fbd_simulation_run(simulation, &recording) : NULL;
+    bool done = result && fbd_result_outcome(result) == FBD_DONE;
+    done = done && some(fbd_result_report(result)) && some(fbd_result_json(result));
+    fbd_result_free(result);
+    fbd_simulation_free(simulation);
+    fbd_model_free(model);
+    fbd_errors_free(errors);
+    return done;
+}
+
+static bool look_closer(void)
+{
+    fbd_errors *errors;
+    fbd_model *model = load(&errors);
+    if (!model) return false;
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    char *verdict = NULL;
+    fbd_state *state = fbd_state_new(model);
+    bool done = state && some(fbd_equations_text(state)) && some(fbd_explain(model, &options));
+    done = done && fbd_check_hand(model, 1, &verdict) == 0;
+    free(verdict);
+    fbd_state_free(state);
+    fbd_model_free(model);
+    fbd_errors_free(errors);
+    return done;
+}
+
+static bool linearize(void)
+{
+    static const char pendulum[] =
+        "fbd: 1\nbodies:\n  arm: {shape: rod, mass: 1, length: 1, motion: {pivot: {point: left}}, "
+        "forces: [gravity]}\nsimulate: {until: 1}\n";
+    fbd_errors *errors = fbd_errors_new();
+    if (!errors) return false;
+    fbd_model *model = fbd_model_parse(pendulum, strlen(pendulum), "scene", NULL, 0, errors);
+    fbd_state *state = model ? fbd_state_new(model) : NULL;
+    fbd_linearization *linear = state ? fbd_linearize(state, errors) : NULL;
+    bool done = linear && some(fbd_linearization_text(linear));
+    fbd_linearization_free(linear);
+    fbd_state_free(state);
+    fbd_model_free(model);
+    fbd_errors_free(errors);
+    return done;
+}
+
+static void fail_each(call *under_test)
+{
+    size_t n = 0;
+    for (;; n++) {
+        fail_alloc_at(n);
+        bool done = under_test();
+        if (!fail_alloc_end()) {
+            assert_true(done);
+            break;
+        }
+        /* A hint that could not be built is not worth a failure; everything else must be noticed. */
+        if (done) fail_msg("allocation %zu failed and nobody noticed", n);
+    }
+    assert_true(n > 10);
+}
+
+static void a_run_without_memory_fails_and_leaks_nothing(void **unused)
+{
+    (void)unused;
+    fail_each(run_and_write);
+}
+
+static void looking_without_memory_fails_and_leaks_nothing(void **unused)
+{
+    (void)unused;
+    fail_each(look_closer);
+}
+
+static void linearisation_without_memory_fails_and_leaks_nothing(void **unused)
+{
+    (void)unused;
+    fail_each(linearize);
+}
+
+static int no_handler(void **unused)
+{
+    (void)unused;
+    gsl_set_error_handler_off();
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_run_without_memory_fails_and_leaks_nothing),
+        cmocka_unit_test(looking_without_memory_fails_and_leaks_nothing),
+        cmocka_unit_test(linearisation_without_memory_fails_and_leaks_nothing),
+    };
+    return cmocka_run_group_tests(tests, no_handler, NULL);
+}

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Steppers when memory runs out. Of GSL's own methods rkf45 stands for all: msadams and msbdf lose memory of
+ * their own on that way, and bsimp writes through the null pointer (GSL 2.7.1).
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <gsl/gsl_errno.h>
+
+#include "fail_alloc.h"
+#include "solve/stepper.h"
+
+static void a_stepper_is_made_whole_or_not_at_all(void **state)
+{
+    (void)state;
+    const char *names[] = {"dop853", "rkf45"};
+    const bool angle[2] = {true, false};
+    for (size_t m = 0; m < sizeof names / sizeof *names; m++) {
+        struct stepper_options options = {.method = method_find(names[m]),
+                                          .layout = {2, 1, angle},
+                                          .tolerance = 1e-6};
+        for (size_t n = 0;; n++) {
+            fail_alloc_at(n);
+            struct stepper *stepper = stepper_alloc(&options);
+            bool failed = fail_alloc_end();
+            assert_true(failed == (stepper == NULL));
+            stepper_free(stepper);
+            if (!failed) break;
+        }
+    }
+}
+
+static int fall(double t, const double y[], double f[], void *params)
+{
+    (void)t, (void)params;
+    f[0] = y[1];
+    f[1] = -9.81;
+    return GSL_SUCCESS;
+}
+
+static void a_run_takes_no_memory(void **state)
+{
+    (void)state;
+    gsl_odeiv2_system inner = {.function = fall, .dimension = 2};
+    struct counted_system system;
+    counted_system_init(&system, &inner);
+    for (size_t m = 0; method_at(m); m++) {
+        if (method_at(m)->implicit) continue;
+        struct stepper_options options = {.method = method_at(m), .layout = {.pairs = 1}, .tolerance = 1e-6};
+        struct stepper *stepper = stepper_alloc(&options);
+        double t = 0, h, y[2] = {0, 3}, f[2], z[2];
+        fail_alloc_from(0);
+        int code = stepper_reset(stepper, &system, t, y, f, 1, &h);
+        while (code == GSL_SUCCESS && t < 1) {
+            double t0 = t;
+            code = (int)stepper_step(stepper, &system, &t, y, f, &h, 1);
+            if (code == GSL_SUCCESS) code = stepper_dense(stepper, (t0 + t) / 2, z);
+            if (code == GSL_SUCCESS) code = stepper_partial(stepper, (t0 + t) / 2, z, f);
+            if (code == GSL_SUCCESS) code = fall(t, y, f, NULL);
+        }
+        size_t asked = fail_alloc_count();
+        fail_alloc_end();
+        assert_int_equal(code, GSL_SUCCESS);
+        assert_int_equal(asked, 0);
+        stepper_free(stepper);
+    }
+}
+
+int main(void)
+{
+    gsl_set_error_handler_off();
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_stepper_is_made_whole_or_not_at_all),
+        cmocka_unit_test(a_run_takes_no_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
