@@ -166,6 +166,14 @@ static double next_time(struct run *run, bool *found)
     return *found ? fmin(run->timed.t, run->options.until) : run->options.until;
 }
 
+/* The time that function i of the moving set still has, by its value and rate at an event; negative when it
+ * has passed. */
+static double time_left(const struct run *run, size_t i)
+{
+    double value = run->values[i], rate = run->values[run->moving.count + i];
+    return rate < 0 && value < HUGE_VAL ? -value / rate : HUGE_VAL;
+}
+
 /* Go back to the event that the scan has found and improve its time: the partial step has the full accuracy
  * of the method, the dense output may have less. Newton on the function that reaches zero first; y and f are
  * left at the result. */
@@ -173,18 +181,23 @@ static bool polish(struct run *run, double step_end, double *t)
 {
     enum { most_steps = 4 };
     const struct scan *scan = &run->moving;
-    double *values = run->values, *rate = values + scan->count;
     for (int step = 0;; step++) {
         if (stepper_partial(run->stepper, *t, run->y, run->f) != GSL_SUCCESS) return false;
-        if (step == most_steps) return true;
-        watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, *t, run->y, values, rate);
+        watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, *t, run->y, run->values,
+                          run->values + scan->count);
         double move = HUGE_VAL;
         for (size_t i = 0; i < scan->count; i++)
-            if (scan->crossed[i] && rate[i] < 0) move = fmin(move, -values[i] / rate[i]);
+            if (scan->crossed[i]) move = fmin(move, time_left(run, i));
         double next = *t + move;
-        if (!(next > run->from && next < step_end) || fabs(move) <= 4 * DBL_EPSILON * fabs(next)) return true;
+        bool there = !(next > run->from && next < step_end) || fabs(move) <= 4 * DBL_EPSILON * fabs(next);
+        if (there || step == most_steps) break;
         *t = next;
     }
+    /* Events of one instant that rounding has put a little apart happen together. */
+    const double instant = 64 * DBL_EPSILON * fabs(*t);
+    for (size_t i = 0; i < scan->count; i++)
+        if (fabs(time_left(run, i)) <= instant) scan->crossed[i] = true;
+    return true;
 }
 
 /* Look for the first event in (from, t]; on return *t is its time, with y and f there. 1 found, 0 none, -1

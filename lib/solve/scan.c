@@ -230,7 +230,7 @@ int scan_interval(struct scan *scan, double from, double to)
     if (!status) status = take_sample(scan, m, from + 0.4690 * (to - from));
     if (status) return status;
     double off = set_doubts(scan, a, m, b);
-    if (off > 0.1) scan->resolved = (to - from) * (off > 0.5 ? 0.5 : 1);
+    if (off > 0.1) scan->resolved = 2 * (to - from);
     status = look(scan, a, m, 0);
     return status ? status : look(scan, m, b, 0);
 }

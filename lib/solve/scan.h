@@ -26,9 +26,10 @@ struct scan {
     bool *rough;   /* count, filled by the caller */
     bool *crossed; /* count: result, which functions became negative at `t` */
     double t;      /* result: the first instant at which one is negative, within two roundings of its zero */
-    double resolved; /* result: an interval length that the functions bear; HUGE_VAL when they are smooth over
-                        all of it */
-    long samples;    /* counted */
+    double
+        resolved; /* result: the next interval should not be longer; HUGE_VAL when the functions are smooth
+                   * over all of this one, twice its length when they change faster than the samples tell */
+    long samples; /* counted */
     struct scan_point *points; /* pool for the recursion */
     double *memory;
 };

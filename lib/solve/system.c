@@ -4,21 +4,32 @@
 #include <gsl/gsl_errno.h>
 #include <math.h>
 
-/* Zero times a sum is zero unless an infinity or a NaN is among its terms; the search is for the rare case.
- */
-static int check(struct counted_system *system, int code, double t, const double *values, size_t count)
+static int note(struct counted_system *system, int code, double t)
 {
-    if (code == GSL_SUCCESS) {
-        double probe = 0;
-        for (size_t i = 0; i < count; i++) probe += 0 * values[i];
-        if (probe == 0) return GSL_SUCCESS;
-        code = system_not_finite;
-        system->last_element = 0;
-        while (isfinite(values[system->last_element])) system->last_element++;
-    }
     system->last_code = code;
     system->last_time = t;
     return code;
+}
+
+/* The rare case: the sum of the values is not finite. Either one of them is not, or they are so large that
+ * their sum is beyond all numbers. */
+static int search(struct counted_system *system, double t, const double *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (!isfinite(values[i])) {
+            system->last_element = i;
+            return note(system, system_not_finite, t);
+        }
+    }
+    return GSL_SUCCESS;
+}
+
+/* One addition for each value, as this stands in the innermost loop of all. */
+static inline double sum_of(const double *values, size_t count)
+{
+    double sum = 0;
+    for (size_t i = 0; i < count; i++) sum += values[i];
+    return sum;
 }
 
 static int counted_rhs(double t, const double y[], double dydt[], void *params)
@@ -26,16 +37,18 @@ static int counted_rhs(double t, const double y[], double dydt[], void *params)
     struct counted_system *system = params;
     system->rhs++;
     int code = system->inner.function(t, y, dydt, system->inner.params);
-    return check(system, code, t, dydt, system->inner.dimension);
+    if (code != GSL_SUCCESS) return note(system, code, t);
+    size_t n = system->inner.dimension;
+    return isfinite(sum_of(dydt, n)) ? GSL_SUCCESS : search(system, t, dydt, n);
 }
 
 static int counted_jacobian(double t, const double y[], double *dfdy, double dfdt[], void *params)
 {
     struct counted_system *system = params;
-    size_t n = system->inner.dimension;
     system->jacobians++;
     int code = system->inner.jacobian(t, y, dfdy, dfdt, system->inner.params);
-    return check(system, code, t, dfdy, n * n);
+    if (code != GSL_SUCCESS) return note(system, code, t);
+    return search(system, t, dfdy, system->inner.dimension * system->inner.dimension);
 }
 
 void counted_system_init(struct counted_system *system, const gsl_odeiv2_system *inner)

@@ -219,17 +219,18 @@ static const gsl_odeiv2_control_type weights_type = {
     .free = free,
 };
 
-/* The numbers of HNW I, II.4 and of dop853.f, with two changes that were measured (evaluations at equal
- * error). Order 8: the step that a pendulum allows changes much within one step, so safety 0.8 in place of
- * 0.9 halves the rejections and saves 6 %. Multistep methods: a step size that is left alone until it may
- * double takes a half to a fifth of the evaluations of one that follows every estimate (pendulum, forced and
- * stiff oscillator, van der Pol). */
+/* The numbers of HNW I, II.4 and of dop853.f, with two changes that were measured, in evaluations at equal
+ * error. Order 8: where the allowed step changes much within one step, safety 0.9 has a quarter of the steps
+ * rejected. 0.7 saves 13 % for dop853 and 10 % for rk8pd (mean over six smooth systems at errors of 1e-4 to
+ * 1e-10; 0.6 gains no more). Multistep methods: a step size that is left alone until it may double takes two
+ * thirds to a fifth of the evaluations of one that follows every estimate (pendulum, forced and stiff
+ * oscillator, van der Pol). */
 struct step_law step_law_for(int estimate_order)
 {
     struct step_law law = {.safety = 0.9, .shrink = 0.2, .grow = 5, .keep_below = 0};
     law.estimate_order = estimate_order;
     if (estimate_order == 8) {
-        law.safety = 0.8;
+        law.safety = 0.7;
         law.shrink = 0.333;
         law.grow = 6;
     }
