@@ -5,15 +5,16 @@
  * GSL's steppers offer none, so a polynomial is laid through what every step leaves behind: state and slope
  * at both ends. For pairs (q, v) with q' = v that is q, v, a at both ends, which a quintic takes up; its
  * derivative is the only quartic through the same data, and one order better than the cubic of (v, a).
- * Further accelerations, evaluated on the polynomial made so far, raise the order one by one (bootstrapping:
- * Enright, Jackson, Norsett, Thomsen, Interpolants for Runge-Kutta formulas, ACM TOMS 12 (1986) 193). The
- * points are chosen where the polynomial is better than elsewhere, which saves most of the evaluations;
- * dense.c has the derivation.
+ * Further accelerations, evaluated on the polynomial made so far, raise the order one by one
+ * (bootstrapping: Enright, Jackson, Norsett, Thomsen, Interpolants for Runge-Kutta formulas, ACM TOMS 12
+ * (1986) 193). The points are chosen where the polynomial is better than elsewhere, which saves most of the
+ * evaluations; dense.c has the derivation.
  *
- *                                           error of q, v    error of other components   evaluations
- *     level 0: ends only                    h^6, h^5         h^4                         0
- *     level 1: one acceleration inside      h^7, h^6         h^5 (as level 2)            1 (4 if there are
- * others) level 2: three accelerations inside   h^9, h^8         h^5, h^6 if they only       4 follow q and v
+ *                                          error of q, v    of other components    evaluations
+ *     level 0: the ends only               h^6, h^5         h^4                    0
+ *     level 1: one acceleration inside     h^7, h^6         as level 2             1, with others 4
+ *     level 2: three accelerations inside  h^9, h^8         h^5; h^6 if they only  4
+ *                                                           follow q and v
  *
  * A method of order p gets the level whose v errs by h^p at most, like the method itself over many steps: 0
  * up to order 4, 1 for order 5, 2 above. A system without pairs has cubic Hermite with errors h^4, h^5 and
@@ -23,9 +24,11 @@
  * that nobody looks into costs nothing. They do not act back on the stepper, so output does not change a
  * trajectory.
  *
- * Limit: slopes and inner evaluations magnify an error in y along a stiff direction by h |lambda|, and the
- * polynomials follow no step much longer than 1/3 of a period. So implicit methods have other means: see
- * stepper_dense.
+ * Limit: slopes and inner evaluations magnify an error in y along a stiff direction by h |lambda|, and no
+ * polynomial of these degrees follows a step of bsimp, which may be longer than a period. So implicit
+ * methods have other means: see stepper_dense. The v of levels 0 to 2 contains the difference of two q over
+ * h, and with it their errors over h: next to a step of low order and small size (the first ones of
+ * msadams) v may be ten times worse than at its ends.
  */
 #ifndef FBD_SOLVE_DENSE_H
 #define FBD_SOLVE_DENSE_H

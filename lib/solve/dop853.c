@@ -77,10 +77,10 @@ static inline int evaluate(struct dop853 *s, int i, const gsl_odeiv2_system *sys
 /* Sums are written out: a loop over the coefficients takes a tenth more time for the step of a pendulum.
  *
  * `volatile` keeps compilers from using vector instructions. Vectors of two would be filled from what the
- * right-hand side has just stored number by number, and a wide load must wait for narrow stores to leave the
- * processor's store buffer: in the systems of two numbers that most scenes are, the step takes 40 % more time
- * (gcc -O3, clang -O2). In a system of twenty the vectors would save a tenth of the sums, which are little
- * beside its right-hand side. */
+ * right-hand side has just stored number by number, and a wide load must wait for narrow stores to leave
+ * the processor's store buffer: in the systems of two numbers that most scenes are, the step takes 40 %
+ * more time (gcc -O3, clang -O2). In a system of twenty the vectors would save a tenth of the sums, which
+ * are little beside its right-hand side. */
 static int stages_2_to_7(struct dop853 *s, const double *y, const gsl_odeiv2_system *sys)
 {
     const double(*a)[dop853_stages + 1] = dop853_a;
@@ -146,8 +146,8 @@ static inline double estimate(double e5, double e3)
     return square != 0 ? e5 * fabs(e5) / sqrt(square) : 0;
 }
 
-/* y1 and its error. False if y1 is not finite: zero times a sum is zero unless an infinity or a NaN is among
- * its terms. */
+/* y1 and its error. False if y1 is not finite: zero times a sum is zero unless an infinity or a NaN is
+ * among its terms. */
 static bool finish(struct dop853 *s, const double *restrict y, double *restrict yerr)
 {
     const double *b = dop853_a[13], *p = dop853_e5, *q = dop853_e3;
@@ -218,7 +218,8 @@ static int dense_stage(struct dop853 *s, int row, const gsl_odeiv2_system *sys)
     return evaluate(s, row, sys);
 }
 
-/* The polynomial of dop853_dense_eval from its end values and end slopes, and from the rows d (HNW I, II.6).
+/* The polynomial of dop853_dense_eval from its end values and end slopes, and from the rows d (HNW I,
+ * II.6).
  */
 static void set_polynomial(struct dop853 *s)
 {

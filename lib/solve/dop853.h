@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The explicit Runge-Kutta pair of Dormand and Prince of order 8(5,3) with dense output of order 7, as a step
- * type for GSL's odeiv2.
+ * The explicit Runge-Kutta pair of Dormand and Prince of order 8(5,3) with dense output of order 7, as a
+ * step type for GSL's odeiv2.
  *
  * It may be used in any GSL program: gsl_odeiv2_step_alloc(step_dop853, dim), with evolve or driver and any
  * control. A step costs 12 evaluations of the right-hand side when f(t, y) is given in dydt_in, the last of
@@ -11,15 +11,15 @@
  * Error estimate. Hairer combines two embedded formulas of order 5 and 3 with differences e5 = O(h^5) and
  * e3 = O(h^3) (both divided by h) to
  *     err = h |e5|^2 / sqrt(|e5|^2 + 0.01 |e3|^2) = O(h^8),
- * which is large where the formula of order 5 happens to agree by accident. A GSL control takes a number for
- * each component, so the same expression is delivered for each: yerr_i = h e5_i |e5_i| / sqrt(e5_i^2 + 0.01
- * e3_i^2). For one component it is Hairer's formula; for several the maximum of |yerr_i| / scale_i, which a
- * control forms, is as dimension-free as his root mean square, and one component does not dilute the error of
- * another. As the estimate is O(h^8) = O(h^order), the exponent of a step size law is 1/8.
+ * which is large where the formula of order 5 happens to agree by accident. A GSL control takes a number
+ * for each component, so the same expression is delivered for each: yerr_i = h e5_i |e5_i| / sqrt(e5_i^2 +
+ * 0.01 e3_i^2). For one component it is Hairer's formula; for several the maximum of |yerr_i| / scale_i,
+ * which a control forms, is as dimension-free as his root mean square, and one component does not dilute
+ * the error of another. As the estimate is O(h^8) = O(h^order), the exponent of a step size law is 1/8.
  *
- * Failure. Where the right-hand side returns a code other than GSL_SUCCESS, the step returns that code; where
- * y1 is not finite, GSL_FAILURE (GSL's own steppers would call it success). In both cases y is as it was on
- * entry.
+ * Failure. Where the right-hand side returns a code other than GSL_SUCCESS, the step returns that code;
+ * where y1 is not finite, GSL_FAILURE (GSL's own steppers would call it success). In both cases y is as it
+ * was on entry.
  *
  * Source: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd edition,
  * Springer 1993, II.5 (pair), II.10 (error estimate), II.6 (dense output); J. R. Dormand, P. J. Prince, J.
@@ -32,10 +32,10 @@
 
 extern const gsl_odeiv2_step_type *const step_dop853;
 
-/* Make the dense output of the last step that `step` has made ready: three evaluations of the right-hand side
- * (four if the step was made without dydt_out), the first time only. The step may have been rejected by a
- * control since. GSL_SUCCESS, the code of a failed right-hand side, or GSL_EINVAL when `step` is of another
- * type or has no step behind it. The result stays valid until the next step or reset. */
+/* Make the dense output of the last step that `step` has made ready: three evaluations of the right-hand
+ * side (four if the step was made without dydt_out), the first time only. The step may have been rejected
+ * by a control since. GSL_SUCCESS, the code of a failed right-hand side, or GSL_EINVAL when `step` is of
+ * another type or has no step behind it. The result stays valid until the next step or reset. */
 int dop853_dense_prepare(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys);
 
 /* y(t0 + theta h), 0 <= theta <= 1, of the prepared step [t0, t0 + h]; error O(h^8), continuous with its

@@ -2,10 +2,10 @@
  *
  * The polynomial through the last points of a trajectory: dense output for backward differentiation.
  *
- * A BDF step of order k puts its result on the polynomial of degree k through the k points before and itself,
- * which is therefore the right one to read values between the last two points from: it errs like the step. It
- * uses no slopes; in a stiff system f(t, y) magnifies the error of y by h |lambda|, and an interpolant made
- * of slopes with it.
+ * A BDF step of order k puts its result on the polynomial of degree k through the k points before and
+ * itself, which is therefore the right one to read values between the last two points from: it errs like
+ * the step. It uses no slopes; in a stiff system f(t, y) magnifies the error of y by h |lambda|, and an
+ * interpolant made of slopes with it.
  */
 #ifndef FBD_SOLVE_HISTORY_H
 #define FBD_SOLVE_HISTORY_H

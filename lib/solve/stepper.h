@@ -2,10 +2,10 @@
  *
  * One accepted step at a time, with any method of method.h: the body of an integration loop.
  *
- * It does what gsl_odeiv2_evolve_apply does and what that leaves undone: the error is measured without units
- * (weights.h); a step that is rejected, for whatever reason, leaves nothing behind; NaN is never accepted;
- * the reason of each rejection is counted; the step can be looked into (dense.h) and redone in part;
- * multistep methods get the driver they ask for.
+ * It does what gsl_odeiv2_evolve_apply does and what that leaves undone: the error is measured without
+ * units (weights.h); a step that is rejected, for whatever reason, leaves nothing behind; NaN is never
+ * accepted; the reason of each rejection is counted; the step can be looked into (dense.h) and redone in
+ * part; multistep methods get the driver they ask for.
  *
  * Use: stepper_reset at the start and after every discontinuity of state or right-hand side, then
  * stepper_step until t == t_limit. Time runs forward. Only stepper_alloc takes memory.
@@ -24,8 +24,7 @@ struct stepper_options {
     struct layout layout;
     double tolerance; /* relative to the scales of weights.h, for each step; above 0 */
     double h_max;     /* no step is larger; 0: no bound */
-    double
-        h_fixed; /* above 0: all steps have this size, errors are not looked at; h_max has no meaning then */
+    double h_fixed;   /* above 0: the size of all steps, whatever their error and h_max */
 };
 
 enum stepper_status {
@@ -33,7 +32,7 @@ enum stepper_status {
     stepper_underflow,    /* rejected until t + h == t; stepper_counts.last tells why */
     stepper_bad_function, /* the right-hand side returned GSL_EBADFUNC: stop */
     stepper_fixed_failed, /* a step of fixed size could not be made; stepper_counts.last tells why */
-    stepper_misuse /* t_limit <= t, dimension other than the layout's, no Jacobian for an implicit method */
+    stepper_misuse        /* t_limit <= t, *h <= 0, another dimension, no Jacobian for an implicit method */
 };
 
 /* Why an attempt was rejected. */
@@ -48,8 +47,7 @@ enum rejection {
 struct stepper_counts {
     unsigned long accepted;
     unsigned long rejected[rejection_kinds];
-    enum rejection
-        last; /* in the latest step with rejections; not finite or rhs if that was among the reasons */
+    enum rejection last; /* in the latest step with any; rhs or not finite if that was among its reasons */
 };
 
 /* NULL when memory is out or an option is unusable. */
@@ -57,31 +55,31 @@ struct stepper *stepper_alloc(const struct stepper_options *options);
 void stepper_free(struct stepper *stepper);
 
 /* Forget all steps, evaluate f = f(t, y) and choose the size *h of the first step towards t_limit (one more
- * evaluation). The scales of the error measure are kept and take in y. GSL_SUCCESS, GSL_EINVAL for t_limit <=
- * t, or the code of the right-hand side; then *h is not set. */
+ * evaluation). The scales of the error measure are kept and take in y. GSL_SUCCESS, GSL_EINVAL for t_limit
+ * <= t, or the code of the right-hand side; then *h is not set. */
 int stepper_reset(struct stepper *stepper, struct counted_system *system, double t, const double *y,
                   double *f, double t_limit, double *h);
 
-/* Make one accepted step from (*t, y) with slopes f = f(*t, y), not beyond t_limit. On stepper_ok *t, y and f
- * are those of its end, and *h is the size proposed for the next one. On any other status *t, y and f are as
- * they were; reset before going on.
+/* Make one accepted step from (*t, y) with slopes f = f(*t, y), not beyond t_limit. On stepper_ok *t, y and
+ * f are those of its end, and *h is the size proposed for the next one. On any other status *t, y and f are
+ * as they were; reset before going on.
  *
- * *h is the size to try first. A step that would end within 1 % of t_limit ends there, *t == t_limit exactly;
- * one that would leave less than its own length is made half the way. Such a cut does not shrink the
- * proposal. */
+ * *h is the size to try first. A step that would end within 1 % of t_limit ends there, *t == t_limit
+ * exactly; one that would leave less than its own length is made half the way. Such a cut does not shrink
+ * the proposal. */
 enum stepper_status stepper_step(struct stepper *stepper, struct counted_system *system, double *t, double *y,
                                  double *f, double *h, double t_limit);
 
 /* State at time t within the last accepted step, t0 <= t <= t1, bit for bit that of the step at its ends.
  * Explicit methods and msadams have the interpolants of dense.h, msbdf the polynomial of its last points
  * (history.h). Implicit one-step methods redo the step up to t: slopes are of no use over a stiff step, and
- * bsimp makes steps longer than any interpolant follows. The system of that step is used and has to be there
- * still. GSL_SUCCESS, GSL_EINVAL without a last step or for t outside of it, or the code of what failed; then
- * y is undefined. */
+ * bsimp makes steps longer than any interpolant follows. The system of that step is used and has to be
+ * there still. GSL_SUCCESS, GSL_EINVAL without a last step or for t outside of it, or the code of what
+ * failed; then y is undefined. */
 int stepper_dense(struct stepper *stepper, double t, double *y);
 
-/* State y and slopes f at time t within the last accepted step with the full accuracy of the method: one-step
- * methods make a step from its start to t, multistep methods use stepper_dense. Codes as there. */
+/* State y and slopes f at time t within the last accepted step with the full accuracy of the method:
+ * one-step methods make a step from its start to t, multistep methods use stepper_dense. Codes as there. */
 int stepper_partial(struct stepper *stepper, double t, double *y, double *f);
 
 const struct stepper_counts *stepper_get_counts(const struct stepper *stepper);

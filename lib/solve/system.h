@@ -3,8 +3,8 @@
  * A gsl_odeiv2_system that counts its evaluations and lets no NaN or infinity pass.
  *
  * GSL's steppers and controls take a NaN for success (a comparison with NaN is never true), and a Newton
- * iteration fed with one ends in a misleading message. So the wrapper turns a result that is not finite into
- * the return code `system_not_finite`, which every stepper passes on, and remembers where it was.
+ * iteration fed with one ends in a misleading message. So the wrapper turns a result that is not finite
+ * into the return code `system_not_finite`, which every stepper passes on, and remembers where it was.
  */
 #ifndef FBD_SOLVE_SYSTEM_H
 #define FBD_SOLVE_SYSTEM_H

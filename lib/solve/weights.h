@@ -2,28 +2,28 @@
  *
  * Error control that does not depend on units, as a control type for GSL's odeiv2.
  *
- * GSL's controls measure the error of a component against eps_abs + eps_rel |y_i|. An absolute tolerance is a
- * number with a unit, and a purely relative one demands infinite accuracy where a component passes through
- * zero. Here the error of component i is measured against tolerance * S_i, where the scale S_i is the largest
- * of
+ * GSL's controls measure the error of a component against eps_abs + eps_rel |y_i|. An absolute tolerance is
+ * a number with a unit, and a purely relative one demands infinite accuracy where a component passes
+ * through zero. Here the error of component i is measured against tolerance * S_i, where the scale S_i is
+ * the largest of
  *
- *   - the running maximum of |y_i| over all accepted states (weights_update) and a floor that the caller may
- * give,
+ *   - the running maximum of |y_i| over all accepted states (weights_update),
+ *   - a floor that the caller may give,
  *   - |y_i| at the end of the step,
  *
  * and only if these are zero what the component can become within the step: |h v_i| + |h^2 a_i| for a
- * coordinate q_i, |h y'_i| for any other. Used always, that would be a trap: a step that has gone wrong in a
- * stiff direction has huge slopes at its end, and so would excuse itself (the Gauss method took 6 s of a
+ * coordinate q_i, |h y'_i| for any other. Used always, that would be a trap: a step that has gone wrong in
+ * a stiff direction has huge slopes at its end, and so would excuse itself (the Gauss method took 6 s of a
  * spring of 1e8 N/m in three steps).
  *
  * The scale of an angle is at most 1 rad: an angle has a natural unit, and 1e6 revolutions do not excuse an
  * error of a radian. Its rate has no such bound.
  *
- * Rounding limits what can be asked. A step knows y_i to eps (DBL_EPSILON) times |y_i| plus what it moved, so
- * the level is at least that. And an error dv of v_i that moves q_i by less than its rounding, h dv < eps
- * |q_i|, is invisible within the step, so the level of v_i is at least eps |q_i| / h (angles count up to 1
- * rad here). Without it a body at rest in a balance of large forces, whose acceleration is rounding noise,
- * would be followed noise and all with ever smaller steps.
+ * Rounding limits what can be asked. A step knows y_i to eps (DBL_EPSILON) times |y_i| plus what it moved,
+ * so the level is at least that. And an error dv of v_i that moves q_i by less than its rounding, h dv <
+ * eps |q_i|, is invisible within the step, so the level of v_i is at least eps |q_i| / h (angles count up
+ * to 1 rad here). Without it a body at rest in a balance of large forces, whose acceleration is rounding
+ * noise, would be followed noise and all with ever smaller steps.
  *
  * The norm is the maximum over the components, not a root mean square: bodies that have nothing to do with
  * each other do not dilute each other's errors, and adding a body at rest changes no step.
@@ -31,9 +31,9 @@
  * Step size law (HNW I, II.4): with the largest ratio r of error to level and an estimate that is O(h^k),
  * h_new = h min(grow, max(shrink, safety r^(-1/k))). The step is accepted for r <= 1.
  *
- * With any GSL evolve or driver: hadjust returns GSL_ODEIV_HADJ_DEC for a step to be rejected, INC or NIL for
- * an accepted one; the step size proposed after an accepted one may be a little smaller (NIL, factor safety
- * at most). Values that are not finite count as an infinite error: DEC with h / 10.
+ * With any GSL evolve or driver: hadjust returns GSL_ODEIV_HADJ_DEC for a step to be rejected, INC or NIL
+ * for an accepted one; the step size proposed after an accepted one may be a little smaller (NIL, factor
+ * safety at most). Values that are not finite count as an infinite error: DEC with h / 10.
  */
 #ifndef FBD_SOLVE_WEIGHTS_H
 #define FBD_SOLVE_WEIGHTS_H
@@ -47,21 +47,20 @@ struct step_law {
     double safety;      /* below 1 */
     double shrink;      /* smallest factor after a rejection, below safety */
     double grow;        /* largest factor */
-    double keep_below;  /* an accepted step with a factor below this leaves h as it is; 0: every factor is
-                           taken */
+    double keep_below;  /* after an accepted step, factors below this leave h as it is; 0: none does */
     int estimate_order; /* k; 0 stands for the order that the stepper reports, plus 1 */
 };
 
 /* The law for an estimate of this order (as in struct method; 0 for a method of variable order). */
 struct step_law step_law_for(int estimate_order);
 
-/* A control for states of this layout, all scales zero; `tolerance` is relative to the scales and above 0. To
- * be freed with gsl_odeiv2_control_free. NULL when memory is out or an argument is unusable. */
+/* A control for states of this layout, all scales zero; `tolerance` is relative to the scales and above 0.
+ * To be freed with gsl_odeiv2_control_free. NULL when memory is out or an argument is unusable. */
 gsl_odeiv2_control *weights_alloc(const struct layout *layout, double tolerance, struct step_law law);
 
 /* Raise the scale of component i to `floor` (in its own unit), for good: the size below which it is not of
- * interest. Worth giving where a coordinate stays zero but for rounding noise of larger ones, as y of a body
- * that moves along x. */
+ * interest. Worth giving where a coordinate stays zero but for rounding noise of larger ones, as y of a
+ * body that moves along x. */
 void weights_set_floor(gsl_odeiv2_control *control, size_t i, double floor);
 
 /* Take an accepted state y with f = f(t, y) into the running maxima. */

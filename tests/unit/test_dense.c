@@ -22,9 +22,9 @@
 
 enum { size = 3 };
 
-/* The solution is chosen, q = sin 2t + t^2 / 10 and x = q^2 / 2 - 1, and the right-hand side built around it:
- * with e the deviations from it, q'' = exact - e_q - e_v - e_v^3 and x' = v q + e_x, which depends on its own
- * state. */
+/* The solution is chosen, q = sin 2t + t^2 / 10 and x = q^2 / 2 - 1, and the right-hand side built around
+ * it: with e the deviations from it, q'' = exact - e_q - e_v - e_v^3 and x' = v q + e_x, which depends on
+ * its own state. */
 struct problem {
     long calls;
     int code; /* returned when not zero */

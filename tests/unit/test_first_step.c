@@ -81,7 +81,8 @@ static void it_does_not_depend_on_the_unit_of_length(void **state)
     }
 }
 
-/* The allowed step of order 8 at 1e-9 is about 0.25 / omega; a hundredth of that costs three steps of growth.
+/* The allowed step of order 8 at 1e-9 is about 0.25 / omega; a hundredth of that costs three steps of
+ * growth.
  */
 static void it_is_of_the_size_of_the_motion(void **state)
 {

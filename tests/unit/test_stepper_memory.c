@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Steppers when memory runs out. Of GSL's own methods rkf45 stands for all: msadams and msbdf lose memory of
- * their own on that way, and bsimp writes through the null pointer (GSL 2.7.1).
+ * Steppers when memory runs out. Of GSL's own methods rkf45 stands for all: msadams and msbdf lose memory
+ * of their own on that way, and bsimp writes through the null pointer (GSL 2.7.1).
  */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -25,8 +25,8 @@ static gsl_odeiv2_control *control_for(size_t pairs, size_t extra, const bool *a
     return control;
 }
 
-/* Ratio of one pair with these values, in units in which a length is `length` times as large as a number and
- * a time `time` times. */
+/* Ratio of one pair with these values, in units in which a length is `length` times as large as a number
+ * and a time `time` times. */
 static double ratio_in_units(double length, double time)
 {
     gsl_odeiv2_control *control = control_for(1, 0, NULL, 5);
