@@ -8,6 +8,14 @@ size_t diagram_arrows(const struct fbd_model *model, int body)
     return (size_t)model->bodies[body].load_count + 1;
 }
 
+size_t diagram_most_arrows(const struct fbd_model *model)
+{
+    size_t most = 1;
+    for (size_t b = 0; b < model->body_count; b++)
+        if (diagram_arrows(model, (int)b) > most) most = diagram_arrows(model, (int)b);
+    return most;
+}
+
 double arrow_moment(const struct arrow *arrow, struct vec about)
 {
     return arrow->couple + vec_cross(vec_sub(arrow->point, about), arrow->force);

@@ -25,6 +25,9 @@ struct arrow {
 /* The most arrows that a body of this model can have, reactions included. */
 size_t diagram_arrows(const struct fbd_model *model, int body);
 
+/* The most that any body of it can have, at least 1. */
+size_t diagram_most_arrows(const struct fbd_model *model);
+
 /* Fill `arrows` for one body; returns their number. `slots` (plan.slots) and `a` (n) are the results of
  * accelerations() at the same instant; `scratch` has plan.slots entries. The reaction, if any, comes last:
  * `pin` of a pivot, `guide` of a slide without a normal force. */

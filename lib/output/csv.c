@@ -133,9 +133,6 @@ bool csv_begin(struct csv *csv, const struct fbd_model *model, struct ledger *le
                const fbd_recording *recording, double until, struct fbd_state *start)
 {
     double every = recording->every > 0 ? recording->every : model->scene->simulate.every;
-    size_t most = 1;
-    for (size_t b = 0; b < model->body_count; b++)
-        if (diagram_arrows(model, (int)b) > most) most = diagram_arrows(model, (int)b);
     *csv = (struct csv){.model = model,
                         .ledger = recording->ledger ? ledger : NULL,
                         .write = recording->csv,
@@ -145,7 +142,7 @@ bool csv_begin(struct csv *csv, const struct fbd_model *model, struct ledger *le
                         .every = every > 0 ? every : (until - start->t) / default_rows,
                         .next = 1};
     csv->probe = state_new(model);
-    csv->arrows = calloc(most, sizeof *csv->arrows);
+    csv->arrows = calloc(diagram_most_arrows(model), sizeof *csv->arrows);
     csv->work = calloc(model->load_count + 1, sizeof *csv->work);
     if (!csv->probe || !csv->arrows || !csv->work) return false;
     headers(csv);

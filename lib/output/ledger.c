@@ -5,16 +5,6 @@
 
 #include "dynamics/energy.h"
 
-static size_t most_arrows(const struct fbd_model *model)
-{
-    size_t most = 1;
-    for (size_t b = 0; b < model->body_count; b++) {
-        size_t count = diagram_arrows(model, (int)b);
-        if (count > most) most = count;
-    }
-    return most;
-}
-
 static double kinetic(const struct fbd_model *model, const struct instant *at)
 {
     double sum = 0;
@@ -28,7 +18,7 @@ bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fb
     *ledger = (struct ledger){.model = model};
     ledger->integrated = calloc(loads + 1, sizeof *ledger->integrated);
     ledger->work = calloc(2 * loads + 1, sizeof *ledger->work);
-    ledger->arrows = calloc(most_arrows(model), sizeof *ledger->arrows);
+    ledger->arrows = calloc(diagram_most_arrows(model), sizeof *ledger->arrows);
     ledger->scratch = calloc(2 * (size_t)model->plan.n + 1, sizeof *ledger->scratch);
     ledger->probe = state_new(model);
     if (!ledger->integrated || !ledger->work || !ledger->arrows || !ledger->scratch || !ledger->probe) {

@@ -90,7 +90,8 @@ static bool make_run(struct run *run)
     run->f = run->y + 2 * n;
     run->sample = run->f + 2 * n;
     run->values = calloc(2 * run->moving.count + 1, sizeof *run->values);
-    if (!run->values) return false;
+    run->arrows = calloc(diagram_most_arrows(run->model), sizeof *run->arrows);
+    if (!run->values || !run->arrows) return false;
     gsl_odeiv2_system system = {rates, jacobian, 2 * n, run};
     counted_system_init(&run->system, &system);
     return make_decided(&run->decided, plan) && make_stepper(run);
@@ -138,6 +139,7 @@ void run_free(struct run *run)
     free(run->events);
     free(run->y);
     free(run->values);
+    free(run->arrows);
     free(run);
 }
 
@@ -147,6 +149,7 @@ void run_free(struct run *run)
 static bool restart(struct run *run)
 {
     memcpy(run->y, run->state->y, 2 * (size_t)run->model->plan.n * sizeof *run->y);
+    run_set_noise(run);
     int status =
         stepper_reset(run->stepper, &run->system, run->state->t, run->y, run->f, run->options.until, &run->h);
     if (status != GSL_SUCCESS) {

@@ -10,6 +10,7 @@
 #ifndef FBD_SOLVE_RUN_H
 #define FBD_SOLVE_RUN_H
 
+#include "dynamics/diagram.h"
 #include "dynamics/modes.h"
 #include "solve/scan.h"
 #include "solve/stepper.h"
@@ -50,6 +51,7 @@ struct run {
     double *y, *f, *sample; /* 2 n each */
     double *values;         /* moving event functions and their rates */
     struct decided decided;
+    struct arrow *arrows; /* of one body */
 
     struct run_event *events;
     size_t event_count, event_room;
@@ -80,6 +82,10 @@ void run_apply_touched(struct run *run);
 
 /* Check normal forces at run->state; ends the run when one is negative. */
 void run_check_contacts(struct run *run);
+
+/* Tell the error control how well the accelerations at run->state are known: to rounding of the forces that
+ * are summed up, and of the time at which they are taken. */
+void run_set_noise(struct run *run);
 
 /* End the run with a reason. */
 void run_fail_step(struct run *run, enum stepper_status status);

@@ -135,6 +135,17 @@ static bool any_doubtful(const struct scan *scan, const struct scan_point *a, co
     return false;
 }
 
+/* How far function i is from its cubic at m, in value and in slope: a function that repeats itself may have
+ * the right value there by chance, hardly the right slope as well. (The error K s^2 (1-s)^2 of a cubic has a
+ * slope that is small beside it near the middle.) */
+static double discrepancy(const struct scan_point *a, const struct scan_point *m, const struct scan_point *b,
+                          size_t i)
+{
+    struct cubic c = cubic_between(a, b, i);
+    double h = b->t - a->t, s = (m->t - a->t) / h, slope = c.c1 + s * (2 * c.c2 + s * 3 * c.c3);
+    return fmax(fabs(m->values[i] - cubic_at(&c, s)), fabs(h * m->rates[i] - slope) / 4);
+}
+
 /* Compare the sample m with the cubics between a and b. The error of a cubic falls with the fourth power of
  * the interval; a quarter is a safe share for each half. Returns the largest doubt relative to how much its
  * function changes. */
@@ -148,8 +159,7 @@ static double set_doubts(const struct scan *scan, const struct scan_point *a, st
             b->doubt[i] = 0;
             continue;
         }
-        struct cubic c = cubic_between(a, b, i);
-        double off = fabs(m->values[i] - cubic_at(&c, (m->t - a->t) / (b->t - a->t)));
+        double off = discrepancy(a, m, b, i);
         double change = fabs(m->values[i] - a->values[i]) + fabs(b->values[i] - m->values[i]);
         double size = fabs(a->values[i]) + fabs(m->values[i]) + fabs(b->values[i]);
         if (off <= 64 * DBL_EPSILON * size) off = 0;
@@ -229,6 +239,7 @@ int scan_interval(struct scan *scan, double from, double to)
     /* Not the middle: a periodic function would fool it most easily there. */
     if (!status) status = take_sample(scan, m, from + 0.4690 * (to - from));
     if (status) return status;
+    for (size_t i = 0; i < scan->count; i++) b->doubt[i] = 0;
     double off = set_doubts(scan, a, m, b);
     if (off > 0.1) scan->resolved = 2 * (to - from);
     status = look(scan, a, m, 0);

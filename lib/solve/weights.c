@@ -16,6 +16,7 @@ struct weights {
     double *floor;        /* size */
     double *cap;          /* pairs: 1 rad for angles, no bound for others */
     double *acceleration; /* pairs: |a| of the last accepted state */
+    double *noise;        /* pairs: rounding error of a */
     double memory[];
 };
 
@@ -58,10 +59,10 @@ static inline double level(const struct weights *w, double scale, double y, doub
     return larger(larger(w->tolerance * scale, DBL_EPSILON * (fabs(y) + motion)), hidden);
 }
 
-/* What rounding of q_i hides in v_i within a step. */
+/* What rounding of q_i, and of the acceleration, hides in v_i within a step. */
 static inline double hidden_in_v(const struct weights *w, size_t i, double h, double q)
 {
-    return DBL_EPSILON * smaller(fabs(q), w->cap[i]) / fabs(h);
+    return larger(DBL_EPSILON * smaller(fabs(q), w->cap[i]) / fabs(h), w->noise[i] * fabs(h));
 }
 
 static inline double raised(double ratio, double error, double error_level)
@@ -78,7 +79,8 @@ double weights_ratio(const gsl_odeiv2_control *control, double h, const double *
     for (size_t i = 0; i < n; i++) {
         double q = y[i], v = y[n + i], a = f[n + i];
         double q_motion = motion_of_q(h, v, a), v_motion = motion_of(h, a);
-        ratio = raised(ratio, yerr[i], level(w, scale_of_q(w, i, q, q_motion), q, q_motion, 0));
+        ratio =
+            raised(ratio, yerr[i], level(w, scale_of_q(w, i, q, q_motion), q, q_motion, w->noise[i] * h * h));
         ratio = raised(ratio, yerr[n + i],
                        level(w, scale_of(w, n + i, v, v_motion), v, v_motion, hidden_in_v(w, i, h, q)));
         probe += 0 * (q + v + a + yerr[i] + yerr[n + i]);
@@ -134,6 +136,12 @@ void weights_set_floor(gsl_odeiv2_control *control, size_t i, double floor)
     struct weights *w = control->state;
     w->floor[i] = floor;
     w->scale[i] = larger(w->scale[i], floor);
+}
+
+void weights_set_noise(gsl_odeiv2_control *control, size_t i, double noise)
+{
+    struct weights *w = control->state;
+    w->noise[i] = noise;
 }
 
 double weights_tolerance(const gsl_odeiv2_control *control)
@@ -248,7 +256,7 @@ static struct weights *weights_state(const struct layout *layout)
 {
     size_t pairs = layout->pairs, size = layout_size(layout);
     if (size == 0 || size > (SIZE_MAX - sizeof(struct weights)) / (4 * sizeof(double))) return NULL;
-    struct weights *w = calloc(1, sizeof *w + (2 * size + 2 * pairs) * sizeof(double));
+    struct weights *w = calloc(1, sizeof *w + (2 * size + 3 * pairs) * sizeof(double));
     if (!w) return NULL;
     w->pairs = pairs;
     w->size = size;
@@ -256,6 +264,7 @@ static struct weights *weights_state(const struct layout *layout)
     w->floor = w->scale + size;
     w->cap = w->floor + size;
     w->acceleration = w->cap + pairs;
+    w->noise = w->acceleration + pairs;
     for (size_t i = 0; i < pairs; i++) w->cap[i] = layout->angle && layout->angle[i] ? 1.0 : INFINITY;
     return w;
 }

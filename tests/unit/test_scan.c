@@ -99,6 +99,14 @@ static double from_rest(double t, double *rate)
     return t * t - t * t * t;
 }
 
+/* Below zero by 1 % for 9 % of each period: the hold of friction under a force that only just overcomes it.
+ */
+static double shallow(double t, double *rate)
+{
+    *rate = -3.03 * cos(3 * t);
+    return 1 - 1.01 * sin(3 * t);
+}
+
 static double negative(double t, double *rate)
 {
     *rate = 0;
@@ -130,6 +138,8 @@ static void the_first_of_many_zeros_is_found(void **unused)
 {
     (void)unused;
     expect_zero(fast_cosine, 0, 10, acos(-0.5) / 100, 8);
+    /* Any length of the interval: none may alias with the period. */
+    for (double to = 1; to < 200; to *= 1.037) expect_zero(shallow, 0, to, asin(1 / 1.01) / 3, 40);
 }
 
 static void a_dip_below_zero_within_the_interval_is_seen(void **unused)
