@@ -2,6 +2,7 @@
  *
  * Events in words, and the units of a scene.
  */
+#include <math.h>
 #include <stdio.h>
 
 #include "output/result.h"
@@ -41,8 +42,9 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
                  unit, event->limit, unit);
         return;
     case FBD_EVENT_STICK:
-        snprintf(detail, size, "%s holds with %+.6g %s; the static limit is %.6g %s", name, event->force,
-                 unit, event->limit, unit);
+        snprintf(detail, size, "%s holds with %+.6g %s, %.3g %% of its static limit %.6g %s", name,
+                 event->force, unit, event->limit > 0 ? 100 * fabs(event->force) / event->limit : 0,
+                 event->limit, unit);
         return;
     case FBD_EVENT_REVERSAL:
         snprintf(detail, size, "%s cannot hold it: slips back with %+.6g %s; the static limit is %.6g %s",

@@ -96,7 +96,8 @@ static void write_friction(struct text *text, struct fbd_state *state, const str
     force_slots(state->model, &at, state->scratch);
     struct friction_values values = friction_at(state->model, body->friction, &at, state->scratch);
     text_printf(text, ", \"mode\": \"%s\", ", state->slip[body->friction] == stick ? "stick" : "slip");
-    member(text, "limit", values.limit_static, true);
+    member(text, "limit", values.limit_static, false);
+    member(text, "margin", values.limit_static > 0 ? fabs(values.force) / values.limit_static : NAN, true);
 }
 
 static void write_body_forces(struct text *text, fbd_result *result, struct fbd_state *state, int b)

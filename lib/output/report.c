@@ -58,7 +58,22 @@ static void write_events(struct text *text, const struct run *run)
 
 /* ---- final state and forces */
 
-static void write_final(struct text *text, const struct fbd_model *model, const struct fbd_state *state)
+/* A body that sticks says how near it is to breaking away: |F| / (mu_s N). */
+static void write_friction(struct text *text, struct fbd_state *state, const struct model_body *body)
+{
+    struct instant at = state_instant(state);
+    force_slots(state->model, &at, state->scratch);
+    struct friction_values values = friction_at(state->model, body->friction, &at, state->scratch);
+    if (state->slip[body->friction] != stick)
+        text_add(text, "   (slips)");
+    else if (values.limit_static > 0)
+        text_printf(text, "   (sticks, at %.3g %% of the limit)",
+                    100 * fabs(values.force) / values.limit_static);
+    else
+        text_add(text, "   (sticks)");
+}
+
+static void write_final(struct text *text, const struct fbd_model *model, struct fbd_state *state)
 {
     text_add(text, "\nFinal state at t = ");
     text_number(text, state->t, digits);
@@ -76,8 +91,7 @@ static void write_final(struct text *text, const struct fbd_model *model, const 
             value(text, rate ? c->rate_name : c->name, state->y[rate ? i + model->plan.n : i],
                   rate ? label->rate_unit : label->unit);
         }
-        if (body->friction >= 0)
-            text_add(text, state->slip[body->friction] == stick ? "   (sticks)" : "   (slips)");
+        if (body->friction >= 0) write_friction(text, state, body);
         text_add(text, "\n");
     }
 }

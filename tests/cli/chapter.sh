@@ -46,8 +46,8 @@ check 'with f1 = 50 N the block accelerates by 15.8471' prints 'v_dot +15\.84714
 check 'and is never at rest' prints 'Events: none' --set f1=50 "$incline"
 check 'with f1 = 5 N it decelerates by 6.65286' prints 'v_dot +-6\.6528546' --equations --set f1=5 "$incline"
 check 'it comes to rest at 0.450934 s' prints '^  t = 0\.45093425 s +block +stick' --set f1=5 "$incline"
-check 'friction then holds with 4.81 N, of 8.4957 N' prints '\+4\.81 N; the static limit is 8\.49571 N' --set f1=5 "$incline"
-check 'and it stays for good' prints 'v = 0 m/s +\(sticks\)' --set f1=5 --until 1000 "$incline"
+check 'friction then holds with 4.81 N, of 8.4957 N' prints '\+4\.81 N, 56\.6 % of its static limit 8\.49571 N' --set f1=5 "$incline"
+check 'and it stays for good' prints 'v = 0 m/s +\(sticks, at 56\.6 % of the limit\)' --set f1=5 --until 1000 "$incline"
 check 'with less friction it slides back down' prints 'reversal' "$models/kinetics/incline_slides_back.yaml"
 check 'and is below its start after that' prints 'x = -.*v = -' --until 2 "$models/kinetics/incline_slides_back.yaml"
 
