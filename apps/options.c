@@ -12,7 +12,7 @@ static const char help[] =
     "\n"
     "What is simulated\n"
     "  --set NAME=VALUE     give a parameter of the file another value (may be repeated)\n"
-    "  --method NAME        integrate with this method (dop853, rk8pd, msbdf, ...)\n"
+    "  --method NAME        integrate with this method (auto, dop853, rodas5p, rk8pd, msbdf, ...)\n"
     "  --tolerance NUMBER   relative error per step (default: the file's, else 1e-10)\n"
     "  --step TIME          steps of this fixed size, in seconds\n"
     "  --until TIME         end of the run, in seconds\n"

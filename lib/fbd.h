@@ -170,7 +170,7 @@ typedef struct fbd_options {
     double until;       /* end time; NAN for the file's */
     double tolerance;   /* relative error per step; 0 for the file's, else 1e-10 */
     double step;        /* fixed step size, 0 for automatic or the file's */
-    const char *method; /* NULL for the file's, else "dop853" */
+    const char *method; /* NULL for the file's, else "auto" */
 } fbd_options;
 
 /* Options that leave everything to the file. */
@@ -210,8 +210,9 @@ typedef enum fbd_outcome {
 } fbd_outcome;
 
 typedef struct fbd_stats {
-    const char *method;
+    const char *method; /* "auto" or the one that was asked for */
     double tolerance;
+    unsigned long stiff_steps; /* of these steps, how many the stiff method of "auto" has made */
     unsigned long steps, rejected, rhs, jacobians, events, event_samples;
     double seconds; /* processor time of the run itself */
 } fbd_stats;

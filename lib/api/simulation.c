@@ -11,13 +11,15 @@
 
 static const double default_tolerance = 1e-10;
 
+static const char automatic[] = "auto";
+
 /* ---- options: what is given, else the file's, else the default */
 
 static const struct method *choose_method(const fbd_model *model, const fbd_options *options,
                                           fbd_errors *errors)
 {
     const char *name = options->method ? options->method : model->scene->simulate.method;
-    if (!name || strcmp(name, "auto") == 0) return method_at(0);
+    if (!name || strcmp(name, automatic) == 0) return method_at(0);
     const struct method *method = method_find(name);
     if (method) return method;
     const char *names[32];
@@ -42,7 +44,9 @@ static bool choose(const fbd_model *model, const fbd_options *options, struct ru
     const struct simulate *file = &model->scene->simulate;
     size_t before = fbd_errors_failed(errors);
     errors->file = model->scene->file;
-    *chosen = (struct run_options){.method = choose_method(model, options, errors)};
+    const char *name = options->method ? options->method : file->method;
+    *chosen = (struct run_options){.method = choose_method(model, options, errors),
+                                   .automatic = !name || strcmp(name, automatic) == 0};
     chosen->until = !isnan(options->until) ? options->until
                     : file->until.expr     ? expr_value(file->until.expr)
                                            : NAN;
@@ -156,16 +160,17 @@ fbd_event fbd_simulation_event(fbd_simulation *simulation, size_t index)
 fbd_stats fbd_simulation_stats(const fbd_simulation *simulation)
 {
     const struct run *run = simulation->run;
-    const struct stepper_counts *counts = stepper_get_counts(run->stepper);
-    fbd_stats stats = {.method = run->options.method->name,
+    const struct stepper_counts counts = switcher_counts(run->stepper);
+    fbd_stats stats = {.method = run->options.automatic ? automatic : run->options.method->name,
+                       .stiff_steps = switcher_stiff_steps(run->stepper),
                        .tolerance = run->options.tolerance,
-                       .steps = counts->accepted,
+                       .steps = counts.accepted,
                        .rhs = run->system.rhs,
                        .jacobians = run->system.jacobians,
                        .events = run->event_count,
                        .event_samples = (unsigned long)(run->timed.samples + run->moving.samples),
                        .seconds = simulation->seconds};
-    for (int kind = 0; kind < rejection_kinds; kind++) stats.rejected += counts->rejected[kind];
+    for (int kind = 0; kind < rejection_kinds; kind++) stats.rejected += counts.rejected[kind];
     return stats;
 }
 

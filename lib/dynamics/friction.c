@@ -55,14 +55,18 @@ struct friction_values friction_along(const struct fbd_model *model, int pair, c
     return rate;
 }
 
+double friction_rounding(const struct friction_values *now)
+{
+    return 8 * DBL_EPSILON * (fabs(now->hold) + fmax(now->limit_static, now->limit_kinetic));
+}
+
 enum slip friction_decide(const struct friction_values *now, const struct friction_values *rate)
 {
     /* With mu_k > mu_s (nobody's friction, but anybody's file) slipping would start against itself: then the
      * larger one holds. */
     double limit = fmax(now->limit_static, now->limit_kinetic);
     double excess = fabs(now->hold) - limit;
-    const double rounding = 8 * DBL_EPSILON * (fabs(now->hold) + limit);
-    if (fabs(excess) <= rounding) {
+    if (fabs(excess) <= friction_rounding(now)) {
         double d_limit = now->limit_static >= now->limit_kinetic ? rate->limit_static : rate->limit_kinetic;
         excess = (now->hold > 0 ? rate->hold : -rate->hold) - d_limit;
     }

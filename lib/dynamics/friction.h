@@ -38,6 +38,9 @@ struct friction_values friction_along(const struct fbd_model *model, int pair, c
                                       const double *slots, const struct direction *along,
                                       const double *slots_along);
 
+/* The rounding of the force needed and of its limit: less than this beyond the limit is not beyond it. */
+double friction_rounding(const struct friction_values *now);
+
 /* The mode that follows for a pair whose relative velocity is zero: it sticks while the force needed is
  * within the static limit, else it slips the way the other forces push. `slots_along` is the variation along
  * the motion: it decides when the force needed is at the limit to rounding. */

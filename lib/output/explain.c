@@ -123,10 +123,14 @@ char *fbd_explain(const fbd_model *model, const fbd_options *options)
     write_plan(&text, model);
     const char *name = options->method ? options->method : model->scene->simulate.method;
     const struct method *method = name ? method_find(name) : NULL;
-    bool asked = method != NULL;
-    if (!method) method = method_at(0);
-    text_printf(&text, "\nMethod: %s (%s), %s\n", method->name, method->description,
-                asked ? "as asked for" : "the default");
+    if (method)
+        text_printf(&text, "\nMethod: %s (%s), as asked for\n", method->name, method->description);
+    else
+        text_printf(
+            &text,
+            "\nMethod: auto, the default: %s (%s);\n  where the motion turns out stiff, %s (%s), and back\n",
+            method_at(0)->name, method_at(0)->description, method_find("rodas5p")->name,
+            method_find("rodas5p")->description);
     if (text.failed) text_free(&text);
     return text.data;
 }

@@ -163,8 +163,9 @@ static void write_stats(struct text *text, const fbd_simulation *simulation)
     text_add(text, ", ");
     member(text, "tolerance", stats.tolerance, false);
     text_printf(text,
-                "\"steps\": %lu, \"rejected\": %lu, \"rhs\": %lu, \"jacobians\": %lu, \"events\": %lu, ",
-                stats.steps, stats.rejected, stats.rhs, stats.jacobians, stats.events);
+                "\"steps\": %lu, \"rejected\": %lu, \"rhs\": %lu, \"jacobians\": %lu, \"events\": %lu, "
+                "\"stiff_steps\": %lu, ",
+                stats.steps, stats.rejected, stats.rhs, stats.jacobians, stats.events, stats.stiff_steps);
     member(text, "seconds", stats.seconds, false);
     text_add(text, "\"error_estimate\": null}\n");
 }

@@ -171,6 +171,7 @@ static void write_cost(struct text *text, const fbd_simulation *simulation)
     text_printf(text, "\n  %lu steps (%lu rejected), %lu right-hand sides", stats.steps, stats.rejected,
                 stats.rhs);
     if (stats.jacobians) text_printf(text, ", %lu Jacobians", stats.jacobians);
+    if (stats.stiff_steps) text_printf(text, ", %lu steps by rodas5p (stiff)", stats.stiff_steps);
     text_printf(text, ", %lu event samples, %.3f ms\n", stats.event_samples, 1e3 * stats.seconds);
 }
 

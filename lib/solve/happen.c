@@ -77,12 +77,16 @@ static void user_event(struct run *run, int watch, bool touched)
     if (source->stop && run->outcome == FBD_GOING) run->outcome = FBD_STOPPED;
 }
 
-static void happen(struct run *run, const struct watcher *watcher)
+/* `crossing`: an expression passes to another branch at the same instant. A force that reaches its limit just
+ * there may go down again beyond, so the forces beyond decide (in settling) and not the crossing of the
+ * limit, which may be a rounding of the instant. */
+static void happen(struct run *run, const struct watcher *watcher, bool crossing)
 {
     int index = watcher->index;
     switch (watcher->kind) {
     case watch_kink: cross_kink(run, watcher); break;
     case watch_stick_limit:
+        if (crossing) break;
         run->state->slip[index] = watcher->end == 0 ? slip_minus : slip_plus;
         run->decided.slips[index] = true;
         break;
@@ -167,10 +171,14 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     const struct plan *plan = &run->model->plan;
     const struct watcher_set *sets[] = {&run->watchers.timed, &run->watchers.moving};
     const bool *crossed[] = {timed, moving};
+    bool crossing = false;
     memset(run->decided.branches, 0, ((size_t)plan->branches + 2 * plan->friction_count) * sizeof(bool));
     for (int s = 0; s < 2; s++)
         for (size_t i = 0; crossed[s] && i < sets[s]->count; i++)
-            if (crossed[s][i]) happen(run, &sets[s]->watchers[i]);
+            crossing |= crossed[s][i] && sets[s]->watchers[i].kind == watch_kink;
+    for (int s = 0; s < 2; s++)
+        for (size_t i = 0; crossed[s] && i < sets[s]->count; i++)
+            if (crossed[s][i]) happen(run, &sets[s]->watchers[i], crossing);
     if (!modes_settle(run->state, &run->decided) && run->outcome == FBD_GOING)
         run_fail(run, FBD_FAILED,
                  "at t = %.9g no choice of branches and of stick or slip agrees with the forces",

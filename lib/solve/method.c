@@ -4,12 +4,15 @@
 #include <string.h>
 
 #include "solve/dop853.h"
+#include "solve/rodas5p.h"
 
 /* The orders are measured ones (tests/unit/test_stepper.c): GSL's rk2 gives the result of its formula of
  * order 3. */
 static const struct method methods[] = {
     {"dop853", "explicit Runge-Kutta, Dormand-Prince 8(5,3), dense output of order 7", &step_dop853, 8, 8,
      false, false, false},
+    {"rodas5p", "Rosenbrock of order 5(4), L-stable, dense output of order 4, for stiff systems",
+     &step_rodas5p, 5, 5, true, false, false},
     {"rk8pd", "explicit Runge-Kutta, Prince-Dormand 8(7)", &gsl_odeiv2_step_rk8pd, 8, 8, false, false, false},
     {"rkf45", "explicit Runge-Kutta-Fehlberg 4(5)", &gsl_odeiv2_step_rkf45, 5, 5, false, false, false},
     {"rkck", "explicit Runge-Kutta, Cash-Karp 4(5)", &gsl_odeiv2_step_rkck, 5, 5, false, false, false},

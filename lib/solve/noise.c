@@ -27,10 +27,21 @@ static void changes(struct run *run, const struct instant *at, double *along)
     accelerations_along(run->model, at, &flow, slots, slots_along, along);
 }
 
+/* A coordinate or rate that is exactly zero has no size that an error could be compared with, and a method of
+ * low order needs one (Euler's first step from rest errs by all that the body moves). What the acceleration
+ * does in a thousandth of the run is small, and enough. */
+static void set_floors(struct run *run, int i)
+{
+    int n = run->model->plan.n;
+    double tau = 1e-3 * (run->options.until - run->state->t), v = fabs(run->state->y[n + i]),
+           a = fabs(run->state->a[i]);
+    if (run->state->y[i] == 0) switcher_set_floor(run->stepper, (size_t)i, v * tau + a * tau * tau);
+    if (v == 0) switcher_set_floor(run->stepper, (size_t)(n + i), a * tau);
+}
+
 void run_set_noise(struct run *run)
 {
     const struct plan *plan = &run->model->plan;
-    gsl_odeiv2_control *control = stepper_control(run->stepper);
     struct instant at = state_instant(run->state);
     double *along = run->f; /* is overwritten by the restart that follows */
     changes(run, &at, along);
@@ -42,7 +53,8 @@ void run_set_noise(struct run *run)
             int i = body->first + k;
             double of_time = fabs(at.t * along[i]), of_sum = 2 * gross[k] * plan->inverse_inertia[i];
             double noise = DBL_EPSILON * (of_sum + of_time);
-            weights_set_noise(control, (size_t)i, isfinite(noise) ? noise : 0);
+            switcher_set_noise(run->stepper, (size_t)i, isfinite(noise) ? noise : 0);
+            set_floors(run, i);
         }
     }
 }

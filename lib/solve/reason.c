@@ -51,16 +51,16 @@ static void explain_not_finite(struct run *run)
 
 void run_fail_step(struct run *run, enum stepper_status status)
 {
-    const struct stepper_counts *counts = stepper_get_counts(run->stepper);
+    const struct stepper_counts counts = switcher_counts(run->stepper);
     /* The last attempts before a step size underflow may have failed by their error alone, on the brink of
      * the same place. */
     bool not_finite =
-        run->system.last_code == system_not_finite || counts->rejected[rejected_not_finite] > run->not_finite;
+        run->system.last_code == system_not_finite || counts.rejected[rejected_not_finite] > run->not_finite;
     if (status == stepper_misuse) {
         run_fail(run, FBD_FAILED, "the method `%s` cannot be used here", run->options.method->name);
     } else if (not_finite) {
         explain_not_finite(run);
-    } else if (counts->last == rejected_iteration) {
+    } else if (counts.last == rejected_iteration) {
         run_fail(run, FBD_FAILED,
                  "at t = %.9g the implicit equations of `%s` were not solved (body `%s`). Try another method "
                  "or a smaller "

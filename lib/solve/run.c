@@ -36,7 +36,7 @@ static int sample_timed(void *context, double t, double *values, double *rate)
 static int sample_moving(void *context, double t, double *values, double *rate)
 {
     struct run *run = context;
-    if (stepper_dense(run->stepper, t, run->sample) != GSL_SUCCESS) return -1;
+    if (switcher_dense(run->stepper, t, run->sample) != GSL_SUCCESS) return -1;
     watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, t, run->sample, values, rate);
     return 0;
 }
@@ -53,7 +53,10 @@ static bool make_stepper(struct run *run)
                                       .layout = {.pairs = n, .angle = angle},
                                       .tolerance = run->options.tolerance,
                                       .h_fixed = run->options.step};
-    run->stepper = stepper_alloc(&options);
+    /* Beyond some hundred states the dense algebra of the stiff method costs more than it could save. */
+    enum { most_states = 200 };
+    bool automatic = run->options.automatic && 2 * n <= most_states;
+    run->stepper = switcher_alloc(&options, automatic ? method_find("rodas5p") : NULL);
     free(angle);
     return run->stepper != NULL;
 }
@@ -129,7 +132,7 @@ struct run *run_new(const struct fbd_model *model, const struct run_options *opt
 void run_free(struct run *run)
 {
     if (!run) return;
-    stepper_free(run->stepper);
+    switcher_free(run->stepper);
     scan_free(&run->timed);
     scan_free(&run->moving);
     watchers_free(&run->watchers);
@@ -150,8 +153,8 @@ static bool restart(struct run *run)
 {
     memcpy(run->y, run->state->y, 2 * (size_t)run->model->plan.n * sizeof *run->y);
     run_set_noise(run);
-    int status =
-        stepper_reset(run->stepper, &run->system, run->state->t, run->y, run->f, run->options.until, &run->h);
+    int status = switcher_reset(run->stepper, &run->system, run->state->t, run->y, run->f, run->options.until,
+                                &run->h);
     if (status != GSL_SUCCESS) {
         run_fail_step(run, stepper_bad_function);
         return false;
@@ -185,7 +188,7 @@ static bool polish(struct run *run, double step_end, double *t)
     enum { most_steps = 4 };
     const struct scan *scan = &run->moving;
     for (int step = 0;; step++) {
-        if (stepper_partial(run->stepper, *t, run->y, run->f) != GSL_SUCCESS) return false;
+        if (switcher_partial(run->stepper, *t, run->y, run->f) != GSL_SUCCESS) return false;
         watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, *t, run->y, run->values,
                           run->values + scan->count);
         double move = HUGE_VAL;
@@ -234,10 +237,11 @@ fbd_outcome run_advance(struct run *run)
     run->from = run->state->t;
     state_copy(run->during, run->state);
     if (run->restart && !restart(run)) return run->outcome;
-    run->not_finite = stepper_get_counts(run->stepper)->rejected[rejected_not_finite];
+    run->not_finite = switcher_counts(run->stepper).rejected[rejected_not_finite];
     bool timed;
     double limit = next_time(run, &timed), t = run->from;
-    enum stepper_status status = stepper_step(run->stepper, &run->system, &t, run->y, run->f, &run->h, limit);
+    enum stepper_status status =
+        switcher_step(run->stepper, &run->system, &t, run->y, run->f, &run->h, limit);
     if (status != stepper_ok) {
         run_fail_step(run, status);
         return run->outcome;
@@ -266,7 +270,7 @@ bool run_look(struct run *run, double t, struct fbd_state *state)
     state->t = t;
     if (t == run->state->t)
         memcpy(state->y, run->state->y, 2 * (size_t)run->model->plan.n * sizeof *state->y);
-    else if (stepper_dense(run->stepper, t, state->y) != GSL_SUCCESS)
+    else if (switcher_dense(run->stepper, t, state->y) != GSL_SUCCESS)
         return false;
     modes_hold(state);
     state_evaluate(state);

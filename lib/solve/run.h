@@ -13,7 +13,7 @@
 #include "dynamics/diagram.h"
 #include "dynamics/modes.h"
 #include "solve/scan.h"
-#include "solve/stepper.h"
+#include "solve/switcher.h"
 #include "solve/watchers.h"
 
 struct run_options {
@@ -21,6 +21,7 @@ struct run_options {
     double tolerance;
     double step; /* fixed size, or 0 */
     const struct method *method;
+    bool automatic; /* switch to the stiff method and back as the motion demands */
 };
 
 struct run_event {
@@ -46,7 +47,7 @@ struct run {
 
     struct watchers watchers;
     struct scan timed, moving;
-    struct stepper *stepper;
+    struct switcher *stepper;
     struct counted_system system;
     double *y, *f, *sample; /* 2 n each */
     double *values;         /* moving event functions and their rates */
@@ -83,8 +84,9 @@ void run_apply_touched(struct run *run);
 /* Check normal forces at run->state; ends the run when one is negative. */
 void run_check_contacts(struct run *run);
 
-/* Tell the error control how well the accelerations at run->state are known: to rounding of the forces that
- * are summed up, and of the time at which they are taken. */
+/* Tell the error control what it cannot know: floors for what is exactly zero, and how well the accelerations
+ * at run->state are known: to rounding of the forces that are summed up, and of the time at which they are
+ * taken. */
 void run_set_noise(struct run *run);
 
 /* End the run with a reason. */

@@ -10,6 +10,7 @@
 #include "solve/dense.h"
 #include "solve/first_step.h"
 #include "solve/history.h"
+#include "solve/rodas5p.h"
 #include "solve/weights.h"
 
 struct stepper {
@@ -106,6 +107,7 @@ int stepper_reset(struct stepper *s, struct counted_system *system, double t, co
     s->stepped = false;
     if (!(room > 0)) return GSL_EINVAL;
     gsl_odeiv2_step_reset(s->step);
+    if (s->redo) gsl_odeiv2_step_reset(s->redo); /* rodas5p remembers a Jacobian */
     int code = counted_system_rhs(system, t, y, f);
     if (code != GSL_SUCCESS) return code;
     weights_update(s->control, y, f);
@@ -250,6 +252,11 @@ int stepper_dense(struct stepper *s, double t, double *y)
 {
     if (!s->stepped || !(t >= s->t0 && t <= s->t1)) return GSL_EINVAL;
     if (t == s->t0 || t == s->t1 || !s->method->implicit) return dense_eval(s->dense, t, y);
+    if (s->step->type == step_rodas5p) {
+        int code = rodas5p_dense_prepare(s->step);
+        if (code == GSL_SUCCESS) rodas5p_dense_eval(s->step, (t - s->t0) / (s->t1 - s->t0), y);
+        return code;
+    }
     if (!s->history) return redo(s, t, y, s->work);
     history_eval(s->history, (int)gsl_odeiv2_step_order(s->step), t, y);
     return GSL_SUCCESS;
@@ -266,6 +273,22 @@ int stepper_partial(struct stepper *s, double t, double *y, double *f)
     if (s->redo) return redo(s, t, y, f);
     int code = stepper_dense(s, t, y);
     return code == GSL_SUCCESS ? counted_system_rhs(s->system, t, y, f) : code;
+}
+
+double stepper_attempt(struct stepper *s, struct counted_system *system, double t, const double *y,
+                       const double *f, double h)
+{
+    if (!s->redo) return INFINITY;
+    double *y1 = s->work, *f1 = s->work + s->n;
+    memcpy(y1, y, s->n * sizeof *y);
+    gsl_odeiv2_step_reset(s->redo);
+    int code = gsl_odeiv2_step_apply(s->redo, t, h, y1, s->yerr, f, f1, &system->gsl);
+    return code == GSL_SUCCESS ? weights_ratio(s->control, h, y1, s->yerr, f1) : INFINITY;
+}
+
+void stepper_note(struct stepper *s, const double *y, const double *f)
+{
+    weights_update(s->control, y, f);
 }
 
 const struct stepper_counts *stepper_get_counts(const struct stepper *s)

@@ -82,6 +82,15 @@ int stepper_dense(struct stepper *stepper, double t, double *y);
  * one-step methods make a step from its start to t, multistep methods use stepper_dense. Codes as there. */
 int stepper_partial(struct stepper *stepper, double t, double *y, double *f);
 
+/* Try a step of size h from (t, y) with slopes f and throw it away: its largest error in units of what is
+ * allowed (at most 1 would be accepted), infinite where it cannot be made, or by a multistep method. The last
+ * step stays what it was. */
+double stepper_attempt(struct stepper *stepper, struct counted_system *system, double t, const double *y,
+                       const double *f, double h);
+
+/* Take a state that another stepper has reached into the scales of the error measure. */
+void stepper_note(struct stepper *stepper, const double *y, const double *f);
+
 const struct stepper_counts *stepper_get_counts(const struct stepper *stepper);
 
 /* The error control, for weights_set_floor. */

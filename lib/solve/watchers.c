@@ -133,7 +133,8 @@ static double friction_value(const struct watcher *watcher, const struct view *v
     int side = watcher->end == 0 ? 1 : -1;
     bool kinetic = now.limit_kinetic > now.limit_static; /* as in friction_decide */
     *rate = (kinetic ? d.limit_kinetic : d.limit_static) - side * d.hold;
-    return (kinetic ? now.limit_kinetic : now.limit_static) - side * now.hold;
+    /* A force that only just touches its limit does not break away by a rounding. */
+    return (kinetic ? now.limit_kinetic : now.limit_static) - side * now.hold + friction_rounding(&now);
 }
 
 static void kink_margins(const struct watchers *watchers, const struct kink *kink, const struct view *view)

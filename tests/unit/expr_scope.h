@@ -2,9 +2,10 @@
  *
  * A small world of names for the tests of expressions:
  *
- *     t time    x length (y[0])    v velocity (y[1])    theta angle (y[2])    omega rate (y[3]) crank.theta
- * (y[4]) m = 2 kg    k = 200 N/m    c = 3 N*s/m    F = 5 N    zero = 0, a pure number    gain = 4, bare
- *     secret: a name that failed before
+ * variables         t time, x length (y[0]), v velocity (y[1]), theta angle (y[2]), omega rate (y[3]),
+ *                   crank.theta angle (y[4])
+ * constants         m = 2 kg, k = 200 N/m, c = 3 N*s/m, F = 5 N, zero = 0 (a pure number), gain = 4 (bare)
+ * failed before     secret
  */
 #ifndef TESTS_EXPR_SCOPE_H
 #define TESTS_EXPR_SCOPE_H

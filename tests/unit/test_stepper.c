@@ -317,8 +317,8 @@ static void work_is_counted_honestly(void **state)
 static void methods_are_found_by_name(void **state)
 {
     (void)state;
-    const char *names[] = {"dop853", "rk2",    "rk4",    "rkf45", "rkck",    "rk8pd",
-                           "rk1imp", "rk2imp", "rk4imp", "bsimp", "msadams", "msbdf"};
+    const char *names[] = {"dop853", "rk2",    "rk4",   "rkf45",   "rkck",  "rk8pd",  "rk1imp",
+                           "rk2imp", "rk4imp", "bsimp", "msadams", "msbdf", "rodas5p"};
     size_t count = 0;
     while (method_at(count)) count++;
     assert_int_equal(count, sizeof names / sizeof *names);

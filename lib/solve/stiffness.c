@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solve/stiffness.h"
+
+#include <math.h>
+
+enum { shortest_interval = 8, longest_interval = 64, steps_to_confirm = 3, votes_needed = 2 };
+
+/* A step of rodas5p takes 8 evaluations, a Jacobian and a decomposition, one of dop853 12 evaluations: in
+ * small systems up to twice the time. So the way to rodas5p asks for more than the way back. Their product is
+ * above 1, as otherwise a motion in between could be sent to and fro. */
+static const double gain_for_implicit = 1.8, gain_for_explicit = 1.2;
+
+/* Half the limit of stability, for the steps of the explicit method are longer. */
+static const double h_rate_for_explicit = 3;
+
+void stiffness_start(struct stiffness *s)
+{
+    *s = (struct stiffness){.interval = shortest_interval, .wait = shortest_interval};
+}
+
+void stiffness_forget(struct stiffness *s)
+{
+    s->votes = 0;
+    s->interval = shortest_interval;
+    if (s->wait > s->interval) s->wait = s->interval;
+}
+
+bool stiffness_due(struct stiffness *s)
+{
+    if (s->wait > 0) s->wait--;
+    return s->wait == 0;
+}
+
+/* A ratio of zero says nothing: a body at rest or in free flight is without error for every method. */
+static bool gains(double ratio, int estimate_order, double gain)
+{
+    return ratio > 0 && pow(ratio, -1.0 / estimate_order) > gain;
+}
+
+bool stiffness_decide(struct stiffness *s, double ratio, int estimate_order, double h_rate)
+{
+    bool better = gains(ratio, estimate_order, s->implicit ? gain_for_explicit : gain_for_implicit);
+    if (s->implicit && !(h_rate < h_rate_for_explicit)) better = false;
+    if (!better) {
+        s->votes = 0;
+        s->wait = s->interval;
+        if (s->interval < longest_interval) s->interval *= 2;
+        return false;
+    }
+    s->wait = steps_to_confirm;
+    if (++s->votes < votes_needed) return false;
+    s->implicit = !s->implicit;
+    s->votes = 0;
+    s->interval = s->wait = shortest_interval;
+    return true;
+}
+
+/* The largest |lambda| of J is at most that of |J|, and this is at most max_i (|J| x)_i / x_i for every x > 0
+ * (Collatz, Wielandt), which multiplying components by units does not change. The best x is approached by
+ * geometric means of x and |J| x; plain power iteration would go in circles for q' = v, v' = -k q. Every
+ * round takes the square root of the distance; the start may be wrong by many powers of ten. */
+double stiffness_rate(size_t n, const double *jacobian, double *work)
+{
+    enum { rounds = 12 };
+    double *x = work, *image = work + n, rate = 0;
+    for (size_t i = 0; i < n; i++) x[i] = 1;
+    for (int round = 0; round < rounds; round++) {
+        rate = 0;
+        for (size_t i = 0; i < n; i++) {
+            image[i] = 0;
+            for (size_t j = 0; j < n; j++) image[i] += fabs(jacobian[i * n + j]) * x[j];
+            if (!(image[i] <= rate * x[i])) rate = image[i] / x[i];
+        }
+        if (!(rate > 0 && rate < INFINITY)) return rate;
+        /* A component that nothing acts on would go to zero. */
+        for (size_t i = 0; i < n; i++) x[i] = sqrt(x[i] * fmax(image[i] / rate, 1e-20 * x[i]));
+    }
+    return rate;
+}

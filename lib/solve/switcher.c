@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solve/switcher.h"
+
+#include <gsl/gsl_errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "solve/stiffness.h"
+#include "solve/weights.h"
+
+struct switcher {
+    struct stepper *steppers[2]; /* explicit, implicit or NULL */
+    const struct method *methods[2];
+    int now, made; /* the one that makes the next step; the one that has made the last */
+    struct stiffness stiffness;
+    size_t n;
+    double *jacobian, *dfdt, *rate_work; /* n n, n, 2 n */
+    double *y0, *f0;                     /* n each: the start of the last step */
+};
+
+static bool prepare_pair(struct switcher *s, const struct stepper_options *options,
+                         const struct method *stiff)
+{
+    struct stepper_options other = *options;
+    other.method = stiff;
+    s->methods[1] = stiff;
+    s->steppers[1] = stepper_alloc(&other);
+    s->jacobian = malloc((s->n * s->n + 5 * s->n) * sizeof(double));
+    if (!s->jacobian) return false;
+    s->dfdt = s->jacobian + s->n * s->n;
+    s->rate_work = s->dfdt + s->n;
+    s->y0 = s->rate_work + 2 * s->n;
+    s->f0 = s->y0 + s->n;
+    return s->steppers[1] != NULL;
+}
+
+struct switcher *switcher_alloc(const struct stepper_options *options, const struct method *stiff)
+{
+    struct switcher *s = calloc(1, sizeof *s);
+    if (!s) return NULL;
+    s->n = layout_size(&options->layout);
+    s->methods[0] = options->method;
+    s->steppers[0] = stepper_alloc(options);
+    stiffness_start(&s->stiffness);
+    bool pair = stiff && options->h_fixed == 0;
+    if (!s->steppers[0] || (pair && !prepare_pair(s, options, stiff))) {
+        switcher_free(s);
+        return NULL;
+    }
+    return s;
+}
+
+void switcher_free(struct switcher *s)
+{
+    if (!s) return;
+    stepper_free(s->steppers[0]);
+    stepper_free(s->steppers[1]);
+    free(s->jacobian);
+    free(s);
+}
+
+int switcher_reset(struct switcher *s, struct counted_system *system, double t, const double *y, double *f,
+                   double t_limit, double *h)
+{
+    stiffness_forget(&s->stiffness);
+    if (s->steppers[1]) stepper_note(s->steppers[!s->now], y, f);
+    return stepper_reset(s->steppers[s->now], system, t, y, f, t_limit, h);
+}
+
+/* The fastest rate of the system at the end of a step, for the way back to the explicit method; NAN if it
+ * cannot be had. */
+static double rate_at(struct switcher *s, struct counted_system *system, double t, const double *y)
+{
+    if (system->gsl.jacobian(t, y, s->jacobian, s->dfdt, system->gsl.params) != GSL_SUCCESS) return NAN;
+    return stiffness_rate(s->n, s->jacobian, s->rate_work);
+}
+
+/* Let the other method try the step that has just been made, and go on with it if it is the better one from
+ * here. */
+static enum stepper_status consider(struct switcher *s, struct counted_system *system, double t0, double t,
+                                    const double *y, double *f, double *h, double t_limit)
+{
+    int other = !s->now;
+    double ratio = stepper_attempt(s->steppers[other], system, t0, s->y0, s->f0, t - t0);
+    double h_rate = s->now == 1 ? (t - t0) * rate_at(s, system, t, y) : 0;
+    if (!stiffness_decide(&s->stiffness, ratio, s->methods[other]->estimate_order, h_rate)) return stepper_ok;
+    /* The counters of the system, not of the step, take the evaluations; a reset that fails leaves things as
+     * they were. */
+    double first;
+    if (stepper_reset(s->steppers[other], system, t, y, f, t_limit, &first) != GSL_SUCCESS) {
+        s->stiffness.implicit = s->now == 1;
+        return stepper_ok;
+    }
+    s->now = other;
+    *h = fmax(first, t - t0); /* it could have made this step at least */
+    return stepper_ok;
+}
+
+enum stepper_status switcher_step(struct switcher *s, struct counted_system *system, double *t, double *y,
+                                  double *f, double *h, double t_limit)
+{
+    double t0 = *t;
+    if (s->steppers[1]) {
+        memcpy(s->y0, y, s->n * sizeof *y);
+        memcpy(s->f0, f, s->n * sizeof *f);
+    }
+    enum stepper_status status = stepper_step(s->steppers[s->now], system, t, y, f, h, t_limit);
+    s->made = s->now;
+    if (status != stepper_ok || !s->steppers[1]) return status;
+    stepper_note(s->steppers[!s->now], y, f);
+    if (*t < t_limit && stiffness_due(&s->stiffness)) return consider(s, system, t0, *t, y, f, h, t_limit);
+    return status;
+}
+
+int switcher_dense(struct switcher *s, double t, double *y)
+{
+    return stepper_dense(s->steppers[s->made], t, y);
+}
+
+int switcher_partial(struct switcher *s, double t, double *y, double *f)
+{
+    return stepper_partial(s->steppers[s->made], t, y, f);
+}
+
+struct stepper_counts switcher_counts(const struct switcher *s)
+{
+    struct stepper_counts sum = *stepper_get_counts(s->steppers[0]);
+    if (!s->steppers[1]) return sum;
+    const struct stepper_counts *more = stepper_get_counts(s->steppers[1]);
+    sum.accepted += more->accepted;
+    for (int kind = 0; kind < rejection_kinds; kind++) sum.rejected[kind] += more->rejected[kind];
+    if (s->now == 1) sum.last = more->last;
+    return sum;
+}
+
+unsigned long switcher_stiff_steps(const struct switcher *s)
+{
+    return s->steppers[1] ? stepper_get_counts(s->steppers[1])->accepted : 0;
+}
+
+void switcher_set_noise(struct switcher *s, size_t pair, double noise)
+{
+    for (int k = 0; k < 2; k++)
+        if (s->steppers[k]) weights_set_noise(stepper_control(s->steppers[k]), pair, noise);
+}
+
+void switcher_set_floor(struct switcher *s, size_t component, double floor)
+{
+    if (!(floor > 0 && floor < INFINITY)) return;
+    for (int k = 0; k < 2; k++)
+        if (s->steppers[k]) weights_set_floor(stepper_control(s->steppers[k]), component, floor);
+}
