@@ -186,19 +186,24 @@ static enum exit_code act(const fbd_model *model, const struct options *options,
     return run(model, options, errors);
 }
 
-int main(int argc, char **argv)
+static enum exit_code read_and_act(const struct options *options)
 {
-    struct options options;
-    enum exit_code code;
-    if (!options_read(argc, argv, &options, &code)) return code;
-    gsl_set_error_handler_off(); /* every status is looked at instead */
     fbd_errors *errors = fbd_errors_new();
     if (!errors) return no_memory();
-    fbd_model *model = fbd_model_read(options.model, options.settings, options.setting_count, errors);
-    code = model ? act(model, &options, errors) : exit_bad_model;
+    fbd_model *model = fbd_model_read(options->model, options->settings, options->setting_count, errors);
+    enum exit_code code = model ? act(model, options, errors) : exit_bad_model;
     fflush(stdout);
     fbd_errors_print(errors, stderr);
     fbd_errors_free(errors);
     fbd_model_free(model);
     return code;
+}
+
+int main(int argc, char **argv)
+{
+    struct options options;
+    enum exit_code code;
+    gsl_set_error_handler_off(); /* every status is looked at instead */
+    if (options_read(argc, argv, &options, &code)) code = read_and_act(&options);
+    return (int)code;
 }

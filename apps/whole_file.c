@@ -24,7 +24,6 @@ static bool is_special(const char *path)
 
 bool whole_file_open(struct whole_file *file, const char *path)
 {
-    static const char suffix[] = ".XXXXXX";
     *file = (struct whole_file){.path = path};
     if (strcmp(path, "-") == 0) {
         file->stream = stdout;
@@ -34,10 +33,10 @@ bool whole_file_open(struct whole_file *file, const char *path)
         file->stream = fopen(path, "w");
         return file->stream != NULL;
     }
-    file->temporary = malloc(strlen(path) + sizeof suffix);
+    size_t size = strlen(path) + sizeof ".XXXXXX";
+    file->temporary = malloc(size);
     if (!file->temporary) return false;
-    strcpy(file->temporary, path);
-    strcat(file->temporary, suffix);
+    snprintf(file->temporary, size, "%s.XXXXXX", path);
     int descriptor = mkstemp(file->temporary);
     if (descriptor >= 0) {
         set_usual_mode(descriptor);

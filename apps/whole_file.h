@@ -19,8 +19,8 @@ struct whole_file {
 /* Open for writing; "-" is standard output. False with errno set. */
 bool whole_file_open(struct whole_file *file, const char *path);
 
-/* Write a piece; non-zero when it fails. The signature is that of fbd_write. */
-int whole_file_write(void *file, const char *text, size_t length);
+/* Write a piece to the whole_file `context`; non-zero when it fails. The signature is that of fbd_write. */
+int whole_file_write(void *context, const char *text, size_t length);
 
 /* Put the file in its place (`keep`) or leave nothing behind. False with errno set when that fails; nothing
  * is left behind then either. */

@@ -190,15 +190,14 @@ static bool sort_notes(fbd_errors *errors)
 {
     errors->sorted = calloc(errors->count ? errors->count : 1, sizeof *errors->sorted);
     if (!errors->sorted) return false;
-    size_t i = 0;
-    for (struct diag_note *note = errors->first; note; note = note->next) errors->sorted[i++] = &note->error;
     /* By insertion, which is stable (qsort is not) and fast enough for `most_notes`. */
-    for (size_t k = 1; k < errors->count; k++)
-        for (size_t j = k; j > 0 && stands_after(errors->sorted[j - 1], errors->sorted[j]); j--) {
-            fbd_error *spare = errors->sorted[j];
-            errors->sorted[j] = errors->sorted[j - 1];
-            errors->sorted[j - 1] = spare;
-        }
+    size_t done = 0;
+    for (struct diag_note *note = errors->first; note; note = note->next) {
+        size_t place = done++;
+        for (; place > 0 && stands_after(errors->sorted[place - 1], &note->error); place--)
+            errors->sorted[place] = errors->sorted[place - 1];
+        errors->sorted[place] = &note->error;
+    }
     return true;
 }
 

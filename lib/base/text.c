@@ -53,8 +53,8 @@ void text_printf(struct text *text, const char *format, ...)
 void text_number(struct text *text, double value, int digits)
 {
     char buffer[64];
-    if (value == 0) value = 0; /* -0 and 0 read the same */
-    int length = snprintf(buffer, sizeof buffer, "%.*g", digits, value);
+    double shown = value == 0 ? 0.0 : value; /* -0 and 0 read the same */
+    int length = snprintf(buffer, sizeof buffer, "%.*g", digits, shown);
     if (length < 0) return;
     const char *point = localeconv()->decimal_point;
     char *found = point[0] != '.' || point[1] ? strstr(buffer, point) : NULL;

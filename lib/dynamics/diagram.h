@@ -28,10 +28,10 @@ size_t diagram_arrows(const struct fbd_model *model, int body);
 /* The most that any body of it can have, at least 1. */
 size_t diagram_most_arrows(const struct fbd_model *model);
 
-/* Fill `arrows` for one body; returns their number. `slots` (plan.slots) and `a` (n) are the results of
+/* Fill `arrows` for body `index`; returns their number. `slots` (plan.slots) and `a` (n) are the results of
  * accelerations() at the same instant; `scratch` has plan.slots entries. The reaction, if any, comes last:
  * `pin` of a pivot, `guide` of a slide without a normal force. */
-size_t diagram_fill(const struct fbd_model *model, int body, const struct instant *at, const double *a,
+size_t diagram_fill(const struct fbd_model *model, int index, const struct instant *at, const double *a,
                     double *scratch, struct arrow *arrows);
 
 /* The world components of an applied force. */

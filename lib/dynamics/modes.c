@@ -34,7 +34,8 @@ static struct direction flow_of(struct fbd_state *state)
     return (struct direction){1, dy};
 }
 
-static bool settle_branches(struct fbd_state *state, const struct decided *decided, const struct direction *flow)
+static bool settle_branches(struct fbd_state *state, const struct decided *decided,
+                            const struct direction *flow)
 {
     const struct plan *plan = &state->model->plan;
     size_t size = (size_t)plan->branches * sizeof *state->branch;

@@ -12,15 +12,16 @@
 
 #include "dynamics/state.h"
 
-/* What an event has decided already and must stay: flags for plan.branches, and for plan.friction_count pairs. */
+/* What an event has decided already and must stay: flags for plan.branches, and for plan.friction_count
+ * pairs. */
 struct decided {
     bool *branches;
     bool *slips, *pulls;
 };
 
-/* Settle all modes at the state; `decided` may be NULL. Relative velocities of pairs that stick are set to exactly zero. On return
- * state_evaluate has been done. False when no choice agrees with itself (a scene whose forces fight at their
- * thresholds). */
+/* Settle all modes at the state; `decided` may be NULL. Relative velocities of pairs that stick are set to
+ * exactly zero. On return state_evaluate has been done. False when no choice agrees with itself (a scene
+ * whose forces fight at their thresholds). */
 bool modes_settle(struct fbd_state *state, const struct decided *decided);
 
 /* The velocity of a pair relative to its surface. */

@@ -21,7 +21,8 @@ struct fbd_state *state_new(const struct fbd_model *model)
     state->a = state->y + 2 * n;
     state->slots = state->a + n;
     state->scratch = state->slots + plan->slots;
-    state->branch = (int *)(state->scratch + scratch_size(plan));
+    void *behind_doubles = state->scratch + scratch_size(plan); /* aligned for an int as well */
+    state->branch = behind_doubles;
     state->slip = state->branch + plan->branches;
     state->pull = state->slip + plan->friction_count;
     state->branch_before = state->pull + plan->friction_count;

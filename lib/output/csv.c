@@ -80,7 +80,7 @@ static void ledger_values(struct csv *csv, const struct fbd_state *state)
         diagram_fill(model, (int)b, &at, state->a, csv->probe->scratch, csv->arrows);
         for (int i = 0; i < body->load_count; i++) {
             force_values(csv, body, &csv->arrows[i]);
-            number(csv, ledger_work(csv->ledger, state, (size_t)(body->first_load + i), csv->work));
+            number(csv, ledger_work(csv->ledger, state, (size_t)csv->arrows[i].load, csv->work));
         }
         if (body->kind == motion_pivot) {
             number(csv, csv->arrows[body->load_count].force.x);

@@ -282,8 +282,9 @@ int fbd_check_hand(const fbd_model *model, unsigned seed, char **result)
     struct text text = {0};
     struct hand_check check = {.model = model, .samples = calloc(most_samples, sizeof *check.samples)};
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    int differ = 0, checked = 0;
+    int differ = 0;
     if (check.samples && rng) {
+        int checked = 0;
         gsl_rng_set(rng, seed);
         for (size_t b = 0; b < model->body_count; b++)
             for (size_t i = 0; differ >= 0 && i < model->scene->bodies[b].hand_count; i++, checked++) {

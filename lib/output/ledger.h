@@ -38,8 +38,8 @@ bool ledger_integrate(struct ledger *ledger, struct run *run, double from, doubl
 /* Account for the whole of the last step. */
 bool ledger_step(struct ledger *ledger, struct run *run);
 
-/* Work of load `load` at a state, given the integrals up to there. */
-double ledger_work(struct ledger *ledger, const struct fbd_state *state, size_t load, const double *work);
+/* Work of load `index` at a state, given the integrals up to there. */
+double ledger_work(struct ledger *ledger, const struct fbd_state *state, size_t index, const double *work);
 
 /* Energies at a state, given the integrals up to there. */
 fbd_energy ledger_energy(struct ledger *ledger, const struct fbd_state *state, const double *work);

@@ -153,16 +153,16 @@ static int by_frequency(const void *left, const void *right)
 
 static bool find_modes(struct fbd_linearization *linear)
 {
-    size_t size = linear->size;
-    gsl_matrix *A = gsl_matrix_alloc(size, size); /* is overwritten */
+    size_t size = linear->size, bytes = size * size * sizeof *linear->A;
+    double *A = malloc(bytes); /* a copy, which is overwritten */
     gsl_vector_complex *values = gsl_vector_complex_alloc(size);
     gsl_eigen_nonsymm_workspace *work = gsl_eigen_nonsymm_alloc(size);
     bool done = false;
     if (A && values && work) {
-        for (size_t i = 0; i < size; i++)
-            for (size_t j = 0; j < size; j++) gsl_matrix_set(A, i, j, linear->A[i * size + j]);
+        memcpy(A, linear->A, bytes);
+        gsl_matrix_view view = gsl_matrix_view_array(A, size, size);
         gsl_eigen_nonsymm_params(0, 1, work); /* balanced: coordinates have different units */
-        done = gsl_eigen_nonsymm(A, values, work) == GSL_SUCCESS;
+        done = gsl_eigen_nonsymm(&view.matrix, values, work) == GSL_SUCCESS;
         for (size_t i = 0; done && i < size; i++) {
             gsl_complex lambda = gsl_vector_complex_get(values, i);
             double re = GSL_REAL(lambda), im = GSL_IMAG(lambda), frequency = hypot(re, im);
@@ -172,7 +172,7 @@ static bool find_modes(struct fbd_linearization *linear)
     }
     if (work) gsl_eigen_nonsymm_free(work);
     if (values) gsl_vector_complex_free(values);
-    if (A) gsl_matrix_free(A);
+    free(A);
     return done;
 }
 
@@ -190,42 +190,47 @@ static bool refuse_sticking(const struct fbd_state *state, fbd_errors *errors)
     return true;
 }
 
+static fbd_linearization *linearization_new(const struct fbd_model *model)
+{
+    size_t n = (size_t)model->plan.n, size = 2 * n;
+    fbd_linearization *linear = calloc(1, sizeof *linear);
+    if (!linear) return NULL;
+    *linear = (struct fbd_linearization){
+        .model = model,
+        .size = size,
+        .A = calloc(size * size + size + 1, sizeof(double)), /* df/dt behind it */
+        .modes = calloc(size + 1, sizeof(fbd_mode)),
+        .q = calloc(n + 1, sizeof(double)),
+    };
+    if (linear->A && linear->modes && linear->q) return linear;
+    fbd_linearization_free(linear);
+    return NULL;
+}
+
 fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *errors)
 {
     const struct fbd_model *model = state->model;
-    size_t n = (size_t)model->plan.n, size = 2 * n;
     errors->file = model->scene->file;
     if (refuse_sticking(state, errors)) return NULL;
-    fbd_linearization *linear = calloc(1, sizeof *linear);
-    double *work = calloc(size * size + size + 1, sizeof *work);
-    struct balance balance = {state, work};
-    bool made = linear && work;
-    if (made) {
-        *linear = (struct fbd_linearization){.model = model,
-                                             .size = size,
-                                             .A = work,
-                                             .modes = calloc(size + 1, sizeof(fbd_mode)),
-                                             .q = calloc(n + 1, sizeof(double))};
-        made = linear->modes && linear->q && modes_settle(state, NULL);
+    fbd_linearization *linear = linearization_new(model);
+    int found = -1;
+    if (linear && modes_settle(state, NULL)) {
+        struct balance balance = {state, linear->A};
+        found = find_balance(&balance);
     }
-    int found = made ? find_balance(&balance) : -1;
-    if (found == 0) {
+    if (found > 0) {
+        size_t size = linear->size;
+        memcpy(linear->q, state->y, size / 2 * sizeof *linear->q);
+        struct instant at = state_instant(state);
+        state_jacobian(model, &at, state->scratch, linear->A, linear->A + size * size);
+        if (find_modes(linear)) return linear;
+    }
+    if (found == 0)
         diag_add(errors, FBD_ERROR, "no-equilibrium", (struct pos){0, 0},
                  "start nearer to it: set the initial values, or give --at",
                  "no equilibrium was found near the start");
-        fbd_linearization_free(linear);
-        return NULL;
-    }
-    made = found > 0;
-    if (made) {
-        memcpy(linear->q, state->y, n * sizeof *linear->q);
-        struct instant at = state_instant(state);
-        state_jacobian(model, &at, state->scratch, linear->A, linear->A + size * size);
-        made = find_modes(linear);
-    }
-    if (made) return linear;
-    diag_out_of_memory(errors);
-    if (!linear) free(work);
+    else
+        diag_out_of_memory(errors);
     fbd_linearization_free(linear);
     return NULL;
 }

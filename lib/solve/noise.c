@@ -32,11 +32,11 @@ static void changes(struct run *run, const struct instant *at, double *along)
  * does in a thousandth of the run is small, and enough. */
 static void set_floors(struct run *run, int i)
 {
-    int n = run->model->plan.n;
-    double tau = 1e-3 * (run->options.until - run->state->t), v = fabs(run->state->y[n + i]),
+    size_t position = (size_t)i, rate = position + (size_t)run->model->plan.n;
+    double tau = 1e-3 * (run->options.until - run->state->t), v = fabs(run->state->y[rate]),
            a = fabs(run->state->a[i]);
-    if (run->state->y[i] == 0) switcher_set_floor(run->stepper, (size_t)i, v * tau + a * tau * tau);
-    if (v == 0) switcher_set_floor(run->stepper, (size_t)(n + i), a * tau);
+    if (run->state->y[position] == 0) switcher_set_floor(run->stepper, position, v * tau + a * tau * tau);
+    if (v == 0) switcher_set_floor(run->stepper, rate, a * tau);
 }
 
 void run_set_noise(struct run *run)

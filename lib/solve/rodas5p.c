@@ -52,7 +52,8 @@ static void *rodas5p_alloc(size_t n)
     s->n = n;
     s->jacobian = vector(s, v_count);
     s->lu = s->jacobian + n * n;
-    s->pivot = (size_t *)(s->lu + n * n);
+    void *behind_doubles = s->lu + n * n; /* aligned for a size_t as well */
+    s->pivot = behind_doubles;
     return s;
 }
 

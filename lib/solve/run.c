@@ -207,12 +207,21 @@ static bool polish(struct run *run, double step_end, double *t)
 }
 
 /* Look for the first event in (from, t]; on return *t is its time, with y and f there. 1 found, 0 none, -1
- * failed. */
+ * failed. Where the event functions change so fast that the scan gives up, the step is cut to what it has
+ * seen; one that is noise (it gives up at the very start) is not looked at more closely. */
 static int find_event(struct run *run, double *t)
 {
+    const double least_share = 1e-3;
+    double length = *t - run->from;
     int found = scan_interval(&run->moving, run->from, *t);
     if (run->moving.resolved < HUGE_VAL) run->h = fmin(run->h, run->moving.resolved);
     if (found <= 0) return found;
+    if (found == 2) {
+        if (run->moving.clear - run->from < least_share * length) return 0;
+        *t = run->moving.clear;
+        run->restart = true;
+        return switcher_partial(run->stepper, *t, run->y, run->f) == GSL_SUCCESS ? 0 : -1;
+    }
     double when = run->moving.t;
     if (when < *t) {
         if (!polish(run, *t, &when)) return -1;
@@ -231,13 +240,23 @@ static void accept(struct run *run, double t)
     memcpy(run->y, run->state->y, 2 * n * sizeof *run->y);
 }
 
+/* On the brink of a place that cannot be passed, a method without a fine sense of error goes on by roundings
+ * of the time for ever. */
+static bool crawls(struct run *run)
+{
+    enum { most_steps = 100 };
+    bool tiny = run->state->t - run->from <= 8 * DBL_EPSILON * fabs(run->state->t);
+    run->crawl = tiny ? run->crawl + 1 : 0;
+    return run->crawl > most_steps;
+}
+
 fbd_outcome run_advance(struct run *run)
 {
     if (run->outcome != FBD_GOING) return run->outcome;
     run->from = run->state->t;
     state_copy(run->during, run->state);
     if (run->restart && !restart(run)) return run->outcome;
-    run->not_finite = switcher_counts(run->stepper).rejected[rejected_not_finite];
+    if (run->crawl == 0) run->not_finite = switcher_counts(run->stepper).rejected[rejected_not_finite];
     bool timed;
     double limit = next_time(run, &timed), t = run->from;
     enum stepper_status status =
@@ -252,6 +271,10 @@ fbd_outcome run_advance(struct run *run)
         return run->outcome;
     }
     accept(run, t);
+    if (crawls(run)) {
+        run_fail_step(run, stepper_underflow);
+        return run->outcome;
+    }
     timed = timed && t == limit;
     bool at_end = t >= run->options.until;
     if (moving || timed)

@@ -41,6 +41,7 @@ struct run {
     double from;              /* start of the last step; it ends at state->t */
     double h;                 /* step size proposed */
     bool restart;             /* the stepper has to start anew */
+    int crawl;                /* steps in a row of a few roundings of the time */
     unsigned long not_finite; /* rejections for that reason before the last step */
     fbd_outcome outcome;
     char reason[reason_size];

@@ -5,7 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { most_depth = 30 };
+/* A function that needs more samples of one interval is too fast for it, or noise. */
+enum { most_depth = 30, most_samples = 4096 };
 
 struct scan_point {
     double t;
@@ -18,7 +19,7 @@ bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *cont
     enum { points = most_depth + 4, arrays = 3 };
     *scan = (struct scan){.count = count, .sample = sample, .context = context};
     scan->points = calloc(points, sizeof *scan->points);
-    scan->memory = calloc(points * arrays * count + 1, sizeof *scan->memory);
+    scan->memory = calloc(count * points * arrays + 1, sizeof *scan->memory);
     scan->rough = calloc(2 * count + 1, sizeof *scan->rough);
     if (!scan->points || !scan->memory || !scan->rough) {
         scan_free(scan);
@@ -64,7 +65,7 @@ static double cubic_minimum(const struct cubic *c)
     if (!(root > 0)) return -1;
     double q = c->c2 + copysign(sqrt(root), c->c2); /* the stable form of the quadratic formula */
     double first = q != 0 ? -c->c1 / q : -1, second = c->c3 != 0 ? -q / (3 * c->c3) : -1;
-    double s[2] = {first, second};
+    const double s[2] = {first, second};
     for (int k = 0; k < 2; k++)
         if (s[k] > 0 && s[k] < 1 && c->c2 + 3 * c->c3 * s[k] > 0) return s[k];
     return -1;
@@ -215,13 +216,21 @@ static int locate(struct scan *scan, struct scan_point *a, struct scan_point *b,
     return 1;
 }
 
+/* Nothing more can be learned between a and b: it is clear, or has the first zero. */
+static int conclude(struct scan *scan, struct scan_point *a, struct scan_point *b, struct scan_point *spare)
+{
+    if (any_crosses(scan, a, b)) return locate(scan, a, b, spare);
+    scan->clear = b->t;
+    return 0;
+}
+
 static int look(struct scan *scan, struct scan_point *a, struct scan_point *b, int depth)
 {
     struct scan_point *m = &scan->points[3 + depth];
-    bool deeper = depth < most_depth && any_doubtful(scan, a, b);
-    if (!deeper) return any_crosses(scan, a, b) ? locate(scan, a, b, m) : 0;
     double t = a->t + (b->t - a->t) / 2;
-    if (!(t > a->t && t < b->t)) return any_crosses(scan, a, b) ? locate(scan, a, b, m) : 0;
+    bool deeper = depth < most_depth && t > a->t && t < b->t && any_doubtful(scan, a, b);
+    if (!deeper) return conclude(scan, a, b, m);
+    if (scan->samples >= scan->most) return 2;
     int status = take_sample(scan, m, t);
     if (status) return status;
     set_doubts(scan, a, m, b);
@@ -233,6 +242,8 @@ int scan_interval(struct scan *scan, double from, double to)
 {
     struct scan_point *a = &scan->points[0], *b = &scan->points[1], *m = &scan->points[2];
     scan->resolved = HUGE_VAL;
+    scan->clear = from;
+    scan->most = scan->samples + most_samples;
     if (scan->count == 0) return 0;
     int status = take_sample(scan, a, from);
     if (!status) status = take_sample(scan, b, to);
@@ -241,7 +252,7 @@ int scan_interval(struct scan *scan, double from, double to)
     if (status) return status;
     for (size_t i = 0; i < scan->count; i++) b->doubt[i] = 0;
     double off = set_doubts(scan, a, m, b);
-    if (off > 0.1) scan->resolved = 2 * (to - from);
+    if (off > 0.1) scan->resolved = (off > 2 ? 0.5 : 2) * (to - from);
     status = look(scan, a, m, 0);
     return status ? status : look(scan, m, b, 0);
 }

@@ -29,7 +29,9 @@ struct scan {
     double
         resolved; /* result: the next interval should not be longer; HUGE_VAL when the functions are smooth
                    * over all of this one, twice its length when they change faster than the samples tell */
+    double clear; /* result: no function becomes negative up to here (meant for a return of 2) */
     long samples; /* counted */
+    long most;    /* samples that may be counted before the scan gives up */
     struct scan_point *points; /* pool for the recursion */
     double *memory;
 };
@@ -38,7 +40,8 @@ struct scan {
 bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *context);
 void scan_free(struct scan *scan);
 
-/* Look at (from, to]. 1: found, see `t` and `crossed`; 0: nothing; negative: what the sampler returned.
+/* Look at (from, to]. 1: found, see `t` and `crossed`; 0: nothing; 2: given up after too many samples, see
+ * `clear`; negative: what the sampler returned.
  * Functions that start at or below zero are looked at once they have been seen positive, except those that
  * are still negative at the end. */
 int scan_interval(struct scan *scan, double from, double to);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solve/watchers.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -118,7 +119,7 @@ static double friction_value(const struct watcher *watcher, const struct view *v
     if (watcher->kind == watch_slip_stop) {
         if (slip == stick) return HUGE_VAL;
         double acceleration, speed = friction_surface_speed(friction, &view->at, &acceleration);
-        size_t index = (size_t)(model->plan.n + friction->coordinate);
+        int index = model->plan.n + friction->coordinate;
         *rate = slip * (view->flow.dy[index] - acceleration);
         return slip * (view->at.y[index] - speed);
     }
@@ -169,6 +170,7 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
     int last_kink = -1;
     for (size_t i = 0; i < set->count; i++) {
         const struct watcher *watcher = &set->watchers[i];
+        assert(view.slots || watcher->kind == watch_kink); /* a function of t alone needs no flow */
         switch (watcher->kind) {
         case watch_kink: {
             const struct kink *kink = &plan->kinks[watcher->index];

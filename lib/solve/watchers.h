@@ -45,8 +45,7 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model);
 void watchers_free(struct watchers *watchers);
 
 /* values[count] and rates[count] (along the motion) of a set at an instant. +HUGE_VAL and 0 for what cannot
- * happen in the present modes. `state` lends its modes and scratch; (t, y) may be any point of a step. `flow`
- * is NULL to leave the rates out. */
+ * happen in the present modes. `state` lends its modes and scratch; (t, y) may be any point of a step. */
 void watchers_evaluate(const struct watchers *watchers, const struct watcher_set *set,
                        struct fbd_state *state, double t, const double *y, double *values, double *rates);
 

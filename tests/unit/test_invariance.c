@@ -213,14 +213,16 @@ static size_t step_ends(const char *path, int samples, double *ends, size_t room
     struct trial trial = trial_open(path, NULL);
     trial_start(&trial, NULL);
     size_t count = 0;
-    double until = 10, from, to, next = 0;
+    const double until = 10;
+    double from, to;
+    int looked = 0;
     while (trial.outcome == FBD_GOING) {
         trial.outcome = fbd_simulation_advance(trial.simulation);
         fbd_simulation_interval(trial.simulation, &from, &to);
         if (count < room) ends[count] = to;
         count++;
-        for (; samples > 0 && next <= to; next += until / samples) {
-            assert_true(fbd_simulation_state(trial.simulation, next, trial.state));
+        for (; looked < samples && looked * until <= to * samples; looked++) {
+            assert_true(fbd_simulation_state(trial.simulation, looked * until / samples, trial.state));
             trial_acceleration(&trial, "theta");
         }
     }
