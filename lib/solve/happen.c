@@ -146,6 +146,38 @@ void run_apply_touched(struct run *run)
     }
 }
 
+static void fail_chatter(struct run *run, const char *name)
+{
+    run_fail(run, FBD_FAILED,
+             "at t = %.9g events chatter: `%s` changes its branch again and again while no time passes. A "
+             "force that "
+             "jumps against the motion, as c*sign(v), is dry friction: declare it as `friction`",
+             run->state->t, name);
+}
+
+/* A switch that has just been crossed and whose new branch already ends: the forces on both sides push back
+ * to it. The motion would slide along the switch, which no branch describes. */
+static void refuse_sliding(struct run *run, const bool *moving)
+{
+    const struct watcher_set *set = &run->watchers.moving;
+    if (!moving || run->outcome != FBD_GOING) return;
+    double *values = run->values, *rate = values + set->count;
+    watchers_evaluate(&run->watchers, set, run->state, run->state->t, run->state->y, values, rate);
+    for (size_t i = 0; i < set->count; i++) {
+        const struct watcher *watcher = &set->watchers[i];
+        if (!moving[i] || watcher->kind != watch_kink) continue;
+        /* The other end of the same switch is the one that has been crossed, seen from beyond. */
+        for (size_t k = 0; k < set->count; k++) {
+            const struct watcher *back = &set->watchers[k];
+            bool same =
+                back->kind == watch_kink && back->index == watcher->index && back->part == watcher->part;
+            if (!same || back->end == watcher->end || !(rate[k] < 0)) continue;
+            int load = run->model->plan.kinks[watcher->index].load;
+            fail_chatter(run, load >= 0 ? run->model->loads[load].source->name : "an event");
+        }
+    }
+}
+
 /* Events that crowd at one instant never let time pass: a sliding mode that no friction entry declares, or an
  * infinite sequence. */
 static void count_crowd(struct run *run)
@@ -155,15 +187,12 @@ static void count_crowd(struct run *run)
     run->crowd = run->state->t - run->last_event <= span ? run->crowd + 1 : 0;
     run->last_event = run->state->t;
     if (run->crowd < most_at_once || run->outcome != FBD_GOING) return;
-    const struct run_event *event = &run->events[run->event_count - 1];
+    static const struct run_event nothing = {.load = -1, .watch = -1};
+    const struct run_event *event = run->event_count > 0 ? &run->events[run->event_count - 1] : &nothing;
     const char *name = event->load >= 0    ? run->model->loads[event->load].source->name
                        : event->watch >= 0 ? run->model->plan.watches[event->watch].source->name
                                            : "an expression";
-    run_fail(run, FBD_FAILED,
-             "at t = %.9g events chatter: `%s` changes its branch again and again while no time passes. A "
-             "force that "
-             "jumps against the motion, as c*sign(v), is dry friction: declare it as `friction`",
-             run->state->t, name);
+    fail_chatter(run, name);
 }
 
 void run_apply(struct run *run, const bool *timed, const bool *moving)
@@ -184,6 +213,7 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
                  "at t = %.9g no choice of branches and of stick or slip agrees with the forces",
                  run->state->t);
     note_frictions(run, moving);
+    refuse_sliding(run, moving);
     run_apply_touched(run);
     run_check_contacts(run);
     run->restart = true;

@@ -206,28 +206,51 @@ static bool polish(struct run *run, double step_end, double *t)
     return true;
 }
 
+/* Has one of the functions that crossed really gone down? The dense output of a low-order step may dip below
+ * zero where the function rises, as the velocity just after a breakaway; its rate, which is that of the
+ * motion and not of the interpolant, tells. */
+static bool goes_down(const struct run *run)
+{
+    for (size_t i = 0; i < run->moving.count; i++)
+        if (run->moving.crossed[i] && !(run->values[run->moving.count + i] > 0)) return true;
+    return false;
+}
+
+/* Cut the step to t, where nothing happens. 0, or -1 when that fails. */
+static int cut_step(struct run *run, double t)
+{
+    return switcher_partial(run->stepper, t, run->y, run->f) == GSL_SUCCESS ? 0 : -1;
+}
+
 /* Look for the first event in (from, t]; on return *t is its time, with y and f there. 1 found, 0 none, -1
  * failed. Where the event functions change so fast that the scan gives up, the step is cut to what it has
  * seen; one that is noise (it gives up at the very start) is not looked at more closely. */
 static int find_event(struct run *run, double *t)
 {
+    enum { most_dips = 8 };
     const double least_share = 1e-3;
-    double length = *t - run->from;
-    int found = scan_interval(&run->moving, run->from, *t);
-    if (run->moving.resolved < HUGE_VAL) run->h = fmin(run->h, run->moving.resolved);
-    if (found <= 0) return found;
-    if (found == 2) {
-        if (run->moving.clear - run->from < least_share * length) return 0;
-        *t = run->moving.clear;
-        run->restart = true;
-        return switcher_partial(run->stepper, *t, run->y, run->f) == GSL_SUCCESS ? 0 : -1;
+    double start = run->from, end = *t;
+    for (int dip = 0; dip < most_dips && start < end; dip++) {
+        int found = scan_interval(&run->moving, start, end);
+        if (run->moving.resolved < HUGE_VAL) run->h = fmin(run->h, run->moving.resolved);
+        if (found <= 0) return found;
+        if (found == 2) {
+            if (run->moving.clear - run->from < least_share * (end - run->from)) return 0;
+            *t = run->moving.clear;
+            run->restart = true;
+            return cut_step(run, *t);
+        }
+        double when = run->moving.t;
+        if (when >= end) return 1;
+        if (!polish(run, end, &when)) return -1;
+        if (goes_down(run)) {
+            *t = when;
+            return 1;
+        }
+        if (cut_step(run, end) < 0) return -1;
+        start = fmax(when, run->moving.t);
     }
-    double when = run->moving.t;
-    if (when < *t) {
-        if (!polish(run, *t, &when)) return -1;
-        *t = when;
-    }
-    return 1;
+    return 0;
 }
 
 static void accept(struct run *run, double t)
