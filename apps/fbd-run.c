@@ -109,6 +109,13 @@ static enum exit_code check_hand(const fbd_model *model, const struct options *o
 
 /* ---- a run */
 
+/* What is wrong with the options stands in the file when it has a place there. */
+static enum exit_code blame(fbd_errors *errors)
+{
+    const fbd_error *first = fbd_errors_get(errors, 0);
+    return first && first->line > 0 ? exit_bad_model : exit_usage;
+}
+
 struct outputs {
     struct whole_file csv, json;
 };
@@ -151,7 +158,7 @@ static enum exit_code write_result(const struct options *options, fbd_result *re
 static enum exit_code run(const fbd_model *model, const struct options *options, fbd_errors *errors)
 {
     fbd_simulation *simulation = fbd_simulation_new(model, &options->run, errors);
-    if (!simulation) return exit_usage;
+    if (!simulation) return blame(errors);
     struct outputs outputs = {0};
     enum exit_code code = exit_failed;
     if (open_outputs(options, &outputs)) {
@@ -160,7 +167,8 @@ static enum exit_code run(const fbd_model *model, const struct options *options,
                                    .csv = options->csv ? whole_file_write : NULL,
                                    .csv_context = &outputs.csv};
         fbd_result *result = fbd_simulation_run(simulation, &recording);
-        code = result ? write_result(options, result, &outputs) : no_memory();
+        bool refused = outputs.csv.stream && ferror(outputs.csv.stream); /* said when it is closed */
+        code = result ? write_result(options, result, &outputs) : refused ? exit_failed : no_memory();
         if (!close_outputs(&outputs, result != NULL)) code = exit_failed;
         fbd_outcome outcome = result ? fbd_result_outcome(result) : FBD_FAILED;
         if (result && outcome != FBD_DONE && outcome != FBD_STOPPED) {

@@ -170,8 +170,8 @@ static bool options_agree(const struct options *options)
         return usage("--at goes with --equations or --linearize", "");
     if (stands_still && (options->csv || options->json || options->ledger || options->every > 0))
         return usage("--csv, --json, --ledger and --every belong to a run", "");
-    if (options->csv && options->json && strcmp(options->csv, "-") == 0 && strcmp(options->json, "-") == 0)
-        return usage("only one of --csv and --json can go to standard output", "");
+    if (options->csv && options->json && strcmp(options->csv, options->json) == 0)
+        return usage("--csv and --json cannot go to the same place: ", options->csv);
     if (!options->csv && (options->ledger || options->every > 0))
         return usage("--ledger and --every go with --csv", "");
     return true;

@@ -147,7 +147,7 @@ FBD_API void fbd_equations_free(fbd_equations *equations);
 FBD_API size_t fbd_equations_count(const fbd_equations *equations);
 FBD_API const fbd_equation *fbd_equations_get(const fbd_equations *equations, size_t index);
 
-/* The equation of "block.x", or NULL; and the value of one of its terms, NAN when there is no such term. */
+/* The equation of "block.x", or NULL; and the value of one of its terms, NAN when there is no such term (or equation). */
 FBD_API const fbd_equation *fbd_equations_find(const fbd_equations *equations, const char *coordinate);
 FBD_API double fbd_equation_term(const fbd_equation *equation, const char *name);
 
@@ -234,6 +234,7 @@ FBD_API void fbd_simulation_interval(const fbd_simulation *simulation, double *f
 FBD_API bool fbd_simulation_state(fbd_simulation *simulation, double t, fbd_state *state);
 
 FBD_API size_t fbd_simulation_events(const fbd_simulation *simulation);
+/* Event `index`; past the end one whose time is NAN. */
 FBD_API fbd_event fbd_simulation_event(fbd_simulation *simulation, size_t index);
 FBD_API fbd_stats fbd_simulation_stats(const fbd_simulation *simulation);
 
@@ -262,7 +263,8 @@ typedef struct fbd_energy {
 /* A run from start to end, with its ledger. */
 typedef struct fbd_result fbd_result;
 
-/* Carry a simulation to its end. NULL when memory is out. The simulation must outlive the result. */
+/* Carry a simulation from its start to its end. NULL when memory is out or the simulation has been
+ * advanced already (the ledger has to see every step). The simulation must outlive the result. */
 FBD_API fbd_result *fbd_simulation_run(fbd_simulation *simulation, const fbd_recording *recording);
 FBD_API void fbd_result_free(fbd_result *result);
 

@@ -149,6 +149,7 @@ static const char *detail_of(fbd_simulation *simulation, size_t index)
 fbd_event fbd_simulation_event(fbd_simulation *simulation, size_t index)
 {
     const struct run *run = simulation->run;
+    if (index >= run->event_count) return (fbd_event){.t = NAN, .body = "", .name = "", .detail = ""};
     const struct run_event *event = &run->events[index];
     return (fbd_event){.t = event->t,
                        .kind = event->kind,
@@ -199,6 +200,7 @@ static bool carry(fbd_result *result, struct csv *csv)
 fbd_result *fbd_simulation_run(fbd_simulation *simulation, const fbd_recording *recording)
 {
     struct run *run = simulation->run;
+    if (run->state->t > 0) return NULL; /* the ledger has to see every step */
     fbd_result *result = calloc(1, sizeof *result);
     if (!result) return NULL;
     result->simulation = simulation;

@@ -48,10 +48,13 @@ static inline double vec_norm(struct vec a)
     return hypot(a.x, a.y);
 }
 
-/* The unit vector at `angle` [rad] from the x axis. */
+/* The unit vector at `angle` [rad] from the x axis. A component that is the rounding of a quarter turn is
+ * zero: what acts straight up does not push sideways by 1e-16. */
 static inline struct vec vec_unit(double angle)
 {
-    return (struct vec){cos(angle), sin(angle)};
+    const double rounding = 2.5e-16;
+    double c = cos(angle), s = sin(angle);
+    return (struct vec){fabs(c) < rounding ? 0 : c, fabs(s) < rounding ? 0 : s};
 }
 
 /* `a` turned by the rotation whose cosine and sine are the components of `r`. */

@@ -145,18 +145,17 @@ static struct vec guiding_force(const struct model_body *body, const struct inst
 }
 
 size_t diagram_fill(const struct fbd_model *model, int index, const struct instant *at, const double *a,
-                    double *scratch, struct arrow *arrows)
+                    const double *slots, struct arrow *arrows)
 {
     const struct model_body *body = &model->bodies[index];
     struct pose pose = body_pose(body, at);
     struct vec listed = {0, 0};
     int normal = -1;
-    if (body->friction >= 0) force_slots(model, at, scratch);
     for (int i = 0; i < body->load_count; i++) {
         const struct model_load *load = &model->loads[body->first_load + i];
         arrows[i] = (struct arrow){.name = load->source->name, .load = body->first_load + i};
         if (load->source->kind == load_normal) normal = i;
-        set_arrow(model, body, load, &pose, at, scratch, &arrows[i]);
+        set_arrow(model, body, load, &pose, at, slots, &arrows[i]);
         listed = vec_add(listed, arrows[i].force);
         set_share(body, &pose, &arrows[i]);
         arrows[i].power = share_power(body, at, &arrows[i]);

@@ -29,10 +29,10 @@ size_t diagram_arrows(const struct fbd_model *model, int body);
 size_t diagram_most_arrows(const struct fbd_model *model);
 
 /* Fill `arrows` for body `index`; returns their number. `slots` (plan.slots) and `a` (n) are the results of
- * accelerations() at the same instant; `scratch` has plan.slots entries. The reaction, if any, comes last:
+ * accelerations() at the same instant. The reaction, if any, comes last:
  * `pin` of a pivot, `guide` of a slide without a normal force. */
 size_t diagram_fill(const struct fbd_model *model, int index, const struct instant *at, const double *a,
-                    double *scratch, struct arrow *arrows);
+                    const double *slots, struct arrow *arrows);
 
 /* The world components of an applied force. */
 struct vec applied_force(const struct model_body *body, const struct model_load *load,

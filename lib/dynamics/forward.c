@@ -47,7 +47,8 @@ static void add_kinetic_friction(const struct fbd_model *model, const struct ins
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
         if (at->slip[pair] == stick) continue;
         const struct friction *friction = &plan->frictions[pair];
-        double press = friction->normal_slot < 0 ? 1 : -at->pull[pair] * slots[friction->normal_slot];
+        double press =
+            friction->normal_slot < 0 ? 1 : fmax(0, -at->pull[pair] * slots[friction->normal_slot]);
         slots[friction->coordinate] -= at->slip[pair] * formula_value(&friction->mu_k, at) * press;
     }
 }

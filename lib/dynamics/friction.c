@@ -19,7 +19,7 @@ struct friction_values friction_at(const struct fbd_model *model, int pair, cons
     double press = 1; /* a bearing states its limits as moments */
     if (friction->normal_slot >= 0) {
         values.N = -slots[friction->normal_slot];
-        press = at->pull[pair] * values.N;
+        press = fmax(0, at->pull[pair] * values.N); /* a surface that would have to pull is not there */
     }
     values.limit_static = formula_value(&friction->mu_s, at) * press;
     values.limit_kinetic = formula_value(&friction->mu_k, at) * press;
@@ -39,7 +39,7 @@ struct friction_values friction_along(const struct fbd_model *model, int pair, c
     double press = 1, d_press = 0, d_mu;
     if (friction->normal_slot >= 0) {
         rate.N = -slots_along[friction->normal_slot];
-        press = -at->pull[pair] * slots[friction->normal_slot];
+        press = fmax(0, -at->pull[pair] * slots[friction->normal_slot]);
         d_press = at->pull[pair] * rate.N;
     }
     double mu = formula_along(&friction->mu_s, at, along, &d_mu);

@@ -77,7 +77,7 @@ static void ledger_values(struct csv *csv, const struct fbd_state *state)
     struct instant at = state_instant(state);
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
-        diagram_fill(model, (int)b, &at, state->a, csv->probe->scratch, csv->arrows);
+        diagram_fill(model, (int)b, &at, state->a, state->slots, csv->arrows);
         for (int i = 0; i < body->load_count; i++) {
             force_values(csv, body, &csv->arrows[i]);
             number(csv, ledger_work(csv->ledger, state, (size_t)csv->arrows[i].load, csv->work));

@@ -81,7 +81,7 @@ fbd_equations *fbd_assemble(fbd_state *state)
     for (size_t b = 0; all->equations && b < model->body_count; b++) {
         struct arrow *arrows = ARENA_ARRAY(&all->arena, diagram_arrows(model, (int)b), struct arrow);
         if (!arrows) break;
-        size_t count = diagram_fill(model, (int)b, &at, state->a, state->scratch, arrows);
+        size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, arrows);
         for (int part = 0; part < model->bodies[b].count; part++)
             fill_equation(all, state, (int)b, part, arrows, count);
     }
@@ -124,7 +124,7 @@ const fbd_equation *fbd_equations_find(const fbd_equations *equations, const cha
 
 double fbd_equation_term(const fbd_equation *equation, const char *name)
 {
-    for (size_t i = 0; i < equation->term_count; i++)
+    for (size_t i = 0; equation && i < equation->term_count; i++)
         if (strcmp(equation->terms[i].name, name) == 0) return equation->terms[i].value;
     return NAN;
 }
@@ -137,7 +137,7 @@ size_t fbd_diagram(fbd_state *state, size_t body, fbd_arrow *arrows, size_t room
     struct instant at = state_instant(state);
     struct arrow *own = calloc(diagram_arrows(model, (int)body), sizeof *own);
     if (!own) return 0;
-    size_t count = diagram_fill(model, (int)body, &at, state->a, state->scratch, own);
+    size_t count = diagram_fill(model, (int)body, &at, state->a, state->slots, own);
     struct pose pose = body_pose(b, &at);
     struct vec about = b->kind == motion_pivot ? b->origin : point_motion(b, &pose, b->inertia.G).p;
     for (size_t i = 0; i < count && i < room; i++)

@@ -148,7 +148,7 @@ static void take_sample(struct hand_check *check, const struct hand *hand, struc
     const struct model_body *body = &model->bodies[check->body];
     struct arrow arrows[most_terms + 1];
     struct instant at = state_instant(state);
-    size_t count = diagram_fill(model, check->body, &at, state->a, state->scratch, arrows);
+    size_t count = diagram_fill(model, check->body, &at, state->a, state->slots, arrows);
     extend(state, check->body, arrows, count, y);
     if (hand->when && expr_eval(hand->when, state->t, y, NULL) == 0) return;
     struct hand_sample sample = {.t = state->t,

@@ -109,7 +109,7 @@ static void write_body_forces(struct text *text, fbd_result *result, struct fbd_
     struct pose pose = body_pose(body, &at);
     struct vec about =
         body->kind == motion_pivot ? body->origin : point_motion(body, &pose, body->inertia.G).p;
-    size_t count = diagram_fill(model, b, &at, state->a, state->scratch, ledger->arrows);
+    size_t count = diagram_fill(model, b, &at, state->a, state->slots, ledger->arrows);
     for (size_t i = 0; i < count; i++) {
         const struct arrow *arrow = &ledger->arrows[i];
         double work = arrow->load >= 0 ? ledger_work(ledger, state, (size_t)arrow->load, ledger->work) : 0;

@@ -58,7 +58,7 @@ static void add_powers(struct ledger *ledger, double weight, double *work)
         bool wanted = false;
         for (int i = 0; i < body->load_count; i++) wanted |= ledger->integrated[body->first_load + i];
         if (!wanted) continue;
-        diagram_fill(model, (int)b, &at, ledger->probe->a, ledger->probe->scratch, ledger->arrows);
+        diagram_fill(model, (int)b, &at, ledger->probe->a, ledger->probe->slots, ledger->arrows);
         for (int i = 0; i < body->load_count; i++)
             if (ledger->integrated[body->first_load + i])
                 work[body->first_load + i] += weight * ledger->arrows[i].power;

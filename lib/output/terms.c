@@ -5,11 +5,23 @@
 
 #include "dynamics/diagram.h"
 
+/* A surface that is no guide cannot pull; less than the rounding of the weight is nothing. */
+static bool normal_is_lost(const struct fbd_state *state, const struct model_body *body)
+{
+    double slack = 1e-12 * body->inertia.mass * vec_norm(state->model->scene->gravity);
+    for (int i = body->first_load; i < body->first_load + body->load_count; i++) {
+        const struct load *load = state->model->loads[i].source;
+        if (load->kind == load_normal && !load->two_sided) return -state->slots[body->normal_slot] < -slack;
+    }
+    return false;
+}
+
 /* A normal force and friction name the values that they stand for. */
 static void normal_remark(const struct fbd_state *state, const struct model_body *body, char *remark)
 {
     if (body->normal_slot >= 0)
-        snprintf(remark, term_remark_size, "acts across: N = %.9g", -state->slots[body->normal_slot]);
+        snprintf(remark, term_remark_size, "acts across: N = %.9g%s", -state->slots[body->normal_slot],
+                 normal_is_lost(state, body) ? " (contact is lost: it would have to pull)" : "");
     else
         snprintf(remark, term_remark_size, "acts across the guide");
 }

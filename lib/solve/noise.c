@@ -8,7 +8,7 @@
 static void gross_forces(struct run *run, int b, const struct instant *at, double *gross)
 {
     const struct model_body *body = &run->model->bodies[b];
-    size_t count = diagram_fill(run->model, b, at, run->state->a, run->state->scratch, run->arrows);
+    size_t count = diagram_fill(run->model, b, at, run->state->a, run->state->slots, run->arrows);
     for (int k = 0; k < body->count; k++) gross[k] = 0;
     for (size_t i = 0; i < count; i++)
         for (int k = 0; k < body->count; k++) gross[k] += fabs(run->arrows[i].share[k]);
