@@ -207,6 +207,30 @@ static fbd_linearization *linearization_new(const struct fbd_model *model)
     return NULL;
 }
 
+/* The Jacobian at the state into `work` (as in struct balance), and the largest entry of
+ * d(accelerations)/d(coordinates). */
+static double stiffness_at(struct fbd_state *state, double *work)
+{
+    size_t n = (size_t)state->model->plan.n, size = 2 * n;
+    double most = 0;
+    struct instant at = state_instant(state);
+    state_jacobian(state->model, &at, state->scratch, work, work + size * size);
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++) most = fmax(most, fabs(work[(n + i) * size + j]));
+    return most;
+}
+
+/* Where the slope of the forces dies out toward the equilibrium (f = -k x^3), Newton never quite arrives, and
+ * what is left of the slope is no frequency. */
+static void warn_degenerate(double before, double after, fbd_errors *errors)
+{
+    const double died_out = 1e-4;
+    if (!(after < died_out * before)) return;
+    diag_add(errors, FBD_WARNING, "degenerate-equilibrium", (struct pos){0, 0},
+             "the motion about it is not linear, however small: simulate it",
+             "the forces have (nearly) no slope at the equilibrium: its frequencies say nothing");
+}
+
 fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *errors)
 {
     const struct fbd_model *model = state->model;
@@ -214,15 +238,15 @@ fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *errors)
     if (refuse_sticking(state, errors)) return NULL;
     fbd_linearization *linear = linearization_new(model);
     int found = -1;
+    double before = 0;
     if (linear && modes_settle(state, NULL)) {
         struct balance balance = {state, linear->A};
+        before = stiffness_at(state, linear->A);
         found = find_balance(&balance);
     }
     if (found > 0) {
-        size_t size = linear->size;
-        memcpy(linear->q, state->y, size / 2 * sizeof *linear->q);
-        struct instant at = state_instant(state);
-        state_jacobian(model, &at, state->scratch, linear->A, linear->A + size * size);
+        memcpy(linear->q, state->y, linear->size / 2 * sizeof *linear->q);
+        warn_degenerate(before, stiffness_at(state, linear->A), errors); /* leaves the Jacobian in A */
         if (find_modes(linear)) return linear;
     }
     if (found == 0)
