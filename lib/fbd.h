@@ -147,7 +147,8 @@ FBD_API void fbd_equations_free(fbd_equations *equations);
 FBD_API size_t fbd_equations_count(const fbd_equations *equations);
 FBD_API const fbd_equation *fbd_equations_get(const fbd_equations *equations, size_t index);
 
-/* The equation of "block.x", or NULL; and the value of one of its terms, NAN when there is no such term (or equation). */
+/* The equation of "block.x", or NULL; and the value of one of its terms, NAN when there is no such term (or
+ * equation). */
 FBD_API const fbd_equation *fbd_equations_find(const fbd_equations *equations, const char *coordinate);
 FBD_API double fbd_equation_term(const fbd_equation *equation, const char *name);
 
