@@ -239,7 +239,8 @@ fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *errors)
     fbd_linearization *linear = linearization_new(model);
     int found = -1;
     double before = 0;
-    if (linear && modes_settle(state, NULL)) {
+    bool settled = modes_settle(state, NULL);
+    if (linear && settled) {
         struct balance balance = {state, linear->A};
         before = stiffness_at(state, linear->A);
         found = find_balance(&balance);
@@ -253,6 +254,9 @@ fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *errors)
         diag_add(errors, FBD_ERROR, "no-equilibrium", (struct pos){0, 0},
                  "start nearer to it: set the initial values, or give --at",
                  "no equilibrium was found near the start");
+    else if (!settled)
+        diag_add(errors, FBD_ERROR, "unsettled", (struct pos){0, 0}, "look from another state, with --at",
+                 "at the start no choice of branches agrees with the forces");
     else
         diag_out_of_memory(errors);
     fbd_linearization_free(linear);
