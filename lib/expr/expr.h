@@ -104,6 +104,16 @@ bool expr_compile_relation(struct arena *arena, const char *text, struct pos at,
                            const struct expr_want *want, fbd_errors *errors, const struct expr **left,
                            char *relation, const struct expr **right);
 
+/* A summand of a sum: its text without the sign before it. */
+struct summand {
+    size_t start, length;
+    bool negative;
+};
+
+/* Split `text`, an expression that compiles, at the + and - that stand outside all brackets. Returns how many
+ * summands there are and fills at most `room`. */
+size_t expr_summands(const char *text, size_t length, struct summand *summands, size_t room);
+
 /* A constant expression without text. */
 const struct expr *expr_constant(struct arena *arena, double value, struct dim dim);
 

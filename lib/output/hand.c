@@ -142,6 +142,38 @@ static double swapped_gravity(const struct model_body *body, const struct fbd_st
     return body->kind == motion_pivot ? -weight * body->L * cos(state->y[body->first]) : 0;
 }
 
+static void take_factors(const struct model_body *body, const struct fbd_state *state, double *factors)
+{
+    const struct scene *scene = state->model->scene;
+    bool slide = body->kind == motion_slide, pivot = body->kind == motion_pivot;
+    int angle = body_angle_coordinate(body);
+    double q = state->y[body->first], v = state->y[body->first_rate];
+    factors[factor_cos_angle] = angle >= 0 ? cos(state->y[angle]) : NAN;
+    factors[factor_sin_angle] = angle >= 0 ? sin(state->y[angle]) : NAN;
+    factors[factor_cos_along] = slide ? body->e.x : NAN;
+    factors[factor_sin_along] = slide ? body->e.y : NAN;
+    factors[factor_L] = pivot ? body->L : NAN;
+    factors[factor_m] = body->inertia.mass;
+    factors[factor_g] = vec_norm(scene->gravity);
+    factors[factor_sign] = body->count == 1 ? copysign(1, v) : NAN;
+    factors[factor_rate] = body->count == 1 ? v : NAN;
+    factors[factor_coordinate] = body->count == 1 ? q : NAN;
+}
+
+/* The equation's summands as forces on the coordinate: scaled as the whole is. */
+static void take_summands(struct hand_check *check, const struct hand *hand, double t, const double *y,
+                          double scale, struct hand_sample *sample)
+{
+    int slot = 1 + 2 * check->model->plan.n + hand_acceleration + check->part;
+    for (size_t j = 0; j < hand->summand_count; j++) {
+        const struct hand_summand *summand = &hand->summands[j];
+        double slope = 0;
+        sample->summands[j] = scale * summand->sign * expr_eval(summand->expr, t, y, NULL);
+        if (check->part >= 0) expr_eval_slot(summand->expr, t, y, slot, NULL, &slope);
+        check->accelerates[j] = slope != 0;
+    }
+}
+
 static void take_sample(struct hand_check *check, const struct hand *hand, struct fbd_state *state, double *y)
 {
     const struct fbd_model *model = state->model;
@@ -172,6 +204,8 @@ static void take_sample(struct hand_check *check, const struct hand *hand, struc
         sample.terms[i] = arrows[i].share[part < 0 ? 0 : part];
         sample.size += fabs(sample.terms[i]);
     }
+    take_summands(check, hand, state->t, y, scale, &sample);
+    take_factors(body, state, sample.factors);
     sample.I_G = body->inertia.I_G;
     sample.L = body->L;
     sample.m_L2 = body->inertia.mass * body->L * body->L;

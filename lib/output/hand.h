@@ -20,6 +20,21 @@
 
 enum { most_samples = 512, most_terms = 40 };
 
+/* Factors that derivations forget, as they are at a state. Those that do not apply are NAN. */
+enum hand_factor {
+    factor_cos_angle, /* of the coordinate theta */
+    factor_sin_angle,
+    factor_cos_along, /* of a slide */
+    factor_sin_along,
+    factor_L,
+    factor_m,
+    factor_g,
+    factor_sign, /* of the rate */
+    factor_rate,
+    factor_coordinate,
+    hand_factors,
+};
+
 /* What one admissible state says about one equation. */
 struct hand_sample {
     int slip;               /* of the body's friction; 0 without */
@@ -30,6 +45,8 @@ struct hand_sample {
     double I_G, m_L2, L;    /* of a pivot */
     double gravity_swapped; /* the term of gravity with sine and cosine exchanged */
     double terms[most_terms];
+    double summands[most_summands]; /* of the equation, as forces: they should add up as the terms do */
+    double factors[hand_factors];
     double t, q[most_coordinates_of_a_body], v[most_coordinates_of_a_body];
     double left, right;
 };
@@ -39,7 +56,8 @@ struct hand_check {
     int body, index;
     int part; /* coordinate whose acceleration it is about, -1 for none */
     size_t count;
-    struct hand_sample *samples; /* most_samples */
+    struct hand_sample *samples;     /* most_samples */
+    bool accelerates[most_summands]; /* this summand is (part of) the left side I a */
 };
 
 /* Does a sample agree? To rounding: 1e-9 of what was added up. */
@@ -48,5 +66,10 @@ bool hand_agrees(const struct hand_sample *sample);
 /* Say in which term the samples that have slip `slip` differ from the assembly, or that no single term
  * explains it. */
 void hand_diagnose(const struct hand_check *check, int slip, struct text *text);
+
+/* The same by comparing the equation's own summands with the terms, one by one; false when that tells
+ * nothing.
+ */
+bool hand_match(const struct hand_check *check, int slip, struct text *text);
 
 #endif

@@ -24,7 +24,7 @@ static double gravity_exchange(const struct hand_sample *sample, int index)
 
 static bool same(double a, double b)
 {
-    return fabs(a - b) <= 1e-6 * (fabs(a) + fabs(b));
+    return isfinite(a) && isfinite(b) && fabs(a - b) <= 1e-6 * (fabs(a) + fabs(b));
 }
 
 /* The factor that makes lack = factor * candidate everywhere, if there is one. */
@@ -192,6 +192,7 @@ void hand_diagnose(const struct hand_check *check, int slip, struct text *text)
 {
     bool found = !inertia_is_right(check, slip) && blame_inertia(check, slip, text);
     if (!found) found = blame_term(check, slip, text);
+    if (!found) found = hand_match(check, slip, text);
     if (!found) text_add(text, "  no single term explains the difference\n");
     show_worst(check, slip, text);
 }

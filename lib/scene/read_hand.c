@@ -2,6 +2,8 @@
  *
  * Derivations by hand: equations over the coordinates and what the assembly knows.
  */
+#include <string.h>
+
 #include "scene/fields.h"
 #include "scene/reader.h"
 #include "scene/values.h"
@@ -20,6 +22,55 @@ static bool read_equation(struct reader *reader, const struct node *node, const 
     return false;
 }
 
+/* Where the sign of an equation stands: outside all brackets. */
+static size_t equals_sign(const char *text)
+{
+    int depth = 0;
+    for (size_t i = 0; text[i]; i++) {
+        if (text[i] == '(' || text[i] == '[') depth++;
+        if (text[i] == ')' || text[i] == ']') depth--;
+        if (depth == 0 && text[i] == '=') return i;
+    }
+    return strlen(text);
+}
+
+/* Compile the summands of one side, which is known to be good: what there is to say of it was said. `sign` is
+ * that of the side once all stands on the right. */
+static bool add_summands(struct reader *reader, const char *text, size_t length, double sign,
+                         const struct scope *scope, struct hand *hand)
+{
+    const struct expr_want want = {.any_dim = true, .what = "summand"};
+    struct summand summands[most_summands];
+    size_t count = expr_summands(text, length, summands, most_summands);
+    fbd_errors *silent = fbd_errors_new();
+    bool fine = silent != NULL;
+    for (size_t i = 0; fine && i < count; i++) {
+        char *one = arena_text(reader->arena, text + summands[i].start, summands[i].length);
+        const struct expr *expr =
+            one ? expr_compile(reader->arena, one, hand->at, scope, &want, silent) : NULL;
+        fine = expr != NULL;
+        if (!fine) continue;
+        double own = summands[i].negative ? -sign : sign;
+        hand->summands[hand->summand_count++] = (struct hand_summand){one, own, expr};
+    }
+    fbd_errors_free(silent);
+    if (!fine) diag_out_of_memory(reader->errors);
+    return fine;
+}
+
+/* An equation of very many summands is left whole. */
+static bool split_equation(struct reader *reader, const struct scope *scope, struct hand *hand)
+{
+    size_t left = equals_sign(hand->text), length = strlen(hand->text);
+    const char *right = hand->text + left + 1;
+    size_t right_length = length - left - 1;
+    size_t count = expr_summands(hand->text, left, NULL, 0) + expr_summands(right, right_length, NULL, 0);
+    if (count > most_summands) return true;
+    hand->summands = ARENA_ARRAY(reader->arena, count, struct hand_summand);
+    return hand->summands && add_summands(reader, hand->text, left, -1, scope, hand) &&
+           add_summands(reader, right, right_length, 1, scope, hand);
+}
+
 static bool read_hand(struct reader *reader, int index, const struct node *node, struct hand *hand)
 {
     struct names names = {.reader = reader, .place = place_hand, .body = index};
@@ -30,7 +81,9 @@ static bool read_hand(struct reader *reader, int index, const struct node *node,
     if (keys.equation) {
         hand->at = keys.equation->at;
         hand->text = arena_text(reader->arena, keys.equation->text, keys.equation->length);
-        if (!read_equation(reader, keys.equation, &scope, hand)) fine = false;
+        if (!hand->text || !read_equation(reader, keys.equation, &scope, hand) ||
+            !split_equation(reader, &scope, hand))
+            fine = false;
     }
     if (keys.when) {
         const struct expr_want want = {.condition = true, .what = "when"};

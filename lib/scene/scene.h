@@ -145,12 +145,24 @@ struct load {
     bool two_sided; /* normal: a guide that also pulls */
 };
 
+/* The most summands that are told apart. */
+enum { most_summands = 24 };
+
+/* One summand of an equation, as if all stood on its right side. */
+struct hand_summand {
+    const char *text; /* without its sign */
+    double sign;
+    const struct expr *expr;
+};
+
 /* A derivation by the user: an equation that must hold. */
 struct hand {
     const char *text;
     struct pos at;
     const struct expr *left, *right; /* over the extended slots below */
     const struct expr *when;         /* truth value: where it claims to hold; NULL everywhere */
+    size_t summand_count;
+    struct hand_summand *summands;
 };
 
 /* A hand equation may use more names than a force: slot 1 + 2 n + k for k in this list. */
