@@ -105,6 +105,7 @@ void add_force(const struct model_body *body, const struct pose *pose, struct mo
     case motion_pivot: own[0] += vec_cross(vec_sub(point.p, pose->origin), f); return;
     case motion_planar: own[2] += vec_cross(vec_sub(point.p, pose->origin), f); break;
     case motion_particle: break;
+    case motion_weld: return;
     }
     own[0] += f.x;
     own[1] += f.y;

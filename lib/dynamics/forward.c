@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "dynamics/tree.h"
+
 /* ---- planar bodies whose frame's origin O is not their centre of mass
  *
  * With r = R(theta) arm from O to G, F and M_O the sums of forces and moments about O:
@@ -39,13 +41,38 @@ static void offset_variations(const struct offset_body *body, const struct insta
     a_along[i + 2] = d_alpha;
 }
 
+/* ---- jointed bodies: their friction needs their accelerations, so both come from one solution */
+
+void force_balance(const struct fbd_model *model, const struct instant *at, double *slots)
+{
+    force_slots(model, at, slots);
+    if (model->tree) tree_accelerations(model, at, slots, at->tree->a);
+}
+
+void force_balance_along(const struct fbd_model *model, const struct instant *at,
+                         const struct direction *along, const double *slots, double *slots_along)
+{
+    force_slots_along(model, at, along, slots_along);
+    if (model->tree)
+        tree_accelerations_along(model, at, along, slots, at->tree->a, slots_along, at->tree->a_along);
+}
+
+/* Only the entries of jointed bodies are theirs. */
+static void take_tree_variations(const struct tree *tree, const struct tree_work *work, double *a_along)
+{
+    for (int i = 1; i < tree->count; i++) {
+        int first = tree->links[i].coordinate, count = joint_freedom(tree->links[i].kind);
+        for (int k = first; k < first + count; k++) a_along[k] = work->a_along[k];
+    }
+}
+
 /* ---- the stages */
 
 static void add_kinetic_friction(const struct fbd_model *model, const struct instant *at, double *slots)
 {
     const struct plan *plan = &model->plan;
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        if (at->slip[pair] == stick) continue;
+        if (at->slip[pair] == stick || plan->frictions[pair].jointed) continue;
         const struct friction *friction = &plan->frictions[pair];
         double press =
             friction->normal_slot < 0 ? 1 : fmax(0, -at->pull[pair] * slots[friction->normal_slot]);
@@ -69,6 +96,7 @@ void accelerations(const struct fbd_model *model, const struct instant *at, doub
     for (int i = 0; i < plan->n; i++) a[i] = plan->inverse_inertia[i] * slots[i];
     for (size_t i = 0; i < plan->offset_count; i++)
         offset_accelerations(&plan->offsets[i], at, plan->n, slots, a);
+    if (model->tree) tree_accelerations(model, at, slots, a);
     if (plan->friction_count > 0) hold_sticking(model, at, a);
 }
 
@@ -76,16 +104,17 @@ void accelerations_along(const struct fbd_model *model, const struct instant *at
                          const struct direction *along, double *slots, double *slots_along, double *a_along)
 {
     const struct plan *plan = &model->plan;
-    force_slots(model, at, slots);
-    force_slots_along(model, at, along, slots_along);
+    force_balance(model, at, slots);
+    force_balance_along(model, at, along, slots, slots_along);
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        if (at->slip[pair] == stick) continue;
+        if (at->slip[pair] == stick || plan->frictions[pair].jointed) continue;
         struct friction_values rate = friction_along(model, pair, at, slots, along, slots_along);
         slots_along[plan->frictions[pair].coordinate] += rate.force;
     }
     for (int i = 0; i < plan->n; i++) a_along[i] = plan->inverse_inertia[i] * slots_along[i];
     for (size_t i = 0; i < plan->offset_count; i++)
         offset_variations(&plan->offsets[i], at, plan->n, along, slots, slots_along, a_along);
+    if (model->tree) take_tree_variations(model->tree, at->tree, a_along);
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
         if (at->slip[pair] != stick) continue;
         const struct friction *friction = &plan->frictions[pair];

@@ -7,6 +7,14 @@
 
 #include "dynamics/friction.h"
 
+/* slots[plan.slots]: all that acts except dry friction, as force_slots says; the slots of jointed bodies
+ * behind the n are those of their motion in the present modes. */
+void force_balance(const struct fbd_model *model, const struct instant *at, double *slots);
+
+/* The variation of force_balance along a direction, right after it. */
+void force_balance_along(const struct fbd_model *model, const struct instant *at,
+                         const struct direction *along, const double *slots, double *slots_along);
+
 /* a[n] at an instant. On return slots[plan.slots] hold the generalized forces with kinetic friction included
  * (a sticking coordinate's slot has none) and the sums across slides. */
 void accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a);

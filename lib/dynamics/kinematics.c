@@ -1,6 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/kinematics.h"
 
+#include "dynamics/tree.h"
+
+/* A jointed body has its place in a link, and that is where the last tree_move put it. */
+static struct pose pose_in_link(const struct model_body *body, const struct instant *at)
+{
+    const struct tree_state *link = &at->tree->links[body->place.link];
+    if (body->kind != motion_weld) return (struct pose){link->p, link->turn, link->v, link->omega};
+    struct vec arm = vec_turn(link->turn, body->place.shift);
+    return (struct pose){vec_add(link->p, arm), vec_turn(link->turn, body->place.turn),
+                         vec_add(link->v, vec_scale(link->omega, vec_perp(arm))), link->omega};
+}
+
 int body_angle_coordinate(const struct model_body *body)
 {
     if (body->kind == motion_pivot) return body->first;
@@ -9,6 +21,7 @@ int body_angle_coordinate(const struct model_body *body)
 
 double body_angle(const struct model_body *body, const struct instant *at)
 {
+    if (body->place.link > 0) return at->tree->links[body->place.link].angle + body->place.angle;
     int coordinate = body_angle_coordinate(body);
     if (coordinate >= 0) return at->y[coordinate];
     return body->kind == motion_slide ? body->source->motion.along : 0;
@@ -16,6 +29,7 @@ double body_angle(const struct model_body *body, const struct instant *at)
 
 struct pose body_pose(const struct model_body *body, const struct instant *at)
 {
+    if (body->place.link > 0) return pose_in_link(body, at);
     const double *q = at->y + body->first, *v = at->y + body->first_rate;
     switch (body->kind) {
     case motion_slide:
@@ -23,7 +37,8 @@ struct pose body_pose(const struct model_body *body, const struct instant *at)
                              vec_scale(v[0], body->e), 0};
     case motion_pivot: return (struct pose){body->origin, vec_unit(q[0]), {0, 0}, v[0]};
     case motion_particle: return (struct pose){{q[0], q[1]}, {1, 0}, {v[0], v[1]}, 0};
-    case motion_planar: break;
+    case motion_planar:
+    case motion_weld: break;
     }
     return (struct pose){{q[0], q[1]}, vec_unit(q[2]), {v[0], v[1]}, v[2]};
 }

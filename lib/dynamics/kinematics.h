@@ -6,6 +6,9 @@
  *   pivot      p = O + R(theta) (r - pin)               p' = omega k x (p - O)
  *   particle   p = (x, y) + r                           p' = (vx, vy)
  *   planar     p = (x, y) + R(theta) r                  p' = (vx, vy) + omega k x R(theta) r
+ *
+ * A jointed body is where the tree has put it: its pose holds after accelerations() or tree_move() at the
+ * same instant.
  */
 #ifndef FBD_DYNAMICS_KINEMATICS_H
 #define FBD_DYNAMICS_KINEMATICS_H

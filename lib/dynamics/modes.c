@@ -4,6 +4,8 @@
 #include <float.h>
 #include <string.h>
 
+#include "dynamics/tree.h"
+
 double slip_velocity(const struct fbd_model *model, int pair, const struct instant *at)
 {
     const struct friction *friction = &model->plan.frictions[pair];
@@ -56,14 +58,15 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
     double *slots = state->scratch, *slots_along = slots + plan->slots;
     struct instant at = state_instant(state);
     bool same = true;
-    force_slots(model, &at, slots);
-    force_slots_along(model, &at, flow, slots_along);
+    force_balance(model, &at, slots);
+    force_balance_along(model, &at, flow, slots, slots_along);
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
         if (plan->frictions[pair].two_sided && !(decided && decided->pulls[pair]))
             state->pull[pair] = slots[plan->frictions[pair].normal_slot] > 0 ? -1 : 1;
         if (decided && decided->slips[pair]) continue;
         double v = slip_velocity(model, pair, &at);
         enum slip next = v > 0 ? slip_plus : slip_minus;
+        if (v == 0 && plan->frictions[pair].jointed) continue; /* all of them together */
         if (v == 0) {
             struct friction_values now = friction_at(model, pair, &at, slots);
             struct friction_values rate = friction_along(model, pair, &at, slots, flow, slots_along);
@@ -72,6 +75,7 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
         same = same && state->slip[pair] == (int)next;
         state->slip[pair] = next;
     }
+    if (model->tree && model->tree->watched_count > 0) same = tree_settle_slips(state, decided) && same;
     return same;
 }
 

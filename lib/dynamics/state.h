@@ -17,7 +17,9 @@ struct fbd_state {
     double *slots;             /* plan.slots: generalized forces, by state_evaluate */
     int *branch, *slip, *pull; /* modes, see instant.h */
     int *branch_before;        /* scratch for settling: plan.branches */
+    int *slip_before;          /* and plan.friction_count */
     double *scratch;           /* 2 plan.slots + 3 n */
+    struct tree_work *tree;    /* of the jointed bodies, by state_evaluate; NULL when there are none */
 };
 
 /* A state at the scene's initial values, t = 0, modes not yet settled. NULL when memory is out. */
@@ -29,7 +31,7 @@ void state_copy(struct fbd_state *to, const struct fbd_state *from);
 
 static inline struct instant state_instant(const struct fbd_state *state)
 {
-    return (struct instant){state->t, state->y, state->branch, state->slip, state->pull};
+    return (struct instant){state->t, state->y, state->branch, state->slip, state->pull, state->tree};
 }
 
 /* Accelerations and slots at the state, modes as they are. */

@@ -87,7 +87,9 @@ struct friction {
     bool two_sided;  /* a guide: friction goes with |N| */
     struct formula mu_s, mu_k, surface_speed;
     bool moving;    /* the surface moves */
-    double inertia; /* m or I_O */
+    double inertia; /* m or I_O; 0 when jointed */
+    int hold_slot;  /* the force needed to hold is inertia times acceleration minus this slot */
+    bool jointed;   /* between jointed bodies: the tree finds N and what holds */
 };
 
 /* A normal force that must not become a pull. */

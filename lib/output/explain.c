@@ -15,6 +15,7 @@ static const char *motion_words(enum motion_kind kind)
     case motion_pivot: return "turns about a fixed axis";
     case motion_particle: return "moves in the plane as a particle";
     case motion_planar: return "moves in the plane";
+    case motion_weld: return "is fixed on another body";
     }
     return "";
 }
@@ -48,7 +49,7 @@ static void write_loads(struct text *text, const struct fbd_model *model)
 
 struct absent {
     enum load_kind kind;
-    bool on[4]; /* by enum motion_kind: where it could act */
+    bool on[motion_kinds_count]; /* by enum motion_kind: where it could act */
     const char *words;
 };
 

@@ -28,8 +28,8 @@ static const struct field scene_fields[] = {
                "how long to run, how accurately, and when to stop"),
     FIELD_NODE(offsetof(struct scene_keys, output), "output", field_map, 0, &output_group,
                "what a run writes"),
-    FIELD_LATER("couplings", "this version has single bodies on the ground: pins, ropes, gears and rods "
-                             "between bodies come later"),
+    FIELD_NODE(offsetof(struct scene_keys, couplings), "couplings", field_list, 0, NULL,
+               "what joins two bodies, beside what they move on"),
     FIELD_LATER("contacts",
                 "this version has no contact between bodies: a surface is a `slide` with `normal`"),
 };

@@ -20,7 +20,7 @@ static const struct coordinate_names planar_names[] = {
 int coordinates_of(enum motion_kind kind, const struct coordinate_names **names)
 {
     *names = kind == motion_slide ? slide_names : kind == motion_pivot ? pivot_names : planar_names;
-    return kind == motion_planar ? 3 : kind == motion_particle ? 2 : 1;
+    return kind == motion_weld ? 0 : kind == motion_planar ? 3 : kind == motion_particle ? 2 : 1;
 }
 
 bool name_is_reserved(const char *name)

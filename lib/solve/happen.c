@@ -35,7 +35,7 @@ static void note_friction(struct run *run, fbd_event_kind kind, int pair)
     if (!event) return;
     struct instant at = state_instant(run->state);
     double *slots = run->during->scratch;
-    force_slots(run->model, &at, slots);
+    force_balance(run->model, &at, slots);
     struct friction_values values = friction_at(run->model, pair, &at, slots);
     event->force = values.force;
     event->limit = values.limit_static;

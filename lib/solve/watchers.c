@@ -153,8 +153,8 @@ static void set_flow(struct view *view)
     double *slots = state->scratch, *slots_along = slots + plan->slots, *dy = slots_along + plan->slots;
     state_rates(state->model, &view->at, slots, dy);
     view->flow = (struct direction){1, dy};
-    force_slots(state->model, &view->at, slots);
-    force_slots_along(state->model, &view->at, &view->flow, slots_along);
+    force_balance(state->model, &view->at, slots);
+    force_balance_along(state->model, &view->at, &view->flow, slots, slots_along);
     view->slots = slots;
     view->slots_along = slots_along;
 }
@@ -164,7 +164,7 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
 {
     const struct plan *plan = &state->model->plan;
     struct view view = {.state = state,
-                        .at = {t, y, state->branch, state->slip, state->pull},
+                        .at = {t, y, state->branch, state->slip, state->pull, state->tree},
                         .flow = {1, NULL}};
     if (set != &watchers->timed) set_flow(&view);
     int last_kink = -1;
