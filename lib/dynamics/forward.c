@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "dynamics/absolute.h"
 #include "dynamics/tree.h"
 
 /* ---- planar bodies whose frame's origin O is not their centre of mass
@@ -43,15 +44,18 @@ static void offset_variations(const struct offset_body *body, const struct insta
 
 /* ---- jointed bodies: their friction needs their accelerations, so both come from one solution */
 
-void force_balance(const struct fbd_model *model, const struct instant *at, double *slots)
+void force_balance(const struct fbd_model *model, const struct instant *given, double *slots)
 {
+    const struct instant extended = instant_extend(model, given), *at = &extended;
     force_slots(model, at, slots);
     if (model->tree) tree_accelerations(model, at, slots, at->tree->a);
 }
 
-void force_balance_along(const struct fbd_model *model, const struct instant *at,
-                         const struct direction *along, const double *slots, double *slots_along)
+void force_balance_along(const struct fbd_model *model, const struct instant *given,
+                         const struct direction *direction, const double *slots, double *slots_along)
 {
+    const struct instant extended = instant_extend(model, given), *at = &extended;
+    const struct direction extended_along = direction_extend(model, at, direction), *along = &extended_along;
     force_slots_along(model, at, along, slots_along);
     if (model->tree)
         tree_accelerations_along(model, at, along, slots, at->tree->a, slots_along, at->tree->a_along);
@@ -88,9 +92,10 @@ static void hold_sticking(const struct fbd_model *model, const struct instant *a
             friction_surface_speed(&plan->frictions[pair], at, &a[plan->frictions[pair].coordinate]);
 }
 
-void accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a)
+void accelerations(const struct fbd_model *model, const struct instant *given, double *slots, double *a)
 {
     const struct plan *plan = &model->plan;
+    const struct instant extended = instant_extend(model, given), *at = &extended;
     force_slots(model, at, slots);
     if (plan->friction_count > 0) add_kinetic_friction(model, at, slots);
     for (int i = 0; i < plan->n; i++) a[i] = plan->inverse_inertia[i] * slots[i];
@@ -100,10 +105,13 @@ void accelerations(const struct fbd_model *model, const struct instant *at, doub
     if (plan->friction_count > 0) hold_sticking(model, at, a);
 }
 
-void accelerations_along(const struct fbd_model *model, const struct instant *at,
-                         const struct direction *along, double *slots, double *slots_along, double *a_along)
+void accelerations_along(const struct fbd_model *model, const struct instant *given,
+                         const struct direction *direction, double *slots, double *slots_along,
+                         double *a_along)
 {
     const struct plan *plan = &model->plan;
+    const struct instant extended = instant_extend(model, given), *at = &extended;
+    const struct direction extended_along = direction_extend(model, at, direction), *along = &extended_along;
     force_balance(model, at, slots);
     force_balance_along(model, at, along, slots, slots_along);
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {

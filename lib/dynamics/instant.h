@@ -22,6 +22,7 @@ struct instant {
     const int *slip;   /* plan.friction_count: enum slip */
     const int *pull;   /* plan.friction_count: sign of the normal force of a two-sided guide, +1 otherwise */
     struct tree_work *tree; /* scratch and results of the jointed bodies; NULL when there are none */
+    double *extended;       /* scratch of absolute.h; NULL when no expression names a place in the world */
 };
 
 /* A direction in which everything varies: (dt, dy). */

@@ -4,6 +4,7 @@
 #include <float.h>
 #include <string.h>
 
+#include "dynamics/absolute.h"
 #include "dynamics/tree.h"
 
 double slip_velocity(const struct fbd_model *model, int pair, const struct instant *at)
@@ -33,7 +34,10 @@ static struct direction flow_of(struct fbd_state *state)
     double *dy = state->scratch + 2 * (size_t)plan->slots;
     memcpy(dy, state->y + n, n * sizeof *dy);
     memcpy(dy + n, state->a, n * sizeof *dy);
-    return (struct direction){1, dy};
+    struct direction flow = {1, dy};
+    if (!state->extended) return flow;
+    struct instant at = state_instant(state), extended = instant_extend(state->model, &at);
+    return direction_extend(state->model, &extended, &flow);
 }
 
 static bool settle_branches(struct fbd_state *state, const struct decided *decided,

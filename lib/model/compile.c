@@ -147,6 +147,20 @@ static void set_couplings(struct builder *builder)
     }
 }
 
+static bool set_absolutes(struct fbd_model *model)
+{
+    const struct scene *scene = model->scene;
+    model->absolute_count = scene->absolute_count;
+    model->absolutes = ARENA_ARRAY(&model->arena, model->absolute_count, struct model_absolute);
+    for (size_t k = 0; model->absolutes && k < model->absolute_count; k++) {
+        const struct absolute *absolute = &scene->absolutes[k];
+        struct vec point = resolve_point(&absolute->point, &model->bodies[absolute->body]);
+        model->absolutes[k] = (struct model_absolute){absolute->body, point, absolute->kind,
+                                                      model->bodies[absolute->body].first + absolute->part};
+    }
+    return model->absolutes != NULL;
+}
+
 /* ---- the whole */
 
 static bool allocate(struct fbd_model *model)
@@ -197,8 +211,8 @@ struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors)
         set_loads(&builder);
         set_couplings(&builder);
         model->labels = labels_make(&model->arena, scene);
-        done = model->labels && tree_number(model) && tree_name_reactions(model) && plan_build(&builder) &&
-               classify_loads(&builder);
+        done = model->labels && set_absolutes(model) && tree_number(model) && tree_name_reactions(model) &&
+               plan_build(&builder) && classify_loads(&builder);
         set_watches(&builder);
     }
     if (!done) diag_out_of_memory(errors);

@@ -52,6 +52,14 @@ enum potential_kind {
     potential_quadrature, /* V = -integral of Q(q) dq from `reference` */
 };
 
+/* See struct absolute of the scene. */
+struct model_absolute {
+    int body;
+    struct vec point;
+    enum absolute_kind kind;
+    int coordinate; /* absolute_acceleration */
+};
+
 /* A load with everything that it refers to resolved. */
 struct model_load {
     const struct load *source;
@@ -79,6 +87,8 @@ struct fbd_model {
     struct model_body *bodies;
     struct model_load *loads;
     const struct label *labels; /* of the coordinates */
+    size_t absolute_count;
+    struct model_absolute *absolutes;
     struct plan plan;
     struct tree *tree; /* the jointed bodies; NULL when there are none */
 };

@@ -12,10 +12,10 @@ static const char *motion_words(enum motion_kind kind)
 {
     switch (kind) {
     case motion_slide: return "slides on a line";
-    case motion_pivot: return "turns about a fixed axis";
+    case motion_pivot: return "turns about an axis";
     case motion_particle: return "moves in the plane as a particle";
     case motion_planar: return "moves in the plane";
-    case motion_weld: return "is fixed on another body";
+    case motion_weld: return "is fixed on";
     }
     return "";
 }
@@ -25,7 +25,11 @@ static void write_coordinates(struct text *text, const struct fbd_model *model)
     text_printf(text, "Coordinates (%d)\n", model->plan.n);
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
-        text_printf(text, "  %s %s:", body->name, motion_words(body->kind));
+        text_printf(text, "  %s %s", body->name, motion_words(body->kind));
+        if (body->parent >= 0 && body->kind != motion_weld)
+            text_printf(text, " of `%s`", model->bodies[body->parent].name);
+        if (body->kind == motion_weld) text_printf(text, " `%s`", model->bodies[body->parent].name);
+        text_add(text, body->count > 0 ? ":" : "");
         for (int k = 0; k < body->count; k++)
             text_printf(text, " %s [%s]", model->scene->coordinates[body->first + k].name,
                         model->labels[body->first + k].unit);
@@ -89,6 +93,18 @@ static size_t watched_contacts(const struct plan *plan)
     return count;
 }
 
+static void write_tree(struct text *text, const struct tree *tree)
+{
+    write_list(text, (size_t)tree->count - 1,
+               "link of jointed bodies, by the articulated-body recursion (constant forces in it)");
+    write_list(text, tree->following_count, "constant force or moment that turns with its link");
+    write_list(text, tree->force_count, "force of a formula at a point of a link");
+    write_list(text, tree->moment_count, "moment of a formula on a link");
+    write_list(text, tree->spring_count, "spring or damper between two points of links or the ground");
+    write_list(text, tree->drag_count, "drag at a point of a link");
+    write_list(text, (size_t)tree->pair_count, "friction that goes with the normal force between two links");
+}
+
 static void write_plan(struct text *text, const struct fbd_model *model)
 {
     const struct plan *plan = &model->plan;
@@ -103,6 +119,7 @@ static void write_plan(struct text *text, const struct fbd_model *model)
     write_list(text, plan->drag_count, "drag in the plane");
     write_list(text, plan->force_count, "formula whose direction changes");
     write_list(text, plan->friction_count, "dry friction, as modes stick and slip");
+    if (model->tree) write_tree(text, model->tree);
     write_list(text, plan->offset_count, "body whose frame is not at its centre of mass");
     text_add(text, "\nEvents watched\n");
     size_t switches = 0;

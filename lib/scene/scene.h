@@ -201,6 +201,23 @@ struct body {
     struct hand *hands;
 };
 
+/* Where a point of a body is in the world, or how its frame is turned: an expression may name it though it is
+ * no coordinate. Number k has slot 1 + 2 n + hand_slots + k. */
+struct absolute {
+    int body;
+    struct point point;
+    enum absolute_kind {
+        absolute_x,
+        absolute_y,
+        absolute_vx,
+        absolute_vy,
+        absolute_angle,
+        absolute_angle_dot,
+        absolute_acceleration, /* derivations by hand: of coordinate `part` of the body */
+    } kind;
+    int part;
+};
+
 struct coordinate {
     int body;
     const char *name, *rate_name, *acceleration_name; /* "x", "v", "v_dot" */
@@ -250,8 +267,9 @@ struct scene {
     struct user_event *events;
     struct coupling *couplings;
     struct simulate simulate;
-    size_t coordinate_count;
+    size_t coordinate_count, absolute_count;
     struct coordinate *coordinates;
+    struct absolute *absolutes;
 };
 
 /* Parameters set from outside, as text: `--set f1=50 N`. */

@@ -12,7 +12,7 @@ static int rates(double t, const double y[], double dydt[], void *context)
 {
     struct run *run = context;
     struct fbd_state *during = run->during;
-    struct instant at = {t, y, during->branch, during->slip, during->pull, during->tree};
+    struct instant at = {t, y, during->branch, during->slip, during->pull, during->tree, during->extended};
     state_rates(run->model, &at, during->slots, dydt);
     return GSL_SUCCESS;
 }
@@ -21,7 +21,7 @@ static int jacobian(double t, const double y[], double *dfdy, double dfdt[], voi
 {
     struct run *run = context;
     struct fbd_state *during = run->during;
-    struct instant at = {t, y, during->branch, during->slip, during->pull, during->tree};
+    struct instant at = {t, y, during->branch, during->slip, during->pull, during->tree, during->extended};
     state_jacobian(run->model, &at, during->scratch, dfdy, dfdt);
     return GSL_SUCCESS;
 }

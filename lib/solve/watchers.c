@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dynamics/absolute.h"
+
 /* ---- which functions a plan needs */
 
 static void add(struct watcher_set *set, struct watcher watcher)
@@ -153,6 +155,8 @@ static void set_flow(struct view *view)
     double *slots = state->scratch, *slots_along = slots + plan->slots, *dy = slots_along + plan->slots;
     state_rates(state->model, &view->at, slots, dy);
     view->flow = (struct direction){1, dy};
+    view->at = instant_extend(state->model, &view->at);
+    view->flow = direction_extend(state->model, &view->at, &view->flow);
     force_balance(state->model, &view->at, slots);
     force_balance_along(state->model, &view->at, &view->flow, slots, slots_along);
     view->slots = slots;
@@ -164,7 +168,7 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
 {
     const struct plan *plan = &state->model->plan;
     struct view view = {.state = state,
-                        .at = {t, y, state->branch, state->slip, state->pull, state->tree},
+                        .at = {t, y, state->branch, state->slip, state->pull, state->tree, state->extended},
                         .flow = {1, NULL}};
     if (set != &watchers->timed) set_flow(&view);
     int last_kink = -1;
