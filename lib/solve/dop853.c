@@ -296,6 +296,21 @@ void dop853_dense_eval(const gsl_odeiv2_step *step, double theta, double *y)
     }
 }
 
+bool dop853_differences(const gsl_odeiv2_step *step, const double **dy, const double **df)
+{
+    if (step->type != step_dop853) return false;
+    struct dop853 *s = step->state;
+    if (!s->stepped || s->prepared || !s->has_end_slope) return false;
+    double *by = vector(s, v_dense), *bf = by + s->n;
+    const double *y1 = vector(s, v_end), *u = vector(s, v_argument);
+    const double *k12 = vector(s, 12), *k13 = vector(s, 13);
+    for (size_t i = 0; i < s->n; i++) by[i] = y1[i] - u[i];
+    for (size_t i = 0; i < s->n; i++) bf[i] = k13[i] - k12[i];
+    *dy = by;
+    *df = bf;
+    return true;
+}
+
 static const gsl_odeiv2_step_type dop853_type = {
     .name = "dop853",
     .can_use_dydt_in = 1,

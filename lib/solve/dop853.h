@@ -29,6 +29,7 @@
 #define FBD_SOLVE_DOP853_H
 
 #include <gsl/gsl_odeiv2.h>
+#include <stdbool.h>
 
 extern const gsl_odeiv2_step_type *const step_dop853;
 
@@ -41,5 +42,11 @@ int dop853_dense_prepare(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys);
 /* y(t0 + theta h), 0 <= theta <= 1, of the prepared step [t0, t0 + h]; error O(h^8), continuous with its
  * first derivative from step to step. */
 void dop853_dense_eval(const gsl_odeiv2_step *step, double theta, double *y);
+
+/* Two states that the last step has evaluated for one time, its end y1 and the argument of stage 12, differ
+ * by dy, their slopes by df: so df = J dy with a mean J of the Jacobian, for nothing (HNW II, IV.2, uses it
+ * to detect stiffness). False, and nothing set, unless the last step was made with dydt_out, is of this type
+ * and has no dense output yet. The numbers last until the dense output is made or the next step. */
+bool dop853_differences(const gsl_odeiv2_step *step, const double **dy, const double **df);
 
 #endif

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "solve/dense.h"
+#include "solve/dop853.h"
 #include "solve/first_step.h"
 #include "solve/history.h"
 #include "solve/rodas5p.h"
@@ -165,6 +166,23 @@ static struct outcome judge_failure(const struct stepper *s, const struct counte
     return (struct outcome){false, rejected_not_finite, 0.25};
 }
 
+/* Near the limit of its stability, h |lambda| = 6 or so, a step of dop853 may end well by luck while its
+ * inside is off by many times the tolerance. Measured where a motion settles down (terminal speed, drag, an
+ * overdamped spring) and tolerances of 1e-4 to 1e-12: without this the dense output errs by up to 460
+ * tolerances and is up to 220 times worse than the ends; held to 4, it errs by at most 24, in as many steps,
+ * of which fewer are rejected, and the ends are 3 to 50 times better. Oscillations that are followed have h w
+ * < 2. */
+static struct outcome keep_stable(const struct stepper *s, double h, const double *y, struct outcome outcome)
+{
+    const double most = 5, goal = 4;
+    const double *dy, *df;
+    if (!outcome.accepted || s->h_fixed > 0 || !dop853_differences(s->step, &dy, &df)) return outcome;
+    double h_rate = h * weights_rate(s->control, y, dy, df);
+    if (h_rate > most) return (struct outcome){false, rejected_error, fmax(goal / h_rate, 0.1)};
+    if (h_rate * outcome.factor > goal) outcome.factor = goal / h_rate;
+    return outcome;
+}
+
 static struct outcome judge(const struct stepper *s, double h, const double *y, const double *f)
 {
     if (s->h_fixed > 0) return (struct outcome){all_finite(s->n, y, f), rejected_not_finite, 1};
@@ -226,6 +244,7 @@ enum stepper_status stepper_step(struct stepper *s, struct counted_system *syste
         int code = gsl_odeiv2_step_apply(s->step, t0, plan.h, y, s->yerr, s->f0, f, &system->gsl);
         if (code == GSL_EBADFUNC) return give_up(s, y, f, stepper_bad_function);
         struct outcome outcome = code == GSL_SUCCESS ? judge(s, plan.h, y, f) : judge_failure(s, system);
+        outcome = keep_stable(s, plan.h, y, outcome);
         if (outcome.accepted) {
             double next = plan.h * (rejected ? fmin(outcome.factor, 1) : outcome.factor);
             *h = fmin(plan.cut ? fmax(next, proposal) : next, s->h_max);
