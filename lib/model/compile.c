@@ -14,13 +14,14 @@ struct formula builder_formula(struct builder *builder, const struct value *valu
     if (!value->expr) return formula;
     if (expr_is_constant(value->expr)) return formula_constant(expr_value(value->expr));
     formula.expr = value->expr;
-    size_t switches = expr_switches(value->expr);
+    struct plan *plan = &builder->model->plan;
+    size_t switches = expr_switches(value->expr), poles = expr_poles(value->expr);
     if (switches > 0) {
-        struct plan *plan = &builder->model->plan;
         formula.branch = plan->branches;
         plan->branches += (int)switches;
         plan->kinks[plan->kink_count++] = (struct kink){formula, body, load, switches};
     }
+    if (poles > 0 && body >= 0) plan->poles[plan->pole_count++] = (struct pole){formula, poles};
     return formula;
 }
 
@@ -175,6 +176,7 @@ static bool allocate(struct fbd_model *model)
     size_t formulas = formulas_of_a_load * model->load_count + 2 * scene->event_count;
     model->plan.watches = ARENA_ARRAY(&model->arena, scene->event_count, struct watch);
     model->plan.kinks = ARENA_ARRAY(&model->arena, formulas, struct kink);
+    model->plan.poles = ARENA_ARRAY(&model->arena, formulas, struct pole);
     return !model->arena.failed;
 }
 

@@ -104,6 +104,12 @@ struct kink {
     size_t count;
 };
 
+/* The divisions of one formula (see expr.h). */
+struct pole {
+    struct formula formula;
+    size_t count;
+};
+
 /* A planar body whose centre of mass is not at the origin of its frame: its three equations are coupled. */
 struct offset_body {
     int body, first;
@@ -133,10 +139,11 @@ struct plan {
     struct drag_term *drags;
     struct force_term *forces;
 
-    size_t friction_count, contact_count, kink_count, offset_count, watch_count;
+    size_t friction_count, contact_count, kink_count, pole_count, offset_count, watch_count;
     struct friction *frictions;
     struct contact *contacts;
     struct kink *kinks;
+    struct pole *poles;
     struct offset_body *offsets;
     struct watch *watches;
 

@@ -90,6 +90,7 @@ static bool make_run(struct run *run)
     run->during = state_new(run->model);
     run->y = calloc(6 * n + 1, sizeof *run->y);
     if (!run->state || !run->during || !run->y || !make_scans(run)) return false;
+    if (!poles_init(&run->poles, run->model)) return false;
     run->f = run->y + 2 * n;
     run->sample = run->f + 2 * n;
     run->values = calloc(2 * run->moving.count + 1, sizeof *run->values);
@@ -136,6 +137,7 @@ void run_free(struct run *run)
     scan_free(&run->timed);
     scan_free(&run->moving);
     watchers_free(&run->watchers);
+    poles_free(&run->poles);
     state_free(run->state);
     state_free(run->during);
     free(run->decided.branches);
@@ -222,6 +224,19 @@ static int cut_step(struct run *run, double t)
     return switcher_partial(run->stepper, t, run->y, run->f) == GSL_SUCCESS ? 0 : -1;
 }
 
+/* The longest share of a step that is believed when it has passed a pole: where that was is not asked. */
+static int stay_before_poles(struct run *run, double *t)
+{
+    const double share = 0.25;
+    double h = *t - run->from, cut = run->from + share * h;
+    if (run->options.step > 0 || !(cut > run->from)) return 0;
+    if (!poles_passed(&run->poles, run->during, h, *t, run->y, run->f)) return 0;
+    *t = cut;
+    run->h = share * h;
+    run->restart = true;
+    return cut_step(run, cut);
+}
+
 /* Look for the first event in (from, t]; on return *t is its time, with y and f there. 1 found, 0 none, -1
  * failed. Where the event functions change so fast that the scan gives up, the step is cut to what it has
  * seen; one that is noise (it gives up at the very start) is not looked at more closely. */
@@ -280,6 +295,7 @@ fbd_outcome run_advance(struct run *run)
     state_copy(run->during, run->state);
     if (run->restart && !restart(run)) return run->outcome;
     if (run->crawl == 0) run->not_finite = switcher_counts(run->stepper).rejected[rejected_not_finite];
+    if (run->options.step == 0) run->h = fmin(run->h, poles_longest_step(&run->poles, run->state));
     bool timed;
     double limit = next_time(run, &timed), t = run->from;
     enum stepper_status status =
@@ -288,7 +304,7 @@ fbd_outcome run_advance(struct run *run)
         run_fail_step(run, status);
         return run->outcome;
     }
-    int moving = find_event(run, &t);
+    int moving = stay_before_poles(run, &t) < 0 ? -1 : find_event(run, &t);
     if (moving < 0) {
         run_fail_step(run, stepper_bad_function);
         return run->outcome;

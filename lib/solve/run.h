@@ -12,6 +12,7 @@
 
 #include "dynamics/diagram.h"
 #include "dynamics/modes.h"
+#include "solve/poles.h"
 #include "solve/scan.h"
 #include "solve/switcher.h"
 #include "solve/watchers.h"
@@ -48,6 +49,7 @@ struct run {
 
     struct watchers watchers;
     struct scan timed, moving;
+    struct poles poles;
     struct switcher *stepper;
     struct counted_system system;
     double *y, *f, *sample; /* 2 n each */
