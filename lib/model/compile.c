@@ -21,7 +21,7 @@ struct formula builder_formula(struct builder *builder, const struct value *valu
         plan->branches += (int)switches;
         plan->kinks[plan->kink_count++] = (struct kink){formula, body, load, switches};
     }
-    if (poles > 0 && body >= 0) plan->poles[plan->pole_count++] = (struct pole){formula, poles};
+    if (poles > 0 && body >= 0) plan->poles[plan->pole_count++] = (struct pole){formula, body, load, poles};
     return formula;
 }
 

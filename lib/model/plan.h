@@ -107,6 +107,7 @@ struct kink {
 /* The divisions of one formula (see expr.h). */
 struct pole {
     struct formula formula;
+    int body, load; /* where it stands */
     size_t count;
 };
 

@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A divisor below this part of its largest size counts as zero: whatever is infinite there has shown itself.
- */
+/* A divisor below this part of its largest size is zero unless there is a pole. */
 static const double negligible = 1e-12;
 
 bool poles_init(struct poles *poles, const struct fbd_model *model)
@@ -15,19 +14,27 @@ bool poles_init(struct poles *poles, const struct fbd_model *model)
     *poles = (struct poles){0};
     for (size_t i = 0; i < plan->pole_count; i++) poles->count += plan->poles[i].count;
     if (poles->count == 0) return true;
-    poles->most = calloc(5 * poles->count + 2 * (size_t)plan->n, sizeof(double));
-    if (!poles->most) return false;
-    poles->start = poles->most + poles->count;
-    poles->rate = poles->start + poles->count;
-    poles->end = poles->rate + poles->count;
-    poles->end_rate = poles->end + poles->count;
-    poles->dy = poles->end_rate + poles->count;
+    size_t count = poles->count;
+    poles->most = calloc(7 * count + 2 * (size_t)plan->n, sizeof(double));
+    poles->grows = calloc(count, sizeof(bool));
+    if (!poles->most || !poles->grows) {
+        poles_free(poles);
+        return false;
+    }
+    poles->before = poles->most + count;
+    poles->part = poles->before + count;
+    poles->start = poles->part + count;
+    poles->rate = poles->start + count;
+    poles->end = poles->rate + count;
+    poles->end_rate = poles->end + count;
+    poles->dy = poles->end_rate + count;
     return true;
 }
 
 void poles_free(struct poles *poles)
 {
     free(poles->most);
+    free(poles->grows);
     *poles = (struct poles){0};
 }
 
@@ -42,23 +49,48 @@ static void divisors_at(const struct plan *plan, const struct instant *at, const
     }
 }
 
-double poles_longest_step(struct poles *poles, const struct fbd_state *state)
+/* Take in divisor k, which falls, of a formula that changes at `change`. */
+static void follow(struct poles *poles, size_t k, double change)
+{
+    const double nearer = 0.9;
+    double d = fabs(poles->start[k]), part = fabs(change * poles->start[k] / poles->rate[k]);
+    if (poles->before[k] > 0 && d > nearer * poles->before[k] && d <= poles->before[k]) return;
+    poles->grows[k] = poles->before[k] > 0 && d < poles->before[k] && part > poles->part[k];
+    poles->before[k] = d;
+    poles->part[k] = part;
+}
+
+/* The longest step for divisor k of a formula that changes at `change`. */
+static double longest_for(struct poles *poles, size_t k, double change)
 {
     const double share = 0.5;
+    double d = poles->start[k], rate = poles->rate[k];
+    if (!isfinite(d)) return HUGE_VAL;
+    poles->most[k] = fmax(poles->most[k], fabs(d));
+    if (!(d * rate < 0)) return HUGE_VAL;
+    follow(poles, k, change);
+    return fabs(d) > negligible * poles->most[k] || poles->grows[k] ? share * fabs(d / rate) : HUGE_VAL;
+}
+
+double poles_longest_step(struct poles *poles, const struct fbd_state *state, const struct pole **nearest)
+{
     const struct plan *plan = &state->model->plan;
-    size_t n = (size_t)plan->n;
+    size_t n = (size_t)plan->n, k = 0;
     double longest = HUGE_VAL;
+    *nearest = NULL;
     if (poles->count == 0) return longest;
     struct instant at = state_instant(state);
     memcpy(poles->dy, state->y + n, n * sizeof(double));
     memcpy(poles->dy + n, state->a, n * sizeof(double));
+    const struct direction flow = {1, poles->dy};
     divisors_at(plan, &at, poles->dy, poles->start, poles->rate);
-    for (size_t i = 0; i < poles->count; i++) {
-        double d = poles->start[i], rate = poles->rate[i];
-        if (!isfinite(d)) continue;
-        poles->most[i] = fmax(poles->most[i], fabs(d));
-        if (d * rate < 0 && fabs(d) > negligible * poles->most[i])
-            longest = fmin(longest, share * fabs(d / rate));
+    for (size_t i = 0; i < plan->pole_count; i++) {
+        double change;
+        formula_along(&plan->poles[i].formula, &at, &flow, &change);
+        for (size_t last = k + plan->poles[i].count; k < last; k++) {
+            double h = longest_for(poles, k, change);
+            if (h < longest) longest = h, *nearest = &plan->poles[i];
+        }
     }
     return longest;
 }
@@ -86,7 +118,8 @@ bool poles_passed(struct poles *poles, const struct fbd_state *during, double h,
     divisors_at(plan, &at, f, poles->end, poles->end_rate);
     for (size_t i = 0; i < poles->count; i++) {
         double a = poles->start[i], b = poles->end[i], side = a < 0 ? -1 : 1;
-        if (!isfinite(a) || !isfinite(b) || fabs(a) <= negligible * poles->most[i]) continue;
+        bool zero = fabs(a) <= negligible * poles->most[i] && !poles->grows[i];
+        if (!isfinite(a) || !isfinite(b) || zero) continue;
         if (a * b <= 0 || fabs(b) < too_deep * fabs(a)) return true;
         if (deepest(side * a, side * h * poles->rate[i], side * b, side * h * poles->end_rate[i]) < too_deep)
             return true;

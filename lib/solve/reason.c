@@ -49,6 +49,16 @@ static void explain_not_finite(struct run *run)
         body_of(run, element), run->system.last_time, run->state->t);
 }
 
+void run_fail_pole(struct run *run, const struct pole *pole)
+{
+    const struct fbd_model *model = run->model;
+    run_fail(run, FBD_FAILED,
+             "at t = %.9g `%s` of `%s` divides by zero, to the rounding of the time: the force is infinite "
+             "there, and how the motion goes on depends on more digits than numbers have. End the run before "
+             "by an event, or bound the force",
+             run->state->t, model->loads[pole->load].source->name, model->bodies[pole->body].name);
+}
+
 void run_fail_step(struct run *run, enum stepper_status status)
 {
     const struct stepper_counts counts = switcher_counts(run->stepper);

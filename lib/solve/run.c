@@ -288,6 +288,17 @@ static bool crawls(struct run *run)
     return run->crawl > most_steps;
 }
 
+/* Keep the next step away from where a force is infinite; false at such a place. */
+static bool heed_poles(struct run *run)
+{
+    const struct pole *nearest;
+    double longest = poles_longest_step(&run->poles, run->state, &nearest);
+    run->h = fmin(run->h, longest);
+    bool reached = nearest && longest <= 4 * DBL_EPSILON * fabs(run->state->t);
+    if (reached) run_fail_pole(run, nearest);
+    return !reached;
+}
+
 fbd_outcome run_advance(struct run *run)
 {
     if (run->outcome != FBD_GOING) return run->outcome;
@@ -295,7 +306,7 @@ fbd_outcome run_advance(struct run *run)
     state_copy(run->during, run->state);
     if (run->restart && !restart(run)) return run->outcome;
     if (run->crawl == 0) run->not_finite = switcher_counts(run->stepper).rejected[rejected_not_finite];
-    if (run->options.step == 0) run->h = fmin(run->h, poles_longest_step(&run->poles, run->state));
+    if (run->options.step == 0 && !heed_poles(run)) return run->outcome;
     bool timed;
     double limit = next_time(run, &timed), t = run->from;
     enum stepper_status status =

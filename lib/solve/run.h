@@ -94,6 +94,7 @@ void run_set_noise(struct run *run);
 
 /* End the run with a reason. */
 void run_fail_step(struct run *run, enum stepper_status status);
+void run_fail_pole(struct run *run, const struct pole *pole);
 void run_fail(struct run *run, fbd_outcome outcome, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
