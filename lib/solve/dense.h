@@ -53,4 +53,7 @@ void dense_set(struct dense *dense, int order, double t0, const double *y0, cons
  * inside of the step; then y is not touched. */
 int dense_eval(struct dense *dense, double t, double *y);
 
+/* The same at level 0, whatever the method: what is left when evaluations inside of the step fail. */
+void dense_eval_plain(struct dense *dense, double t, double *y);
+
 #endif

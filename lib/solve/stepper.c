@@ -267,10 +267,10 @@ static int redo(struct stepper *s, double t, double *y, double *f)
     return gsl_odeiv2_step_apply(s->redo, s->t0, t - s->t0, y, s->yerr, s->f0, f, &s->system->gsl);
 }
 
-int stepper_dense(struct stepper *s, double t, double *y)
+/* What the method itself says of the inside. */
+static int own_dense(struct stepper *s, double t, double *y)
 {
-    if (!s->stepped || !(t >= s->t0 && t <= s->t1)) return GSL_EINVAL;
-    if (t == s->t0 || t == s->t1 || !s->method->implicit) return dense_eval(s->dense, t, y);
+    if (!s->method->implicit) return dense_eval(s->dense, t, y);
     if (s->step->type == step_rodas5p) {
         int code = rodas5p_dense_prepare(s->step);
         if (code == GSL_SUCCESS) rodas5p_dense_eval(s->step, (t - s->t0) / (s->t1 - s->t0), y);
@@ -278,6 +278,18 @@ int stepper_dense(struct stepper *s, double t, double *y)
     }
     if (!s->history) return redo(s, t, y, s->work);
     history_eval(s->history, (int)gsl_odeiv2_step_order(s->step), t, y);
+    return GSL_SUCCESS;
+}
+
+/* An implicit method may succeed in a step and fail in a part of it; then the ends alone have to do, as a step
+ * that is accepted has an inside. */
+int stepper_dense(struct stepper *s, double t, double *y)
+{
+    if (!s->stepped || !(t >= s->t0 && t <= s->t1)) return GSL_EINVAL;
+    if (t == s->t0 || t == s->t1) return dense_eval(s->dense, t, y);
+    int last_code = s->system->last_code;
+    if (own_dense(s, t, y) != GSL_SUCCESS) dense_eval_plain(s->dense, t, y);
+    s->system->last_code = last_code; /* no reason for what may fail later */
     return GSL_SUCCESS;
 }
 
@@ -289,7 +301,7 @@ int stepper_partial(struct stepper *s, double t, double *y, double *f)
         return GSL_SUCCESS;
     }
     if (!s->stepped || !(t > s->t0 && t < s->t1)) return GSL_EINVAL;
-    if (s->redo) return redo(s, t, y, f);
+    if (s->redo && redo(s, t, y, f) == GSL_SUCCESS && all_finite(s->n, y, f)) return GSL_SUCCESS;
     int code = stepper_dense(s, t, y);
     return code == GSL_SUCCESS ? counted_system_rhs(s->system, t, y, f) : code;
 }
