@@ -134,7 +134,7 @@ void run_check_contacts(struct run *run)
     }
 }
 
-void run_apply_touched(struct run *run)
+void run_apply_touched(struct run *run, bool at_event)
 {
     const struct plan *plan = &run->model->plan;
     struct instant at = state_instant(run->state);
@@ -142,7 +142,9 @@ void run_apply_touched(struct run *run)
         int armed = run->watchers.armed[i];
         double value =
             formula_value(&plan->watches[i].left, &at) - formula_value(&plan->watches[i].right, &at);
-        if (armed != 0 && !run->watchers.fired[i] && armed * value <= 0) user_event(run, (int)i, value == 0);
+        double band = at_event && value == 0 ? 0 : run->watchers.band[i];
+        if (armed != 0 && !run->watchers.fired[i] && armed * value + band <= 0)
+            user_event(run, (int)i, value == 0);
     }
 }
 
@@ -214,7 +216,7 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
                  run->state->t);
     note_frictions(run, moving);
     refuse_sliding(run, moving);
-    run_apply_touched(run);
+    run_apply_touched(run, true);
     run_check_contacts(run);
     run->restart = true;
     if (run->outcome == FBD_GOING) count_crowd(run);

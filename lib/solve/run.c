@@ -73,7 +73,7 @@ static bool make_decided(struct decided *decided, const struct plan *plan)
 
 static bool make_scans(struct run *run)
 {
-    if (!watchers_init(&run->watchers, run->model)) return false;
+    if (!watchers_init(&run->watchers, run->model, run->options.tolerance)) return false;
     const struct watcher_set *timed = &run->watchers.timed, *moving = &run->watchers.moving;
     if (!scan_init(&run->timed, timed->count, sample_timed, run)) return false;
     if (!scan_init(&run->moving, moving->count, sample_moving, run)) return false;
@@ -208,14 +208,29 @@ static bool polish(struct run *run, double step_end, double *t)
     return true;
 }
 
-/* Has one of the functions that crossed really gone down? The dense output of a low-order step may dip below
- * zero where the function rises, as the velocity just after a breakaway; its rate, which is that of the
- * motion and not of the interpolant, tells. */
-static bool goes_down(const struct run *run)
+/* Does one of the functions that crossed go down at t, and to zero before the step ends? The dense output of
+ * a low-order step may dip below zero where the function rises, as the velocity just after a breakaway, or
+ * stays above it; the state and rate at t, which are those of the motion and not of the interpolant, tell. */
+static bool goes_down(const struct run *run, double t, double end)
 {
-    for (size_t i = 0; i < run->moving.count; i++)
-        if (run->moving.crossed[i] && !(run->values[run->moving.count + i] > 0)) return true;
+    for (size_t i = 0; i < run->moving.count; i++) {
+        double value = run->values[i], rate = run->values[run->moving.count + i];
+        if (!run->moving.crossed[i] || rate > 0) continue;
+        if (value <= 0 || t + time_left(run, i) <= end) return true;
+    }
     return false;
+}
+
+/* Is one of them below zero at the end of the step? Then it has gone there, whatever the inside looks like.
+ * On return y and f are those at t again. */
+static bool is_down_at_end(struct run *run, double t, double end)
+{
+    double *values = run->values, *rates = values + run->moving.count;
+    bool down = false;
+    if (switcher_partial(run->stepper, end, run->y, run->f) != GSL_SUCCESS) return true;
+    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, end, run->y, values, rates);
+    for (size_t i = 0; i < run->moving.count; i++) down |= run->moving.crossed[i] && values[i] < 0;
+    return switcher_partial(run->stepper, t, run->y, run->f) == GSL_SUCCESS && down;
 }
 
 /* Cut the step to t, where nothing happens. 0, or -1 when that fails. */
@@ -258,7 +273,7 @@ static int find_event(struct run *run, double *t)
         double when = run->moving.t;
         if (when >= end) return 1;
         if (!polish(run, end, &when)) return -1;
-        if (goes_down(run)) {
+        if (goes_down(run, when, end) || is_down_at_end(run, when, end)) {
             *t = when;
             return 1;
         }
@@ -331,7 +346,7 @@ fbd_outcome run_advance(struct run *run)
         run_apply(run, timed ? run->timed.crossed : NULL, moving ? run->moving.crossed : NULL);
     else
         state_evaluate(run->state);
-    if (at_end) run_apply_touched(run);
+    if (at_end) run_apply_touched(run, false);
     if (run->outcome == FBD_GOING && at_end) run->outcome = FBD_DONE;
     if (run->outcome == FBD_GOING) watchers_arm(&run->watchers, run->state);
     return run->outcome;

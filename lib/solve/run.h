@@ -81,8 +81,9 @@ bool run_look(struct run *run, double t, struct fbd_state *state);
 void run_apply(struct run *run, const bool *timed, const bool *moving);
 
 /* User events whose function is exactly zero at run->state (a body came to rest there, or the run ends there)
- * happen now. */
-void run_apply_touched(struct run *run);
+ * happen now; within its band (watchers.h) a zero counts at an event only, which may be what stopped the
+ * body. */
+void run_apply_touched(struct run *run, bool at_event);
 
 /* Check normal forces at run->state; ends the run when one is negative. */
 void run_check_contacts(struct run *run);

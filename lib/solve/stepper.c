@@ -281,8 +281,8 @@ static int own_dense(struct stepper *s, double t, double *y)
     return GSL_SUCCESS;
 }
 
-/* An implicit method may succeed in a step and fail in a part of it; then the ends alone have to do, as a step
- * that is accepted has an inside. */
+/* An implicit method may succeed in a step and fail in a part of it; then the ends alone have to do, as a
+ * step that is accepted has an inside. */
 int stepper_dense(struct stepper *s, double t, double *y)
 {
     if (!s->stepped || !(t >= s->t0 && t <= s->t1)) return GSL_EINVAL;
