@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solve/stepper.h"
 
+#include <float.h>
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stdint.h>
@@ -12,6 +13,7 @@
 #include "solve/first_step.h"
 #include "solve/history.h"
 #include "solve/rodas5p.h"
+#include "solve/stiffness.h"
 #include "solve/weights.h"
 
 struct stepper {
@@ -26,7 +28,10 @@ struct stepper {
     struct dense *dense;      /* of explicit methods and msadams */
     struct history *history;  /* of msbdf, else NULL */
     struct stepper_counts counts;
-    bool stepped; /* a last step stands in the following */
+    double *jacobian; /* n n + 3 n, for the limit of stability; NULL where that is not looked after */
+    double stable_h;  /* the largest step within that limit, when last looked after */
+    int since;        /* accepted steps since */
+    bool stepped;     /* a last step stands in the following */
     struct counted_system *system;
     double t0, t1;
     double *y0, *f0, *y1, *f1;
@@ -65,6 +70,9 @@ static struct stepper *state_alloc(size_t n)
     return s;
 }
 
+/* Beyond, a Jacobian is not worth looking at for an explicit method. */
+enum { most_guarded = 200 };
+
 struct stepper *stepper_alloc(const struct stepper_options *options)
 {
     const struct method *method = options->method;
@@ -83,7 +91,10 @@ struct stepper *stepper_alloc(const struct stepper_options *options)
     bool redo = !method->multistep, history = method->multistep && method->implicit;
     if (redo) s->redo = step_alloc(method, s->n, &s->driver);
     if (history) s->history = history_alloc(s->n);
-    if (!s->control || !s->dense || !s->step || (redo && !s->redo) || (history && !s->history)) {
+    bool guarded = method->stable > 0 && s->n <= most_guarded;
+    if (guarded) s->jacobian = malloc((s->n * s->n + 3 * s->n) * sizeof(double));
+    if (!s->control || !s->dense || !s->step || (redo && !s->redo) || (history && !s->history) ||
+        (guarded && !s->jacobian)) {
         stepper_free(s);
         return NULL;
     }
@@ -98,6 +109,7 @@ void stepper_free(struct stepper *s)
     if (s->control) gsl_odeiv2_control_free(s->control);
     dense_free(s->dense);
     history_free(s->history);
+    free(s->jacobian);
     free(s);
 }
 
@@ -106,6 +118,7 @@ int stepper_reset(struct stepper *s, struct counted_system *system, double t, co
 {
     double room = t_limit - t;
     s->stepped = false;
+    s->stable_h = 0;
     if (!(room > 0)) return GSL_EINVAL;
     gsl_odeiv2_step_reset(s->step);
     if (s->redo) gsl_odeiv2_step_reset(s->redo); /* rodas5p remembers a Jacobian */
@@ -183,6 +196,29 @@ static struct outcome keep_stable(const struct stepper *s, double h, const doubl
     return outcome;
 }
 
+/* The methods of GSL have no such differences, and their estimates vanish by accident beyond the limit: rk4
+ * at a tolerance of 1e-6 passed a terminal speed with twice the step that is stable and was off by 3700
+ * tolerances. So the Jacobian tells, where a step is longer than all since it was last asked, or some steps
+ * later. */
+static struct outcome guard_stability(struct stepper *s, struct counted_system *system, double h, double t,
+                                      const double *y, struct outcome outcome)
+{
+    enum { interval = 16 };
+    const double share = 0.9;
+    if (!outcome.accepted || !s->jacobian || !system->gsl.jacobian || s->h_fixed > 0) return outcome;
+    if (h > s->stable_h || ++s->since > interval) {
+        double *dfdt = s->jacobian + s->n * s->n;
+        s->since = 0;
+        if (system->gsl.jacobian(t, y, s->jacobian, dfdt, system->gsl.params) != GSL_SUCCESS) return outcome;
+        double rate = stiffness_rate(s->n, s->jacobian, dfdt + s->n);
+        s->stable_h = rate > 0 ? s->method->stable / rate : INFINITY;
+        if (h > s->stable_h)
+            return (struct outcome){false, rejected_error, fmax(share * s->stable_h / h, 0.1)};
+    }
+    if (h * outcome.factor > s->stable_h) outcome.factor = fmax(share * s->stable_h / h, 0.1);
+    return outcome;
+}
+
 static struct outcome judge(const struct stepper *s, double h, const double *y, const double *f)
 {
     if (s->h_fixed > 0) return (struct outcome){all_finite(s->n, y, f), rejected_not_finite, 1};
@@ -202,7 +238,8 @@ static void keep(struct stepper *s, struct counted_system *system, double t0, do
     memcpy(s->y1, y, s->n * sizeof *y);
     memcpy(s->f1, f, s->n * sizeof *f);
     weights_update(s->control, y, f);
-    dense_set(s->dense, s->method->order, t0, s->y0, s->f0, t1, s->y1, s->f1, &system->gsl, s->step);
+    dense_set(s->dense, s->method->order, t0, s->y0, s->f0, t1, s->y1, s->f1,
+              s->method->multistep ? s->yerr : NULL, &system->gsl, s->step);
     if (s->history) history_add(s->history, t1, y);
     s->system = system;
     s->stepped = true;
@@ -225,6 +262,17 @@ static void count_rejection(struct stepper *s, enum rejection why, bool again)
     if (!again || !telling || why == rejected_rhs || why == rejected_not_finite) s->counts.last = why;
 }
 
+/* bsimp refuses a step in which a component changes by more than 100 times what it is at the start, but takes
+ * zero for 1 there: a velocity that is zero but for rounding would end the run. */
+static void clear_roundings(struct stepper *s, double *y, const double *f)
+{
+    double *scale = s->work + 2 * s->n;
+    if (s->method->type != &gsl_odeiv2_step_bsimp) return;
+    weights_scales(s->control, 0, y, f, scale);
+    for (size_t i = 0; i < s->n; i++)
+        if (fabs(y[i]) <= 8 * DBL_EPSILON * scale[i]) y[i] = 0;
+}
+
 enum stepper_status stepper_step(struct stepper *s, struct counted_system *system, double *t, double *y,
                                  double *f, double *h, double t_limit)
 {
@@ -241,10 +289,12 @@ enum stepper_status stepper_step(struct stepper *s, struct counted_system *syste
         /* The second condition ends the retries at t = 0, where there is always a smaller number. */
         if (t0 + plan.h == t0 || plan.h < 1e-30 * room) return give_up(s, y, f, stepper_underflow);
         system->last_code = GSL_SUCCESS;
+        clear_roundings(s, y, s->f0);
         int code = gsl_odeiv2_step_apply(s->step, t0, plan.h, y, s->yerr, s->f0, f, &system->gsl);
         if (code == GSL_EBADFUNC) return give_up(s, y, f, stepper_bad_function);
         struct outcome outcome = code == GSL_SUCCESS ? judge(s, plan.h, y, f) : judge_failure(s, system);
         outcome = keep_stable(s, plan.h, y, outcome);
+        outcome = guard_stability(s, system, plan.h, plan.t1, y, outcome);
         if (outcome.accepted) {
             double next = plan.h * (rejected ? fmin(outcome.factor, 1) : outcome.factor);
             *h = fmin(plan.cut ? fmax(next, proposal) : next, s->h_max);
@@ -264,6 +314,7 @@ enum stepper_status stepper_step(struct stepper *s, struct counted_system *syste
 static int redo(struct stepper *s, double t, double *y, double *f)
 {
     memcpy(y, s->y0, s->n * sizeof *y);
+    clear_roundings(s, y, s->f0);
     return gsl_odeiv2_step_apply(s->redo, s->t0, t - s->t0, y, s->yerr, s->f0, f, &s->system->gsl);
 }
 
