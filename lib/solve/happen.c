@@ -123,9 +123,10 @@ void run_check_contacts(struct run *run)
     const struct fbd_model *model = run->model;
     for (size_t i = 0; i < model->plan.contact_count; i++) {
         const struct contact *contact = &model->plan.contacts[i];
-        double N = -run->state->slots[contact->slot];
-        if (!(N < -watchers_contact_slack(model, contact))) continue;
-        note(run, FBD_EVENT_CONTACT_LOST, contact->body, contact->load, -1);
+        double N = -run->state->slots[contact->slot], slack = watchers_contact_slack(model, contact);
+        if (!(N < -slack)) continue;
+        struct run_event *event = note(run, FBD_EVENT_CONTACT_LOST, contact->body, contact->load, -1);
+        if (event) event->force = N, event->limit = slack;
         run_fail(run, FBD_BROKEN,
                  "at t = %.9g `%s` leaves its surface: the normal force would have to pull (N = %.6g). "
                  "Declare the "

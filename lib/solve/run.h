@@ -29,7 +29,8 @@ struct run_event {
     double t;
     fbd_event_kind kind;
     int body, load, watch; /* -1 where it does not apply */
-    double force, limit; /* friction: the force after the event (that holds or slides) and the static limit */
+    double force, limit;   /* friction: the force after the event (that holds or slides) and the static limit;
+                              contact: the normal force and its rounding */
 };
 
 enum { reason_size = 400 };
