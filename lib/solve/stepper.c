@@ -31,6 +31,7 @@ struct stepper {
     double *jacobian; /* n n + 3 n, for the limit of stability; NULL where that is not looked after */
     double stable_h;  /* the largest step within that limit, when last looked after */
     int since;        /* accepted steps since */
+    double rate;      /* fastest rate that dop853 has seen lately */
     bool stepped;     /* a last step stands in the following */
     struct counted_system *system;
     double t0, t1;
@@ -118,7 +119,7 @@ int stepper_reset(struct stepper *s, struct counted_system *system, double t, co
 {
     double room = t_limit - t;
     s->stepped = false;
-    s->stable_h = 0;
+    s->stable_h = s->rate = 0;
     if (!(room > 0)) return GSL_EINVAL;
     gsl_odeiv2_step_reset(s->step);
     if (s->redo) gsl_odeiv2_step_reset(s->redo); /* rodas5p remembers a Jacobian */
@@ -185,12 +186,14 @@ static struct outcome judge_failure(const struct stepper *s, const struct counte
  * tolerances and is up to 220 times worse than the ends; held to 4, it errs by at most 24, in as many steps,
  * of which fewer are rejected, and the ends are 3 to 50 times better. Oscillations that are followed have h w
  * < 2. */
-static struct outcome keep_stable(const struct stepper *s, double h, const double *y, struct outcome outcome)
+static struct outcome keep_stable(struct stepper *s, double h, const double *y, struct outcome outcome)
 {
-    const double most = 5, goal = 4;
+    const double most = 5, goal = 4, kept = 0.9;
     const double *dy, *df;
     if (!outcome.accepted || s->h_fixed > 0 || !dop853_differences(s->step, &dy, &df)) return outcome;
-    double h_rate = h * weights_rate(s->control, y, dy, df);
+    /* The differences show the fastest rate now more and now less. */
+    s->rate = fmax(weights_rate(s->control, y, dy, df), kept * s->rate);
+    double h_rate = h * s->rate;
     if (h_rate > most) return (struct outcome){false, rejected_error, fmax(goal / h_rate, 0.1)};
     if (h_rate * outcome.factor > goal) outcome.factor = goal / h_rate;
     return outcome;
