@@ -371,6 +371,11 @@ double stepper_attempt(struct stepper *s, struct counted_system *system, double 
     return code == GSL_SUCCESS ? weights_ratio(s->control, h, y1, s->yerr, f1) : INFINITY;
 }
 
+const double *stepper_jacobian(const struct stepper *s)
+{
+    return s->stepped ? rodas5p_jacobian(s->step) : NULL;
+}
+
 void stepper_note(struct stepper *s, const double *y, const double *f)
 {
     weights_update(s->control, y, f);

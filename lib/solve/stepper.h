@@ -89,6 +89,9 @@ int stepper_partial(struct stepper *stepper, double t, double *y, double *f);
 double stepper_attempt(struct stepper *stepper, struct counted_system *system, double t, const double *y,
                        const double *f, double h);
 
+/* The Jacobian at the start of the last step, row by row, where rodas5p made it; else NULL. */
+const double *stepper_jacobian(const struct stepper *stepper);
+
 /* Take a state that another stepper has reached into the scales of the error measure. */
 void stepper_note(struct stepper *stepper, const double *y, const double *f);
 
