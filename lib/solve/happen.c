@@ -212,9 +212,11 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
         for (size_t i = 0; crossed[s] && i < sets[s]->count; i++)
             if (crossed[s][i]) happen(run, &sets[s]->watchers[i], crossing);
     if (!modes_settle(run->state, &run->decided) && run->outcome == FBD_GOING)
-        run_fail(run, FBD_FAILED,
-                 "at t = %.9g no choice of branches and of stick or slip agrees with the forces",
-                 run->state->t);
+        run_fail(
+            run, FBD_FAILED,
+            "at t = %.9g no choice of branches and of stick or slip agrees with the forces. A force that "
+            "jumps against the motion, as c*sign(v), is dry friction: declare it as `friction`",
+            run->state->t);
     note_frictions(run, moving);
     refuse_sliding(run, moving);
     run_apply_touched(run, true);

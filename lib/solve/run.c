@@ -106,8 +106,10 @@ static void start(struct run *run)
     run->restart = true;
     run->from = run->state->t;
     if (!modes_settle(run->state, NULL)) {
-        run_fail(run, FBD_FAILED,
-                 "at the start no choice of branches and of stick or slip agrees with the forces");
+        run_fail(
+            run, FBD_FAILED,
+            "at the start no choice of branches and of stick or slip agrees with the forces. A force that "
+            "jumps against the motion, as c*sign(v), is dry friction: declare it as `friction`");
         return;
     }
     watchers_arm(&run->watchers, run->state);

@@ -238,9 +238,9 @@ static int look(struct scan *scan, struct scan_point *a, struct scan_point *b, i
     return status ? status : look(scan, m, b, depth + 1);
 }
 
-/* At the start no function has passed its end; one that is negative and rises has just come from there, and is off
- * by the rounding of the instant. Left so, it would hide a zero before the first sample, when the motion turns back
- * at once. */
+/* At the start no function has passed its end; one that is negative and rises has just come from there, and
+ * is off by the rounding of the instant. Left so, it would hide a zero before the first sample, when the
+ * motion turns back at once. */
 static void start_inside(const struct scan *scan, struct scan_point *a)
 {
     for (size_t i = 0; i < scan->count; i++)
