@@ -58,7 +58,8 @@ struct dense {
     int level;
     bool prepared;
     double t0, t1, h;
-    const double *y0, *f0, *y1, *f1, *error;
+    const double *y0, *f0, *y1, *f1;
+    const double *error; /* see dense_set_errors; or NULL */
     const gsl_odeiv2_system *sys;
     gsl_odeiv2_step *own; /* a stepper with its own dense output, or NULL */
     struct pair *pair;
@@ -91,6 +92,11 @@ void dense_free(struct dense *dense)
     free(dense);
 }
 
+void dense_set_errors(struct dense *dense, const double *errors)
+{
+    dense->error = errors;
+}
+
 static int level_for(int order, size_t pairs, size_t extra)
 {
     if (order <= 4) return 0;
@@ -98,8 +104,7 @@ static int level_for(int order, size_t pairs, size_t extra)
 }
 
 void dense_set(struct dense *d, int order, double t0, const double *y0, const double *f0, double t1,
-               const double *y1, const double *f1, const double *error, const gsl_odeiv2_system *sys,
-               gsl_odeiv2_step *step)
+               const double *y1, const double *f1, const gsl_odeiv2_system *sys, gsl_odeiv2_step *step)
 {
     d->level = level_for(order, d->pairs, d->extra);
     d->prepared = false;
@@ -110,7 +115,6 @@ void dense_set(struct dense *d, int order, double t0, const double *y0, const do
     d->f0 = f0;
     d->y1 = y1;
     d->f1 = f1;
-    d->error = error;
     d->sys = sys;
     d->own = step && step->type == step_dop853 ? step : NULL;
 }

@@ -46,12 +46,14 @@ void dense_free(struct dense *dense);
 
 /* Stand for the step from (t0, y0) with slopes f0 to (t1, y1) with slopes f1, t1 != t0, made by a method of
  * order `order`. `step` is the stepper that made it, used if it has a dense output of its own (dop853), or
- * NULL. `error` are the errors of y1, where those of q are independent of those of v (multistep methods),
- * else NULL. Nothing is computed or copied: all arguments have to stay as they are until the next dense_set.
+ * NULL. Nothing is computed or copied: all arguments have to stay as they are until the next dense_set.
  */
 void dense_set(struct dense *dense, int order, double t0, const double *y0, const double *f0, double t1,
-               const double *y1, const double *f1, const double *error, const gsl_odeiv2_system *sys,
-               gsl_odeiv2_step *step);
+               const double *y1, const double *f1, const gsl_odeiv2_system *sys, gsl_odeiv2_step *step);
+
+/* For steps of a multistep method, whose errors of q and v are independent of each other: `errors`, to stay
+ * where they are, hold those of y1 from now on. */
+void dense_set_errors(struct dense *dense, const double *errors);
 
 /* y at time t; bit for bit y0 at t0 and y1 at t1. GSL_SUCCESS, or the code of a right-hand side that failed
  * inside of the step; then y is not touched. */

@@ -99,6 +99,7 @@ struct stepper *stepper_alloc(const struct stepper_options *options)
         stepper_free(s);
         return NULL;
     }
+    if (method->multistep) dense_set_errors(s->dense, s->yerr);
     return s;
 }
 
@@ -241,8 +242,7 @@ static void keep(struct stepper *s, struct counted_system *system, double t0, do
     memcpy(s->y1, y, s->n * sizeof *y);
     memcpy(s->f1, f, s->n * sizeof *f);
     weights_update(s->control, y, f);
-    dense_set(s->dense, s->method->order, t0, s->y0, s->f0, t1, s->y1, s->f1,
-              s->method->multistep ? s->yerr : NULL, &system->gsl, s->step);
+    dense_set(s->dense, s->method->order, t0, s->y0, s->f0, t1, s->y1, s->f1, &system->gsl, s->step);
     if (s->history) history_add(s->history, t1, y);
     s->system = system;
     s->stepped = true;

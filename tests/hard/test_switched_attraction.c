@@ -78,7 +78,7 @@ static void no_passage_is_missed(void **unused)
             struct trial trial = trial_open("hard/switched_attraction.yaml", SET(forces[k]));
             hard_start(&trial, &method, NAN);
             if (hard_done(&checks, &trial)) {
-                double v = reference(atof(forces[k] + 2), 0.5, 30, &passages);
+                double v = reference(strtod(forces[k] + 2, NULL), 0.5, 30, &passages);
                 check_that(&checks, "all passages", hard_count(&trial, FBD_EVENT_SWITCH) == passages);
                 hard_case(&checks, &trial, "speed after hundreds of passages",
                           fabs(trial_get(&trial, "v") - v),

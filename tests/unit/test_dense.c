@@ -76,7 +76,7 @@ static void errors(struct layout layout, int order, double h, double worst[size]
     rhs(t0, y0, f0, &problem);
     rhs(t0 + h, y1, f1, &problem);
     struct dense *dense = dense_alloc(&layout);
-    dense_set(dense, order, t0, y0, f0, t0 + h, y1, f1, NULL, &sys, NULL);
+    dense_set(dense, order, t0, y0, f0, t0 + h, y1, f1, &sys, NULL);
     for (int i = 0; i < size; i++) worst[i] = 0;
     for (int k = 1; k < 64; k++) {
         double t = t0 + h * k / 64;
@@ -150,7 +150,7 @@ static void swing_errors(int order, double h, double worst[2], long *calls)
     swing(0, y0, f0, &count);
     swing(h, y1, f1, &count);
     struct dense *dense = dense_alloc(&layout);
-    dense_set(dense, order, 0, y0, f0, h, y1, f1, NULL, &sys, NULL);
+    dense_set(dense, order, 0, y0, f0, h, y1, f1, &sys, NULL);
     count = 0;
     assert_int_equal(dense_eval(dense, h / 2, y), GSL_SUCCESS);
     *calls = count;
@@ -208,7 +208,7 @@ static void the_ends_are_exact_and_cost_nothing(void **state)
     double y[size];
     struct dense *dense = dense_alloc(&layout);
     for (int order = 1; order <= 8; order++) {
-        dense_set(dense, order, 0.1, y0, f, 0.4, y1, f, NULL, &sys, NULL);
+        dense_set(dense, order, 0.1, y0, f, 0.4, y1, f, &sys, NULL);
         assert_int_equal(dense_eval(dense, 0.1, y), GSL_SUCCESS);
         assert_memory_equal(y, y0, sizeof y);
         assert_int_equal(dense_eval(dense, 0.4, y), GSL_SUCCESS);
@@ -231,7 +231,7 @@ static void a_failing_right_hand_side_is_reported(void **state)
     const double y0[size] = {0}, f[size] = {0};
     double y[size] = {1, 2, 3};
     struct dense *dense = dense_alloc(&layout);
-    dense_set(dense, 8, 0, y0, f, 1, y0, f, NULL, &sys, NULL);
+    dense_set(dense, 8, 0, y0, f, 1, y0, f, &sys, NULL);
     assert_int_equal(dense_eval(dense, 0.5, y), 33);
     assert_true(y[0] == 1 && y[1] == 2 && y[2] == 3);
     problem.code = GSL_SUCCESS;
@@ -252,7 +252,7 @@ static void dop853_answers_by_itself(void **state)
     memcpy(y1, y0, sizeof y1);
     gsl_odeiv2_step_apply(step, 0, 0.2, y1, yerr, f0, f1, &sys);
     struct dense *dense = dense_alloc(&layout);
-    dense_set(dense, 8, 0, y0, f0, 0.2, y1, f1, NULL, &sys, step);
+    dense_set(dense, 8, 0, y0, f0, 0.2, y1, f1, &sys, step);
     problem.calls = 0;
     assert_int_equal(dense_eval(dense, 0.05, y), GSL_SUCCESS);
     assert_int_equal(problem.calls, 3);
@@ -273,7 +273,7 @@ static void rounding_of_a_large_coordinate_is_not_seen_in_the_velocity(void **st
     const double f0[2] = {10, a}, f1[2] = {10 + h * a, a};
     double y[2];
     struct dense *dense = dense_alloc(&layout);
-    dense_set(dense, 4, 0, y0, f0, h, y1, f1, NULL, NULL, NULL);
+    dense_set(dense, 4, 0, y0, f0, h, y1, f1, NULL, NULL);
     for (int k = 1; k < 16; k++) {
         assert_int_equal(dense_eval(dense, h * k / 16, y), GSL_SUCCESS);
         assert_true(fabs(y[1] - (10 + a * h * k / 16)) < 16 * DBL_EPSILON * 10);
