@@ -151,11 +151,12 @@ void run_apply_touched(struct run *run, bool at_event)
 
 static void fail_chatter(struct run *run, const char *name)
 {
-    run_fail(run, FBD_FAILED,
-             "at t = %.9g events chatter: `%s` changes its branch again and again while no time passes. A "
-             "force that "
-             "jumps against the motion, as c*sign(v), is dry friction: declare it as `friction`",
-             run->state->t, name);
+    run_fail(
+        run, FBD_FAILED,
+        "at t = %.9g events chatter: `%s` changes its branch again and again while hardly any time passes. A "
+        "force that "
+        "jumps against the motion, as c*sign(v), is dry friction: declare it as `friction`",
+        run->state->t, name);
 }
 
 /* A switch that has just been crossed and whose new branch already ends: the forces on both sides push back
@@ -181,6 +182,21 @@ static void refuse_sliding(struct run *run, const bool *moving)
     }
 }
 
+/* What the last event was about. */
+static const char *name_of_last(const struct run *run)
+{
+    static const struct run_event nothing = {.load = -1, .watch = -1};
+    const struct run_event *event = run->event_count > 0 ? &run->events[run->event_count - 1] : &nothing;
+    return event->load >= 0    ? run->model->loads[event->load].source->name
+           : event->watch >= 0 ? run->model->plan.watches[event->watch].source->name
+                               : "an expression";
+}
+
+void run_fail_chatter(struct run *run)
+{
+    fail_chatter(run, name_of_last(run));
+}
+
 /* Events that crowd at one instant never let time pass: a sliding mode that no friction entry declares, or an
  * infinite sequence. */
 static void count_crowd(struct run *run)
@@ -190,12 +206,27 @@ static void count_crowd(struct run *run)
     run->crowd = run->state->t - run->last_event <= span ? run->crowd + 1 : 0;
     run->last_event = run->state->t;
     if (run->crowd < most_at_once || run->outcome != FBD_GOING) return;
-    static const struct run_event nothing = {.load = -1, .watch = -1};
-    const struct run_event *event = run->event_count > 0 ? &run->events[run->event_count - 1] : &nothing;
-    const char *name = event->load >= 0    ? run->model->loads[event->load].source->name
-                       : event->watch >= 0 ? run->model->plan.watches[event->watch].source->name
-                                           : "an expression";
-    fail_chatter(run, name);
+    run_fail_chatter(run);
+}
+
+/* A motion that passes a switch ever slower and ever more often, as a body that a force of constant size
+ * attracts to a point and a damper slows down, never gets done with it: events by the hundred thousand while
+ * coordinates stay within a part in a million, and speeds in a thousand, of what they have been. */
+static void count_around(struct run *run)
+{
+    enum { most_around = 100000 };
+    const double place = 1e-6, speed = 1e-3;
+    size_t n = (size_t)run->model->plan.n;
+    double *anchor = run->anchor;
+    const double *most = anchor + 2 * n;
+    bool away = false;
+    for (size_t i = 0; i < 2 * n; i++) {
+        double y = run->state->y[i];
+        away |= i < n ? fabs(y - anchor[i]) > place * most[i] : fabs(y) > speed * most[i];
+    }
+    if (away) memcpy(anchor, run->state->y, 2 * n * sizeof *anchor);
+    run->around = away ? 0 : run->around + 1;
+    if (run->around > most_around && run->outcome == FBD_GOING) run_fail_chatter(run);
 }
 
 void run_apply(struct run *run, const bool *timed, const bool *moving)
@@ -223,4 +254,5 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     run_check_contacts(run);
     run->restart = true;
     if (run->outcome == FBD_GOING) count_crowd(run);
+    if (moving) count_around(run);
 }

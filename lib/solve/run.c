@@ -33,11 +33,19 @@ static int sample_timed(void *context, double t, double *values, double *rate)
     return 0;
 }
 
+/* At the start of a step no function has passed its end: one that is negative has just come from there, or
+ * goes there, and is off by the rounding of the instant. Left so, one that rises would hide a zero before the
+ * first sample, when the motion turns back at once, and one that falls would never be seen again, with its
+ * branch on the wrong side for good. As zero the first is looked at like others and the second crosses here.
+ */
 static int sample_moving(void *context, double t, double *values, double *rate)
 {
     struct run *run = context;
     if (switcher_dense(run->stepper, t, run->sample) != GSL_SUCCESS) return -1;
     watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, t, run->sample, values, rate);
+    if (t == run->from)
+        for (size_t i = 0; i < run->moving.count; i++)
+            if (values[i] < 0) values[i] = 0;
     return 0;
 }
 
@@ -94,8 +102,9 @@ static bool make_run(struct run *run)
     run->f = run->y + 2 * n;
     run->sample = run->f + 2 * n;
     run->values = calloc(2 * run->moving.count + 1, sizeof *run->values);
+    run->anchor = calloc(4 * n + 1, sizeof *run->anchor);
     run->arrows = calloc(diagram_most_arrows(run->model), sizeof *run->arrows);
-    if (!run->values || !run->arrows) return false;
+    if (!run->values || !run->anchor || !run->arrows) return false;
     gsl_odeiv2_system system = {rates, jacobian, 2 * n, run};
     counted_system_init(&run->system, &system);
     return make_decided(&run->decided, plan) && make_stepper(run);
@@ -146,6 +155,7 @@ void run_free(struct run *run)
     free(run->events);
     free(run->y);
     free(run->values);
+    free(run->anchor);
     free(run->arrows);
     free(run);
 }
@@ -288,6 +298,8 @@ static int find_event(struct run *run, double *t)
 static void accept(struct run *run, double t)
 {
     size_t n = (size_t)run->model->plan.n;
+    double *most = run->anchor + 2 * n;
+    for (size_t i = 0; i < 2 * n; i++) most[i] = fmax(most[i], fabs(run->state->y[i]));
     run->state->t = t;
     memset(run->watchers.fired, 0, run->model->plan.watch_count * sizeof *run->watchers.fired);
     memcpy(run->state->y, run->y, 2 * n * sizeof *run->y);
@@ -339,7 +351,10 @@ fbd_outcome run_advance(struct run *run)
     }
     accept(run, t);
     if (crawls(run)) {
-        run_fail_step(run, stepper_underflow);
+        if (run->crowd > 0)
+            run_fail_chatter(run);
+        else
+            run_fail_step(run, stepper_underflow);
         return run->outcome;
     }
     timed = timed && t == limit;

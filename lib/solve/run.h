@@ -62,6 +62,8 @@ struct run {
     size_t event_count, event_room;
     double last_event; /* time of the last one; events that crowd at one instant are counted */
     int crowd;
+    double *anchor; /* 4 n: the state around which events have happened lately; the largest |y_i| so far */
+    int around;     /* how many */
 };
 
 /* A run at the start of the model, modes settled, events of t = 0 applied. NULL when memory is out. */
@@ -97,6 +99,7 @@ void run_set_noise(struct run *run);
 /* End the run with a reason. */
 void run_fail_step(struct run *run, enum stepper_status status);
 void run_fail_pole(struct run *run, const struct pole *pole);
+void run_fail_chatter(struct run *run);
 void run_fail(struct run *run, fbd_outcome outcome, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

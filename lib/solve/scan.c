@@ -238,15 +238,6 @@ static int look(struct scan *scan, struct scan_point *a, struct scan_point *b, i
     return status ? status : look(scan, m, b, depth + 1);
 }
 
-/* At the start no function has passed its end; one that is negative and rises has just come from there, and
- * is off by the rounding of the instant. Left so, it would hide a zero before the first sample, when the
- * motion turns back at once. */
-static void start_inside(const struct scan *scan, struct scan_point *a)
-{
-    for (size_t i = 0; i < scan->count; i++)
-        if (a->values[i] < 0 && a->rates[i] > 0) a->values[i] = 0;
-}
-
 int scan_interval(struct scan *scan, double from, double to)
 {
     struct scan_point *a = &scan->points[0], *b = &scan->points[1], *m = &scan->points[2];
@@ -255,7 +246,6 @@ int scan_interval(struct scan *scan, double from, double to)
     scan->most = scan->samples + most_samples;
     if (scan->count == 0) return 0;
     int status = take_sample(scan, a, from);
-    start_inside(scan, a);
     if (!status) status = take_sample(scan, b, to);
     /* Not the middle: a periodic function would fool it most easily there. */
     if (!status) status = take_sample(scan, m, from + 0.4690 * (to - from));

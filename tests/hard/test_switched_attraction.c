@@ -90,10 +90,27 @@ static void no_passage_is_missed(void **unused)
     checks_end(&checks);
 }
 
+/* Twelve times as strong a damper leaves 1e-9 m/s after 10 s, and 1e9 passages in each second: nobody waits
+ * for that, and the run must say so. */
+static void what_never_gets_done_is_refused(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct trial trial = trial_open("hard/switched_attraction.yaml", SET("c=6"));
+    hard_start(&trial, NULL, NAN);
+    check_that(&checks, "the run fails", hard_finish(&trial) == FBD_FAILED);
+    check_that(&checks, "as events chatter about the pull",
+               strstr(fbd_simulation_reason(trial.simulation), "events chatter: `pull`"));
+    hard_case(&checks, &trial, "place where it gives up", fabs(trial_get(&trial, "x")), 1e-6);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_passage_is_missed),
+        cmocka_unit_test(what_never_gets_done_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
