@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dynamics/absolute.h"
+
 /* A divisor below this part of its largest size is zero unless there is a pole. */
 static const double negligible = 1e-12;
 
@@ -38,12 +40,14 @@ void poles_free(struct poles *poles)
     *poles = (struct poles){0};
 }
 
-static void divisors_at(const struct plan *plan, const struct instant *at, const double *dy, double *divisors,
-                        double *rates)
+/* At an instant and along a direction that are extended (absolute.h). */
+static void divisors_at(const struct plan *plan, const struct instant *at, const struct direction *along,
+                        double *divisors, double *rates)
 {
     for (size_t i = 0; i < plan->pole_count; i++) {
         const struct formula *formula = &plan->poles[i].formula;
-        expr_divisors(formula->expr, at->t, at->y, 1, dy, formula_branches(formula, at), divisors, rates);
+        expr_divisors(formula->expr, at->t, at->y, along->dt, along->dy, formula_branches(formula, at),
+                      divisors, rates);
         divisors += plan->poles[i].count;
         rates += plan->poles[i].count;
     }
@@ -79,11 +83,11 @@ double poles_longest_step(struct poles *poles, const struct fbd_state *state, co
     double longest = HUGE_VAL;
     *nearest = NULL;
     if (poles->count == 0) return longest;
-    struct instant at = state_instant(state);
+    struct instant now = state_instant(state), at = instant_extend(state->model, &now);
     memcpy(poles->dy, state->y + n, n * sizeof(double));
     memcpy(poles->dy + n, state->a, n * sizeof(double));
-    const struct direction flow = {1, poles->dy};
-    divisors_at(plan, &at, poles->dy, poles->start, poles->rate);
+    const struct direction motion = {1, poles->dy}, flow = direction_extend(state->model, &at, &motion);
+    divisors_at(plan, &at, &flow, poles->start, poles->rate);
     for (size_t i = 0; i < plan->pole_count; i++) {
         double change;
         formula_along(&plan->poles[i].formula, &at, &flow, &change);
@@ -114,8 +118,10 @@ bool poles_passed(struct poles *poles, const struct fbd_state *during, double h,
     const double too_deep = 0.2;
     const struct plan *plan = &during->model->plan;
     if (poles->count == 0) return false;
-    struct instant at = {t, y, during->branch, during->slip, during->pull};
-    divisors_at(plan, &at, f, poles->end, poles->end_rate);
+    struct instant end = {t, y, during->branch, during->slip, during->pull, during->tree, during->extended};
+    struct instant at = instant_extend(during->model, &end);
+    const struct direction motion = {1, f}, flow = direction_extend(during->model, &at, &motion);
+    divisors_at(plan, &at, &flow, poles->end, poles->end_rate);
     for (size_t i = 0; i < poles->count; i++) {
         double a = poles->start[i], b = poles->end[i], side = a < 0 ? -1 : 1;
         bool zero = fabs(a) <= negligible * poles->most[i] && !poles->grows[i];
