@@ -20,7 +20,8 @@ struct row {
     bool moment;
 };
 
-static const char *unit_of(const struct fbd_model *model, bool moment, const char *const si[2], const char *const us[2])
+static const char *unit_of(const struct fbd_model *model, bool moment, const char *const si[2],
+                           const char *const us[2])
 {
     return model->scene->units == unit_si ? si[moment] : us[moment];
 }
