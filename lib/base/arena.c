@@ -13,7 +13,9 @@ struct arena_chunk {
     max_align_t data[];
 };
 
-enum { chunk_size = 16384 };
+/* Chunks grow from the first to the largest, since many an arena holds no more than one expression and all of
+ * a chunk is cleared. */
+enum { first_chunk = 512, largest_chunk = 16384 };
 
 static size_t round_up(size_t size)
 {
@@ -31,7 +33,9 @@ void *arena_array(struct arena *arena, size_t count, size_t size)
     size_t wanted = round_up(bytes > 0 ? bytes : 1);
     struct arena_chunk *chunk = arena->chunks;
     if (!chunk || chunk->size - chunk->used < wanted) {
-        size_t room = wanted > chunk_size ? wanted : chunk_size;
+        size_t next = chunk ? 4 * chunk->size : first_chunk;
+        size_t room = next < largest_chunk ? next : largest_chunk;
+        if (room < wanted) room = wanted;
         chunk = calloc(1, sizeof *chunk + room);
         if (!chunk) {
             arena->failed = true;

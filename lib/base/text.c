@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/text.h"
 
-#include <locale.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -50,18 +50,23 @@ void text_printf(struct text *text, const char *format, ...)
     va_end(again);
 }
 
+/* printf writes the decimal point of the locale, which is all in a finite number that is no digit, sign or
+ * exponent. (localeconv, which knows it, must not be called from several threads.) */
+static void set_point(char *number)
+{
+    char *found = number + strspn(number, "+-0123456789");
+    if (*found == '\0' || *found == 'e' || *found == '.') return;
+    size_t width = strcspn(found, "0123456789");
+    *found = '.';
+    memmove(found + 1, found + width, strlen(found + width) + 1);
+}
+
 void text_number(struct text *text, double value, int digits)
 {
     char buffer[64];
     double shown = value == 0 ? 0.0 : value; /* -0 and 0 read the same */
-    int length = snprintf(buffer, sizeof buffer, "%.*g", digits, shown);
-    if (length < 0) return;
-    const char *point = localeconv()->decimal_point;
-    char *found = point[0] != '.' || point[1] ? strstr(buffer, point) : NULL;
-    if (found) {
-        *found = '.';
-        memmove(found + 1, found + strlen(point), strlen(found + strlen(point)) + 1);
-    }
+    if (snprintf(buffer, sizeof buffer, "%.*g", digits, shown) < 0) return;
+    if (isfinite(value)) set_point(buffer);
     text_add(text, buffer);
 }
 

@@ -266,6 +266,13 @@ static struct symbol load_symbol(const struct names *names, const char *name)
     return (struct symbol){.kind = symbol_constant, .dim = DIM_MASS, .value = draft->mass};
 }
 
+static struct symbol other_symbol(const struct names *names, const char *name)
+{
+    if (names->place == place_load) return load_symbol(names, name);
+    if (names->place == place_hand) return hand_symbol(names, name);
+    return unknown;
+}
+
 static struct symbol look_up(void *context, const char *name, struct pos at)
 {
     const struct names *names = context;
@@ -278,9 +285,9 @@ static struct symbol look_up(void *context, const char *name, struct pos at)
     const struct pair *pair = node_find(reader->parameters, name);
     if (pair) return parameter_symbol(reader, (size_t)(pair - reader->parameters->pairs), at);
     if (strcmp(name, "g") == 0) return gravity_symbol(reader, at);
-    if (names->place == place_load) return load_symbol(names, name);
-    if (names->place == place_hand) return hand_symbol(names, name);
-    return unknown;
+    struct symbol other = other_symbol(names, name);
+    if (other.kind == symbol_constant) reader->varies = true; /* who knows what it was made of */
+    return other;
 }
 
 /* ---- names for hints */

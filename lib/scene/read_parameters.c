@@ -50,10 +50,13 @@ static bool apply_overrides(struct reader *reader, const struct override *overri
     for (size_t i = 0; i < count; i++) {
         const struct node *map = reader->parameters;
         const struct pair *pair = map ? node_find(map, overrides[i].name) : NULL;
-        if (pair)
-            reader->definitions[pair - map->pairs].override = &overrides[i];
-        else
+        struct definition *definition = pair ? &reader->definitions[pair - map->pairs] : NULL;
+        if (definition) {
+            definition->override = overrides[i].value ? &overrides[i] : NULL;
+            definition->varies = !overrides[i].value;
+        } else {
             note_unknown_override(reader, &overrides[i]);
+        }
     }
     return !reader->arena->failed;
 }
@@ -212,8 +215,12 @@ static void resolve(struct reader *reader, size_t index, struct pos at)
     if (definition->progress != untouched) return;
     definition->progress = failed;
     if (!open_definition(reader, &open, reader->scene->parameters[index].name, at)) return;
+    bool outer = reader->varies;
+    reader->varies = false;
     definition->progress = in_progress;
     definition->progress = evaluate(reader, index) ? done : failed;
+    definition->varies |= reader->varies;
+    reader->varies = outer;
     close_definition(reader, &open);
 }
 
@@ -223,6 +230,7 @@ struct symbol parameter_symbol(struct reader *reader, size_t index, struct pos a
     parameter->used = true;
     resolve(reader, index, at);
     enum progress progress = reader->definitions[index].progress;
+    if (reader->definitions[index].varies) reader->varies = true;
     if (progress == in_progress) note_circle(reader, parameter->name, at);
     if (progress != done) return (struct symbol){.kind = symbol_failed};
     return (struct symbol){.kind = symbol_constant,
@@ -285,11 +293,16 @@ struct symbol gravity_symbol(struct reader *reader, struct pos at)
     if (reader->gravity_progress == untouched) {
         reader->gravity_progress = failed;
         if (open_definition(reader, &open, "gravity", at)) {
+            bool outer = reader->varies;
+            reader->varies = false;
             reader->gravity_progress = in_progress;
             reader->gravity_progress = read_gravity(reader) ? done : failed;
+            reader->gravity_varies = reader->varies;
+            reader->varies = outer;
             close_definition(reader, &open);
         }
     }
+    if (reader->gravity_varies) reader->varies = true;
     if (reader->gravity_progress != done) return (struct symbol){.kind = symbol_failed};
     return (struct symbol){.kind = symbol_constant,
                            .dim = DIM_ACCELERATION,

@@ -15,6 +15,7 @@
 #include "scene/language.h"
 #include "scene/names.h"
 #include "scene/node.h"
+#include "scene/programs.h"
 #include "scene/scene.h"
 
 enum progress { untouched, in_progress, done, failed };
@@ -24,6 +25,7 @@ struct definition {
     const struct node *node;
     const struct override *override; /* or NULL */
     enum progress progress;
+    bool varies; /* from reading to reading: it does itself, or names what does */
 };
 
 /* A definition that is being evaluated, for naming a circle. */
@@ -61,6 +63,7 @@ struct reader {
 
     /* Mappings of the file, or NULL. Entry i of a mapping is parameter, body, point or line i. */
     const struct node *root, *parameters, *bodies, *points, *lines;
+    bool without_hands; /* derivations are left unread */
     struct definition *definitions;
     struct draft *drafts;
     struct ground_point *ground_points;
@@ -68,8 +71,13 @@ struct reader {
 
     const struct node *gravity;
     enum progress gravity_progress;
+    bool gravity_varies;
     const struct open_definition *open;
     int open_depth;
+
+    const struct programs *known; /* of an earlier reading of the same file, or NULL */
+    struct programs *keep;        /* where those go that hold for later readings, or NULL */
+    bool varies;                  /* the expression that is being compiled names what varies */
 
     struct names constant_names;
     struct scope constants; /* parameters, g, pi */

@@ -3,6 +3,7 @@
 
 #include "scene/fields.h"
 #include "scene/node.h"
+#include "scene/programs.h"
 #include "scene/reader.h"
 #include "scene/values.h"
 
@@ -117,7 +118,8 @@ static void read_bodies(struct reader *reader)
     if (!number_coordinates(reader)) return;
     for (int b = 0; b < count && !is_hopeless(reader); b++) {
         bool initial = body_initial_read(reader, b);
-        bool loads = body_loads_read(reader, b), hand = body_hand_read(reader, b);
+        bool loads = body_loads_read(reader, b);
+        bool hand = reader->without_hands || body_hand_read(reader, b);
         if (!initial || !loads || !hand) scene->bodies[b].complete = false;
     }
 }
@@ -165,24 +167,68 @@ static struct scene *new_scene(const char *file, fbd_errors *errors)
     return scene;
 }
 
+bool document_open(struct document *document, const char *text, size_t length, const char *file,
+                   fbd_errors *errors)
+{
+    struct source source;
+    *document = (struct document){.file = file};
+    errors->file = file ? diag_hint(errors, "%s", file) : NULL;
+    if (!source_open(text, length, errors, &source)) return false;
+    document->root = node_read(&document->arena, &source, errors);
+    if (document->arena.failed) diag_out_of_memory(errors);
+    return document->root != NULL;
+}
+
+void document_close(struct document *document)
+{
+    if (document->programs) programs_free(document->programs);
+    free(document->programs);
+    scene_free(document->first);
+    arena_free(&document->arena);
+}
+
+static struct scene *make(const struct document *document, const struct override *overrides,
+                          size_t override_count, struct programs *keep, fbd_errors *errors)
+{
+    const char *file = document->file;
+    errors->file = file ? diag_hint(errors, "%s", file) : NULL;
+    struct scene *scene = new_scene(file, errors);
+    if (!scene) return NULL;
+    struct reader reader = {.scene = scene, .arena = &scene->arena, .errors = errors, .root = document->root};
+    reader.without_hands = document->without_hands;
+    reader.known = document->programs;
+    reader.keep = keep;
+    if (check_root(&reader)) read_scene(&reader, overrides, override_count);
+    if (scene->arena.failed || errors->arena.failed) diag_out_of_memory(errors);
+    if (scene->coordinates && !errors->out_of_memory) return scene;
+    scene_free(scene);
+    return NULL;
+}
+
+bool document_prepare(struct document *document, const struct override *overrides, size_t override_count,
+                      fbd_errors *errors)
+{
+    struct programs *programs = calloc(1, sizeof *programs);
+    if (!programs) diag_out_of_memory(errors);
+    if (programs) document->first = make(document, overrides, override_count, programs, errors);
+    document->programs = programs;
+    return document->first && fbd_errors_failed(errors) == 0;
+}
+
+struct scene *scene_make(const struct document *document, const struct override *overrides,
+                         size_t override_count, fbd_errors *errors)
+{
+    return make(document, overrides, override_count, NULL, errors);
+}
+
 struct scene *scene_read(const char *text, size_t length, const char *file, const struct override *overrides,
                          size_t override_count, fbd_errors *errors)
 {
-    struct arena tree = {0};
-    struct source source;
-    errors->file = file ? diag_hint(errors, "%s", file) : NULL;
-    if (!source_open(text, length, errors, &source)) return NULL;
-    struct scene *scene = new_scene(file, errors);
-    if (!scene) return NULL;
-    struct reader reader = {.scene = scene, .arena = &scene->arena, .errors = errors};
-    reader.root = node_read(&tree, &source, errors);
-    if (reader.root && check_root(&reader)) read_scene(&reader, overrides, override_count);
-    if (scene->arena.failed || tree.failed || errors->arena.failed) diag_out_of_memory(errors);
-    bool read = reader.root && scene->coordinates && !errors->out_of_memory;
-    arena_free(&tree);
-    if (read) return scene;
-    scene_free(scene);
-    return NULL;
+    struct document document;
+    bool open = document_open(&document, text, length, file, errors);
+    struct scene *scene = open ? scene_make(&document, overrides, override_count, errors) : NULL;
+    document_close(&document);
+    return scene;
 }
 
 void scene_free(struct scene *scene)

@@ -274,11 +274,42 @@ struct scene {
 
 /* Parameters set from outside, as text: `--set f1=50 N`. */
 struct override {
-    const char *name, *value;
+    const char *name;
+    const char *value; /* NULL: that of the file, but other readings of the document may have another */
 };
 
-/* Read a model file from memory. Everything wrong with it is noted in `errors` in one go; the result then is
- * NULL or a scene whose faulty bodies are not `complete`. `file` names the text in messages. */
+/* A model file as a tree of its YAML: constant once it is open, shareable by threads. Scenes under other
+ * parameters are made of it without reading the text again. */
+struct programs;
+struct scene;
+
+struct document {
+    struct arena arena;
+    const char *file; /* names the text in messages; may be NULL */
+    const struct node *root;
+    bool without_hands;        /* leave the derivations by hand unread: nothing that moves depends on them */
+    struct programs *programs; /* expressions compiled once for all readings (programs.h), or NULL */
+    struct scene *first;       /* the scene that holds them */
+};
+
+/* Open the file `text`, which must live as long as the document. False with notes in `errors` when it is no
+ * YAML; close it all the same. */
+bool document_open(struct document *document, const char *text, size_t length, const char *file,
+                   fbd_errors *errors);
+void document_close(struct document *document);
+
+/* Read it once to compile what holds for all readings under these overrides, whatever the value of those that
+ * have none here. False with notes in `errors` when the file is wrong. */
+bool document_prepare(struct document *document, const struct override *overrides, size_t override_count,
+                      fbd_errors *errors);
+
+/* What a document means. Everything wrong with it is noted in `errors` in one go; the result then is NULL or
+ * a scene whose faulty bodies are not `complete`. The scene may use
+ * the programs of a document that was prepared: then the document must outlive it. */
+struct scene *scene_make(const struct document *document, const struct override *overrides,
+                         size_t override_count, fbd_errors *errors);
+
+/* Both at once: the scene of a model file in memory. */
 struct scene *scene_read(const char *text, size_t length, const char *file, const struct override *overrides,
                          size_t override_count, fbd_errors *errors);
 

@@ -52,14 +52,35 @@ static void replace_notes(struct reader *reader, const struct node *node, struct
     }
 }
 
+/* The site of an expression; a value from outside has no place in the file, and none here. */
+static struct program_site site_of(const struct node *node, const struct expr_want *want,
+                                   const struct scope *scope)
+{
+    const struct names *names = scope->context;
+    return (struct program_site){node->at.line > 0 ? node : NULL, names->place, names->body, *want};
+}
+
+/* Keep what was compiled, if it is right and holds whatever the parameters that vary. */
+static void keep(struct reader *reader, const struct program *program, const struct diag_note *last)
+{
+    bool noted = reader->errors->last != last;
+    if (reader->keep && program->site.node && !reader->varies && !noted) programs_keep(reader->keep, program);
+}
+
 const struct expr *value_compile(struct reader *reader, const struct node *node, const struct expr_want *want,
                                  const struct scope *scope)
 {
     struct diag_note *last = reader->errors->last;
-    const struct expr *expr =
-        expr_compile(reader->arena, node->text, node->text_at, scope, want, reader->errors);
+    struct program program = {.site = site_of(node, want, scope)};
+    const struct program *known = programs_find(reader->known, &program.site);
+    if (known) return known->left;
+    bool outer = reader->varies;
+    reader->varies = false;
+    program.left = expr_compile(reader->arena, node->text, node->text_at, scope, want, reader->errors);
+    if (program.left) keep(reader, &program, last);
+    reader->varies |= outer;
     replace_notes(reader, node, last);
-    return expr;
+    return program.left;
 }
 
 bool value_relation(struct reader *reader, const struct node *node, const struct expr_want *want,
@@ -67,9 +88,22 @@ bool value_relation(struct reader *reader, const struct node *node, const struct
                     const struct expr **right)
 {
     struct diag_note *last = reader->errors->last;
-    bool fine = expr_compile_relation(reader->arena, node->text, node->text_at, scope, want, reader->errors,
-                                      left, relation, right);
-    replace_notes(reader, node, last);
+    struct program program = {.site = site_of(node, want, scope)};
+    const struct program *known = programs_find(reader->known, &program.site);
+    bool outer = reader->varies, fine = known != NULL;
+    if (known) {
+        program = *known;
+    } else {
+        reader->varies = false;
+        fine = expr_compile_relation(reader->arena, node->text, node->text_at, scope, want, reader->errors,
+                                     &program.left, &program.relation, &program.right);
+        if (fine) keep(reader, &program, last);
+        reader->varies |= outer;
+        replace_notes(reader, node, last);
+    }
+    *left = program.left;
+    *relation = program.relation;
+    *right = program.right;
     return fine;
 }
 
