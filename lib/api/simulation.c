@@ -2,80 +2,18 @@
  *
  * Public interface: simulations and whole runs.
  */
-#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
 #include "output/csv.h"
 #include "output/result.h"
-
-static const double default_tolerance = 1e-10;
-
-static const char automatic[] = "auto";
-
-/* ---- options: what is given, else the file's, else the default */
-
-static const struct method *choose_method(const fbd_model *model, const fbd_options *options,
-                                          fbd_errors *errors)
-{
-    const char *name = options->method ? options->method : model->scene->simulate.method;
-    if (!name || strcmp(name, automatic) == 0) return method_at(0);
-    const struct method *method = method_find(name);
-    if (method) return method;
-    const char *names[32];
-    size_t count = 0;
-    for (; count < sizeof names / sizeof *names && method_at(count); count++)
-        names[count] = method_at(count)->name;
-    bool from_file = !options->method;
-    diag_add(errors, FBD_ERROR, "unknown-method",
-             from_file ? model->scene->simulate.method_at : (struct pos){0, 0},
-             diag_nearest(errors, name, names, count), "there is no method `%s`", name);
-    return NULL;
-}
-
-static void bad_option(fbd_errors *errors, const char *id, const char *hint, const char *message)
-{
-    diag_add(errors, FBD_ERROR, id, (struct pos){0, 0}, hint, "%s", message);
-}
-
-static bool choose(const fbd_model *model, const fbd_options *options, struct run_options *chosen,
-                   fbd_errors *errors)
-{
-    const struct simulate *file = &model->scene->simulate;
-    size_t before = fbd_errors_failed(errors);
-    errors->file = model->scene->file;
-    const char *name = options->method ? options->method : file->method;
-    *chosen = (struct run_options){.method = choose_method(model, options, errors),
-                                   .automatic = !name || strcmp(name, automatic) == 0};
-    chosen->until = !isnan(options->until) ? options->until
-                    : file->until.expr     ? expr_value(file->until.expr)
-                                           : NAN;
-    chosen->tolerance = options->tolerance != 0 ? options->tolerance
-                        : file->tolerance > 0   ? file->tolerance
-                                                : default_tolerance;
-    chosen->step = options->step != 0 ? options->step : file->step;
-    if (isnan(chosen->until))
-        bad_option(errors, "no-end-time", "write `simulate: {until: 2 s}` or give --until",
-                   "the model has no end time");
-    else if (!(chosen->until >= 0) || isinf(chosen->until))
-        bad_option(errors, "bad-option", "runs start at t = 0",
-                   "the end time lies before the start or is not finite");
-    if (!(chosen->tolerance > 0 && chosen->tolerance <= 0.1))
-        bad_option(errors, "bad-option", "1e-10 is the default",
-                   "the tolerance must be above 0 and at most 0.1");
-    else if (chosen->tolerance < DBL_EPSILON)
-        bad_option(errors, "bad-option", "1e-13 is about what a run can keep; 1e-10 is the default",
-                   "the tolerance is below what numbers resolve (2.2e-16)");
-    if (!(chosen->step >= 0) || isinf(chosen->step))
-        bad_option(errors, "bad-option", NULL, "the step size must be positive");
-    return fbd_errors_failed(errors) == before;
-}
+#include "solve/options.h"
 
 fbd_simulation *fbd_simulation_new(const fbd_model *model, const fbd_options *options, fbd_errors *errors)
 {
     struct run_options chosen;
-    if (!choose(model, options, &chosen, errors)) return NULL;
+    if (!options_choose(model, options, &chosen, errors)) return NULL;
     fbd_simulation *simulation = calloc(1, sizeof *simulation);
     if (simulation) simulation->run = run_new(model, &chosen);
     if (!simulation || !simulation->run) {
@@ -166,7 +104,7 @@ fbd_stats fbd_simulation_stats(const fbd_simulation *simulation)
 {
     const struct run *run = simulation->run;
     const struct stepper_counts counts = switcher_counts(run->stepper);
-    fbd_stats stats = {.method = run->options.automatic ? automatic : run->options.method->name,
+    fbd_stats stats = {.method = options_method(&run->options),
                        .stiff_steps = switcher_stiff_steps(run->stepper),
                        .tolerance = run->options.tolerance,
                        .steps = counts.accepted,
