@@ -316,6 +316,115 @@ FBD_API char *fbd_linearization_text(const fbd_linearization *linearization);
  * yes, or by how much and in which term each differs. */
 FBD_API int fbd_check_hand(const fbd_model *model, unsigned seed, char **text);
 
+/* ---------------------------------------------------------------- sweeps */
+
+/* One model under many values of its parameters. */
+typedef struct fbd_sweep fbd_sweep;
+
+/* What varies, and what is noted of each run.
+ *
+ * A text of `vary` is NAME=VALUES or several of them with `;` between, which go side by side. VALUES is a
+ * grid "0.1:0.6:51" (start, stop, how many; with ":log" behind it each is the same multiple of the one
+ * before), a list "1,2,5" or random draws "uniform(1,2):100", "normal(3,0.1):100", "loguniform(1,100):100"; a
+ * number may have a unit, which holds for all of them: "0:90 deg:10". The texts are combined, each value with
+ * each, the last changing fastest; with `zip` all go side by side.
+ *
+ * A text of `outputs` holds names with commas between: t, coordinates and rates ("block.x") at the end of the
+ * run; min(block.x), max(block.x); time(NAME) and count(NAME) of an event of the file, a kind of event or
+ * BODY.KIND; energy.kinetic and its like; block.friction.work; steps, rhs; and the groups final, times,
+ * energy. Without any: final, times. */
+typedef struct fbd_sweep_plan {
+    const char *const *vary;
+    size_t vary_count;
+    bool zip;
+    unsigned long seed; /* of the draws: draw i of a parameter depends on the seed, its name and i alone */
+    const fbd_setting *settings; /* parameters that are set and do not vary */
+    size_t setting_count;
+    const char *const *outputs;
+    size_t output_count;
+    fbd_options run;
+} fbd_sweep_plan;
+
+/* Read a model file ("-" is standard input) or a text, for a sweep. NULL with notes in `errors`: those of a
+ * wrong file or option (see fbd_model_read, fbd_simulation_new), and `bad-vary`, `unknown-parameter`,
+ * `varied-twice`, `unknown-output`. The file must be right with its own values. */
+FBD_API fbd_sweep *fbd_sweep_read(const char *path, const fbd_sweep_plan *plan, fbd_errors *errors);
+FBD_API fbd_sweep *fbd_sweep_parse(const char *text, size_t length, const char *name,
+                                   const fbd_sweep_plan *plan, fbd_errors *errors);
+FBD_API void fbd_sweep_free(fbd_sweep *sweep);
+
+/* How many runs it has. */
+FBD_API size_t fbd_sweep_runs(const fbd_sweep *sweep);
+
+/* The header line of its table, and a text that says all that the rows depend on: two sweeps with equal keys
+ * have equal rows. Both live as long as the sweep. */
+FBD_API const char *fbd_sweep_header(const fbd_sweep *sweep);
+FBD_API const char *fbd_sweep_key(const fbd_sweep *sweep);
+
+/* The text of the model file, for another process. */
+FBD_API const char *fbd_sweep_source(const fbd_sweep *sweep, size_t *length);
+
+/* How far it is. */
+typedef struct fbd_sweep_counts {
+    size_t written; /* rows written by this call */
+    size_t failed;  /* runs among them that came to no good end */
+} fbd_sweep_counts;
+
+/* How the rows of the runs `first` (from 0) to before `end` are made. Rows have the columns of the header;
+ * the first is the number of the run, from 1; the last three are the number of events, the status (done,
+ * stopped, broken, failed, or wrong: a scene that cannot be) and the reason. A field without a value is
+ * empty. Rows are written in order, whole lines, and do not depend on the number of workers. Memory does not
+ * grow with the number of runs. */
+typedef struct fbd_sweep_work {
+    size_t first, end;
+    size_t jobs;      /* threads; 0: as many as there are processors */
+    size_t helpers;   /* other processes that claim shares */
+    fbd_write *write; /* called by one thread at a time, as are `progress` and ... */
+    void *write_context;
+    void (*progress)(void *context, const fbd_sweep_counts *counts); /* after rows were written; or NULL */
+    void *progress_context;
+    bool (*stop)(
+        void *context); /* ... but not `stop`, which any thread asks in each step: true ends it; or NULL */
+    void *stop_context;
+} fbd_sweep_work;
+
+typedef enum fbd_sweep_end {
+    FBD_SWEEP_DONE,
+    FBD_SWEEP_STOPPED, /* `stop` said so; whole rows up to some run were written */
+    FBD_SWEEP_REFUSED, /* `write` said so */
+    FBD_SWEEP_OUT_OF_MEMORY,
+} fbd_sweep_end;
+
+/* Make the rows and wait for them. */
+FBD_API fbd_sweep_end fbd_sweep_run(const fbd_sweep *sweep, const fbd_sweep_work *work,
+                                    fbd_sweep_counts *counts);
+
+/* The same with the help of other processes. fbd_sweep_start begins with the threads and returns; shares are
+ * then claimed and delivered by the caller; fbd_sweep_finish makes what is left, waits and frees. */
+typedef struct fbd_sweep_crew fbd_sweep_crew;
+
+/* A share of the rows: runs `first` to before `end`; `ticket` is the crew's. */
+typedef struct fbd_sweep_share {
+    size_t first, end;
+    void *ticket;
+} fbd_sweep_share;
+
+/* NULL when memory is out. Sweep and work must outlive the crew. */
+FBD_API fbd_sweep_crew *fbd_sweep_start(const fbd_sweep *sweep, const fbd_sweep_work *work);
+
+/* 1: *share is claimed for a helper of `jobs` threads; 0: none now, since earlier rows are missing; -1: there
+ * will be none any more. Does not wait. */
+FBD_API int fbd_sweep_claim(fbd_sweep_crew *crew, size_t jobs, fbd_sweep_share *share);
+
+/* The rows of a claimed share; fewer than it has stop the sweep after them. */
+FBD_API void fbd_sweep_deliver(fbd_sweep_crew *crew, const fbd_sweep_share *share, const char *rows,
+                               size_t length, const fbd_sweep_counts *counts);
+
+/* True when all rows are written or no more will be. */
+FBD_API bool fbd_sweep_over(fbd_sweep_crew *crew);
+
+FBD_API fbd_sweep_end fbd_sweep_finish(fbd_sweep_crew *crew, fbd_sweep_counts *counts);
+
 FBD_API const char *fbd_version(void);
 
 #ifdef __cplusplus

@@ -2,48 +2,11 @@
  *
  * Public interface: models from files and texts, and what they contain.
  */
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "model/model.h"
-
-enum { largest_file = 64 * 1024 * 1024 };
-
-static void cannot_read(fbd_errors *errors, const char *path, const char *why)
-{
-    errors->file = diag_hint(errors, "%s", path);
-    diag_add(errors, FBD_ERROR, "cannot-read", (struct pos){0, 0}, NULL, "cannot read the file: %s", why);
-}
-
-/* The whole of a stream, or NULL with *why. */
-static char *read_stream(FILE *stream, size_t *length, const char **why)
-{
-    size_t room = 16384;
-    char *text = NULL;
-    *length = 0;
-    for (;;) {
-        char *more = realloc(text, room);
-        if (!more) break;
-        text = more;
-        *length += fread(text + *length, 1, room - *length, stream);
-        if (*length < room) {
-            *why = ferror(stream) ? strerror(errno) : NULL;
-            if (!*why) return text;
-            free(text);
-            return NULL;
-        }
-        if (room > largest_file) {
-            free(text);
-            *why = "it is larger than 64 MiB";
-            return NULL;
-        }
-        room *= 2;
-    }
-    free(text);
-    *why = "out of memory";
-    return NULL;
-}
 
 /* `text` is taken over. */
 static fbd_model *compile(char *text, size_t length, const char *name, const fbd_setting *settings,
@@ -84,21 +47,9 @@ fbd_model *fbd_model_parse(const char *text, size_t length, const char *name, co
 fbd_model *fbd_model_read(const char *path, const fbd_setting *settings, size_t setting_count,
                           fbd_errors *errors)
 {
-    bool standard = strcmp(path, "-") == 0;
-    FILE *stream = standard ? stdin : fopen(path, "rb");
-    if (!stream) {
-        cannot_read(errors, path, strerror(errno));
-        return NULL;
-    }
     size_t length;
-    const char *why = NULL;
-    char *text = read_stream(stream, &length, &why);
-    if (!standard) fclose(stream);
-    if (!text) {
-        cannot_read(errors, path, why);
-        return NULL;
-    }
-    return compile(text, length, standard ? "<stdin>" : path, settings, setting_count, errors);
+    char *text = file_text(path, &length, errors);
+    return text ? compile(text, length, file_name(path), settings, setting_count, errors) : NULL;
 }
 
 void fbd_model_free(fbd_model *model)

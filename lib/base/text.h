@@ -14,6 +14,9 @@ struct text {
     bool failed; /* memory ran out; later additions are ignored */
 };
 
+/* Room for `more` bytes and the end; false when memory is out. */
+bool text_reserve(struct text *text, size_t more);
+
 void text_add(struct text *text, const char *string);
 void text_add_bytes(struct text *text, const char *bytes, size_t length);
 void text_printf(struct text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Files as texts.
+ */
+#ifndef FBD_BASE_FILE_H
+#define FBD_BASE_FILE_H
+
+#include "fbd.h"
+
+/* The whole of a file ("-" is standard input), to be freed with free(); NULL with a note `cannot-read`. */
+char *file_text(const char *path, size_t *length, fbd_errors *errors);
+
+/* What messages call it. */
+const char *file_name(const char *path);
+
+#endif

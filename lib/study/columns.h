@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Columns: what a sweep notes of each run. They have the names of fbd-run's CSV where it has them:
+ *
+ *     t, block.x, block.v          at the end of the run
+ *     min(block.x), max(block.v)   over the run
+ *     time(land), count(land)      of an event of the file: when first, how often; also of a kind of event,
+ *                                  time(stick), and of one body, time(block.stick)
+ *     energy.kinetic, .potential, .work, .residual    at the end
+ *     block.friction.work          what a force or moment has done
+ *     steps, rhs                   what the run has cost
+ *
+ * and in groups: `final` (t, all coordinates and rates), `times` (when each event of the file happened
+ * first), `energy` (all four).
+ */
+#ifndef FBD_STUDY_COLUMNS_H
+#define FBD_STUDY_COLUMNS_H
+
+#include "base/text.h"
+#include "output/ledger.h"
+#include "study/extremes.h"
+
+struct column {
+    const char *title; /* as in the header, with its unit */
+    enum column_kind {
+        column_t,
+        column_final,   /* y[index] */
+        column_extreme, /* extremes[index] */
+        column_time,
+        column_count,
+        column_energy, /* index: 0 kinetic, 1 potential, 2 work, 3 residual */
+        column_work,   /* of load `index` */
+        column_steps,
+        column_rhs,
+    } kind;
+    int index;
+    /* time, count: of which events; -1 for any */
+    int event, body, watch;
+};
+
+struct columns {
+    struct column *list;
+    size_t count, room;
+    struct extreme *extremes; /* what is looked for; each run has its own values */
+    size_t extreme_count;
+    bool ledger; /* energies or works are wanted */
+};
+
+/* Read lists of names, separated by commas; without any, `final` and `times`. False with notes in `errors`
+ * (id `unknown-output`). Memory comes from `arena`. */
+bool columns_read(struct columns *columns, struct arena *arena, const struct fbd_model *model,
+                  const char *const *texts, size_t count, fbd_errors *errors);
+
+/* What was seen of a run. */
+struct observed {
+    struct run *run;
+    struct ledger *ledger;          /* NULL when it is not wanted */
+    const struct extreme *extremes; /* as in columns */
+};
+
+/* Append `,value` for each column: nothing behind the comma for what has not happened. */
+void columns_put(const struct columns *columns, const struct observed *observed, struct text *text);
+
+#endif

@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/extremes.h"
+
+#include <math.h>
+
+void extremes_start(struct extreme *extremes, size_t count, const struct fbd_state *state)
+{
+    for (size_t i = 0; i < count; i++) extremes[i].value = state->y[extremes[i].index];
+}
+
+/* What is looked at: the greatest value of sign * y[index]. */
+struct look {
+    struct run *run;
+    struct fbd_state *probe;
+    const struct extreme *extreme;
+    bool failed;
+};
+
+static double value_at(struct look *look, double t)
+{
+    if (!run_look(look->run, t, look->probe)) look->failed = true;
+    return look->extreme->sign * look->probe->y[look->extreme->index];
+}
+
+/* The greatest value in [a, b], which holds one maximum. */
+static double golden_section(struct look *look, double a, double b)
+{
+    const double ratio = (sqrt(5) - 1) / 2;
+    enum { most = 30 }; /* 0.618^30 = 5e-7 */
+    double x = b - ratio * (b - a), y = a + ratio * (b - a), fx = value_at(look, x), fy = value_at(look, y);
+    for (int i = 0; i < most && !look->failed; i++) {
+        if (fx > fy) {
+            b = y;
+            y = x;
+            fy = fx;
+            x = b - ratio * (b - a);
+            fx = value_at(look, x);
+        } else {
+            a = x;
+            x = y;
+            fx = fy;
+            y = a + ratio * (b - a);
+            fy = value_at(look, y);
+        }
+    }
+    return fmax(fx, fy);
+}
+
+enum { parts = 8 };
+
+static bool one(struct extreme *extreme, struct run *run, struct fbd_state *probe, const double *samples)
+{
+    struct look look = {run, probe, extreme, false};
+    double from = run->from, width = (run->state->t - from) / parts, best = extreme->sign * extreme->value;
+    int at = 0;
+    for (int k = 1; k <= parts; k++)
+        if (samples[k] > samples[at]) at = k;
+    best = fmax(best, samples[at]);
+    /* Where the curve rises toward both sides of the sample no more than it could reach is looked at. */
+    int low = at > 0 ? at - 1 : 0, high = at < parts ? at + 1 : parts;
+    double reach = samples[at] + fmax(samples[at] - samples[low], samples[at] - samples[high]);
+    if (!(reach < best)) best = fmax(best, golden_section(&look, from + low * width, from + high * width));
+    extreme->value = extreme->sign * best;
+    return !look.failed;
+}
+
+bool extremes_step(struct extreme *extremes, size_t count, struct run *run, struct fbd_state *probe)
+{
+    double from = run->from, to = run->state->t;
+    if (!(to > from)) return true;
+    for (size_t i = 0; i < count; i++) {
+        struct look look = {run, probe, &extremes[i], false};
+        double samples[parts + 1];
+        for (int k = 0; k <= parts; k++)
+            samples[k] = value_at(&look, k == parts ? to : from + k * ((to - from) / parts));
+        if (look.failed || !one(&extremes[i], run, probe, samples)) return false;
+    }
+    return true;
+}

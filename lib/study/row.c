@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * One run of a sweep, and its row.
+ */
+#include "solve/options.h"
+#include "study/sweep.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- the maker */
+
+bool row_maker_init(struct row_maker *maker, const struct fbd_sweep *sweep)
+{
+    size_t varying = sweep->axes.member_count, count = varying + sweep->fixed_count;
+    *maker =
+        (struct row_maker){.sweep = sweep,
+                           .overrides = calloc(count + 1, sizeof *maker->overrides),
+                           .starts = calloc(varying + 1, sizeof *maker->starts),
+                           .extremes = calloc(sweep->columns.extreme_count + 1, sizeof *maker->extremes)};
+    if (!maker->overrides || !maker->starts || !maker->extremes) return false;
+    for (size_t i = 0; i < varying; i++) maker->overrides[i].name = sweep->axes.members[i].name;
+    for (size_t i = varying; i < count; i++) maker->overrides[i] = sweep->fixed[i - varying];
+    for (size_t i = 0; i < sweep->columns.extreme_count; i++) maker->extremes[i] = sweep->columns.extremes[i];
+    return true;
+}
+
+void row_maker_free(struct row_maker *maker)
+{
+    free(maker->overrides);
+    free(maker->starts);
+    free(maker->extremes);
+    text_free(&maker->values);
+}
+
+bool row_maker_set(struct row_maker *maker, uint64_t run)
+{
+    const struct axes *axes = &maker->sweep->axes;
+    struct text *values = &maker->values;
+    values->length = 0;
+    for (size_t i = 0; i < axes->member_count; i++) {
+        const struct member *member = &axes->members[i];
+        maker->starts[i] = values->length;
+        axes_number(values, axes_value(axes, member, run));
+        if (member->unit[0]) text_add(values, " ");
+        text_add_bytes(values, member->unit, strlen(member->unit) + 1); /* with its end */
+    }
+    for (size_t i = 0; i < axes->member_count && !values->failed; i++)
+        maker->overrides[i].value = values->data + maker->starts[i];
+    return !values->failed;
+}
+
+/* ---- pieces of a row */
+
+/* A field of CSV (RFC 4180) on one line: a row that was cut off is known by its missing end of line. */
+static void put_field(struct text *text, const char *field)
+{
+    text_add(text, ",");
+    if (!field[strcspn(field, ",\"\r\n")]) {
+        text_add(text, field);
+        return;
+    }
+    text_add(text, "\"");
+    for (const char *c = field; *c; c++) {
+        bool line = *c == '\n' || *c == '\r';
+        text_add_bytes(text, line ? " " : c, 1);
+        if (*c == '"') text_add(text, "\"");
+    }
+    text_add(text, "\"");
+}
+
+static void put_start(struct row_maker *maker, uint64_t run, struct text *text)
+{
+    const struct axes *axes = &maker->sweep->axes;
+    text_number(text, (double)(run + 1), 17);
+    for (size_t i = 0; i < axes->member_count; i++) {
+        const char *value = maker->overrides[i].value;
+        text_add(text, ",");
+        text_add_bytes(text, value, strcspn(value, " "));
+    }
+}
+
+static void put_end(struct text *text, const char *status, const char *reason)
+{
+    put_field(text, status);
+    put_field(text, reason);
+    text_add(text, "\n");
+}
+
+/* The first error, with its place. */
+static void put_wrong(const struct row_maker *maker, fbd_errors *errors, struct text *text)
+{
+    const struct columns *columns = &maker->sweep->columns;
+    char reason[600] = "out of memory";
+    for (size_t i = 0; i < columns->count + 1; i++) text_add(text, ","); /* and the number of events */
+    const fbd_error *note;
+    for (size_t i = 0; (note = fbd_errors_get(errors, i)) != NULL; i++) {
+        if (note->severity != FBD_ERROR) continue;
+        const char *file = note->file ? note->file : "model";
+        if (note->line > 0)
+            snprintf(reason, sizeof reason, "%s:%d:%d: %s [%s]", file, note->line, note->column,
+                     note->message, note->id);
+        else
+            snprintf(reason, sizeof reason, "%s: %s [%s]", file, note->message, note->id);
+        break;
+    }
+    put_end(text, note ? "wrong" : "failed", reason);
+}
+
+static const char *status_of(fbd_outcome outcome)
+{
+    switch (outcome) {
+    case FBD_DONE: return "done";
+    case FBD_STOPPED: return "stopped";
+    case FBD_BROKEN: return "broken";
+    case FBD_GOING:
+    case FBD_FAILED:
+    case FBD_OUT_OF_MEMORY: break;
+    }
+    return "failed";
+}
+
+/* ---- the run */
+
+/* Carry the run to its end, looking where a column asks for it. False when it was stopped or memory is out.
+ */
+static bool carry(struct row_maker *maker, struct run *run, struct ledger *ledger, struct fbd_state *probe)
+{
+    size_t extremes = maker->sweep->columns.extreme_count;
+    while (run->outcome == FBD_GOING) {
+        if (maker->stop && maker->stop(maker->stop_context)) return false;
+        run_advance(run);
+        if (!(run->state->t > run->from)) continue; /* no step was made */
+        if (ledger && !ledger_step(ledger, run)) run->outcome = FBD_OUT_OF_MEMORY;
+        if (probe && !extremes_step(maker->extremes, extremes, run, probe)) run->outcome = FBD_FAILED;
+    }
+    return true;
+}
+
+static enum row_end put_run(struct row_maker *maker, struct run *run, struct ledger *ledger,
+                            struct fbd_state *probe, struct text *text)
+{
+    const struct columns *columns = &maker->sweep->columns;
+    if (!carry(maker, run, ledger, probe)) return row_stopped;
+    const struct observed observed = {run, ledger, maker->extremes};
+    columns_put(columns, &observed, text);
+    text_printf(text, ",%zu", run->event_count);
+    put_end(text, status_of(run->outcome), run->outcome == FBD_OUT_OF_MEMORY ? "out of memory" : run->reason);
+    return run->outcome == FBD_DONE || run->outcome == FBD_STOPPED ? row_well : row_failed;
+}
+
+static enum row_end simulate(struct row_maker *maker, const struct fbd_model *model, struct text *text,
+                             fbd_errors *errors)
+{
+    const struct columns *columns = &maker->sweep->columns;
+    struct run_options options;
+    struct ledger ledger = {0};
+    struct fbd_state *probe = NULL;
+    if (!options_choose(model, &maker->sweep->options, &options, errors)) {
+        put_wrong(maker, errors, text);
+        return row_failed;
+    }
+    struct run *run = run_new(model, &options);
+    bool ready = run != NULL;
+    if (ready && columns->ledger) ready = ledger_init(&ledger, model, run->state);
+    if (ready && columns->extreme_count) {
+        probe = state_new(model);
+        ready = probe != NULL;
+        extremes_start(maker->extremes, columns->extreme_count, run->state);
+    }
+    enum row_end end = row_failed;
+    if (ready)
+        end = put_run(maker, run, columns->ledger ? &ledger : NULL, probe, text);
+    else
+        put_wrong(maker, errors, text);
+    if (columns->ledger) ledger_free(&ledger);
+    state_free(probe);
+    run_free(run);
+    return end;
+}
+
+enum row_end row_make(struct row_maker *maker, uint64_t run, struct text *text)
+{
+    const struct fbd_sweep *sweep = maker->sweep;
+    size_t start = text->length, count = sweep->axes.member_count + sweep->fixed_count;
+    fbd_errors *errors = fbd_errors_new();
+    if (!errors || !row_maker_set(maker, run)) text->failed = true;
+    enum row_end end = row_failed;
+    if (!text->failed) {
+        put_start(maker, run, text);
+        struct scene *scene = scene_make(&sweep->document, maker->overrides, count, errors);
+        struct fbd_model *model = scene ? model_compile(scene, errors) : NULL;
+        if (model)
+            end = simulate(maker, model, text, errors);
+        else
+            put_wrong(maker, errors, text);
+        model_free(model);
+    }
+    fbd_errors_free(errors);
+    if (end == row_stopped) text->length = start;
+    return end;
+}

@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/sweep.h"
+
+#include "base/file.h"
+#include "scene/node.h"
+#include "solve/options.h"
+#include "study/hash.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- the parameters that vary */
+
+static const struct parameter *find_parameter(const struct scene *scene, const char *name)
+{
+    for (size_t i = 0; i < scene->parameter_count; i++)
+        if (strcmp(scene->parameters[i].name, name) == 0) return &scene->parameters[i];
+    return NULL;
+}
+
+static bool check_member(const struct fbd_sweep *sweep, const struct member *member, fbd_errors *errors)
+{
+    const struct node *root = sweep->document.root;
+    const struct pair *map = node_find(root, "parameters");
+    for (size_t i = 0; i < sweep->fixed_count; i++) {
+        if (strcmp(sweep->fixed[i].name, member->name) != 0) continue;
+        diag_add(errors, FBD_ERROR, "varied-twice", (struct pos){0, 0}, "leave one of the two out",
+                 "`%s` is both set and varied", member->name);
+        return false;
+    }
+    if (map && node_find(map->value, member->name)) return true;
+    const char *names[most_members];
+    size_t count = map && map->value->kind == node_map ? map->value->count : 0;
+    for (size_t i = 0; i < count && i < most_members; i++) names[i] = map->value->pairs[i].key;
+    diag_add(errors, FBD_ERROR, "unknown-parameter", (struct pos){0, 0},
+             diag_hint(errors,
+                       "%s%sonly parameters vary: for another number of the file write "
+                       "`parameters: {%s: ...}` and `%s` in its place",
+                       count ? diag_nearest(errors, member->name, names,
+                                            count < most_members ? count : most_members)
+                             : "",
+                       count ? "; " : "", member->name, member->name),
+             "the model has no parameter `%.40s` to vary", member->name);
+    return false;
+}
+
+static bool check_members(const struct fbd_sweep *sweep, fbd_errors *errors)
+{
+    bool fine = true;
+    errors->file = "--vary";
+    for (size_t i = 0; i < sweep->axes.member_count; i++)
+        if (!check_member(sweep, &sweep->axes.members[i], errors)) fine = false;
+    return fine;
+}
+
+/* A value of the wrong dimension is wrong in every run: the first and the last are tried. What they make of
+ * the scene is for the rows to say. */
+static bool try_values(const struct fbd_sweep *sweep, uint64_t run, fbd_errors *errors)
+{
+    struct row_maker maker;
+    fbd_errors *notes = fbd_errors_new();
+    bool fine = row_maker_init(&maker, sweep) && notes;
+    if (fine) {
+        row_maker_set(&maker, run);
+        scene_free(scene_make(&sweep->document, maker.overrides,
+                              sweep->axes.member_count + sweep->fixed_count, notes));
+    } else {
+        diag_out_of_memory(errors);
+    }
+    for (const struct diag_note *note = fine ? notes->first : NULL; note; note = note->next) {
+        const char *option = "--set ";
+        if (!note->error.file || strncmp(note->error.file, option, strlen(option)) != 0) continue;
+        errors->file = diag_hint(errors, "--vary %s", note->error.file + strlen(option));
+        diag_add(errors, note->error.severity, note->error.id, (struct pos){0, 0},
+                 note->error.hint ? diag_hint(errors, "%s", note->error.hint) : NULL, "%s",
+                 note->error.message);
+        if (note->error.severity == FBD_ERROR) fine = false;
+    }
+    fbd_errors_free(notes);
+    row_maker_free(&maker);
+    return fine;
+}
+
+/* ---- texts */
+
+static void set_header(struct fbd_sweep *sweep)
+{
+    struct text *header = &sweep->header;
+    const struct scene *scene = sweep->base->scene;
+    text_add(header, "run");
+    for (size_t i = 0; i < sweep->axes.member_count; i++) {
+        const struct member *member = &sweep->axes.members[i];
+        const struct parameter *parameter = find_parameter(scene, member->name);
+        char unit[64];
+        snprintf(unit, sizeof unit, "%s", member->unit);
+        if (!unit[0] && parameter && !parameter->bare)
+            unit_name(parameter->dim, scene->units, unit, sizeof unit);
+        text_printf(header, unit[0] ? ",%s [%s]" : ",%s%s", member->name, unit);
+    }
+    for (size_t i = 0; i < sweep->columns.count; i++)
+        text_printf(header, ",%s", sweep->columns.list[i].title);
+    text_add(header, ",events,status,reason\n");
+}
+
+/* Everything that the rows depend on, a line for each: what is continued later has to be the same. */
+static void set_key(struct fbd_sweep *sweep, const fbd_sweep_plan *plan)
+{
+    struct text *key = &sweep->key;
+    text_printf(key, "fbd-sweep %s\n", FBD_VERSION);
+    text_printf(key, "model %016" PRIx64 ", %zu bytes\n", hash_text(sweep->source, sweep->source_length),
+                sweep->source_length);
+    for (size_t i = 0; i < plan->setting_count; i++)
+        text_printf(key, "set %s=%s\n", plan->settings[i].name, plan->settings[i].value);
+    for (size_t i = 0; i < plan->vary_count; i++) text_printf(key, "vary %s\n", plan->vary[i]);
+    text_printf(key, "%s, seed %lu\n", plan->zip ? "side by side" : "each with each", plan->seed);
+    for (size_t i = 0; i < plan->output_count; i++) text_printf(key, "output %s\n", plan->outputs[i]);
+    text_printf(key, "method %s, tolerance ", plan->run.method ? plan->run.method : "of the file");
+    text_number(key, plan->run.tolerance, 17);
+    text_add(key, ", step ");
+    text_number(key, plan->run.step, 17);
+    text_add(key, ", until ");
+    text_number(key, plan->run.until, 17);
+    text_add(key, "\n");
+}
+
+/* ---- making and freeing */
+
+static bool copy_settings(struct fbd_sweep *sweep, const fbd_sweep_plan *plan)
+{
+    sweep->fixed = ARENA_ARRAY(&sweep->arena, plan->setting_count, struct override);
+    for (size_t i = 0; sweep->fixed && i < plan->setting_count; i++) {
+        const char *name = plan->settings[i].name, *value = plan->settings[i].value;
+        sweep->fixed[i] = (struct override){arena_text(&sweep->arena, name, strlen(name)),
+                                            arena_text(&sweep->arena, value, strlen(value))};
+    }
+    sweep->fixed_count = plan->setting_count;
+    sweep->options = plan->run;
+    const char *method = plan->run.method;
+    if (method) sweep->options.method = arena_text(&sweep->arena, method, strlen(method));
+    return !sweep->arena.failed;
+}
+
+/* Read the file once: all that is wrong with it is said now, and what holds for all runs is compiled. */
+static bool prepare(struct fbd_sweep *sweep, fbd_errors *errors)
+{
+    size_t varying = sweep->axes.member_count, count = varying + sweep->fixed_count;
+    struct override *overrides = ARENA_ARRAY(&sweep->arena, count, struct override);
+    if (!overrides) return false;
+    for (size_t i = 0; i < varying; i++) overrides[i].name = sweep->axes.members[i].name;
+    for (size_t i = varying; i < count; i++) overrides[i] = sweep->fixed[i - varying];
+    if (!document_prepare(&sweep->document, overrides, count, errors)) return false;
+    sweep->document.without_hands = true;
+    fbd_errors *again = fbd_errors_new(); /* warnings are given already */
+    struct scene *scene =
+        again ? scene_make(&sweep->document, overrides + varying, sweep->fixed_count, again) : NULL;
+    sweep->base = scene ? model_compile(scene, errors) : NULL;
+    fbd_errors_free(again);
+    return sweep->base != NULL;
+}
+
+static bool build(struct fbd_sweep *sweep, const char *name, const fbd_sweep_plan *plan, fbd_errors *errors)
+{
+    struct run_options chosen;
+    const char *file = name ? arena_text(&sweep->arena, name, strlen(name)) : NULL;
+    if (!copy_settings(sweep, plan)) return false;
+    bool axes =
+        axes_read(&sweep->axes, &sweep->arena, plan->vary, plan->vary_count, plan->zip, plan->seed, errors);
+    if (!document_open(&sweep->document, sweep->source, sweep->source_length, file, errors) || !axes)
+        return false;
+    if (!check_members(sweep, errors) || !prepare(sweep, errors)) return false;
+    if (!options_choose(sweep->base, &sweep->options, &chosen, errors)) return false;
+    if (!columns_read(&sweep->columns, &sweep->arena, sweep->base, plan->outputs, plan->output_count, errors))
+        return false;
+    bool first = try_values(sweep, 0, errors);
+    if (!first || (sweep->axes.runs > 1 && !try_values(sweep, sweep->axes.runs - 1, errors))) return false;
+    set_header(sweep);
+    set_key(sweep, plan);
+    return !sweep->header.failed && !sweep->key.failed;
+}
+
+struct fbd_sweep *sweep_make(char *text, size_t length, const char *name, const fbd_sweep_plan *plan,
+                             fbd_errors *errors)
+{
+    struct fbd_sweep *sweep = calloc(1, sizeof *sweep);
+    if (!sweep) {
+        free(text);
+        diag_out_of_memory(errors);
+        return NULL;
+    }
+    sweep->source = text;
+    sweep->source_length = length;
+    if (build(sweep, name, plan, errors)) return sweep;
+    if (fbd_errors_failed(errors) == 0) diag_out_of_memory(errors);
+    sweep_free(sweep);
+    return NULL;
+}
+
+void sweep_free(struct fbd_sweep *sweep)
+{
+    if (!sweep) return;
+    model_free(sweep->base);
+    document_close(&sweep->document);
+    text_free(&sweep->header);
+    text_free(&sweep->key);
+    arena_free(&sweep->arena);
+    free(sweep->source);
+    free(sweep);
+}
+
+/* ---- the public face */
+
+fbd_sweep *fbd_sweep_read(const char *path, const fbd_sweep_plan *plan, fbd_errors *errors)
+{
+    size_t length;
+    char *text = file_text(path, &length, errors);
+    return text ? sweep_make(text, length, file_name(path), plan, errors) : NULL;
+}
+
+fbd_sweep *fbd_sweep_parse(const char *text, size_t length, const char *name, const fbd_sweep_plan *plan,
+                           fbd_errors *errors)
+{
+    char *copy = malloc(length + 1);
+    if (!copy) {
+        diag_out_of_memory(errors);
+        return NULL;
+    }
+    memcpy(copy, text, length);
+    return sweep_make(copy, length, name, plan, errors);
+}
+
+void fbd_sweep_free(fbd_sweep *sweep)
+{
+    sweep_free(sweep);
+}
+
+size_t fbd_sweep_runs(const fbd_sweep *sweep)
+{
+    return (size_t)sweep->axes.runs;
+}
+
+const char *fbd_sweep_header(const fbd_sweep *sweep)
+{
+    return sweep->header.data;
+}
+
+const char *fbd_sweep_key(const fbd_sweep *sweep)
+{
+    return sweep->key.data;
+}
+
+const char *fbd_sweep_source(const fbd_sweep *sweep, size_t *length)
+{
+    *length = sweep->source_length;
+    return sweep->source;
+}

@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Sweep: a model under many values of its parameters.
+ *
+ * What all runs share is made once and is constant from then on: the tree of the file, the programs that name
+ * no parameter that varies (scene/programs.h), the axes, the columns. A run evaluates what depends on its
+ * values, folds it into a plan of its own, and is carried to its end; nothing of it remains but its row. A
+ * value is handed to the reader as the text that the row shows, so that `fbd-run --set` with it makes the
+ * same model, to the last bit.
+ */
+#ifndef FBD_STUDY_SWEEP_H
+#define FBD_STUDY_SWEEP_H
+
+#include "model/model.h"
+#include "study/axes.h"
+#include "study/columns.h"
+
+struct fbd_sweep {
+    struct arena arena;
+    char *source; /* the text of the file, owned */
+    size_t source_length;
+    struct document document;
+    struct override *fixed; /* parameters that are set and do not vary */
+    size_t fixed_count;
+    struct axes axes;
+    struct fbd_model *base; /* the model with the values of the file: names and units */
+    struct columns columns;
+    fbd_options options;
+    struct text header, key;
+};
+
+/* Make a sweep; `text` is taken over. NULL with notes in `errors`: those of a wrong file, `bad-vary`,
+ * `unknown-output`, `unknown-parameter`, `varied-twice`, and those of options_choose. */
+struct fbd_sweep *sweep_make(char *text, size_t length, const char *name, const fbd_sweep_plan *plan,
+                             fbd_errors *errors);
+void sweep_free(struct fbd_sweep *sweep);
+
+/* ---- rows (row.c) */
+
+/* What one thread needs to make rows, one after the other. */
+struct row_maker {
+    const struct fbd_sweep *sweep;
+    struct override *overrides; /* those that vary, then the fixed ones */
+    size_t *starts;             /* of the texts of the values */
+    struct text values;
+    struct extreme *extremes;
+    bool (*stop)(void *context); /* asked in every step, or NULL */
+    void *stop_context;
+};
+
+bool row_maker_init(struct row_maker *maker, const struct fbd_sweep *sweep);
+void row_maker_free(struct row_maker *maker);
+
+/* Set the overrides to the values of a run (row_make does it). False when memory is out. */
+bool row_maker_set(struct row_maker *maker, uint64_t run);
+
+enum row_end {
+    row_well,   /* the run reached its end, or an event of the file stopped it */
+    row_failed, /* it did not, and its row says why */
+    row_stopped /* `stop` said so: no row was added */
+};
+
+/* Make run `run` (from 0) and append its row to `text`. */
+enum row_end row_make(struct row_maker *maker, uint64_t run, struct text *text);
+
+#endif
