@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * fbd-sweep: run a model under many values of its parameters and write one table.
+ */
+#include <errno.h>
+#include <gsl/gsl_errno.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "partial_file.h"
+#include "progress.h"
+#include "ranks.h"
+#include "sweep_options.h"
+
+/* ---- signals: what is being computed is given up, what has been computed is kept */
+
+static atomic_int caught; /* a handler has nothing else to write to */
+
+static void catch_signal(int number)
+{
+    atomic_store(&caught, number);
+}
+
+static void watch_signals(void)
+{
+    static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
+    /* A second one ends the process at once. */
+    struct sigaction action = {.sa_handler = catch_signal, .sa_flags = (int)SA_RESETHAND};
+    sigemptyset(&action.sa_mask);
+    for (size_t i = 0; i < sizeof signals / sizeof *signals; i++) {
+        struct sigaction before;
+        bool ignored = sigaction(signals[i], NULL, &before) == 0 && before.sa_handler == SIG_IGN;
+        if (!ignored) sigaction(signals[i], &action, NULL); /* nohup stays nohup */
+    }
+}
+
+static bool stops(void *context)
+{
+    (void)context;
+    return atomic_load_explicit(&caught, memory_order_relaxed) != 0;
+}
+
+/* ---- the table */
+
+static int no_memory(void)
+{
+    fputs("fbd-sweep: out of memory\n", stderr);
+    return sweep_failed;
+}
+
+static void summarise(const struct sweep_options *options, size_t runs, size_t rows, size_t failed)
+{
+    if (rows < runs) {
+        fprintf(stderr, "fbd-sweep: ended by a signal after %zu of %zu runs", rows, runs);
+        if (options->csv) fprintf(stderr, "; go on with --resume");
+        fputs("\n", stderr);
+    }
+    if (failed && !options->quiet)
+        fprintf(stderr, "fbd-sweep: %zu of %zu runs did not end well; `status` and `reason` say why\n",
+                failed, rows);
+}
+
+/* Make the rows that are missing. */
+static int fill(const struct ranks *ranks, const fbd_sweep *sweep, const struct sweep_options *options,
+                struct partial_file *file)
+{
+    struct progress progress;
+    fbd_sweep_counts counts = {0};
+    size_t runs = fbd_sweep_runs(sweep);
+    const fbd_sweep_work work = {.first = file->rows,
+                                 .end = runs,
+                                 .jobs = options->jobs,
+                                 .write = partial_file_write,
+                                 .write_context = file,
+                                 .progress = progress_show,
+                                 .progress_context = &progress,
+                                 .stop = stops};
+    progress_start(&progress, file->rows, runs, options->quiet);
+    fbd_sweep_end end = ranks_lead(ranks, sweep, &work, &counts);
+    progress_end(&progress);
+    size_t rows = file->rows + counts.written, failed = file->failed + counts.failed;
+    int reason = errno;
+    bool closed = partial_file_close(file, rows == runs);
+    if (end == FBD_SWEEP_REFUSED || !closed) {
+        fprintf(stderr, "fbd-sweep: cannot write `%s`: %s\n", options->csv ? options->csv : "-",
+                strerror(closed ? reason : errno));
+        return sweep_failed;
+    }
+    if (end == FBD_SWEEP_OUT_OF_MEMORY) return no_memory();
+    summarise(options, runs, rows, failed);
+    if (rows < runs) return 128 + atomic_load(&caught);
+    return failed ? sweep_failed : sweep_done;
+}
+
+/* ---- ranks */
+
+/* What is wrong with the file is told from what is wrong with the command line: it has a place there. */
+static int blame(fbd_errors *errors)
+{
+    const fbd_error *note;
+    for (size_t i = 0; (note = fbd_errors_get(errors, i)) != NULL; i++)
+        if (note->severity == FBD_ERROR && (note->line > 0 || strcmp(note->id, "cannot-read") == 0))
+            return sweep_bad_model;
+    return sweep_usage;
+}
+
+static int follow(const struct ranks *ranks, const struct sweep_options *options)
+{
+    char *text = NULL;
+    size_t length = 0;
+    const fbd_sweep_work work = {.jobs = options->jobs, .stop = stops};
+    if (!ranks_share(ranks, &text, &length) || !text) return sweep_failed;
+    fbd_errors *errors = fbd_errors_new();
+    fbd_sweep *sweep = errors ? fbd_sweep_parse(text, length, options->model, &options->plan, errors) : NULL;
+    bool ready = sweep != NULL;
+    if (ready) ranks_follow(sweep, &work);
+    fbd_sweep_free(sweep);
+    fbd_errors_free(errors);
+    free(text);
+    return ready ? sweep_done : sweep_failed;
+}
+
+static int sweep_and_write(const struct ranks *ranks, const fbd_sweep *sweep,
+                           const struct sweep_options *options)
+{
+    struct partial_file file;
+    char *why, *text = NULL;
+    size_t length = 0;
+    bool opened = partial_file_open(&file, options->csv, fbd_sweep_header(sweep), fbd_sweep_key(sweep),
+                                    options->resume, &why);
+    if (opened) text = (char *)(size_t)fbd_sweep_source(sweep, &length);
+    if (!ranks_share(ranks, &text, &length)) return no_memory();
+    if (opened) return fill(ranks, sweep, options, &file);
+    if (!why) return no_memory();
+    fprintf(stderr, "fbd-sweep: %s\n", why);
+    free(why);
+    return sweep_usage;
+}
+
+static int lead(const struct ranks *ranks, const struct sweep_options *options)
+{
+    fbd_errors *errors = fbd_errors_new();
+    if (!errors) return no_memory();
+    fbd_sweep *sweep = fbd_sweep_read(options->model, &options->plan, errors);
+    int code = sweep ? sweep_done : blame(errors);
+    fbd_errors_print(errors, stderr);
+    fbd_errors_free(errors);
+    if (sweep) {
+        code = sweep_and_write(ranks, sweep, options);
+    } else {
+        char *none = NULL;
+        size_t length = 0;
+        ranks_share(ranks, &none, &length);
+    }
+    fbd_sweep_free(sweep);
+    return code;
+}
+
+int main(int argc, char **argv)
+{
+    struct ranks ranks;
+    struct sweep_options options = {0};
+    enum sweep_exit said;
+    gsl_set_error_handler_off(); /* every status is looked at instead */
+    if (!ranks_start(&ranks)) return sweep_failed;
+    options.silent = ranks.rank > 0;
+    int code = sweep_done;
+    if (sweep_options_read(argc, argv, &options, &said)) {
+        if (ranks.count > 1 && options.jobs == 0) options.jobs = 1; /* mpirun starts one rank a processor */
+        watch_signals();
+        code = ranks.rank == 0 ? lead(&ranks, &options) : follow(&ranks, &options);
+    } else {
+        code = (int)said;
+    }
+    ranks_end(&ranks);
+    return code;
+}

@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "partial_file.h"
+
+#include "whole_file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* ---- texts */
+
+static char *format(const char *text, ...)
+{
+    va_list args;
+    va_start(args, text);
+    int length = vsnprintf(NULL, 0, text, args);
+    va_end(args);
+    char *made = length < 0 ? NULL : malloc((size_t)length + 1);
+    va_start(args, text);
+    if (made) vsnprintf(made, (size_t)length + 1, text, args);
+    va_end(args);
+    return made;
+}
+
+static bool cannot(char **why, const char *what, const char *path)
+{
+    *why = format("cannot %s `%s`: %s", what, path, strerror(errno));
+    return false;
+}
+
+/* A line of a stream without its end, to be freed; NULL at the end, and for a line that was torn off. */
+static char *read_line(FILE *stream)
+{
+    char *line = NULL;
+    size_t room = 0;
+    ssize_t length = getline(&line, &room, stream);
+    if (length > 0 && line[length - 1] == '\n') {
+        line[length - 1] = '\0';
+        return line;
+    }
+    free(line);
+    return NULL;
+}
+
+/* True when the lines of the stream are those of `key`; else what differs first. */
+static bool same_key(FILE *stream, const char *key, char **why)
+{
+    for (; *key; key += strcspn(key, "\n") + 1) {
+        size_t length = strcspn(key, "\n");
+        char *line = read_line(stream);
+        bool same = line && strlen(line) == length && strncmp(line, key, length) == 0;
+        if (!same)
+            *why = format("it belongs to another sweep: there `%s`, here `%.*s`", line ? line : "",
+                          (int)length, key);
+        free(line);
+        if (!same) return false;
+    }
+    char *more = read_line(stream);
+    if (more) *why = format("it belongs to another sweep: there also `%s`", more);
+    bool same = !more;
+    free(more);
+    return same;
+}
+
+/* ---- what is there */
+
+/* A run that ended well has no reason to give. */
+static bool ended_well(const char *row)
+{
+    static const char *const ends[] = {",done,", ",stopped,"};
+    size_t length = strlen(row);
+    for (int i = 0; i < 2; i++) {
+        size_t end = strlen(ends[i]);
+        if (length >= end && strcmp(row + length - end, ends[i]) == 0) return true;
+    }
+    return false;
+}
+
+/* Read the header and the rows; returns where the last whole line ends, or -1 with *why. */
+static long check_rows(struct partial_file *file, FILE *stream, const char *header, char **why)
+{
+    char *line = read_line(stream);
+    size_t columns = strcspn(header, "\n");
+    bool fine = line && strlen(line) == columns && strncmp(line, header, columns) == 0;
+    bool empty = !line;
+    free(line);
+    if (empty) return 0;
+    if (!fine) {
+        *why = format("`%s` has other columns", file->part);
+        return -1;
+    }
+    long whole = ftell(stream);
+    while ((line = read_line(stream)) != NULL) {
+        char number[32];
+        int digits = snprintf(number, sizeof number, "%zu,", file->rows + 1);
+        bool next = strncmp(line, number, (size_t)digits) == 0;
+        if (next) file->failed += !ended_well(line);
+        free(line);
+        if (!next) {
+            *why = format("`%s` is damaged behind row %zu", file->part, file->rows);
+            return -1;
+        }
+        file->rows++;
+        whole = ftell(stream);
+    }
+    return whole;
+}
+
+static bool check_key(const struct partial_file *file, const char *key, char **why)
+{
+    FILE *stream = fopen(file->key, "r");
+    if (!stream) return cannot(why, "read", file->key);
+    char *differs = NULL;
+    bool same = same_key(stream, key, &differs);
+    fclose(stream);
+    if (!same)
+        *why = format("`%s` cannot be gone on with: %s", file->part, differs ? differs : "out of memory");
+    free(differs);
+    return same;
+}
+
+static bool lock(const struct partial_file *file, char **why)
+{
+    struct flock all = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    if (fcntl(fileno(file->stream), F_SETLK, &all) == 0) return true;
+    if (errno != EACCES && errno != EAGAIN) return true; /* a file system without locks */
+    *why = format("`%s` is being written by another process", file->part);
+    return false;
+}
+
+/* ---- opening */
+
+static bool write_key(const struct partial_file *file, const char *key, char **why)
+{
+    struct whole_file beside;
+    bool fine = whole_file_open(&beside, file->key);
+    if (fine) {
+        whole_file_write(&beside, key, strlen(key)); /* an error shows when it is closed */
+        fine = whole_file_close(&beside, true);
+    }
+    return fine || cannot(why, "write", file->key);
+}
+
+static bool refuse_rest(const struct partial_file *file, char **why)
+{
+    *why = format("`%s` is there from a sweep that did not end: go on with it by --resume, or delete it",
+                  file->part);
+    return false;
+}
+
+/* The file is locked first, so that its key is changed by nobody else. */
+static bool open_part(struct partial_file *file, bool resume, char **why)
+{
+    int descriptor = open(file->part, O_RDWR | O_CREAT | (resume ? 0 : O_EXCL), 0666);
+    if (descriptor < 0) return errno == EEXIST ? refuse_rest(file, why) : cannot(why, "write", file->part);
+    file->stream = fdopen(descriptor, "r+");
+    if (!file->stream) {
+        close(descriptor);
+        return cannot(why, "open", file->part);
+    }
+    return lock(file, why);
+}
+
+/* What is in the part is checked and its torn end cut off; one that has nothing yet gets key and header. */
+static bool fill_part(struct partial_file *file, const char *header, const char *key, char **why)
+{
+    struct stat status;
+    bool fresh = fstat(fileno(file->stream), &status) == 0 && status.st_size == 0;
+    if (!(fresh ? write_key(file, key, why) : check_key(file, key, why))) return false;
+    long whole = fresh ? 0 : check_rows(file, file->stream, header, why);
+    if (whole < 0) return false;
+    if (ftruncate(fileno(file->stream), whole) != 0 || fseek(file->stream, whole, SEEK_SET) != 0)
+        return cannot(why, "write", file->part);
+    if (whole > 0) return true;
+    return partial_file_write(file, header, strlen(header)) == 0 || cannot(why, "write", file->part);
+}
+
+static bool open_stream(struct partial_file *file, const char *path, const char *header, char **why)
+{
+    file->stream = path ? fopen(path, "w") : stdout;
+    if (!file->stream) return cannot(why, "write", path);
+    return partial_file_write(file, header, strlen(header)) == 0 || cannot(why, "write", path ? path : "-");
+}
+
+static void forget(struct partial_file *file)
+{
+    if (file->stream && file->path) fclose(file->stream);
+    free(file->part);
+    free(file->key);
+    *file = (struct partial_file){0};
+}
+
+bool partial_file_open(struct partial_file *file, const char *path, const char *header, const char *key,
+                       bool resume, char **why)
+{
+    struct stat status;
+    bool fine = false;
+    *why = NULL;
+    *file = (struct partial_file){.path = path};
+    if (!path || (stat(path, &status) == 0 && !S_ISREG(status.st_mode))) {
+        fine = open_stream(file, path, header, why);
+    } else {
+        file->part = format("%s.part", path);
+        file->key = format("%s.part.key", path);
+        fine = file->part && file->key && open_part(file, resume, why) && fill_part(file, header, key, why);
+    }
+    if (!fine) forget(file);
+    return fine;
+}
+
+/* ---- writing */
+
+int partial_file_write(void *context, const char *rows, size_t length)
+{
+    struct partial_file *file = context;
+    return fwrite(rows, 1, length, file->stream) == length && fflush(file->stream) == 0 ? 0 : 1;
+}
+
+bool partial_file_close(struct partial_file *file, bool whole)
+{
+    bool fine = fflush(file->stream) == 0;
+    if (file->part && whole) fine = fine && fsync(fileno(file->stream)) == 0;
+    int reason = errno;
+    if (file->path) fine = fclose(file->stream) == 0 && fine;
+    file->stream = NULL;
+    if (fine && whole && file->part) {
+        fine = rename(file->part, file->path) == 0;
+        reason = errno;
+        if (fine) unlink(file->key);
+    }
+    forget(file);
+    errno = reason;
+    return fine;
+}

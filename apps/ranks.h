@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Ranks: the processes that mpirun has started, of which the first leads: it reads the file, hands out shares
+ * and writes. Built without MPI (ranks_none.c) there is one.
+ */
+#ifndef FBD_APPS_RANKS_H
+#define FBD_APPS_RANKS_H
+
+#include "fbd.h"
+
+struct ranks {
+    int rank, count;
+};
+
+/* MPI is started only under mpirun. False, with a message, when that is so and it cannot be used. */
+bool ranks_start(struct ranks *ranks);
+void ranks_end(const struct ranks *ranks);
+
+/* Give the leader's text to all others: there *text is to be freed with free(). NULL when the leader has
+ * none. False when memory is out. */
+bool ranks_share(const struct ranks *ranks, char **text, size_t *length);
+
+/* The leader's part: like fbd_sweep_run, with the help of the others. */
+fbd_sweep_end ranks_lead(const struct ranks *ranks, const fbd_sweep *sweep, const fbd_sweep_work *work,
+                         fbd_sweep_counts *counts);
+
+/* What the others do until no share is left: `work` gives them jobs and stop. */
+void ranks_follow(const fbd_sweep *sweep, const fbd_sweep_work *work);
+
+#endif

@@ -1,0 +1,254 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Ranks by MPI. A follower asks for two shares at once, so that the next is there when one is done; what it
+ * sends back counts as a question for another. The leader answers each question with a share or with the word
+ * that there is none any more, and ends when every question is answered so. Its own threads work beside.
+ *
+ *     ask    follower -> leader    the number of its threads
+ *     rows   follower -> leader    struct report, then the rows
+ *     share  leader -> follower    struct order
+ *
+ * Waiting is done by looking and sleeping: a blocking MPI_Recv would keep a processor busy.
+ */
+#include "ranks.h"
+
+#include <mpi.h>
+#include <pthread.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum tag { tag_ask = 1, tag_rows, tag_share };
+
+enum { questions = 2 };
+
+struct order {
+    uint64_t first, end; /* end 0: no more */
+};
+
+struct report {
+    uint64_t jobs, written, failed;
+};
+
+static void doze(void)
+{
+    const struct timespec moment = {0, 100000};
+    nanosleep(&moment, NULL);
+}
+
+bool ranks_start(struct ranks *ranks)
+{
+    static const char *const signs[] = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"};
+    bool under_mpirun = false;
+    *ranks = (struct ranks){0, 1};
+    for (size_t i = 0; i < sizeof signs / sizeof *signs; i++) under_mpirun |= getenv(signs[i]) != NULL;
+    if (!under_mpirun) return true;
+    int level;
+    MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &level);
+    MPI_Comm_rank(MPI_COMM_WORLD, &ranks->rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks->count);
+    if (level >= MPI_THREAD_FUNNELED) return true;
+    fputs("fbd-sweep: this MPI allows no threads\n", stderr);
+    return false;
+}
+
+void ranks_end(const struct ranks *ranks)
+{
+    int started;
+    (void)ranks;
+    MPI_Initialized(&started);
+    if (started) MPI_Finalize();
+}
+
+bool ranks_share(const struct ranks *ranks, char **text, size_t *length)
+{
+    enum { chunk = 1 << 24 }; /* counts of MPI are ints */
+    int64_t size = ranks->rank == 0 && *text ? (int64_t)*length : -1;
+    if (ranks->count == 1) return true;
+    MPI_Bcast(&size, 1, MPI_INT64_T, 0, MPI_COMM_WORLD);
+    if (ranks->rank > 0) {
+        *text = size >= 0 ? malloc((size_t)size + 1) : NULL;
+        *length = size >= 0 ? (size_t)size : 0;
+    }
+    int fine = size < 0 || *text != NULL, all;
+    MPI_Allreduce(&fine, &all, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+    for (int64_t at = 0; all && at < size; at += chunk)
+        MPI_Bcast(*text + at, (int)(size - at < chunk ? size - at : chunk), MPI_BYTE, 0, MPI_COMM_WORLD);
+    return all != 0;
+}
+
+/* ---- the leader */
+
+/* What the leader knows of a follower. */
+struct follower {
+    size_t jobs;
+    int asked;                        /* questions without an answer */
+    fbd_sweep_share share[questions]; /* handed out, the oldest first */
+    int shares;
+    int dismissed; /* questions answered by: no more */
+};
+
+struct leader {
+    fbd_sweep_crew *crew;
+    struct follower *followers;
+    int count; /* of ranks */
+    char *buffer;
+    int room;
+    bool no_memory;
+};
+
+/* Shares come back in the order in which they were handed out. */
+static void take_rows(struct leader *leader, struct follower *follower, const char *message, int size)
+{
+    struct report report;
+    memcpy(&report, message, sizeof report);
+    const fbd_sweep_counts counts = {(size_t)report.written, (size_t)report.failed};
+    fbd_sweep_deliver(leader->crew, &follower->share[0], message + sizeof report,
+                      (size_t)size - sizeof report, &counts);
+    follower->share[0] = follower->share[1];
+    follower->shares--;
+}
+
+/* Take one message; false when there was none. */
+static bool take_message(struct leader *leader)
+{
+    int there, size;
+    MPI_Status status;
+    MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status);
+    if (!there) return false;
+    MPI_Get_count(&status, MPI_BYTE, &size);
+    if (size > leader->room) {
+        char *larger = realloc(leader->buffer, (size_t)size);
+        if (!larger) MPI_Abort(MPI_COMM_WORLD, 1); /* the message cannot be left where it is */
+        leader->buffer = larger;
+        leader->room = size;
+    }
+    MPI_Recv(leader->buffer, size, MPI_BYTE, status.MPI_SOURCE, status.MPI_TAG, MPI_COMM_WORLD, &status);
+    struct follower *follower = &leader->followers[status.MPI_SOURCE];
+    struct report report;
+    memcpy(&report, leader->buffer, sizeof report);
+    follower->jobs = (size_t)report.jobs;
+    follower->asked++;
+    if (status.MPI_TAG == tag_rows) take_rows(leader, follower, leader->buffer, size);
+    return true;
+}
+
+/* Answer one question of a rank; false when it has none, or there is no share now. */
+static bool answer(struct leader *leader, int rank)
+{
+    struct follower *follower = &leader->followers[rank];
+    struct order order = {0};
+    fbd_sweep_share share;
+    if (follower->asked == 0) return false;
+    int claimed = fbd_sweep_claim(leader->crew, follower->jobs, &share);
+    if (claimed == 0) return false;
+    follower->asked--;
+    if (claimed > 0) {
+        follower->share[follower->shares++] = share;
+        order = (struct order){share.first, share.end};
+    } else {
+        follower->dismissed++;
+    }
+    MPI_Send(&order, sizeof order, MPI_BYTE, rank, tag_share, MPI_COMM_WORLD);
+    return true;
+}
+
+static void lead(struct leader *leader)
+{
+    for (int left = (leader->count - 1) * questions; left > 0;) {
+        bool busy = take_message(leader);
+        left = 0;
+        for (int rank = 1; rank < leader->count; rank++) {
+            busy |= answer(leader, rank);
+            left += questions - leader->followers[rank].dismissed;
+        }
+        if (!busy) doze();
+    }
+}
+
+fbd_sweep_end ranks_lead(const struct ranks *ranks, const fbd_sweep *sweep, const fbd_sweep_work *work,
+                         fbd_sweep_counts *counts)
+{
+    if (ranks->count == 1) return fbd_sweep_run(sweep, work, counts);
+    fbd_sweep_work shared = *work;
+    shared.helpers = (size_t)ranks->count - 1;
+    struct leader leader = {.count = ranks->count,
+                            .crew = fbd_sweep_start(sweep, &shared),
+                            .followers = calloc((size_t)ranks->count, sizeof *leader.followers)};
+    if (!leader.crew || !leader.followers) MPI_Abort(MPI_COMM_WORLD, 1); /* the others wait for answers */
+    lead(&leader);
+    fbd_sweep_end end = fbd_sweep_finish(leader.crew, counts);
+    free(leader.followers);
+    free(leader.buffer);
+    return end;
+}
+
+/* ---- the others */
+
+struct parcel {
+    char *data; /* struct report, then the rows */
+    size_t length, room;
+};
+
+static int add_rows(void *context, const char *rows, size_t length)
+{
+    struct parcel *parcel = context;
+    if (parcel->length + length > parcel->room) {
+        size_t room = 2 * (parcel->length + length);
+        char *larger = realloc(parcel->data, room);
+        if (!larger) return 1;
+        parcel->data = larger;
+        parcel->room = room;
+    }
+    memcpy(parcel->data + parcel->length, rows, length);
+    parcel->length += length;
+    return 0;
+}
+
+static void make_share(const fbd_sweep *sweep, const fbd_sweep_work *work, const struct order *order,
+                       struct parcel *parcel)
+{
+    fbd_sweep_work mine = {.first = order->first,
+                           .end = order->end,
+                           .jobs = work->jobs,
+                           .write = add_rows,
+                           .write_context = parcel,
+                           .stop = work->stop,
+                           .stop_context = work->stop_context};
+    fbd_sweep_counts counts;
+    parcel->length = sizeof(struct report);
+    fbd_sweep_run(sweep, &mine, &counts); /* rows that are missing say that it was stopped */
+    const struct report report = {work->jobs, counts.written, counts.failed};
+    memcpy(parcel->data, &report, sizeof report);
+    MPI_Send(parcel->data, (int)parcel->length, MPI_BYTE, 0, tag_rows, MPI_COMM_WORLD);
+}
+
+static struct order next_order(void)
+{
+    struct order order;
+    for (int there = 0; !there;) {
+        MPI_Iprobe(0, tag_share, MPI_COMM_WORLD, &there, MPI_STATUS_IGNORE);
+        if (!there) doze();
+    }
+    MPI_Recv(&order, sizeof order, MPI_BYTE, 0, tag_share, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    return order;
+}
+
+void ranks_follow(const fbd_sweep *sweep, const fbd_sweep_work *work)
+{
+    enum { usual_room = 65536 };
+    const struct report question = {.jobs = work->jobs};
+    struct parcel parcel = {.data = malloc(usual_room), .room = usual_room};
+    if (!parcel.data) MPI_Abort(MPI_COMM_WORLD, 1);
+    for (int i = 0; i < questions; i++)
+        MPI_Send(&question, sizeof question, MPI_BYTE, 0, tag_ask, MPI_COMM_WORLD);
+    for (int dismissed = 0; dismissed < questions;) {
+        struct order order = next_order();
+        if (order.end == 0)
+            dismissed++;
+        else
+            make_share(sweep, work, &order, &parcel);
+    }
+    free(parcel.data);
+}

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "ranks.h"
+
+#include <stdlib.h>
+
+bool ranks_start(struct ranks *ranks)
+{
+    const char *size = getenv("OMPI_COMM_WORLD_SIZE");
+    *ranks = (struct ranks){0, 1};
+    if (!size || atoi(size) <= 1) return true;
+    fputs("fbd-sweep: started under mpirun, but built without MPI\n", stderr);
+    return false;
+}
+
+void ranks_end(const struct ranks *ranks)
+{
+    (void)ranks;
+}
+
+bool ranks_share(const struct ranks *ranks, char **text, size_t *length)
+{
+    (void)ranks;
+    (void)text;
+    (void)length;
+    return true;
+}
+
+fbd_sweep_end ranks_lead(const struct ranks *ranks, const fbd_sweep *sweep, const fbd_sweep_work *work,
+                         fbd_sweep_counts *counts)
+{
+    (void)ranks;
+    return fbd_sweep_run(sweep, work, counts);
+}
+
+void ranks_follow(const fbd_sweep *sweep, const fbd_sweep_work *work)
+{
+    (void)sweep;
+    (void)work;
+}
