@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * A sweep of 10,000 runs, by one thread and by two in turn: runs in a second, what the second thread gains,
+ * and how much of a run is the run itself and how much is making its model. Processor time beside wall time:
+ * on a machine with other work, twice the runs per second of processor time is what two free processors give.
+ *
+ * Usage: bench_sweep MODEL VARY
+ */
+#include <gsl/gsl_errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "fbd.h"
+
+enum { pairs = 15 };
+
+static double seconds(clockid_t clock)
+{
+    struct timespec time;
+    clock_gettime(clock, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static int swallow(void *context, const char *rows, size_t length)
+{
+    size_t *bytes = context;
+    (void)rows;
+    *bytes += length;
+    return 0;
+}
+
+struct cost {
+    double wall, processor;
+};
+
+static struct cost measure(const fbd_sweep *sweep, size_t jobs)
+{
+    size_t bytes = 0;
+    fbd_sweep_counts counts;
+    const fbd_sweep_work work = {.end = fbd_sweep_runs(sweep),
+                                 .jobs = jobs,
+                                 .write = swallow,
+                                 .write_context = &bytes};
+    double wall = seconds(CLOCK_MONOTONIC), processor = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    fbd_sweep_end end = fbd_sweep_run(sweep, &work, &counts);
+    struct cost cost = {seconds(CLOCK_MONOTONIC) - wall, seconds(CLOCK_PROCESS_CPUTIME_ID) - processor};
+    if (end == FBD_SWEEP_DONE && counts.failed == 0) return cost;
+    fputs("the sweep failed\n", stderr);
+    exit(1);
+}
+
+/* Processor time of the same run alone, its model made from the text each time. */
+static double measure_alone(const char *text, size_t length, int repetitions)
+{
+    const fbd_options options = FBD_OPTIONS_DEFAULT;
+    double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    for (int i = 0; i < repetitions; i++) {
+        fbd_errors *errors = fbd_errors_new();
+        fbd_model *model = fbd_model_parse(text, length, "model", NULL, 0, errors);
+        fbd_simulation *simulation = model ? fbd_simulation_new(model, &options, errors) : NULL;
+        if (!simulation) exit(1);
+        while (fbd_simulation_advance(simulation) == FBD_GOING) continue;
+        fbd_simulation_free(simulation);
+        fbd_model_free(model);
+        fbd_errors_free(errors);
+    }
+    return (seconds(CLOCK_PROCESS_CPUTIME_ID) - start) / repetitions;
+}
+
+static int ascending(const void *left, const void *right)
+{
+    double a = *(const double *)left, b = *(const double *)right;
+    return (a > b) - (a < b);
+}
+
+static double median(double *values)
+{
+    qsort(values, pairs, sizeof *values, ascending);
+    return values[pairs / 2];
+}
+
+static fbd_sweep *open_sweep(const char *path, const char *vary)
+{
+    fbd_errors *errors = fbd_errors_new();
+    const fbd_sweep_plan plan = {.vary = &vary, .vary_count = 1, .run = FBD_OPTIONS_DEFAULT};
+    fbd_sweep *sweep = errors ? fbd_sweep_read(path, &plan, errors) : NULL;
+    if (errors && !sweep) fbd_errors_print(errors, stderr);
+    fbd_errors_free(errors);
+    return sweep;
+}
+
+int main(int argc, char **argv)
+{
+    static double rate[pairs], busy[pairs], gain[pairs], loss[pairs];
+    gsl_set_error_handler_off();
+    fbd_sweep *sweep = argc == 3 ? open_sweep(argv[1], argv[2]) : NULL;
+    if (!sweep) return 2;
+    double runs = (double)fbd_sweep_runs(sweep);
+    measure(sweep, 2); /* to warm up */
+    for (int i = 0; i < pairs; i++) {
+        struct cost one = measure(sweep, 1), two = measure(sweep, 2);
+        rate[i] = runs / one.wall;
+        busy[i] = runs / one.processor;
+        gain[i] = one.wall / two.wall;
+        loss[i] = two.processor / one.processor;
+    }
+    size_t length;
+    const char *text = fbd_sweep_source(sweep, &length);
+    double alone = measure_alone(text, length, 2000), busy_rate = median(busy), lost = median(loss);
+    printf("%.0f runs, medians of %d pairs of one thread and two\n", runs, pairs);
+    printf("one thread: %.0f runs/s of wall time, %.0f of processor time (bound: 20000)\n", median(rate),
+           busy_rate);
+    printf("two threads: %.2f times as fast (bound: 1.8; quartiles %.2f to %.2f)\n", median(gain),
+           gain[pairs / 4], gain[3 * pairs / 4]);
+    printf("    and %.3f times the processor time: %.2f times as fast on two processors that are free\n",
+           lost, 2 / lost);
+    printf("a run of the sweep: %.1f us; read, compiled and run by itself: %.1f us\n", 1e6 / busy_rate,
+           1e6 * alone);
+    fbd_sweep_free(sweep);
+    return 0;
+}
