@@ -175,7 +175,7 @@ bool document_open(struct document *document, const char *text, size_t length, c
     errors->file = file ? diag_hint(errors, "%s", file) : NULL;
     if (!source_open(text, length, errors, &source)) return false;
     document->root = node_read(&document->arena, &source, errors);
-    if (document->arena.failed) diag_out_of_memory(errors);
+    if (document->arena.failed || errors->arena.failed) diag_out_of_memory(errors);
     return document->root != NULL;
 }
 

@@ -9,36 +9,20 @@
 
 /* ---- values */
 
+/* Between the ends of a grid. */
 static double even(const struct member *m, uint64_t i)
 {
-    if (m->count == 1) return m->a;
     double last = (double)(m->count - 1), at = (double)i;
-    return (m->a * (last - at) + m->b * at) / last; /* exact at both ends */
+    return (m->a * (last - at) + m->b * at) / last;
 }
 
 static double logarithmic(const struct member *m, uint64_t i)
 {
-    if (i == 0) return m->a;
-    if (i == m->count - 1) return m->b;
     return m->a * pow(m->b / m->a, (double)i / (double)(m->count - 1));
 }
 
-double axes_value(const struct axes *axes, const struct member *member, uint64_t run)
-{
-    uint64_t i = run;
-    for (size_t axis = axes->axis_count - 1; axis > member->axis; axis--) i /= axes->counts[axis];
-    i %= axes->counts[member->axis];
-    switch (member->kind) {
-    case values_listed: return member->list[i];
-    case values_even: return even(member, i);
-    case values_log: return logarithmic(member, i);
-    case values_drawn: break;
-    }
-    struct draw_place place = {axes->seed, member->key, i};
-    return draw(member->distribution, member->a, member->b, place);
-}
-
-void axes_number(struct text *text, double value)
+/* The shortest decimal of at least 15 digits that reads back as `value`. */
+static void add_exact(struct text *text, double value)
 {
     size_t start = text->length;
     for (int digits = 15; digits <= 17; digits++) {
@@ -48,6 +32,30 @@ void axes_number(struct text *text, double value)
         if (text->failed || !expr_number(text->data + start, text->length - start, &back)) return;
         if (back == value) return;
     }
+}
+
+static void add_between(struct text *text, const struct member *m, uint64_t i)
+{
+    const double rounding = 1e-15;
+    double value = m->kind == values_log ? logarithmic(m, i) : even(m, i);
+    bool zero = fabs(value) < rounding * fmax(fabs(m->a), fabs(m->b)) && m->kind == values_even;
+    text_number(text, zero ? 0 : value, 15);
+}
+
+void axes_value(const struct axes *axes, const struct member *m, uint64_t run, struct text *text)
+{
+    uint64_t i = run;
+    for (size_t axis = axes->axis_count - 1; axis > m->axis; axis--) i /= axes->counts[axis];
+    i %= axes->counts[m->axis];
+    const struct draw_place place = {axes->seed, m->key, i};
+    if (m->kind == values_listed)
+        add_exact(text, m->list[i]);
+    else if (m->kind == values_drawn)
+        add_exact(text, draw(m->distribution, m->a, m->b, place));
+    else if (i > 0 && i + 1 < m->count)
+        add_between(text, m, i);
+    else
+        add_exact(text, i == 0 ? m->a : m->b);
 }
 
 /* ---- reading */

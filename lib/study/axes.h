@@ -53,10 +53,8 @@ static const uint64_t most_runs = UINT64_C(1) << 53;
 bool axes_read(struct axes *axes, struct arena *arena, const char *const *texts, size_t count, bool zip,
                uint64_t seed, fbd_errors *errors);
 
-/* The value of a member in a run, in its own unit. */
-double axes_value(const struct axes *axes, const struct member *member, uint64_t run);
-
-/* The shortest decimal that reads back as `value`. */
-void axes_number(struct text *text, double value);
+/* Append the value of a member in a run, in its own unit: the shortest decimal that reads back as it. Between
+ * the ends of a grid it is rounded to 15 digits: 0.4, not 0.39999999999999997. */
+void axes_value(const struct axes *axes, const struct member *member, uint64_t run, struct text *text);
 
 #endif

@@ -41,7 +41,7 @@ bool row_maker_set(struct row_maker *maker, uint64_t run)
     for (size_t i = 0; i < axes->member_count; i++) {
         const struct member *member = &axes->members[i];
         maker->starts[i] = values->length;
-        axes_number(values, axes_value(axes, member, run));
+        axes_value(axes, member, run, values);
         if (member->unit[0]) text_add(values, " ");
         text_add_bytes(values, member->unit, strlen(member->unit) + 1); /* with its end */
     }
@@ -87,14 +87,14 @@ static void put_end(struct text *text, const char *status, const char *reason)
     text_add(text, "\n");
 }
 
-/* The first error, with its place. */
+/* The first error, with its place; without any it is the memory that is out. */
 static void put_wrong(const struct row_maker *maker, fbd_errors *errors, struct text *text)
 {
     const struct columns *columns = &maker->sweep->columns;
     char reason[600] = "out of memory";
     for (size_t i = 0; i < columns->count + 1; i++) text_add(text, ","); /* and the number of events */
     const fbd_error *note;
-    for (size_t i = 0; (note = fbd_errors_get(errors, i)) != NULL; i++) {
+    for (size_t i = 0; (note = errors->out_of_memory ? NULL : fbd_errors_get(errors, i)) != NULL; i++) {
         if (note->severity != FBD_ERROR) continue;
         const char *file = note->file ? note->file : "model";
         if (note->line > 0)

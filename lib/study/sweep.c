@@ -54,6 +54,19 @@ static bool check_members(const struct fbd_sweep *sweep, fbd_errors *errors)
     return fine;
 }
 
+/* Take over what is wrong with a value itself. False when it was an error. */
+static bool pass_on(const fbd_error *error, fbd_errors *errors)
+{
+    const char *option = "--set ";
+    bool value = error->file && strncmp(error->file, option, strlen(option)) == 0;
+    if (!value && strcmp(error->id, "wrong-dimension") != 0) return true;
+    errors->file = value ? diag_hint(errors, "--vary %s", error->file + strlen(option))
+                         : diag_hint(errors, "%s", error->file ? error->file : "");
+    diag_add(errors, error->severity, error->id, (struct pos){error->line, error->column},
+             error->hint ? diag_hint(errors, "%s", error->hint) : NULL, "%s", error->message);
+    return error->severity != FBD_ERROR;
+}
+
 /* A value of the wrong dimension is wrong in every run: the first and the last are tried. What they make of
  * the scene is for the rows to say. */
 static bool try_values(const struct fbd_sweep *sweep, uint64_t run, fbd_errors *errors)
@@ -68,15 +81,8 @@ static bool try_values(const struct fbd_sweep *sweep, uint64_t run, fbd_errors *
     } else {
         diag_out_of_memory(errors);
     }
-    for (const struct diag_note *note = fine ? notes->first : NULL; note; note = note->next) {
-        const char *option = "--set ";
-        if (!note->error.file || strncmp(note->error.file, option, strlen(option)) != 0) continue;
-        errors->file = diag_hint(errors, "--vary %s", note->error.file + strlen(option));
-        diag_add(errors, note->error.severity, note->error.id, (struct pos){0, 0},
-                 note->error.hint ? diag_hint(errors, "%s", note->error.hint) : NULL, "%s",
-                 note->error.message);
-        if (note->error.severity == FBD_ERROR) fine = false;
-    }
+    for (const struct diag_note *note = fine ? notes->first : NULL; note; note = note->next)
+        if (!pass_on(&note->error, errors)) fine = false;
     fbd_errors_free(notes);
     row_maker_free(&maker);
     return fine;

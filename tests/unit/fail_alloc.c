@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fail_alloc.h"
 
+#include <malloc.h>
 #include <stdint.h>
 
 /* NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp): --wrap dictates the names. */
@@ -13,11 +14,14 @@ void *__real_realloc(void *memory, size_t size);
 void *__wrap_malloc(size_t size);
 void *__wrap_calloc(size_t count, size_t size);
 void *__wrap_realloc(void *memory, size_t size);
+void __real_free(void *memory);
+void __wrap_free(void *memory);
 
 static size_t asked;
 static size_t first_failing = SIZE_MAX;
 static size_t last_failing = SIZE_MAX;
 static bool failed;
+static long live, peak; /* bytes */
 
 static void start(size_t first, size_t last)
 {
@@ -56,19 +60,43 @@ static bool refuse(void)
     return refused;
 }
 
-void *__wrap_malloc(size_t size)
+void alloc_peak_start(void)
 {
-    return refuse() ? NULL : __real_malloc(size);
+    live = peak = 0;
 }
 
-void *__wrap_calloc(size_t count, size_t size)
+long alloc_peak(void)
 {
-    return refuse() ? NULL : __real_calloc(count, size);
+    return peak;
+}
+
+static void *count(void *memory, long before)
+{
+    live += (long)malloc_usable_size(memory) - before;
+    if (live > peak) peak = live;
+    return memory;
+}
+
+void *__wrap_malloc(size_t size)
+{
+    return refuse() ? NULL : count(__real_malloc(size), 0);
+}
+
+void *__wrap_calloc(size_t number, size_t size)
+{
+    return refuse() ? NULL : count(__real_calloc(number, size), 0);
 }
 
 void *__wrap_realloc(void *memory, size_t size)
 {
-    return refuse() ? NULL : __real_realloc(memory, size);
+    long before = (long)malloc_usable_size(memory);
+    return refuse() ? NULL : count(__real_realloc(memory, size), before);
+}
+
+void __wrap_free(void *memory)
+{
+    live -= (long)malloc_usable_size(memory);
+    __real_free(memory);
 }
 
 /* NOLINTEND(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp) */

@@ -33,4 +33,8 @@ bool fail_alloc_end(void);
 /* How many allocations were asked for since fail_alloc_at or fail_alloc_from. */
 size_t fail_alloc_count(void);
 
+/* From now on the bytes in use are counted, from 0; and how many there were at most. (For one thread.) */
+void alloc_peak_start(void);
+long alloc_peak(void);
+
 #endif
