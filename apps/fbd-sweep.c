@@ -111,7 +111,8 @@ static int follow(const struct ranks *ranks, const struct sweep_options *options
     char *text = NULL;
     size_t length = 0;
     const fbd_sweep_work work = {.jobs = options->jobs, .stop = stops};
-    if (!ranks_share(ranks, &text, &length) || !text) return sweep_failed;
+    if (!ranks_share(ranks, &text, &length)) return sweep_failed;
+    if (!text) return sweep_done; /* the leader has said why, and its code counts */
     fbd_errors *errors = fbd_errors_new();
     fbd_sweep *sweep = errors ? fbd_sweep_parse(text, length, options->model, &options->plan, errors) : NULL;
     bool ready = sweep != NULL;
@@ -128,15 +129,15 @@ static int sweep_and_write(const struct ranks *ranks, const fbd_sweep *sweep,
     struct partial_file file;
     char *why, *text = NULL;
     size_t length = 0;
-    bool opened = partial_file_open(&file, options->csv, fbd_sweep_header(sweep), fbd_sweep_key(sweep),
-                                    options->resume, &why);
-    if (opened) text = (char *)(size_t)fbd_sweep_source(sweep, &length);
+    enum partial_opening opening = partial_file_open(&file, options->csv, fbd_sweep_header(sweep),
+                                                     fbd_sweep_key(sweep), options->resume, &why);
+    if (opening == partial_opened) text = (char *)(size_t)fbd_sweep_source(sweep, &length);
     if (!ranks_share(ranks, &text, &length)) return no_memory();
-    if (opened) return fill(ranks, sweep, options, &file);
+    if (opening == partial_opened) return fill(ranks, sweep, options, &file);
     if (!why) return no_memory();
     fprintf(stderr, "fbd-sweep: %s\n", why);
     free(why);
-    return sweep_usage;
+    return opening == partial_refused ? sweep_usage : sweep_failed;
 }
 
 static int lead(const struct ranks *ranks, const struct sweep_options *options)
@@ -172,7 +173,7 @@ int main(int argc, char **argv)
         watch_signals();
         code = ranks.rank == 0 ? lead(&ranks, &options) : follow(&ranks, &options);
     } else {
-        code = (int)said;
+        code = ranks.rank == 0 ? (int)said : sweep_done;
     }
     ranks_end(&ranks);
     return code;

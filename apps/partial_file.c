@@ -26,9 +26,16 @@ static char *format(const char *text, ...)
     return made;
 }
 
-static bool cannot(char **why, const char *what, const char *path)
+/* Why a file is not opened. */
+struct obstacle {
+    enum partial_opening kind;
+    char *text;
+};
+
+static bool cannot(struct obstacle *why, const char *what, const char *path)
 {
-    *why = format("cannot %s `%s`: %s", what, path, strerror(errno));
+    why->kind = partial_failed;
+    why->text = format("cannot %s `%s`: %s", what, path, strerror(errno));
     return false;
 }
 
@@ -47,20 +54,20 @@ static char *read_line(FILE *stream)
 }
 
 /* True when the lines of the stream are those of `key`; else what differs first. */
-static bool same_key(FILE *stream, const char *key, char **why)
+static bool same_key(FILE *stream, const char *key, struct obstacle *why)
 {
     for (; *key; key += strcspn(key, "\n") + 1) {
         size_t length = strcspn(key, "\n");
         char *line = read_line(stream);
         bool same = line && strlen(line) == length && strncmp(line, key, length) == 0;
         if (!same)
-            *why = format("it belongs to another sweep: there `%s`, here `%.*s`", line ? line : "",
-                          (int)length, key);
+            why->text = format("it belongs to another sweep: there `%s`, here `%.*s`", line ? line : "",
+                               (int)length, key);
         free(line);
         if (!same) return false;
     }
     char *more = read_line(stream);
-    if (more) *why = format("it belongs to another sweep: there also `%s`", more);
+    if (more) why->text = format("it belongs to another sweep: there also `%s`", more);
     bool same = !more;
     free(more);
     return same;
@@ -81,7 +88,7 @@ static bool ended_well(const char *row)
 }
 
 /* Read the header and the rows; returns where the last whole line ends, or -1 with *why. */
-static long check_rows(struct partial_file *file, FILE *stream, const char *header, char **why)
+static long check_rows(struct partial_file *file, FILE *stream, const char *header, struct obstacle *why)
 {
     char *line = read_line(stream);
     size_t columns = strcspn(header, "\n");
@@ -90,7 +97,7 @@ static long check_rows(struct partial_file *file, FILE *stream, const char *head
     free(line);
     if (empty) return 0;
     if (!fine) {
-        *why = format("`%s` has other columns", file->part);
+        why->text = format("`%s` has other columns", file->part);
         return -1;
     }
     long whole = ftell(stream);
@@ -101,7 +108,7 @@ static long check_rows(struct partial_file *file, FILE *stream, const char *head
         if (next) file->failed += !ended_well(line);
         free(line);
         if (!next) {
-            *why = format("`%s` is damaged behind row %zu", file->part, file->rows);
+            why->text = format("`%s` is damaged behind row %zu", file->part, file->rows);
             return -1;
         }
         file->rows++;
@@ -110,31 +117,32 @@ static long check_rows(struct partial_file *file, FILE *stream, const char *head
     return whole;
 }
 
-static bool check_key(const struct partial_file *file, const char *key, char **why)
+static bool check_key(const struct partial_file *file, const char *key, struct obstacle *why)
 {
     FILE *stream = fopen(file->key, "r");
     if (!stream) return cannot(why, "read", file->key);
-    char *differs = NULL;
+    struct obstacle differs = {0};
     bool same = same_key(stream, key, &differs);
     fclose(stream);
     if (!same)
-        *why = format("`%s` cannot be gone on with: %s", file->part, differs ? differs : "out of memory");
-    free(differs);
+        why->text = format("`%s` cannot be gone on with: %s", file->part,
+                           differs.text ? differs.text : "out of memory");
+    free(differs.text);
     return same;
 }
 
-static bool lock(const struct partial_file *file, char **why)
+static bool lock(const struct partial_file *file, struct obstacle *why)
 {
     struct flock all = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     if (fcntl(fileno(file->stream), F_SETLK, &all) == 0) return true;
     if (errno != EACCES && errno != EAGAIN) return true; /* a file system without locks */
-    *why = format("`%s` is being written by another process", file->part);
+    why->text = format("`%s` is being written by another process", file->part);
     return false;
 }
 
 /* ---- opening */
 
-static bool write_key(const struct partial_file *file, const char *key, char **why)
+static bool write_key(const struct partial_file *file, const char *key, struct obstacle *why)
 {
     struct whole_file beside;
     bool fine = whole_file_open(&beside, file->key);
@@ -145,15 +153,15 @@ static bool write_key(const struct partial_file *file, const char *key, char **w
     return fine || cannot(why, "write", file->key);
 }
 
-static bool refuse_rest(const struct partial_file *file, char **why)
+static bool refuse_rest(const struct partial_file *file, struct obstacle *why)
 {
-    *why = format("`%s` is there from a sweep that did not end: go on with it by --resume, or delete it",
-                  file->part);
+    why->text = format("`%s` is there from a sweep that did not end: go on with it by --resume, or delete it",
+                       file->part);
     return false;
 }
 
 /* The file is locked first, so that its key is changed by nobody else. */
-static bool open_part(struct partial_file *file, bool resume, char **why)
+static bool open_part(struct partial_file *file, bool resume, struct obstacle *why)
 {
     int descriptor = open(file->part, O_RDWR | O_CREAT | (resume ? 0 : O_EXCL), 0666);
     if (descriptor < 0) return errno == EEXIST ? refuse_rest(file, why) : cannot(why, "write", file->part);
@@ -166,7 +174,7 @@ static bool open_part(struct partial_file *file, bool resume, char **why)
 }
 
 /* What is in the part is checked and its torn end cut off; one that has nothing yet gets key and header. */
-static bool fill_part(struct partial_file *file, const char *header, const char *key, char **why)
+static bool fill_part(struct partial_file *file, const char *header, const char *key, struct obstacle *why)
 {
     struct stat status;
     bool fresh = fstat(fileno(file->stream), &status) == 0 && status.st_size == 0;
@@ -179,7 +187,7 @@ static bool fill_part(struct partial_file *file, const char *header, const char 
     return partial_file_write(file, header, strlen(header)) == 0 || cannot(why, "write", file->part);
 }
 
-static bool open_stream(struct partial_file *file, const char *path, const char *header, char **why)
+static bool open_stream(struct partial_file *file, const char *path, const char *header, struct obstacle *why)
 {
     file->stream = path ? fopen(path, "w") : stdout;
     if (!file->stream) return cannot(why, "write", path);
@@ -194,22 +202,24 @@ static void forget(struct partial_file *file)
     *file = (struct partial_file){0};
 }
 
-bool partial_file_open(struct partial_file *file, const char *path, const char *header, const char *key,
-                       bool resume, char **why)
+enum partial_opening partial_file_open(struct partial_file *file, const char *path, const char *header,
+                                       const char *key, bool resume, char **why)
 {
     struct stat status;
+    struct obstacle obstacle = {.kind = partial_refused};
     bool fine = false;
-    *why = NULL;
     *file = (struct partial_file){.path = path};
     if (!path || (stat(path, &status) == 0 && !S_ISREG(status.st_mode))) {
-        fine = open_stream(file, path, header, why);
+        fine = open_stream(file, path, header, &obstacle);
     } else {
         file->part = format("%s.part", path);
         file->key = format("%s.part.key", path);
-        fine = file->part && file->key && open_part(file, resume, why) && fill_part(file, header, key, why);
+        fine = file->part && file->key && open_part(file, resume, &obstacle) &&
+               fill_part(file, header, key, &obstacle);
     }
     if (!fine) forget(file);
-    return fine;
+    *why = obstacle.text;
+    return fine ? partial_opened : obstacle.kind;
 }
 
 /* ---- writing */

@@ -20,11 +20,17 @@ struct partial_file {
     size_t failed;    /* of these, runs that came to no good end */
 };
 
+enum partial_opening {
+    partial_opened,
+    partial_refused, /* what is there is not to be touched */
+    partial_failed,  /* the system says no, or memory is out */
+};
+
 /* Open for the rows that are missing. With `resume` what is there is checked and gone on with; without it a
- * FILE.part that is there is an error, and so is one that another process writes. False with *why, to be
- * freed, or NULL when memory is out. */
-bool partial_file_open(struct partial_file *file, const char *path, const char *header, const char *key,
-                       bool resume, char **why);
+ * FILE.part that is there is refused, and so is one that another process writes. When it is not opened, *why
+ * says why, to be freed, or is NULL when memory is out. */
+enum partial_opening partial_file_open(struct partial_file *file, const char *path, const char *header,
+                                       const char *key, bool resume, char **why);
 
 /* Append rows to the partial_file `context`; they are handed to the system at once. Non-zero when that fails.
  * The signature is that of fbd_write. */

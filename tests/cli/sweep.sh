@@ -1,0 +1,180 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# fbd-sweep as a user meets it: tables, exit codes, what a kill leaves and how it is gone on with, ranks.
+set -u
+. "$FBD_SOURCE_ROOT/tests/tools/tap.sh"
+sweep=$FBD_BUILD_ROOT/apps/fbd-sweep
+incline=$FBD_SOURCE_ROOT/models/kinetics/incline.yaml
+cd "$scratch" || exit 1
+
+says() { # says PATTERN FILE
+    grep -E -- "$1" "$2" && return 0
+    cat "$2"
+    return 1
+}
+
+run() { # run ARGUMENT...: output and diagnostics apart, exit code kept
+    "$sweep" "$@" >out 2>err
+}
+
+empty() {
+    [ ! -s "$1" ] || {
+        cat "$1"
+        return 1
+    }
+}
+
+gone() {
+    [ ! -e "$1" ]
+}
+
+rows() { # rows NUMBER FILE: so many, besides the header
+    [ "$(wc -l <"$2")" -eq $(($1 + 1)) ] || {
+        wc -l "$2"
+        return 1
+    }
+}
+
+# ---- tables
+check 'a sweep that ends well is 0' exits 0 run --vary 'phi=0:60 deg:3' --vary v0=1,2 "$incline"
+check 'and has a row for each run' rows 6 out
+check 'under a header with names and units' \
+    says '^run,phi \[deg\],v0 \[m/s\],t \[s\],block.x \[m\],block.v \[m/s\],events,status,reason$' out
+check 'a pipe sees no progress' empty err
+check 'a run that cannot be is a row and 1' exits 1 run --vary mu_k=-0.2,0.3 "$incline"
+check 'with its reason' says '^1,-0.2,,,,,wrong,.*`kinetic` must be zero or above' out
+check 'and the others are made' says '^2,0.3,3,0.908.*,done,$' out
+check 'and counted' says '1 of 2 runs did not end well' err
+check '--quiet says nothing of it' exits 1 run --quiet --vary mu_k=-0.2,0.3 "$incline"
+check 'at all' empty err
+
+same_as_run() { # same_as_run PARAMETER VALUE...: final x and v, digit by digit as fbd-run has them
+    name=$1
+    shift
+    for value; do
+        "$sweep" --vary "$name=$value" --output x,v "$incline" | sed -n 's/^1,[^,]*,\([^,]*\),\([^,]*\),.*/\1 \2/p' >swept
+        "$FBD_RUN" --set "$name=$value" --csv - "$incline" | sed -n '$s/^3,\([^,]*\),\([^,]*\)$/\1 \2/p' >alone
+        [ -s alone ] && cmp swept alone || return 1
+    done
+}
+check 'a row has the digits of fbd-run --set' same_as_run mu_k 0.1 0.37 0.60000000000000009
+check 'with units, too' same_as_run phi '10 deg' '0.3 rad' 0.7
+check 'and where the model is folded differently' same_as_run f1 0 '50 N' '-1 lbf'
+
+model_from_standard_input() {
+    "$sweep" --vary mu_k=0.2,0.3 "$incline" >one && "$sweep" --vary mu_k=0.2,0.3 - <"$incline" | same one -
+}
+check 'the model may come from standard input' model_from_standard_input
+check '--set holds for all runs' exits 0 run --set f1=50 --vary mu_k=0.1,0.2 "$incline"
+check '(it goes up)' says '^2,0.2,3,[1-9][0-9]' out
+check '--until, --method and --tolerance are those of fbd-run' \
+    exits 0 run --until 1 --method rkf45 --tolerance 1e-6 --vary mu_k=0.1 "$incline"
+check '(until)' says '^1,0.1,1,' out
+
+# ---- usage
+check 'no --vary is 2' exits 2 run "$incline"
+check 'no model is 2' exits 2 run --vary mu_k=1
+check 'an unknown option is 2' exits 2 run --wrong --vary mu_k=1 "$incline"
+check 'values that are none are 2' exits 2 run --vary mu_k=1:2 "$incline"
+check 'no threads are 2' exits 2 run --jobs 0 --vary mu_k=1 "$incline"
+check 'what is no parameter is 2' exits 2 run --vary v=1:2:3 "$incline"
+check 'with what to write instead' says 'only parameters vary' err
+check 'set and varied is 2' exits 2 run --set mu_k=1 --vary mu_k=1:2:3 "$incline"
+check 'an unknown output is 2' exits 2 run --vary mu_k=1 --output block.y "$incline"
+check 'an unknown method is 2' exits 2 run --vary mu_k=1 --method rk99 "$incline"
+check '--resume without a file is 2' exits 2 run --vary mu_k=1 --resume "$incline"
+check 'a file that is not there is 3' exits 3 run --vary mu_k=1 nowhere.yaml
+check 'a wrong file is 3' exits 3 run --vary mu_k=1 "$FBD_SOURCE_ROOT/README.md"
+check 'a place that cannot be written is 1' exits 1 run --vary mu_k=1 --csv nowhere/table.csv "$incline"
+check 'nothing was written for any of these' empty out
+if [ -w /dev/full ]; then
+    check 'a full disk is 1' exits 1 run --vary mu_k=0.1:0.2:10 --csv /dev/full "$incline"
+    check 'and said' says 'cannot write' err
+fi
+
+# ---- kills: a sweep of about a second, wherever it is cut
+slowly='--vary mu_k=0.1:0.6:1000 --tolerance 1e-3 --method rkf45 --step 5e-4'
+# shellcheck disable=SC2086
+slow() {
+    "$sweep" $slowly "$@" "$incline"
+}
+slow >whole.csv
+
+written() {
+    [ ! -e table.csv.part ] && echo 0 || wc -l <table.csv.part
+}
+
+# shellcheck disable=SC2086
+killed() { # killed SIGNAL CODE: start or go on, and kill it after some rows
+    before=$(written)
+    "$sweep" $slowly --jobs 2 --csv table.csv --resume "$incline" 2>err &
+    process=$!
+    tries=0
+    while [ "$(written)" -le $((before + 20)) ] && kill -0 $process 2>/dev/null && [ $tries -lt 500 ]; do
+        tries=$((tries + 1))
+        sleep 0.02
+    done
+    kill "-$1" $process || return 1
+    wait $process
+    [ $? -eq "$2" ] && [ ! -e table.csv ] && [ -s table.csv.part ]
+}
+first_rows() { # what is there is the beginning of the whole
+    head -c "$(wc -c <table.csv.part)" whole.csv | cmp - table.csv.part
+}
+check 'SIGKILL leaves a partial table' killed KILL 137
+check 'SIGTERM ends it with 128 and its number' killed TERM 143
+check 'which says how to go on' says 'ended by a signal after [0-9]+ of 1000 runs; go on with --resume' err
+check 'what it leaves are the first rows, whole' first_rows
+printf '99,0.1,torn' >>table.csv.part
+check 'a torn line is dropped: killed again' killed KILL 137
+check 'a table that is not whole is not overwritten' exits 2 slow --csv table.csv
+check 'another sweep does not go on with it' \
+    exits 2 run --vary mu_k=0.1:0.5:1000 --csv table.csv --resume "$incline"
+check 'and says what differs' says 'there `vary mu_k=0.1:0.6:1000`, here `vary mu_k=0.1:0.5:1000`' err
+sed 's/mass: 2 kg/mass: 3 kg/' "$incline" >other.yaml
+# shellcheck disable=SC2086
+check 'nor does another model' exits 2 "$sweep" $slowly --csv table.csv --resume other.yaml
+
+damaged() {
+    cp table.csv.part bad.csv.part
+    cp table.csv.part.key bad.csv.part.key
+    printf '\n7,0.1,3,0,0,0,done,\n' >>bad.csv.part
+    slow --csv bad.csv --resume 2>err
+}
+check 'nor does it go on with what is damaged' exits 2 damaged
+check 'and says where' says 'is damaged behind row [0-9]+' err
+check 'the rest is made' exits 0 slow --csv table.csv --resume
+check 'no row is lost or repeated' same whole.csv table.csv
+check 'and nothing lies around' gone table.csv.part
+check 'not even its key' gone table.csv.part.key
+
+# ---- ranks
+if ! command -v mpirun >/dev/null || ! "$sweep" --vary mu_k=1 "$incline" >/dev/null; then
+    echo '# no mpirun here: no ranks'
+elif ! ldd "$sweep" 2>/dev/null | grep -q libmpi; then
+    echo '# built without MPI: no ranks'
+else
+    ranks() { # ranks NUMBER ARGUMENT...
+        number=$1
+        shift
+        OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 \
+            mpirun --oversubscribe -n "$number" "$sweep" "$@" >out 2>err
+    }
+    same_by_ranks() {
+        ranks "$1" --vary mu_k=-0.1:0.6:701 --vary v0=1,2,3 --output final,energy,steps "$incline"
+        same wanted out
+    }
+    "$sweep" --jobs 1 --vary mu_k=-0.1:0.6:701 --vary v0=1,2,3 --output final,energy,steps "$incline" >wanted
+    for number in 1 2 4; do
+        check "$number ranks write the table of one process" same_by_ranks "$number"
+    done
+    check 'runs that fail are 1 there, too' says 'runs did not end well' err
+    check 'threads of ranks as well' exits 0 ranks 2 --jobs 2 --vary mu_k=0.1:0.6:500 --csv ranks.csv "$incline"
+    "$sweep" --vary mu_k=0.1:0.6:500 "$incline" >wanted
+    check 'write that table' same wanted ranks.csv
+    check 'a mistake of usage is said once' exits 2 ranks 4 --vary mu_k=1:2 "$incline"
+    check '(once)' test "$(grep -c bad-vary err)" -eq 1
+    check 'a wrong file is 3 there, too' exits 3 ranks 2 --vary mu_k=1 nowhere.yaml
+fi
+finish
