@@ -106,12 +106,12 @@ static int blame(fbd_errors *errors)
     return sweep_usage;
 }
 
-static int follow(const struct ranks *ranks, const struct sweep_options *options)
+static int follow(const struct sweep_options *options)
 {
     char *text = NULL;
     size_t length = 0;
     const fbd_sweep_work work = {.jobs = options->jobs, .stop = stops};
-    if (!ranks_share(ranks, &text, &length)) return sweep_failed;
+    if (!ranks_take(&text, &length)) return sweep_failed;
     if (!text) return sweep_done; /* the leader has said why, and its code counts */
     fbd_errors *errors = fbd_errors_new();
     fbd_sweep *sweep = errors ? fbd_sweep_parse(text, length, options->model, &options->plan, errors) : NULL;
@@ -127,12 +127,12 @@ static int sweep_and_write(const struct ranks *ranks, const fbd_sweep *sweep,
                            const struct sweep_options *options)
 {
     struct partial_file file;
-    char *why, *text = NULL;
+    char *why;
     size_t length = 0;
     enum partial_opening opening = partial_file_open(&file, options->csv, fbd_sweep_header(sweep),
                                                      fbd_sweep_key(sweep), options->resume, &why);
-    if (opening == partial_opened) text = (char *)(size_t)fbd_sweep_source(sweep, &length);
-    if (!ranks_share(ranks, &text, &length)) return no_memory();
+    const char *text = opening == partial_opened ? fbd_sweep_source(sweep, &length) : NULL;
+    if (!ranks_give(ranks, text, length)) return no_memory();
     if (opening == partial_opened) return fill(ranks, sweep, options, &file);
     if (!why) return no_memory();
     fprintf(stderr, "fbd-sweep: %s\n", why);
@@ -148,13 +148,10 @@ static int lead(const struct ranks *ranks, const struct sweep_options *options)
     int code = sweep ? sweep_done : blame(errors);
     fbd_errors_print(errors, stderr);
     fbd_errors_free(errors);
-    if (sweep) {
+    if (sweep)
         code = sweep_and_write(ranks, sweep, options);
-    } else {
-        char *none = NULL;
-        size_t length = 0;
-        ranks_share(ranks, &none, &length);
-    }
+    else
+        ranks_give(ranks, NULL, 0);
     fbd_sweep_free(sweep);
     return code;
 }
@@ -171,7 +168,7 @@ int main(int argc, char **argv)
     if (sweep_options_read(argc, argv, &options, &said)) {
         if (ranks.count > 1 && options.jobs == 0) options.jobs = 1; /* mpirun starts one rank a processor */
         watch_signals();
-        code = ranks.rank == 0 ? lead(&ranks, &options) : follow(&ranks, &options);
+        code = ranks.rank == 0 ? lead(&ranks, &options) : follow(&options);
     } else {
         code = ranks.rank == 0 ? (int)said : sweep_done;
     }

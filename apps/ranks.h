@@ -16,9 +16,10 @@ struct ranks {
 bool ranks_start(struct ranks *ranks);
 void ranks_end(const struct ranks *ranks);
 
-/* Give the leader's text to all others: there *text is to be freed with free(). NULL when the leader has
- * none. False when memory is out. */
-bool ranks_share(const struct ranks *ranks, char **text, size_t *length);
+/* The leader gives a text to all others (NULL: there is none, and they have nothing to do), and each of these
+ * takes it, to be freed with free(). False when memory is out in one of them. */
+bool ranks_give(const struct ranks *ranks, const char *text, size_t length);
+bool ranks_take(char **text, size_t *length);
 
 /* The leader's part: like fbd_sweep_run, with the help of the others. */
 fbd_sweep_end ranks_lead(const struct ranks *ranks, const fbd_sweep *sweep, const fbd_sweep_work *work,

@@ -61,21 +61,55 @@ void ranks_end(const struct ranks *ranks)
     if (started) MPI_Finalize();
 }
 
-bool ranks_share(const struct ranks *ranks, char **text, size_t *length)
+/* Others wait for messages: none may leave them alone. */
+static _Noreturn void give_up(void)
 {
-    enum { chunk = 1 << 24 }; /* counts of MPI are ints */
-    int64_t size = ranks->rank == 0 && *text ? (int64_t)*length : -1;
-    if (ranks->count == 1) return true;
-    MPI_Bcast(&size, 1, MPI_INT64_T, 0, MPI_COMM_WORLD);
-    if (ranks->rank > 0) {
-        *text = size >= 0 ? malloc((size_t)size + 1) : NULL;
-        *length = size >= 0 ? (size_t)size : 0;
-    }
-    int fine = size < 0 || *text != NULL, all;
-    MPI_Allreduce(&fine, &all, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
-    for (int64_t at = 0; all && at < size; at += chunk)
-        MPI_Bcast(*text + at, (int)(size - at < chunk ? size - at : chunk), MPI_BYTE, 0, MPI_COMM_WORLD);
+    MPI_Abort(MPI_COMM_WORLD, 1);
+    abort();
+}
+
+enum { most_bytes = 1 << 24 }; /* of a message: counts of MPI are ints */
+
+static bool all_agree(bool fine)
+{
+    int mine = fine, all = 0;
+    MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
     return all != 0;
+}
+
+/* All ranks together: the leader's `size` bytes go to `text`, which in the leader holds them. */
+static void broadcast(char *text, int64_t size)
+{
+    for (int64_t at = 0; at < size; at += most_bytes)
+        MPI_Bcast(text + at, (int)(size - at < most_bytes ? size - at : most_bytes), MPI_BYTE, 0,
+                  MPI_COMM_WORLD);
+}
+
+bool ranks_give(const struct ranks *ranks, const char *text, size_t length)
+{
+    int64_t size = text ? (int64_t)length : -1;
+    if (ranks->count == 1) return true;
+    char *copy = malloc(length + 1); /* MPI takes no const */
+    if (copy && text) memcpy(copy, text, length);
+    MPI_Bcast(&size, 1, MPI_INT64_T, 0, MPI_COMM_WORLD);
+    bool fine = all_agree(copy != NULL);
+    if (fine) broadcast(copy, size);
+    free(copy);
+    return fine;
+}
+
+bool ranks_take(char **text, size_t *length)
+{
+    int64_t size = -1;
+    MPI_Bcast(&size, 1, MPI_INT64_T, 0, MPI_COMM_WORLD);
+    *text = size >= 0 ? malloc((size_t)size + 1) : NULL;
+    *length = size >= 0 ? (size_t)size : 0;
+    if (!all_agree(size < 0 || *text)) {
+        free(*text);
+        return false;
+    }
+    if (*text) broadcast(*text, size);
+    return true;
 }
 
 /* ---- the leader */
@@ -118,9 +152,10 @@ static bool take_message(struct leader *leader)
     MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status);
     if (!there) return false;
     MPI_Get_count(&status, MPI_BYTE, &size);
+    if (size < (int)sizeof(struct report)) give_up(); /* no message of ours */
     if (size > leader->room) {
         char *larger = realloc(leader->buffer, (size_t)size);
-        if (!larger) MPI_Abort(MPI_COMM_WORLD, 1); /* the message cannot be left where it is */
+        if (!larger) give_up(); /* the message cannot be left where it is */
         leader->buffer = larger;
         leader->room = size;
     }
@@ -176,7 +211,7 @@ fbd_sweep_end ranks_lead(const struct ranks *ranks, const fbd_sweep *sweep, cons
     struct leader leader = {.count = ranks->count,
                             .crew = fbd_sweep_start(sweep, &shared),
                             .followers = calloc((size_t)ranks->count, sizeof *leader.followers)};
-    if (!leader.crew || !leader.followers) MPI_Abort(MPI_COMM_WORLD, 1); /* the others wait for answers */
+    if (!leader.crew || !leader.followers) give_up();
     lead(&leader);
     fbd_sweep_end end = fbd_sweep_finish(leader.crew, counts);
     free(leader.followers);
@@ -240,7 +275,7 @@ void ranks_follow(const fbd_sweep *sweep, const fbd_sweep_work *work)
     enum { usual_room = 65536 };
     const struct report question = {.jobs = work->jobs};
     struct parcel parcel = {.data = malloc(usual_room), .room = usual_room};
-    if (!parcel.data) MPI_Abort(MPI_COMM_WORLD, 1);
+    if (!parcel.data) give_up();
     for (int i = 0; i < questions; i++)
         MPI_Send(&question, sizeof question, MPI_BYTE, 0, tag_ask, MPI_COMM_WORLD);
     for (int dismissed = 0; dismissed < questions;) {

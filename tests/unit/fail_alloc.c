@@ -70,7 +70,7 @@ long alloc_peak(void)
     return peak;
 }
 
-static void *count(void *memory, long before)
+static void *note(void *memory, long before)
 {
     live += (long)malloc_usable_size(memory) - before;
     if (live > peak) peak = live;
@@ -79,18 +79,18 @@ static void *count(void *memory, long before)
 
 void *__wrap_malloc(size_t size)
 {
-    return refuse() ? NULL : count(__real_malloc(size), 0);
+    return refuse() ? NULL : note(__real_malloc(size), 0);
 }
 
-void *__wrap_calloc(size_t number, size_t size)
+void *__wrap_calloc(size_t count, size_t size)
 {
-    return refuse() ? NULL : count(__real_calloc(number, size), 0);
+    return refuse() ? NULL : note(__real_calloc(count, size), 0);
 }
 
 void *__wrap_realloc(void *memory, size_t size)
 {
     long before = (long)malloc_usable_size(memory);
-    return refuse() ? NULL : count(__real_realloc(memory, size), before);
+    return refuse() ? NULL : note(__real_realloc(memory, size), before);
 }
 
 void __wrap_free(void *memory)

@@ -186,7 +186,7 @@ static void the_last_axis_changes_fastest(void **state)
     assert_int_equal(table.counts.written, 6);
     for (size_t i = 0; i < 6; i++) {
         assert_true(number(&table, i, 0) == (double)(i + 1));
-        assert_true(number(&table, i, 1) == (double)(1 + i / 3));
+        assert_true(number(&table, i, 1) == (i < 3 ? 1 : 2));
         assert_true(number(&table, i, 2) == (double)(5 + i % 3));
     }
     close_table(&table);
@@ -573,9 +573,10 @@ static size_t compare_model(const char *path)
 {
     size_t length, differ = 0;
     fbd_errors *errors = fbd_errors_new();
-    char *read = file_text(path, &length, errors), *text = read ? realloc(read, length + 1) : NULL;
-    assert_non_null(text);
-    text[length] = '\0';
+    char *read = file_text(path, &length, errors), *text = calloc(length + 1, 1);
+    assert_true(read && text);
+    memcpy(text, read, length);
+    free(read);
     struct text outputs = {0};
     list_outputs(text, &outputs);
     struct scene *scene = scene_read(text, length, path, NULL, 0, errors);
