@@ -2,6 +2,7 @@
 #include "study/sweep.h"
 
 #include "base/file.h"
+#include "scene/names.h"
 #include "scene/node.h"
 #include "solve/options.h"
 #include "study/hash.h"
@@ -19,29 +20,34 @@ static const struct parameter *find_parameter(const struct scene *scene, const c
     return NULL;
 }
 
+/* How another number of the file is made to vary. `block.v`, say, becomes a parameter `v0`. */
+static const char *hint_of_parameters(const char *name, const struct node *map, fbd_errors *errors)
+{
+    const char *names[most_members], *dot = strrchr(name, '.'), *last = dot ? dot + 1 : name;
+    const char *zero = name_is_reserved(last) ? "0" : "";
+    size_t count = 0;
+    for (; map && count < map->count && count < most_members; count++) names[count] = map->pairs[count].key;
+    return diag_hint(errors,
+                     "%s%sonly parameters vary: for another number of the file write `parameters: "
+                     "{%.40s%s: ...}` and `%.40s%s` in its place",
+                     count ? diag_nearest(errors, name, names, count) : "", count ? "; " : "", last, zero,
+                     last, zero);
+}
+
 static bool check_member(const struct fbd_sweep *sweep, const struct member *member, fbd_errors *errors)
 {
-    const struct node *root = sweep->document.root;
-    const struct pair *map = node_find(root, "parameters");
+    const struct pair *pair = node_find(sweep->document.root, "parameters");
+    const struct node *map = pair && pair->value->kind == node_map ? pair->value : NULL;
     for (size_t i = 0; i < sweep->fixed_count; i++) {
         if (strcmp(sweep->fixed[i].name, member->name) != 0) continue;
         diag_add(errors, FBD_ERROR, "varied-twice", (struct pos){0, 0}, "leave one of the two out",
                  "`%s` is both set and varied", member->name);
         return false;
     }
-    if (map && node_find(map->value, member->name)) return true;
-    const char *names[most_members];
-    size_t count = map && map->value->kind == node_map ? map->value->count : 0;
-    for (size_t i = 0; i < count && i < most_members; i++) names[i] = map->value->pairs[i].key;
+    if (node_find(map, member->name)) return true;
     diag_add(errors, FBD_ERROR, "unknown-parameter", (struct pos){0, 0},
-             diag_hint(errors,
-                       "%s%sonly parameters vary: for another number of the file write "
-                       "`parameters: {%s: ...}` and `%s` in its place",
-                       count ? diag_nearest(errors, member->name, names,
-                                            count < most_members ? count : most_members)
-                             : "",
-                       count ? "; " : "", member->name, member->name),
-             "the model has no parameter `%.40s` to vary", member->name);
+             hint_of_parameters(member->name, map, errors), "the model has no parameter `%.40s` to vary",
+             member->name);
     return false;
 }
 

@@ -72,6 +72,18 @@ check '--until, --method and --tolerance are those of fbd-run' \
     exits 0 run --until 1 --method rkf45 --tolerance 1e-6 --vary mu_k=0.1 "$incline"
 check '(until)' says '^1,0.1,1,' out
 
+terminal() { # terminal COMMAND ARGUMENT...: what it shows on a terminal
+    python3 -c 'import pty, sys
+pty.spawn(sys.argv[1:])' "$@" </dev/null >out
+}
+on_a_terminal() {
+    terminal "$sweep" --vary mu_k=0.1:0.6:1000 --tolerance 1e-3 --method rkf45 --step 5e-4 --csv shown.csv "$incline"
+    rows 1000 shown.csv && says '[0-9]+ of 1000 runs \([0-9]+ %\), [0-9.e+]+ runs/s, [0-9]+ s left' out
+}
+check 'a terminal sees how far it is and how long it will take' on_a_terminal
+check '--quiet shows nothing there' terminal "$sweep" --quiet --vary mu_k=0.1:0.2:2 --csv hidden.csv "$incline"
+check '(nothing)' empty out
+
 # ---- usage
 check 'no --vary is 2' exits 2 run "$incline"
 check 'no model is 2' exits 2 run --vary mu_k=1
