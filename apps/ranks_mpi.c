@@ -129,7 +129,6 @@ struct leader {
     int count; /* of ranks */
     char *buffer;
     int room;
-    bool no_memory;
 };
 
 /* Shares come back in the order in which they were handed out. */

@@ -107,12 +107,13 @@ int main(int argc, char **argv)
     }
     size_t length;
     const char *text = fbd_sweep_source(sweep, &length);
-    double alone = measure_alone(text, length, 2000), busy_rate = median(busy), lost = median(loss);
+    double alone = measure_alone(text, length, 2000), busy_rate = median(busy), lost = median(loss),
+           gained = median(gain);
     printf("%.0f runs, medians of %d pairs of one thread and two\n", runs, pairs);
     printf("one thread: %.0f runs/s of wall time, %.0f of processor time (bound: 20000)\n", median(rate),
            busy_rate);
-    printf("two threads: %.2f times as fast (bound: 1.8; quartiles %.2f to %.2f)\n", median(gain),
-           gain[pairs / 4], gain[3 * pairs / 4]);
+    printf("two threads: %.2f times as fast (bound: 1.8; quartiles %.2f to %.2f)\n", gained, gain[pairs / 4],
+           gain[3 * pairs / 4]);
     printf("    and %.3f times the processor time: %.2f times as fast on two processors that are free\n",
            lost, 2 / lost);
     printf("a run of the sweep: %.1f us; read, compiled and run by itself: %.1f us\n", 1e6 / busy_rate,
