@@ -96,6 +96,7 @@ static struct symbol absolute_slot(struct reader *reader, const struct absolute 
     enum { most_absolutes = 1000 };
     struct scene *scene = reader->scene;
     size_t k = 0;
+    reader->varies = true; /* the slot is numbered in this reading */
     for (; k < scene->absolute_count; k++) {
         const struct absolute *known = &scene->absolutes[k];
         if (known->body == wanted->body && known->kind == wanted->kind && known->part == wanted->part &&

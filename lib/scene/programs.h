@@ -4,8 +4,9 @@
  * parameters.
  *
  * A constant is folded into the program that names it, so a program holds for another reading unless it names
- * a parameter that varies, straight or through other definitions. The first reading keeps those that hold
- * (programs_keep); later ones, in any thread, find them (programs_find).
+ * a parameter that varies, straight or through other definitions (or a place in the world, whose slot each
+ * reading numbers for itself): names.c sets `varies` in the reader then. The first reading keeps those that
+ * hold (programs_keep); later ones, in any thread, find them (programs_find).
  */
 #ifndef FBD_SCENE_PROGRAMS_H
 #define FBD_SCENE_PROGRAMS_H

@@ -77,7 +77,7 @@ struct reader {
 
     const struct programs *known; /* of an earlier reading of the same file, or NULL */
     struct programs *keep;        /* where those go that hold for later readings, or NULL */
-    bool varies;                  /* the expression that is being compiled names what varies */
+    bool varies;                  /* the expression that is being compiled holds for this reading only */
 
     struct names constant_names;
     struct scope constants; /* parameters, g, pi */
