@@ -2,12 +2,13 @@
 #include "ranks.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 bool ranks_start(struct ranks *ranks)
 {
     const char *size = getenv("OMPI_COMM_WORLD_SIZE");
     *ranks = (struct ranks){0, 1};
-    if (!size || atoi(size) <= 1) return true;
+    if (!size || strcmp(size, "1") == 0) return true;
     fputs("fbd-sweep: started under mpirun, but built without MPI\n", stderr);
     return false;
 }
