@@ -9,10 +9,10 @@
  *     a_G = F / m,   alpha = (M_O - r x F) / I_G,   a_O = a_G - alpha k x r + omega^2 r */
 
 static void offset_accelerations(const struct offset_body *body, const struct instant *at, int n,
-                                 const double *slots, double *a)
+                                 struct vec turn, const double *slots, double *a)
 {
     int i = body->first;
-    struct vec r = vec_turn(vec_unit(at->y[i + 2]), body->arm), F = {slots[i], slots[i + 1]};
+    struct vec r = vec_turn(vec_without_rounding(turn), body->arm), F = {slots[i], slots[i + 1]};
     double omega = at->y[n + i + 2], alpha = (slots[i + 2] - vec_cross(r, F)) / body->I_G;
     struct vec a_O = vec_add(vec_scale(1 / body->mass, F),
                              vec_sub(vec_scale(omega * omega, r), vec_scale(alpha, vec_perp(r))));
@@ -41,35 +41,33 @@ static void offset_variations(const struct offset_body *body, const struct insta
 
 /* ---- the stages */
 
-static void add_kinetic_friction(const struct fbd_model *model, const struct instant *at, double *slots)
+static void add_kinetic_friction(const struct fbd_model *model, int pair, const struct instant *at,
+                                 double *slots)
 {
-    const struct plan *plan = &model->plan;
-    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        if (at->slip[pair] == stick) continue;
-        const struct friction *friction = &plan->frictions[pair];
-        double press =
-            friction->normal_slot < 0 ? 1 : fmax(0, -at->pull[pair] * slots[friction->normal_slot]);
-        slots[friction->coordinate] -= at->slip[pair] * formula_value(&friction->mu_k, at) * press;
-    }
+    const struct friction *friction = &model->plan.frictions[pair];
+    double press = friction->normal_slot < 0 ? 1 : fmax(0, -at->pull[pair] * slots[friction->normal_slot]);
+    slots[friction->coordinate] -= at->slip[pair] * formula_value(&friction->mu_k, at) * press;
 }
 
-static void hold_sticking(const struct fbd_model *model, const struct instant *at, double *a)
+void body_accelerations(const struct fbd_model *model, int b, const struct instant *at, double *slots,
+                        double *a)
 {
     const struct plan *plan = &model->plan;
-    for (int pair = 0; pair < (int)plan->friction_count; pair++)
-        if (at->slip[pair] == stick)
-            friction_surface_speed(&plan->frictions[pair], at, &a[plan->frictions[pair].coordinate]);
+    const struct body_terms *terms = &plan->bodies[b];
+    const struct model_body *body = &model->bodies[b];
+    struct vec turn = body_turn(model, b, at);
+    body_forces(model, b, at, turn, slots);
+    bool slips = terms->friction >= 0 && at->slip[terms->friction] != stick;
+    if (slips) add_kinetic_friction(model, terms->friction, at, slots);
+    for (int i = body->first; i < body->first + body->count; i++) a[i] = plan->inverse_inertia[i] * slots[i];
+    if (terms->offset >= 0) offset_accelerations(&plan->offsets[terms->offset], at, plan->n, turn, slots, a);
+    if (terms->friction >= 0 && !slips)
+        friction_surface_speed(&plan->frictions[terms->friction], at, &a[body->first]);
 }
 
 void accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a)
 {
-    const struct plan *plan = &model->plan;
-    force_slots(model, at, slots);
-    if (plan->friction_count > 0) add_kinetic_friction(model, at, slots);
-    for (int i = 0; i < plan->n; i++) a[i] = plan->inverse_inertia[i] * slots[i];
-    for (size_t i = 0; i < plan->offset_count; i++)
-        offset_accelerations(&plan->offsets[i], at, plan->n, slots, a);
-    if (plan->friction_count > 0) hold_sticking(model, at, a);
+    for (int b = 0; b < (int)model->body_count; b++) body_accelerations(model, b, at, slots, a);
 }
 
 void accelerations_along(const struct fbd_model *model, const struct instant *at,
@@ -97,17 +95,20 @@ void accelerations_along(const struct fbd_model *model, const struct instant *at
     }
 }
 
-void state_rates(const struct fbd_model *model, const struct instant *at, double *slots, double *dydt)
+void body_rates(const struct fbd_model *model, int b, const struct instant *at, double *slots, double *dydt)
 {
     const struct plan *plan = &model->plan;
-    size_t n = (size_t)plan->n;
-    memcpy(dydt, at->y + n, n * sizeof *dydt);
-    accelerations(model, at, slots, dydt + n);
+    const struct model_body *body = &model->bodies[b];
+    for (int k = 0; k < body->count; k++) dydt[body->first + k] = at->y[body->first_rate + k];
+    body_accelerations(model, b, at, slots, dydt + plan->n);
     double acceleration;
-    for (int pair = 0; pair < (int)plan->friction_count; pair++)
-        if (at->slip[pair] == stick)
-            dydt[plan->frictions[pair].coordinate] =
-                friction_surface_speed(&plan->frictions[pair], at, &acceleration);
+    if (body->friction >= 0 && at->slip[body->friction] == stick)
+        dydt[body->first] = friction_surface_speed(&plan->frictions[body->friction], at, &acceleration);
+}
+
+void state_rates(const struct fbd_model *model, const struct instant *at, double *slots, double *dydt)
+{
+    for (int b = 0; b < (int)model->body_count; b++) body_rates(model, b, at, slots, dydt);
 }
 
 void state_jacobian(const struct fbd_model *model, const struct instant *at, double *scratch, double *dfdy,

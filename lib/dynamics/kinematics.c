@@ -16,16 +16,22 @@ double body_angle(const struct model_body *body, const struct instant *at)
 
 struct pose body_pose(const struct model_body *body, const struct instant *at)
 {
+    int turn = body_angle_coordinate(body);
+    return body_pose_turned(body, at, turn >= 0 ? vec_cos_sin(at->y[turn]) : (struct vec){1, 0});
+}
+
+struct pose body_pose_turned(const struct model_body *body, const struct instant *at, struct vec cos_sin)
+{
     const double *q = at->y + body->first, *v = at->y + body->first_rate;
     switch (body->kind) {
     case motion_slide:
         return (struct pose){vec_add(body->origin, vec_scale(q[0], body->e)), body->e,
                              vec_scale(v[0], body->e), 0};
-    case motion_pivot: return (struct pose){body->origin, vec_unit(q[0]), {0, 0}, v[0]};
+    case motion_pivot: return (struct pose){body->origin, vec_without_rounding(cos_sin), {0, 0}, v[0]};
     case motion_particle: return (struct pose){{q[0], q[1]}, {1, 0}, {v[0], v[1]}, 0};
     case motion_planar: break;
     }
-    return (struct pose){{q[0], q[1]}, vec_unit(q[2]), {v[0], v[1]}, v[2]};
+    return (struct pose){{q[0], q[1]}, vec_without_rounding(cos_sin), {v[0], v[1]}, v[2]};
 }
 
 static struct vec arm_of(const struct model_body *body, const struct pose *pose, struct vec point)

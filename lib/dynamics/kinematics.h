@@ -25,6 +25,9 @@ struct motion_of_point {
 
 struct pose body_pose(const struct model_body *body, const struct instant *at);
 
+/* The same where cosine and sine of the body's angle are known already; what cannot turn ignores them. */
+struct pose body_pose_turned(const struct model_body *body, const struct instant *at, struct vec cos_sin);
+
 struct motion_of_point point_motion(const struct model_body *body, const struct pose *pose, struct vec point);
 
 /* How position and velocity of the point vary along a direction. */

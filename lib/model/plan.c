@@ -230,7 +230,7 @@ static void add_friction(struct builder *builder, struct model_body *body, int i
     plan->frictions[plan->friction_count++] = friction;
 }
 
-static void add_load(struct builder *builder, struct model_body *body, int index)
+void plan_load(struct builder *builder, struct model_body *body, int index)
 {
     const struct model_load *load = &builder->model->loads[index];
     const struct load *source = load->source;
@@ -295,6 +295,7 @@ static bool allocate(struct builder *builder)
     plan->frictions = ARENA_ARRAY(arena, loads, struct friction);
     plan->contacts = ARENA_ARRAY(arena, model->body_count, struct contact);
     plan->offsets = ARENA_ARRAY(arena, model->body_count, struct offset_body);
+    plan->bodies = ARENA_ARRAY(arena, model->body_count, struct body_terms);
     plan->slot_constant = ARENA_ARRAY(arena, most_slots, bool);
     return !arena->failed;
 }
@@ -348,11 +349,9 @@ bool plan_build(struct builder *builder)
     if (!allocate(builder)) return false;
     plan_normals(model);
     plan_inertias(model);
-    for (size_t b = 0; b < model->body_count; b++) {
-        struct model_body *body = &model->bodies[b];
-        for (int i = 0; i < body->load_count; i++) add_load(builder, body, body->first_load + i);
-    }
+    for (size_t b = 0; b < model->body_count; b++) body_terms_add(builder, (int)b);
     pack(builder);
+    body_terms_finish(builder);
     for (size_t i = 0; i < plan->link_count; i++) mark_body_slots(model, plan->links[i].body);
     for (size_t i = 0; i < plan->drag_count; i++) mark_body_slots(model, plan->drags[i].body);
     for (size_t i = 0; i < plan->force_count; i++) mark_body_slots(model, plan->forces[i].body);
