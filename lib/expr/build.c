@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "expr/steps.h"
+
 /* While it is being read, a program names its registers by kind; their numbers are known at the end. */
 enum {
     of_variable = 0,
@@ -289,7 +291,7 @@ struct expr *build_finish(struct builder *b, struct arena *arena, const struct o
                           .switch_at = switches,
                           .dim = result->kind.dim,
                           .bare = result->kind.free};
-    return expr;
+    return steps_make(expr, &b->scratch, arena) ? expr : NULL;
 }
 
 void build_free(struct builder *b)

@@ -87,9 +87,13 @@ struct expr_switch {
     bool time; /* depends on nothing but t */
 };
 
+struct step;
+
 struct expr {
     const struct instr *code;
     size_t operations;
+    const struct step *steps; /* the same for plain values, see steps.h; NULL where the frame serves */
+    size_t step_count;
     bool uses_time;
     size_t variables; /* without t */
     const int *slots; /* of the variables, ascending */
