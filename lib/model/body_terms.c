@@ -42,6 +42,17 @@ static void ranges_end(const struct plan *plan, struct body_terms *terms)
     terms->at_points = terms->links.count + terms->drags.count + terms->forces.count > 0;
 }
 
+/* By slot, keeping the order within a slot, so that the formulas of a coordinate stand together. */
+static void sort_formulas(struct formula_term *terms, int count)
+{
+    for (int i = 1; i < count; i++) {
+        struct formula_term moved = terms[i];
+        int k = i;
+        for (; k > 0 && terms[k - 1].slot > moved.slot; k--) terms[k] = terms[k - 1];
+        terms[k] = moved;
+    }
+}
+
 void body_terms_add(struct builder *builder, int b)
 {
     struct fbd_model *model = builder->model;
@@ -50,6 +61,7 @@ void body_terms_add(struct builder *builder, int b)
     ranges_start(&model->plan, terms);
     for (int i = 0; i < body->load_count; i++) plan_load(builder, body, body->first_load + i);
     ranges_end(&model->plan, terms);
+    sort_formulas(model->plan.formulas + terms->formulas.first, terms->formulas.count);
 }
 
 /* ---- lists in the order of the slots: the entries below slot `end`, from the place `*next` on, which moves

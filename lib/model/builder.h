@@ -23,10 +23,6 @@ static inline bool formula_given(const struct formula *formula)
 {
     return formula->expr != NULL || formula->constant != 0;
 }
-static inline bool formula_is_constant(const struct formula *formula)
-{
-    return formula->expr == NULL;
-}
 
 /* What a formula changes with, seen from one body: a set of depends_... bits. */
 unsigned formula_depends(const struct model_body *body, const struct formula *formula);

@@ -152,6 +152,15 @@ static void add_link(struct builder *builder, const struct model_body *body, con
     }
 }
 
+static void add_square(struct plan *plan, int slot, double k)
+{
+    struct square_term *last = plan->square_count > 0 ? &plan->square[plan->square_count - 1] : NULL;
+    if (last && last->slot == slot)
+        last->k += k;
+    else
+        plan->square[plan->square_count++] = (struct square_term){slot, slot, k};
+}
+
 static void add_drag(struct builder *builder, const struct model_body *body, const struct model_load *load)
 {
     struct plan *plan = &builder->model->plan;
@@ -163,9 +172,7 @@ static void add_drag(struct builder *builder, const struct model_body *body, con
         /* At distance r from the axis: v = r omega, M = -r (c + k |v|) v. */
         double reach = body->kind == motion_pivot ? r : 1;
         add_rates(builder, i, 0, linear * reach * reach);
-        if (quadratic != 0)
-            plan->square[plan->square_count++] =
-                (struct square_term){i, i, quadratic * reach * reach * reach};
+        if (quadratic != 0) add_square(plan, i, quadratic * reach * reach * reach);
     } else if (quadratic == 0 && (body->kind == motion_particle || r == 0)) {
         add_rates(builder, i, 0, linear);
         add_rates(builder, i + 1, 0, linear);

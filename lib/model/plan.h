@@ -26,6 +26,11 @@ struct formula {
     int branch; /* of its first switch in the state's branches */
 };
 
+static inline bool formula_is_constant(const struct formula *formula)
+{
+    return formula->expr == NULL;
+}
+
 /* slot += c0 - kq q - kv v */
 struct affine_term {
     int slot, coordinate;
@@ -38,7 +43,7 @@ struct sine_term {
     double s, c;
 };
 
-/* slot -= k |v| v */
+/* slot -= k |v| v, at most one for each slot */
 struct square_term {
     int slot, coordinate;
     double k;

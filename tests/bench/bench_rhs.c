@@ -14,13 +14,12 @@
 #include <time.h>
 
 #include "dynamics/modes.h"
+#include "dynamics/rates.h"
 #include "fbd.h"
 
 enum { states = 64, calls = 200000, pairs = 101, most_size = 8 };
 
 static const double bound = 1.25;
-
-typedef int rates_function(double t, const double y[], double dydt[], void *params);
 
 /* ---- by hand */
 
@@ -149,13 +148,6 @@ static int ascending(const void *left, const void *right)
     double a = *(const double *)left, b = *(const double *)right;
     return (a > b) - (a < b);
 }
-static int rates(double t, const double y[], double dydt[], void *context)
-{
-    struct fbd_state *during = context;
-    struct instant at = {t, y, during->branch, during->slip, during->pull};
-    state_rates(during->model, &at, during->slots, dydt);
-    return 0;
-}
 static bool measure(const struct system *scene)
 {
     fbd_errors *errors = fbd_errors_new();
@@ -164,7 +156,11 @@ static bool measure(const struct system *scene)
     if (!model) return false;
     struct fbd_state *state = fbd_state_new(model);
     size_t n = (size_t)model->plan.n;
-    if (!state || 2 * n > most_size) return false;
+    if (!state || 2 * n > most_size || !modes_settle(state, NULL)) return false;
+    struct rates *rates = rates_new(state, rates_by_rows);
+    if (!rates) return false;
+    void *params;
+    rates_function *ours_by_rows = rates_call(rates, &params);
     for (int i = 0; i < states; i++)
         for (size_t k = 0; k < n; k++) {
             samples[i][k] = scene->angle * cos(0.37 * i + (double)k);
@@ -174,14 +170,14 @@ static bool measure(const struct system *scene)
     double worst = 0;
     for (int i = 0; i < states; i++) {
         double a[most_size], b[most_size];
-        rates(0.1 * i, samples[i], a, state);
+        ours_by_rows(0.1 * i, samples[i], a, params);
         scene->by_hand(0.1 * i, samples[i], b, &constants);
         for (size_t k = 0; k < 2 * n; k++) worst = fmax(worst, fabs(a[k] - b[k]) / (1 + fabs(b[k])));
     }
     static double ours[pairs], hand[pairs], ratio[pairs];
     double sum = 0;
     for (int i = -5; i < pairs; i++) {
-        double a = time_of(rates, state, &sum), b = time_of(scene->by_hand, &constants, &sum);
+        double a = time_of(ours_by_rows, params, &sum), b = time_of(scene->by_hand, &constants, &sum);
         if (i < 0) continue;
         ours[i] = 1e9 * a / calls;
         hand[i] = 1e9 * b / calls;
