@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "expr/parts.h"
 #include "expr/steps.h"
 
 /* While it is being read, a program names its registers by kind; their numbers are known at the end. */
@@ -291,7 +292,8 @@ struct expr *build_finish(struct builder *b, struct arena *arena, const struct o
                           .switch_at = switches,
                           .dim = result->kind.dim,
                           .bare = result->kind.free};
-    return steps_make(expr, &b->scratch, arena) ? expr : NULL;
+    bool made = parts_make(expr, &b->scratch, arena) && (expr->parts || steps_make(expr, &b->scratch, arena));
+    return made ? expr : NULL;
 }
 
 void build_free(struct builder *b)

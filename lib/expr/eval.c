@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "expr/frame.h"
+#include "expr/parts.h"
 #include "expr/steps.h"
 
 /* Programs with jumps. The operations of most force laws are done in place; the others go through op_value, whose call is small
@@ -38,5 +39,6 @@ static double run_on_frame(const struct expr *expr, double t, const double *y, c
 
 double expr_eval(const struct expr *expr, double t, const double *y, const int *branch)
 {
+    if (expr->parts) return parts_run(expr, t, y);
     return expr->steps ? steps_run(expr, t, y, branch) : run_on_frame(expr, t, y, branch);
 }

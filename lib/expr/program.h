@@ -88,11 +88,14 @@ struct expr_switch {
 };
 
 struct step;
+struct part;
 
 struct expr {
     const struct instr *code;
     size_t operations;
-    const struct step *steps; /* the same for plain values, see steps.h; NULL where the frame serves */
+    const struct part *parts; /* for plain values: a sum of simple parts (parts.h), */
+    int part_count;
+    const struct step *steps; /* else steps (steps.h); NULL where the frame serves */
     size_t step_count;
     bool uses_time;
     size_t variables; /* without t */

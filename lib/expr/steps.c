@@ -13,13 +13,20 @@ static double any(const struct instr *instr, double x, double y, const int *bran
     return op_value(instr, x, y);
 }
 
-#define A (place[step->a.place][step->a.index])
-#define B (place[step->b.place][step->b.index])
+/* Where an operand is does not change, so the branch is foreseen; the value is one load away. */
+static inline double fetch(const struct step_operand *operand, double t, const double *y, const double *kept)
+{
+    if (operand->place == at_constant) return operand->constant;
+    if (operand->place == at_time) return t;
+    return operand->place == at_state ? y[operand->index] : kept[operand->index];
+}
+
+#define A fetch(&step->a, t, y, kept)
+#define B fetch(&step->b, t, y, kept)
 
 double steps_run(const struct expr *expr, double t, const double *y, const int *branch)
 {
     double kept[most_kept];
-    const double *const place[step_places] = {expr->constant, y, &t, kept};
     const struct step *end = expr->steps + expr->step_count;
     double x = 0;
     for (const struct step *step = expr->steps; step < end; step++) {
@@ -76,14 +83,16 @@ static struct step_operand operand(struct maker *maker, size_t reg)
 {
     const struct expr *expr = maker->expr;
     size_t time = expr->uses_time ? 1 : 0;
-    if (reg < time) return (struct step_operand){place_of_time, 0};
-    if (reg < time + expr->variables)
-        return (struct step_operand){place_of_state, expr->slots[reg - time] - 1};
-    if (reg < leaves_of(expr))
-        return (struct step_operand){place_of_constants, (int)(reg - time - expr->variables)};
-    size_t temporary = reg - leaves_of(expr);
-    if (temporary >= most_kept) maker->refused = true;
-    return (struct step_operand){place_of_kept, (int)temporary};
+    if (reg < time) return (struct step_operand){.place = at_time};
+    reg -= time;
+    if (reg < expr->variables)
+        return (struct step_operand){.place = at_state, .index = expr->slots[reg] - 1};
+    reg -= expr->variables;
+    if (reg < expr->constants)
+        return (struct step_operand){.place = at_constant, .constant = expr->constant[reg]};
+    reg -= expr->constants;
+    if (reg >= most_kept) maker->refused = true;
+    return (struct step_operand){.place = at_kept, .index = (int)reg};
 }
 
 static void emit(struct maker *maker, struct step step)
@@ -164,7 +173,7 @@ static void add_unary(struct maker *maker, const struct instr *instr)
         emit(maker, (struct step){.op = step_load, .a = a});
     }
     /* `any` reads a second operand even where the operation has none. */
-    struct step step = {.op = unary_form(instr), .a = {place_of_time, 0}, .instr = instr};
+    struct step step = {.op = unary_form(instr), .a = {.place = at_time}, .instr = instr};
     struct step *before = &maker->steps[maker->count - 1];
     if (before->op == step_product && (step.op == step_sin || step.op == step_cos))
         before->op = step.op == step_sin ? step_sin_product : step_cos_product;
@@ -194,7 +203,7 @@ static void add_binary(struct maker *maker, const struct instr *instr)
     struct step step = {.op = is_a ? forms.on : forms.from, .a = is_a ? b : a, .instr = instr};
     struct step *last = maker->count >= 2 ? &maker->steps[maker->count - 2] : NULL;
     bool kept = last && last[0].op == step_keep && last[1].op == step_product &&
-                step.a.place == place_of_kept && step.a.index == last[0].a.index &&
+                step.a.place == at_kept && step.a.index == last[0].a.index &&
                 reads_behind(maker->expr, instr, is_a ? instr->b : instr->a) == 0;
     if (kept && (step.op == step_add || step.op == step_subtract_from)) {
         /* keep x, a b, then x + (a b) or x - (a b) */

@@ -44,11 +44,12 @@ enum step_op {
     step_any_from          /* any operation on a and x */
 };
 
-enum step_place { place_of_constants, place_of_state, place_of_time, place_of_kept, step_places };
+enum step_place { at_constant, at_time, at_state, at_kept };
 
 struct step_operand {
     enum step_place place;
-    int index;
+    int index;       /* into the state or the kept results */
+    double constant; /* of at_constant */
 };
 
 struct step {
