@@ -15,6 +15,9 @@ struct row {
     double rate, steady;  /* held: dx/dt; steady: dv/dt */
     const struct formula_term *formulas;
     int formula_count;
+    double scale; /* of a single formula that is a sum of parts */
+    const struct expr_part *parts;
+    int part_count;
 };
 
 struct rates {
@@ -81,6 +84,18 @@ static int sine_row(double t, const double y[], double dydt[], void *params)
     dydt[row->q] = v;
     dydt[row->v] =
         row->inverse * with_square_and_friction(row, v, affine_sum(row, q, v) + sine_sum(row, q));
+    return 0;
+}
+
+static int parts_row(double t, const double y[], double dydt[], void *params)
+{
+    const struct row *row = params;
+    double q = y[row->q], v = y[row->v], sum = affine_sum(row, q, v);
+    if (row->square != 0) sum -= row->square * fabs(v) * v;
+    sum += row->scale * parts_run(row->parts, row->part_count, t, y);
+    if (row->friction != 0) sum -= row->friction;
+    dydt[row->q] = v;
+    dydt[row->v] = row->inverse * sum;
     return 0;
 }
 
@@ -164,9 +179,26 @@ static void take_terms(const struct plan *plan, const struct body_terms *terms, 
     }
 }
 
+/* One formula, F sin(w t) or the like, and no sine beside it. */
+static bool is_sum_of_parts(const struct row *row)
+{
+    return row->formula_count == 1 && row->formulas[0].value.expr->parts && row->s == 0 && row->c == 0;
+}
+
+static void take_parts(struct row *row)
+{
+    const struct expr *expr = row->formulas[0].value.expr;
+    row->function = parts_row;
+    row->scale = row->formulas[0].scale;
+    row->parts = expr->parts;
+    row->part_count = expr->part_count;
+}
+
 static void choose(struct row *row)
 {
-    if (row->formula_count > 0)
+    if (is_sum_of_parts(row))
+        take_parts(row);
+    else if (row->formula_count > 0)
         row->function = formulas_row;
     else if (row->s != 0 || row->c != 0)
         row->function = sine_row;
@@ -250,6 +282,7 @@ struct rates_census rates_census(const struct rates *rates)
                      : function == held_row     ? &census.held
                      : function == affine_row   ? &census.affine
                      : function == sine_row     ? &census.sine
+                     : function == parts_row    ? &census.parts
                      : function == formulas_row ? &census.formulas
                                                 : &census.bodies;
         (*count)++;

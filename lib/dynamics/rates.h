@@ -13,6 +13,7 @@
  *     held         0, dx/dt = the speed of the surface                    stick on a surface of constant speed
  *     affine       (c0 - kq q - kv v - k |v| v - F) / m
  *     sine         (... + s sin q + c cos q - F) / m
+ *     parts        (... + scale * (sum of c u^k, c sin(w u + p)) - F) / m one formula of this shape (expr/parts.h)
  *     formulas     (... + sum of scale f(t, q, v) - F) / m
  *     body         the stages of forward.h                                everything else
  *
@@ -47,7 +48,7 @@ struct fbd_state *rates_state(void *params);
 
 /* How many rows of each kind there are, for those who want to know. */
 struct rates_census {
-    int steady, held, affine, sine, formulas, bodies;
+    int steady, held, affine, sine, parts, formulas, bodies;
 };
 
 struct rates_census rates_census(const struct rates *rates);

@@ -4,40 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- running */
-
-static inline double power_of(double u, int n)
-{
-    switch (n) {
-    case 0: return 1;
-    case 1: return u;
-    case 2: return u * u;
-    default: return u * (u * u);
-    }
-}
-
-static inline double part_value(const struct part *part, double t, const double *y)
-{
-    double u = part->index < 0 ? t : y[part->index];
-    if (part->kind == part_power) return part->c * power_of(u, part->power);
-    double angle = part->w * u;
-    if (part->p != 0) angle += part->p;
-    return part->c * (part->kind == part_sin ? sin(angle) : cos(angle));
-}
-
-double parts_run(const struct expr *expr, double t, const double *y)
-{
-    const struct part *part = expr->parts, *end = part + expr->part_count;
-    double sum = part_value(part, t, y);
-    while (++part < end) sum += part_value(part, t, y);
-    return sum;
-}
-
 /* ---- finding the shape: what each register stands for, as far as it has this form */
 
 struct sum {
     int count; /* 0: not of this form */
-    struct part parts[most_parts];
+    struct expr_part parts[most_parts];
 };
 
 static bool is_constant(const struct sum *sum)
@@ -107,7 +78,7 @@ static struct sum multiply(const struct sum *x, const struct sum *y)
 /* sin or cos of u, w u, w u + p or p + w u. */
 static struct sum harmonic(const struct sum *x, enum part_kind kind)
 {
-    const struct part *turning = &x->parts[0], *phase = NULL;
+    const struct expr_part *turning = &x->parts[0], *phase = NULL;
     if (x->count == 2) {
         bool first = turning->kind == part_power && turning->power == 0;
         phase = &x->parts[first ? 0 : 1];
@@ -161,7 +132,7 @@ bool parts_make(struct expr *expr, struct arena *scratch, struct arena *arena)
     }
     const struct sum *whole = &sums[expr->result];
     if (whole->count == 0) return true;
-    struct part *parts = ARENA_ARRAY(arena, (size_t)whole->count, struct part);
+    struct expr_part *parts = ARENA_ARRAY(arena, (size_t)whole->count, struct expr_part);
     if (!parts) return false;
     memcpy(parts, whole->parts, (size_t)whole->count * sizeof *parts);
     expr->parts = parts;

@@ -10,11 +10,13 @@
 #ifndef FBD_EXPR_PARTS_H
 #define FBD_EXPR_PARTS_H
 
+#include <math.h>
+
 #include "expr/program.h"
 
 enum { most_parts = 6 };
 
-struct part {
+struct expr_part {
     enum part_kind { part_power, part_sin, part_cos } kind;
     int power; /* 0 to 3 */
     int index; /* of u in the state, -1 for t */
@@ -25,6 +27,32 @@ struct part {
 /* Give a finished program its parts, in `arena`, if it has that shape. False when memory is out. */
 bool parts_make(struct expr *expr, struct arena *scratch, struct arena *arena);
 
-double parts_run(const struct expr *expr, double t, const double *y);
+static inline double part_power_of(double u, int n)
+{
+    switch (n) {
+    case 0: return 1;
+    case 1: return u;
+    case 2: return u * u;
+    default: return u * (u * u);
+    }
+}
+
+static inline double part_value(const struct expr_part *part, double t, const double *y)
+{
+    double u = part->index < 0 ? t : y[part->index];
+    if (part->kind == part_power) return part->c * part_power_of(u, part->power);
+    double angle = part->w * u;
+    if (part->p != 0) angle += part->p;
+    return part->c * (part->kind == part_sin ? sin(angle) : cos(angle));
+}
+
+/* Here, to be a part of the loop that asks for it. */
+static inline double parts_run(const struct expr_part *part, int count, double t, const double *y)
+{
+    const struct expr_part *end = part + count;
+    double sum = part_value(part, t, y);
+    while (++part < end) sum += part_value(part, t, y);
+    return sum;
+}
 
 #endif

@@ -88,12 +88,12 @@ struct expr_switch {
 };
 
 struct step;
-struct part;
+struct expr_part;
 
 struct expr {
     const struct instr *code;
     size_t operations;
-    const struct part *parts; /* for plain values: a sum of simple parts (parts.h), */
+    const struct expr_part *parts; /* for plain values: a sum of simple parts (parts.h), */
     int part_count;
     const struct step *steps; /* else steps (steps.h); NULL where the frame serves */
     size_t step_count;
