@@ -3,21 +3,24 @@
 
 #include <stdlib.h>
 
+#include "dynamics/laws.h"
+
 struct row {
     rates_function *function;
     const struct rates *all;
-    int q, v; /* where the coordinate and its rate are in y; of a body's row, `q` is the body */
+    int q, v;       /* where the coordinate and its rate are in y; of a body's row, `q` is the body */
     double inverse; /* 1/m, 1/I_O or 1/I_G */
     double c0, kq, kv;
     double s, c;
     double square;
-    double friction;      /* against +x, in the present mode */
-    double rate, steady;  /* held: dx/dt; steady: dv/dt */
+    double friction;     /* against +x, in the present mode */
+    double rate, steady; /* held: dx/dt; steady: dv/dt */
     const struct formula_term *formulas;
     int formula_count;
-    double scale; /* of a single formula that is a sum of parts */
-    const struct expr_part *parts;
-    int part_count;
+    double x_and_y[2][3]; /* particle: c0, kq, kv along x and y */
+    const struct body_terms *terms;
+    double scale; /* of a single formula of one part */
+    struct expr_part part;
 };
 
 struct rates {
@@ -82,17 +85,16 @@ static int sine_row(double t, const double y[], double dydt[], void *params)
     double q = y[row->q], v = y[row->v];
     (void)t;
     dydt[row->q] = v;
-    dydt[row->v] =
-        row->inverse * with_square_and_friction(row, v, affine_sum(row, q, v) + sine_sum(row, q));
+    dydt[row->v] = row->inverse * with_square_and_friction(row, v, affine_sum(row, q, v) + sine_sum(row, q));
     return 0;
 }
 
-static int parts_row(double t, const double y[], double dydt[], void *params)
+static int part_row(double t, const double y[], double dydt[], void *params)
 {
     const struct row *row = params;
     double q = y[row->q], v = y[row->v], sum = affine_sum(row, q, v);
     if (row->square != 0) sum -= row->square * fabs(v) * v;
-    sum += row->scale * parts_run(row->parts, row->part_count, t, y);
+    sum += row->scale * part_value(&row->part, t, y);
     if (row->friction != 0) sum -= row->friction;
     dydt[row->q] = v;
     dydt[row->v] = row->inverse * sum;
@@ -112,6 +114,47 @@ static int formulas_row(double t, const double y[], double dydt[], void *params)
     if (row->friction != 0) sum -= row->friction;
     dydt[row->q] = v;
     dydt[row->v] = row->inverse * sum;
+    return 0;
+}
+
+/* Springs, dampers and drag on a particle at p: its frame does not turn, so the arm of a point stays as it is. */
+static inline struct vec pulls(const struct plan *plan, const struct body_terms *terms, struct vec p,
+                               struct vec v)
+{
+    struct vec f = {0, 0};
+    const struct link_term *link = plan->links + terms->links.first, *end = link + terms->links.count;
+    for (; link < end; link++) {
+        struct link_law law = {link->anchor, link->stiffness, link->free_length, link->damping};
+        f = vec_add(f, link_force(&law, (struct motion_of_point){vec_add(p, link->point), v}));
+    }
+    const struct drag_term *drag = plan->drags + terms->drags.first;
+    for (int i = 0; i < terms->drags.count; i++, drag++)
+        f = vec_add(f, drag_force(&(struct drag_law){drag->linear, drag->quadratic}, v));
+    return f;
+}
+
+static int particle_row(double t, const double y[], double dydt[], void *params)
+{
+    const struct row *row = params;
+    const struct fbd_state *state = row->all->state;
+    struct vec p = {y[row->q], y[row->q + 1]}, v = {y[row->v], y[row->v + 1]};
+    struct vec f = pulls(&state->model->plan, row->terms, p, v);
+    const double(*affine)[3] = row->x_and_y;
+    double x = affine[0][0] - affine[0][1] * p.x - affine[0][2] * v.x;
+    double z = affine[1][0] - affine[1][1] * p.y - affine[1][2] * v.y;
+    dydt[row->q] = v.x;
+    dydt[row->q + 1] = v.y;
+    struct instant at = {t, y, state->branch, state->slip, state->pull};
+    const struct formula_term *formula = row->formulas, *end = formula + row->formula_count;
+    for (; formula < end; formula++) {
+        double value = formula->scale * formula_value(&formula->value, &at);
+        if (formula->slot == row->q)
+            x += value;
+        else
+            z += value;
+    }
+    dydt[row->v] = row->inverse * (x + f.x);
+    dydt[row->v + 1] = row->inverse * (z + f.y);
     return 0;
 }
 
@@ -179,27 +222,23 @@ static void take_terms(const struct plan *plan, const struct body_terms *terms, 
     }
 }
 
-/* One formula, F sin(w t) or the like, and no sine beside it. */
-static bool is_sum_of_parts(const struct row *row)
+/* One formula, F sin(w t) or the like. */
+static bool is_one_part(const struct row *row)
 {
-    return row->formula_count == 1 && row->formulas[0].value.expr->parts && row->s == 0 && row->c == 0;
+    return row->formula_count == 1 && row->formulas[0].value.expr->part_count == 1;
 }
 
-static void take_parts(struct row *row)
+static void take_part(struct row *row)
 {
-    const struct expr *expr = row->formulas[0].value.expr;
-    row->function = parts_row;
     row->scale = row->formulas[0].scale;
-    row->parts = expr->parts;
-    row->part_count = expr->part_count;
+    row->part = row->formulas[0].value.expr->parts[0];
 }
 
 static void choose(struct row *row)
 {
-    if (is_sum_of_parts(row))
-        take_parts(row);
-    else if (row->formula_count > 0)
-        row->function = formulas_row;
+    if (is_one_part(row)) take_part(row);
+    if (row->formula_count > 0)
+        row->function = is_one_part(row) && row->s == 0 && row->c == 0 ? part_row : formulas_row;
     else if (row->s != 0 || row->c != 0)
         row->function = sine_row;
     else if (row->kq != 0 || row->kv != 0 || row->square != 0)
@@ -229,20 +268,54 @@ static struct row row_of(const struct rates *rates, int b, int coordinate)
     return row;
 }
 
-void rates_bind(struct rates *rates)
+static bool is_pulled_particle(const struct model_body *body, const struct body_terms *terms)
+{
+    return body->kind == motion_particle && terms->forces.count == 0 && terms->potentials.count == 0;
+}
+
+static struct row row_of_particle(const struct rates *rates, int b)
+{
+    const struct fbd_model *model = rates->state->model;
+    const struct plan *plan = &model->plan;
+    const struct body_terms *terms = &plan->bodies[b];
+    int first = model->bodies[b].first;
+    struct row row = {.function = particle_row,
+                      .all = rates,
+                      .q = first,
+                      .v = plan->n + first,
+                      .inverse = plan->inverse_inertia[first],
+                      .terms = terms,
+                      .formulas = plan->formulas + terms->formulas.first,
+                      .formula_count = terms->formulas.count};
+    for (int i = terms->affine.first; i < terms->affine.first + terms->affine.count; i++) {
+        double *affine = row.x_and_y[plan->affine[i].slot - first];
+        affine[0] = plan->affine[i].c0;
+        affine[1] = plan->affine[i].kq;
+        affine[2] = plan->affine[i].kv;
+    }
+    return row;
+}
+
+static void bind_body(struct rates *rates, int b)
 {
     const struct fbd_state *state = rates->state;
-    const struct fbd_model *model = state->model;
-    rates->count = 0;
-    for (int b = 0; b < (int)model->body_count; b++) {
-        const struct model_body *body = &model->bodies[b];
-        if (rates->kind == rates_general ||
-            !stands_by_itself(&model->plan, body, &model->plan.bodies[b], state))
-            rates->rows[rates->count++] = (struct row){.function = body_row, .all = rates, .q = b};
-        else
-            for (int k = 0; k < body->count; k++)
-                rates->rows[rates->count++] = row_of(rates, b, body->first + k);
+    const struct model_body *body = &state->model->bodies[b];
+    const struct body_terms *terms = &state->model->plan.bodies[b];
+    struct row *next = &rates->rows[rates->count];
+    if (rates->kind == rates_by_rows && stands_by_itself(&state->model->plan, body, terms, state)) {
+        for (int k = 0; k < body->count; k++) *next++ = row_of(rates, b, body->first + k);
+    } else if (rates->kind == rates_by_rows && is_pulled_particle(body, terms)) {
+        *next++ = row_of_particle(rates, b);
+    } else {
+        *next++ = (struct row){.function = body_row, .all = rates, .q = b};
     }
+    rates->count = (int)(next - rates->rows);
+}
+
+void rates_bind(struct rates *rates)
+{
+    rates->count = 0;
+    for (int b = 0; b < (int)rates->state->model->body_count; b++) bind_body(rates, b);
 }
 
 struct rates *rates_new(struct fbd_state *state, enum rates_kind kind)
@@ -282,8 +355,9 @@ struct rates_census rates_census(const struct rates *rates)
                      : function == held_row     ? &census.held
                      : function == affine_row   ? &census.affine
                      : function == sine_row     ? &census.sine
-                     : function == parts_row    ? &census.parts
+                     : function == part_row     ? &census.parts
                      : function == formulas_row ? &census.formulas
+                     : function == particle_row ? &census.particles
                                                 : &census.bodies;
         (*count)++;
     }

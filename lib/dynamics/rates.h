@@ -5,19 +5,20 @@
  * Between two events the modes are fixed, and most coordinates need little: a block that slides down a plane
  * has a constant acceleration, a pendulum one sine. So each time the stepper starts, every coordinate that
  * stands by itself (diagonal mass matrix, no force at a point) becomes a row with a function that does just
- * what its terms ask for; the friction of a mode is a number in it. A body that needs more is one row that does
- * all that forward.h does. The right-hand side is the rows, and with one row it is the function of that row.
+ * what its terms ask for; the friction of a mode is a number in it. A body that needs more is one row that
+ * does all that forward.h does. The right-hand side is the rows, and with one row it is the function of that
+ * row.
  *
  *     row          dv/dt                                                  needs
  *     steady       a                                                      terms and friction constant
- *     held         0, dx/dt = the speed of the surface                    stick on a surface of constant speed
- *     affine       (c0 - kq q - kv v - k |v| v - F) / m
- *     sine         (... + s sin q + c cos q - F) / m
- *     parts        (... + scale * (sum of c u^k, c sin(w u + p)) - F) / m one formula of this shape (expr/parts.h)
- *     formulas     (... + sum of scale f(t, q, v) - F) / m
- *     body         the stages of forward.h                                everything else
+ *     held         0, dx/dt = the speed of the surface                    stick on a surface of constant
+ * speed affine       (c0 - kq q - kv v - k |v| v - F) / m sine         (... + s sin q + c cos q - F) / m
+ *     parts        (... + scale * (sum of c u^k, c sin(w u + p)) - F) / m one formula of this shape
+ * (expr/parts.h) formulas     (... + sum of scale f(t, q, v) - F) / m body         the stages of forward.h
+ * everything else
  *
- * Each row adds up in the order of forces.c and multiplies by the same 1/m: the bits are those of state_rates.
+ * Each row adds up in the order of forces.c and multiplies by the same 1/m: the bits are those of
+ * state_rates.
  */
 #ifndef FBD_DYNAMICS_RATES_H
 #define FBD_DYNAMICS_RATES_H
@@ -48,7 +49,7 @@ struct fbd_state *rates_state(void *params);
 
 /* How many rows of each kind there are, for those who want to know. */
 struct rates_census {
-    int steady, held, affine, sine, parts, formulas, bodies;
+    int steady, held, affine, sine, parts, formulas, particles, bodies;
 };
 
 struct rates_census rates_census(const struct rates *rates);

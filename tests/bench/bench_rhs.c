@@ -17,7 +17,7 @@
 #include "dynamics/rates.h"
 #include "fbd.h"
 
-enum { states = 64, calls = 200000, pairs = 101, most_size = 8 };
+enum { states = 64, calls = 4000, pairs = 3001, most_size = 8 };
 
 static const double bound = 1.25;
 
@@ -137,7 +137,7 @@ static double time_of(rates_function *function, void *params, double *sum)
     rates_function *volatile called = function;
     double dydt[most_size], start = now();
     for (int i = 0; i < calls; i++) {
-        called(1e-4 * i, samples[i % states], dydt, params);
+        called(5e-3 * i, samples[i % states], dydt, params);
         *sum += dydt[1];
     }
     return now() - start;
