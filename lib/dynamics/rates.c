@@ -17,10 +17,12 @@ struct row {
     double rate, steady; /* held: dx/dt; steady: dv/dt */
     const struct formula_term *formulas;
     int formula_count;
-    double x_and_y[2][3]; /* particle: c0, kq, kv along x and y */
+    double x_and_y[2][3]; /* particle: c0, kq, kv along x and y, */
+    bool sloped;          /* which are not all constant */
     const struct body_terms *terms;
     double scale; /* of a single formula of one part */
     struct expr_part part;
+    bool one_part;
 };
 
 struct rates {
@@ -117,7 +119,8 @@ static int formulas_row(double t, const double y[], double dydt[], void *params)
     return 0;
 }
 
-/* Springs, dampers and drag on a particle at p: its frame does not turn, so the arm of a point stays as it is. */
+/* Springs, dampers and drag on a particle at p: its frame does not turn, so the arm of a point stays as it
+ * is. */
 static inline struct vec pulls(const struct plan *plan, const struct body_terms *terms, struct vec p,
                                struct vec v)
 {
@@ -133,28 +136,38 @@ static inline struct vec pulls(const struct plan *plan, const struct body_terms 
     return f;
 }
 
+static void add_formulas(const struct row *row, double t, const double *y, double *x_sum, double *y_sum)
+{
+    const struct fbd_state *state = row->all->state;
+    struct instant at = {t, y, state->branch, state->slip, state->pull};
+    const struct formula_term *formula = row->formulas, *end = formula + row->formula_count;
+    for (; formula < end; formula++)
+        *(formula->slot == row->q ? x_sum : y_sum) += formula->scale * formula_value(&formula->value, &at);
+}
+
+/* The formula comes first: the processor works on its sine and on the square roots of the springs at a time.
+ */
 static int particle_row(double t, const double y[], double dydt[], void *params)
 {
     const struct row *row = params;
-    const struct fbd_state *state = row->all->state;
+    double drive = row->one_part ? row->scale * part_value(&row->part, t, y) : 0;
     struct vec p = {y[row->q], y[row->q + 1]}, v = {y[row->v], y[row->v + 1]};
-    struct vec f = pulls(&state->model->plan, row->terms, p, v);
-    const double(*affine)[3] = row->x_and_y;
-    double x = affine[0][0] - affine[0][1] * p.x - affine[0][2] * v.x;
-    double z = affine[1][0] - affine[1][1] * p.y - affine[1][2] * v.y;
+    double x_sum = row->x_and_y[0][0], y_sum = row->x_and_y[1][0];
+    if (row->sloped) {
+        x_sum = x_sum - row->x_and_y[0][1] * p.x - row->x_and_y[0][2] * v.x;
+        y_sum = y_sum - row->x_and_y[1][1] * p.y - row->x_and_y[1][2] * v.y;
+    }
+    if (row->one_part && row->formulas->slot == row->q)
+        x_sum += drive;
+    else if (row->one_part)
+        y_sum += drive;
+    else if (row->formula_count > 0)
+        add_formulas(row, t, y, &x_sum, &y_sum);
+    struct vec f = pulls(&row->all->state->model->plan, row->terms, p, v);
     dydt[row->q] = v.x;
     dydt[row->q + 1] = v.y;
-    struct instant at = {t, y, state->branch, state->slip, state->pull};
-    const struct formula_term *formula = row->formulas, *end = formula + row->formula_count;
-    for (; formula < end; formula++) {
-        double value = formula->scale * formula_value(&formula->value, &at);
-        if (formula->slot == row->q)
-            x += value;
-        else
-            z += value;
-    }
-    dydt[row->v] = row->inverse * (x + f.x);
-    dydt[row->v + 1] = row->inverse * (z + f.y);
+    dydt[row->v] = row->inverse * (x_sum + f.x);
+    dydt[row->v + 1] = row->inverse * (y_sum + f.y);
     return 0;
 }
 
@@ -222,23 +235,20 @@ static void take_terms(const struct plan *plan, const struct body_terms *terms, 
     }
 }
 
-/* One formula, F sin(w t) or the like. */
-static bool is_one_part(const struct row *row)
-{
-    return row->formula_count == 1 && row->formulas[0].value.expr->part_count == 1;
-}
-
+/* One formula of one part: F sin(w t) or the like. */
 static void take_part(struct row *row)
 {
+    row->one_part = row->formula_count == 1 && row->formulas[0].value.expr->part_count == 1;
+    if (!row->one_part) return;
     row->scale = row->formulas[0].scale;
     row->part = row->formulas[0].value.expr->parts[0];
 }
 
 static void choose(struct row *row)
 {
-    if (is_one_part(row)) take_part(row);
+    take_part(row);
     if (row->formula_count > 0)
-        row->function = is_one_part(row) && row->s == 0 && row->c == 0 ? part_row : formulas_row;
+        row->function = row->one_part && row->s == 0 && row->c == 0 ? part_row : formulas_row;
     else if (row->s != 0 || row->c != 0)
         row->function = sine_row;
     else if (row->kq != 0 || row->kv != 0 || row->square != 0)
@@ -292,7 +302,9 @@ static struct row row_of_particle(const struct rates *rates, int b)
         affine[0] = plan->affine[i].c0;
         affine[1] = plan->affine[i].kq;
         affine[2] = plan->affine[i].kv;
+        row.sloped |= affine[1] != 0 || affine[2] != 0;
     }
+    take_part(&row);
     return row;
 }
 

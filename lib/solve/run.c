@@ -8,22 +8,19 @@
 
 /* ---- the system that the stepper sees */
 
-static int rates(double t, const double y[], double dydt[], void *context)
+static int jacobian(double t, const double y[], double *dfdy, double dfdt[], void *params)
 {
-    struct run *run = context;
-    struct fbd_state *during = run->during;
+    struct fbd_state *during = rates_state(params);
     struct instant at = {t, y, during->branch, during->slip, during->pull};
-    state_rates(run->model, &at, during->slots, dydt);
+    state_jacobian(during->model, &at, during->scratch, dfdy, dfdt);
     return GSL_SUCCESS;
 }
 
-static int jacobian(double t, const double y[], double *dfdy, double dfdt[], void *context)
+/* The right-hand side in the modes of the step that follows. */
+static void bind_rates(struct run *run)
 {
-    struct run *run = context;
-    struct fbd_state *during = run->during;
-    struct instant at = {t, y, during->branch, during->slip, during->pull};
-    state_jacobian(run->model, &at, during->scratch, dfdy, dfdt);
-    return GSL_SUCCESS;
+    rates_bind(run->rates);
+    run->system.inner.function = rates_call(run->rates, &run->system.inner.params);
 }
 
 static int sample_timed(void *context, double t, double *values, double *rate)
@@ -95,7 +92,10 @@ static bool make_run(struct run *run)
     run->values = calloc(2 * run->moving.count + 1, sizeof *run->values);
     run->arrows = calloc(diagram_most_arrows(run->model), sizeof *run->arrows);
     if (!run->values || !run->arrows) return false;
-    gsl_odeiv2_system system = {rates, jacobian, 2 * n, run};
+    run->rates = rates_new(run->during, rates_by_rows);
+    if (!run->rates) return false;
+    gsl_odeiv2_system system = {.jacobian = jacobian, .dimension = 2 * n};
+    system.function = rates_call(run->rates, &system.params);
     counted_system_init(&run->system, &system);
     return make_decided(&run->decided, plan) && make_stepper(run);
 }
@@ -138,6 +138,7 @@ void run_free(struct run *run)
     watchers_free(&run->watchers);
     state_free(run->state);
     state_free(run->during);
+    rates_free(run->rates);
     free(run->decided.branches);
     free(run->events);
     free(run->y);
@@ -153,6 +154,7 @@ static bool restart(struct run *run)
 {
     memcpy(run->y, run->state->y, 2 * (size_t)run->model->plan.n * sizeof *run->y);
     run_set_noise(run);
+    bind_rates(run);
     int status = switcher_reset(run->stepper, &run->system, run->state->t, run->y, run->f, run->options.until,
                                 &run->h);
     if (status != GSL_SUCCESS) {
