@@ -86,12 +86,10 @@ static struct sum harmonic(const struct sum *x, enum part_kind kind)
         if (phase->kind != part_power || phase->power != 0) return no_sum;
     }
     if (x->count < 1 || x->count > 2 || turning->kind != part_power || turning->power != 1) return no_sum;
-    return (struct sum){.count = 1,
-                        .parts = {{.kind = kind,
-                                   .index = turning->index,
-                                   .c = 1,
-                                   .w = turning->c,
-                                   .p = phase ? phase->c : 0}}};
+    return (struct sum){
+        .count = 1,
+        .parts = {
+            {.kind = kind, .index = turning->index, .c = 1, .w = turning->c, .p = phase ? phase->c : 0}}};
 }
 
 static struct sum whole_power_of(const struct sum *x, int n)

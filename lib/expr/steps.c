@@ -85,8 +85,7 @@ static struct step_operand operand(struct maker *maker, size_t reg)
     size_t time = expr->uses_time ? 1 : 0;
     if (reg < time) return (struct step_operand){.place = at_time};
     reg -= time;
-    if (reg < expr->variables)
-        return (struct step_operand){.place = at_state, .index = expr->slots[reg] - 1};
+    if (reg < expr->variables) return (struct step_operand){.place = at_state, .index = expr->slots[reg] - 1};
     reg -= expr->variables;
     if (reg < expr->constants)
         return (struct step_operand){.place = at_constant, .constant = expr->constant[reg]};
@@ -202,8 +201,8 @@ static void add_binary(struct maker *maker, const struct instr *instr)
     }
     struct step step = {.op = is_a ? forms.on : forms.from, .a = is_a ? b : a, .instr = instr};
     struct step *last = maker->count >= 2 ? &maker->steps[maker->count - 2] : NULL;
-    bool kept = last && last[0].op == step_keep && last[1].op == step_product &&
-                step.a.place == at_kept && step.a.index == last[0].a.index &&
+    bool kept = last && last[0].op == step_keep && last[1].op == step_product && step.a.place == at_kept &&
+                step.a.index == last[0].a.index &&
                 reads_behind(maker->expr, instr, is_a ? instr->b : instr->a) == 0;
     if (kept && (step.op == step_add || step.op == step_subtract_from)) {
         /* keep x, a b, then x + (a b) or x - (a b) */
@@ -219,7 +218,8 @@ bool steps_make(struct expr *expr, struct arena *scratch, struct arena *arena)
 {
     struct maker maker = {.expr = expr, .latest = -1};
     if (leaves_of(expr) == expr->constants && expr->operations == 0) return true;
-    maker.steps = ARENA_ARRAY(scratch, 4 * expr->operations + 1, struct step); /* keep, load, operation, keep */
+    maker.steps =
+        ARENA_ARRAY(scratch, 4 * expr->operations + 1, struct step); /* keep, load, operation, keep */
     if (!maker.steps) return false;
     for (size_t i = 0; i < expr->operations && !maker.refused; i++) {
         const struct instr *instr = &expr->code[i];

@@ -2,11 +2,11 @@
  *
  * Steps: the form in which a program without jumps is run for plain values.
  *
- * The frame of program.h serves every kind of number, but for doubles most of its cost is moving them. Here one
- * accumulator holds the latest result, operands are read where they are (the constants of the program, the
- * caller's state, t, or a kept result), and common pairs of operations are one step: a product of two leaves,
- * the sine of a product, adding a product. Every step does the operations of the program in the same order, so
- * the bits of the value are the same.
+ * The frame of program.h serves every kind of number, but for doubles most of its cost is moving them. Here
+ * one accumulator holds the latest result, operands are read where they are (the constants of the program,
+ * the caller's state, t, or a kept result), and common pairs of operations are one step: a product of two
+ * leaves, the sine of a product, adding a product. Every step does the operations of the program in the same
+ * order, so the bits of the value are the same.
  */
 #ifndef FBD_EXPR_STEPS_H
 #define FBD_EXPR_STEPS_H

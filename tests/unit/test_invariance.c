@@ -296,7 +296,7 @@ static void without_works_the_motion_has_the_same_bits(void **unused)
     assert_true(isnan(energy.work) && isnan(energy.residual));
     assert_true(energy.kinetic == fbd_result_energy(whole.result).kinetic);
     assert_true(isnan(fbd_result_work(bare.result, "block", "friction")));
-    assert_false(isnan(fbd_result_work(whole.result, "block", "friction")));
+    assert_true(!isnan(fbd_result_work(whole.result, "block", "friction")));
     char *report = fbd_result_report(bare.result);
     assert_non_null(report);
     assert_non_null(strstr(report, "work not integrated"));
