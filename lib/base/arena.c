@@ -13,7 +13,8 @@ struct arena_chunk {
     max_align_t data[];
 };
 
-enum { chunk_size = 16384 };
+/* Chunks grow: the arena of a short expression is not a hundred times its content. */
+enum { first_chunk = 1024, largest_chunk = 65536 };
 
 static size_t round_up(size_t size)
 {
@@ -31,7 +32,9 @@ void *arena_array(struct arena *arena, size_t count, size_t size)
     size_t wanted = round_up(bytes > 0 ? bytes : 1);
     struct arena_chunk *chunk = arena->chunks;
     if (!chunk || chunk->size - chunk->used < wanted) {
-        size_t room = wanted > chunk_size ? wanted : chunk_size;
+        size_t room = chunk ? 2 * chunk->size : first_chunk;
+        if (room > largest_chunk) room = largest_chunk;
+        if (room < wanted) room = wanted;
         chunk = calloc(1, sizeof *chunk + room);
         if (!chunk) {
             arena->failed = true;
