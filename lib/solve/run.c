@@ -50,9 +50,7 @@ static bool make_stepper(struct run *run)
                                       .layout = {.pairs = n, .angle = angle},
                                       .tolerance = run->options.tolerance,
                                       .h_fixed = run->options.step};
-    /* Beyond some hundred states the dense algebra of the stiff method costs more than it could save. */
-    enum { most_states = 200 };
-    bool automatic = run->options.automatic && 2 * n <= most_states;
+    bool automatic = run->options.automatic && 2 * n <= method_most_stiff_states;
     run->stepper = switcher_alloc(&options, automatic ? method_find("rodas5p") : NULL);
     free(angle);
     return run->stepper != NULL;

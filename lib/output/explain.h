@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The plan in words, in two parts: what is simulated and what is not (explain.c), and how (explain_plan.c).
+ */
+#ifndef FBD_OUTPUT_EXPLAIN_H
+#define FBD_OUTPUT_EXPLAIN_H
+
+#include "base/text.h"
+#include "dynamics/rates.h"
+
+/* Terms of the right-hand side, its rows at the start, events, structure. `rates` are in the modes of the
+ * start. */
+void explain_plan(struct text *text, const struct fbd_model *model, const struct rates *rates);
+
+/* Names after one another, with a count of those that are too many: begin with *shown = 0. */
+void explain_name(struct text *text, size_t *shown, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+void explain_names_end(struct text *text, size_t shown);
+
+#endif
