@@ -36,7 +36,7 @@ static inline const int *formula_branches(const struct formula *formula, const s
 static inline double formula_value(const struct formula *formula, const struct instant *at)
 {
     if (!formula->expr) return formula->constant;
-    if (formula->expr->parts) return parts_run(formula->expr->parts, formula->expr->part_count, at->t, at->y);
+    if (formula->expr->parts) return parts_run(formula->expr, at->t, at->y);
     return expr_eval(formula->expr, at->t, at->y, formula_branches(formula, at));
 }
 

@@ -22,6 +22,7 @@ struct row {
     const struct body_terms *terms;
     double scale; /* of a single formula of one part */
     struct expr_part part;
+    int u; /* its variable in y, -1 for t */
     bool one_part;
 };
 
@@ -96,7 +97,7 @@ static int part_row(double t, const double y[], double dydt[], void *params)
     const struct row *row = params;
     double q = y[row->q], v = y[row->v], sum = affine_sum(row, q, v);
     if (row->square != 0) sum -= row->square * fabs(v) * v;
-    sum += row->scale * part_value(&row->part, t, y);
+    sum += row->scale * part_value(&row->part, row->u < 0 ? t : y[row->u]);
     if (row->friction != 0) sum -= row->friction;
     dydt[row->q] = v;
     dydt[row->v] = row->inverse * sum;
@@ -150,7 +151,7 @@ static void add_formulas(const struct row *row, double t, const double *y, doubl
 static int particle_row(double t, const double y[], double dydt[], void *params)
 {
     const struct row *row = params;
-    double drive = row->one_part ? row->scale * part_value(&row->part, t, y) : 0;
+    double drive = row->one_part ? row->scale * part_value(&row->part, row->u < 0 ? t : y[row->u]) : 0;
     struct vec p = {y[row->q], y[row->q + 1]}, v = {y[row->v], y[row->v + 1]};
     double x_sum = row->x_and_y[0][0], y_sum = row->x_and_y[1][0];
     if (row->sloped) {
@@ -241,7 +242,9 @@ static void take_part(struct row *row)
     row->one_part = row->formula_count == 1 && row->formulas[0].value.expr->part_count == 1;
     if (!row->one_part) return;
     row->scale = row->formulas[0].scale;
-    row->part = row->formulas[0].value.expr->parts[0];
+    const struct expr *expr = row->formulas[0].value.expr;
+    row->part = expr->parts[0];
+    row->u = row->part.variable < 0 ? -1 : expr->slots[row->part.variable] - 1;
 }
 
 static void choose(struct row *row)

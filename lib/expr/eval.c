@@ -39,6 +39,6 @@ static double run_on_frame(const struct expr *expr, double t, const double *y, c
 
 double expr_eval(const struct expr *expr, double t, const double *y, const int *branch)
 {
-    if (expr->parts) return parts_run(expr->parts, expr->part_count, t, y);
+    if (expr->parts) return parts_run(expr, t, y);
     return expr->steps ? steps_run(expr, t, y, branch) : run_on_frame(expr, t, y, branch);
 }

@@ -30,11 +30,11 @@ static bool is_bare(const struct sum *sum)
 
 static struct sum leaf(const struct expr *expr, size_t reg)
 {
-    struct sum sum = {.count = 1, .parts = {{.kind = part_power, .power = 1, .c = 1, .index = -1}}};
+    struct sum sum = {.count = 1, .parts = {{.kind = part_power, .power = 1, .c = 1, .variable = -1}}};
     size_t time = expr->uses_time ? 1 : 0;
     if (reg < time) return sum;
     if (reg < time + expr->variables) {
-        sum.parts[0].index = expr->slots[reg - time] - 1;
+        sum.parts[0].variable = (int)(reg - time);
     } else {
         sum.parts[0].power = 0;
         sum.parts[0].c = expr->constant[reg - time - expr->variables];
@@ -70,7 +70,8 @@ static struct sum multiply(const struct sum *x, const struct sum *y)
         return sum;
     }
     int power = x->parts[0].power + y->parts[0].power;
-    if (!is_power(x) || !is_power(y) || x->parts[0].index != y->parts[0].index || power > 3) return no_sum;
+    if (!is_power(x) || !is_power(y) || x->parts[0].variable != y->parts[0].variable || power > 3)
+        return no_sum;
     sum.parts[0].power = power;
     return sum;
 }
@@ -86,10 +87,12 @@ static struct sum harmonic(const struct sum *x, enum part_kind kind)
         if (phase->kind != part_power || phase->power != 0) return no_sum;
     }
     if (x->count < 1 || x->count > 2 || turning->kind != part_power || turning->power != 1) return no_sum;
-    return (struct sum){
-        .count = 1,
-        .parts = {
-            {.kind = kind, .index = turning->index, .c = 1, .w = turning->c, .p = phase ? phase->c : 0}}};
+    return (struct sum){.count = 1,
+                        .parts = {{.kind = kind,
+                                   .variable = turning->variable,
+                                   .c = 1,
+                                   .w = turning->c,
+                                   .p = phase ? phase->c : 0}}};
 }
 
 static struct sum whole_power_of(const struct sum *x, int n)

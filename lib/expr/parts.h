@@ -18,8 +18,8 @@ enum { most_parts = 6 };
 
 struct expr_part {
     enum part_kind { part_power, part_sin, part_cos } kind;
-    int power; /* 0 to 3 */
-    int index; /* of u in the state, -1 for t */
+    int power;    /* 0 to 3 */
+    int variable; /* u: index into the slots of the expression, -1 for t */
     double c;
     double w, p;
 };
@@ -37,21 +37,26 @@ static inline double part_power_of(double u, int n)
     }
 }
 
-static inline double part_value(const struct expr_part *part, double t, const double *y)
+static inline double part_value(const struct expr_part *part, double u)
 {
-    double u = part->index < 0 ? t : y[part->index];
     if (part->kind == part_power) return part->c * part_power_of(u, part->power);
     double angle = part->w * u;
     if (part->p != 0) angle += part->p;
     return part->c * (part->kind == part_sin ? sin(angle) : cos(angle));
 }
 
-/* Here, to be a part of the loop that asks for it. */
-static inline double parts_run(const struct expr_part *part, int count, double t, const double *y)
+static inline double part_variable(const struct expr *expr, const struct expr_part *part, double t,
+                                   const double *y)
 {
-    const struct expr_part *end = part + count;
-    double sum = part_value(part, t, y);
-    while (++part < end) sum += part_value(part, t, y);
+    return part->variable < 0 ? t : y[expr->slots[part->variable] - 1];
+}
+
+/* Here, to be a part of the loop that asks for it. */
+static inline double parts_run(const struct expr *expr, double t, const double *y)
+{
+    const struct expr_part *part = expr->parts, *end = part + expr->part_count;
+    double sum = part_value(part, part_variable(expr, part, t, y));
+    while (++part < end) sum += part_value(part, part_variable(expr, part, t, y));
     return sum;
 }
 

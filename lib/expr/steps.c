@@ -14,15 +14,16 @@ static double any(const struct instr *instr, double x, double y, const int *bran
 }
 
 /* Where an operand is does not change, so the branch is foreseen; the value is one load away. */
-static inline double fetch(const struct step_operand *operand, double t, const double *y, const double *kept)
+static inline double fetch(const struct step_operand *operand, const struct expr *expr, double t,
+                           const double *y, const double *kept)
 {
     if (operand->place == at_constant) return operand->constant;
     if (operand->place == at_time) return t;
-    return operand->place == at_state ? y[operand->index] : kept[operand->index];
+    return operand->place == at_state ? y[expr->slots[operand->index] - 1] : kept[operand->index];
 }
 
-#define A fetch(&step->a, t, y, kept)
-#define B fetch(&step->b, t, y, kept)
+#define A fetch(&step->a, expr, t, y, kept)
+#define B fetch(&step->b, expr, t, y, kept)
 
 double steps_run(const struct expr *expr, double t, const double *y, const int *branch)
 {
@@ -85,7 +86,7 @@ static struct step_operand operand(struct maker *maker, size_t reg)
     size_t time = expr->uses_time ? 1 : 0;
     if (reg < time) return (struct step_operand){.place = at_time};
     reg -= time;
-    if (reg < expr->variables) return (struct step_operand){.place = at_state, .index = expr->slots[reg] - 1};
+    if (reg < expr->variables) return (struct step_operand){.place = at_state, .index = (int)reg};
     reg -= expr->variables;
     if (reg < expr->constants)
         return (struct step_operand){.place = at_constant, .constant = expr->constant[reg]};

@@ -48,7 +48,7 @@ enum step_place { at_constant, at_time, at_state, at_kept };
 
 struct step_operand {
     enum step_place place;
-    int index;       /* into the state or the kept results */
+    int index;       /* into the slots of the expression, or the kept results */
     double constant; /* of at_constant */
 };
 
