@@ -188,6 +188,19 @@ static int angle_coordinate(const struct model_body *body)
     return body->first + body->count - 1;
 }
 
+static void add_moment_spring(struct builder *builder, const struct model_body *body,
+                              const struct load *source)
+{
+    add_rates(builder, angle_coordinate(body), source->stiffness, 0);
+    add_constant(builder, angle_coordinate(body), source->stiffness * source->free_length);
+}
+
+static void add_moment_damper(struct builder *builder, const struct model_body *body,
+                              const struct load *source)
+{
+    add_rates(builder, angle_coordinate(body), 0, source->coefficient);
+}
+
 static void add_potential(struct builder *builder, const struct model_body *body,
                           const struct model_load *load)
 {
@@ -250,11 +263,8 @@ void plan_load(struct builder *builder, struct model_body *body, int index)
     case load_potential:
     case moment_potential: add_potential(builder, body, load); break;
     case moment_applied: add_formula(builder, angle_coordinate(body), 1, &load->value); break;
-    case moment_spring:
-        add_rates(builder, angle_coordinate(body), source->stiffness, 0);
-        add_constant(builder, angle_coordinate(body), source->stiffness * source->free_length);
-        break;
-    case moment_damper: add_rates(builder, angle_coordinate(body), 0, source->coefficient); break;
+    case moment_spring: add_moment_spring(builder, body, source); break;
+    case moment_damper: add_moment_damper(builder, body, source); break;
     case load_normal: break; /* the contact below, and the friction that needs it */
     case load_friction:
     case moment_friction: add_friction(builder, body, index); break;
