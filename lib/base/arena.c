@@ -13,8 +13,9 @@ struct arena_chunk {
     max_align_t data[];
 };
 
-/* Chunks grow: the arena of a short expression is not a hundred times its content. */
-enum { first_chunk = 1024, largest_chunk = 65536 };
+/* The first chunk is small, as parts of a scene have arenas of their own by the thousand; each that follows
+ * is twice as large up to a limit. */
+enum { first_chunk = 1024, largest_chunk = 16384 };
 
 static size_t round_up(size_t size)
 {
@@ -32,9 +33,10 @@ void *arena_array(struct arena *arena, size_t count, size_t size)
     size_t wanted = round_up(bytes > 0 ? bytes : 1);
     struct arena_chunk *chunk = arena->chunks;
     if (!chunk || chunk->size - chunk->used < wanted) {
-        size_t room = chunk ? 2 * chunk->size : first_chunk;
-        if (room > largest_chunk) room = largest_chunk;
-        if (room < wanted) room = wanted;
+        size_t next_size = !chunk                            ? first_chunk
+                           : 2 * chunk->size < largest_chunk ? 2 * chunk->size
+                                                             : largest_chunk;
+        size_t room = wanted > next_size ? wanted : next_size;
         chunk = calloc(1, sizeof *chunk + room);
         if (!chunk) {
             arena->failed = true;

@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "dynamics/rates.h"
 
-/* Terms of the right-hand side, its rows at the start, events, structure. `rates` are in the modes of the
+/* The right-hand side with its rows at the start, events, structure. `rates` are in the modes of the
  * start. */
 void explain_plan(struct text *text, const struct fbd_model *model, const struct rates *rates);
 

@@ -14,7 +14,7 @@ static void write_list(struct text *text, size_t count, const char *words)
 
 static void write_terms(struct text *text, const struct plan *plan)
 {
-    text_add(text, "\nTerms of the right-hand side\n");
+    text_add(text, "\nRight-hand side\n");
     size_t across = 0;
     for (size_t i = 0; i < plan->affine_count; i++) across += plan->affine[i].slot >= plan->n;
     write_list(text, plan->affine_count - across,
@@ -34,6 +34,53 @@ static void write_terms(struct text *text, const struct plan *plan)
             plan->friction_count + plan->offset_count ==
         0)
         text_add(text, "  none\n");
+}
+
+static size_t bodies_that_depend(const struct fbd_model *model, unsigned on)
+{
+    size_t count = 0;
+    for (size_t b = 0; b < model->body_count; b++) count += (model->plan.bodies[b].depends & on) != 0;
+    return count;
+}
+
+static void write_rows(struct text *text, struct rates_census rows)
+{
+    text_add(text, "  as it starts, its rows are\n");
+    const struct {
+        int count;
+        const char *words;
+    } kinds[] = {
+        {rows.steady, "constant acceleration"},
+        {rows.held, "held by friction: nothing to compute"},
+        {rows.affine, "affine, with quadratic drag: one line"},
+        {rows.sine, "sine of the angle: one line"},
+        {rows.parts, "one power or harmonic of a formula: one line, no program"},
+        {rows.formulas, "with formulas"},
+        {rows.particles, "particle with springs, dampers or drag at its points"},
+        {rows.bodies, "body by the general path"},
+    };
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        if (kinds[i].count > 0) text_printf(text, "    %3d  %s\n", kinds[i].count, kinds[i].words);
+}
+
+static void write_dependence(struct text *text, const struct fbd_model *model)
+{
+    static const struct {
+        unsigned on;
+        const char *words;
+    } kinds[] = {{depends_time, "time"},
+                 {depends_place, "the place"},
+                 {depends_rate, "the velocity"},
+                 {depends_other, "the motion of other bodies"}};
+    bool any = false;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        size_t count = bodies_that_depend(model, kinds[i].on);
+        if (count > 0)
+            text_printf(text, "  forces change with %s on %zu of %zu bodies\n", kinds[i].words, count,
+                        model->body_count);
+        any |= count > 0;
+    }
+    if (!any) text_add(text, "  all forces are constant (but for the sign of friction)\n");
 }
 
 /* ---- events: a function is watched only where an effect could make it zero */
@@ -64,64 +111,21 @@ static void write_events(struct text *text, const struct plan *plan)
 
 /* ---- structure */
 
-static size_t bodies_that_depend(const struct fbd_model *model, unsigned on)
+static void write_structure(struct text *text, const struct plan *plan)
 {
-    size_t count = 0;
-    for (size_t b = 0; b < model->body_count; b++) count += (model->plan.bodies[b].depends & on) != 0;
-    return count;
-}
-
-static void write_rows(struct text *text, struct rates_census rows)
-{
-    text_add(text, "  as it starts, the right-hand side is\n");
-    const struct {
-        int count;
-        const char *words;
-    } kinds[] = {
-        {rows.steady, "constant acceleration"},
-        {rows.held, "held by friction: nothing to compute"},
-        {rows.affine, "affine, with quadratic drag: one line"},
-        {rows.sine, "sine of the angle: one line"},
-        {rows.parts, "one power or harmonic of a formula: one line, no program"},
-        {rows.formulas, "with formulas"},
-        {rows.particles, "particle with springs, dampers or drag at its points"},
-        {rows.bodies, "body by the general path"},
-    };
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
-        if (kinds[i].count > 0) text_printf(text, "    %3d  %s\n", kinds[i].count, kinds[i].words);
-}
-
-static void write_structure(struct text *text, const struct fbd_model *model, const struct rates *rates)
-{
-    const struct plan *plan = &model->plan;
     text_add(text, "\nStructure recognised\n");
     if (plan->offset_count == 0)
         text_add(text, "  the mass matrix is diagonal: every acceleration is a sum over an inertia\n");
     else
         text_printf(text, "  the mass matrix has %zu block%s of three, else it is diagonal\n",
                     plan->offset_count, plan->offset_count == 1 ? "" : "s");
-    static const struct {
-        unsigned on;
-        const char *words;
-    } kinds[] = {{depends_time, "time"},
-                 {depends_place, "the place"},
-                 {depends_rate, "the velocity"},
-                 {depends_other, "the motion of other bodies"}};
-    bool any = false;
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-        size_t count = bodies_that_depend(model, kinds[i].on);
-        if (count > 0)
-            text_printf(text, "  forces change with %s on %zu of %zu bodies\n", kinds[i].words, count,
-                        model->body_count);
-        any |= count > 0;
-    }
-    if (!any) text_add(text, "  all forces are constant (but for the sign of friction)\n");
-    write_rows(text, rates_census(rates));
 }
 
 void explain_plan(struct text *text, const struct fbd_model *model, const struct rates *rates)
 {
     write_terms(text, &model->plan);
+    write_dependence(text, model);
+    write_rows(text, rates_census(rates));
     write_events(text, &model->plan);
-    write_structure(text, model, rates);
+    write_structure(text, &model->plan);
 }
