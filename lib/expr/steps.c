@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "expr/steps.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -97,6 +98,7 @@ static struct step_operand operand(struct maker *maker, size_t reg)
 
 static void emit(struct maker *maker, struct step step)
 {
+    assert(maker->steps); /* steps_make has seen to it */
     maker->steps[maker->count++] = step;
 }
 

@@ -6,6 +6,8 @@
  */
 #include "model/builder.h"
 
+#include <assert.h>
+
 /* The slots of a body are its coordinates and, on some slides, the sum of forces across the line. */
 static void add_constant(struct builder *builder, int slot, double value)
 {
@@ -154,9 +156,10 @@ static void add_link(struct builder *builder, const struct model_body *body, con
 
 static void add_square(struct plan *plan, int slot, double k)
 {
-    struct square_term *last = plan->square_count > 0 ? &plan->square[plan->square_count - 1] : NULL;
-    if (last && last->slot == slot)
-        last->k += k;
+    assert(plan->square); /* there is room for every load */
+    size_t count = plan->square_count;
+    if (count > 0 && plan->square[count - 1].slot == slot)
+        plan->square[count - 1].k += k;
     else
         plan->square[plan->square_count++] = (struct square_term){slot, slot, k};
 }

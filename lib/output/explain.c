@@ -4,28 +4,23 @@
  */
 #include "output/explain.h"
 
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "dynamics/modes.h"
 #include "solve/method.h"
 
-enum { most_names = 4, most_bodies = 20, name_size = 200 };
+enum { most_names = 4, most_bodies = 20 };
 
-void explain_name(struct text *text, size_t *shown, const char *format, ...)
+/* Names after one another, with a count of those that are too many: begin with *shown = 0. `load` may be
+ * NULL. */
+static void write_name(struct text *text, size_t *shown, const char *body, const char *load)
 {
-    char name[name_size];
     if ((*shown)++ >= most_names) return;
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(name, sizeof name, format, arguments);
-    va_end(arguments);
-    text_printf(text, "%s%s", *shown > 1 ? ", " : "", name);
+    text_printf(text, "%s%s%s%s", *shown > 1 ? ", " : "", body, load ? "." : "", load ? load : "");
 }
 
-void explain_names_end(struct text *text, size_t shown)
+static void end_names(struct text *text, size_t shown)
 {
     if (shown > most_names) text_printf(text, " and %zu more", shown - most_names);
     text_add(text, "\n");
@@ -96,9 +91,9 @@ static void write_effect(struct text *text, const struct fbd_model *model, const
     for (size_t i = 0; i < model->load_count; i++) {
         const struct model_load *load = &model->loads[i];
         if (same_effect(first, load))
-            explain_name(text, &shown, "%s.%s", model->bodies[load->body].name, load->source->name);
+            write_name(text, &shown, model->bodies[load->body].name, load->source->name);
     }
-    explain_names_end(text, shown);
+    end_names(text, shown);
 }
 
 static void write_effects(struct text *text, const struct fbd_model *model)
@@ -172,8 +167,8 @@ static void write_absent(struct text *text, const struct fbd_model *model)
         text_printf(text, "  %s\n      on ", absent->words);
         for (size_t b = 0; b < model->body_count; b++)
             if (absent->on[model->bodies[b].kind] && !lists(model, &model->bodies[b], absent->kind))
-                explain_name(text, &shown, "%s", model->bodies[b].name);
-        explain_names_end(text, shown);
+                write_name(text, &shown, model->bodies[b].name, NULL);
+        end_names(text, shown);
     }
 }
 

@@ -12,9 +12,4 @@
  * start. */
 void explain_plan(struct text *text, const struct fbd_model *model, const struct rates *rates);
 
-/* Names after one another, with a count of those that are too many: begin with *shown = 0. */
-void explain_name(struct text *text, size_t *shown, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-void explain_names_end(struct text *text, size_t shown);
-
 #endif

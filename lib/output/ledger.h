@@ -28,8 +28,8 @@ struct ledger {
     double *scratch; /* 2 n */
 };
 
-/* Start at a state. Without `works` nothing is integrated, and what would need it is NAN. False when memory is
- * out. */
+/* Start at a state. Without `works` nothing is integrated, and what would need it is NAN. False when memory
+ * is out. */
 bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fbd_state *start, bool works);
 void ledger_free(struct ledger *ledger);
 

@@ -51,7 +51,7 @@ struct run {
     struct scan timed, moving;
     struct switcher *stepper;
     struct counted_system system;
-    struct rates *rates; /* in the modes of `during` */
+    struct rates *rates;    /* in the modes of `during` */
     double *y, *f, *sample; /* 2 n each */
     double *values;         /* moving event functions and their rates */
     struct decided decided;

@@ -116,13 +116,13 @@ static void a_large_scene_is_told_in_few_lines(void **unused)
 {
     (void)unused;
     enum { bodies = 60 };
-    static char scene[bodies * 64 + 100] = "fbd: 1\nbodies:\n";
+    char scene[bodies * 64 + 100] = "fbd: 1\nbodies:\n";
+    size_t used = strlen(scene);
     for (int i = 0; i < bodies; i++) {
-        size_t used = strlen(scene);
-        snprintf(scene + used, sizeof scene - used,
-                 "  b%d: {shape: sphere, radius: 1, mass: 1, motion: planar}\n", i);
+        used += (size_t)snprintf(scene + used, sizeof scene - used,
+                                 "  b%d: {shape: sphere, radius: 1, mass: 1, motion: planar}\n", i);
     }
-    strcat(scene, "simulate: {until: 1}\n");
+    snprintf(scene + used, sizeof scene - used, "simulate: {until: 1}\n");
     char *text = explain(scene, NULL);
     expect(text, "and those of 40 more bodies");
     expect(text, "on b0, b1, b2, b3 and 56 more\n");
