@@ -2,6 +2,7 @@
  *
  * Public interface: simulations and whole runs.
  */
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -63,6 +64,9 @@ static bool choose(const fbd_model *model, const fbd_options *options, struct ru
     if (!(chosen->tolerance > 0 && chosen->tolerance <= 0.1))
         bad_option(errors, "bad-option", "1e-10 is the default",
                    "the tolerance must be above 0 and at most 0.1");
+    else if (chosen->tolerance < DBL_EPSILON)
+        bad_option(errors, "bad-option", "1e-13 is about what a run can keep; 1e-10 is the default",
+                   "the tolerance is below what numbers resolve (2.2e-16)");
     if (!(chosen->step >= 0) || isinf(chosen->step))
         bad_option(errors, "bad-option", NULL, "the step size must be positive");
     return fbd_errors_failed(errors) == before;

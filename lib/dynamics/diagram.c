@@ -2,10 +2,11 @@
 #include "dynamics/diagram.h"
 
 #include "dynamics/laws.h"
+#include "dynamics/tree.h"
 
 size_t diagram_arrows(const struct fbd_model *model, int body)
 {
-    return (size_t)model->bodies[body].load_count + 1;
+    return (size_t)model->bodies[body].arrow_count;
 }
 
 size_t diagram_most_arrows(const struct fbd_model *model)
@@ -24,6 +25,7 @@ double arrow_moment(const struct arrow *arrow, struct vec about)
 struct vec mass_center_acceleration(const struct model_body *body, const struct instant *at, const double *a)
 {
     const double *own = a + body->first;
+    if (body->place.link > 0) return tree_mass_center_acceleration(body, at);
     if (body->kind == motion_slide) return vec_scale(own[0], body->e);
     if (body->kind == motion_particle) return (struct vec){own[0], own[1]};
     /* a_G = a_O + alpha k x r - omega^2 r */
@@ -36,15 +38,14 @@ struct vec mass_center_acceleration(const struct model_body *body, const struct 
 
 /* ---- forces by kind */
 
-struct vec applied_force(const struct model_body *body, const struct model_load *load,
-                         const struct pose *pose, const struct instant *at)
+struct vec applied_force(const struct model_load *load, const struct pose *pose, const struct instant *at)
 {
     const struct load *source = load->source;
     struct vec f;
     if (source->fx.expr || source->fy.expr)
         f = (struct vec){formula_value(&load->fx, at), formula_value(&load->fy, at)};
     else if (!source->angle.expr)
-        return vec_scale(formula_value(&load->value, at), body->e);
+        return vec_scale(formula_value(&load->value, at), pose->rotation); /* e is the body's x axis */
     else
         f = vec_scale(formula_value(&load->value, at), vec_unit(formula_value(&load->angle, at)));
     return source->body_frame ? vec_turn(pose->rotation, f) : f;
@@ -97,7 +98,7 @@ static void set_arrow(const struct fbd_model *model, const struct model_body *bo
         arrow->force = vec_scale(friction_at(model, body->friction, at, slots).force, body->e);
         break;
     case moment_friction: arrow->couple = friction_at(model, body->friction, at, slots).force; break;
-    case load_applied: arrow->force = applied_force(body, load, pose, at); break;
+    case load_applied: arrow->force = applied_force(load, pose, at); break;
     case load_spring:
     case load_damper: arrow->force = link_or_line_force(body, load, point, at); break;
     case load_drag: {
@@ -148,6 +149,7 @@ size_t diagram_fill(const struct fbd_model *model, int index, const struct insta
                     const double *slots, struct arrow *arrows)
 {
     const struct model_body *body = &model->bodies[index];
+    if (body->place.link > 0) return tree_diagram_fill(model, index, at, slots, arrows);
     struct pose pose = body_pose(body, at);
     struct vec listed = {0, 0};
     int normal = -1;

@@ -14,7 +14,7 @@
 /* One arrow of the diagram. */
 struct arrow {
     const char *name;
-    int load;                                 /* index into model.loads, -1 for a reaction */
+    int load; /* index into model.loads, -1 for a reaction; on the body that feels the opposite, too */
     struct vec force;                         /* in the world */
     struct vec point;                         /* where it acts, in the world */
     double couple;                            /* a moment by itself */
@@ -35,8 +35,27 @@ size_t diagram_fill(const struct fbd_model *model, int index, const struct insta
                     const double *slots, struct arrow *arrows);
 
 /* The world components of an applied force. */
-struct vec applied_force(const struct model_body *body, const struct model_load *load,
-                         const struct pose *pose, const struct instant *at);
+struct vec applied_force(const struct model_load *load, const struct pose *pose, const struct instant *at);
+
+/* The sums of a jointed body's diagram, about its centre of mass, beside what they are to be. */
+struct balance {
+    struct vec force, m_a;
+    double moment, I_alpha;
+    double residual; /* the largest difference, as a share of the largest force, or moment */
+};
+
+struct balance balance_of(const struct model_body *body, const struct instant *at, const struct arrow *arrows,
+                          size_t count);
+
+/* Where the other end of a spring or damper is, and how it moves. */
+struct motion_of_point other_end(const struct fbd_model *model, const struct model_load *load,
+                                 const struct instant *at);
+
+/* diagram_fill for a jointed body (tree_diagram.c): what it lists, the couplings that hold it, the force of
+ * its joint, and the opposite of what acts in the joints of the bodies that move on it. Its shares are those
+ * of its own joint. */
+size_t tree_diagram_fill(const struct fbd_model *model, int index, const struct instant *at,
+                         const double *slots, struct arrow *arrows);
 
 /* The acceleration of the body's centre of mass. */
 struct vec mass_center_acceleration(const struct model_body *body, const struct instant *at, const double *a);

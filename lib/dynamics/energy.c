@@ -9,13 +9,14 @@ double kinetic_energy(const struct model_body *body, const struct instant *at)
 {
     const double *v = at->y + body->first_rate;
     double m = body->inertia.mass;
-    switch (body->kind) {
+    struct pose pose = body_pose(body, at);
+    switch (body->place.link > 0 ? motion_planar : body->kind) {
     case motion_slide: return m * v[0] * v[0] / 2;
     case motion_pivot: return body->I_O * v[0] * v[0] / 2;
     case motion_particle: return m * (v[0] * v[0] + v[1] * v[1]) / 2;
-    case motion_planar: break;
+    case motion_planar:
+    case motion_weld: break;
     }
-    struct pose pose = body_pose(body, at);
     struct vec v_G = point_motion(body, &pose, body->inertia.G).v;
     return (m * vec_dot(v_G, v_G) + body->inertia.I_G * pose.omega * pose.omega) / 2;
 }
@@ -39,7 +40,7 @@ static double force_at(double q, void *context)
     integrand->y[body->first] = q;
     if (source->kind == moment_applied) return formula_value(&load->value, &integrand->at);
     struct pose pose = body_pose(body, &integrand->at);
-    struct vec f = applied_force(body, load, &pose, &integrand->at);
+    struct vec f = applied_force(load, &pose, &integrand->at);
     double share = 0;
     add_force(body, &pose, point_motion(body, &pose, load->point), f, &share);
     return share;
@@ -67,10 +68,19 @@ static double by_quadrature(const struct fbd_model *model, const struct model_lo
 
 /* ---- V of a load */
 
+struct motion_of_point other_end(const struct fbd_model *model, const struct model_load *load,
+                                 const struct instant *at)
+{
+    if (load->partner < 0) return (struct motion_of_point){load->anchor, {0, 0}};
+    const struct model_body *partner = &model->bodies[load->partner];
+    struct pose pose = body_pose(partner, at);
+    return point_motion(partner, &pose, load->anchor);
+}
+
 static double constant_force_potential(const struct model_body *body, const struct model_load *load,
                                        const struct pose *pose, const struct instant *at)
 {
-    struct vec f = applied_force(body, load, pose, at);
+    struct vec f = applied_force(load, pose, at);
     return -vec_dot(f, point_motion(body, pose, load->point).p);
 }
 
@@ -79,9 +89,10 @@ static double linear_potential(const struct model_body *body, const struct model
                                const struct pose *pose, const struct instant *at)
 {
     double q = at->y[body->first + body->count - 1];
-    if (load->source->kind == moment_applied) return -formula_value(&load->value, at) * q;
+    if (load->source->kind == moment_applied)
+        return -formula_value(&load->value, at) * (body->place.link > 0 ? body_angle(body, at) : q);
     double share = 0;
-    add_force(body, pose, point_motion(body, pose, load->point), applied_force(body, load, pose, at), &share);
+    add_force(body, pose, point_motion(body, pose, load->point), applied_force(load, pose, at), &share);
     return -share * q;
 }
 
@@ -104,7 +115,7 @@ double potential_energy(const struct fbd_model *model, const struct model_load *
         return source->stiffness * stretch * stretch / 2;
     }
     case potential_link: {
-        struct vec reach = vec_sub(point_motion(body, &pose, load->point).p, load->anchor);
+        struct vec reach = vec_sub(point_motion(body, &pose, load->point).p, other_end(model, load, at).p);
         double stretch = vec_norm(reach) - source->free_length;
         return source->stiffness * stretch * stretch / 2;
     }

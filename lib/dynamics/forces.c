@@ -114,6 +114,7 @@ void add_force(const struct model_body *body, const struct pose *pose, struct mo
     case motion_pivot: own[0] += vec_cross(vec_sub(point.p, pose->origin), f); return;
     case motion_planar: own[2] += vec_cross(vec_sub(point.p, pose->origin), f); break;
     case motion_particle: break;
+    case motion_weld: return;
     }
     own[0] += f.x;
     own[1] += f.y;
@@ -203,6 +204,7 @@ static void point_terms(const struct fbd_model *model, int b, const struct insta
     case motion_pivot: own[0] += sum.moment; return;
     case motion_planar: own[2] += sum.moment; break;
     case motion_particle: break;
+    case motion_weld: return;
     }
     own[0] += sum.f.x;
     own[1] += sum.f.y;
@@ -269,6 +271,7 @@ void body_forces(const struct fbd_model *model, int b, const struct instant *at,
 
 void force_slots(const struct fbd_model *model, const struct instant *at, double *slots)
 {
+    memset(slots, 0, (size_t)model->plan.slots * sizeof *slots); /* jointed bodies have slots of their own */
     for (int b = 0; b < (int)model->body_count; b++)
         body_forces(model, b, at, body_turn(model, b, at), slots);
 }

@@ -3,6 +3,9 @@
 
 #include <string.h>
 
+#include "dynamics/absolute.h"
+#include "dynamics/tree.h"
+
 /* ---- planar bodies whose frame's origin O is not their centre of mass
  *
  * With r = R(theta) arm from O to G, F and M_O the sums of forces and moments about O:
@@ -39,6 +42,34 @@ static void offset_variations(const struct offset_body *body, const struct insta
     a_along[i + 2] = d_alpha;
 }
 
+/* ---- jointed bodies: their friction needs their accelerations, so both come from one solution */
+
+void force_balance(const struct fbd_model *model, const struct instant *given, double *slots)
+{
+    const struct instant extended = instant_extend(model, given), *at = &extended;
+    force_slots(model, at, slots);
+    if (model->tree) tree_accelerations(model, at, slots, at->tree->a);
+}
+
+void force_balance_along(const struct fbd_model *model, const struct instant *given,
+                         const struct direction *direction, const double *slots, double *slots_along)
+{
+    const struct instant extended = instant_extend(model, given), *at = &extended;
+    const struct direction extended_along = direction_extend(model, at, direction), *along = &extended_along;
+    force_slots_along(model, at, along, slots_along);
+    if (model->tree)
+        tree_accelerations_along(model, at, along, slots, at->tree->a, slots_along, at->tree->a_along);
+}
+
+/* Only the entries of jointed bodies are theirs. */
+static void take_tree_variations(const struct tree *tree, const struct tree_work *work, double *a_along)
+{
+    for (int i = 1; i < tree->count; i++) {
+        int first = tree->links[i].coordinate, count = joint_freedom(tree->links[i].kind);
+        for (int k = first; k < first + count; k++) a_along[k] = work->a_along[k];
+    }
+}
+
 /* ---- the stages */
 
 static void add_kinetic_friction(const struct fbd_model *model, int pair, const struct instant *at,
@@ -57,33 +88,45 @@ void body_accelerations(const struct fbd_model *model, int b, const struct insta
     const struct model_body *body = &model->bodies[b];
     struct vec turn = body_turn(model, b, at);
     body_forces(model, b, at, turn, slots);
-    bool slips = terms->friction >= 0 && at->slip[terms->friction] != stick;
+    bool rubs = terms->friction >= 0 && body->place.link == 0;
+    bool slips = rubs && at->slip[terms->friction] != stick;
     if (slips) add_kinetic_friction(model, terms->friction, at, slots);
     for (int i = body->first; i < body->first + body->count; i++) a[i] = plan->inverse_inertia[i] * slots[i];
     if (terms->offset >= 0) offset_accelerations(&plan->offsets[terms->offset], at, plan->n, turn, slots, a);
-    if (terms->friction >= 0 && !slips)
-        friction_surface_speed(&plan->frictions[terms->friction], at, &a[body->first]);
+    if (rubs && !slips) friction_surface_speed(&plan->frictions[terms->friction], at, &a[body->first]);
 }
 
-void accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a)
+void accelerations(const struct fbd_model *model, const struct instant *given, double *slots, double *a)
 {
+    const struct instant extended = instant_extend(model, given), *at = &extended;
     for (int b = 0; b < (int)model->body_count; b++) body_accelerations(model, b, at, slots, a);
+    if (!model->tree) return;
+    tree_accelerations(model, at, slots, a);
+    for (int pair = 0; pair < (int)model->plan.friction_count; pair++) {
+        const struct friction *friction = &model->plan.frictions[pair];
+        if (friction->jointed && at->slip[pair] == stick)
+            friction_surface_speed(friction, at, &a[friction->coordinate]);
+    }
 }
 
-void accelerations_along(const struct fbd_model *model, const struct instant *at,
-                         const struct direction *along, double *slots, double *slots_along, double *a_along)
+void accelerations_along(const struct fbd_model *model, const struct instant *given,
+                         const struct direction *direction, double *slots, double *slots_along,
+                         double *a_along)
 {
     const struct plan *plan = &model->plan;
-    force_slots(model, at, slots);
-    force_slots_along(model, at, along, slots_along);
+    const struct instant extended = instant_extend(model, given), *at = &extended;
+    const struct direction extended_along = direction_extend(model, at, direction), *along = &extended_along;
+    force_balance(model, at, slots);
+    force_balance_along(model, at, along, slots, slots_along);
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        if (at->slip[pair] == stick) continue;
+        if (at->slip[pair] == stick || plan->frictions[pair].jointed) continue;
         struct friction_values rate = friction_along(model, pair, at, slots, along, slots_along);
         slots_along[plan->frictions[pair].coordinate] += rate.force;
     }
     for (int i = 0; i < plan->n; i++) a_along[i] = plan->inverse_inertia[i] * slots_along[i];
     for (size_t i = 0; i < plan->offset_count; i++)
         offset_variations(&plan->offsets[i], at, plan->n, along, slots, slots_along, a_along);
+    if (model->tree) take_tree_variations(model->tree, at->tree, a_along);
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
         if (at->slip[pair] != stick) continue;
         const struct friction *friction = &plan->frictions[pair];
@@ -108,7 +151,15 @@ void body_rates(const struct fbd_model *model, int b, const struct instant *at, 
 
 void state_rates(const struct fbd_model *model, const struct instant *at, double *slots, double *dydt)
 {
-    for (int b = 0; b < (int)model->body_count; b++) body_rates(model, b, at, slots, dydt);
+    const struct plan *plan = &model->plan;
+    size_t n = (size_t)plan->n;
+    memcpy(dydt, at->y + n, n * sizeof *dydt);
+    accelerations(model, at, slots, dydt + n);
+    double acceleration;
+    for (int pair = 0; pair < (int)plan->friction_count; pair++)
+        if (at->slip[pair] == stick)
+            dydt[plan->frictions[pair].coordinate] =
+                friction_surface_speed(&plan->frictions[pair], at, &acceleration);
 }
 
 void state_jacobian(const struct fbd_model *model, const struct instant *at, double *scratch, double *dfdy,

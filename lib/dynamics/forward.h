@@ -8,11 +8,20 @@
 
 #include "dynamics/friction.h"
 
+/* slots[plan.slots]: all that acts except dry friction, as force_slots says; the slots of jointed bodies
+ * behind the n are those of their motion in the present modes. */
+void force_balance(const struct fbd_model *model, const struct instant *at, double *slots);
+
+/* The variation of force_balance along a direction, right after it. */
+void force_balance_along(const struct fbd_model *model, const struct instant *at,
+                         const struct direction *along, const double *slots, double *slots_along);
+
 /* a[n] at an instant. On return slots[plan.slots] hold the generalized forces with kinetic friction included
  * (a sticking coordinate's slot has none) and the sums across slides. */
 void accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a);
 
-/* The same for body `b` alone: its entries of slots and a. */
+/* The same for body `b` alone, which is not jointed: its entries of slots and a. The instant is extended
+ * already (absolute.h). */
 void body_accelerations(const struct fbd_model *model, int b, const struct instant *at, double *slots,
                         double *a);
 
@@ -24,7 +33,7 @@ void accelerations_along(const struct fbd_model *model, const struct instant *at
 /* dydt[2 n] for an integrator. A sticking coordinate moves with its surface. */
 void state_rates(const struct fbd_model *model, const struct instant *at, double *slots, double *dydt);
 
-/* The entries of body `b` alone. */
+/* The entries of body `b` alone, which is not jointed, in a model whose expressions name no places. */
 void body_rates(const struct fbd_model *model, int b, const struct instant *at, double *slots, double *dydt);
 
 /* The exact Jacobian: dfdy[2n x 2n] row by row and dfdt[2n]. `scratch` has 2 plan.slots + 3 n entries. */

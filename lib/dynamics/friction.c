@@ -25,7 +25,7 @@ struct friction_values friction_at(const struct fbd_model *model, int pair, cons
     values.limit_kinetic = formula_value(&friction->mu_k, at) * press;
     double acceleration;
     friction_surface_speed(friction, at, &acceleration);
-    values.hold = friction->inertia * acceleration - slots[friction->coordinate];
+    values.hold = friction->inertia * acceleration - slots[friction->hold_slot];
     values.force = at->slip[pair] == stick ? values.hold : -at->slip[pair] * values.limit_kinetic;
     return values;
 }
@@ -50,7 +50,7 @@ struct friction_values friction_along(const struct fbd_model *model, int pair, c
     if (friction->surface_speed.expr)
         expr_eval_second(friction->surface_speed.expr, at->t, at->y, 0, 0,
                          formula_branches(&friction->surface_speed, at), &d_a, &d_b, &jerk);
-    rate.hold = friction->inertia * jerk * along->dt - slots_along[friction->coordinate];
+    rate.hold = friction->inertia * jerk * along->dt - slots_along[friction->hold_slot];
     rate.force = at->slip[pair] == stick ? rate.hold : -at->slip[pair] * rate.limit_kinetic;
     return rate;
 }

@@ -11,6 +11,8 @@
 #include "expr/parts.h"
 #include "model/model.h"
 
+struct tree_work;
+
 /* What a friction pair does. */
 enum slip { slip_minus = -1, stick = 0, slip_plus = 1 };
 
@@ -20,6 +22,8 @@ struct instant {
     const int *branch; /* plan.branches: of the switches in formulas; NULL for plain values */
     const int *slip;   /* plan.friction_count: enum slip */
     const int *pull;   /* plan.friction_count: sign of the normal force of a two-sided guide, +1 otherwise */
+    struct tree_work *tree; /* scratch and results of the jointed bodies; NULL when there are none */
+    double *extended;       /* scratch of absolute.h; NULL when no expression names a place in the world */
 };
 
 /* A direction in which everything varies: (dt, dy). */

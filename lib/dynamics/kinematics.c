@@ -1,6 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/kinematics.h"
 
+#include "dynamics/tree.h"
+
+/* A jointed body has its place in a link, and that is where the last tree_move put it. */
+static struct pose pose_in_link(const struct model_body *body, const struct instant *at)
+{
+    const struct tree_state *link = &at->tree->links[body->place.link];
+    if (body->kind != motion_weld) return (struct pose){link->p, link->turn, link->v, link->omega};
+    struct vec arm = vec_turn(link->turn, body->place.shift);
+    return (struct pose){vec_add(link->p, arm), vec_turn(link->turn, body->place.turn),
+                         vec_add(link->v, vec_scale(link->omega, vec_perp(arm))), link->omega};
+}
+
 int body_angle_coordinate(const struct model_body *body)
 {
     if (body->kind == motion_pivot) return body->first;
@@ -9,6 +21,7 @@ int body_angle_coordinate(const struct model_body *body)
 
 double body_angle(const struct model_body *body, const struct instant *at)
 {
+    if (body->place.link > 0) return at->tree->links[body->place.link].angle + body->place.angle;
     int coordinate = body_angle_coordinate(body);
     if (coordinate >= 0) return at->y[coordinate];
     return body->kind == motion_slide ? body->source->motion.along : 0;
@@ -16,6 +29,7 @@ double body_angle(const struct model_body *body, const struct instant *at)
 
 struct pose body_pose(const struct model_body *body, const struct instant *at)
 {
+    if (body->place.link > 0) return pose_in_link(body, at);
     int turn = body_angle_coordinate(body);
     return body_pose_turned(body, at, turn >= 0 ? vec_cos_sin(at->y[turn]) : (struct vec){1, 0});
 }

@@ -6,6 +6,9 @@
  *   pivot      p = O + R(theta) (r - pin)               p' = omega k x (p - O)
  *   particle   p = (x, y) + r                           p' = (vx, vy)
  *   planar     p = (x, y) + R(theta) r                  p' = (vx, vy) + omega k x R(theta) r
+ *
+ * A jointed body is where the tree has put it: its pose holds after accelerations() or tree_move() at the
+ * same instant.
  */
 #ifndef FBD_DYNAMICS_KINEMATICS_H
 #define FBD_DYNAMICS_KINEMATICS_H
@@ -36,7 +39,8 @@ static inline struct pose body_pose_turned(const struct model_body *body, const 
                              vec_scale(v[0], body->e), 0};
     case motion_pivot: return (struct pose){body->origin, vec_without_rounding(cos_sin), {0, 0}, v[0]};
     case motion_particle: return (struct pose){{q[0], q[1]}, {1, 0}, {v[0], v[1]}, 0};
-    case motion_planar: break;
+    case motion_planar:
+    case motion_weld: break;
     }
     return (struct pose){{q[0], q[1]}, vec_without_rounding(cos_sin), {v[0], v[1]}, v[2]};
 }

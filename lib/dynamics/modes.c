@@ -4,6 +4,9 @@
 #include <float.h>
 #include <string.h>
 
+#include "dynamics/absolute.h"
+#include "dynamics/tree.h"
+
 double slip_velocity(const struct fbd_model *model, int pair, const struct instant *at)
 {
     const struct friction *friction = &model->plan.frictions[pair];
@@ -31,7 +34,10 @@ static struct direction flow_of(struct fbd_state *state)
     double *dy = state->scratch + 2 * (size_t)plan->slots;
     memcpy(dy, state->y + n, n * sizeof *dy);
     memcpy(dy + n, state->a, n * sizeof *dy);
-    return (struct direction){1, dy};
+    struct direction flow = {1, dy};
+    if (!state->extended) return flow;
+    struct instant at = state_instant(state), extended = instant_extend(state->model, &at);
+    return direction_extend(state->model, &extended, &flow);
 }
 
 static bool settle_branches(struct fbd_state *state, const struct decided *decided,
@@ -56,14 +62,15 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
     double *slots = state->scratch, *slots_along = slots + plan->slots;
     struct instant at = state_instant(state);
     bool same = true;
-    force_slots(model, &at, slots);
-    force_slots_along(model, &at, flow, slots_along);
+    force_balance(model, &at, slots);
+    force_balance_along(model, &at, flow, slots, slots_along);
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
         if (plan->frictions[pair].two_sided && !(decided && decided->pulls[pair]))
             state->pull[pair] = slots[plan->frictions[pair].normal_slot] > 0 ? -1 : 1;
         if (decided && decided->slips[pair]) continue;
         double v = slip_velocity(model, pair, &at);
         enum slip next = v > 0 ? slip_plus : slip_minus;
+        if (v == 0 && plan->frictions[pair].jointed) continue; /* all of them together */
         if (v == 0) {
             struct friction_values now = friction_at(model, pair, &at, slots);
             struct friction_values rate = friction_along(model, pair, &at, slots, flow, slots_along);
@@ -72,6 +79,7 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
         same = same && state->slip[pair] == (int)next;
         state->slip[pair] = next;
     }
+    if (model->tree && model->tree->watched_count > 0) same = tree_settle_slips(state, decided) && same;
     return same;
 }
 

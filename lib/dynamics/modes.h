@@ -24,6 +24,10 @@ struct decided {
  * whose forces fight at their thresholds). */
 bool modes_settle(struct fbd_state *state, const struct decided *decided);
 
+/* Of the pairs between jointed bodies that are at rest on their surfaces: which of them stick (tree_modes.c).
+ * False when that has changed state->slip. */
+bool tree_settle_slips(struct fbd_state *state, const struct decided *decided);
+
 /* The velocity of a pair relative to its surface. */
 double slip_velocity(const struct fbd_model *model, int pair, const struct instant *at);
 

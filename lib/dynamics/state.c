@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/state.h"
 
+#include "dynamics/absolute.h"
+#include "dynamics/tree.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,20 +15,30 @@ static size_t scratch_size(const struct plan *plan)
 struct fbd_state *state_new(const struct fbd_model *model)
 {
     const struct plan *plan = &model->plan;
-    size_t n = (size_t)plan->n, doubles = 3 * n + (size_t)plan->slots + scratch_size(plan);
-    size_t ints = 2 * ((size_t)plan->branches + plan->friction_count);
-    struct fbd_state *state = calloc(1, sizeof *state + doubles * sizeof(double) + ints * sizeof(int));
+    size_t n = (size_t)plan->n, extended = extended_size(model);
+    size_t extra = model->absolute_count > 0 ? 2 * extended : 0;
+    size_t doubles = extended + n + (size_t)plan->slots + scratch_size(plan) + extra;
+    size_t ints = 2 * (size_t)plan->branches + 3 * plan->friction_count;
+    size_t tree = model->tree ? sizeof(struct tree_work) + tree_work_size(model) : 0;
+    struct fbd_state *state = calloc(1, sizeof *state + tree + doubles * sizeof(double) + ints * sizeof(int));
     if (!state) return NULL;
     state->model = model;
-    state->y = (double *)(state + 1);
-    state->a = state->y + 2 * n;
+    char *behind = (char *)(state + 1);
+    if (model->tree) {
+        state->tree = (void *)behind;
+        tree_work_init(state->tree, model, behind + sizeof *state->tree);
+    }
+    state->y = (void *)(behind + tree);
+    state->a = state->y + extended;
     state->slots = state->a + n;
     state->scratch = state->slots + plan->slots;
-    void *behind_doubles = state->scratch + scratch_size(plan); /* aligned for an int as well */
+    state->extended = extra > 0 ? state->scratch + scratch_size(plan) : NULL;
+    void *behind_doubles = state->scratch + scratch_size(plan) + extra; /* aligned for an int as well */
     state->branch = behind_doubles;
     state->slip = state->branch + plan->branches;
     state->pull = state->slip + plan->friction_count;
     state->branch_before = state->pull + plan->friction_count;
+    state->slip_before = state->branch_before + plan->branches;
     for (size_t i = 0; i < n; i++) {
         state->y[i] = model->scene->coordinates[i].initial;
         state->y[n + i] = model->scene->coordinates[i].initial_rate;
@@ -57,4 +70,6 @@ void state_evaluate(struct fbd_state *state)
 {
     struct instant at = state_instant(state);
     accelerations(state->model, &at, state->slots, state->a);
+    if (state->tree) tree_complete(state->model, state->tree);
+    if (state->extended) absolutes_write(state->model, &at, state->y);
 }

@@ -12,12 +12,15 @@ struct fbd_state {
     const struct fbd_model *model;
     bool settled; /* the modes agree with t and y */
     double t;
-    double *y;                 /* 2 n: coordinates, then rates */
-    double *a;                 /* n: accelerations, by state_evaluate */
-    double *slots;             /* plan.slots: generalized forces, by state_evaluate */
+    double *y;     /* 2 n: coordinates, then rates; then what absolute.h adds, by state_evaluate */
+    double *a;     /* n: accelerations, by state_evaluate */
+    double *slots; /* plan.slots: generalized forces, by state_evaluate */
     int *branch, *slip, *pull; /* modes, see instant.h */
     int *branch_before;        /* scratch for settling: plan.branches */
+    int *slip_before;          /* and plan.friction_count */
     double *scratch;           /* 2 plan.slots + 3 n */
+    double *extended;          /* scratch of absolute.h */
+    struct tree_work *tree;    /* of the jointed bodies, by state_evaluate; NULL when there are none */
 };
 
 /* A state at the scene's initial values, t = 0, modes not yet settled. NULL when memory is out. */
@@ -29,7 +32,8 @@ void state_copy(struct fbd_state *to, const struct fbd_state *from);
 
 static inline struct instant state_instant(const struct fbd_state *state)
 {
-    return (struct instant){state->t, state->y, state->branch, state->slip, state->pull};
+    return (struct instant){state->t,    state->y,    state->branch,  state->slip,
+                            state->pull, state->tree, state->extended};
 }
 
 /* Accelerations and slots at the state, modes as they are. */

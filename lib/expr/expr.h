@@ -181,4 +181,15 @@ void expr_resolve(const struct expr *expr, double t, const double *y, double dt,
 /* The branch on the other side of end `end` (0 lower, 1 upper) of switch `index`. */
 int expr_branch_beyond(const struct expr *expr, size_t index, int end, int branch);
 
+/* ---- poles */
+
+/* The number of divisions by something that varies, powers with a negative exponent among them. */
+size_t expr_poles(const struct expr *expr);
+
+/* What each of them divides by, and its rate along (dt, dy): where a divisor passes through zero the
+ * expression is infinite, or was meant to have a limit as sin(x)/x has. +HUGE_VAL and 0 for one in the side
+ * of an `if` that is not chosen. Both arrays have expr_poles entries. */
+void expr_divisors(const struct expr *expr, double t, const double *y, double dt, const double *dy,
+                   const int *branch, double *divisors, double *rates);
+
 #endif

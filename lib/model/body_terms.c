@@ -141,6 +141,7 @@ static unsigned point_terms_depend(const struct plan *plan, const struct model_b
 static bool needs_both(const struct plan *plan, const struct model_body *body, const struct body_terms *terms)
 {
     const struct sine_term *sine = &plan->sine[terms->sine.first];
+    if (body->place.link > 0) return false; /* its link knows them */
     return terms->sine.count > 1 || (terms->sine.count == 1 && sine->s != 0 && sine->c != 0) ||
            terms->offset >= 0 ||
            (terms->at_points && (body->kind == motion_pivot || body->kind == motion_planar));

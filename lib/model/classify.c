@@ -20,20 +20,32 @@ static const char *why_not(unsigned on)
     return "not conservative: it depends on the motion of another body";
 }
 
+/* A constant force on a jointed body: fixed in the world, or it turns. */
+static struct verdict judge_jointed(const struct model_body *body, const struct model_load *load)
+{
+    const struct load *source = load->source;
+    bool along = body->kind == motion_slide && !source->angle.expr && !source->fx.expr && !source->fy.expr;
+    bool fixed = body->kind == motion_slide && body->parent == ground_body; /* its frame does not turn */
+    if ((along || source->body_frame) && !fixed)
+        return (struct verdict){potential_none, "not conservative: it turns with the body"};
+    return (struct verdict){potential_constant, "conservative: a constant force, V = -f . p"};
+}
+
 static struct verdict judge_applied(const struct model_body *body, const struct model_load *load)
 {
     unsigned on = formula_depends(body, &load->value) | formula_depends(body, &load->angle) |
                   formula_depends(body, &load->fx) | formula_depends(body, &load->fy);
-    bool moment = load->source->kind == moment_applied;
+    bool moment = load->source->kind == moment_applied, jointed = body->place.link > 0;
     bool one_coordinate = body->kind == motion_slide || body->kind == motion_pivot;
     if (on & ~(unsigned)depends_place) return (struct verdict){potential_none, why_not(on)};
     if (on & depends_place)
-        return one_coordinate
+        return one_coordinate && !(jointed && body->parent != ground_body)
                    ? (struct verdict){potential_quadrature,
                                       "conservative: it depends on the one coordinate alone; V by quadrature"}
                    : (struct verdict){potential_none,
                                       "not known to be conservative: it depends on the place in the "
                                       "plane (write it as a `potential` if it has one)"};
+    if (jointed && !moment) return judge_jointed(body, load);
     if (moment || body->kind == motion_slide || (load->source->body_frame && one_coordinate))
         return (struct verdict){potential_linear, moment
                                                       ? "conservative: a constant moment, V = -M theta"

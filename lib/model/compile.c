@@ -14,13 +14,14 @@ struct formula builder_formula(struct builder *builder, const struct value *valu
     if (!value->expr) return formula;
     if (expr_is_constant(value->expr)) return formula_constant(expr_value(value->expr));
     formula.expr = value->expr;
-    size_t switches = expr_switches(value->expr);
+    struct plan *plan = &builder->model->plan;
+    size_t switches = expr_switches(value->expr), poles = expr_poles(value->expr);
     if (switches > 0) {
-        struct plan *plan = &builder->model->plan;
         formula.branch = plan->branches;
         plan->branches += (int)switches;
         plan->kinks[plan->kink_count++] = (struct kink){formula, body, load, switches};
     }
+    if (poles > 0 && body >= 0) plan->poles[plan->pole_count++] = (struct pole){formula, body, load, poles};
     return formula;
 }
 
@@ -73,6 +74,10 @@ static void set_body(struct model_body *body, const struct body *source, int n, 
                                 .count = source->count,
                                 .first_rate = n + source->first,
                                 .normal_slot = -1,
+                                .parent = motion->parent,
+                                .child = -1,
+                                .sibling = -1,
+                                .arrow_count = (int)source->load_count + 1,
                                 .friction = -1};
     body->inertia = inertia_of_parts(source->parts, source->part_count, motion->point);
     if (motion->kind == motion_slide) set_slide(body);
@@ -103,6 +108,7 @@ static void set_load(struct builder *builder, struct model_load *load, const str
     load->linked =
         (source->kind == load_spring || source->kind == load_damper) && source->anchor.kind != point_absent;
     load->anchor = source->anchor.where;
+    load->partner = -1;
     load->value = builder_formula(builder, &source->value, body, index);
     load->angle = builder_formula(builder, &source->angle, body, index);
     load->fx = builder_formula(builder, &source->fx, body, index);
@@ -123,6 +129,39 @@ static void set_loads(struct builder *builder)
     }
 }
 
+/* A coupling is a load of the body at its first end that is not the ground; the other end feels the opposite.
+ */
+static void set_couplings(struct builder *builder)
+{
+    struct fbd_model *model = builder->model;
+    for (size_t c = 0; c < model->scene->coupling_count; c++) {
+        const struct coupling *coupling = &model->scene->couplings[c];
+        struct model_load *load = &model->loads[model->listed_count + c];
+        int first = coupling->body[0] == ground_body, other = coupling->body[1 - first];
+        set_load(builder, load, &coupling->load, coupling->body[first]);
+        load->linked = true;
+        load->partner = other;
+        load->point = resolve_point(&coupling->point[first], &model->bodies[load->body]);
+        load->anchor = other == ground_body
+                           ? coupling->point[1 - first].where
+                           : resolve_point(&coupling->point[1 - first], &model->bodies[other]);
+    }
+}
+
+static bool set_absolutes(struct fbd_model *model)
+{
+    const struct scene *scene = model->scene;
+    model->absolute_count = scene->absolute_count;
+    model->absolutes = ARENA_ARRAY(&model->arena, model->absolute_count, struct model_absolute);
+    for (size_t k = 0; model->absolutes && k < model->absolute_count; k++) {
+        const struct absolute *absolute = &scene->absolutes[k];
+        struct vec point = resolve_point(&absolute->point, &model->bodies[absolute->body]);
+        model->absolutes[k] = (struct model_absolute){absolute->body, point, absolute->kind,
+                                                      model->bodies[absolute->body].first + absolute->part};
+    }
+    return model->absolutes != NULL;
+}
+
 /* ---- the whole */
 
 static bool allocate(struct fbd_model *model)
@@ -130,12 +169,14 @@ static bool allocate(struct fbd_model *model)
     const struct scene *scene = model->scene;
     enum { formulas_of_a_load = 8 }; /* value, angle, fx, fy, potential, mu_s, mu_k, surface_speed */
     model->body_count = scene->body_count;
-    for (size_t b = 0; b < scene->body_count; b++) model->load_count += scene->bodies[b].load_count;
+    for (size_t b = 0; b < scene->body_count; b++) model->listed_count += scene->bodies[b].load_count;
+    model->load_count = model->listed_count + scene->coupling_count;
     model->bodies = ARENA_ARRAY(&model->arena, model->body_count, struct model_body);
     model->loads = ARENA_ARRAY(&model->arena, model->load_count, struct model_load);
     size_t formulas = formulas_of_a_load * model->load_count + 2 * scene->event_count;
     model->plan.watches = ARENA_ARRAY(&model->arena, scene->event_count, struct watch);
     model->plan.kinks = ARENA_ARRAY(&model->arena, formulas, struct kink);
+    model->plan.poles = ARENA_ARRAY(&model->arena, formulas, struct pole);
     return !model->arena.failed;
 }
 
@@ -170,8 +211,10 @@ struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors)
             set_body(&model->bodies[b], &scene->bodies[b], (int)scene->coordinate_count, errors);
     if (done && fbd_errors_failed(errors) == 0) {
         set_loads(&builder);
+        set_couplings(&builder);
         model->labels = labels_make(&model->arena, scene);
-        done = model->labels && plan_build(&builder) && classify_loads(&builder);
+        done = model->labels && set_absolutes(model) && tree_number(model) && tree_name_reactions(model) &&
+               plan_build(&builder) && classify_loads(&builder);
         set_watches(&builder);
     }
     if (!done) diag_out_of_memory(errors);

@@ -12,6 +12,7 @@
 #include "model/inertia.h"
 #include "model/labels.h"
 #include "model/plan.h"
+#include "model/tree.h"
 #include "scene/scene.h"
 
 struct model_body {
@@ -29,6 +30,12 @@ struct model_body {
     struct vec e, n; /* slide: direction of +x; direction that the surface pushes to */
     int normal_slot; /* slide whose normal force is needed: slot of the forces along n, else -1 */
     int friction;    /* index into plan.frictions, or -1 */
+    struct placement place; /* of a jointed body in the tree */
+    int parent;             /* jointed: the body that it moves on, or -1 for the ground */
+    int child, sibling;     /* jointed: the first body that moves on it, the next one beside it; or -1 */
+    int arrow_count;        /* the most arrows that its diagram can have */
+    const char *reaction;   /* name of the force of its joint: "pin", "guide", "weld"; NULL without one */
+    const char *reaction_on_parent; /* and on the body that it moves on: "rod.pin" */
     int first_load, load_count;
 };
 
@@ -45,17 +52,28 @@ enum potential_kind {
     potential_quadrature, /* V = -integral of Q(q) dq from `reference` */
 };
 
+/* See struct absolute of the scene. */
+struct model_absolute {
+    int body;
+    struct vec point;
+    enum absolute_kind kind;
+    int coordinate; /* absolute_acceleration */
+};
+
 /* A load with everything that it refers to resolved. */
 struct model_load {
     const struct load *source;
     int body;
     struct vec point;  /* where it acts, body frame */
-    struct vec anchor; /* spring, damper: the other end, on the ground */
+    struct vec anchor; /* spring, damper: the other end, on the ground or on `partner` */
     bool linked;       /* spring or damper that has another end */
+    int partner;       /* coupling: the body at the other end, where `anchor` is in its frame; else -1 */
     struct formula value, angle, fx, fy, potential;
     enum potential_kind potential_kind;
     double reference; /* potential_quadrature: the coordinate where V = 0 */
     const char *why;  /* conservative or not, and the reason */
+    bool in_joint; /* acts between a jointed body and the body that it moves on, which feels the opposite */
+    const char *name_on_parent; /* then its name there: "block.friction" */
 };
 
 struct fbd_model {
@@ -63,11 +81,16 @@ struct fbd_model {
     struct scene *scene; /* owned */
     char *source;        /* the file's text, owned: hand derivations are checked under changed parameters */
     size_t source_length;
-    size_t body_count, load_count;
+    size_t body_count;
+    size_t load_count;   /* the loads that bodies list, then the couplings that are springs and dampers */
+    size_t listed_count; /* the former */
     struct model_body *bodies;
     struct model_load *loads;
     const struct label *labels; /* of the coordinates */
+    size_t absolute_count;
+    struct model_absolute *absolutes;
     struct plan plan;
+    struct tree *tree; /* the jointed bodies; NULL when there are none */
 };
 
 /* Compile a scene; the model takes the scene over, also when it fails. NULL with notes in `errors`: masses

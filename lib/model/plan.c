@@ -80,6 +80,7 @@ static void add_constant_force(struct builder *builder, const struct model_body 
         add_constant(builder, i, f.x);
         add_constant(builder, i + 1, f.y);
         break;
+    case motion_weld: break; /* is jointed */
     }
 }
 
@@ -226,6 +227,7 @@ static void add_friction(struct builder *builder, struct model_body *body, int i
     struct plan *plan = &builder->model->plan;
     const struct load *source = builder->model->loads[index].source;
     int b = (int)(body - builder->model->bodies);
+    bool bearing = source->kind == moment_friction, jointed = body->place.link > 0;
     if (body->friction >= 0 || body->kind == motion_planar) {
         bool twice = body->friction >= 0;
         diag_add(builder->errors, FBD_ERROR, twice ? "one-friction" : "not-here", source->at,
@@ -244,7 +246,11 @@ static void add_friction(struct builder *builder, struct model_body *body, int i
                                 .mu_k = builder_formula(builder, &source->mu_k, b, index),
                                 .surface_speed = builder_formula(builder, &source->surface_speed, b, index),
                                 .moving = source->surface_speed.expr != NULL,
-                                .inertia = body->kind == motion_slide ? body->inertia.mass : body->I_O};
+                                .inertia = jointed   ? 0
+                                           : bearing ? body->I_O
+                                                     : body->inertia.mass,
+                                .hold_slot = jointed ? plan->slots++ : body->first,
+                                .jointed = jointed};
     for (int i = 0; i < body->load_count; i++) {
         const struct load *other = builder->model->loads[body->first_load + i].source;
         if (other->kind == load_normal && other->two_sided) friction.two_sided = true;
@@ -253,7 +259,8 @@ static void add_friction(struct builder *builder, struct model_body *body, int i
     plan->frictions[plan->friction_count++] = friction;
 }
 
-void plan_load(struct builder *builder, struct model_body *body, int index)
+/* What acts on a body that moves by itself. */
+static void add_load(struct builder *builder, struct model_body *body, int index)
 {
     const struct model_load *load = &builder->model->loads[index];
     const struct load *source = load->source;
@@ -272,6 +279,27 @@ void plan_load(struct builder *builder, struct model_body *body, int index)
     case load_friction:
     case moment_friction: add_friction(builder, body, index); break;
     }
+}
+
+/* What acts on a jointed body goes to the tree, except what acts within its joint. */
+static void add_jointed_load(struct builder *builder, struct model_body *body, int index)
+{
+    const struct model_load *load = &builder->model->loads[index];
+    switch (load->source->kind) {
+    case load_potential:
+    case moment_potential: add_potential(builder, body, load); break;
+    case load_friction:
+    case moment_friction: add_friction(builder, body, index); break;
+    default: tree_add_load(builder, index);
+    }
+}
+
+void plan_load(struct builder *builder, struct model_body *body, int index)
+{
+    if (body->place.link > 0)
+        add_jointed_load(builder, body, index);
+    else
+        add_load(builder, body, index);
 }
 
 /* A slide keeps the sum of forces across its line when the normal force is watched or friction needs it. */
@@ -300,7 +328,7 @@ static bool allocate(struct builder *builder)
     struct fbd_model *model = builder->model;
     struct plan *plan = &model->plan;
     struct arena *arena = &model->arena;
-    size_t loads = model->load_count, most_slots = model->scene->coordinate_count + model->body_count;
+    size_t loads = model->load_count, most_slots = model->scene->coordinate_count + 2 * model->body_count;
     plan->n = (int)model->scene->coordinate_count;
     plan->slots = plan->n;
     plan->inverse_inertia = ARENA_ARRAY(arena, (size_t)plan->n, double);
@@ -317,6 +345,14 @@ static bool allocate(struct builder *builder)
     plan->offsets = ARENA_ARRAY(arena, model->body_count, struct offset_body);
     plan->bodies = ARENA_ARRAY(arena, model->body_count, struct body_terms);
     plan->slot_constant = ARENA_ARRAY(arena, most_slots, bool);
+    struct tree *tree = model->tree;
+    if (tree) {
+        tree->following = ARENA_ARRAY(arena, 2 * loads, struct tree_following);
+        tree->forces = ARENA_ARRAY(arena, 2 * loads, struct tree_force);
+        tree->moments = ARENA_ARRAY(arena, loads, struct tree_moment);
+        tree->springs = ARENA_ARRAY(arena, loads, struct tree_spring);
+        tree->drags = ARENA_ARRAY(arena, loads, struct tree_drag);
+    }
     return !arena->failed;
 }
 
@@ -330,7 +366,7 @@ static void plan_inertias(struct fbd_model *model)
             double m = body->kind == motion_pivot ? body->I_O : k == 2 ? inertia->I_G : inertia->mass;
             plan->inverse_inertia[body->first + k] = 1 / m;
         }
-        if (body->kind == motion_planar && (body->arm.x != 0 || body->arm.y != 0))
+        if (body->place.link == 0 && body->kind == motion_planar && (body->arm.x != 0 || body->arm.y != 0))
             plan->offsets[plan->offset_count++] =
                 (struct offset_body){(int)b, body->first, inertia->mass, inertia->I_G, body->arm};
     }
@@ -359,6 +395,8 @@ static void mark_body_slots(struct fbd_model *model, int b)
 {
     const struct model_body *body = &model->bodies[b];
     for (int k = 0; k < body->count; k++) model->plan.slot_constant[body->first + k] = false;
+    if (body->friction >= 0)
+        model->plan.slot_constant[model->plan.frictions[body->friction].hold_slot] = false;
     if (body->normal_slot >= 0) model->plan.slot_constant[body->normal_slot] = false;
 }
 
@@ -370,7 +408,11 @@ bool plan_build(struct builder *builder)
     plan_normals(model);
     plan_inertias(model);
     for (size_t b = 0; b < model->body_count; b++) body_terms_add(builder, (int)b);
+    for (size_t i = model->listed_count; i < model->load_count; i++) tree_add_load(builder, (int)i);
     pack(builder);
+    for (size_t b = 0; b < model->body_count; b++)
+        if (model->bodies[b].place.link > 0) mark_body_slots(model, (int)b);
+    if (model->tree) tree_finish(model);
     body_terms_finish(builder);
     for (size_t i = 0; i < plan->link_count; i++) mark_body_slots(model, plan->links[i].body);
     for (size_t i = 0; i < plan->drag_count; i++) mark_body_slots(model, plan->drags[i].body);

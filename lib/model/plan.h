@@ -92,7 +92,9 @@ struct friction {
     bool two_sided;  /* a guide: friction goes with |N| */
     struct formula mu_s, mu_k, surface_speed;
     bool moving;    /* the surface moves */
-    double inertia; /* m or I_O */
+    double inertia; /* m or I_O; 0 when jointed */
+    int hold_slot;  /* the force needed to hold is inertia times acceleration minus this slot */
+    bool jointed;   /* between jointed bodies: the tree finds N and what holds */
 };
 
 /* A normal force that must not become a pull. */
@@ -104,6 +106,13 @@ struct contact {
 struct kink {
     struct formula formula;
     int body, load; /* where it stands; -1 for a user event */
+    size_t count;
+};
+
+/* The divisions of one formula (see expr.h). */
+struct pole {
+    struct formula formula;
+    int body, load; /* where it stands */
     size_t count;
 };
 
@@ -161,10 +170,11 @@ struct plan {
     struct force_term *forces;
     struct body_terms *bodies; /* by body */
 
-    size_t friction_count, contact_count, kink_count, offset_count, watch_count;
+    size_t friction_count, contact_count, kink_count, pole_count, offset_count, watch_count;
     struct friction *frictions;
     struct contact *contacts;
     struct kink *kinks;
+    struct pole *poles;
     struct offset_body *offsets;
     struct watch *watches;
 

@@ -21,12 +21,33 @@ static void force_headers(struct csv *csv, const struct model_body *body, const 
     if (body->kind == motion_planar) text_printf(line, ",%s.%s.moment [%s]", body->name, name, moment);
 }
 
-static void ledger_headers(struct csv *csv)
+/* A jointed body has its whole diagram: components and moment about its centre of mass of every force. */
+static void diagram_headers(struct csv *csv, int b, const struct fbd_state *start)
+{
+    const struct fbd_model *model = csv->model;
+    const struct model_body *body = &model->bodies[b];
+    const char *force = force_unit(model), *moment = moment_unit(model);
+    struct instant at = state_instant(start);
+    size_t count = diagram_fill(model, b, &at, start->a, start->slots, csv->arrows);
+    for (size_t i = 0; i < count; i++) {
+        const char *name = csv->arrows[i].name;
+        text_printf(&csv->line, ",%s.%s.x [%s],%s.%s.y [%s],%s.%s.moment [%s]", body->name, name, force,
+                    body->name, name, force, body->name, name, moment);
+        if (i < (size_t)body->load_count)
+            text_printf(&csv->line, ",%s.%s.work [%s]", body->name, name, energy_unit(model));
+    }
+}
+
+static void ledger_headers(struct csv *csv, const struct fbd_state *start)
 {
     const struct fbd_model *model = csv->model;
     const char *energy = energy_unit(model);
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
+        if (body->place.link > 0) {
+            diagram_headers(csv, (int)b, start);
+            continue;
+        }
         for (int i = 0; i < body->load_count; i++) {
             const char *name = model->loads[body->first_load + i].source->name;
             force_headers(csv, body, name);
@@ -41,7 +62,7 @@ static void ledger_headers(struct csv *csv)
                 energy, energy, energy);
 }
 
-static void headers(struct csv *csv)
+static void headers(struct csv *csv, const struct fbd_state *start)
 {
     const struct fbd_model *model = csv->model;
     text_add(&csv->line, "t [s]");
@@ -53,7 +74,7 @@ static void headers(struct csv *csv)
         for (int k = 0; k < body->count; k++)
             text_printf(&csv->line, ",%s [%s]", labels[k].rate_name, labels[k].rate_unit);
     }
-    if (csv->ledger) ledger_headers(csv);
+    if (csv->ledger) ledger_headers(csv, start);
 }
 
 /* ---- rows */
@@ -71,12 +92,33 @@ static void force_values(struct csv *csv, const struct model_body *body, const s
     for (int k = 1; k < body->count; k++) number(csv, arrow->share[k]);
 }
 
+static void diagram_values(struct csv *csv, int b, const struct fbd_state *state)
+{
+    const struct fbd_model *model = csv->model;
+    const struct model_body *body = &model->bodies[b];
+    struct instant at = state_instant(state);
+    struct pose pose = body_pose(body, &at);
+    struct vec G = point_motion(body, &pose, body->inertia.G).p;
+    size_t count = diagram_fill(model, b, &at, state->a, state->slots, csv->arrows);
+    for (size_t i = 0; i < count; i++) {
+        number(csv, csv->arrows[i].force.x);
+        number(csv, csv->arrows[i].force.y);
+        number(csv, arrow_moment(&csv->arrows[i], G));
+        if (i < (size_t)body->load_count)
+            number(csv, ledger_work(csv->ledger, state, (size_t)csv->arrows[i].load, csv->work));
+    }
+}
+
 static void ledger_values(struct csv *csv, const struct fbd_state *state)
 {
     const struct fbd_model *model = csv->model;
     struct instant at = state_instant(state);
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
+        if (body->place.link > 0) {
+            diagram_values(csv, (int)b, state);
+            continue;
+        }
         diagram_fill(model, (int)b, &at, state->a, state->slots, csv->arrows);
         for (int i = 0; i < body->load_count; i++) {
             force_values(csv, body, &csv->arrows[i]);
@@ -145,7 +187,7 @@ bool csv_begin(struct csv *csv, const struct fbd_model *model, struct ledger *le
     csv->arrows = calloc(diagram_most_arrows(model), sizeof *csv->arrows);
     csv->work = calloc(model->load_count + 1, sizeof *csv->work);
     if (!csv->probe || !csv->arrows || !csv->work) return false;
-    headers(csv);
+    headers(csv, start);
     return put_line(csv) && row(csv, start);
 }
 

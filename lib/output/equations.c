@@ -77,19 +77,22 @@ fbd_equations *fbd_assemble(fbd_state *state)
     if (!all) return NULL;
     state_ready(state);
     struct instant at = state_instant(state);
-    all->equations = ARENA_ARRAY(&all->arena, (size_t)model->plan.n, struct equation);
+    enum { rows_of_a_body = most_coordinates_of_a_body + 1 };
+    all->equations = ARENA_ARRAY(&all->arena, rows_of_a_body * model->body_count, struct equation);
     for (size_t b = 0; all->equations && b < model->body_count; b++) {
         struct arrow *arrows = ARENA_ARRAY(&all->arena, diagram_arrows(model, (int)b), struct arrow);
         if (!arrows) break;
         size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, arrows);
+        if (model->bodies[b].place.link > 0) {
+            equations_of_jointed(all, state, (int)b, arrows, count);
+            continue;
+        }
         for (int part = 0; part < model->bodies[b].count; part++)
             fill_equation(all, state, (int)b, part, arrows, count);
     }
-    if (all->arena.failed) {
-        fbd_equations_free(all);
-        return NULL;
-    }
-    return all;
+    if (!all->arena.failed) return all;
+    fbd_equations_free(all);
+    return NULL;
 }
 
 void fbd_equations_free(fbd_equations *equations)
@@ -139,7 +142,7 @@ size_t fbd_diagram(fbd_state *state, size_t body, fbd_arrow *arrows, size_t room
     if (!own) return 0;
     size_t count = diagram_fill(model, (int)body, &at, state->a, state->slots, own);
     struct pose pose = body_pose(b, &at);
-    struct vec about = b->kind == motion_pivot ? b->origin : point_motion(b, &pose, b->inertia.G).p;
+    struct vec about = b->kind == motion_pivot ? pose.origin : point_motion(b, &pose, b->inertia.G).p;
     for (size_t i = 0; i < count && i < room; i++)
         arrows[i] = (fbd_arrow){.name = own[i].name,
                                 .fx = own[i].force.x,

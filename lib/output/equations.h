@@ -6,11 +6,15 @@
 #define FBD_OUTPUT_EQUATIONS_H
 
 #include "base/text.h"
+#include "dynamics/diagram.h"
 #include "dynamics/state.h"
 
 struct equation {
     fbd_equation public;
-    int body, part; /* the coordinate is number `part` of the body */
+    int body, part;   /* the coordinate is number `part` of the body */
+    bool jointed;     /* of a jointed body: see equations_tree.c */
+    const char *side; /* then what its right side is, in words */
+    const int *loads; /* then the load of each term, -1 for none */
 };
 
 struct fbd_equations {
@@ -18,6 +22,10 @@ struct fbd_equations {
     size_t count;
     struct equation *equations;
 };
+
+/* The equations of a jointed body (equations_tree.c): that of its joint, then Newton's and Euler's. */
+void equations_of_jointed(struct fbd_equations *all, const struct fbd_state *state, int b,
+                          const struct arrow *arrows, size_t arrow_count);
 
 /* Settle the modes if the state was changed, and evaluate. */
 void state_ready(struct fbd_state *state);

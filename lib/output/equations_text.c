@@ -16,7 +16,8 @@ static const char *side_of_equation(const struct model_body *body, int part)
     case motion_slide: return "sum of forces along x";
     case motion_pivot: return "sum of moments about O";
     case motion_particle:
-    case motion_planar: break;
+    case motion_planar:
+    case motion_weld: break;
     }
     return part == 0   ? "sum of forces along x"
            : part == 1 ? "sum of forces along y"
@@ -38,12 +39,29 @@ static void write_row(struct text *text, const char *name, double value, const c
     text_add(text, "\n");
 }
 
+static void write_jointed(struct text *text, const struct equation *equation)
+{
+    const fbd_equation *e = &equation->public;
+    text_printf(text, "  %s.%s: %s %s = %s\n", e->body, e->coordinate, e->inertia_name, e->acceleration_name,
+                equation->side);
+    for (size_t i = 0; i < e->term_count; i++)
+        if (e->terms[i].value != 0) write_row(text, e->terms[i].name, e->terms[i].value, e->unit, "");
+    write_row(text, "sum", e->sum, e->unit, "");
+    write_row(text, e->inertia_name, e->inertia, e->inertia_unit, "");
+    write_row(text, e->acceleration_name, e->acceleration, e->acceleration_unit, "");
+    write_row(text, "residual", e->inertia * e->acceleration - e->sum, e->unit, "");
+}
+
 static void write_equation(struct text *text, struct fbd_state *state, const struct equation *equation)
 {
     const struct fbd_model *model = state->model;
     const struct model_body *body = &model->bodies[equation->body];
     const fbd_equation *e = &equation->public;
     const char *G = body->kind == motion_planar && equation->part < 2 ? " of G" : "";
+    if (equation->jointed) {
+        write_jointed(text, equation);
+        return;
+    }
     text_printf(text, "  %s.%s: %s %s%s = %s\n", e->body, e->coordinate, e->inertia_name,
                 e->acceleration_name, G, side_of_equation(body, equation->part));
     for (size_t i = 0; i < e->term_count; i++) {
@@ -63,7 +81,7 @@ static void write_body(struct text *text, const struct fbd_state *state, int b)
     const struct fbd_model *model = state->model;
     const struct model_body *body = &model->bodies[b];
     const struct label *label = &model->labels[body->first + body->count - 1];
-    if (body->kind != motion_pivot) return;
+    if (body->kind != motion_pivot || body->place.link > 0) return;
     text_printf(text, "  %s turns about O: I_O = ", body->name);
     text_number(text, body->I_O, 9);
     text_printf(text, " %s, m = ", label->inertia_unit);

@@ -50,7 +50,13 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
         snprintf(detail, size, "%s cannot hold it: slips back with %+.6g %s; the static limit is %.6g %s",
                  name, event->force, unit, event->limit, unit);
         return;
-    case FBD_EVENT_CONTACT_LOST: snprintf(detail, size, "%s reaches zero", name); return;
+    case FBD_EVENT_CONTACT_LOST:
+        /* A located loss is a rounding below zero; a jump of the forces may go straight to a pull. */
+        if (event->force < -1e5 * event->limit)
+            snprintf(detail, size, "%s would have to pull with %.6g %s", name, -event->force, unit);
+        else
+            snprintf(detail, size, "%s reaches zero", name);
+        return;
     case FBD_EVENT_USER: snprintf(detail, size, "%s", name); return;
     case FBD_EVENT_SWITCH:
         snprintf(detail, size, "%s passes to another branch", name[0] ? name : "an event");

@@ -32,9 +32,10 @@ static const char *motion_words(enum motion_kind kind)
 {
     switch (kind) {
     case motion_slide: return "slides on a line";
-    case motion_pivot: return "turns about a fixed axis";
+    case motion_pivot: return "turns about an axis";
     case motion_particle: return "moves in the plane as a particle";
     case motion_planar: return "moves in the plane";
+    case motion_weld: return "is fixed on";
     }
     return "";
 }
@@ -44,7 +45,11 @@ static void write_coordinates(struct text *text, const struct fbd_model *model)
     text_printf(text, "Coordinates (%d)\n", model->plan.n);
     for (size_t b = 0; b < model->body_count && b < most_bodies; b++) {
         const struct model_body *body = &model->bodies[b];
-        text_printf(text, "  %s %s:", body->name, motion_words(body->kind));
+        text_printf(text, "  %s %s", body->name, motion_words(body->kind));
+        if (body->parent >= 0 && body->kind != motion_weld)
+            text_printf(text, " of `%s`", model->bodies[body->parent].name);
+        if (body->kind == motion_weld) text_printf(text, " `%s`", model->bodies[body->parent].name);
+        text_add(text, body->count > 0 ? ":" : "");
         for (int k = 0; k < body->count; k++)
             text_printf(text, " %s [%s]", model->scene->coordinates[body->first + k].name,
                         model->labels[body->first + k].unit);
@@ -116,7 +121,7 @@ static void write_effects(struct text *text, const struct fbd_model *model)
 
 struct absent {
     enum load_kind kind;
-    bool on[4];   /* by enum motion_kind: where it could act */
+    bool on[motion_kinds_count]; /* by enum motion_kind: where it could act */
     bool anybody; /* said only when no body at all lists it: it is nothing that a body might be missing */
     const char *words;
 };

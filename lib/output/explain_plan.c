@@ -5,6 +5,8 @@
  */
 #include "output/explain.h"
 
+#include "model/tree.h"
+
 static void write_list(struct text *text, size_t count, const char *words)
 {
     if (count > 0) text_printf(text, "  %3zu  %s\n", count, words);
@@ -12,7 +14,19 @@ static void write_list(struct text *text, size_t count, const char *words)
 
 /* ---- the right-hand side */
 
-static void write_terms(struct text *text, const struct plan *plan)
+static void write_tree(struct text *text, const struct tree *tree)
+{
+    write_list(text, (size_t)tree->count - 1,
+               "link of jointed bodies, by the articulated-body recursion (constant forces in it)");
+    write_list(text, tree->following_count, "constant force or moment that turns with its link");
+    write_list(text, tree->force_count, "force of a formula at a point of a link");
+    write_list(text, tree->moment_count, "moment of a formula on a link");
+    write_list(text, tree->spring_count, "spring or damper between two points of links or the ground");
+    write_list(text, tree->drag_count, "drag at a point of a link");
+    write_list(text, (size_t)tree->pair_count, "friction that goes with the normal force between two links");
+}
+
+static void write_terms(struct text *text, const struct plan *plan, const struct tree *tree)
 {
     text_add(text, "\nRight-hand side\n");
     size_t across = 0;
@@ -28,11 +42,12 @@ static void write_terms(struct text *text, const struct plan *plan)
     write_list(text, plan->drag_count, "drag in the plane");
     write_list(text, plan->force_count, "formula whose direction changes");
     write_list(text, plan->friction_count, "dry friction, as modes stick and slip");
+    if (tree) write_tree(text, tree);
     write_list(text, plan->offset_count, "body whose frame is not at its centre of mass");
-    if (plan->affine_count + plan->sine_count + plan->square_count + plan->formula_count +
-            plan->potential_count + plan->link_count + plan->drag_count + plan->force_count +
-            plan->friction_count + plan->offset_count ==
-        0)
+    if (!tree && plan->affine_count + plan->sine_count + plan->square_count + plan->formula_count +
+                         plan->potential_count + plan->link_count + plan->drag_count + plan->force_count +
+                         plan->friction_count + plan->offset_count ==
+                     0)
         text_add(text, "  none\n");
 }
 
@@ -43,7 +58,7 @@ static size_t bodies_that_depend(const struct fbd_model *model, unsigned on)
     return count;
 }
 
-static void write_rows(struct text *text, struct rates_census rows)
+static void write_rows(struct text *text, const struct fbd_model *model, struct rates_census rows)
 {
     text_add(text, "  as it starts, its rows are\n");
     const struct {
@@ -57,7 +72,7 @@ static void write_rows(struct text *text, struct rates_census rows)
         {rows.parts, "one power or harmonic of a formula: one line, no program"},
         {rows.formulas, "with formulas"},
         {rows.particles, "particle with springs, dampers or drag at its points"},
-        {rows.bodies, "body by the general path"},
+        {rows.bodies, model->tree ? "jointed bodies, all together" : "body by the general path"},
     };
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
         if (kinds[i].count > 0) text_printf(text, "    %3d  %s\n", kinds[i].count, kinds[i].words);
@@ -111,10 +126,12 @@ static void write_events(struct text *text, const struct plan *plan)
 
 /* ---- structure */
 
-static void write_structure(struct text *text, const struct plan *plan)
+static void write_structure(struct text *text, const struct plan *plan, const struct tree *tree)
 {
     text_add(text, "\nStructure recognised\n");
-    if (plan->offset_count == 0)
+    if (tree)
+        text_add(text, "  jointed bodies form a tree: accelerations by a recursion over it\n");
+    else if (plan->offset_count == 0)
         text_add(text, "  the mass matrix is diagonal: every acceleration is a sum over an inertia\n");
     else
         text_printf(text, "  the mass matrix has %zu block%s of three, else it is diagonal\n",
@@ -123,9 +140,9 @@ static void write_structure(struct text *text, const struct plan *plan)
 
 void explain_plan(struct text *text, const struct fbd_model *model, const struct rates *rates)
 {
-    write_terms(text, &model->plan);
+    write_terms(text, &model->plan, model->tree);
     write_dependence(text, model);
-    write_rows(text, rates_census(rates));
+    write_rows(text, model, rates_census(rates));
     write_events(text, &model->plan);
-    write_structure(text, &model->plan);
+    write_structure(text, &model->plan, model->tree);
 }

@@ -96,6 +96,11 @@ static void extend(const struct fbd_state *state, int b, const struct arrow *arr
     memcpy(y, state->y, 2 * n * sizeof *y);
     memset(extra, 0, hand_slots * sizeof *extra);
     for (int k = 0; k < body->count; k++) extra[hand_acceleration + k] = state->a[body->first + k];
+    if (model->absolute_count > 0)
+        memcpy(extra + hand_slots, state->y + 2 * n + hand_slots, model->absolute_count * sizeof *extra);
+    for (size_t k = 0; k < model->absolute_count; k++)
+        if (model->absolutes[k].kind == absolute_acceleration)
+            extra[hand_slots + k] = state->a[model->absolutes[k].coordinate];
     extra[hand_mass] = body->inertia.mass;
     extra[hand_I_G] = body->inertia.I_G;
     extra[hand_I_O] = body->I_O;
@@ -189,7 +194,8 @@ static void take_sample(struct hand_check *check, const struct hand *hand, struc
     sample.right = expr_eval(hand->right, state->t, y, NULL);
     if (!isfinite(sample.left) || !isfinite(sample.right)) return;
     double slope = 0, scale = 1;
-    int part = accelerated_part(hand, model->plan.n, body->count, state->t, y, &slope);
+    bool jointed = body->place.link > 0; /* several accelerations in one equation: side against side */
+    int part = jointed ? -1 : accelerated_part(hand, model->plan.n, body->count, state->t, y, &slope);
     check->part = part;
     if (part >= 0) {
         sample.coefficient = slope;
@@ -200,7 +206,7 @@ static void take_sample(struct hand_check *check, const struct hand *hand, struc
     }
     sample.lack = scale * (sample.left - sample.right);
     sample.size = fabs(scale) * (fabs(sample.left) + fabs(sample.right)) + DBL_MIN;
-    for (int i = 0; i < body->load_count; i++) {
+    for (int i = 0; !jointed && i < body->load_count; i++) {
         sample.terms[i] = arrows[i].share[part < 0 ? 0 : part];
         sample.size += fabs(sample.terms[i]);
     }
@@ -223,7 +229,7 @@ static bool sample_model(struct hand_check *check, const fbd_model *model, gsl_r
 {
     const struct hand *hand = &model->scene->bodies[check->body].hands[check->index];
     struct fbd_state *state = state_new(model);
-    double *y = calloc(2 * (size_t)model->plan.n + hand_slots + 1, sizeof *y);
+    double *y = calloc(2 * (size_t)model->plan.n + hand_slots + model->absolute_count + 1, sizeof *y);
     bool done = state && y;
     for (int i = 0; done && i < states_of_a_draw; i++)
         for (int k = 0; k < tries_of_a_state && check->count < most_samples; k++) {
@@ -297,7 +303,7 @@ static int check_one(struct hand_check *check, gsl_rng *rng, struct text *text)
     check->count = 0;
     check->part = -1;
     text_printf(text, "%s: %s\n", body->name, hand->text);
-    if (body->load_count > most_terms) {
+    if (diagram_arrows(model, check->body) > most_terms) {
         text_printf(text, "  not checked: more than %d forces\n", most_terms);
         return 1;
     }

@@ -93,7 +93,7 @@ static void write_events(struct text *text, const struct run *run)
 static void write_friction(struct text *text, struct fbd_state *state, const struct model_body *body)
 {
     struct instant at = state_instant(state);
-    force_slots(state->model, &at, state->scratch);
+    force_balance(state->model, &at, state->scratch);
     struct friction_values values = friction_at(state->model, body->friction, &at, state->scratch);
     text_printf(text, ", \"mode\": \"%s\", ", state->slip[body->friction] == stick ? "stick" : "slip");
     member(text, "limit", values.limit_static, false);
@@ -108,7 +108,7 @@ static void write_body_forces(struct text *text, fbd_result *result, struct fbd_
     struct instant at = state_instant(state);
     struct pose pose = body_pose(body, &at);
     struct vec about =
-        body->kind == motion_pivot ? body->origin : point_motion(body, &pose, body->inertia.G).p;
+        body->kind == motion_pivot ? pose.origin : point_motion(body, &pose, body->inertia.G).p;
     size_t count = diagram_fill(model, b, &at, state->a, state->slots, ledger->arrows);
     for (size_t i = 0; i < count; i++) {
         const struct arrow *arrow = &ledger->arrows[i];
@@ -118,6 +118,8 @@ static void write_body_forces(struct text *text, fbd_result *result, struct fbd_
         text_add(text, "{");
         member(text, "fx", arrow->force.x, false);
         member(text, "fy", arrow->force.y, false);
+        member(text, "x", arrow->point.x, false);
+        member(text, "y", arrow->point.y, false);
         member(text, "moment", arrow_moment(arrow, about), false);
         member(text, "power", arrow->power, false);
         member(text, "work", work, true);
@@ -137,6 +139,34 @@ static void write_forces(struct text *text, fbd_result *result, struct fbd_state
         key(text, model->bodies[b].name);
         text_add(text, "{");
         write_body_forces(text, result, state, (int)b);
+        text_add(text, "}");
+    }
+    text_add(text, "\n  },\n");
+}
+
+/* Newton and Euler for each jointed body: the sums of its diagram beside m a and I alpha. */
+static void write_balances(struct text *text, fbd_result *result, struct fbd_state *state)
+{
+    const struct fbd_model *model = result->ledger.model;
+    struct instant at = state_instant(state);
+    bool first = true;
+    if (!model->tree) return;
+    text_add(text, "  \"balance\": {");
+    for (size_t b = 0; b < model->body_count; b++) {
+        if (model->bodies[b].place.link == 0) continue;
+        size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, result->ledger.arrows);
+        struct balance balance = balance_of(&model->bodies[b], &at, result->ledger.arrows, count);
+        text_add(text, first ? "\n    " : ",\n    ");
+        first = false;
+        key(text, model->bodies[b].name);
+        text_add(text, "{");
+        member(text, "fx", balance.force.x, false);
+        member(text, "fy", balance.force.y, false);
+        member(text, "moment_G", balance.moment, false);
+        member(text, "m_ax", balance.m_a.x, false);
+        member(text, "m_ay", balance.m_a.y, false);
+        member(text, "I_alpha", balance.I_alpha, false);
+        member(text, "residual", balance.residual, true);
         text_add(text, "}");
     }
     text_add(text, "\n  },\n");
@@ -186,6 +216,7 @@ char *fbd_result_json(fbd_result *result)
     write_final(&text, model, run->state);
     write_events(&text, run);
     write_forces(&text, result, run->state);
+    write_balances(&text, result, run->state);
     write_energy(&text, result);
     write_stats(&text, simulation);
     text_add(&text, "}\n");

@@ -56,13 +56,15 @@ static void add_powers(struct ledger *ledger, double weight, double *work)
     struct instant at = state_instant(ledger->probe);
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
-        bool wanted = false;
+        bool wanted = body->place.link > 0;
         for (int i = 0; i < body->load_count; i++) wanted |= ledger->integrated[body->first_load + i];
         if (!wanted) continue;
-        diagram_fill(model, (int)b, &at, ledger->probe->a, ledger->probe->slots, ledger->arrows);
-        for (int i = 0; i < body->load_count; i++)
-            if (ledger->integrated[body->first_load + i])
-                work[body->first_load + i] += weight * ledger->arrows[i].power;
+        size_t count =
+            diagram_fill(model, (int)b, &at, ledger->probe->a, ledger->probe->slots, ledger->arrows);
+        for (size_t i = 0; i < count; i++) {
+            int load = ledger->arrows[i].load; /* what acts between two bodies: its power on both */
+            if (load >= 0 && ledger->integrated[load]) work[load] += weight * ledger->arrows[i].power;
+        }
     }
 }
 

@@ -62,7 +62,7 @@ static void write_events(struct text *text, const struct run *run)
 static void write_friction(struct text *text, struct fbd_state *state, const struct model_body *body)
 {
     struct instant at = state_instant(state);
-    force_slots(state->model, &at, state->scratch);
+    force_balance(state->model, &at, state->scratch);
     struct friction_values values = friction_at(state->model, body->friction, &at, state->scratch);
     if (state->slip[body->friction] != stick)
         text_add(text, "   (slips)");

@@ -29,7 +29,7 @@ static void normal_remark(const struct fbd_state *state, const struct model_body
 static void friction_remark(struct fbd_state *state, const struct model_body *body, char *remark)
 {
     struct instant at = state_instant(state);
-    force_slots(state->model, &at, state->scratch);
+    force_balance(state->model, &at, state->scratch);
     struct friction_values now = friction_at(state->model, body->friction, &at, state->scratch);
     bool bearing = state->model->plan.frictions[body->friction].normal_slot < 0;
     if (state->slip[body->friction] == stick)
@@ -51,7 +51,8 @@ static const char *gravity_remark(const struct fbd_model *model, const struct mo
         if (body->arm.x == 0) return body->arm.y < 0 ? "-m g L sin(theta)" : "m g L sin(theta)";
         return body->arm.y == 0 && body->arm.x > 0 ? "-m g L cos(theta)" : "r_OG x m g";
     case motion_particle:
-    case motion_planar: break;
+    case motion_planar:
+    case motion_weld: break;
     }
     return part == 1 ? "-m g" : "";
 }

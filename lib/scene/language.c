@@ -28,8 +28,8 @@ static const struct field scene_fields[] = {
                "how long to run, how accurately, and when to stop"),
     FIELD_NODE(offsetof(struct scene_keys, output), "output", field_map, 0, &output_group,
                "what a run writes"),
-    FIELD_LATER("couplings", "this version has single bodies on the ground: pins, ropes, gears and rods "
-                             "between bodies come later"),
+    FIELD_NODE(offsetof(struct scene_keys, couplings), "couplings", field_list, 0, NULL,
+               "what joins two bodies, beside what they move on"),
     FIELD_LATER("contacts",
                 "this version has no contact between bodies: a surface is a `slide` with `normal`"),
 };
@@ -65,7 +65,7 @@ static const struct field simulate_fields[] = {
     FIELD_VALUE(offsetof(struct simulate_keys, until), "until", a_time, required | positive,
                 "time at which the run ends"),
     FIELD_NUMBER(offsetof(struct simulate_keys, tolerance), "tolerance", a_number, positive,
-                 "error allowed in one step, relative to the size of the motion; at most 0.1"),
+                 "error allowed in one step, relative to the size of the motion; 2.2e-16 to 0.1"),
     FIELD_TEXT(offsetof(struct simulate_keys, method), "method", "name of the stepper, or `auto`"),
     FIELD_NUMBER(offsetof(struct simulate_keys, step), "step", a_time, positive,
                  "fixed step instead of an automatic one"),

@@ -88,7 +88,7 @@ struct scene_keys {
     const char *title, *description;
     int units;
     double datum;
-    const struct node *gravity, *parameters, *ground, *bodies, *simulate, *output;
+    const struct node *gravity, *parameters, *ground, *bodies, *couplings, *simulate, *output;
 };
 
 struct output_keys {
@@ -140,13 +140,10 @@ struct inertia_keys {
     const struct node *about;
 };
 
-struct slide_keys {
-    double along;
-    const struct node *through, *line;
-};
-
-struct pivot_keys {
-    const struct node *at, *point;
+/* What every motion says of its place; each kind has some of them. */
+struct motion_keys {
+    double along, angle;
+    const struct node *on, *through, *line, *at, *point;
 };
 
 /* In the order of the body's coordinates. */
@@ -165,6 +162,12 @@ struct load_keys {
 
 enum { frame_world, frame_body };
 
+struct coupling_keys {
+    const char *name;
+    const struct node *between;
+    double stiffness, free_length, coefficient;
+};
+
 struct hand_keys {
     const struct node *equation, *when;
 };
@@ -172,7 +175,7 @@ struct hand_keys {
 extern const struct group scene_group, ground_group, line_group, simulate_group, output_group, event_group;
 extern const struct group body_group, part_group, inertia_group, hand_group;
 extern const struct group initial_groups[]; /* by enum motion_kind */
-extern const struct kinds motion_kinds, force_kinds, moment_kinds;
+extern const struct kinds motion_kinds, force_kinds, moment_kinds, coupling_kinds;
 
 /* ---- how a table is written: one row for each key, `at` being the offset in the structure */
 

@@ -72,7 +72,7 @@ static const struct field body_fields[] = {
     FIELD_NODE(offsetof(struct body_keys, points), "points", field_map, 0, NULL,
                "name: [x, y] in the body frame"),
     FIELD_NODE(offsetof(struct body_keys, motion), "motion", field_any, required, NULL,
-               "slide, pivot, particle or planar"),
+               "slide, pivot, particle, planar or weld"),
     FIELD_NODE(offsetof(struct body_keys, initial), "initial", field_map, 0, NULL,
                "coordinates and rates at t = 0; default 0"),
     FIELD_NODE(offsetof(struct body_keys, forces), "forces", field_any, 0, NULL,
@@ -92,36 +92,38 @@ const struct group body_group = {"a body",
 
 /* ---- how it moves */
 
-#define ON_LATER FIELD_LATER("on", "this version has single bodies on the ground: leave `on` out")
+#define MOTION(member) offsetof(struct motion_keys, member)
+#define ON_ROW                                                                                               \
+    FIELD_NODE(MOTION(on), "on", field_scalar, 0, NULL, "the body that it moves on; default the ground")
 
 static const struct field slide_fields[] = {
-    FIELD_NUMBER(offsetof(struct slide_keys, along), "along", an_angle, 0,
-                 "direction of +x; default 0: to the right"),
-    FIELD_NODE(offsetof(struct slide_keys, through), "through", field_any, 0, NULL,
-               "where x = 0: [x, y] or a point of the ground; default [0, 0]"),
-    FIELD_NODE(offsetof(struct slide_keys, line), "line", field_scalar, 0, NULL,
+    FIELD_NUMBER(MOTION(along), "along", an_angle, 0, "direction of +x; default 0: to the right"),
+    FIELD_NODE(MOTION(through), "through", field_any, 0, NULL,
+               "where x = 0: [x, y] or a point of what it moves on; default [0, 0]"),
+    FIELD_NODE(MOTION(line), "line", field_scalar, 0, NULL,
                "a line of the ground, instead of `along` and `through`"),
-    ON_LATER,
+    ON_ROW,
 };
 
 static const struct group slide_group = {"a slide", NULL, FIELDS(slide_fields),
                                          NULL,      0,    "one coordinate x along a line"};
 
 static const struct field pivot_fields[] = {
-    FIELD_NODE(offsetof(struct pivot_keys, at), "at", field_any, 0, NULL,
-               "the fixed axis O: [x, y] or a point of the ground; default [0, 0]"),
-    FIELD_NODE(offsetof(struct pivot_keys, point), "point", field_any, 0, NULL,
+    FIELD_NODE(MOTION(at), "at", field_any, 0, NULL,
+               "the axis O: [x, y] or a point of what it moves on; default [0, 0]"),
+    FIELD_NODE(MOTION(point), "point", field_any, 0, NULL,
                "the point of the body on the axis: a name or [x, y]; default the origin of the body frame"),
-    ON_LATER,
+    ON_ROW,
 };
 
 static const struct group pivot_group = {"a pivot", NULL, FIELDS(pivot_fields),
-                                         NULL,      0,    "one coordinate theta about a fixed axis"};
+                                         NULL,      0,    "one coordinate theta about an axis"};
 
-static const struct field free_fields[] = {ON_LATER};
+static const struct field free_fields[] = {ON_ROW};
 
 static const struct group particle_group = {
-    "a particle", NULL, FIELDS(free_fields), NULL, 0, "coordinates x, y of a body that does not turn"};
+    "a particle", NULL, FIELDS(free_fields),
+    NULL,         0,    "coordinates x, y of a body that does not turn against what it moves on"};
 
 static const struct group planar_group = {"a planar motion",
                                           NULL,
@@ -130,11 +132,24 @@ static const struct group planar_group = {"a planar motion",
                                           0,
                                           "coordinates x, y of the frame's origin, and theta"};
 
+static const struct field weld_fields[] = {
+    FIELD_NODE(MOTION(on), "on", field_scalar, required, NULL, "the body that it is fixed on"),
+    FIELD_NODE(MOTION(at), "at", field_any, 0, NULL, "where: [x, y] or a point of that body; default [0, 0]"),
+    FIELD_NODE(MOTION(point), "point", field_any, 0, NULL,
+               "the point of the body that sits there; default the origin of the body frame"),
+    FIELD_NUMBER(MOTION(angle), "angle", an_angle, 0,
+                 "of the body frame in the frame of that body; default 0"),
+};
+
+static const struct group weld_group = {"a weld", NULL, FIELDS(weld_fields),
+                                        NULL,     0,    "no coordinate: fixed on another body"};
+
 static const struct kind motions[] = {
     {"slide", motion_slide, &slide_group, ~0u, NULL},
     {"pivot", motion_pivot, &pivot_group, ~0u, NULL},
     {"particle", motion_particle, &particle_group, ~0u, NULL},
     {"planar", motion_planar, &planar_group, ~0u, NULL},
+    {"weld", motion_weld, &weld_group, ~0u, NULL},
 };
 
 const struct kinds motion_kinds = {"motion", FIELDS(motions)};
@@ -164,4 +179,5 @@ const struct group initial_groups[] = {
     [motion_particle] = {"`initial` of a particle", NULL, FIELDS(particle_initial), NULL, 0,
                          "state at t = 0"},
     [motion_planar] = {"`initial` of a planar body", NULL, FIELDS(planar_initial), NULL, 0, "state at t = 0"},
+    [motion_weld] = {"`initial` of a weld", NULL, NULL, 0, NULL, 0, "a weld has no coordinate"},
 };

@@ -5,7 +5,9 @@ enum {
     on_slide = 1u << motion_slide,
     on_pivot = 1u << motion_pivot,
     on_planar = 1u << motion_planar,
-    on_all = on_slide | on_pivot | on_planar | 1u << motion_particle,
+    on_moving = on_slide | on_pivot | on_planar | 1u << motion_particle,
+    on_weld = 1u << motion_weld,
+    on_all = on_moving | on_weld,
     on_turning = on_pivot | on_planar,
 };
 
@@ -124,7 +126,7 @@ static const struct kind forces[] = {
     {"spring", load_spring, &spring_group, on_all, NULL},
     {"damper", load_damper, &damper_group, on_all, NULL},
     {"drag", load_drag, &drag_group, on_all, NULL},
-    {"potential", load_potential, &potential_group, on_all, NULL},
+    {"potential", load_potential, &potential_group, on_moving, "list it where the coordinates are"},
 };
 
 const struct kinds force_kinds = {"force", FIELDS(forces)};
@@ -171,7 +173,7 @@ static const struct group moment_potential_group =
 #define NO_TURNING "a slide and a particle do not turn: use `pivot` or `planar`"
 
 static const struct kind moments[] = {
-    {"applied", moment_applied, &moment_applied_group, on_turning, NO_TURNING},
+    {"applied", moment_applied, &moment_applied_group, on_turning | on_weld, NO_TURNING},
     {"spring", moment_spring, &moment_spring_group, on_turning, NO_TURNING},
     {"damper", moment_damper, &moment_damper_group, on_turning, NO_TURNING},
     {"friction", moment_friction, &moment_friction_group, on_turning, NO_TURNING},

@@ -20,7 +20,7 @@ static const struct coordinate_names planar_names[] = {
 int coordinates_of(enum motion_kind kind, const struct coordinate_names **names)
 {
     *names = kind == motion_slide ? slide_names : kind == motion_pivot ? pivot_names : planar_names;
-    return kind == motion_planar ? 3 : kind == motion_particle ? 2 : 1;
+    return kind == motion_weld ? 0 : kind == motion_planar ? 3 : kind == motion_particle ? 2 : 1;
 }
 
 bool name_is_reserved(const char *name)
@@ -90,6 +90,85 @@ static struct symbol coordinate_symbol(const struct names *names, int body, cons
     return unknown;
 }
 
+/* The slot of a place in the world, the same one for every mention. */
+static struct symbol absolute_slot(struct reader *reader, const struct absolute *wanted)
+{
+    enum { most_absolutes = 1000 };
+    struct scene *scene = reader->scene;
+    size_t k = 0;
+    for (; k < scene->absolute_count; k++) {
+        const struct absolute *known = &scene->absolutes[k];
+        if (known->body == wanted->body && known->kind == wanted->kind && known->part == wanted->part &&
+            known->point.kind == wanted->point.kind && known->point.where.x == wanted->point.where.x &&
+            known->point.where.y == wanted->point.where.y)
+            break;
+    }
+    if (k == most_absolutes) return unknown;
+    if (k == scene->absolute_count) {
+        if (!scene->absolutes) scene->absolutes = ARENA_ARRAY(reader->arena, most_absolutes, struct absolute);
+        if (!scene->absolutes) return failed_before;
+        scene->absolutes[scene->absolute_count++] = *wanted;
+    }
+    int derivative = wanted->kind == absolute_acceleration
+                         ? 2
+                         : wanted->kind == absolute_vx || wanted->kind == absolute_vy ||
+                               wanted->kind == absolute_angle_dot;
+    bool angle = wanted->kind == absolute_angle || wanted->kind == absolute_angle_dot;
+    if (wanted->kind == absolute_acceleration)
+        angle = scene->coordinates[scene->bodies[wanted->body].first + wanted->part].angle;
+    return variable(coordinate_dim(angle, derivative), 1 + 2 * scene->coordinate_count + hand_slots + k);
+}
+
+/* `angle`, `x`, `y` and their rates in the world; with `of_point` not `angle`. */
+static bool absolute_kind_of(const char *name, bool of_point, enum absolute_kind *kind)
+{
+    static const struct {
+        const char *name, *alias;
+        enum absolute_kind kind;
+    } known[] = {
+        {"x", "x", absolute_x},
+        {"y", "y", absolute_y},
+        {"vx", "x_dot", absolute_vx},
+        {"vy", "y_dot", absolute_vy},
+        {"angle", "angle", absolute_angle},
+        {"angle_dot", "angle_dot", absolute_angle_dot},
+    };
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        if (!matches(name, known[i].name, known[i].alias)) continue;
+        *kind = known[i].kind;
+        return !of_point || known[i].kind < absolute_angle;
+    }
+    return false;
+}
+
+/* What stands behind `body.` and is no coordinate: `angle`, `x` (of the frame's origin), `G.x`, `right.vy`.
+ */
+static struct symbol absolute_symbol(const struct names *names, int body, const char *name)
+{
+    struct reader *reader = names->reader;
+    const struct body *owner = &reader->scene->bodies[body];
+    struct absolute absolute = {.body = body, .point = {.kind = point_fixed}};
+    const char *dot = strrchr(name, '.'); /* points of parts have dots themselves */
+    if (!dot) {
+        if (!absolute_kind_of(name, false, &absolute.kind)) return unknown;
+        return absolute_slot(reader, &absolute);
+    }
+    size_t length = (size_t)(dot - name);
+    if (!absolute_kind_of(dot + 1, true, &absolute.kind)) return unknown;
+    bool found = length == 1 && name[0] == 'G';
+    if (found) absolute.point.kind = point_G;
+    if (length == 1 && name[0] == 'O' && owner->motion.kind == motion_pivot) {
+        absolute.point.where = owner->motion.point;
+        found = true;
+    }
+    for (size_t i = 0; !found && i < owner->point_count; i++) {
+        if (strncmp(owner->points[i].name, name, length) != 0 || owner->points[i].name[length]) continue;
+        absolute.point.where = owner->points[i].where;
+        found = true;
+    }
+    return found ? absolute_slot(reader, &absolute) : unknown;
+}
+
 static struct symbol acceleration_symbol(const struct names *names, const char *name)
 {
     const struct scene *scene = names->reader->scene;
@@ -100,6 +179,20 @@ static struct symbol acceleration_symbol(const struct names *names, const char *
             matches(name, list[i].acceleration_alias[0], list[i].acceleration_alias[1]))
             return variable(coordinate_dim(list[i].angle, 2),
                             1 + 2 * scene->coordinate_count + (size_t)(hand_acceleration + i));
+    return unknown;
+}
+
+/* The acceleration of a coordinate of another body, in a derivation. */
+static struct symbol other_acceleration(const struct names *names, int body, const char *name)
+{
+    const struct coordinate_names *list;
+    int count = coordinates_of(names->reader->scene->bodies[body].motion.kind, &list);
+    for (int i = 0; i < count; i++) {
+        struct absolute absolute = {.body = body, .kind = absolute_acceleration, .part = i};
+        if (matches(name, list[i].acceleration, list[i].acceleration) ||
+            matches(name, list[i].acceleration_alias[0], list[i].acceleration_alias[1]))
+            return absolute_slot(names->reader, &absolute);
+    }
     return unknown;
 }
 
@@ -117,7 +210,10 @@ static struct symbol dotted_symbol(const struct names *names, const char *name, 
     int index = (int)(pair - reader->bodies->pairs);
     if (names->place == place_constant) return variable(DIM_NONE, 0);
     if (!reader->drafts[index].motion_known) return failed_before;
-    return coordinate_symbol(names, index, dot + 1);
+    struct symbol own = coordinate_symbol(names, index, dot + 1);
+    if (own.kind == symbol_unknown && names->place == place_hand)
+        own = other_acceleration(names, index, dot + 1);
+    return own.kind != symbol_unknown ? own : absolute_symbol(names, index, dot + 1);
 }
 
 static struct symbol own_symbol(const struct names *names, const char *name)

@@ -146,6 +146,5 @@ bool body_read(struct reader *reader, int index)
     /* Parts may state their inertia about the pivot, and the pivot may be a point of a part. */
     draft->faulty_parts = !body_parts_read(reader, index);
     if (draft->faulty_parts) fine = false;
-    if (!body_motion_read(reader, index)) fine = false;
     return fine;
 }

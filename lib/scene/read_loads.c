@@ -168,6 +168,19 @@ static bool finish_drag(struct entry *entry)
     return false;
 }
 
+/* Its slope is taken with respect to coordinates. */
+static bool check_potential(const struct entry *entry)
+{
+    const struct value *V = &entry->keys.load.potential;
+    if (!V->expr || expr_is_constant(V->expr)) return true;
+    const int *slots;
+    size_t count = expr_variables(V->expr, &slots), n = entry->reader->scene->coordinate_count;
+    if (count == 0 || (size_t)slots[count - 1] <= 2 * n) return true;
+    note(entry, "not-here", V->at, "write V in the coordinates of the body",
+         "a potential cannot depend on a place in the world");
+    return false;
+}
+
 static bool finish(struct entry *entry)
 {
     struct load *load = &entry->keys.load;
@@ -180,6 +193,8 @@ static bool finish(struct entry *entry)
     case load_drag: return finish_drag(entry);
     case load_normal: load->side = (enum normal_side)entry->keys.side; return true;
     case moment_spring: load->free_length = entry->keys.neutral; return true;
+    case load_potential:
+    case moment_potential: return check_potential(entry);
     default: return true;
     }
 }

@@ -8,26 +8,7 @@
 
 #include <math.h>
 
-static bool read_slide(struct reader *reader, const struct chosen *chosen, struct motion *motion)
-{
-    struct slide_keys keys = {0};
-    const char *hint = "a line has its direction and its zero";
-    bool fine = fields_read(reader, chosen->kind->group, chosen->node, chosen->at, &reader->constants, &keys);
-    if (!fields_exclude(reader, chosen->node, "line", "along", hint)) fine = false;
-    if (!fields_exclude(reader, chosen->node, "line", "through", hint)) fine = false;
-    motion->along = keys.along;
-    if (keys.through && !ground_point_read(reader, keys.through, "through", &motion->through)) fine = false;
-    if (!keys.line) return fine;
-    const struct ground_line *line = ground_line_find(reader, keys.line);
-    if (!line) return false;
-    motion->along = line->along;
-    motion->through = line->through;
-    return fine;
-}
-
-/* The centre of mass of the parts: the sum of m r over the sum of m. One part keeps its centre to the last
- * bit. */
-static struct vec centre_of_mass(const struct body *body)
+struct vec body_centre_of_mass(const struct body *body)
 {
     double mass = 0;
     struct vec moment = {0, 0};
@@ -35,18 +16,27 @@ static struct vec centre_of_mass(const struct body *body)
         mass += body->parts[i].mass;
         moment = vec_add(moment, vec_scale(body->parts[i].mass, body->parts[i].center));
     }
+    /* One part keeps its centre to the last bit. */
     return body->part_count == 1 ? body->parts[0].center : vec_scale(1 / mass, moment);
 }
 
-static bool read_pivot(struct reader *reader, int index, const struct chosen *chosen, struct motion *motion)
+static bool read_slide(struct reader *reader, const struct chosen *chosen, const struct motion_keys *keys)
 {
-    struct pivot_keys keys = {0};
-    struct point point = {0};
-    bool fine = fields_read(reader, chosen->kind->group, chosen->node, chosen->at, &reader->constants, &keys);
-    if (keys.at && !ground_point_read(reader, keys.at, "at", &motion->through)) fine = false;
-    if (keys.point && !body_point_read(reader, index, keys.point, "point", &point)) return false;
-    motion->point = point.kind == point_G ? centre_of_mass(&reader->scene->bodies[index]) : point.where;
+    const char *hint = "a line has its direction and its zero";
+    bool fine = fields_exclude(reader, chosen->node, "line", "along", hint);
+    if (!fields_exclude(reader, chosen->node, "line", "through", hint)) fine = false;
+    if (keys->line && !fields_exclude(reader, chosen->node, "line", "on", "lines are those of the ground"))
+        fine = false;
     return fine;
+}
+
+static bool read_own_point(struct reader *reader, int index, const struct motion_keys *keys)
+{
+    struct body *body = &reader->scene->bodies[index];
+    struct point point = {0};
+    if (keys->point && !body_point_read(reader, index, keys->point, "point", &point)) return false;
+    body->motion.point = point.kind == point_G ? body_centre_of_mass(body) : point.where;
+    return true;
 }
 
 /* A moment of inertia stated about the pivot needs one. */
@@ -73,16 +63,13 @@ bool body_motion_read(struct reader *reader, int index)
     body->motion.kind = (enum motion_kind)chosen.kind->value;
     body->motion.at = chosen.at;
     draft->motion_known = true;
-    bool about = check_about_pivot(reader, body), fine;
-    switch (body->motion.kind) {
-    case motion_slide: fine = read_slide(reader, &chosen, &body->motion); break;
-    case motion_pivot: fine = read_pivot(reader, index, &chosen, &body->motion); break;
-    default: {
-        char nothing; /* no key of these groups has a value yet */
-        fine = fields_read(reader, chosen.kind->group, chosen.node, chosen.at, &reader->constants, &nothing);
-    }
-    }
-    return fine && about;
+    struct motion_keys *keys = &draft->motion_keys;
+    bool about = check_about_pivot(reader, body);
+    bool fine = fields_read(reader, chosen.kind->group, chosen.node, chosen.at, &reader->constants, keys);
+    body->motion.along = body->motion.kind == motion_weld ? keys->angle : keys->along;
+    if (body->motion.kind == motion_slide && !read_slide(reader, &chosen, keys)) fine = false;
+    draft->motion_read = fine && read_own_point(reader, index, keys);
+    return draft->motion_read && about;
 }
 
 bool body_initial_read(struct reader *reader, int index)

@@ -6,6 +6,7 @@
 #include "scene/reader.h"
 #include "scene/values.h"
 
+#include <float.h>
 #include <string.h>
 
 /* ---- events */
@@ -123,9 +124,15 @@ static bool read_output(struct reader *reader, const struct node *node, const st
 static bool check_tolerance(struct reader *reader, const struct node *map, double tolerance)
 {
     const double most = 0.1;
-    if (tolerance <= most) return true;
-    diag_add(reader->errors, FBD_ERROR, "out-of-range", node_find(map, "tolerance")->value->at,
-             "1e-9 is careful, 1e-4 is quick", "`tolerance` must be at most %g", most);
+    const struct pair *pair = node_find(map, "tolerance"); /* absent: 0 */
+    if (!pair || (tolerance <= most && (tolerance >= DBL_EPSILON || !(tolerance > 0)))) return true;
+    if (tolerance > most)
+        diag_add(reader->errors, FBD_ERROR, "out-of-range", pair->value->at, "1e-9 is careful, 1e-4 is quick",
+                 "`tolerance` must be at most %g", most);
+    else
+        diag_add(reader->errors, FBD_ERROR, "out-of-range", pair->value->at,
+                 "1e-13 is about what a run can keep; 1e-10 is the default",
+                 "`tolerance` is below what numbers resolve (2.2e-16)");
     return false;
 }
 

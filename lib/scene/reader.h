@@ -48,7 +48,8 @@ struct draft {
     const struct node *node; /* its mapping; NULL when it has none */
     struct body_keys keys;
     double mass; /* total */
-    bool mass_known, motion_known;
+    struct motion_keys motion_keys;
+    bool mass_known, motion_known, motion_read;
     bool faulty_parts; /* noted: points may be missing */
     bool has_normal, has_friction;
 };
@@ -107,6 +108,18 @@ bool body_read(struct reader *reader, int body);
 void body_parts_start(struct body_keys *keys);
 bool body_parts_read(struct reader *reader, int body);
 bool body_motion_read(struct reader *reader, int body);
+
+/* What it moves on: the motions of all bodies are read by then (read_parent.c). */
+bool body_parent_read(struct reader *reader, int body);
+
+/* Note `motion-in-a-circle` for bodies that move on each other in a circle, and for welds on nothing. */
+bool parents_check(struct reader *reader);
+
+/* The body called `node`, -1 for `ground`; false after noting `unknown-body`. */
+bool body_name_read(struct reader *reader, const struct node *node, const char *what, int *body);
+
+/* The centre of mass of the parts of a body: the sum of m r over the sum of m. */
+struct vec body_centre_of_mass(const struct body *body);
 bool body_initial_read(struct reader *reader, int body);
 
 /* [x, y], G, O or the name of a point of the body. */
@@ -117,6 +130,10 @@ bool body_point_read(struct reader *reader, int body, const struct node *node, c
 bool body_loads_read(struct reader *reader, int body);
 bool body_loads_name(struct reader *reader, int body, const char *const *names, const struct pos *places);
 bool body_hand_read(struct reader *reader, int body);
+
+/* ---- couplings (read_couplings.c) */
+
+bool couplings_read(struct reader *reader, const struct node *list);
 
 /* ---- the run (read_simulate.c) */
 

@@ -107,7 +107,13 @@ static void read_bodies(struct reader *reader)
 {
     struct scene *scene = reader->scene;
     int count = (int)scene->body_count;
-    for (int b = 0; b < count && !is_hopeless(reader); b++) scene->bodies[b].complete = body_read(reader, b);
+    for (int b = 0; b < count && !is_hopeless(reader); b++) {
+        bool body = body_read(reader, b), motion = reader->drafts[b].node && body_motion_read(reader, b);
+        scene->bodies[b].complete = body && motion;
+    }
+    for (int b = 0; b < count && !is_hopeless(reader); b++)
+        if (!body_parent_read(reader, b)) scene->bodies[b].complete = false;
+    parents_check(reader);
     if (!number_coordinates(reader)) return;
     for (int b = 0; b < count && !is_hopeless(reader); b++) {
         bool initial = body_initial_read(reader, b);
@@ -130,6 +136,7 @@ static void read_scene(struct reader *reader, const struct override *overrides, 
     if (!parameters_start(reader, overrides, override_count) || !bodies_start(reader)) return;
     read_top(reader, &keys);
     read_bodies(reader);
+    if (!is_hopeless(reader)) couplings_read(reader, keys.couplings);
     if (!is_hopeless(reader)) simulate_read(reader, &keys);
     if (fbd_errors_failed(reader->errors) == 0) parameters_note_unused(reader);
 }

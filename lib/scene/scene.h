@@ -79,7 +79,10 @@ enum motion_kind {
     motion_pivot,    /* theta about a fixed axis */
     motion_particle, /* x, y */
     motion_planar,   /* x, y, theta */
+    motion_weld,     /* none: fixed on another body */
 };
+
+enum { motion_kinds_count = motion_weld + 1 };
 
 enum { ground_body = -1 };
 
@@ -87,9 +90,9 @@ struct motion {
     enum motion_kind kind;
     struct pos at;
     int parent;         /* body that it moves on, or ground_body */
-    double along;       /* slide: direction of +x in the parent frame [rad] */
-    struct vec through; /* slide: where x = 0; pivot: the axis O; both in the parent frame */
-    struct vec point;   /* pivot: the point of the body that sits on the axis, in the body frame */
+    double along;       /* slide: direction of +x in the parent frame; weld: angle of the body frame [rad] */
+    struct vec through; /* slide: where x = 0; pivot: the axis O; weld: the joint; all in the parent frame */
+    struct vec point;   /* pivot, weld: the point of the body that sits there, in the body frame */
 };
 
 /* ---- what acts */
@@ -155,6 +158,13 @@ struct hand_summand {
     const struct expr *expr;
 };
 
+/* A spring or damper between a point of a body and a point of another one, or of the ground. */
+struct coupling {
+    struct load load; /* load_spring or load_damper: name, position, law */
+    int body[2];      /* ground_body for the ground; not both */
+    struct point point[2];
+};
+
 /* A derivation by the user: an equation that must hold. */
 struct hand {
     const char *text;
@@ -189,6 +199,23 @@ struct body {
     struct named_point *points; /* all names: given ones and those of its shape */
     struct load *loads;         /* in file order: forces, then moments */
     struct hand *hands;
+};
+
+/* Where a point of a body is in the world, or how its frame is turned: an expression may name it though it is
+ * no coordinate. Number k has slot 1 + 2 n + hand_slots + k. */
+struct absolute {
+    int body;
+    struct point point;
+    enum absolute_kind {
+        absolute_x,
+        absolute_y,
+        absolute_vx,
+        absolute_vy,
+        absolute_angle,
+        absolute_angle_dot,
+        absolute_acceleration, /* derivations by hand: of coordinate `part` of the body */
+    } kind;
+    int part;
 };
 
 struct coordinate {
@@ -234,13 +261,15 @@ struct scene {
     enum unit_system units;
     struct vec gravity; /* acceleration, straight down by default */
     double datum;       /* height y at which the potential energy of gravity is zero */
-    size_t parameter_count, body_count, event_count;
+    size_t parameter_count, body_count, event_count, coupling_count;
     struct parameter *parameters;
     struct body *bodies;
     struct user_event *events;
+    struct coupling *couplings;
     struct simulate simulate;
-    size_t coordinate_count;
+    size_t coordinate_count, absolute_count;
     struct coordinate *coordinates;
+    struct absolute *absolutes;
 };
 
 /* Parameters set from outside, as text: `--set f1=50 N`. */

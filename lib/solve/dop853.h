@@ -17,6 +17,15 @@
  * which a control forms, is as dimension-free as his root mean square, and one component does not dilute
  * the error of another. As the estimate is O(h^8) = O(h^order), the exponent of a step size law is 1/8.
  *
+ * Rounding. What y1 = y0 + (...) loses is kept and added in the next step, and to the arguments of its stages
+ * (compensated summation: O. Moller, BIT 5 (1965) 37; E. Hairer, C. Lubich, G. Wanner, Geometric Numerical
+ * Integration, VIII.5). It belongs to a component
+ * as long as y comes back bit for bit, whether the step is tried again or goes on from its end; a reset
+ * forgets it. A pendulum from 1e-6 rad beside the upright to the same on the other side, where 1e-15 of the
+ * energy are 1e-4 s, is 3 to 4 times more accurate so at tolerances of 1e-14 and below; what is left is the
+ * rounding of the slopes. It costs one sum for each stage and component, some hundredths of the time of a
+ * pendulum's step.
+ *
  * Failure. Where the right-hand side returns a code other than GSL_SUCCESS, the step returns that code;
  * where y1 is not finite, GSL_FAILURE (GSL's own steppers would call it success). In both cases y is as it
  * was on entry.
@@ -29,6 +38,7 @@
 #define FBD_SOLVE_DOP853_H
 
 #include <gsl/gsl_odeiv2.h>
+#include <stdbool.h>
 
 extern const gsl_odeiv2_step_type *const step_dop853;
 
@@ -41,5 +51,11 @@ int dop853_dense_prepare(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys);
 /* y(t0 + theta h), 0 <= theta <= 1, of the prepared step [t0, t0 + h]; error O(h^8), continuous with its
  * first derivative from step to step. */
 void dop853_dense_eval(const gsl_odeiv2_step *step, double theta, double *y);
+
+/* Two states that the last step has evaluated for one time, its end y1 and the argument of stage 12, differ
+ * by dy, their slopes by df: so df = J dy with a mean J of the Jacobian, for nothing (HNW II, IV.2, uses it
+ * to detect stiffness). False, and nothing set, unless the last step was made with dydt_out, is of this type
+ * and has no dense output yet. The numbers last until the dense output is made or the next step. */
+bool dop853_differences(const gsl_odeiv2_step *step, const double **dy, const double **df);
 
 #endif

@@ -35,7 +35,7 @@ static void note_friction(struct run *run, fbd_event_kind kind, int pair)
     if (!event) return;
     struct instant at = state_instant(run->state);
     double *slots = run->during->scratch;
-    force_slots(run->model, &at, slots);
+    force_balance(run->model, &at, slots);
     struct friction_values values = friction_at(run->model, pair, &at, slots);
     event->force = values.force;
     event->limit = values.limit_static;
@@ -123,9 +123,10 @@ void run_check_contacts(struct run *run)
     const struct fbd_model *model = run->model;
     for (size_t i = 0; i < model->plan.contact_count; i++) {
         const struct contact *contact = &model->plan.contacts[i];
-        double N = -run->state->slots[contact->slot];
-        if (!(N < -watchers_contact_slack(model, contact))) continue;
-        note(run, FBD_EVENT_CONTACT_LOST, contact->body, contact->load, -1);
+        double N = -run->state->slots[contact->slot], slack = watchers_contact_slack(model, contact);
+        if (!(N < -slack)) continue;
+        struct run_event *event = note(run, FBD_EVENT_CONTACT_LOST, contact->body, contact->load, -1);
+        if (event) event->force = N, event->limit = slack;
         run_fail(run, FBD_BROKEN,
                  "at t = %.9g `%s` leaves its surface: the normal force would have to pull (N = %.6g). "
                  "Declare the "
@@ -134,7 +135,7 @@ void run_check_contacts(struct run *run)
     }
 }
 
-void run_apply_touched(struct run *run)
+void run_apply_touched(struct run *run, bool at_event)
 {
     const struct plan *plan = &run->model->plan;
     struct instant at = state_instant(run->state);
@@ -142,17 +143,20 @@ void run_apply_touched(struct run *run)
         int armed = run->watchers.armed[i];
         double value =
             formula_value(&plan->watches[i].left, &at) - formula_value(&plan->watches[i].right, &at);
-        if (armed != 0 && !run->watchers.fired[i] && armed * value <= 0) user_event(run, (int)i, value == 0);
+        double band = at_event && value == 0 ? 0 : run->watchers.band[i];
+        if (armed != 0 && !run->watchers.fired[i] && armed * value + band <= 0)
+            user_event(run, (int)i, value == 0);
     }
 }
 
 static void fail_chatter(struct run *run, const char *name)
 {
-    run_fail(run, FBD_FAILED,
-             "at t = %.9g events chatter: `%s` changes its branch again and again while no time passes. A "
-             "force that "
-             "jumps against the motion, as c*sign(v), is dry friction: declare it as `friction`",
-             run->state->t, name);
+    run_fail(
+        run, FBD_FAILED,
+        "at t = %.9g events chatter: `%s` changes its branch again and again while hardly any time passes. A "
+        "force that "
+        "jumps against the motion, as c*sign(v), is dry friction: declare it as `friction`",
+        run->state->t, name);
 }
 
 /* A switch that has just been crossed and whose new branch already ends: the forces on both sides push back
@@ -178,6 +182,21 @@ static void refuse_sliding(struct run *run, const bool *moving)
     }
 }
 
+/* What the last event was about. */
+static const char *name_of_last(const struct run *run)
+{
+    static const struct run_event nothing = {.load = -1, .watch = -1};
+    const struct run_event *event = run->event_count > 0 ? &run->events[run->event_count - 1] : &nothing;
+    return event->load >= 0    ? run->model->loads[event->load].source->name
+           : event->watch >= 0 ? run->model->plan.watches[event->watch].source->name
+                               : "an expression";
+}
+
+void run_fail_chatter(struct run *run)
+{
+    fail_chatter(run, name_of_last(run));
+}
+
 /* Events that crowd at one instant never let time pass: a sliding mode that no friction entry declares, or an
  * infinite sequence. */
 static void count_crowd(struct run *run)
@@ -187,12 +206,27 @@ static void count_crowd(struct run *run)
     run->crowd = run->state->t - run->last_event <= span ? run->crowd + 1 : 0;
     run->last_event = run->state->t;
     if (run->crowd < most_at_once || run->outcome != FBD_GOING) return;
-    static const struct run_event nothing = {.load = -1, .watch = -1};
-    const struct run_event *event = run->event_count > 0 ? &run->events[run->event_count - 1] : &nothing;
-    const char *name = event->load >= 0    ? run->model->loads[event->load].source->name
-                       : event->watch >= 0 ? run->model->plan.watches[event->watch].source->name
-                                           : "an expression";
-    fail_chatter(run, name);
+    run_fail_chatter(run);
+}
+
+/* A motion that passes a switch ever slower and ever more often, as a body that a force of constant size
+ * attracts to a point and a damper slows down, never gets done with it: events by the hundred thousand while
+ * coordinates stay within a part in a million, and speeds in a thousand, of what they have been. */
+static void count_around(struct run *run)
+{
+    enum { most_around = 100000 };
+    const double place = 1e-6, speed = 1e-3;
+    size_t n = (size_t)run->model->plan.n;
+    double *anchor = run->anchor;
+    const double *most = anchor + 2 * n;
+    bool away = false;
+    for (size_t i = 0; i < 2 * n; i++) {
+        double y = run->state->y[i];
+        away |= i < n ? fabs(y - anchor[i]) > place * most[i] : fabs(y) > speed * most[i];
+    }
+    if (away) memcpy(anchor, run->state->y, 2 * n * sizeof *anchor);
+    run->around = away ? 0 : run->around + 1;
+    if (run->around > most_around && run->outcome == FBD_GOING) run_fail_chatter(run);
 }
 
 void run_apply(struct run *run, const bool *timed, const bool *moving)
@@ -209,13 +243,16 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
         for (size_t i = 0; crossed[s] && i < sets[s]->count; i++)
             if (crossed[s][i]) happen(run, &sets[s]->watchers[i], crossing);
     if (!modes_settle(run->state, &run->decided) && run->outcome == FBD_GOING)
-        run_fail(run, FBD_FAILED,
-                 "at t = %.9g no choice of branches and of stick or slip agrees with the forces",
-                 run->state->t);
+        run_fail(
+            run, FBD_FAILED,
+            "at t = %.9g no choice of branches and of stick or slip agrees with the forces. A force that "
+            "jumps against the motion, as c*sign(v), is dry friction: declare it as `friction`",
+            run->state->t);
     note_frictions(run, moving);
     refuse_sliding(run, moving);
-    run_apply_touched(run);
+    run_apply_touched(run, true);
     run_check_contacts(run);
     run->restart = true;
     if (run->outcome == FBD_GOING) count_crowd(run);
+    if (moving) count_around(run);
 }

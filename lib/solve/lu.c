@@ -39,8 +39,20 @@ bool lu_decompose(size_t n, double *a, size_t *pivot)
     return true;
 }
 
+/* Two equations are what every body with one coordinate has, and loops over them are mostly overhead. */
+static inline void solve_two(const double *lu, const size_t *pivot, double *b)
+{
+    double first = b[pivot[0]], second = b[1 - pivot[0]] - lu[2] * first;
+    b[1] = second * lu[3];
+    b[0] = (first - lu[1] * b[1]) * lu[0];
+}
+
 void lu_solve(size_t n, const double *lu, const size_t *pivot, double *b)
 {
+    if (n == 2) {
+        solve_two(lu, pivot, b);
+        return;
+    }
     for (size_t k = 0; k < n; k++) {
         double kept = b[pivot[k]];
         b[pivot[k]] = b[k];

@@ -21,6 +21,8 @@ struct method {
     bool implicit;      /* needs the Jacobian */
     bool multistep; /* remembers earlier steps: cannot redo part of a step, has to be reset after an event */
     bool needs_driver; /* asks a driver for its control's error level */
+    double stable;     /* it is stable for h lambda in [-stable, 0]; 0: dop853, which finds
+                          out by itself, and implicit ones */
 };
 
 /* Method number `index` in the order of preference; NULL beyond the last one. Number 0 is the default. */

@@ -40,13 +40,25 @@ static size_t fastest(const struct run *run)
 static void explain_not_finite(struct run *run)
 {
     size_t n = (size_t)run->model->plan.n, element = run->system.last_element % (2 * n);
+    const char *what =
+        isnan(run->system.last_value)
+            ? "an expression leaves its domain there (a root or logarithm of a negative number, 0/0)"
+            : "it is beyond the largest number (a division by zero, or an overflow)";
     run_fail(
         run, FBD_FAILED,
-        "a force on `%s` is not finite at t = %.9g, just beyond the last good state at t = %.9g: an "
-        "expression "
-        "leaves its domain there (a division by zero, a root or logarithm of a negative number). End the run "
-        "before by an event, or restrict the expression",
-        body_of(run, element), run->system.last_time, run->state->t);
+        "a force on `%s` is not finite at t = %.9g, just beyond the last good state at t = %.9g: %s. End the "
+        "run before by an event, or restrict the expression",
+        body_of(run, element), run->system.last_time, run->state->t, what);
+}
+
+void run_fail_pole(struct run *run, const struct pole *pole)
+{
+    const struct fbd_model *model = run->model;
+    run_fail(run, FBD_FAILED,
+             "at t = %.9g `%s` of `%s` divides by zero, to the rounding of the time: the force is infinite "
+             "there, and how the motion goes on depends on more digits than numbers have. End the run before "
+             "by an event, or bound the force",
+             run->state->t, model->loads[pole->load].source->name, model->bodies[pole->body].name);
 }
 
 void run_fail_step(struct run *run, enum stepper_status status)
@@ -61,11 +73,11 @@ void run_fail_step(struct run *run, enum stepper_status status)
     } else if (not_finite) {
         explain_not_finite(run);
     } else if (counts.last == rejected_iteration) {
-        run_fail(run, FBD_FAILED,
-                 "at t = %.9g the implicit equations of `%s` were not solved (body `%s`). Try another method "
-                 "or a smaller "
-                 "tolerance",
-                 run->state->t, run->options.method->name, body_of(run, fastest(run)));
+        run_fail(
+            run, FBD_FAILED,
+            "at t = %.9g the implicit equations of `%s` were not solved (body `%s`): the motion may run away "
+            "there, or the method be at its end. Try another one",
+            run->state->t, run->options.method->name, body_of(run, fastest(run)));
     } else {
         run_fail(run, FBD_FAILED,
                  "the step size underflows at t = %.9g: `%s` moves ever faster, as towards a singular point, "

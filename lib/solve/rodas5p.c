@@ -114,6 +114,17 @@ static int decompose(struct rodas5p *s)
     return lu_decompose(n, s->lu, s->pivot) ? GSL_SUCCESS : GSL_FAILURE;
 }
 
+/* The sum over all stages before i with these coefficients, for component m. In the order of the stages
+ * inside of that of the components, as most systems have two or four: a loop over so few takes longer to set
+ * up than to run. */
+static inline double combined(const struct rodas5p *s, int i, const double *coefficient, size_t m)
+{
+    const double *u = s->v + m;
+    double sum = 0;
+    for (int j = 1; j < i; j++) sum += coefficient[j] * u[(size_t)j * s->n];
+    return sum;
+}
+
 /* g_i, into v_argument; there g_(i-1) stands still. */
 static void make_argument(struct rodas5p *s, int i, const double *y)
 {
@@ -124,11 +135,7 @@ static void make_argument(struct rodas5p *s, int i, const double *y)
         for (size_t m = 0; m < n; m++) g[m] += last[m];
         return;
     }
-    memcpy(g, y, n * sizeof *g);
-    for (int j = 1; j < i; j++) {
-        const double a = rodas5p_a[i][j], *u = vector(s, j);
-        for (size_t m = 0; m < n; m++) g[m] += a * u[m];
-    }
+    for (size_t m = 0; m < n; m++) g[m] = y[m] + combined(s, i, rodas5p_a[i], m);
 }
 
 /* u_i, in whose place f(t + c_i h, g_i) stands. */
@@ -136,12 +143,8 @@ static void solve_stage(struct rodas5p *s, int i)
 {
     size_t n = s->n;
     double *u = vector(s, i);
-    const double *dfdt = vector(s, v_dfdt), share = s->h * rodas5p_d[i];
-    for (size_t m = 0; m < n; m++) u[m] += share * dfdt[m];
-    for (int j = 1; j < i; j++) {
-        const double c = rodas5p_C[i][j] / s->h, *before = vector(s, j);
-        for (size_t m = 0; m < n; m++) u[m] += c * before[m];
-    }
+    const double *dfdt = vector(s, v_dfdt), share = s->h * rodas5p_d[i], per_h = 1 / s->h;
+    for (size_t m = 0; m < n; m++) u[m] += share * dfdt[m] + per_h * combined(s, i, rodas5p_C[i], m);
     lu_solve(n, s->lu, s->pivot, u);
 }
 

@@ -11,7 +11,7 @@
 static int jacobian(double t, const double y[], double *dfdy, double dfdt[], void *params)
 {
     struct fbd_state *during = rates_state(params);
-    struct instant at = {t, y, during->branch, during->slip, during->pull};
+    struct instant at = {t, y, during->branch, during->slip, during->pull, during->tree, during->extended};
     state_jacobian(during->model, &at, during->scratch, dfdy, dfdt);
     return GSL_SUCCESS;
 }
@@ -30,11 +30,19 @@ static int sample_timed(void *context, double t, double *values, double *rate)
     return 0;
 }
 
+/* At the start of a step no function has passed its end: one that is negative has just come from there, or
+ * goes there, and is off by the rounding of the instant. Left so, one that rises would hide a zero before the
+ * first sample, when the motion turns back at once, and one that falls would never be seen again, with its
+ * branch on the wrong side for good. As zero the first is looked at like others and the second crosses here.
+ */
 static int sample_moving(void *context, double t, double *values, double *rate)
 {
     struct run *run = context;
     if (switcher_dense(run->stepper, t, run->sample) != GSL_SUCCESS) return -1;
     watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, t, run->sample, values, rate);
+    if (t == run->from)
+        for (size_t i = 0; i < run->moving.count; i++)
+            if (values[i] < 0) values[i] = 0;
     return 0;
 }
 
@@ -68,7 +76,7 @@ static bool make_decided(struct decided *decided, const struct plan *plan)
 
 static bool make_scans(struct run *run)
 {
-    if (!watchers_init(&run->watchers, run->model)) return false;
+    if (!watchers_init(&run->watchers, run->model, run->options.tolerance)) return false;
     const struct watcher_set *timed = &run->watchers.timed, *moving = &run->watchers.moving;
     if (!scan_init(&run->timed, timed->count, sample_timed, run)) return false;
     if (!scan_init(&run->moving, moving->count, sample_moving, run)) return false;
@@ -85,11 +93,13 @@ static bool make_run(struct run *run)
     run->during = state_new(run->model);
     run->y = calloc(6 * n + 1, sizeof *run->y);
     if (!run->state || !run->during || !run->y || !make_scans(run)) return false;
+    if (!poles_init(&run->poles, run->model)) return false;
     run->f = run->y + 2 * n;
     run->sample = run->f + 2 * n;
     run->values = calloc(2 * run->moving.count + 1, sizeof *run->values);
+    run->anchor = calloc(4 * n + 1, sizeof *run->anchor);
     run->arrows = calloc(diagram_most_arrows(run->model), sizeof *run->arrows);
-    if (!run->values || !run->arrows) return false;
+    if (!run->values || !run->anchor || !run->arrows) return false;
     run->rates = rates_new(run->during, rates_by_rows);
     if (!run->rates) return false;
     gsl_odeiv2_system system = {.jacobian = jacobian, .dimension = 2 * n};
@@ -103,8 +113,10 @@ static void start(struct run *run)
     run->restart = true;
     run->from = run->state->t;
     if (!modes_settle(run->state, NULL)) {
-        run_fail(run, FBD_FAILED,
-                 "at the start no choice of branches and of stick or slip agrees with the forces");
+        run_fail(
+            run, FBD_FAILED,
+            "at the start no choice of branches and of stick or slip agrees with the forces. A force that "
+            "jumps against the motion, as c*sign(v), is dry friction: declare it as `friction`");
         return;
     }
     watchers_arm(&run->watchers, run->state);
@@ -134,6 +146,7 @@ void run_free(struct run *run)
     scan_free(&run->timed);
     scan_free(&run->moving);
     watchers_free(&run->watchers);
+    poles_free(&run->poles);
     state_free(run->state);
     state_free(run->during);
     rates_free(run->rates);
@@ -141,6 +154,7 @@ void run_free(struct run *run)
     free(run->events);
     free(run->y);
     free(run->values);
+    free(run->anchor);
     free(run->arrows);
     free(run);
 }
@@ -206,20 +220,48 @@ static bool polish(struct run *run, double step_end, double *t)
     return true;
 }
 
-/* Has one of the functions that crossed really gone down? The dense output of a low-order step may dip below
- * zero where the function rises, as the velocity just after a breakaway; its rate, which is that of the
- * motion and not of the interpolant, tells. */
-static bool goes_down(const struct run *run)
+/* Does one of the functions that crossed go down at t, and to zero before the step ends? The dense output of
+ * a low-order step may dip below zero where the function rises, as the velocity just after a breakaway, or
+ * stays above it; the state and rate at t, which are those of the motion and not of the interpolant, tell. */
+static bool goes_down(const struct run *run, double t, double end)
 {
-    for (size_t i = 0; i < run->moving.count; i++)
-        if (run->moving.crossed[i] && !(run->values[run->moving.count + i] > 0)) return true;
+    for (size_t i = 0; i < run->moving.count; i++) {
+        double value = run->values[i], rate = run->values[run->moving.count + i];
+        if (!run->moving.crossed[i] || rate > 0) continue;
+        if (value <= 0 || t + time_left(run, i) <= end) return true;
+    }
     return false;
+}
+
+/* Is one of them below zero at the end of the step? Then it has gone there, whatever the inside looks like.
+ * On return y and f are those at t again. */
+static bool is_down_at_end(struct run *run, double t, double end)
+{
+    double *values = run->values, *rates = values + run->moving.count;
+    bool down = false;
+    if (switcher_partial(run->stepper, end, run->y, run->f) != GSL_SUCCESS) return true;
+    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, end, run->y, values, rates);
+    for (size_t i = 0; i < run->moving.count; i++) down |= run->moving.crossed[i] && values[i] < 0;
+    return switcher_partial(run->stepper, t, run->y, run->f) == GSL_SUCCESS && down;
 }
 
 /* Cut the step to t, where nothing happens. 0, or -1 when that fails. */
 static int cut_step(struct run *run, double t)
 {
     return switcher_partial(run->stepper, t, run->y, run->f) == GSL_SUCCESS ? 0 : -1;
+}
+
+/* The longest share of a step that is believed when it has passed a pole: where that was is not asked. */
+static int stay_before_poles(struct run *run, double *t)
+{
+    const double share = 0.25;
+    double h = *t - run->from, cut = run->from + share * h;
+    if (run->options.step > 0 || !(cut > run->from)) return 0;
+    if (!poles_passed(&run->poles, run->during, h, *t, run->y, run->f)) return 0;
+    *t = cut;
+    run->h = share * h;
+    run->restart = true;
+    return cut_step(run, cut);
 }
 
 /* Look for the first event in (from, t]; on return *t is its time, with y and f there. 1 found, 0 none, -1
@@ -243,7 +285,7 @@ static int find_event(struct run *run, double *t)
         double when = run->moving.t;
         if (when >= end) return 1;
         if (!polish(run, end, &when)) return -1;
-        if (goes_down(run)) {
+        if (goes_down(run, when, end) || is_down_at_end(run, when, end)) {
             *t = when;
             return 1;
         }
@@ -256,6 +298,8 @@ static int find_event(struct run *run, double *t)
 static void accept(struct run *run, double t)
 {
     size_t n = (size_t)run->model->plan.n;
+    double *most = run->anchor + 2 * n;
+    for (size_t i = 0; i < 2 * n; i++) most[i] = fmax(most[i], fabs(run->state->y[i]));
     run->state->t = t;
     memset(run->watchers.fired, 0, run->model->plan.watch_count * sizeof *run->watchers.fired);
     memcpy(run->state->y, run->y, 2 * n * sizeof *run->y);
@@ -273,6 +317,17 @@ static bool crawls(struct run *run)
     return run->crawl > most_steps;
 }
 
+/* Keep the next step away from where a force is infinite; false at such a place. */
+static bool heed_poles(struct run *run)
+{
+    const struct pole *nearest;
+    double longest = poles_longest_step(&run->poles, run->state, &nearest);
+    run->h = fmin(run->h, longest);
+    bool reached = nearest && longest <= 4 * DBL_EPSILON * fabs(run->state->t);
+    if (reached) run_fail_pole(run, nearest);
+    return !reached;
+}
+
 fbd_outcome run_advance(struct run *run)
 {
     if (run->outcome != FBD_GOING) return run->outcome;
@@ -280,6 +335,7 @@ fbd_outcome run_advance(struct run *run)
     state_copy(run->during, run->state);
     if (run->restart && !restart(run)) return run->outcome;
     if (run->crawl == 0) run->not_finite = switcher_counts(run->stepper).rejected[rejected_not_finite];
+    if (run->options.step == 0 && !heed_poles(run)) return run->outcome;
     bool timed;
     double limit = next_time(run, &timed), t = run->from;
     enum stepper_status status =
@@ -288,14 +344,17 @@ fbd_outcome run_advance(struct run *run)
         run_fail_step(run, status);
         return run->outcome;
     }
-    int moving = find_event(run, &t);
+    int moving = stay_before_poles(run, &t) < 0 ? -1 : find_event(run, &t);
     if (moving < 0) {
         run_fail_step(run, stepper_bad_function);
         return run->outcome;
     }
     accept(run, t);
     if (crawls(run)) {
-        run_fail_step(run, stepper_underflow);
+        if (run->crowd > 0)
+            run_fail_chatter(run);
+        else
+            run_fail_step(run, stepper_underflow);
         return run->outcome;
     }
     timed = timed && t == limit;
@@ -304,7 +363,7 @@ fbd_outcome run_advance(struct run *run)
         run_apply(run, timed ? run->timed.crossed : NULL, moving ? run->moving.crossed : NULL);
     else
         state_evaluate(run->state);
-    if (at_end) run_apply_touched(run);
+    if (at_end) run_apply_touched(run, false);
     if (run->outcome == FBD_GOING && at_end) run->outcome = FBD_DONE;
     if (run->outcome == FBD_GOING) watchers_arm(&run->watchers, run->state);
     return run->outcome;

@@ -13,6 +13,7 @@
 #include "dynamics/diagram.h"
 #include "dynamics/modes.h"
 #include "dynamics/rates.h"
+#include "solve/poles.h"
 #include "solve/scan.h"
 #include "solve/switcher.h"
 #include "solve/watchers.h"
@@ -29,7 +30,8 @@ struct run_event {
     double t;
     fbd_event_kind kind;
     int body, load, watch; /* -1 where it does not apply */
-    double force, limit; /* friction: the force after the event (that holds or slides) and the static limit */
+    double force, limit;   /* friction: the force after the event (that holds or slides) and the static limit;
+                              contact: the normal force and its rounding */
 };
 
 enum { reason_size = 400 };
@@ -49,6 +51,7 @@ struct run {
 
     struct watchers watchers;
     struct scan timed, moving;
+    struct poles poles;
     struct switcher *stepper;
     struct counted_system system;
     struct rates *rates;    /* in the modes of `during` */
@@ -61,6 +64,8 @@ struct run {
     size_t event_count, event_room;
     double last_event; /* time of the last one; events that crowd at one instant are counted */
     int crowd;
+    double *anchor; /* 4 n: the state around which events have happened lately; the largest |y_i| so far */
+    int around;     /* how many */
 };
 
 /* A run at the start of the model, modes settled, events of t = 0 applied. NULL when memory is out. */
@@ -81,8 +86,9 @@ bool run_look(struct run *run, double t, struct fbd_state *state);
 void run_apply(struct run *run, const bool *timed, const bool *moving);
 
 /* User events whose function is exactly zero at run->state (a body came to rest there, or the run ends there)
- * happen now. */
-void run_apply_touched(struct run *run);
+ * happen now; within its band (watchers.h) a zero counts at an event only, which may be what stopped the
+ * body. */
+void run_apply_touched(struct run *run, bool at_event);
 
 /* Check normal forces at run->state; ends the run when one is negative. */
 void run_check_contacts(struct run *run);
@@ -94,6 +100,8 @@ void run_set_noise(struct run *run);
 
 /* End the run with a reason. */
 void run_fail_step(struct run *run, enum stepper_status status);
+void run_fail_pole(struct run *run, const struct pole *pole);
+void run_fail_chatter(struct run *run);
 void run_fail(struct run *run, fbd_outcome outcome, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

@@ -73,13 +73,14 @@ enum stepper_status stepper_step(struct stepper *stepper, struct counted_system 
 /* State at time t within the last accepted step, t0 <= t <= t1, bit for bit that of the step at its ends.
  * Explicit methods and msadams have the interpolants of dense.h, msbdf the polynomial of its last points
  * (history.h). Implicit one-step methods redo the step up to t: slopes are of no use over a stiff step, and
- * bsimp makes steps longer than any interpolant follows. The system of that step is used and has to be
- * there still. GSL_SUCCESS, GSL_EINVAL without a last step or for t outside of it, or the code of what
- * failed; then y is undefined. */
+ * bsimp makes steps longer than any interpolant follows. Where that fails, the ends have to do
+ * (dense_eval_plain). The system of that step is used and has to be there still. GSL_SUCCESS, or GSL_EINVAL
+ * without a last step or for t outside of it. */
 int stepper_dense(struct stepper *stepper, double t, double *y);
 
 /* State y and slopes f at time t within the last accepted step with the full accuracy of the method:
- * one-step methods make a step from its start to t, multistep methods use stepper_dense. Codes as there. */
+ * one-step methods make a step from its start to t, multistep methods, and others where that fails, use
+ * stepper_dense. Codes as there, or that of a right-hand side that fails at t. */
 int stepper_partial(struct stepper *stepper, double t, double *y, double *f);
 
 /* Try a step of size h from (t, y) with slopes f and throw it away: its largest error in units of what is
@@ -87,6 +88,9 @@ int stepper_partial(struct stepper *stepper, double t, double *y, double *f);
  * step stays what it was. */
 double stepper_attempt(struct stepper *stepper, struct counted_system *system, double t, const double *y,
                        const double *f, double h);
+
+/* The Jacobian at the start of the last step, row by row, where rodas5p made it; else NULL. */
+const double *stepper_jacobian(const struct stepper *stepper);
 
 /* Take a state that another stepper has reached into the scales of the error measure. */
 void stepper_note(struct stepper *stepper, const double *y, const double *f);

@@ -15,8 +15,8 @@ struct switcher {
     int now, made; /* the one that makes the next step; the one that has made the last */
     struct stiffness stiffness;
     size_t n;
-    double *jacobian, *dfdt, *rate_work; /* n n, n, 2 n */
-    double *y0, *f0;                     /* n each: the start of the last step */
+    double *rate_work; /* 2 n */
+    double *y0, *f0;   /* n each: the start of the last step */
 };
 
 static bool prepare_pair(struct switcher *s, const struct stepper_options *options,
@@ -26,10 +26,8 @@ static bool prepare_pair(struct switcher *s, const struct stepper_options *optio
     other.method = stiff;
     s->methods[1] = stiff;
     s->steppers[1] = stepper_alloc(&other);
-    s->jacobian = malloc((s->n * s->n + 5 * s->n) * sizeof(double));
-    if (!s->jacobian) return false;
-    s->dfdt = s->jacobian + s->n * s->n;
-    s->rate_work = s->dfdt + s->n;
+    s->rate_work = malloc(4 * s->n * sizeof(double));
+    if (!s->rate_work) return false;
     s->y0 = s->rate_work + 2 * s->n;
     s->f0 = s->y0 + s->n;
     return s->steppers[1] != NULL;
@@ -56,7 +54,7 @@ void switcher_free(struct switcher *s)
     if (!s) return;
     stepper_free(s->steppers[0]);
     stepper_free(s->steppers[1]);
-    free(s->jacobian);
+    free(s->rate_work);
     free(s);
 }
 
@@ -68,12 +66,12 @@ int switcher_reset(struct switcher *s, struct counted_system *system, double t, 
     return stepper_reset(s->steppers[s->now], system, t, y, f, t_limit, h);
 }
 
-/* The fastest rate of the system at the end of a step, for the way back to the explicit method; NAN if it
- * cannot be had. */
-static double rate_at(struct switcher *s, struct counted_system *system, double t, const double *y)
+/* The fastest rate of the system at the start of the step that the implicit method has just made, for the way
+ * back to the explicit one; NAN if it cannot be had. */
+static double last_rate(struct switcher *s)
 {
-    if (system->gsl.jacobian(t, y, s->jacobian, s->dfdt, system->gsl.params) != GSL_SUCCESS) return NAN;
-    return stiffness_rate(s->n, s->jacobian, s->rate_work);
+    const double *jacobian = stepper_jacobian(s->steppers[1]);
+    return jacobian ? stiffness_rate(s->n, jacobian, s->rate_work) : NAN;
 }
 
 /* Let the other method try the step that has just been made, and go on with it if it is the better one from
@@ -83,7 +81,7 @@ static enum stepper_status consider(struct switcher *s, struct counted_system *s
 {
     int other = !s->now;
     double ratio = stepper_attempt(s->steppers[other], system, t0, s->y0, s->f0, t - t0);
-    double h_rate = s->now == 1 ? (t - t0) * rate_at(s, system, t, y) : 0;
+    double h_rate = s->now == 1 ? (t - t0) * last_rate(s) : 0;
     if (!stiffness_decide(&s->stiffness, ratio, s->methods[other]->estimate_order, h_rate)) return stepper_ok;
     /* The counters of the system, not of the step, take the evaluations; a reset that fails leaves things as
      * they were. */

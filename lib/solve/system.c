@@ -18,6 +18,7 @@ static int search(struct counted_system *system, double t, const double *values,
     for (size_t i = 0; i < count; i++) {
         if (!isfinite(values[i])) {
             system->last_element = i;
+            system->last_value = values[i];
             return note(system, system_not_finite, t);
         }
     }

@@ -22,6 +22,7 @@ struct counted_system {
     double last_time;    /* t of that evaluation */
     size_t last_element; /* of the first element that was not finite, if that was the reason: index into dydt,
                             or row times dimension plus column of the Jacobian */
+    double last_value;   /* what that element was */
 };
 
 /* Wrap `inner`; all counters zero. */

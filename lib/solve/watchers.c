@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dynamics/absolute.h"
+
 /* ---- which functions a plan needs */
 
 static void add(struct watcher_set *set, struct watcher watcher)
@@ -58,7 +60,7 @@ static void add_all(struct watchers *watchers, const struct plan *plan)
         add(&watchers->moving, (struct watcher){watch_user, (int)i, 0, 0, true});
 }
 
-bool watchers_init(struct watchers *watchers, const struct fbd_model *model)
+bool watchers_init(struct watchers *watchers, const struct fbd_model *model, double tolerance)
 {
     const struct plan *plan = &model->plan;
     size_t margins = 0;
@@ -72,11 +74,14 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model)
     watchers->scratch = calloc(4 * margins + 1, sizeof(double));
     watchers->armed = calloc(plan->watch_count + 1, sizeof(int));
     watchers->fired = calloc(plan->watch_count + 1, sizeof(bool));
+    watchers->most = calloc(2 * plan->watch_count + 1, sizeof(double));
     if (!watchers->timed.watchers || !watchers->moving.watchers || !watchers->scratch || !watchers->armed ||
-        !watchers->fired) {
+        !watchers->fired || !watchers->most) {
         watchers_free(watchers);
         return false;
     }
+    watchers->tolerance = tolerance;
+    watchers->band = watchers->most + plan->watch_count;
     add_all(watchers, plan);
     return true;
 }
@@ -88,6 +93,7 @@ void watchers_free(struct watchers *watchers)
     free(watchers->scratch);
     free(watchers->armed);
     free(watchers->fired);
+    free(watchers->most);
     *watchers = (struct watchers){0};
 }
 
@@ -153,8 +159,10 @@ static void set_flow(struct view *view)
     double *slots = state->scratch, *slots_along = slots + plan->slots, *dy = slots_along + plan->slots;
     state_rates(state->model, &view->at, slots, dy);
     view->flow = (struct direction){1, dy};
-    force_slots(state->model, &view->at, slots);
-    force_slots_along(state->model, &view->at, &view->flow, slots_along);
+    view->at = instant_extend(state->model, &view->at);
+    view->flow = direction_extend(state->model, &view->at, &view->flow);
+    force_balance(state->model, &view->at, slots);
+    force_balance_along(state->model, &view->at, &view->flow, slots, slots_along);
     view->slots = slots;
     view->slots_along = slots_along;
 }
@@ -164,7 +172,7 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
 {
     const struct plan *plan = &state->model->plan;
     struct view view = {.state = state,
-                        .at = {t, y, state->branch, state->slip, state->pull},
+                        .at = {t, y, state->branch, state->slip, state->pull, state->tree, state->extended},
                         .flow = {1, NULL}};
     if (set != &watchers->timed) set_flow(&view);
     int last_kink = -1;
@@ -189,7 +197,7 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
         case watch_user: {
             int armed = watchers->armed[watcher->index];
             double value = user_value(&plan->watches[watcher->index], &view, &rates[i]);
-            values[i] = armed == 0 ? HUGE_VAL : armed * value;
+            values[i] = armed == 0 ? HUGE_VAL : armed * value + watchers->band[watcher->index];
             rates[i] *= armed;
             break;
         }
@@ -202,13 +210,17 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
 
 void watchers_arm(struct watchers *watchers, struct fbd_state *state)
 {
+    const double tolerances = 10;
     const struct plan *plan = &state->model->plan;
     if (plan->watch_count == 0) return;
     struct view view = {.state = state, .at = state_instant(state)};
     set_flow(&view);
     for (size_t i = 0; i < plan->watch_count; i++) {
+        double rate, value = user_value(&plan->watches[i], &view, &rate), size = fabs(value);
+        if (size > watchers->most[i] && size < HUGE_VAL) watchers->most[i] = size;
+        double width = tolerances * watchers->tolerance * watchers->most[i];
+        watchers->band[i] = size <= width ? width : 0;
         if (watchers->armed[i] != 0) continue;
-        double rate, value = user_value(&plan->watches[i], &view, &rate);
         double side = value != 0 ? value : rate;
         watchers->armed[i] = side > 0 ? 1 : side < 0 ? -1 : 0;
     }

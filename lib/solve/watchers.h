@@ -5,6 +5,12 @@
  * They come from the plan and exist only for what can happen: a friction force that is constant and within
  * its limit has none. Functions of time alone form a set of their own, since their zeros are known before a
  * step is taken.
+ *
+ * A user event is not believed when it may be an error of the method. A velocity that drag lets decay, or one
+ * that approaches its terminal value, gets there in infinite time only, yet the numbers pass to and fro once
+ * the distance is below the tolerance. So where a step starts with a difference of the sides that is within
+ * 10 tolerances of the largest one so far, the event happens when the difference has left this band on the
+ * other side, not within it. What crosses for good is late by as much as its time is uncertain.
  */
 #ifndef FBD_SOLVE_WATCHERS_H
 #define FBD_SOLVE_WATCHERS_H
@@ -38,10 +44,13 @@ struct watchers {
     double *scratch;           /* margins and rates of one kink */
     int *armed;                /* per user event: +1 or -1, the side where it is; 0 while it sits on zero */
     bool *fired;               /* per user event: it happened at this instant */
+    double tolerance;          /* of the method */
+    double *most, *band; /* per user event: largest size of the difference; 0, or where a step starts in the
+                            band its half width */
 };
 
 /* Build the sets for a model; false when memory is out (then all is freed). */
-bool watchers_init(struct watchers *watchers, const struct fbd_model *model);
+bool watchers_init(struct watchers *watchers, const struct fbd_model *model, double tolerance);
 void watchers_free(struct watchers *watchers);
 
 /* values[count] and rates[count] (along the motion) of a set at an instant. +HUGE_VAL and 0 for what cannot
@@ -49,7 +58,8 @@ void watchers_free(struct watchers *watchers);
 void watchers_evaluate(const struct watchers *watchers, const struct watcher_set *set,
                        struct fbd_state *state, double t, const double *y, double *values, double *rates);
 
-/* Arm user events that have left zero; call at the start and after each accepted step. */
+/* Arm user events that have left zero, and see which are in their band; call at the start and after each
+ * accepted step. */
 void watchers_arm(struct watchers *watchers, struct fbd_state *state);
 
 /* A normal force is lost when it is below minus this: the rounding of the weight, so that a body that only

@@ -53,10 +53,14 @@ static inline double scale_of_q(const struct weights *w, size_t i, double q, dou
     return smaller(scale_of(w, i, q, motion), w->cap[i]);
 }
 
-/* The error that is allowed in y; `hidden` is what is invisible for other reasons than the rounding of y. */
+/* The error that is allowed in y; `hidden` is what is invisible for other reasons than the rounding of y.
+ * What y has really moved is at most the size it had and has: the motion by the slope at the end is not
+ * believed beyond, as a step that has gone wrong has a huge one there (quadratic drag at its terminal speed,
+ * passed over by 1000 s at once, ends with a speed of 1e104 m/s and 1e209 m/s^2). */
 static inline double level(const struct weights *w, double scale, double y, double motion, double hidden)
 {
-    return larger(larger(w->tolerance * scale, DBL_EPSILON * (fabs(y) + motion)), hidden);
+    double moved = smaller(motion, scale + fabs(y));
+    return larger(larger(w->tolerance * scale, DBL_EPSILON * (fabs(y) + moved)), hidden);
 }
 
 /* What rounding of q_i, and of the acceleration, hides in v_i within a step. */
@@ -106,6 +110,22 @@ double weights_factor(const gsl_odeiv2_control *control, double ratio, unsigned 
     double factor = law->safety / root;
     if (ratio > 1) return larger(factor, law->shrink);
     return factor < law->keep_below ? 1 : smaller(factor, law->grow);
+}
+
+double weights_rate(const gsl_odeiv2_control *control, const double *y, const double *dy, const double *df)
+{
+    const struct weights *w = control->state;
+    size_t n = w->pairs;
+    double by_q = 0, by_v = 0, by_a = 0;
+    for (size_t i = 0; i < n; i++) {
+        double scale = larger(w->scale[n + i], fabs(y[n + i]));
+        if (scale == 0) continue;
+        by_q += fabs(dy[i]) / scale;
+        by_v += fabs(dy[n + i]) / scale;
+        by_a += larger(fabs(df[n + i]) - 8 * w->noise[i], 0) / scale;
+    }
+    double root = by_v + sqrt(by_v * by_v + 4 * by_q * by_a);
+    return by_a > 0 && root > 0 ? 2 * by_a / root : 0;
 }
 
 void weights_scales(const gsl_odeiv2_control *control, double h, const double *y, const double *f,

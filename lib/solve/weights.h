@@ -83,6 +83,12 @@ double weights_ratio(const gsl_odeiv2_control *control, double h, const double *
 /* Factor for the step size after a step with this error ratio; `order` is what the stepper reports. */
 double weights_factor(const gsl_odeiv2_control *control, double ratio, unsigned order);
 
+/* A rate r [1/s] of the system from how slopes differ, df, between two states at one time that differ by dy;
+ * y is one of them. Where accelerations differ as by a spring, da = w^2 dq, r is w, and as by a damper, da =
+ * c dv, c: r is the root of r^2 |dq| + r |dv| = |da|, summed over the pairs in units of their speeds. Mostly
+ * within a factor of two below the fastest rate of what differs; 0 where all of da is noise. */
+double weights_rate(const gsl_odeiv2_control *control, const double *y, const double *dy, const double *df);
+
 /* Scales S_i (not multiplied by the tolerance) of a state y with slopes f for a step of size h. */
 void weights_scales(const gsl_odeiv2_control *control, double h, const double *y, const double *f,
                     double *scales);

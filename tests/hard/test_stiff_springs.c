@@ -19,12 +19,14 @@
 #include "hard.h"
 
 #include <limits.h>
+#include <string.h>
 
 struct motion {
     const char *name;
     const char *const *settings;
     double until, a, b, size_a;
-    int least_order; /* of the methods that take part */
+    int least_order;      /* of the methods that take part */
+    double low_estimates; /* by how much those of msbdf and bsimp are low */
 };
 
 static void check_motion(struct checks *checks, const struct motion *motion, unsigned long most_implicit)
@@ -39,7 +41,10 @@ static void check_motion(struct checks *checks, const struct motion *motion, uns
             double b = fabs(trial_get(&trial, "b.x") - motion->b), promise = hard_promise(&trial);
             unsigned long steps = fbd_simulation_stats(trial.simulation).steps;
             printf("# %s:\n", motion->name);
-            hard_case(checks, &trial, "  a, relative to its size", a, promise);
+            bool low =
+                method.name && (strcmp(method.name, "msbdf") == 0 || strcmp(method.name, "bsimp") == 0);
+            hard_case(checks, &trial, "  a, relative to its size", a,
+                      low ? motion->low_estimates * promise : promise);
             hard_case(checks, &trial, "  b", b, promise);
             check_that(checks, "a stiff method takes steps that fit the slow motion",
                        !method.implicit || steps <= most_implicit);
@@ -55,7 +60,7 @@ static void with_a_damper(void **unused)
     (void)unused;
     struct checks checks = {0};
     const struct motion motion = {"with damper, 10 s",   NULL, 10, -8.39180326914601004e-9,
-                                  -0.839071556268571443, 1e-8, 2};
+                                  -0.839071556268571443, 1e-8, 2,  1};
     check_motion(&checks, &motion, 4000);
     checks_end(&checks);
 }
@@ -71,15 +76,16 @@ static void without_a_damper_and_in_fast_motion(void **unused)
                                   5.62379268178174065e-4,
                                   0.995004165332268723,
                                   1e-3,
-                                  2};
+                                  2,
+                                  1};
     check_motion(&checks, &motion, ULONG_MAX);
     checks_end(&checks);
 }
 
-/* a starts at rest 1e-8 m from its balance and vibrates with that for ever. In 1600 vibrations of constant
- * size the errors of all steps add up with one sign, and estimates of msbdf and bsimp, at some 100 and 3
- * steps in each, are low by a factor of two to six: a counts relative to 1e-7 m, five times its motion of
- * 2e-8 m. */
+/* a starts at rest 1e-8 m from its balance and vibrates with that for ever, in a motion of 2e-8 m. In 1600
+ * vibrations of constant size the errors of all steps add up with one sign, so that what an estimate is low
+ * by shows in full: msbdf has some 100 steps in a vibration and bsimp 3, and both compare results of
+ * different orders, as if the higher one were exact. Theirs are low by a factor of two to six. */
 static void without_a_damper_and_in_slow_motion(void **unused)
 {
     (void)unused;
@@ -89,8 +95,9 @@ static void without_a_damper_and_in_slow_motion(void **unused)
                                   1,
                                   1.49244239642476232e-8,
                                   0.540302310075494496,
-                                  1e-7,
-                                  4};
+                                  2e-8,
+                                  4,
+                                  6};
     check_motion(&checks, &motion, ULONG_MAX);
     checks_end(&checks);
 }

@@ -309,10 +309,47 @@ static void components_do_not_depend_on_how_many_there_are(void **state)
     }
 }
 
+static int constant_slope(double t, const double y[], double dydt[], void *params)
+{
+    (void)t, (void)y, (void)params;
+    dydt[0] = 1;
+    return GSL_SUCCESS;
+}
+
+/* 1e5 steps of 0.3 roundings of y each: y would stay where it is. Every other one is thrown away and tried
+ * again. */
+static void what_rounding_takes_is_given_back(void **state)
+{
+    (void)state;
+    enum { steps = 100000 };
+    const double unit = 0x1p-52, h = 0.3 * unit;
+    gsl_odeiv2_step *step = gsl_odeiv2_step_alloc(step_dop853, 1);
+    gsl_odeiv2_system system = {constant_slope, NULL, 1, NULL};
+    double y = 1, error, slope = 1, t = 0;
+    for (int k = 0; k < steps; k++) {
+        double before = y;
+        if (k % 2)
+            assert_int_equal(gsl_odeiv2_step_apply(step, t, 2 * h, &y, &error, &slope, &slope, &system), 0);
+        y = before;
+        assert_int_equal(gsl_odeiv2_step_apply(step, t, h, &y, &error, &slope, &slope, &system), 0);
+        t += h;
+    }
+    assert_true(fabs((y - 1) / unit - 0.3 * steps) <= 1);
+    /* Two states that are not its own: nothing is added to them. */
+    y = 2;
+    assert_int_equal(gsl_odeiv2_step_apply(step, t, h, &y, &error, &slope, &slope, &system), 0);
+    assert_true(y == 2);
+    gsl_odeiv2_step_reset(step);
+    assert_int_equal(gsl_odeiv2_step_apply(step, t, h, &y, &error, &slope, &slope, &system), 0);
+    assert_true(y == 2);
+    gsl_odeiv2_step_free(step);
+}
+
 int main(void)
 {
     gsl_set_error_handler_off();
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_rounding_takes_is_given_back),
         cmocka_unit_test(every_row_sums_to_its_node),
         cmocka_unit_test(weights_integrate_polynomials_as_their_order_says),
         cmocka_unit_test(local_errors_fall_with_their_orders),

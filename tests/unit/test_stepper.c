@@ -308,10 +308,41 @@ static void work_is_counted_honestly(void **state)
         run_to(&run, 5);
         const struct stepper_counts *counts = stepper_get_counts(run.stepper);
         assert_int_equal(run.system.rhs, scene.calls);
-        assert_true((run.system.jacobians > 0) == method_at(m)->implicit);
+        bool implicit = method_at(m)->implicit, guarded = method_at(m)->stable > 0;
+        assert_true((run.system.jacobians > 0) == (implicit || guarded));
+        if (guarded) assert_true(run.system.jacobians <= 5 + counts->accepted / 8);
         if (strcmp(method_at(m)->name, "dop853") == 0)
             assert_int_equal(run.system.rhs, 2 + 12 * (counts->accepted + counts->rejected[rejected_error]));
         stepper_free(run.stepper);
+    }
+}
+
+static int decay(double t, const double y[], double dydt[], void *rate)
+{
+    (void)t;
+    dydt[0] = -*(const double *)rate * y[0];
+    return GSL_SUCCESS;
+}
+
+/* |y1 / y0| of a step of size 1 of y' = -rate y. */
+static double growth(const struct method *method, double rate)
+{
+    double y = 1, error;
+    gsl_odeiv2_step *step = gsl_odeiv2_step_alloc(*method->type, 1);
+    gsl_odeiv2_system system = {decay, NULL, 1, &rate};
+    assert_int_equal(gsl_odeiv2_step_apply(step, 0, 1, &y, &error, NULL, NULL, &system), GSL_SUCCESS);
+    gsl_odeiv2_step_free(step);
+    return fabs(y);
+}
+
+static void limits_of_stability_are_where_the_table_says(void **state)
+{
+    (void)state;
+    for (size_t m = 0; method_at(m); m++) {
+        const struct method *method = method_at(m);
+        if (method->stable == 0 || method->multistep) continue;
+        assert_true(growth(method, method->stable - 0.01) < 1);
+        assert_true(growth(method, method->stable + 0.01) > 1);
     }
 }
 
@@ -337,6 +368,7 @@ int main(void)
     gsl_set_error_handler_off();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(methods_are_found_by_name),
+        cmocka_unit_test(limits_of_stability_are_where_the_table_says),
         cmocka_unit_test(every_method_reaches_its_accuracy_at_the_ends_and_within),
         cmocka_unit_test(a_pendulum_keeps_its_energy),
         cmocka_unit_test(multistep_methods_go_on_after_a_reset),

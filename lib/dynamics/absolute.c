@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dynamics/absolute.h"
+
+#include <string.h>
+
+#include "dynamics/tree.h"
+
+size_t extended_size(const struct fbd_model *model)
+{
+    size_t n = (size_t)model->plan.n;
+    return 2 * n + (model->absolute_count > 0 ? hand_slots + model->absolute_count : 0);
+}
+
+static double choose(enum absolute_kind kind, struct motion_of_point at, double angle, double omega)
+{
+    switch (kind) {
+    case absolute_x: return at.p.x;
+    case absolute_y: return at.p.y;
+    case absolute_vx: return at.v.x;
+    case absolute_vy: return at.v.y;
+    case absolute_angle: return angle;
+    case absolute_angle_dot: return omega;
+    case absolute_acceleration: break; /* output/hand.c */
+    }
+    return 0;
+}
+
+void absolutes_write(const struct fbd_model *model, const struct instant *at, double *y)
+{
+    double *places = y + 2 * (size_t)model->plan.n + hand_slots;
+    for (size_t k = 0; k < model->absolute_count; k++) {
+        const struct model_absolute *absolute = &model->absolutes[k];
+        const struct model_body *body = &model->bodies[absolute->body];
+        struct pose pose = body_pose(body, at);
+        places[k] = choose(absolute->kind, point_motion(body, &pose, absolute->point), body_angle(body, at),
+                           pose.omega);
+    }
+}
+
+struct instant instant_extend(const struct fbd_model *model, const struct instant *at)
+{
+    struct instant extended = *at;
+    if (model->absolute_count == 0) return extended;
+    size_t n = (size_t)model->plan.n;
+    if (at->y != at->extended) memcpy(at->extended, at->y, 2 * n * sizeof *at->extended);
+    extended.y = at->extended;
+    if (model->tree) tree_move(model, &extended);
+    absolutes_write(model, &extended, at->extended);
+    return extended;
+}
+
+/* The variation of a point of a jointed body. */
+static struct motion_of_point jointed_along(const struct model_body *body, const struct instant *at,
+                                            struct vec point)
+{
+    const struct tree_state *s = &at->tree->links[body->place.link];
+    const struct tree_variation *d = &at->tree->variation[body->place.link];
+    struct vec r = vec_turn(s->turn, placement_point(&body->place, point));
+    struct vec dr = vec_scale(d->angle, vec_perp(r));
+    struct vec dv = vec_add(vec_scale(d->omega, vec_perp(r)), vec_scale(s->omega, vec_perp(dr)));
+    return (struct motion_of_point){vec_add(d->p, dr), vec_add(d->v, dv)};
+}
+
+static double varied(const struct fbd_model *model, const struct model_absolute *absolute,
+                     const struct instant *at, const struct direction *along)
+{
+    const struct model_body *body = &model->bodies[absolute->body];
+    if (body->place.link > 0) {
+        const struct tree_variation *d = &at->tree->variation[body->place.link];
+        return choose(absolute->kind, jointed_along(body, at, absolute->point), d->angle, d->omega);
+    }
+    struct pose pose = body_pose(body, at);
+    int turn = body_angle_coordinate(body);
+    double d_angle = turn >= 0 ? along->dy[turn] : 0,
+           d_omega = turn >= 0 ? along->dy[model->plan.n + turn] : 0;
+    return choose(absolute->kind, point_variation(body, &pose, absolute->point, along), d_angle, d_omega);
+}
+
+struct direction direction_extend(const struct fbd_model *model, const struct instant *at,
+                                  const struct direction *along)
+{
+    if (model->absolute_count == 0) return *along;
+    size_t n = (size_t)model->plan.n;
+    double *dy = at->extended + extended_size(model);
+    if (along->dy != dy) memcpy(dy, along->dy, 2 * n * sizeof *dy);
+    if (model->tree) tree_move_along(model, at, along);
+    for (size_t k = 0; k < model->absolute_count; k++)
+        dy[2 * n + hand_slots + k] = varied(model, &model->absolutes[k], at, along);
+    return (struct direction){along->dt, dy};
+}

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Places in the world that expressions name: `rod.right.x`, `rod.angle`. They are functions of coordinates
+ * and rates, and follow these in an extended vector: [q, v, the slots of derivations by hand, places].
+ *
+ * A model without such names has none of this: an instant then stays as it is.
+ */
+#ifndef FBD_DYNAMICS_ABSOLUTE_H
+#define FBD_DYNAMICS_ABSOLUTE_H
+
+#include "dynamics/kinematics.h"
+
+/* The length of an extended vector, 2 n without places. */
+size_t extended_size(const struct fbd_model *model);
+
+/* The instant with its y extended, in at->extended. For jointed bodies the links are moved there. */
+struct instant instant_extend(const struct fbd_model *model, const struct instant *at);
+
+/* A direction likewise, behind the instant's vector. `at` is extended. */
+struct direction direction_extend(const struct fbd_model *model, const struct instant *at,
+                                  const struct direction *along);
+
+/* Write the places behind `y`, which has room for them; poses are those of the instant. */
+void absolutes_write(const struct fbd_model *model, const struct instant *at, double *y);
+
+#endif

@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Dynamics of the jointed bodies: the articulated-body recursion (Featherstone, Rigid Body Dynamics
+ * Algorithms, section 7.3) in three sweeps over the links, with time and memory proportional to their number.
+ *
+ *   outward  where each link is, how it moves, and how it would accelerate if no joint gave way (the bias);
+ *            what keeps it on that course, p = I A_bias + velocity terms - applied wrench
+ *   inward   the inertia that each link has with all that hangs on it, and p likewise: a joint that gives way
+ *            passes on I - U U^T / D and p + U u / D
+ *   outward  the accelerations of the joints
+ *
+ * Wrenches are about the reference point O of their link, components are those of the world, so that going
+ * from link to link is a shift along d, the vector from O to O.
+ *
+ * A sticking joint gives nothing away: its acceleration is that of its surface. The friction of a slipping
+ * one, f = -slip mu_k N, goes with the force N across the slide, which depends on f again: N = N_0 + A f over
+ * all slipping slides of the tree, a small linear system.
+ */
+#ifndef FBD_DYNAMICS_TREE_H
+#define FBD_DYNAMICS_TREE_H
+
+#include "dynamics/instant.h"
+#include "dynamics/spatial.h"
+
+/* One right-hand side on its way through the sweeps. */
+struct tree_rhs {
+    struct wrench p; /* of the link alone; after the inward sweep with all that hangs on it */
+    double g;        /* generalized force in the joint: moment (pivot, planar), force along e (slide) */
+    struct vec gf;   /* of a free joint: its force, in the world */
+    double u;        /* what the joint has left of g and gf to give way */
+    struct vec uf;
+    struct acceleration A; /* by the outward sweep */
+};
+
+/* A link at an instant. */
+struct tree_state {
+    double angle, omega;
+    struct vec turn;          /* cosine and sine of the angle */
+    struct vec p, v;          /* of O */
+    struct vec d;             /* from the parent's O */
+    struct vec mr;            /* mass times the vector from O to the centre of mass */
+    struct vec e;             /* slide: direction of +x; free: that of the parent's x axis */
+    struct acceleration A;    /* first the bias, then the acceleration */
+    struct inertia_about_O I; /* with all that hangs on it */
+    double D;                 /* pivot, slide: 1 / (S . I S); free: 1 / what is left of J */
+    double Uh;                /* slide: h . e */
+    struct vec U;             /* slide: M e; free: h . inverse of M */
+    double inverse[3];        /* free: the inverse of M, xx, xy, yy */
+    bool locked;              /* it sticks */
+    double held;              /* then the acceleration of its surface */
+    struct wrench F;          /* what the joint passes to the link, by tree_transmitted */
+};
+
+/* A link's variation along a direction. */
+struct tree_variation {
+    double angle, omega;
+    struct vec p, v, d, e;
+    struct acceleration A; /* at fixed accelerations of the joints */
+    double held;
+};
+
+struct tree_work {
+    struct tree_state *links;         /* tree.count; links[0] is the ground */
+    struct tree_rhs *x;               /* tree.count */
+    struct tree_variation *variation; /* tree.count */
+    double *closure;     /* pair_count (pair_count + 1): the system of the slipping slides, see tree.c */
+    double *unit;        /* n: accelerations that are added */
+    double *a, *a_along; /* n: accelerations of the last force_balance, and their variation */
+    bool complete;       /* A and F of the links are final, see tree_complete */
+};
+
+/* Bytes that a workspace needs (a multiple of the size of a double), and laying it out. */
+size_t tree_work_size(const struct fbd_model *model);
+void tree_work_init(struct tree_work *work, const struct fbd_model *model, void *memory);
+
+/* The accelerations of the jointed bodies into a[n], given the generalized forces in the joints, slots[n].
+ * The slots behind get minus the normal forces and minus what holds the sticking pairs, as friction_at
+ * expects. The rest of the results is in at->tree. */
+void tree_accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a);
+
+/* After tree_accelerations: make A of the links their accelerations, and F what their joints pass to them. */
+void tree_complete(const struct fbd_model *model, struct tree_work *work);
+
+/* The slots behind the n, once more, from complete results; slots[n] hold the forces in the joints. */
+void tree_slots(const struct fbd_model *model, const struct instant *at, double *slots);
+
+/* The variation of tree_accelerations along a direction, at the same instant and right after it. On entry
+ * slots_along[n] are the variations of the generalized forces in the joints. */
+void tree_accelerations_along(const struct fbd_model *model, const struct instant *at,
+                              const struct direction *along, const double *slots, const double *a,
+                              double *slots_along, double *a_along);
+
+/* The acceleration of the centre of mass of a jointed body, and its angular one, when complete. */
+struct vec tree_mass_center_acceleration(const struct model_body *body, const struct instant *at);
+double tree_angular_acceleration(const struct model_body *body, const struct instant *at);
+
+/* Kinematics alone: where the links are and how they move. */
+void tree_move(const struct fbd_model *model, const struct instant *at);
+
+/* ---- parts, for the files of the tree */
+
+/* The variation of where the links are and how they move (tree_motion.c). */
+void tree_move_along(const struct fbd_model *model, const struct instant *at, const struct direction *along);
+
+/* The bias accelerations and p of the links without what acts on them; their variation at fixed accelerations
+ * a[n] of the joints (tree_bias.c). */
+void tree_bias(const struct tree *tree, const struct instant *at, int n);
+void tree_bias_along(const struct tree *tree, const struct instant *at, const struct direction *along, int n,
+                     const double *a);
+
+/* Subtract what acts on the links from their p; its variation (tree_loads.c). */
+void tree_load(const struct tree *tree, const struct instant *at);
+void tree_load_along(const struct tree *tree, const struct instant *at, const struct direction *along);
+
+/* The sweeps (tree_sweep.c). Inward, with the inertias: once for an instant. Then again and again for other
+ * right-hand sides in work->x. Outward: accelerations of the joints to a[n]. */
+void tree_factor(const struct tree *tree, struct tree_work *work);
+void tree_inward(const struct tree *tree, struct tree_work *work);
+void tree_outward(const struct tree *tree, struct tree_work *work, double *a);
+
+/* Friction of the slides that slip (tree_friction.c): tau_k = -c_k N_k with N = N_0 + A tau. Given
+ * work->closure[k (pair_count + 1) + pair_count] = what tau_k would be with N_0, leave in work->x the
+ * right-hand side of the taus alone, solved, and add their accelerations to a[n]. */
+void tree_add_frictions(const struct fbd_model *model, const struct instant *at, double *a);
+
+/* Does any slide slip whose friction goes with its normal force? */
+bool tree_slips(const struct tree *tree, const struct instant *at);
+
+/* c_k = slip mu_k of the slide of link i, 0 when it sticks; its variation. */
+double tree_slip_share(const struct fbd_model *model, const struct instant *at, int i);
+
+/* The direction that the surface of the slide of link i pushes to. */
+struct vec tree_normal(const struct tree *tree, const struct tree_work *work, int i);
+
+/* The normal force at the slide of link i in the right-hand side that was solved last. */
+double tree_normal_in(const struct tree *tree, const struct tree_work *work, int i);
+
+/* The number of coordinates of a joint. */
+static inline int joint_freedom(enum motion_kind kind)
+{
+    return kind == motion_weld ? 0 : kind == motion_planar ? 3 : kind == motion_particle ? 2 : 1;
+}
+
+#endif

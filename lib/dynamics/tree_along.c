@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The exact variation of the accelerations along a direction.
+ *
+ * The equations of motion, with the accelerations a of the joints, say that what every joint passes on
+ * balances: R(t, q, v, a) = 0. Varied: M da = -dR at fixed a. So one outward sweep varies what each link
+ * needs on its course, and the inward and outward sweeps that found a find da with the inertias that are
+ * there.
+ */
+#include "dynamics/friction.h"
+#include "dynamics/tree.h"
+
+static struct vec turning(double angle, struct vec a)
+{
+    return vec_scale(angle, vec_perp(a));
+}
+
+/* The surface of a sticking pair: the variation of its acceleration. */
+static void vary_held(const struct fbd_model *model, const struct instant *at, const struct direction *along)
+{
+    const struct tree *tree = model->tree;
+    for (int k = 0; k < tree->watched_count; k++) {
+        int i = tree->watched[k], pair = tree->links[i].pair;
+        if (!at->tree->links[i].locked) continue;
+        const struct formula *speed = &model->plan.frictions[pair].surface_speed;
+        double jerk = 0, d_a, d_b;
+        if (speed->expr)
+            expr_eval_second(speed->expr, at->t, at->y, 0, 0, formula_branches(speed, at), &d_a, &d_b, &jerk);
+        at->tree->variation[i].held = jerk * along->dt;
+    }
+}
+
+/* What a joint passes on acts about the parent's O on an arm that varies. */
+static void vary_arms(const struct tree *tree, struct tree_work *work)
+{
+    for (int i = 1; i < tree->count; i++)
+        work->x[tree->links[i].parent].p.moment += vec_cross(work->variation[i].d, work->links[i].F.force);
+}
+
+/* The forces in the joints vary, and so do the directions in which they are counted. */
+static void vary_joint_forces(const struct fbd_model *model, const struct instant *at,
+                              const struct direction *along, const double *slots, const double *slots_along)
+{
+    const struct tree *tree = model->tree;
+    struct tree_work *work = at->tree;
+    for (int i = 1; i < tree->count; i++) {
+        const struct tree_link *link = &tree->links[i];
+        const double *own = slots + link->coordinate, *d = slots_along + link->coordinate;
+        if (link->kind == motion_pivot) {
+            work->x[i].g = d[0];
+        } else if (link->kind == motion_slide) {
+            work->x[i].g = d[0] - vec_dot(work->variation[i].e, work->links[i].F.force);
+        } else {
+            work->x[i].gf = vec_add(vec_turn(work->links[i].e, (struct vec){d[0], d[1]}),
+                                    vec_turn(work->variation[i].e, (struct vec){own[0], own[1]}));
+            work->x[i].g = link->kind == motion_planar ? d[2] : 0;
+        }
+    }
+    for (int k = 0; k < tree->watched_count; k++) {
+        const struct tree_link *link = &tree->links[tree->watched[k]];
+        if (link->pair < 0 || link->kind != motion_pivot || at->slip[link->pair] == stick) continue;
+        double d_mu;
+        formula_along(&model->plan.frictions[link->pair].mu_k, at, along, &d_mu);
+        work->x[tree->watched[k]].g -= at->slip[link->pair] * d_mu;
+    }
+}
+
+/* dN of the slide of link i in what was solved last: N = n . F. */
+static double normal_along(const struct tree *tree, const struct tree_work *work, int i)
+{
+    return tree_normal_in(tree, work, i);
+}
+
+/* The part of dN that comes with the direction of the surface. */
+static double normal_turned(const struct tree *tree, const struct tree_work *work, int i)
+{
+    struct vec n = tree_normal(tree, work, i);
+    return vec_dot(turning(work->variation[tree->links[i].parent].angle, n), work->links[i].F.force);
+}
+
+/* What the friction of slide i varies by with the normal forces as they are without it. */
+static double friction_along_base(const struct fbd_model *model, const struct instant *at,
+                                  const struct direction *along, int i)
+{
+    const struct tree *tree = model->tree;
+    int pair = tree->links[i].pair;
+    if (at->slip[pair] == stick) return 0;
+    double d_mu, mu = formula_along(&model->plan.frictions[pair].mu_k, at, along, &d_mu);
+    double N = vec_dot(tree_normal(tree, at->tree, i), at->tree->links[i].F.force);
+    double dN = normal_along(tree, at->tree, i) + normal_turned(tree, at->tree, i);
+    return -at->slip[pair] * at->pull[pair] * (mu * dN + d_mu * N);
+}
+
+/* Add what the solution says to the slots behind the n. `first`: the parts that do not come from solutions
+ * are added, too. */
+static void add_slots(const struct fbd_model *model, const struct instant *at, bool first,
+                      double *slots_along)
+{
+    const struct tree *tree = model->tree;
+    const struct tree_work *work = at->tree;
+    for (int k = 0; k < tree->watched_count; k++) {
+        int i = tree->watched[k];
+        const struct tree_link *link = &tree->links[i];
+        const struct tree_state *s = &work->links[i];
+        if (link->normal_slot >= 0)
+            slots_along[link->normal_slot] -=
+                normal_along(tree, work, i) + (first ? normal_turned(tree, work, i) : 0);
+        if (link->pair < 0) continue;
+        struct wrench dF = inertia_wrench(&s->I, work->x[i].A, work->x[i].p);
+        double d = link->kind == motion_pivot ? dF.moment : vec_dot(s->e, dF.force);
+        if (first && link->kind != motion_pivot) d += vec_dot(work->variation[i].e, s->F.force);
+        slots_along[model->plan.frictions[link->pair].hold_slot] +=
+            (first ? slots_along[link->coordinate] : 0) - d;
+    }
+}
+
+void tree_accelerations_along(const struct fbd_model *model, const struct instant *at,
+                              const struct direction *along, const double *slots, const double *a,
+                              double *slots_along, double *a_along)
+{
+    const struct tree *tree = model->tree;
+    struct tree_work *work = at->tree;
+    tree_complete(model, work);
+    if (tree->watched_count > 0) vary_held(model, at, along);
+    tree_move_along(model, at, along);
+    tree_bias_along(tree, at, along, model->plan.n, a);
+    tree_load_along(tree, at, along);
+    vary_arms(tree, work);
+    vary_joint_forces(model, at, along, slots, slots_along);
+    tree_inward(tree, work);
+    tree_outward(tree, work, a_along);
+    if (tree->watched_count == 0) return;
+    add_slots(model, at, true, slots_along);
+    int m = tree->pair_count;
+    if (!tree_slips(tree, at)) return;
+    for (int k = 0; k < m; k++)
+        work->closure[k * (m + 1) + m] = friction_along_base(model, at, along, tree->pairs[k]);
+    tree_add_frictions(model, at, a_along);
+    add_slots(model, at, false, slots_along);
+}

@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * How the links accelerate when no joint gives way, and what keeps a link on that course. With P the parent,
+ * w the velocity in the joint (R e q' of a slide), and r from O to the centre of mass:
+ *
+ *     alpha = alpha_P,  a = a_P + alpha_P k x d - omega_P^2 d + 2 omega_P k x w
+ *     force = m a + alpha k x m r - omega^2 m r,   moment about O = m r x a + I_O alpha
+ *
+ * A sticking joint has the acceleration of its surface beside that.
+ */
+#include "dynamics/tree.h"
+
+static struct vec turning(double rate, struct vec a)
+{
+    return vec_scale(rate, vec_perp(a));
+}
+
+/* The velocity in the joint, in the world. */
+static struct vec joint_velocity(const struct tree_link *link, const struct tree_state *s, const double *v)
+{
+    if (link->kind == motion_slide) return vec_scale(v[0], s->e);
+    if (link->kind == motion_pivot) return (struct vec){0, 0};
+    return vec_turn(s->e, (struct vec){v[0], v[1]}); /* e is the parent's x axis */
+}
+
+static void hold(const struct tree_link *link, struct tree_state *s)
+{
+    if (link->kind == motion_pivot)
+        s->A.alpha += s->held;
+    else
+        s->A.a = vec_add(s->A.a, vec_scale(s->held, s->e));
+}
+
+void tree_bias(const struct tree *tree, const struct instant *at, int n)
+{
+    struct tree_state *links = at->tree->links;
+    struct tree_rhs *x = at->tree->x;
+    for (int i = 1; i < tree->count; i++) {
+        const struct tree_link *link = &tree->links[i];
+        struct tree_state *s = &links[i], *parent = &links[link->parent];
+        double w2 = parent->omega * parent->omega;
+        s->A = acceleration_at(parent->A, s->d);
+        s->A.a.x -= w2 * s->d.x;
+        s->A.a.y -= w2 * s->d.y;
+        if (link->kind != motion_pivot) {
+            struct vec w = joint_velocity(link, s, at->y + n + link->coordinate);
+            s->A.a = vec_add(s->A.a, turning(2 * parent->omega, w));
+        }
+        if (s->locked) hold(link, s);
+        double own = s->omega * s->omega, alpha = s->A.alpha, m = link->mass;
+        x[i].p.force.x = m * s->A.a.x - alpha * s->mr.y - own * s->mr.x - link->force.x;
+        x[i].p.force.y = m * s->A.a.y + alpha * s->mr.x - own * s->mr.y - link->force.y;
+        x[i].p.moment =
+            vec_cross(s->mr, s->A.a) + link->I_O * alpha - link->sine * s->turn.y - link->cosine * s->turn.x;
+    }
+}
+
+/* The variation of the velocity in the joint. */
+static struct vec joint_velocity_along(const struct tree_link *link, const struct tree_state *s,
+                                       const struct tree_variation *d, const double *v, const double *dv)
+{
+    if (link->kind == motion_slide) return vec_add(vec_scale(dv[0], s->e), vec_scale(v[0], d->e));
+    struct vec own = vec_turn(s->e, (struct vec){dv[0], dv[1]});
+    return vec_add(own, vec_turn(d->e, (struct vec){v[0], v[1]}));
+}
+
+/* What the acceleration in the joint adds as its direction varies. */
+static struct vec joint_acceleration_along(const struct tree_link *link, const struct tree_variation *d,
+                                           const double *a)
+{
+    if (link->kind == motion_slide) return vec_scale(a[0], d->e);
+    return vec_turn(d->e, (struct vec){a[0], a[1]});
+}
+
+void tree_bias_along(const struct tree *tree, const struct instant *at, const struct direction *along, int n,
+                     const double *a)
+{
+    const struct tree_state *links = at->tree->links;
+    struct tree_variation *variation = at->tree->variation;
+    struct tree_rhs *x = at->tree->x;
+    for (int i = 1; i < tree->count; i++) {
+        const struct tree_link *link = &tree->links[i];
+        const struct tree_state *s = &links[i], *parent = &links[link->parent];
+        const struct tree_variation *dp = &variation[link->parent];
+        struct tree_variation *d = &variation[i];
+        double omega = parent->omega;
+        d->A = acceleration_at(dp->A, s->d);
+        d->A.a = vec_add(d->A.a, turning(parent->A.alpha, d->d));
+        d->A.a = vec_sub(d->A.a, vec_scale(omega * omega, d->d));
+        d->A.a = vec_sub(d->A.a, vec_scale(2 * omega * dp->omega, s->d));
+        if (link->kind != motion_pivot) {
+            const double *v = at->y + n + link->coordinate, *dv = along->dy + n + link->coordinate;
+            struct vec w = joint_velocity(link, s, v), dw = joint_velocity_along(link, s, d, v, dv);
+            d->A.a = vec_add(d->A.a, vec_add(turning(2 * dp->omega, w), turning(2 * omega, dw)));
+            d->A.a = vec_add(d->A.a, joint_acceleration_along(link, d, a + link->coordinate));
+        }
+        if (s->locked && link->kind == motion_pivot) d->A.alpha += d->held;
+        if (s->locked && link->kind == motion_slide) d->A.a = vec_add(d->A.a, vec_scale(d->held, s->e));
+        struct vec dmr = turning(d->angle, s->mr), f = vec_scale(link->mass, d->A.a);
+        f = vec_add(f, vec_add(turning(d->A.alpha, s->mr), turning(s->A.alpha, dmr)));
+        f = vec_sub(f, vec_scale(2 * s->omega * d->omega, s->mr));
+        x[i].p.force = vec_sub(f, vec_scale(s->omega * s->omega, dmr));
+        x[i].p.moment = vec_cross(dmr, s->A.a) + vec_cross(s->mr, d->A.a) + link->I_O * d->A.alpha -
+                        (link->sine * s->turn.x - link->cosine * s->turn.y) * d->angle;
+    }
+}

@@ -1,0 +1,305 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Free-body diagrams of jointed bodies: every force in a joint stands in two of them, equal and opposite.
+ *
+ * The sweeps know what a joint passes on as a whole. Less the listed forces in the joint it is the reaction:
+ * of a pivot a force at its axis; of a slide a force across it and the couple that keeps it from turning; of
+ * a weld, what the body needs beyond all else that acts on it.
+ */
+#include "dynamics/diagram.h"
+#include "dynamics/laws.h"
+#include "dynamics/tree.h"
+
+static const struct tree_state *link_of(const struct model_body *body, const struct instant *at)
+{
+    return &at->tree->links[body->place.link];
+}
+
+static struct vec mass_center(const struct model_body *body, const struct instant *at)
+{
+    struct pose pose = body_pose(body, at);
+    return point_motion(body, &pose, body->inertia.G).p;
+}
+
+struct vec tree_mass_center_acceleration(const struct model_body *body, const struct instant *at)
+{
+    const struct tree_state *s = link_of(body, at);
+    struct vec r = vec_sub(mass_center(body, at), s->p);
+    struct acceleration A = acceleration_at(s->A, r);
+    return vec_sub(A.a, vec_scale(s->omega * s->omega, r));
+}
+
+double tree_angular_acceleration(const struct model_body *body, const struct instant *at)
+{
+    return link_of(body, at)->A.alpha;
+}
+
+/* ---- listed loads */
+
+/* -dV/dq of each coordinate: in the joint's directions. */
+static void potential_arrow(const struct model_body *body, const struct model_load *load,
+                            const struct instant *at, struct arrow *arrow)
+{
+    const struct tree_state *s = link_of(body, at);
+    double f[most_coordinates_of_a_body] = {0};
+    for (int k = 0; load->potential.expr && k < body->count; k++) {
+        expr_eval_slot(load->potential.expr, at->t, at->y, 1 + body->first + k,
+                       formula_branches(&load->potential, at), &f[k]);
+        f[k] = -f[k];
+    }
+    if (body->kind == motion_slide) arrow->force = vec_scale(f[0], s->e);
+    if (body->kind == motion_pivot) arrow->couple = f[0];
+    if (body->count > 1) {
+        arrow->force = vec_turn(s->e, (struct vec){f[0], f[1]});
+        arrow->point = s->p;
+        arrow->couple = f[2];
+    }
+}
+
+static struct vec spring_force(const struct fbd_model *model, const struct model_body *body,
+                               const struct model_load *load, struct motion_of_point point,
+                               const struct instant *at)
+{
+    const struct load *source = load->source;
+    if (!load->linked) {
+        double stretch = at->y[body->first] - source->free_length;
+        double f = -(source->stiffness * stretch + source->coefficient * at->y[body->first_rate]);
+        return vec_scale(f, link_of(body, at)->e);
+    }
+    struct motion_of_point end = other_end(model, load, at);
+    struct link_law law = {{0, 0}, source->stiffness, source->free_length, source->coefficient};
+    return link_force(&law, (struct motion_of_point){vec_sub(point.p, end.p), vec_sub(point.v, end.v)});
+}
+
+static struct arrow load_arrow(const struct fbd_model *model, int index, const struct instant *at,
+                               const double *slots)
+{
+    const struct model_load *load = &model->loads[index];
+    const struct model_body *body = &model->bodies[load->body];
+    const struct load *source = load->source;
+    struct pose pose = body_pose(body, at);
+    struct motion_of_point point = point_motion(body, &pose, load->point);
+    struct arrow arrow = {.name = source->name, .load = index, .point = point.p};
+    switch (source->kind) {
+    case load_gravity: arrow.force = vec_scale(body->inertia.mass, model->scene->gravity); break;
+    case load_normal: break; /* a reaction: see below */
+    case load_friction:
+        arrow.force = vec_scale(friction_at(model, body->friction, at, slots).force, link_of(body, at)->e);
+        break;
+    case moment_friction: arrow.couple = friction_at(model, body->friction, at, slots).force; break;
+    case load_applied: arrow.force = applied_force(load, &pose, at); break;
+    case load_spring:
+    case load_damper: arrow.force = spring_force(model, body, load, point, at); break;
+    case load_drag: {
+        struct drag_law law = {source->linear, source->quadratic};
+        arrow.force = drag_force(&law, point.v);
+        break;
+    }
+    case load_potential:
+    case moment_potential: potential_arrow(body, load, at, &arrow); break;
+    case moment_applied: arrow.couple = formula_value(&load->value, at); break;
+    case moment_spring:
+        arrow.couple = -source->stiffness * (at->y[body->first + body->count - 1] - source->free_length);
+        break;
+    case moment_damper:
+        arrow.couple = -source->coefficient * at->y[body->first_rate + body->count - 1];
+        break;
+    }
+    return arrow;
+}
+
+static struct arrow opposite(struct arrow arrow, const char *name)
+{
+    arrow.name = name;
+    arrow.force = vec_scale(-1, arrow.force);
+    arrow.couple = -arrow.couple;
+    return arrow;
+}
+
+/* ---- reactions */
+
+/* What the force across a slide is, and the couple about its point, given all that its joint passes on. The
+ * listed forces in the joint are not among it. */
+static struct arrow slide_reaction(const struct fbd_model *model, const struct model_body *body,
+                                   const struct instant *at, const double *slots)
+{
+    const struct tree_state *s = link_of(body, at);
+    struct vec across = vec_perp(s->e), G = mass_center(body, at);
+    double N = vec_dot(across, s->F.force);
+    double couple = s->F.moment + vec_cross(vec_sub(s->p, G), s->F.force);
+    for (int i = body->first_load; i < body->first_load + body->load_count; i++) {
+        if (!model->loads[i].in_joint || model->loads[i].source->kind == load_normal) continue;
+        struct arrow arrow = load_arrow(model, i, at, slots);
+        couple -= arrow_moment(&arrow, G);
+    }
+    return (struct arrow){.load = -1, .force = vec_scale(N, across), .point = G, .couple = couple};
+}
+
+static bool is_welded_to(const struct fbd_model *model, int b, int on)
+{
+    while (b != on && model->bodies[b].kind == motion_weld) b = model->bodies[b].parent;
+    return b == on;
+}
+
+static void add_arrow(struct wrench *sum, const struct arrow *arrow, struct vec about)
+{
+    sum->force = vec_sub(sum->force, arrow->force);
+    sum->moment -= arrow_moment(arrow, about);
+}
+
+/* What body b, welded to `on`, needs beyond its loads, about `point`; what moves on it needs its part. */
+static void add_needs(const struct fbd_model *model, int b, const struct instant *at, const double *slots,
+                      struct vec point, struct wrench *sum)
+{
+    const struct model_body *body = &model->bodies[b];
+    struct vec f = vec_scale(body->inertia.mass, tree_mass_center_acceleration(body, at));
+    sum->force = vec_add(sum->force, f);
+    sum->moment += vec_cross(vec_sub(mass_center(body, at), point), f) +
+                   body->inertia.I_G * tree_angular_acceleration(body, at);
+    for (int i = body->first_load; i < body->first_load + body->load_count; i++) {
+        struct arrow arrow = load_arrow(model, i, at, slots);
+        add_arrow(sum, &arrow, point);
+    }
+    for (size_t i = model->listed_count; i < model->load_count; i++) {
+        const struct model_load *load = &model->loads[i];
+        if (load->body != b && load->partner != b) continue;
+        struct arrow arrow = load_arrow(model, (int)i, at, slots);
+        arrow.point = load->body == b ? arrow.point : other_end(model, load, at).p;
+        if (load->body != b) arrow = opposite(arrow, arrow.name);
+        add_arrow(sum, &arrow, point);
+    }
+    for (int c = body->child; c >= 0; c = model->bodies[c].sibling) {
+        const struct tree_state *s = link_of(&model->bodies[c], at);
+        if (model->bodies[c].kind == motion_weld) continue;
+        wrench_add(sum, s->F, vec_sub(s->p, point));
+    }
+}
+
+static struct arrow weld_reaction(const struct fbd_model *model, int b, const struct instant *at,
+                                  const double *slots)
+{
+    const struct model_body *body = &model->bodies[b];
+    struct pose pose = body_pose(body, at);
+    struct vec point = point_motion(body, &pose, body->source->motion.point).p;
+    struct wrench sum = {0, {0, 0}};
+    for (int i = 0; i < model->tree->body_count; i++) {
+        int other = model->tree->bodies[i];
+        if (model->bodies[other].place.link == body->place.link && is_welded_to(model, other, b))
+            add_needs(model, other, at, slots, point, &sum);
+    }
+    return (struct arrow){.load = -1, .force = sum.force, .point = point, .couple = sum.moment};
+}
+
+/* The reaction of the joint of body b on it. */
+static struct arrow reaction_arrow(const struct fbd_model *model, int b, const struct instant *at,
+                                   const double *slots)
+{
+    const struct model_body *body = &model->bodies[b];
+    const struct tree_state *s = link_of(body, at);
+    struct arrow arrow = {.load = -1, .force = s->F.force, .point = s->p};
+    if (body->kind == motion_slide) arrow = slide_reaction(model, body, at, slots);
+    if (body->kind == motion_particle)
+        arrow = (struct arrow){.load = -1, .point = s->p, .couple = s->F.moment}; /* it does not turn */
+    if (body->kind == motion_weld) arrow = weld_reaction(model, b, at, slots);
+    arrow.name = body->reaction;
+    return arrow;
+}
+
+/* ---- the whole */
+
+static void set_share(const struct model_body *body, const struct instant *at, struct arrow *arrow)
+{
+    const struct tree_state *s = link_of(body, at);
+    double moment = arrow_moment(arrow, s->p);
+    for (int k = 0; k < most_coordinates_of_a_body; k++) arrow->share[k] = 0;
+    if (body->kind == motion_slide) arrow->share[0] = vec_dot(s->e, arrow->force);
+    if (body->kind == motion_pivot) arrow->share[0] = moment;
+    if (body->count > 1) {
+        arrow->share[0] = vec_dot(s->e, arrow->force);
+        arrow->share[1] = vec_cross(s->e, arrow->force);
+        if (body->count > 2) arrow->share[2] = moment;
+    }
+}
+
+static void set_power(const struct instant *at, const struct model_body *body, struct arrow *arrow)
+{
+    const struct tree_state *s = link_of(body, at);
+    struct vec arm = vec_sub(arrow->point, s->p);
+    struct vec v = vec_add(s->v, vec_scale(s->omega, vec_perp(arm)));
+    arrow->power = vec_dot(arrow->force, v) + arrow->couple * s->omega;
+}
+
+/* The forces in the joint of child c, as the body that it moves on feels them. */
+static size_t fill_child(const struct fbd_model *model, int c, const struct instant *at, const double *slots,
+                         struct arrow *arrows)
+{
+    const struct model_body *child = &model->bodies[c];
+    size_t count = 0;
+    for (int i = child->first_load; i < child->first_load + child->load_count; i++) {
+        const struct model_load *load = &model->loads[i];
+        if (!load->in_joint) continue;
+        struct arrow arrow = load_arrow(model, i, at, slots);
+        if (load->source->kind == load_normal) {
+            arrow = slide_reaction(model, child, at, slots);
+            arrow.load = i;
+        }
+        arrows[count++] = opposite(arrow, load->name_on_parent);
+    }
+    if (child->reaction)
+        arrows[count++] = opposite(reaction_arrow(model, c, at, slots), child->reaction_on_parent);
+    return count;
+}
+
+size_t tree_diagram_fill(const struct fbd_model *model, int index, const struct instant *at,
+                         const double *slots, struct arrow *arrows)
+{
+    const struct model_body *body = &model->bodies[index];
+    size_t count = 0;
+    for (int i = body->first_load; i < body->first_load + body->load_count; i++) {
+        arrows[count] = load_arrow(model, i, at, slots);
+        if (model->loads[i].source->kind == load_normal) {
+            const char *name = arrows[count].name;
+            arrows[count] = slide_reaction(model, body, at, slots);
+            arrows[count].name = name;
+            arrows[count].load = i;
+        }
+        count++;
+    }
+    for (size_t i = model->listed_count; i < model->load_count; i++) {
+        const struct model_load *load = &model->loads[i];
+        if (load->body != index && load->partner != index) continue;
+        struct arrow arrow = load_arrow(model, (int)i, at, slots);
+        if (load->body == index) arrows[count++] = arrow;
+        if (load->partner != index) continue;
+        arrow.point = other_end(model, load, at).p;
+        arrows[count++] = opposite(arrow, arrow.name);
+    }
+    if (body->reaction) arrows[count++] = reaction_arrow(model, index, at, slots);
+    for (int c = body->child; c >= 0; c = model->bodies[c].sibling)
+        count += fill_child(model, c, at, slots, arrows + count);
+    for (size_t i = 0; i < count; i++) {
+        set_share(body, at, &arrows[i]);
+        set_power(at, body, &arrows[i]);
+    }
+    return count;
+}
+
+struct balance balance_of(const struct model_body *body, const struct instant *at, const struct arrow *arrows,
+                          size_t count)
+{
+    struct balance balance = {.m_a = vec_scale(body->inertia.mass, tree_mass_center_acceleration(body, at)),
+                              .I_alpha = body->inertia.I_G * tree_angular_acceleration(body, at)};
+    struct vec G = mass_center(body, at);
+    double forces = vec_norm(balance.m_a), moments = fabs(balance.I_alpha);
+    for (size_t i = 0; i < count; i++) {
+        double moment = arrow_moment(&arrows[i], G);
+        balance.force = vec_add(balance.force, arrows[i].force);
+        balance.moment += moment;
+        forces = fmax(forces, vec_norm(arrows[i].force));
+        moments = fmax(moments, fabs(moment));
+    }
+    double off = vec_norm(vec_sub(balance.force, balance.m_a));
+    double turned = fabs(balance.moment - balance.I_alpha);
+    balance.residual = fmax(forces > 0 ? off / forces : 0, moments > 0 ? turned / moments : 0);
+    return balance;
+}

@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Where the links are and how they move. With P the parent, R its rotation:
+ *
+ *     pivot   d = R at,           omega = omega_P + q',  v = v_P + omega_P k x d
+ *     slide   d = R (at + q e),   omega = omega_P,       v = v_P + omega_P k x d + q' R e
+ *     free    d = R (at + (x, y)) likewise, with a rate of turning of its own when it is planar
+ */
+#include "dynamics/tree.h"
+
+/* For the joint's own coordinates. */
+struct joint {
+    const double *q, *v;
+};
+
+static void move_slide(const struct tree_link *link, const struct tree_state *parent, struct joint joint,
+                       struct tree_state *s)
+{
+    s->angle = parent->angle + link->along;
+    s->omega = parent->omega;
+    s->turn = vec_turn(parent->turn, vec_unit(link->along));
+    s->e = vec_turn(parent->turn, link->e);
+    s->d = vec_add(vec_turn(parent->turn, link->at), vec_scale(joint.q[0], s->e));
+    s->v = vec_scale(joint.v[0], s->e);
+}
+
+static void move_free(const struct tree_link *link, const struct tree_state *parent, struct joint joint,
+                      struct tree_state *s)
+{
+    bool turns = link->kind == motion_planar;
+    struct vec place = {joint.q[0] + link->at.x, joint.q[1] + link->at.y};
+    s->angle = parent->angle + link->along + (turns ? joint.q[2] : 0);
+    s->omega = parent->omega + (turns ? joint.v[2] : 0);
+    s->turn = vec_unit(s->angle);
+    s->e = parent->turn;
+    s->d = vec_turn(parent->turn, place);
+    s->v = vec_turn(parent->turn, (struct vec){joint.v[0], joint.v[1]});
+}
+
+void tree_move(const struct fbd_model *model, const struct instant *at)
+{
+    const struct tree *tree = model->tree;
+    int n = model->plan.n;
+    struct tree_state *links = at->tree->links;
+    links[0].turn = (struct vec){1, 0};
+    for (int i = 1; i < tree->count; i++) {
+        const struct tree_link *link = &tree->links[i];
+        const struct tree_state *parent = &links[link->parent];
+        struct tree_state *s = &links[i];
+        struct joint joint = {at->y + link->coordinate, at->y + n + link->coordinate};
+        if (link->kind == motion_pivot) {
+            s->angle = parent->angle + link->along + joint.q[0];
+            s->omega = parent->omega + joint.v[0];
+            s->turn = vec_unit(s->angle);
+            s->d = vec_turn(parent->turn, link->at);
+            s->v = (struct vec){0, 0};
+        } else if (link->kind == motion_slide) {
+            move_slide(link, parent, joint, s);
+        } else {
+            move_free(link, parent, joint, s);
+        }
+        s->p = vec_add(parent->p, s->d);
+        s->v = vec_add(s->v, vec_add(parent->v, vec_scale(parent->omega, vec_perp(s->d))));
+        s->mr = vec_turn(s->turn, link->moment);
+    }
+}
+
+/* d(R a) = dangle k x R a. */
+static struct vec turning(double angle, struct vec a)
+{
+    return vec_scale(angle, vec_perp(a));
+}
+
+void tree_move_along(const struct fbd_model *model, const struct instant *at, const struct direction *along)
+{
+    const struct tree *tree = model->tree;
+    int n = model->plan.n;
+    const struct tree_state *links = at->tree->links;
+    struct tree_variation *variation = at->tree->variation;
+    for (int i = 1; i < tree->count; i++) {
+        const struct tree_link *link = &tree->links[i];
+        const struct tree_state *s = &links[i], *parent = &links[link->parent];
+        const struct tree_variation *dp = &variation[link->parent];
+        struct tree_variation *d = &variation[i];
+        const double *v = at->y + n + link->coordinate;
+        const double *dq = along->dy + link->coordinate, *dv = dq + n;
+        d->angle = dp->angle;
+        d->omega = dp->omega;
+        d->d = turning(dp->angle, s->d);
+        d->e = (struct vec){0, 0};
+        struct vec own = {0, 0}; /* of the velocity relative to the parent */
+        if (link->kind == motion_pivot) {
+            d->angle += dq[0];
+            d->omega += dv[0];
+        } else if (link->kind == motion_slide) {
+            d->e = turning(dp->angle, s->e);
+            d->d = vec_add(d->d, vec_scale(dq[0], s->e));
+            own = vec_add(vec_scale(v[0], d->e), vec_scale(dv[0], s->e));
+        } else {
+            d->e = turning(dp->angle, s->e);
+            d->d = vec_add(d->d, vec_turn(parent->turn, (struct vec){dq[0], dq[1]}));
+            struct vec w = vec_turn(parent->turn, (struct vec){v[0], v[1]});
+            own = vec_add(turning(dp->angle, w), vec_turn(parent->turn, (struct vec){dv[0], dv[1]}));
+            if (link->kind == motion_planar) {
+                d->angle += dq[2];
+                d->omega += dv[2];
+            }
+        }
+        d->p = vec_add(dp->p, d->d);
+        d->v = vec_add(vec_add(dp->v, own), vec_add(turning(dp->omega, s->d), turning(parent->omega, d->d)));
+    }
+}

@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+
+#include "dynamics/tree.h"
+
+/* ---- inertias: what each joint passes on */
+
+static void factor_pivot(struct tree_state *s, struct inertia_about_O *rest)
+{
+    const struct inertia_about_O *I = &s->I;
+    s->D = 1 / I->J;
+    struct vec hD = vec_scale(s->D, I->h);
+    *rest = (struct inertia_about_O){
+        0, {0, 0}, I->xx - hD.x * I->h.x, I->xy - hD.x * I->h.y, I->yy - hD.y * I->h.y};
+}
+
+static void factor_slide(struct tree_state *s, struct inertia_about_O *rest)
+{
+    const struct inertia_about_O *I = &s->I;
+    s->U = inertia_times(I, s->e);
+    s->Uh = vec_dot(I->h, s->e);
+    s->D = 1 / vec_dot(s->e, s->U);
+    struct vec UD = vec_scale(s->D, s->U);
+    *rest = (struct inertia_about_O){I->J - s->D * s->Uh * s->Uh, vec_sub(I->h, vec_scale(s->Uh, UD)),
+                                     I->xx - UD.x * s->U.x, I->xy - UD.x * s->U.y, I->yy - UD.y * s->U.y};
+}
+
+static void factor_free(const struct tree_link *link, struct tree_state *s, struct inertia_about_O *rest)
+{
+    const struct inertia_about_O *I = &s->I;
+    double det = I->xx * I->yy - I->xy * I->xy;
+    s->inverse[0] = I->yy / det;
+    s->inverse[1] = -I->xy / det;
+    s->inverse[2] = I->xx / det;
+    s->U = (struct vec){s->inverse[0] * I->h.x + s->inverse[1] * I->h.y,
+                        s->inverse[1] * I->h.x + s->inverse[2] * I->h.y};
+    double J = I->J - vec_dot(I->h, s->U);
+    s->D = link->kind == motion_planar ? 1 / J : 0;
+    *rest = (struct inertia_about_O){link->kind == motion_planar ? 0 : J, {0, 0}, 0, 0, 0};
+}
+
+static void factor_link(const struct tree_link *link, struct tree_state *s, struct tree_state *parent)
+{
+    struct inertia_about_O rest;
+    if (s->locked)
+        rest = s->I;
+    else if (link->kind == motion_pivot)
+        factor_pivot(s, &rest);
+    else if (link->kind == motion_slide)
+        factor_slide(s, &rest);
+    else
+        factor_free(link, s, &rest);
+    inertia_add(&parent->I, &rest, s->d);
+}
+
+/* ---- one right-hand side inward */
+
+static void inward_link(const struct tree_link *link, const struct tree_state *s, struct tree_rhs *x,
+                        struct tree_rhs *parent)
+{
+    struct wrench rest = x->p;
+    if (s->locked) {
+        /* gives nothing away */
+    } else if (link->kind == motion_pivot) {
+        x->u = x->g - x->p.moment;
+        rest.moment = x->g;
+        rest.force = vec_add(rest.force, vec_scale(x->u * s->D, s->I.h));
+    } else if (link->kind == motion_slide) {
+        x->u = x->g - vec_dot(s->e, x->p.force);
+        rest.moment += s->Uh * s->D * x->u;
+        rest.force = vec_add(rest.force, vec_scale(s->D * x->u, s->U));
+    } else {
+        x->uf = vec_sub(x->gf, x->p.force);
+        rest.force = x->gf;
+        rest.moment += vec_dot(s->U, x->uf);
+        x->u = x->g - rest.moment; /* planar: what is left to turn it about its centre */
+        if (link->kind == motion_planar) rest.moment = x->g;
+    }
+    wrench_add(&parent->p, rest, s->d);
+}
+
+void tree_factor(const struct tree *tree, struct tree_work *work)
+{
+    struct tree_state *links = work->links;
+    links[0].I = (struct inertia_about_O){0, {0, 0}, 0, 0, 0};
+    work->x[0].p = (struct wrench){0, {0, 0}};
+    for (int i = 1; i < tree->count; i++) {
+        const struct tree_link *link = &tree->links[i];
+        links[i].I =
+            (struct inertia_about_O){link->I_O, {-links[i].mr.y, links[i].mr.x}, link->mass, 0, link->mass};
+    }
+    for (int i = tree->count - 1; i > 0; i--) {
+        const struct tree_link *link = &tree->links[i];
+        factor_link(link, &links[i], &links[link->parent]);
+        inward_link(link, &links[i], &work->x[i], &work->x[link->parent]);
+    }
+}
+
+void tree_inward(const struct tree *tree, struct tree_work *work)
+{
+    for (int i = tree->count - 1; i > 0; i--) {
+        const struct tree_link *link = &tree->links[i];
+        inward_link(link, &work->links[i], &work->x[i], &work->x[link->parent]);
+    }
+}
+
+/* ---- accelerations outward */
+
+static void outward_free(const struct tree_link *link, const struct tree_state *s, struct tree_rhs *x,
+                         double *a)
+{
+    double alpha = link->kind == motion_planar ? s->D * x->u : x->A.alpha;
+    struct vec f = vec_sub(x->uf, vec_scale(alpha, s->I.h));
+    struct vec own = {s->inverse[0] * f.x + s->inverse[1] * f.y, s->inverse[1] * f.x + s->inverse[2] * f.y};
+    struct vec relative = vec_sub(own, x->A.a);
+    if (link->kind == motion_planar) a[2] = alpha - x->A.alpha;
+    a[0] = vec_dot(s->e, relative);
+    a[1] = vec_cross(s->e, relative);
+    x->A = (struct acceleration){alpha, own};
+}
+
+void tree_outward(const struct tree *tree, struct tree_work *work, double *a)
+{
+    struct tree_rhs *xs = work->x;
+    xs[0].A = (struct acceleration){0, {0, 0}};
+    for (int i = 1; i < tree->count; i++) {
+        const struct tree_link *link = &tree->links[i];
+        const struct tree_state *s = &work->links[i];
+        const struct tree_rhs *parent = &xs[link->parent];
+        struct tree_rhs *x = &xs[i];
+        double *own = a + link->coordinate;
+        x->A = acceleration_at(parent->A, s->d);
+        if (s->locked) {
+            own[0] = 0;
+        } else if (link->kind == motion_pivot) {
+            x->A.alpha = s->D * (x->u - vec_dot(s->I.h, x->A.a));
+            own[0] = x->A.alpha - parent->A.alpha;
+        } else if (link->kind == motion_slide) {
+            own[0] = s->D * (x->u - s->Uh * x->A.alpha - vec_dot(s->U, x->A.a));
+            x->A.a = vec_add(x->A.a, vec_scale(own[0], s->e));
+        } else {
+            outward_free(link, s, x, own);
+        }
+    }
+}

@@ -1,0 +1,394 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "model/tree.h"
+
+#include <string.h>
+
+#include "model/builder.h"
+
+/* ---- which bodies are jointed, and in which order */
+
+/* Children of each body, as lists threaded through arrays; entry `body_count` stands for the ground. */
+struct family {
+    int *first, *next;
+    bool *jointed;
+};
+
+static void mark_jointed(const struct fbd_model *model, bool *jointed)
+{
+    const struct scene *scene = model->scene;
+    for (size_t b = 0; b < scene->body_count; b++) {
+        int parent = scene->bodies[b].motion.parent;
+        if (parent == ground_body) continue;
+        jointed[b] = true;
+        jointed[parent] = true;
+    }
+    for (size_t c = 0; c < scene->coupling_count; c++)
+        for (int end = 0; end < 2; end++)
+            if (scene->couplings[c].body[end] != ground_body) jointed[scene->couplings[c].body[end]] = true;
+}
+
+static bool find_family(struct fbd_model *model, struct family *family)
+{
+    struct arena *arena = &model->arena;
+    int count = (int)model->body_count;
+    family->first = ARENA_ARRAY(arena, (size_t)count + 1, int);
+    family->next = ARENA_ARRAY(arena, (size_t)count, int);
+    family->jointed = ARENA_ARRAY(arena, (size_t)count, bool);
+    if (arena->failed) return false;
+    mark_jointed(model, family->jointed);
+    for (int b = 0; b <= count; b++) family->first[b] = -1;
+    for (int b = count - 1; b >= 0; b--) { /* backwards: the lists keep the order of the file */
+        int parent = model->scene->bodies[b].motion.parent;
+        int *first = &family->first[parent == ground_body ? count : parent];
+        family->next[b] = *first;
+        *first = b;
+    }
+    return true;
+}
+
+/* Depth first, each body before those that move on it: a chain lies in memory as it hangs. */
+static void order_bodies(const struct fbd_model *model, struct tree *tree, const struct family *family)
+{
+    int count = (int)model->body_count;
+    int b = family->first[count];
+    while (b >= 0) {
+        if (family->jointed[b]) tree->bodies[tree->body_count++] = b;
+        int down = family->first[b];
+        while (down < 0 && b != ground_body) { /* back up to the next one beside */
+            down = family->next[b];
+            if (down < 0) b = model->scene->bodies[b].motion.parent;
+        }
+        b = down;
+    }
+}
+
+/* ---- places and links */
+
+static struct placement place_in_own_link(const struct model_body *body, int link)
+{
+    return (struct placement){link, vec_scale(-1, body->pin), {1, 0}, 0};
+}
+
+static struct placement place_in_parents_link(const struct fbd_model *model, const struct motion *motion)
+{
+    const struct placement *parent = &model->bodies[motion->parent].place;
+    struct vec turn = vec_turn(parent->turn, vec_unit(motion->along));
+    struct vec joint = placement_point(parent, motion->through);
+    return (struct placement){parent->link, vec_sub(joint, vec_turn(turn, motion->point)), turn,
+                              parent->angle + motion->along};
+}
+
+static void set_link(const struct fbd_model *model, struct tree_link *link, int b)
+{
+    const struct model_body *body = &model->bodies[b];
+    const struct motion *motion = &body->source->motion;
+    *link = (struct tree_link){.body = b,
+                               .kind = body->kind,
+                               .coordinate = body->first,
+                               .at = motion->through,
+                               .e = body->e,
+                               .n = body->n,
+                               .along = body->kind == motion_slide ? motion->along : 0,
+                               .pair = -1,
+                               .normal_slot = -1};
+    if (motion->parent == ground_body) return;
+    const struct placement *parent = &model->bodies[motion->parent].place;
+    link->parent = parent->link;
+    link->at = placement_point(parent, motion->through);
+    link->e = vec_turn(parent->turn, body->e);
+    link->n = vec_turn(parent->turn, body->n);
+    link->along += parent->angle;
+}
+
+static void add_inertia(struct tree_link *link, const struct model_body *body)
+{
+    const struct inertia *inertia = &body->inertia;
+    struct vec G = placement_point(&body->place, inertia->G);
+    link->mass += inertia->mass;
+    link->moment = vec_add(link->moment, vec_scale(inertia->mass, G));
+    link->I_O += inertia->I_G + inertia->mass * vec_dot(G, G);
+}
+
+bool tree_number(struct fbd_model *model)
+{
+    struct family family;
+    if (!find_family(model, &family)) return false;
+    size_t count = 0;
+    for (size_t b = 0; b < model->body_count; b++) count += family.jointed[b];
+    if (count == 0) return true;
+    struct tree *tree = ARENA_ARRAY(&model->arena, 1, struct tree);
+    if (!tree) return false;
+    tree->bodies = ARENA_ARRAY(&model->arena, count, int);
+    tree->links = ARENA_ARRAY(&model->arena, count + 1, struct tree_link);
+    tree->pairs = ARENA_ARRAY(&model->arena, count, int);
+    tree->watched = ARENA_ARRAY(&model->arena, count, int);
+    if (model->arena.failed) return false;
+    order_bodies(model, tree, &family);
+    tree->count = 1;
+    tree->links[0] = (struct tree_link){.body = -1, .pair = -1, .normal_slot = -1};
+    for (int i = 0; i < tree->body_count; i++) {
+        struct model_body *body = &model->bodies[tree->bodies[i]];
+        if (body->kind == motion_weld) {
+            body->place = place_in_parents_link(model, &body->source->motion);
+        } else {
+            body->place = place_in_own_link(body, tree->count);
+            set_link(model, &tree->links[tree->count++], tree->bodies[i]);
+        }
+        add_inertia(&tree->links[body->place.link], body);
+    }
+    for (int i = tree->count - 1; i > 0; i--) {
+        struct tree_link *link = &tree->links[i], *parent = &tree->links[link->parent];
+        if (link->end == 0) link->end = i + 1;
+        if (parent->end < link->end) parent->end = link->end;
+    }
+    model->tree = tree;
+    return true;
+}
+
+/* ---- loads */
+
+static struct tree_link *link_of(struct builder *builder, const struct model_body *body)
+{
+    return &builder->model->tree->links[body->place.link];
+}
+
+static void add_world_force(struct builder *builder, const struct model_body *body, struct vec point,
+                            struct vec f)
+{
+    struct tree_link *link = link_of(builder, body);
+    struct vec arm = placement_point(&body->place, point);
+    link->force = vec_add(link->force, f);
+    link->sine -= vec_dot(arm, f);
+    link->cosine += vec_cross(arm, f);
+}
+
+static void add_following(struct builder *builder, const struct model_body *body, struct vec point,
+                          struct vec f, double couple)
+{
+    struct tree *tree = builder->model->tree;
+    struct vec turned = vec_turn(body->place.turn, f);
+    double moment = couple + vec_cross(placement_point(&body->place, point), turned);
+    tree->following[tree->following_count++] = (struct tree_following){body->place.link, turned, moment};
+}
+
+static void add_varying(struct builder *builder, const struct model_body *body, const struct model_load *load,
+                        bool body_frame, const struct formula *value, struct formula angle)
+{
+    struct tree *tree = builder->model->tree;
+    tree->forces[tree->force_count++] = (struct tree_force){body->place.link,
+                                                            placement_point(&body->place, load->point),
+                                                            body->place.angle,
+                                                            body_frame,
+                                                            *value,
+                                                            angle};
+}
+
+/* A force of given size in a constant direction. */
+static void add_directed(struct builder *builder, const struct model_body *body,
+                         const struct model_load *load, const struct formula *value, double angle,
+                         bool body_frame)
+{
+    struct vec f = vec_scale(value->constant, vec_unit(angle));
+    if (!formula_is_constant(value))
+        add_varying(builder, body, load, body_frame, value, formula_constant(angle));
+    else if (body_frame)
+        add_following(builder, body, load->point, f, 0);
+    else
+        add_world_force(builder, body, load->point, f);
+}
+
+static void add_applied(struct builder *builder, const struct model_body *body, const struct model_load *load)
+{
+    const double up = 1.5707963267948966;
+    bool frame = load->source->body_frame;
+    if (load->source->fx.expr || load->source->fy.expr) {
+        add_directed(builder, body, load, &load->fx, 0, frame);
+        add_directed(builder, body, load, &load->fy, up, frame);
+    } else if (!load->source->angle.expr) { /* along the slide, which is the x axis of the body's frame */
+        add_directed(builder, body, load, &load->value, 0, true);
+    } else if (formula_is_constant(&load->angle)) {
+        add_directed(builder, body, load, &load->value, load->angle.constant, frame);
+    } else {
+        add_varying(builder, body, load, frame, &load->value, load->angle);
+    }
+}
+
+static void add_spring(struct builder *builder, const struct model_body *body, const struct model_load *load)
+{
+    struct tree *tree = builder->model->tree;
+    const struct load *source = load->source;
+    if (!load->linked) {
+        struct affine_term *term = &builder->affine[body->first];
+        term->kq += source->stiffness;
+        term->kv += source->coefficient;
+        term->c0 += source->stiffness * source->free_length;
+        return;
+    }
+    struct tree_spring *spring = &tree->springs[tree->spring_count++];
+    *spring = (struct tree_spring){.link = {body->place.link, 0},
+                                   .point = {placement_point(&body->place, load->point), load->anchor},
+                                   .stiffness = source->stiffness,
+                                   .free_length = source->free_length,
+                                   .damping = source->coefficient};
+    if (load->partner < 0) return;
+    const struct placement *partner = &builder->model->bodies[load->partner].place;
+    spring->link[1] = partner->link;
+    spring->point[1] = placement_point(partner, load->anchor);
+}
+
+static void add_joint_spring(struct builder *builder, const struct model_body *body,
+                             const struct load *source)
+{
+    struct affine_term *term = &builder->affine[body->first + body->count - 1];
+    term->kq += source->stiffness;
+    term->kv += source->coefficient;
+    term->c0 += source->stiffness * source->free_length;
+}
+
+static void add_moment(struct builder *builder, const struct model_body *body, const struct model_load *load)
+{
+    struct tree *tree = builder->model->tree;
+    if (formula_is_constant(&load->value))
+        add_following(builder, body, (struct vec){0, 0}, (struct vec){0, 0}, load->value.constant);
+    else
+        tree->moments[tree->moment_count++] = (struct tree_moment){body->place.link, load->value};
+}
+
+void tree_add_load(struct builder *builder, int index)
+{
+    struct tree *tree = builder->model->tree;
+    const struct model_load *load = &builder->model->loads[index];
+    const struct model_body *body = &builder->model->bodies[load->body];
+    const struct load *source = load->source;
+    switch (source->kind) {
+    case load_gravity:
+        add_world_force(builder, body, body->inertia.G,
+                        vec_scale(body->inertia.mass, builder->model->scene->gravity));
+        break;
+    case load_applied: add_applied(builder, body, load); break;
+    case load_spring:
+    case load_damper: add_spring(builder, body, load); break;
+    case load_drag:
+        tree->drags[tree->drag_count++] =
+            (struct tree_drag){body->place.link, placement_point(&body->place, load->point), source->linear,
+                               source->quadratic};
+        break;
+    case moment_applied: add_moment(builder, body, load); break;
+    case moment_spring:
+    case moment_damper: add_joint_spring(builder, body, source); break;
+    case load_normal:
+    case load_friction:
+    case moment_friction:
+    case load_potential:
+    case moment_potential: break; /* plan.c */
+    }
+}
+
+/* ---- diagrams */
+
+/* Does it act between the two bodies of its joint? */
+static bool acts_in_joint(const struct model_load *load)
+{
+    switch (load->source->kind) {
+    case load_spring:
+    case load_damper: return !load->linked;
+    case load_friction:
+    case load_potential:
+    case moment_spring:
+    case moment_damper:
+    case moment_friction:
+    case moment_potential:
+    case load_normal: return true;
+    default: return false;
+    }
+}
+
+static bool has_normal(const struct fbd_model *model, const struct model_body *body)
+{
+    for (int i = body->first_load; i < body->first_load + body->load_count; i++)
+        if (model->loads[i].source->kind == load_normal) return true;
+    return false;
+}
+
+/* Does anything act on a particle that would turn it, if it could turn? */
+static bool is_twisted(const struct fbd_model *model, const struct model_body *body)
+{
+    if (body->parent != ground_body || body->child >= 0) return true;
+    for (size_t i = 0; i < model->load_count; i++) {
+        const struct model_load *load = &model->loads[i];
+        struct vec at = &model->bodies[load->body] == body ? load->point : load->anchor;
+        bool own = &model->bodies[load->body] == body ||
+                   (load->partner >= 0 && &model->bodies[load->partner] == body);
+        if (own && (at.x != body->inertia.G.x || at.y != body->inertia.G.y)) return true;
+    }
+    return false;
+}
+
+/* The force of a joint beside what is listed: a slide with `normal` has it in its list. */
+static const char *reaction_of(const struct fbd_model *model, const struct model_body *body)
+{
+    switch (body->kind) {
+    case motion_pivot: return "pin";
+    case motion_slide: return has_normal(model, body) ? NULL : "guide";
+    case motion_weld: return "weld";
+    case motion_particle: return is_twisted(model, body) ? "guide" : NULL;
+    case motion_planar: break;
+    }
+    return NULL;
+}
+
+static void name_reactions(struct fbd_model *model, struct model_body *body)
+{
+    struct arena *arena = &model->arena;
+    body->reaction = reaction_of(model, body);
+    for (int i = body->first_load; i < body->first_load + body->load_count; i++)
+        model->loads[i].in_joint = acts_in_joint(&model->loads[i]);
+    if (body->parent == ground_body) return;
+    struct model_body *parent = &model->bodies[body->parent];
+    if (body->reaction) {
+        body->reaction_on_parent = arena_printf(arena, "%s.%s", body->name, body->reaction);
+        parent->arrow_count++;
+    }
+    for (int i = body->first_load; i < body->first_load + body->load_count; i++) {
+        struct model_load *load = &model->loads[i];
+        if (!load->in_joint) continue;
+        load->name_on_parent = arena_printf(arena, "%s.%s", body->name, load->source->name);
+        parent->arrow_count++;
+    }
+}
+
+bool tree_name_reactions(struct fbd_model *model)
+{
+    const struct tree *tree = model->tree;
+    for (int i = 0; tree && i < tree->body_count; i++) {
+        int b = tree->bodies[tree->body_count - 1 - i]; /* lists of children in the order of the tree */
+        struct model_body *body = &model->bodies[b];
+        name_reactions(model, body);
+        if (body->parent == ground_body) continue;
+        body->sibling = model->bodies[body->parent].child;
+        model->bodies[body->parent].child = b;
+    }
+    for (size_t i = model->listed_count; i < model->load_count; i++) {
+        model->bodies[model->loads[i].body].arrow_count++;
+        if (model->loads[i].partner >= 0) model->bodies[model->loads[i].partner].arrow_count++;
+    }
+    return !model->arena.failed;
+}
+
+void tree_finish(struct fbd_model *model)
+{
+    struct tree *tree = model->tree;
+    const struct plan *plan = &model->plan;
+    for (int i = 1; i < tree->count; i++)
+        tree->links[i].normal_slot = model->bodies[tree->links[i].body].normal_slot;
+    for (int p = 0; p < (int)plan->friction_count; p++) {
+        const struct friction *friction = &plan->frictions[p];
+        if (!friction->jointed) continue;
+        int link = model->bodies[friction->body].place.link;
+        tree->links[link].pair = p;
+        if (friction->normal_slot >= 0) tree->pairs[tree->pair_count++] = link;
+    }
+    for (int i = 1; i < tree->count; i++)
+        if (tree->links[i].normal_slot >= 0 || tree->links[i].pair >= 0)
+            tree->watched[tree->watched_count++] = i;
+}

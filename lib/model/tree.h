@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Tree: the bodies that are joined to bodies, as the recursion of dynamics/tree.h sees them.
+ *
+ * A body is jointed when it moves on another body, carries one, or is an end of a coupling. A link is a
+ * jointed body with all that is welded to it: one frame, one mass, one moment of inertia. Links are numbered
+ * from 1 so that each comes after the one that it moves on; link 0 is the ground. A model without jointed
+ * bodies has no tree, and a body that is not jointed is no part of it.
+ *
+ * The reference point O of a link is the axis of its pivot or the origin of its body's frame. Points of a
+ * link are counted from there, in the frame of the link's own body.
+ */
+#ifndef FBD_MODEL_TREE_H
+#define FBD_MODEL_TREE_H
+
+#include "model/plan.h"
+#include "scene/scene.h"
+
+/* Where the frame of a jointed body lies in its link: a point p of the body is shift + R(turn) p. */
+struct placement {
+    int link; /* 0: the body is not jointed */
+    struct vec shift, turn;
+    double angle;
+};
+
+struct tree_link {
+    int body, parent; /* its body; the link that it moves on, less than its own number */
+    enum motion_kind kind;
+    int coordinate;      /* the first of its coordinates */
+    struct vec at;       /* pivot: the axis; slide: where x = 0; else the zero of x, y; from the parent's O */
+    struct vec e, n;     /* slide: direction of +x, and the direction that its surface pushes to */
+    double along;        /* angle of the link's frame in its parent's at q = 0 */
+    double mass, I_O;    /* with all that is welded to it; I_O about O */
+    struct vec moment;   /* mass times the vector from O to its centre of mass */
+    struct vec force;    /* constant forces in the world, all of them */
+    double sine, cosine; /* their moment about O: sine sin(angle) + cosine cos(angle) */
+    int pair;            /* its dry friction: index into plan.frictions, or -1 */
+    int normal_slot;     /* where minus its normal force goes, or -1 */
+    int end;             /* links from its own number up to this one (not included) move with it */
+};
+
+/* A constant force that turns with its link, and its moment about O. */
+struct tree_following {
+    int link;
+    struct vec force;
+    double moment;
+};
+
+/* A force whose size or direction varies. */
+struct tree_force {
+    int link;
+    struct vec point;
+    double turn;     /* the angle of its body in the link, when it turns with the body */
+    bool body_frame; /* it does */
+    struct formula value, angle;
+};
+
+struct tree_moment {
+    int link;
+    struct formula value;
+};
+
+/* A spring and damper between two points; link 0 is the ground. */
+struct tree_spring {
+    int link[2];
+    struct vec point[2];
+    double stiffness, free_length, damping;
+};
+
+struct tree_drag {
+    int link;
+    struct vec point;
+    double linear, quadratic;
+};
+
+struct tree {
+    int count; /* links, the ground included; links[0] is the ground */
+    struct tree_link *links;
+    size_t following_count, force_count, moment_count, spring_count, drag_count;
+    struct tree_following *following;
+    struct tree_force *forces;
+    struct tree_moment *moments;
+    struct tree_spring *springs;
+    struct tree_drag *drags;
+    int pair_count;    /* links whose dry friction goes with a normal force */
+    int *pairs;        /* their numbers */
+    int watched_count; /* links whose joint has a normal force or dry friction */
+    int *watched;      /* their numbers */
+    int body_count;    /* jointed bodies */
+    int *bodies;       /* each after the one that it moves on */
+};
+
+struct builder;
+struct fbd_model;
+
+/* Find the jointed bodies, number the links and give each jointed body its place. model->tree stays NULL when
+ * there are none. False when memory is out. */
+bool tree_number(struct fbd_model *model);
+
+/* Name the forces in the joints and count the arrows of all diagrams. False when memory is out. */
+bool tree_name_reactions(struct fbd_model *model);
+
+/* Add a load of a jointed body to the lists of the tree and to those of the plan that act in joints. */
+void tree_add_load(struct builder *builder, int load);
+
+/* The constants of the links, when all loads are in. */
+void tree_finish(struct fbd_model *model);
+
+static inline struct vec placement_point(const struct placement *place, struct vec point)
+{
+    return vec_add(place->shift, vec_turn(place->turn, point));
+}
+
+#endif

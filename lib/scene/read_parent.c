@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What a body moves on: the ground, or a point of another body. Read when all motions are known, so that a
+ * body may stand before the one that it moves on.
+ */
+#include "scene/reader.h"
+#include "scene/values.h"
+
+#include <string.h>
+
+bool body_name_read(struct reader *reader, const struct node *node, const char *what, int *body)
+{
+    enum { most_listed = 100 };
+    const char *names[most_listed];
+    *body = ground_body;
+    if (node->kind != node_scalar) return value_refuse(reader, node, what, "the name of a body", NULL);
+    if (strcmp(node->text, "ground") == 0) return true;
+    const struct pair *pair = node_find(reader->bodies, node->text);
+    if (pair) {
+        *body = (int)(pair - reader->bodies->pairs);
+        return true;
+    }
+    size_t count = 0;
+    for (; count < reader->bodies->count && count < most_listed; count++)
+        names[count] = reader->bodies->pairs[count].key;
+    diag_add(reader->errors, FBD_ERROR, "unknown-body", node->at,
+             diag_nearest(reader->errors, node->text, names, count), "`%s`: there is no body %s", what,
+             value_found(reader, node));
+    return false;
+}
+
+/* A point of the parent, or of the ground, in its frame. */
+static bool read_place(struct reader *reader, int parent, const struct node *node, const char *what,
+                       struct vec *where)
+{
+    struct point point;
+    if (!node) return true;
+    if (parent == ground_body) return ground_point_read(reader, node, what, where);
+    if (!body_point_read(reader, parent, node, what, &point)) return false;
+    *where = point.kind == point_G ? body_centre_of_mass(&reader->scene->bodies[parent]) : point.where;
+    return true;
+}
+
+static bool read_line(struct reader *reader, const struct node *name, struct motion *motion)
+{
+    const struct ground_line *line = ground_line_find(reader, name);
+    if (!line) return false;
+    motion->along = line->along;
+    motion->through = line->through;
+    return true;
+}
+
+bool body_parent_read(struct reader *reader, int index)
+{
+    struct motion *motion = &reader->scene->bodies[index].motion;
+    const struct motion_keys *keys = &reader->drafts[index].motion_keys;
+    if (!reader->drafts[index].motion_known) return true; /* noted before */
+    if (keys->on && !body_name_read(reader, keys->on, "on", &motion->parent)) return false;
+    if (motion->kind == motion_weld && keys->on && motion->parent == ground_body) {
+        diag_add(reader->errors, FBD_ERROR, "not-here", motion->at, "leave the body out: it does not move",
+                 "a body that is welded to the ground has no motion");
+        return false;
+    }
+    if (motion->parent == index) return true; /* a circle of one, see below */
+    const struct node *place = motion->kind == motion_slide ? keys->through : keys->at;
+    bool fine = read_place(reader, motion->parent, place, motion->kind == motion_slide ? "through" : "at",
+                           &motion->through);
+    if (keys->line && !read_line(reader, keys->line, motion)) fine = false;
+    return fine;
+}
+
+/* Each body has one parent: from every body walk down to the ground or to one that is known to end there. A
+ * walk that meets its own trace has found a circle. */
+bool parents_check(struct reader *reader)
+{
+    struct scene *scene = reader->scene;
+    int count = (int)scene->body_count;
+    int *walk =
+        ARENA_ARRAY(reader->arena, (size_t)count, int); /* 0, or the number of the walk that came by */
+    if (!walk) return false;
+    bool fine = true;
+    for (int start = 0; start < count; start++) {
+        int b = start;
+        while (b != ground_body && walk[b] == 0) {
+            walk[b] = start + 1;
+            b = scene->bodies[b].motion.parent;
+        }
+        if (b == ground_body || walk[b] != start + 1) continue;
+        fine = false;
+        diag_add(reader->errors, FBD_ERROR, "motion-in-a-circle", scene->bodies[b].motion.at,
+                 "let one of them move on the ground; a closed loop is a tree and a `pin` under `couplings`",
+                 "`%s` moves on `%s`, and that in the end on `%s`", scene->bodies[b].name,
+                 scene->bodies[scene->bodies[b].motion.parent].name, scene->bodies[b].name);
+        scene->bodies[b].motion.parent = ground_body; /* one note for each circle */
+        scene->bodies[b].complete = false;
+    }
+    return fine;
+}

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Model texts of random trees: every kind of joint and of load, for tests of what must hold for all of them.
+ */
+#ifndef FBD_TESTS_RANDOM_TREES_H
+#define FBD_TESTS_RANDOM_TREES_H
+
+#include "random_numbers.h"
+
+#include <stdbool.h>
+
+struct random_tree {
+    int bodies;
+    bool conservative; /* gravity and springs alone */
+    bool friction;     /* two-sided guides with dry friction, and dry bearings */
+};
+
+/* The text of a tree; release it with free(). */
+char *random_tree_text(struct random_numbers *numbers, const struct random_tree *tree);
+
+#endif
