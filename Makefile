@@ -28,6 +28,12 @@ bench: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	meson test -C $(BUILD) --no-rebuild --benchmark --verbose
 
+# Counts instructions anew and puts them into docs/effects.md.
+effects: $(BUILD)/.tests
+	ninja -C $(BUILD)
+	FBD_SOURCE_ROOT=$(CURDIR) FBD_RUN=$(BUILD)/apps/fbd-run FBD_COUNT_RHS=$(BUILD)/tests/bench/count_rhs \
+		FBD_RUN_PLAIN= tests/tools/effects --write docs/effects.md
+
 check-format: $(BUILD)/.lint
 	.ci/lint $(BUILD) format
 
@@ -61,5 +67,5 @@ $(BUILD)-sanitize/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run test sanitize valgrind bench check-format format lint install clean
+.PHONY: all run test sanitize valgrind bench effects check-format format lint install clean
 .SECONDARY:

@@ -143,6 +143,12 @@ static bool close_outputs(struct outputs *outputs, bool keep)
     return done;
 }
 
+/* The report needs the works; it goes to standard output unless data goes there. */
+static bool wants_report(const struct options *options, const struct outputs *outputs)
+{
+    return !options->quiet && outputs->csv.stream != stdout && outputs->json.stream != stdout;
+}
+
 static enum exit_code write_result(const struct options *options, fbd_result *result, struct outputs *outputs)
 {
     char *json = outputs->json.stream ? fbd_result_json(result) : NULL;
@@ -150,8 +156,7 @@ static enum exit_code write_result(const struct options *options, fbd_result *re
     if (json)
         whole_file_write(&outputs->json, json, strlen(json)); /* an error shows when the file is closed */
     free(json);
-    bool data_on_stdout = outputs->csv.stream == stdout || outputs->json.stream == stdout;
-    if (options->quiet || data_on_stdout) return exit_done;
+    if (!wants_report(options, outputs)) return exit_done;
     return print(fbd_result_report(result), exit_done);
 }
 
@@ -165,7 +170,8 @@ static enum exit_code run(const fbd_model *model, const struct options *options,
         fbd_recording recording = {.every = options->every,
                                    .ledger = options->ledger,
                                    .csv = options->csv ? whole_file_write : NULL,
-                                   .csv_context = &outputs.csv};
+                                   .csv_context = &outputs.csv,
+                                   .motion_only = !outputs.json.stream && !wants_report(options, &outputs)};
         fbd_result *result = fbd_simulation_run(simulation, &recording);
         bool refused = outputs.csv.stream && ferror(outputs.csv.stream); /* said when it is closed */
         code = result ? write_result(options, result, &outputs) : refused ? exit_failed : no_memory();

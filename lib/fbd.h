@@ -252,6 +252,8 @@ typedef struct fbd_recording {
     bool ledger;    /* with a column for each force and its work, and for the energies */
     fbd_write *csv; /* where CSV goes, or NULL */
     void *csv_context;
+    bool motion_only; /* the work of forces without a potential is not integrated: what would be asked of it
+                         is NAN. Nothing else changes; `ledger` wins. */
 } fbd_recording;
 
 /* Energies of the scene, in its units of energy. work: what the forces without a potential have done since
@@ -261,7 +263,7 @@ typedef struct fbd_energy {
     double initial_kinetic, initial_potential;
 } fbd_energy;
 
-/* A run from start to end, with its ledger. */
+/* A run from start to end, with its ledger (without it where only the motion was wanted). */
 typedef struct fbd_result fbd_result;
 
 /* Carry a simulation from its start to its end. NULL when memory is out or the simulation has been
@@ -286,7 +288,9 @@ FBD_API char *fbd_result_json(fbd_result *result);
  * memory is out. */
 FBD_API char *fbd_equations_text(fbd_state *state);
 
-/* What is simulated and what is not, and which forces are conservative and why. */
+/* The plan in words: effects that are simulated, with their number and why they are conservative or not,
+ * those that are not and what would have to be listed, the right-hand side, events, structure, the method and
+ * why. */
 FBD_API char *fbd_explain(const fbd_model *model, const fbd_options *options);
 
 /* Linearisation about an equilibrium. */

@@ -148,7 +148,8 @@ fbd_result *fbd_simulation_run(fbd_simulation *simulation, const fbd_recording *
     result->simulation = simulation;
     result->start = state_new(run->model);
     struct csv csv = {0};
-    bool done = result->start && ledger_init(&result->ledger, run->model, run->state);
+    bool works = !recording || recording->ledger || !recording->motion_only;
+    bool done = result->start && ledger_init(&result->ledger, run->model, run->state, works);
     if (done) {
         state_copy(result->start, run->state);
         bool rows = recording && recording->csv;

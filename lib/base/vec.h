@@ -43,18 +43,32 @@ static inline struct vec vec_perp(struct vec a)
     return (struct vec){-a.y, a.x};
 }
 
+/* sqrt(x^2 + y^2), by hypot only where the squares would overflow or lose digits. */
 static inline double vec_norm(struct vec a)
 {
-    return hypot(a.x, a.y);
+    const double least = 1e-280, most = 1e280;
+    double square = a.x * a.x + a.y * a.y;
+    return square > least && square < most ? sqrt(square) : hypot(a.x, a.y);
 }
 
-/* The unit vector at `angle` [rad] from the x axis. A component that is the rounding of a quarter turn is
- * zero: what acts straight up does not push sideways by 1e-16. */
-static inline struct vec vec_unit(double angle)
+/* Cosine and sine of `angle` [rad]. */
+static inline struct vec vec_cos_sin(double angle)
+{
+    return (struct vec){cos(angle), sin(angle)};
+}
+
+/* Of a unit vector: a component that is the rounding of a quarter turn is zero, so that what acts straight up
+ * does not push sideways by 1e-16. */
+static inline struct vec vec_without_rounding(struct vec u)
 {
     const double rounding = 2.5e-16;
-    double c = cos(angle), s = sin(angle);
-    return (struct vec){fabs(c) < rounding ? 0 : c, fabs(s) < rounding ? 0 : s};
+    return (struct vec){fabs(u.x) < rounding ? 0 : u.x, fabs(u.y) < rounding ? 0 : u.y};
+}
+
+/* The unit vector at `angle` [rad] from the x axis. */
+static inline struct vec vec_unit(double angle)
+{
+    return vec_without_rounding(vec_cos_sin(angle));
 }
 
 /* `a` turned by the rotation whose cosine and sine are the components of `r`. */

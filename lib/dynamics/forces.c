@@ -7,21 +7,30 @@
 
 /* ---- terms of one coordinate */
 
-static void simple_terms(const struct plan *plan, const struct instant *at, double *slots)
+/* s sin(q) + c cos(q); `turn` has both, or the term needs only one. */
+static double sine_value(const struct sine_term *term, const double *q, bool turns, struct vec turn)
+{
+    if (turns) return term->s * turn.y + term->c * turn.x;
+    return term->c == 0 ? term->s * sin(q[term->coordinate]) : term->c * cos(q[term->coordinate]);
+}
+
+static void simple_terms(const struct plan *plan, const struct body_terms *terms, const struct instant *at,
+                         struct vec turn, double *slots)
 {
     const double *q = at->y, *v = at->y + plan->n;
-    for (size_t i = 0; i < plan->affine_count; i++) {
-        const struct affine_term *term = &plan->affine[i];
-        slots[term->slot] += term->c0 - term->kq * q[term->coordinate] - term->kv * v[term->coordinate];
-    }
-    for (size_t i = 0; i < plan->sine_count; i++) {
-        const struct sine_term *term = &plan->sine[i];
-        double angle = q[term->coordinate];
-        slots[term->slot] += term->s * sin(angle) + term->c * cos(angle);
-    }
-    for (size_t i = 0; i < plan->square_count; i++) {
-        const struct square_term *term = &plan->square[i];
-        slots[term->slot] -= term->k * fabs(v[term->coordinate]) * v[term->coordinate];
+    const struct affine_term *affine = plan->affine + terms->affine.first;
+    for (int i = 0; i < terms->affine.count; i++, affine++)
+        slots[affine->slot] +=
+            affine->c0 - affine->kq * q[affine->coordinate] - affine->kv * v[affine->coordinate];
+    const struct sine_term *sine = plan->sine + terms->sine.first;
+    for (int i = 0; i < terms->sine.count; i++, sine++)
+        slots[sine->slot] += sine_value(sine, q, terms->turns, turn);
+    const struct square_term *square = plan->square + terms->square.first;
+    for (int i = 0; i < terms->square.count; i++, square++)
+        slots[square->slot] -= square->k * fabs(v[square->coordinate]) * v[square->coordinate];
+    if (terms->across.count > 0) {
+        affine = plan->affine + terms->across.first;
+        slots[affine->slot] += affine->c0;
     }
 }
 
@@ -46,18 +55,18 @@ static void simple_variations(const struct plan *plan, const struct instant *at,
 
 /* ---- formulas in a fixed direction, potentials */
 
-static void formula_terms(const struct plan *plan, const struct instant *at, double *slots)
+static void formula_terms(const struct plan *plan, const struct body_terms *terms, const struct instant *at,
+                          double *slots)
 {
-    for (size_t i = 0; i < plan->formula_count; i++) {
-        const struct formula_term *term = &plan->formulas[i];
+    const struct formula_term *term = plan->formulas + terms->formulas.first;
+    for (int i = 0; i < terms->formulas.count; i++, term++)
         slots[term->slot] += term->scale * formula_value(&term->value, at);
-    }
-    for (size_t i = 0; i < plan->potential_count; i++) {
-        const struct potential_term *term = &plan->potentials[i];
+    const struct potential_term *potential = plan->potentials + terms->potentials.first;
+    for (int i = 0; i < terms->potentials.count; i++, potential++) {
         double slope;
-        expr_eval_slot(term->V.expr, at->t, at->y, 1 + term->coordinate, formula_branches(&term->V, at),
-                       &slope);
-        slots[term->slot] -= slope;
+        expr_eval_slot(potential->V.expr, at->t, at->y, 1 + potential->coordinate,
+                       formula_branches(&potential->V, at), &slope);
+        slots[potential->slot] -= slope;
     }
 }
 
@@ -137,32 +146,68 @@ static struct link_law law_of_link(const struct link_term *term)
     return (struct link_law){term->anchor, term->stiffness, term->free_length, term->damping};
 }
 
-static void point_terms(const struct fbd_model *model, const struct instant *at, double *slots)
+/* The forces on one body at points of it: their sum and their moment about the frame's origin, or about the
+ * axis. */
+struct resultant {
+    struct vec f;
+    double moment;
+};
+
+static void add_to_resultant(struct resultant *sum, const struct pose *pose, struct motion_of_point point,
+                             struct vec f)
+{
+    sum->f = vec_add(sum->f, f);
+    sum->moment += vec_cross(vec_sub(point.p, pose->origin), f);
+}
+
+static struct resultant sum_at_points(const struct fbd_model *model, int b, const struct instant *at,
+                                      const struct pose *pose)
 {
     const struct plan *plan = &model->plan;
-    for (size_t i = 0; i < plan->link_count; i++) {
-        const struct model_body *body = &model->bodies[plan->links[i].body];
-        struct pose pose = body_pose(body, at);
-        struct motion_of_point point = point_motion(body, &pose, plan->links[i].point);
-        struct link_law law = law_of_link(&plan->links[i]);
-        add_to_slots(body, &pose, point, link_force(&law, point), slots);
+    const struct body_terms *terms = &plan->bodies[b];
+    const struct model_body *body = &model->bodies[b];
+    struct resultant sum = {{0, 0}, 0};
+    const struct link_term *link = plan->links + terms->links.first;
+    for (int i = 0; i < terms->links.count; i++, link++) {
+        struct motion_of_point point = point_motion(body, pose, link->point);
+        struct link_law law = law_of_link(link);
+        add_to_resultant(&sum, pose, point, link_force(&law, point));
     }
-    for (size_t i = 0; i < plan->drag_count; i++) {
-        const struct model_body *body = &model->bodies[plan->drags[i].body];
-        struct pose pose = body_pose(body, at);
-        struct motion_of_point point = point_motion(body, &pose, plan->drags[i].point);
-        struct drag_law law = {plan->drags[i].linear, plan->drags[i].quadratic};
-        add_to_slots(body, &pose, point, drag_force(&law, point.v), slots);
+    const struct drag_term *drag = plan->drags + terms->drags.first;
+    for (int i = 0; i < terms->drags.count; i++, drag++) {
+        struct motion_of_point point = point_motion(body, pose, drag->point);
+        struct drag_law law = {drag->linear, drag->quadratic};
+        add_to_resultant(&sum, pose, point, drag_force(&law, point.v));
     }
-    for (size_t i = 0; i < plan->force_count; i++) {
-        const struct force_term *term = &plan->forces[i];
-        const struct model_body *body = &model->bodies[term->body];
-        struct pose pose = body_pose(body, at);
-        struct vec d = vec_unit(formula_value(&term->angle, at));
-        if (term->body_frame) d = vec_turn(pose.rotation, d);
-        struct vec f = vec_scale(formula_value(&term->value, at), d);
-        add_to_slots(body, &pose, point_motion(body, &pose, term->point), f, slots);
+    const struct force_term *force = plan->forces + terms->forces.first;
+    for (int i = 0; i < terms->forces.count; i++, force++) {
+        struct vec d = vec_unit(formula_value(&force->angle, at));
+        if (force->body_frame) d = vec_turn(pose->rotation, d);
+        struct vec f = vec_scale(formula_value(&force->value, at), d);
+        add_to_resultant(&sum, pose, point_motion(body, pose, force->point), f);
     }
+    return sum;
+}
+
+static void point_terms(const struct fbd_model *model, int b, const struct instant *at, struct vec turn,
+                        double *slots)
+{
+    const struct model_body *body = &model->bodies[b];
+    struct pose pose = body_pose_turned(body, at, turn);
+    struct resultant sum = sum_at_points(model, b, at, &pose);
+    double *own = slots + body->first;
+    switch (body->kind) {
+    case motion_slide:
+        own[0] += vec_dot(sum.f, body->e);
+        if (body->normal_slot >= 0) slots[body->normal_slot] += vec_dot(sum.f, body->n);
+        return;
+    case motion_pivot: own[0] += sum.moment; return;
+    case motion_planar: own[2] += sum.moment; break;
+    case motion_particle: break;
+    case motion_weld: return;
+    }
+    own[0] += sum.f.x;
+    own[1] += sum.f.y;
 }
 
 static void force_term_variation(const struct fbd_model *model, const struct force_term *term,
@@ -210,15 +255,25 @@ static void point_variations(const struct fbd_model *model, const struct instant
         force_term_variation(model, &plan->forces[i], at, along, slots);
 }
 
-/* ---- all of them; lists that a scene does not fill cost a comparison */
+/* ---- all of them; lists that a body does not fill cost a comparison */
+
+void body_forces(const struct fbd_model *model, int b, const struct instant *at, struct vec turn,
+                 double *slots)
+{
+    const struct body_terms *terms = &model->plan.bodies[b];
+    const struct model_body *body = &model->bodies[b];
+    for (int k = 0; k < body->count; k++) slots[body->first + k] = 0;
+    if (body->normal_slot >= 0) slots[body->normal_slot] = 0;
+    simple_terms(&model->plan, terms, at, turn, slots);
+    if (terms->formulas.count + terms->potentials.count > 0) formula_terms(&model->plan, terms, at, slots);
+    if (terms->at_points) point_terms(model, b, at, turn, slots);
+}
 
 void force_slots(const struct fbd_model *model, const struct instant *at, double *slots)
 {
-    const struct plan *plan = &model->plan;
-    memset(slots, 0, (size_t)plan->slots * sizeof *slots);
-    simple_terms(plan, at, slots);
-    if (plan->formula_count + plan->potential_count > 0) formula_terms(plan, at, slots);
-    if (plan->link_count + plan->drag_count + plan->force_count > 0) point_terms(model, at, slots);
+    memset(slots, 0, (size_t)model->plan.slots * sizeof *slots); /* jointed bodies have slots of their own */
+    for (int b = 0; b < (int)model->body_count; b++)
+        body_forces(model, b, at, body_turn(model, b, at), slots);
 }
 
 void force_slots_along(const struct fbd_model *model, const struct instant *at, const struct direction *along,

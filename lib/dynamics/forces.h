@@ -1,11 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The plan's terms summed into slots: everything that acts except dry friction.
+ * The plan's terms summed into slots, body by body: everything that acts except dry friction.
  */
 #ifndef FBD_DYNAMICS_FORCES_H
 #define FBD_DYNAMICS_FORCES_H
 
 #include "dynamics/kinematics.h"
+
+/* The slots of body `b` alone. `turn` is cosine and sine of its angle where its terms need both (see
+ * body_turn). */
+void body_forces(const struct fbd_model *model, int b, const struct instant *at, struct vec turn,
+                 double *slots);
+
+/* Cosine and sine of the angle of body `b` where they are needed, once for all its terms. */
+static inline struct vec body_turn(const struct fbd_model *model, int b, const struct instant *at)
+{
+    const struct model_body *body = &model->bodies[b];
+    return model->plan.bodies[b].turns ? vec_cos_sin(at->y[body->first + body->count - 1])
+                                       : (struct vec){1, 0};
+}
 
 /* slots[plan.slots]: generalized forces of the coordinates, then the sums of forces across slides. */
 void force_slots(const struct fbd_model *model, const struct instant *at, double *slots);

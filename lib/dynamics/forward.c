@@ -12,10 +12,10 @@
  *     a_G = F / m,   alpha = (M_O - r x F) / I_G,   a_O = a_G - alpha k x r + omega^2 r */
 
 static void offset_accelerations(const struct offset_body *body, const struct instant *at, int n,
-                                 const double *slots, double *a)
+                                 struct vec turn, const double *slots, double *a)
 {
     int i = body->first;
-    struct vec r = vec_turn(vec_unit(at->y[i + 2]), body->arm), F = {slots[i], slots[i + 1]};
+    struct vec r = vec_turn(vec_without_rounding(turn), body->arm), F = {slots[i], slots[i + 1]};
     double omega = at->y[n + i + 2], alpha = (slots[i + 2] - vec_cross(r, F)) / body->I_G;
     struct vec a_O = vec_add(vec_scale(1 / body->mass, F),
                              vec_sub(vec_scale(omega * omega, r), vec_scale(alpha, vec_perp(r))));
@@ -72,37 +72,41 @@ static void take_tree_variations(const struct tree *tree, const struct tree_work
 
 /* ---- the stages */
 
-static void add_kinetic_friction(const struct fbd_model *model, const struct instant *at, double *slots)
+static void add_kinetic_friction(const struct fbd_model *model, int pair, const struct instant *at,
+                                 double *slots)
 {
-    const struct plan *plan = &model->plan;
-    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        if (at->slip[pair] == stick || plan->frictions[pair].jointed) continue;
-        const struct friction *friction = &plan->frictions[pair];
-        double press =
-            friction->normal_slot < 0 ? 1 : fmax(0, -at->pull[pair] * slots[friction->normal_slot]);
-        slots[friction->coordinate] -= at->slip[pair] * formula_value(&friction->mu_k, at) * press;
-    }
+    const struct friction *friction = &model->plan.frictions[pair];
+    double press = friction->normal_slot < 0 ? 1 : fmax(0, -at->pull[pair] * slots[friction->normal_slot]);
+    slots[friction->coordinate] -= at->slip[pair] * formula_value(&friction->mu_k, at) * press;
 }
 
-static void hold_sticking(const struct fbd_model *model, const struct instant *at, double *a)
+void body_accelerations(const struct fbd_model *model, int b, const struct instant *at, double *slots,
+                        double *a)
 {
     const struct plan *plan = &model->plan;
-    for (int pair = 0; pair < (int)plan->friction_count; pair++)
-        if (at->slip[pair] == stick)
-            friction_surface_speed(&plan->frictions[pair], at, &a[plan->frictions[pair].coordinate]);
+    const struct body_terms *terms = &plan->bodies[b];
+    const struct model_body *body = &model->bodies[b];
+    struct vec turn = body_turn(model, b, at);
+    body_forces(model, b, at, turn, slots);
+    bool rubs = terms->friction >= 0 && body->place.link == 0;
+    bool slips = rubs && at->slip[terms->friction] != stick;
+    if (slips) add_kinetic_friction(model, terms->friction, at, slots);
+    for (int i = body->first; i < body->first + body->count; i++) a[i] = plan->inverse_inertia[i] * slots[i];
+    if (terms->offset >= 0) offset_accelerations(&plan->offsets[terms->offset], at, plan->n, turn, slots, a);
+    if (rubs && !slips) friction_surface_speed(&plan->frictions[terms->friction], at, &a[body->first]);
 }
 
 void accelerations(const struct fbd_model *model, const struct instant *given, double *slots, double *a)
 {
-    const struct plan *plan = &model->plan;
     const struct instant extended = instant_extend(model, given), *at = &extended;
-    force_slots(model, at, slots);
-    if (plan->friction_count > 0) add_kinetic_friction(model, at, slots);
-    for (int i = 0; i < plan->n; i++) a[i] = plan->inverse_inertia[i] * slots[i];
-    for (size_t i = 0; i < plan->offset_count; i++)
-        offset_accelerations(&plan->offsets[i], at, plan->n, slots, a);
-    if (model->tree) tree_accelerations(model, at, slots, a);
-    if (plan->friction_count > 0) hold_sticking(model, at, a);
+    for (int b = 0; b < (int)model->body_count; b++) body_accelerations(model, b, at, slots, a);
+    if (!model->tree) return;
+    tree_accelerations(model, at, slots, a);
+    for (int pair = 0; pair < (int)model->plan.friction_count; pair++) {
+        const struct friction *friction = &model->plan.frictions[pair];
+        if (friction->jointed && at->slip[pair] == stick)
+            friction_surface_speed(friction, at, &a[friction->coordinate]);
+    }
 }
 
 void accelerations_along(const struct fbd_model *model, const struct instant *given,
@@ -132,6 +136,17 @@ void accelerations_along(const struct fbd_model *model, const struct instant *gi
                              formula_branches(&friction->surface_speed, at), &d_a, &d_b, &jerk);
         a_along[friction->coordinate] = jerk * along->dt;
     }
+}
+
+void body_rates(const struct fbd_model *model, int b, const struct instant *at, double *slots, double *dydt)
+{
+    const struct plan *plan = &model->plan;
+    const struct model_body *body = &model->bodies[b];
+    for (int k = 0; k < body->count; k++) dydt[body->first + k] = at->y[body->first_rate + k];
+    body_accelerations(model, b, at, slots, dydt + plan->n);
+    double acceleration;
+    if (body->friction >= 0 && at->slip[body->friction] == stick)
+        dydt[body->first] = friction_surface_speed(&plan->frictions[body->friction], at, &acceleration);
 }
 
 void state_rates(const struct fbd_model *model, const struct instant *at, double *slots, double *dydt)

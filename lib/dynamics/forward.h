@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Forward dynamics: accelerations from the state, in stages with names: terms, friction, inertia.
+ * Forward dynamics: accelerations from the state, body by body, in stages with names: terms, friction,
+ * inertia.
  */
 #ifndef FBD_DYNAMICS_FORWARD_H
 #define FBD_DYNAMICS_FORWARD_H
@@ -19,6 +20,11 @@ void force_balance_along(const struct fbd_model *model, const struct instant *at
  * (a sticking coordinate's slot has none) and the sums across slides. */
 void accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a);
 
+/* The same for body `b` alone, which is not jointed: its entries of slots and a. The instant is extended
+ * already (absolute.h). */
+void body_accelerations(const struct fbd_model *model, int b, const struct instant *at, double *slots,
+                        double *a);
+
 /* The variation of the accelerations along a direction. `slots` and `slots_along` (plan.slots each) are
  * scratch. */
 void accelerations_along(const struct fbd_model *model, const struct instant *at,
@@ -26,6 +32,9 @@ void accelerations_along(const struct fbd_model *model, const struct instant *at
 
 /* dydt[2 n] for an integrator. A sticking coordinate moves with its surface. */
 void state_rates(const struct fbd_model *model, const struct instant *at, double *slots, double *dydt);
+
+/* The entries of body `b` alone, which is not jointed, in a model whose expressions name no places. */
+void body_rates(const struct fbd_model *model, int b, const struct instant *at, double *slots, double *dydt);
 
 /* The exact Jacobian: dfdy[2n x 2n] row by row and dfdt[2n]. `scratch` has 2 plan.slots + 3 n entries. */
 void state_jacobian(const struct fbd_model *model, const struct instant *at, double *scratch, double *dfdy,

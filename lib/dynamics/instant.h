@@ -8,6 +8,7 @@
 #ifndef FBD_DYNAMICS_INSTANT_H
 #define FBD_DYNAMICS_INSTANT_H
 
+#include "expr/parts.h"
 #include "model/model.h"
 
 struct tree_work;
@@ -39,6 +40,7 @@ static inline const int *formula_branches(const struct formula *formula, const s
 static inline double formula_value(const struct formula *formula, const struct instant *at)
 {
     if (!formula->expr) return formula->constant;
+    if (formula->expr->parts) return parts_run(formula->expr, at->t, at->y);
     return expr_eval(formula->expr, at->t, at->y, formula_branches(formula, at));
 }
 

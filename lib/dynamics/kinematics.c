@@ -30,29 +30,8 @@ double body_angle(const struct model_body *body, const struct instant *at)
 struct pose body_pose(const struct model_body *body, const struct instant *at)
 {
     if (body->place.link > 0) return pose_in_link(body, at);
-    const double *q = at->y + body->first, *v = at->y + body->first_rate;
-    switch (body->kind) {
-    case motion_slide:
-        return (struct pose){vec_add(body->origin, vec_scale(q[0], body->e)), body->e,
-                             vec_scale(v[0], body->e), 0};
-    case motion_pivot: return (struct pose){body->origin, vec_unit(q[0]), {0, 0}, v[0]};
-    case motion_particle: return (struct pose){{q[0], q[1]}, {1, 0}, {v[0], v[1]}, 0};
-    case motion_planar:
-    case motion_weld: break;
-    }
-    return (struct pose){{q[0], q[1]}, vec_unit(q[2]), {v[0], v[1]}, v[2]};
-}
-
-static struct vec arm_of(const struct model_body *body, const struct pose *pose, struct vec point)
-{
-    return vec_turn(pose->rotation, vec_sub(point, body->pin));
-}
-
-struct motion_of_point point_motion(const struct model_body *body, const struct pose *pose, struct vec point)
-{
-    struct vec arm = arm_of(body, pose, point);
-    return (struct motion_of_point){vec_add(pose->origin, arm),
-                                    vec_add(pose->velocity, vec_scale(pose->omega, vec_perp(arm)))};
+    int turn = body_angle_coordinate(body);
+    return body_pose_turned(body, at, turn >= 0 ? vec_cos_sin(at->y[turn]) : (struct vec){1, 0});
 }
 
 struct motion_of_point point_variation(const struct model_body *body, const struct pose *pose,
@@ -63,7 +42,7 @@ struct motion_of_point point_variation(const struct model_body *body, const stru
         return (struct motion_of_point){vec_scale(dq[0], body->e), vec_scale(dv[0], body->e)};
     if (body->kind == motion_particle) return (struct motion_of_point){{dq[0], dq[1]}, {dv[0], dv[1]}};
     /* d(R r) = dtheta k x R r; d(omega k x R r) = domega k x R r - omega dtheta R r */
-    struct vec arm = arm_of(body, pose, point), across = vec_perp(arm);
+    struct vec arm = point_arm(body, pose, point), across = vec_perp(arm);
     int turn = body->kind == motion_pivot ? 0 : 2;
     struct motion_of_point d = {vec_scale(dq[turn], across),
                                 vec_sub(vec_scale(dv[turn], across), vec_scale(pose->omega * dq[turn], arm))};

@@ -28,8 +28,36 @@ struct motion_of_point {
 
 struct pose body_pose(const struct model_body *body, const struct instant *at);
 
-struct motion_of_point point_motion(const struct model_body *body, const struct pose *pose, struct vec point);
+/* The same where cosine and sine of the body's angle are known already; what cannot turn ignores them. */
+static inline struct pose body_pose_turned(const struct model_body *body, const struct instant *at,
+                                           struct vec cos_sin)
+{
+    const double *q = at->y + body->first, *v = at->y + body->first_rate;
+    switch (body->kind) {
+    case motion_slide:
+        return (struct pose){vec_add(body->origin, vec_scale(q[0], body->e)), body->e,
+                             vec_scale(v[0], body->e), 0};
+    case motion_pivot: return (struct pose){body->origin, vec_without_rounding(cos_sin), {0, 0}, v[0]};
+    case motion_particle: return (struct pose){{q[0], q[1]}, {1, 0}, {v[0], v[1]}, 0};
+    case motion_planar:
+    case motion_weld: break;
+    }
+    return (struct pose){{q[0], q[1]}, vec_without_rounding(cos_sin), {v[0], v[1]}, v[2]};
+}
 
+/* From the frame's origin (or the axis) to a point of the body, in the world. */
+static inline struct vec point_arm(const struct model_body *body, const struct pose *pose, struct vec point)
+{
+    return vec_turn(pose->rotation, vec_sub(point, body->pin));
+}
+
+static inline struct motion_of_point point_motion(const struct model_body *body, const struct pose *pose,
+                                                  struct vec point)
+{
+    struct vec arm = point_arm(body, pose, point);
+    return (struct motion_of_point){vec_add(pose->origin, arm),
+                                    vec_add(pose->velocity, vec_scale(pose->omega, vec_perp(arm)))};
+}
 /* How position and velocity of the point vary along a direction. */
 struct motion_of_point point_variation(const struct model_body *body, const struct pose *pose,
                                        struct vec point, const struct direction *along);

@@ -1,16 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/laws.h"
 
-struct vec link_force(const struct link_law *law, struct motion_of_point at)
-{
-    struct vec d = vec_sub(at.p, law->anchor);
-    double length = vec_norm(d);
-    if (length == 0) return (struct vec){0, 0};
-    struct vec u = vec_scale(1 / length, d);
-    double tension = law->stiffness * (length - law->free_length) + law->damping * vec_dot(u, at.v);
-    return vec_scale(-tension, u);
-}
-
 /* du = (dp - u dl) / l,  dl = u . dp,  dl' = u . dv + v . du,  df = -(k dl + c dl') u - T du */
 struct vec link_variation(const struct link_law *law, struct motion_of_point at, struct motion_of_point d)
 {
@@ -24,11 +14,6 @@ struct vec link_variation(const struct link_law *law, struct motion_of_point at,
     double d_rate = vec_dot(u, d.v) + vec_dot(at.v, d_u);
     double d_tension = law->stiffness * d_length + law->damping * d_rate;
     return vec_sub(vec_scale(-d_tension, u), vec_scale(tension, d_u));
-}
-
-struct vec drag_force(const struct drag_law *law, struct vec v)
-{
-    return vec_scale(-(law->linear + law->quadratic * vec_norm(v)), v);
 }
 
 struct vec drag_variation(const struct drag_law *law, struct vec v, struct vec dv)

@@ -19,7 +19,16 @@ struct link_law {
     double stiffness, free_length, damping;
 };
 
-struct vec link_force(const struct link_law *law, struct motion_of_point at);
+static inline struct vec link_force(const struct link_law *law, struct motion_of_point at)
+{
+    struct vec d = vec_sub(at.p, law->anchor);
+    double length = vec_norm(d);
+    if (length == 0) return (struct vec){0, 0};
+    double tension = law->stiffness * (length - law->free_length);
+    if (law->damping != 0) tension += law->damping * (vec_dot(d, at.v) / length);
+    return vec_scale(-tension / length, d);
+}
+
 struct vec link_variation(const struct link_law *law, struct motion_of_point at, struct motion_of_point d);
 
 /* Drag against the velocity v of the point: f = -(c + k |v|) v. */
@@ -27,7 +36,11 @@ struct drag_law {
     double linear, quadratic;
 };
 
-struct vec drag_force(const struct drag_law *law, struct vec v);
+static inline struct vec drag_force(const struct drag_law *law, struct vec v)
+{
+    return vec_scale(-(law->linear + law->quadratic * vec_norm(v)), v);
+}
+
 struct vec drag_variation(const struct drag_law *law, struct vec v, struct vec dv);
 
 #endif

@@ -6,6 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "expr/parts.h"
+#include "expr/steps.h"
+
 /* While it is being read, a program names its registers by kind; their numbers are known at the end. */
 enum {
     of_variable = 0,
@@ -260,15 +263,29 @@ static void locate_all(const struct builder *b, const int *sorted, struct instr 
     }
 }
 
+/* Most values of a scene are numbers: a program of one constant, which it holds itself. */
+static struct expr *finish_constant(const struct builder *b, struct expr *expr, const struct operand *result)
+{
+    *expr = (struct expr){.constants = 1,
+                          .constant = &expr->single,
+                          .single = b->constants[0],
+                          .dim = result->kind.dim,
+                          .bare = result->kind.free};
+    return expr;
+}
+
 struct expr *build_finish(struct builder *b, struct arena *arena, const struct operand *result)
 {
     unsigned short root = name_register(b, result);
     struct expr *expr = ARENA_NEW(arena, struct expr);
+    if (b->scratch.failed || !expr) return NULL;
+    if (b->operations == 0 && b->slot_count == 0 && b->constant_count == 1)
+        return finish_constant(b, expr, result);
     struct instr *code = ARENA_ARRAY(arena, b->operations, struct instr);
     int *sorted = ARENA_ARRAY(arena, b->slot_count, int);
     double *constants = ARENA_ARRAY(arena, b->constant_count, double);
     struct expr_switch *switches = ARENA_ARRAY(arena, b->switch_count, struct expr_switch);
-    if (b->scratch.failed || !expr || !code || !sorted || !constants || !switches) return NULL;
+    if (!code || !sorted || !constants || !switches) return NULL;
     if (b->slot_count) {
         memcpy(sorted, b->slots, b->slot_count * sizeof *sorted);
         qsort(sorted, b->slot_count, sizeof *sorted, by_value);
@@ -289,7 +306,8 @@ struct expr *build_finish(struct builder *b, struct arena *arena, const struct o
                           .switch_at = switches,
                           .dim = result->kind.dim,
                           .bare = result->kind.free};
-    return expr;
+    bool made = parts_make(expr, &b->scratch, arena) && (expr->parts || steps_make(expr, &b->scratch, arena));
+    return made ? expr : NULL;
 }
 
 void build_free(struct builder *b)

@@ -2,10 +2,12 @@
 #include <math.h>
 
 #include "expr/frame.h"
+#include "expr/parts.h"
+#include "expr/steps.h"
 
-/* The operations of most force laws are done in place; the others go through op_value, whose call is small
- * against the function of the mathematical library that it calls in turn. */
-double expr_eval(const struct expr *expr, double t, const double *y, const int *branch)
+/* Programs with jumps. The operations of most force laws are done in place; the others go through op_value,
+ * whose call is small against the function of the mathematical library that it calls in turn. */
+static double run_on_frame(const struct expr *expr, double t, const double *y, const int *branch)
 {
     double value[frame_limit];
     frame_values(expr, t, y, value);
@@ -33,4 +35,10 @@ double expr_eval(const struct expr *expr, double t, const double *y, const int *
         }
     }
     return value[expr->result];
+}
+
+double expr_eval(const struct expr *expr, double t, const double *y, const int *branch)
+{
+    if (expr->parts) return parts_run(expr, t, y);
+    return expr->steps ? steps_run(expr, t, y, branch) : run_on_frame(expr, t, y, branch);
 }

@@ -87,14 +87,22 @@ struct expr_switch {
     bool time; /* depends on nothing but t */
 };
 
+struct step;
+struct expr_part;
+
 struct expr {
     const struct instr *code;
     size_t operations;
+    const struct expr_part *parts; /* for plain values: a sum of simple parts (parts.h), */
+    int part_count;
+    const struct step *steps; /* else steps (steps.h); NULL where the frame serves */
+    size_t step_count;
     bool uses_time;
     size_t variables; /* without t */
     const int *slots; /* of the variables, ascending */
     size_t constants;
     const double *constant;
+    double single; /* where `constant` points to when the program is one number */
     size_t result; /* its register */
     size_t switches;
     const struct expr_switch *switch_at;

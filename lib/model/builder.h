@@ -23,10 +23,17 @@ static inline bool formula_given(const struct formula *formula)
 {
     return formula->expr != NULL || formula->constant != 0;
 }
-static inline bool formula_is_constant(const struct formula *formula)
-{
-    return formula->expr == NULL;
-}
+
+/* What a formula changes with, seen from one body: a set of depends_... bits. */
+unsigned formula_depends(const struct model_body *body, const struct formula *formula);
+
+/* Put one load of a body into the plan's lists. */
+void plan_load(struct builder *builder, struct model_body *body, int index);
+
+/* Put all loads of a body into the lists and note which part of them is its own; when all bodies are in and
+ * the terms by slot are packed, finish. */
+void body_terms_add(struct builder *builder, int b);
+void body_terms_finish(struct builder *builder);
 
 /* Fill the plan from the bodies and loads of the model. False when memory is out. */
 bool plan_build(struct builder *builder);

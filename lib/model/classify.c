@@ -13,32 +13,10 @@ struct verdict {
     const char *why;
 };
 
-/* What a formula depends on, seen from one body. */
-struct dependence {
-    bool time, rate, other, place;
-};
-
-static void add_dependence(const struct model_body *body, const struct formula *formula,
-                           struct dependence *sum)
+static const char *why_not(unsigned on)
 {
-    if (formula_is_constant(formula)) return;
-    const int *slots;
-    size_t count = expr_variables(formula->expr, &slots);
-    sum->time |= expr_uses_time(formula->expr);
-    for (size_t i = 0; i < count; i++) {
-        int index = slots[i] - 1;
-        bool own = index >= body->first && index < body->first + body->count;
-        bool own_rate = index >= body->first_rate && index < body->first_rate + body->count;
-        sum->place |= own;
-        sum->rate |= own_rate;
-        sum->other |= !own && !own_rate;
-    }
-}
-
-static const char *why_not(const struct dependence *on)
-{
-    if (on->time) return "not conservative: it depends on time";
-    if (on->rate) return "not conservative: it depends on velocity";
+    if (on & depends_time) return "not conservative: it depends on time";
+    if (on & depends_rate) return "not conservative: it depends on velocity";
     return "not conservative: it depends on the motion of another body";
 }
 
@@ -55,15 +33,12 @@ static struct verdict judge_jointed(const struct model_body *body, const struct 
 
 static struct verdict judge_applied(const struct model_body *body, const struct model_load *load)
 {
-    struct dependence on = {0};
-    add_dependence(body, &load->value, &on);
-    add_dependence(body, &load->angle, &on);
-    add_dependence(body, &load->fx, &on);
-    add_dependence(body, &load->fy, &on);
+    unsigned on = formula_depends(body, &load->value) | formula_depends(body, &load->angle) |
+                  formula_depends(body, &load->fx) | formula_depends(body, &load->fy);
     bool moment = load->source->kind == moment_applied, jointed = body->place.link > 0;
     bool one_coordinate = body->kind == motion_slide || body->kind == motion_pivot;
-    if (on.time || on.rate || on.other) return (struct verdict){potential_none, why_not(&on)};
-    if (on.place)
+    if (on & ~(unsigned)depends_place) return (struct verdict){potential_none, why_not(on)};
+    if (on & depends_place)
         return one_coordinate && !(jointed && body->parent != ground_body)
                    ? (struct verdict){potential_quadrature,
                                       "conservative: it depends on the one coordinate alone; V by quadrature"}
@@ -99,9 +74,8 @@ static struct verdict judge(const struct model_body *body, const struct model_lo
                                 "not conservative: it opposes the motion, whichever way that goes"};
     case load_potential:
     case moment_potential: {
-        struct dependence on = {0};
-        add_dependence(body, &load->potential, &on);
-        if (on.time || on.other) return (struct verdict){potential_none, why_not(&on)};
+        unsigned on = formula_depends(body, &load->potential);
+        if (on & (depends_time | depends_other)) return (struct verdict){potential_none, why_not(on)};
         return (struct verdict){potential_given, "conservative: V is given"};
     }
     case load_applied:

@@ -6,6 +6,8 @@
  */
 #include "model/builder.h"
 
+#include <assert.h>
+
 /* The slots of a body are its coordinates and, on some slides, the sum of forces across the line. */
 static void add_constant(struct builder *builder, int slot, double value)
 {
@@ -153,6 +155,16 @@ static void add_link(struct builder *builder, const struct model_body *body, con
     }
 }
 
+static void add_square(struct plan *plan, int slot, double k)
+{
+    assert(plan->square); /* there is room for every load */
+    size_t count = plan->square_count;
+    if (count > 0 && plan->square[count - 1].slot == slot)
+        plan->square[count - 1].k += k;
+    else
+        plan->square[plan->square_count++] = (struct square_term){slot, slot, k};
+}
+
 static void add_drag(struct builder *builder, const struct model_body *body, const struct model_load *load)
 {
     struct plan *plan = &builder->model->plan;
@@ -164,9 +176,7 @@ static void add_drag(struct builder *builder, const struct model_body *body, con
         /* At distance r from the axis: v = r omega, M = -r (c + k |v|) v. */
         double reach = body->kind == motion_pivot ? r : 1;
         add_rates(builder, i, 0, linear * reach * reach);
-        if (quadratic != 0)
-            plan->square[plan->square_count++] =
-                (struct square_term){i, i, quadratic * reach * reach * reach};
+        if (quadratic != 0) add_square(plan, i, quadratic * reach * reach * reach);
     } else if (quadratic == 0 && (body->kind == motion_particle || r == 0)) {
         add_rates(builder, i, 0, linear);
         add_rates(builder, i + 1, 0, linear);
@@ -180,6 +190,19 @@ static void add_drag(struct builder *builder, const struct model_body *body, con
 static int angle_coordinate(const struct model_body *body)
 {
     return body->first + body->count - 1;
+}
+
+static void add_moment_spring(struct builder *builder, const struct model_body *body,
+                              const struct load *source)
+{
+    add_rates(builder, angle_coordinate(body), source->stiffness, 0);
+    add_constant(builder, angle_coordinate(body), source->stiffness * source->free_length);
+}
+
+static void add_moment_damper(struct builder *builder, const struct model_body *body,
+                              const struct load *source)
+{
+    add_rates(builder, angle_coordinate(body), 0, source->coefficient);
 }
 
 static void add_potential(struct builder *builder, const struct model_body *body,
@@ -250,11 +273,8 @@ static void add_load(struct builder *builder, struct model_body *body, int index
     case load_potential:
     case moment_potential: add_potential(builder, body, load); break;
     case moment_applied: add_formula(builder, angle_coordinate(body), 1, &load->value); break;
-    case moment_spring:
-        add_rates(builder, angle_coordinate(body), source->stiffness, 0);
-        add_constant(builder, angle_coordinate(body), source->stiffness * source->free_length);
-        break;
-    case moment_damper: add_rates(builder, angle_coordinate(body), 0, source->coefficient); break;
+    case moment_spring: add_moment_spring(builder, body, source); break;
+    case moment_damper: add_moment_damper(builder, body, source); break;
     case load_normal: break; /* the contact below, and the friction that needs it */
     case load_friction:
     case moment_friction: add_friction(builder, body, index); break;
@@ -272,6 +292,14 @@ static void add_jointed_load(struct builder *builder, struct model_body *body, i
     case moment_friction: add_friction(builder, body, index); break;
     default: tree_add_load(builder, index);
     }
+}
+
+void plan_load(struct builder *builder, struct model_body *body, int index)
+{
+    if (body->place.link > 0)
+        add_jointed_load(builder, body, index);
+    else
+        add_load(builder, body, index);
 }
 
 /* A slide keeps the sum of forces across its line when the normal force is watched or friction needs it. */
@@ -315,6 +343,7 @@ static bool allocate(struct builder *builder)
     plan->frictions = ARENA_ARRAY(arena, loads, struct friction);
     plan->contacts = ARENA_ARRAY(arena, model->body_count, struct contact);
     plan->offsets = ARENA_ARRAY(arena, model->body_count, struct offset_body);
+    plan->bodies = ARENA_ARRAY(arena, model->body_count, struct body_terms);
     plan->slot_constant = ARENA_ARRAY(arena, most_slots, bool);
     struct tree *tree = model->tree;
     if (tree) {
@@ -378,20 +407,13 @@ bool plan_build(struct builder *builder)
     if (!allocate(builder)) return false;
     plan_normals(model);
     plan_inertias(model);
-    for (size_t b = 0; b < model->body_count; b++) {
-        struct model_body *body = &model->bodies[b];
-        bool jointed = body->place.link > 0;
-        for (int i = body->first_load; i < body->first_load + body->load_count; i++)
-            if (jointed)
-                add_jointed_load(builder, body, i);
-            else
-                add_load(builder, body, i);
-    }
+    for (size_t b = 0; b < model->body_count; b++) body_terms_add(builder, (int)b);
     for (size_t i = model->listed_count; i < model->load_count; i++) tree_add_load(builder, (int)i);
     pack(builder);
     for (size_t b = 0; b < model->body_count; b++)
         if (model->bodies[b].place.link > 0) mark_body_slots(model, (int)b);
     if (model->tree) tree_finish(model);
+    body_terms_finish(builder);
     for (size_t i = 0; i < plan->link_count; i++) mark_body_slots(model, plan->links[i].body);
     for (size_t i = 0; i < plan->drag_count; i++) mark_body_slots(model, plan->drags[i].body);
     for (size_t i = 0; i < plan->force_count; i++) mark_body_slots(model, plan->forces[i].body);

@@ -26,6 +26,11 @@ struct formula {
     int branch; /* of its first switch in the state's branches */
 };
 
+static inline bool formula_is_constant(const struct formula *formula)
+{
+    return formula->expr == NULL;
+}
+
 /* slot += c0 - kq q - kv v */
 struct affine_term {
     int slot, coordinate;
@@ -38,7 +43,7 @@ struct sine_term {
     double s, c;
 };
 
-/* slot -= k |v| v */
+/* slot -= k |v| v, at most one for each slot */
 struct square_term {
     int slot, coordinate;
     double k;
@@ -124,6 +129,30 @@ struct watch {
     struct formula left, right;
 };
 
+/* What a sum of forces may change with. */
+enum {
+    depends_time = 1,
+    depends_place = 2, /* coordinates of the body itself */
+    depends_rate = 4,  /* rates of the body itself */
+    depends_other = 8  /* coordinates or rates of other bodies */
+};
+
+/* A part of a list: `count` entries from `first` on. */
+struct range {
+    int first, count;
+};
+
+/* The terms of one body: its part of every list. The lists are in the order of the bodies. */
+struct body_terms {
+    struct range affine, sine, square, formulas, potentials, links, drags, forces;
+    struct range across; /* the affine term of its normal slot: constants */
+    int friction;        /* index into frictions, or -1 */
+    int offset;          /* index into offsets, or -1 */
+    bool at_points;      /* it has links, drags or forces: its pose is needed */
+    bool turns;          /* cosine and sine of its angle are both needed */
+    unsigned depends;    /* what the forces on it, friction included, change with */
+};
+
 struct plan {
     int n;                   /* coordinates */
     int slots;               /* n + normal slots */
@@ -139,6 +168,7 @@ struct plan {
     struct link_term *links;
     struct drag_term *drags;
     struct force_term *forces;
+    struct body_terms *bodies; /* by body */
 
     size_t friction_count, contact_count, kink_count, pole_count, offset_count, watch_count;
     struct friction *frictions;

@@ -1,12 +1,32 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What a scene simulates and what it does not: the plan in words.
+ * What a scene simulates and what it does not.
  */
-#include <stdlib.h>
+#include "output/explain.h"
 
-#include "base/text.h"
-#include "model/model.h"
+#include <stdlib.h>
+#include <string.h>
+
+#include "dynamics/modes.h"
 #include "solve/method.h"
+
+enum { most_names = 4, most_bodies = 20 };
+
+/* Names after one another, with a count of those that are too many: begin with *shown = 0. `load` may be
+ * NULL. */
+static void write_name(struct text *text, size_t *shown, const char *body, const char *load)
+{
+    if ((*shown)++ >= most_names) return;
+    text_printf(text, "%s%s%s%s", *shown > 1 ? ", " : "", body, load ? "." : "", load ? load : "");
+}
+
+static void end_names(struct text *text, size_t shown)
+{
+    if (shown > most_names) text_printf(text, " and %zu more", shown - most_names);
+    text_add(text, "\n");
+}
+
+/* ---- coordinates */
 
 static const char *motion_words(enum motion_kind kind)
 {
@@ -23,7 +43,7 @@ static const char *motion_words(enum motion_kind kind)
 static void write_coordinates(struct text *text, const struct fbd_model *model)
 {
     text_printf(text, "Coordinates (%d)\n", model->plan.n);
-    for (size_t b = 0; b < model->body_count; b++) {
+    for (size_t b = 0; b < model->body_count && b < most_bodies; b++) {
         const struct model_body *body = &model->bodies[b];
         text_printf(text, "  %s %s", body->name, motion_words(body->kind));
         if (body->parent >= 0 && body->kind != motion_weld)
@@ -35,120 +55,167 @@ static void write_coordinates(struct text *text, const struct fbd_model *model)
                         model->labels[body->first + k].unit);
         text_add(text, "\n");
     }
+    if (model->body_count > most_bodies)
+        text_printf(text, "  and those of %zu more bodies\n", model->body_count - most_bodies);
 }
 
-static void write_loads(struct text *text, const struct fbd_model *model)
+/* ---- effects that are simulated: loads of one kind and one reason together */
+
+static const char *effect_name(enum load_kind kind)
 {
-    text_add(text, "\nForces and moments simulated\n");
-    if (model->load_count == 0) text_add(text, "  none: every body keeps its velocity\n");
+    switch (kind) {
+    case load_gravity: return "gravity";
+    case load_normal: return "normal force";
+    case load_friction: return "dry friction";
+    case load_applied: return "applied force";
+    case load_spring: return "spring";
+    case load_damper: return "damper";
+    case load_drag: return "drag";
+    case load_potential: return "potential";
+    case moment_applied: return "applied moment";
+    case moment_spring: return "spring (moment)";
+    case moment_damper: return "damper (moment)";
+    case moment_friction: return "bearing friction";
+    case moment_potential: return "potential (moment)";
+    }
+    return "";
+}
+
+static bool same_effect(const struct model_load *a, const struct model_load *b)
+{
+    return a->source->kind == b->source->kind && strcmp(a->why, b->why) == 0;
+}
+
+static void write_effect(struct text *text, const struct fbd_model *model, const struct model_load *first)
+{
+    size_t count = 0, shown = 0;
+    for (size_t i = 0; i < model->load_count; i++) count += same_effect(first, &model->loads[i]);
+    text_printf(text, "  %s (%zu)", effect_name(first->source->kind), count);
+    text_pad(text, 28);
+    text_printf(text, "%s\n      ", first->why);
     for (size_t i = 0; i < model->load_count; i++) {
         const struct model_load *load = &model->loads[i];
-        text_printf(text, "  %s.%s", model->bodies[load->body].name, load->source->name);
-        text_pad(text, 28);
-        text_printf(text, "%s\n", load->why);
+        if (same_effect(first, load))
+            write_name(text, &shown, model->bodies[load->body].name, load->source->name);
+    }
+    end_names(text, shown);
+}
+
+static void write_effects(struct text *text, const struct fbd_model *model)
+{
+    enum { most_effects = 64 }; /* kinds times reasons: there are fewer */
+    const struct model_load *seen[most_effects];
+    size_t count = 0;
+    text_printf(text, "\nEffects simulated (%zu)\n", model->load_count);
+    if (model->load_count == 0) text_add(text, "  none: every body keeps its velocity\n");
+    for (size_t i = 0; i < model->load_count; i++) {
+        size_t k = 0;
+        while (k < count && !same_effect(seen[k], &model->loads[i])) k++;
+        if (k < count || count == most_effects) continue;
+        seen[count++] = &model->loads[i];
+        write_effect(text, model, seen[k]);
     }
 }
 
-/* ---- what is not simulated, and what would have to be listed */
+/* ---- effects that are not, and what would have to be listed */
 
 struct absent {
     enum load_kind kind;
     bool on[motion_kinds_count]; /* by enum motion_kind: where it could act */
+    bool anybody; /* said only when no body at all lists it: it is nothing that a body might be missing */
     const char *words;
 };
 
+static const struct absent absents[] = {
+    {load_gravity, {true, true, true, true}, false, "weight: list `gravity`"},
+    {load_normal, {true, false, false, false}, false, "normal force and loss of contact: list `normal`"},
+    {load_friction,
+     {true, false, false, false},
+     false,
+     "dry friction: list `friction: {static: ..., kinetic: ...}` beside `normal`"},
+    {moment_friction,
+     {false, true, false, false},
+     false,
+     "friction in the bearing: list `friction: {static: ..., kinetic: ...}` under `moments`"},
+    {load_drag, {true, true, true, true}, false, "drag: list `drag: {linear: ..., quadratic: ...}`"},
+    {moment_damper,
+     {false, true, false, true},
+     true,
+     "damping of the rotation: list `damper: {coefficient: ...}` under `moments`"},
+    {load_spring, {true, true, true, true}, true, "springs: list `spring: {stiffness: ...}`"},
+    {load_damper, {true, true, true, true}, true, "dampers: list `damper: {coefficient: ...}`"},
+    {load_applied,
+     {true, true, true, true},
+     true,
+     "forces of your own: list `applied: {name: ..., value: ...}`"},
+};
+
+static bool lists(const struct fbd_model *model, const struct model_body *body, enum load_kind kind)
+{
+    for (int i = 0; i < body->load_count; i++)
+        if (model->loads[body->first_load + i].source->kind == kind) return true;
+    return false;
+}
+
 static void write_absent(struct text *text, const struct fbd_model *model)
 {
-    static const struct absent kinds[] = {
-        {load_gravity, {true, true, true, true}, "weight: list `gravity`"},
-        {load_normal, {true, false, false, false}, "the normal force and loss of contact: list `normal`"},
-        {load_friction,
-         {true, false, false, false},
-         "dry friction: list `friction: {static: ..., kinetic: ...}`"},
-        {moment_friction, {false, true, false, false}, "friction in the bearing: list it under `moments`"},
-        {load_drag, {true, true, true, true}, "drag: list `drag: {linear: ..., quadratic: ...}`"},
-    };
-    text_add(text, "\nNot simulated, because not listed\n");
-    for (size_t b = 0; b < model->body_count; b++) {
-        const struct model_body *body = &model->bodies[b];
-        for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
-            bool listed = !kinds[k].on[body->kind];
-            for (int i = 0; i < body->load_count; i++)
-                listed |= model->loads[body->first_load + i].source->kind == kinds[k].kind;
-            if (!listed) text_printf(text, "  %s: %s\n", body->name, kinds[k].words);
+    text_add(text, "\nEffects not simulated, because they are not listed\n");
+    for (size_t k = 0; k < sizeof absents / sizeof *absents; k++) {
+        const struct absent *absent = &absents[k];
+        size_t could = 0, without = 0, shown = 0;
+        for (size_t b = 0; b < model->body_count; b++) {
+            if (!absent->on[model->bodies[b].kind]) continue;
+            could++;
+            without += !lists(model, &model->bodies[b], absent->kind);
         }
+        if (without == 0 || (absent->anybody && without < could)) continue;
+        text_printf(text, "  %s\n      on ", absent->words);
+        for (size_t b = 0; b < model->body_count; b++)
+            if (absent->on[model->bodies[b].kind] && !lists(model, &model->bodies[b], absent->kind))
+                write_name(text, &shown, model->bodies[b].name, NULL);
+        end_names(text, shown);
     }
 }
 
-static void write_list(struct text *text, size_t count, const char *words)
-{
-    if (count > 0) text_printf(text, "  %3zu  %s\n", count, words);
-}
+/* ---- the method */
 
-/* A normal force that is constant is looked at once, at the start. */
-static size_t watched_contacts(const struct plan *plan)
+static void write_method(struct text *text, const struct fbd_model *model, const fbd_options *options)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < plan->contact_count; i++) count += !plan->slot_constant[plan->contacts[i].slot];
-    return count;
-}
-
-static void write_tree(struct text *text, const struct tree *tree)
-{
-    write_list(text, (size_t)tree->count - 1,
-               "link of jointed bodies, by the articulated-body recursion (constant forces in it)");
-    write_list(text, tree->following_count, "constant force or moment that turns with its link");
-    write_list(text, tree->force_count, "force of a formula at a point of a link");
-    write_list(text, tree->moment_count, "moment of a formula on a link");
-    write_list(text, tree->spring_count, "spring or damper between two points of links or the ground");
-    write_list(text, tree->drag_count, "drag at a point of a link");
-    write_list(text, (size_t)tree->pair_count, "friction that goes with the normal force between two links");
-}
-
-static void write_plan(struct text *text, const struct fbd_model *model)
-{
-    const struct plan *plan = &model->plan;
-    text_add(text, "\nTerms of the right-hand side\n");
-    write_list(text, plan->affine_count,
-               "affine: c0 - k q - c v (constants, springs along the motion and viscous dampers in one)");
-    write_list(text, plan->sine_count, "sine: s sin q + c cos q (constant forces on a turning body)");
-    write_list(text, plan->square_count, "quadratic drag: k |v| v");
-    write_list(text, plan->formula_count, "formula in a fixed direction");
-    write_list(text, plan->potential_count, "slope of a potential");
-    write_list(text, plan->link_count, "spring or damper between two points");
-    write_list(text, plan->drag_count, "drag in the plane");
-    write_list(text, plan->force_count, "formula whose direction changes");
-    write_list(text, plan->friction_count, "dry friction, as modes stick and slip");
-    if (model->tree) write_tree(text, model->tree);
-    write_list(text, plan->offset_count, "body whose frame is not at its centre of mass");
-    text_add(text, "\nEvents watched\n");
-    size_t switches = 0;
-    for (size_t i = 0; i < plan->kink_count; i++) switches += plan->kinks[i].count;
-    if (plan->friction_count + watched_contacts(plan) + switches + plan->watch_count == 0)
-        text_add(text, "  none\n");
-    write_list(text, plan->friction_count, "friction: stopping, sticking, breaking away");
-    write_list(text, watched_contacts(plan), "normal force that must not become a pull");
-    write_list(text, switches, "switch in an expression (abs, step, if, ...)");
-    write_list(text, plan->watch_count, "event of the file");
+    const char *name = options->method ? options->method : model->scene->simulate.method;
+    const struct method *method = name ? method_find(name) : NULL;
+    if (method) {
+        text_printf(text, "\nMethod: %s (%s)\n  as asked for by %s\n", method->name, method->description,
+                    options->method ? "--method" : "the file");
+        return;
+    }
+    const struct method *stiff = method_find("rodas5p");
+    text_printf(text, "\nMethod: auto, because no other is asked for\n  %s (%s)\n", method_at(0)->name,
+                method_at(0)->description);
+    if (2 * model->plan.n <= method_most_stiff_states)
+        text_printf(text,
+                    "  %s (%s)\n    where a trial step shows that it could go on by much longer steps\n",
+                    stiff->name, stiff->description);
+    else
+        text_printf(text, "  always: beyond %d states the algebra of %s costs more than it could save\n",
+                    method_most_stiff_states, stiff->name);
 }
 
 char *fbd_explain(const fbd_model *model, const fbd_options *options)
 {
     struct text text = {0};
-    write_coordinates(&text, model);
-    write_loads(&text, model);
-    write_absent(&text, model);
-    write_plan(&text, model);
-    const char *name = options->method ? options->method : model->scene->simulate.method;
-    const struct method *method = name ? method_find(name) : NULL;
-    if (method)
-        text_printf(&text, "\nMethod: %s (%s), as asked for\n", method->name, method->description);
-    else
-        text_printf(
-            &text,
-            "\nMethod: auto, the default: %s (%s);\n  where the motion turns out stiff, %s (%s), and back\n",
-            method_at(0)->name, method_at(0)->description, method_find("rodas5p")->name,
-            method_find("rodas5p")->description);
+    struct fbd_state *state = state_new(model);
+    if (!state) return NULL;
+    modes_settle(state, NULL); /* where that fails, the run will say so */
+    struct rates *rates = rates_new(state, rates_by_rows);
+    if (rates) {
+        write_coordinates(&text, model);
+        write_effects(&text, model);
+        write_absent(&text, model);
+        explain_plan(&text, model, rates);
+        write_method(&text, model, options);
+    }
+    rates_free(rates);
+    state_free(state);
     if (text.failed) text_free(&text);
     return text.data;
 }

@@ -12,7 +12,7 @@ static double kinetic(const struct fbd_model *model, const struct instant *at)
     return sum;
 }
 
-bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fbd_state *start)
+bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fbd_state *start, bool works)
 {
     size_t loads = model->load_count;
     *ledger = (struct ledger){.model = model};
@@ -31,7 +31,8 @@ bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fb
     for (size_t i = 0; i < loads; i++) {
         const struct model_load *load = &model->loads[i];
         ledger->integrated[i] = load->potential_kind == potential_none;
-        ledger->any |= ledger->integrated[i];
+        ledger->any |= works && ledger->integrated[i];
+        if (!works && ledger->integrated[i]) ledger->work[i] = NAN;
         ledger->initial_potential[i] = potential_energy(model, load, &at, ledger->scratch);
         ledger->initial_sum += ledger->initial_potential[i];
     }

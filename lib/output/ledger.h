@@ -19,7 +19,7 @@
 struct ledger {
     const struct fbd_model *model;
     bool *integrated;          /* per load: its work is integrated */
-    bool any;                  /* one of them is */
+    bool any;                  /* one of them is, and it was asked for */
     double *work;              /* per load, integrated, up to the end of the last step */
     double *initial_potential; /* per load */
     double initial_kinetic, initial_sum;
@@ -28,8 +28,9 @@ struct ledger {
     double *scratch; /* 2 n */
 };
 
-/* Start at a state. False when memory is out. */
-bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fbd_state *start);
+/* Start at a state. Without `works` nothing is integrated, and what would need it is NAN. False when memory
+ * is out. */
+bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fbd_state *start, bool works);
 void ledger_free(struct ledger *ledger);
 
 /* Add the integral of power over [from, to] of the run's last step to work[load_count]. */

@@ -119,9 +119,14 @@ static void write_force(struct text *text, struct ledger *ledger, const struct f
         text_add(text, "\n");
         return;
     }
+    double work = ledger_work(ledger, state, (size_t)arrow->load, ledger->work);
     text_pad(text, 60);
     text_add(text, "work ");
-    text_number(text, ledger_work(ledger, state, (size_t)arrow->load, ledger->work), digits);
+    if (isnan(work)) {
+        text_add(text, "not integrated\n");
+        return;
+    }
+    text_number(text, work, digits);
     text_printf(text, " %s\n", energy_unit(model));
 }
 
@@ -158,6 +163,7 @@ static void write_energy(struct text *text, fbd_result *result)
     text_add(text, "\nEnergy                start             end\n");
     energy_row(text, "kinetic", energy.initial_kinetic, energy.kinetic, unit);
     energy_row(text, "potential", energy.initial_potential, energy.potential, unit);
+    if (isnan(energy.work)) return; /* only the motion was wanted */
     energy_row(text, "work of the others", 0, energy.work, unit);
     text_printf(text,
                 "  residual %.2e %s: change of kinetic + potential, less that work (0 for the true motion)\n",

@@ -15,7 +15,7 @@
 
 enum {
     node_most_depth = 64,
-    node_most_nodes = 2000000,  /* written in the file */
+    node_most_nodes = 10000000, /* written in the file */
     node_most_aliased = 100000, /* added by aliases */
     node_most_anchors = 1000,
     node_longest_key = 128, /* bytes */
@@ -28,25 +28,29 @@ struct node {
         node_list,
         node_map,
     } kind;
+    int height; /* levels in it: 1 for a scalar */
     struct pos at;
-    size_t size; /* nodes in it, itself included, aliases expanded */
-    int height;  /* levels in it: 1 for a scalar */
+    size_t size;  /* nodes in it, itself included, aliases expanded */
+    size_t count; /* of items or pairs; 0 for a scalar */
 
-    /* scalar */
-    bool quoted;        /* written in quotes or as a block: text, whatever it looks like */
-    bool many_lines;    /* `text` was put together from several lines */
-    const char *text;   /* terminated, holds no zero byte */
-    size_t length;      /* bytes */
-    struct pos text_at; /* where text[0] stands: after the quote, or in the block */
-    const char *origin; /* many_lines: text[0] in the file, which reaches to ... */
-    const char *end;    /* ... here */
+    /* scalar; nothing for a collection */
+    const char *text; /* terminated, holds no zero byte */
+    size_t length;    /* bytes */
+    bool quoted;      /* written in quotes or as a block: text, whatever it looks like */
+    bool many_lines;  /* `text` was put together from several lines */
 
-    /* list */
-    const struct node *const *items;
-    /* mapping: pairs in file order, and the same sorted by key */
-    struct pair *pairs;
-    struct pair **sorted;
-    size_t count; /* of items or pairs */
+    union { /* a large file has many nodes, and none needs both */
+        struct {
+            struct pos text_at; /* scalar: where text[0] stands: after the quote, or in the block */
+            const char *origin; /* many_lines: text[0] in the file, which reaches to ... */
+            const char *end;    /* ... here */
+        };
+        struct {
+            const struct node *const *items; /* list */
+            struct pair *pairs;              /* mapping: pairs in file order, and ... */
+            struct pair **sorted;            /* ... the same sorted by key */
+        };
+    };
 };
 
 struct pair {

@@ -18,6 +18,7 @@ struct builder {
     struct arena *arena;
     fbd_errors *errors;
     size_t nodes, aliased;
+    struct node *spare; /* of a key that has been read: the next node takes its room */
 
     /* Children of the collections that are open; each takes its own from the end when it closes. */
     struct pair *pending;
@@ -64,7 +65,8 @@ static struct node *new_node(struct builder *builder, enum node_kind kind, struc
                  "the file has more than %d values: this is no model", node_most_nodes);
         return NULL;
     }
-    struct node *node = ARENA_NEW(builder->arena, struct node);
+    struct node *node = builder->spare ? builder->spare : ARENA_NEW(builder->arena, struct node);
+    builder->spare = NULL;
     if (!node) {
         out_of_memory(builder);
         return NULL;
@@ -307,16 +309,31 @@ static bool check_key(struct builder *builder, const struct node *key)
     return true;
 }
 
+/* Of a key only its text and place are kept. */
+static bool read_key(struct builder *builder, const yaml_event_t *event, int depth, struct node *key)
+{
+    if (event->type != YAML_SCALAR_EVENT || event->data.scalar.anchor || event->data.scalar.tag) {
+        const struct node *node = read_node(builder, event, depth + 1);
+        if (node) *key = *node;
+        return node != NULL;
+    }
+    struct node *node = read_scalar(builder, event);
+    if (!node) return false;
+    *key = *node;
+    builder->spare = node;
+    return true;
+}
+
 static bool read_pair(struct builder *builder, struct node *map, const yaml_event_t *event, int depth)
 {
-    const struct node *key = read_node(builder, event, depth + 1);
+    struct node key;
     yaml_event_t next;
-    if (!key || !next_event(builder, &next)) return false;
+    if (!read_key(builder, event, depth, &key) || !next_event(builder, &next)) return false;
     const struct node *value = read_node(builder, &next, depth + 1);
     yaml_event_delete(&next);
     if (!value) return false;
     count_child(map, value);
-    return !check_key(builder, key) || push(builder, (struct pair){key->text, key->at, value});
+    return !check_key(builder, &key) || push(builder, (struct pair){key.text, key.at, value});
 }
 
 static bool read_pairs(struct builder *builder, struct node *map, int depth)

@@ -9,6 +9,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/* Beyond so many states the dense algebra of the stiff method costs more than it could save. */
+enum { method_most_stiff_states = 200 };
+
 struct method {
     const char *name;
     const char *description; /* one line without a full stop */

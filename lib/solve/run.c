@@ -8,22 +8,19 @@
 
 /* ---- the system that the stepper sees */
 
-static int rates(double t, const double y[], double dydt[], void *context)
+static int jacobian(double t, const double y[], double *dfdy, double dfdt[], void *params)
 {
-    struct run *run = context;
-    struct fbd_state *during = run->during;
+    struct fbd_state *during = rates_state(params);
     struct instant at = {t, y, during->branch, during->slip, during->pull, during->tree, during->extended};
-    state_rates(run->model, &at, during->slots, dydt);
+    state_jacobian(during->model, &at, during->scratch, dfdy, dfdt);
     return GSL_SUCCESS;
 }
 
-static int jacobian(double t, const double y[], double *dfdy, double dfdt[], void *context)
+/* The right-hand side in the modes of the step that follows. */
+static void bind_rates(struct run *run)
 {
-    struct run *run = context;
-    struct fbd_state *during = run->during;
-    struct instant at = {t, y, during->branch, during->slip, during->pull, during->tree, during->extended};
-    state_jacobian(run->model, &at, during->scratch, dfdy, dfdt);
-    return GSL_SUCCESS;
+    rates_bind(run->rates);
+    run->system.inner.function = rates_call(run->rates, &run->system.inner.params);
 }
 
 static int sample_timed(void *context, double t, double *values, double *rate)
@@ -61,9 +58,7 @@ static bool make_stepper(struct run *run)
                                       .layout = {.pairs = n, .angle = angle},
                                       .tolerance = run->options.tolerance,
                                       .h_fixed = run->options.step};
-    /* Beyond some hundred states the dense algebra of the stiff method costs more than it could save. */
-    enum { most_states = 200 };
-    bool automatic = run->options.automatic && 2 * n <= most_states;
+    bool automatic = run->options.automatic && 2 * n <= method_most_stiff_states;
     run->stepper = switcher_alloc(&options, automatic ? method_find("rodas5p") : NULL);
     free(angle);
     return run->stepper != NULL;
@@ -105,7 +100,10 @@ static bool make_run(struct run *run)
     run->anchor = calloc(4 * n + 1, sizeof *run->anchor);
     run->arrows = calloc(diagram_most_arrows(run->model), sizeof *run->arrows);
     if (!run->values || !run->anchor || !run->arrows) return false;
-    gsl_odeiv2_system system = {rates, jacobian, 2 * n, run};
+    run->rates = rates_new(run->during, rates_by_rows);
+    if (!run->rates) return false;
+    gsl_odeiv2_system system = {.jacobian = jacobian, .dimension = 2 * n};
+    system.function = rates_call(run->rates, &system.params);
     counted_system_init(&run->system, &system);
     return make_decided(&run->decided, plan) && make_stepper(run);
 }
@@ -151,6 +149,7 @@ void run_free(struct run *run)
     poles_free(&run->poles);
     state_free(run->state);
     state_free(run->during);
+    rates_free(run->rates);
     free(run->decided.branches);
     free(run->events);
     free(run->y);
@@ -167,6 +166,7 @@ static bool restart(struct run *run)
 {
     memcpy(run->y, run->state->y, 2 * (size_t)run->model->plan.n * sizeof *run->y);
     run_set_noise(run);
+    bind_rates(run);
     int status = switcher_reset(run->stepper, &run->system, run->state->t, run->y, run->f, run->options.until,
                                 &run->h);
     if (status != GSL_SUCCESS) {

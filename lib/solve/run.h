@@ -12,6 +12,7 @@
 
 #include "dynamics/diagram.h"
 #include "dynamics/modes.h"
+#include "dynamics/rates.h"
 #include "solve/poles.h"
 #include "solve/scan.h"
 #include "solve/switcher.h"
@@ -53,6 +54,7 @@ struct run {
     struct poles poles;
     struct switcher *stepper;
     struct counted_system system;
+    struct rates *rates;    /* in the modes of `during` */
     double *y, *f, *sample; /* 2 n each */
     double *values;         /* moving event functions and their rates */
     struct decided decided;

@@ -12,6 +12,7 @@
 
 #include "gallery.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* Two runs that differ in rounding alone: 1e-16 in a force, times the few hundred operations and steps
@@ -277,6 +278,33 @@ static void recording_changes_no_bit(void **unused)
     trial_close(&told);
 }
 
+static void without_works_the_motion_has_the_same_bits(void **unused)
+{
+    (void)unused;
+    struct trial whole = trial_open("forcing/square_wave_with_friction.yaml", NULL);
+    trial_run(&whole, NULL);
+    struct trial bare = trial_open("forcing/square_wave_with_friction.yaml", NULL);
+    trial_start(&bare, NULL);
+    const fbd_recording motion = {.motion_only = true};
+    bare.result = fbd_simulation_run(bare.simulation, &motion);
+    assert_non_null(bare.result);
+    double x, y;
+    assert_true(fbd_state_get(fbd_result_state(whole.result), "block.x", &x));
+    assert_true(fbd_state_get(fbd_result_state(bare.result), "block.x", &y));
+    assert_memory_equal(&x, &y, sizeof x);
+    fbd_energy energy = fbd_result_energy(bare.result);
+    assert_true(isnan(energy.work) && isnan(energy.residual));
+    assert_true(energy.kinetic == fbd_result_energy(whole.result).kinetic);
+    assert_true(isnan(fbd_result_work(bare.result, "block", "friction")));
+    assert_true(!isnan(fbd_result_work(whole.result, "block", "friction")));
+    char *report = fbd_result_report(bare.result);
+    assert_non_null(report);
+    assert_non_null(strstr(report, "work not integrated"));
+    free(report);
+    trial_close(&whole);
+    trial_close(&bare);
+}
+
 /* ---- the datum */
 
 static void the_datum_moves_v_and_no_bit_of_the_motion(void **unused)
@@ -352,6 +380,7 @@ int main(void)
         cmocka_unit_test(a_body_at_rest_elsewhere_changes_no_bit),
         cmocka_unit_test(looking_changes_no_step),
         cmocka_unit_test(recording_changes_no_bit),
+        cmocka_unit_test(without_works_the_motion_has_the_same_bits),
         cmocka_unit_test(the_datum_moves_v_and_no_bit_of_the_motion),
         cmocka_unit_test(a_bar_welded_of_two_swings_as_one),
     };

@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The plan body by body: which part of every list belongs to a body, and what its forces change with.
+ */
+#include "model/builder.h"
+
+unsigned formula_depends(const struct model_body *body, const struct formula *formula)
+{
+    if (formula_is_constant(formula)) return 0;
+    const int *slots;
+    size_t count = expr_variables(formula->expr, &slots);
+    unsigned on = expr_uses_time(formula->expr) ? depends_time : 0;
+    for (size_t i = 0; i < count; i++) {
+        int index = slots[i] - 1;
+        bool own = index >= body->first && index < body->first + body->count;
+        bool own_rate = index >= body->first_rate && index < body->first_rate + body->count;
+        on |= own ? depends_place : own_rate ? depends_rate : depends_other;
+    }
+    return on;
+}
+
+/* ---- lists that are filled body by body */
+
+static void ranges_start(const struct plan *plan, struct body_terms *terms)
+{
+    terms->square.first = (int)plan->square_count;
+    terms->formulas.first = (int)plan->formula_count;
+    terms->potentials.first = (int)plan->potential_count;
+    terms->links.first = (int)plan->link_count;
+    terms->drags.first = (int)plan->drag_count;
+    terms->forces.first = (int)plan->force_count;
+}
+
+static void ranges_end(const struct plan *plan, struct body_terms *terms)
+{
+    terms->square.count = (int)plan->square_count - terms->square.first;
+    terms->formulas.count = (int)plan->formula_count - terms->formulas.first;
+    terms->potentials.count = (int)plan->potential_count - terms->potentials.first;
+    terms->links.count = (int)plan->link_count - terms->links.first;
+    terms->drags.count = (int)plan->drag_count - terms->drags.first;
+    terms->forces.count = (int)plan->force_count - terms->forces.first;
+    terms->at_points = terms->links.count + terms->drags.count + terms->forces.count > 0;
+}
+
+/* By slot, keeping the order within a slot, so that the formulas of a coordinate stand together. */
+static void sort_formulas(struct formula_term *terms, int count)
+{
+    for (int i = 1; i < count; i++) {
+        struct formula_term moved = terms[i];
+        int k = i;
+        for (; k > 0 && terms[k - 1].slot > moved.slot; k--) terms[k] = terms[k - 1];
+        terms[k] = moved;
+    }
+}
+
+void body_terms_add(struct builder *builder, int b)
+{
+    struct fbd_model *model = builder->model;
+    struct model_body *body = &model->bodies[b];
+    struct body_terms *terms = &model->plan.bodies[b];
+    ranges_start(&model->plan, terms);
+    for (int i = 0; i < body->load_count; i++) plan_load(builder, body, body->first_load + i);
+    ranges_end(&model->plan, terms);
+    sort_formulas(model->plan.formulas + terms->formulas.first, terms->formulas.count);
+}
+
+/* ---- lists in the order of the slots: the entries below slot `end`, from the place `*next` on, which moves
+ * on
+ */
+
+static struct range take_affine(const struct plan *plan, int *next, int end)
+{
+    struct range range = {*next, 0};
+    while (*next < (int)plan->affine_count && plan->affine[*next].slot < end) (*next)++;
+    range.count = *next - range.first;
+    return range;
+}
+
+static struct range take_sine(const struct plan *plan, int *next, int end)
+{
+    struct range range = {*next, 0};
+    while (*next < (int)plan->sine_count && plan->sine[*next].slot < end) (*next)++;
+    range.count = *next - range.first;
+    return range;
+}
+
+static void take_slots(struct fbd_model *model)
+{
+    struct plan *plan = &model->plan;
+    int affine = 0, sine = 0;
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
+        plan->bodies[b].affine = take_affine(plan, &affine, body->first + body->count);
+        plan->bodies[b].sine = take_sine(plan, &sine, body->first + body->count);
+    }
+    for (size_t b = 0; b < model->body_count; b++) /* normal slots follow the coordinates */
+        if (model->bodies[b].normal_slot >= 0)
+            plan->bodies[b].across = take_affine(plan, &affine, model->bodies[b].normal_slot + 1);
+}
+
+/* ---- what a body's forces change with */
+
+static unsigned simple_depends(const struct plan *plan, const struct body_terms *terms)
+{
+    unsigned on = terms->square.count > 0 ? depends_rate : 0;
+    if (terms->sine.count > 0) on |= depends_place;
+    for (int i = terms->affine.first; i < terms->affine.first + terms->affine.count; i++) {
+        if (plan->affine[i].kq != 0) on |= depends_place;
+        if (plan->affine[i].kv != 0) on |= depends_rate;
+    }
+    return on;
+}
+
+static unsigned formula_terms_depend(const struct plan *plan, const struct model_body *body,
+                                     const struct body_terms *terms)
+{
+    unsigned on = 0;
+    for (int i = terms->formulas.first; i < terms->formulas.first + terms->formulas.count; i++)
+        on |= formula_depends(body, &plan->formulas[i].value);
+    for (int i = terms->potentials.first; i < terms->potentials.first + terms->potentials.count; i++)
+        on |= formula_depends(body, &plan->potentials[i].V);
+    if (terms->friction >= 0) on |= formula_depends(body, &plan->frictions[terms->friction].mu_k);
+    return on;
+}
+
+static unsigned point_terms_depend(const struct plan *plan, const struct model_body *body,
+                                   const struct body_terms *terms)
+{
+    unsigned on = terms->links.count > 0 ? depends_place : 0;
+    for (int i = terms->links.first; i < terms->links.first + terms->links.count; i++)
+        if (plan->links[i].damping != 0) on |= depends_rate;
+    bool turns = body->kind == motion_pivot || body->kind == motion_planar;
+    if (terms->drags.count > 0) on |= turns ? depends_place | depends_rate : depends_rate;
+    for (int i = terms->forces.first; i < terms->forces.first + terms->forces.count; i++)
+        on |= (turns ? depends_place : 0) | formula_depends(body, &plan->forces[i].value) |
+              formula_depends(body, &plan->forces[i].angle);
+    return on;
+}
+
+/* A single sine term may do with the sine or the cosine alone. */
+static bool needs_both(const struct plan *plan, const struct model_body *body, const struct body_terms *terms)
+{
+    const struct sine_term *sine = &plan->sine[terms->sine.first];
+    if (body->place.link > 0) return false; /* its link knows them */
+    return terms->sine.count > 1 || (terms->sine.count == 1 && sine->s != 0 && sine->c != 0) ||
+           terms->offset >= 0 ||
+           (terms->at_points && (body->kind == motion_pivot || body->kind == motion_planar));
+}
+
+void body_terms_finish(struct builder *builder)
+{
+    struct fbd_model *model = builder->model;
+    struct plan *plan = &model->plan;
+    take_slots(model);
+    for (size_t b = 0; b < model->body_count; b++) {
+        plan->bodies[b].friction = model->bodies[b].friction;
+        plan->bodies[b].offset = -1;
+    }
+    for (size_t i = 0; i < plan->offset_count; i++) plan->bodies[plan->offsets[i].body].offset = (int)i;
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
+        struct body_terms *terms = &plan->bodies[b];
+        terms->depends = simple_depends(plan, terms) | formula_terms_depend(plan, body, terms) |
+                         point_terms_depend(plan, body, terms);
+        terms->turns = needs_both(plan, body, terms);
+        if (terms->offset >= 0) terms->depends |= depends_place | depends_rate; /* omega^2 r */
+    }
+}

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Rates: every row gives the bits of the general path, in every mode, and each scene gets the rows that it
+ * should.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "dynamics/modes.h"
+#include "dynamics/rates.h"
+#include "random_numbers.h"
+#include "scenes.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { points = 60, most_size = 64 };
+
+static const unsigned seed = 1848;
+
+static struct fbd_state *settled(const fbd_model *model)
+{
+    struct fbd_state *state = fbd_state_new(model);
+    assert_non_null(state);
+    assert_true(modes_settle(state, NULL));
+    return state;
+}
+
+static void call(struct rates *rates, double t, const double *y, double *dydt)
+{
+    void *params;
+    rates_function *function = rates_call(rates, &params);
+    assert_int_equal(function(t, y, dydt, params), 0);
+}
+
+/* ---- the same bits */
+
+static void check_scene(const struct named_scene *scene, struct random_numbers *numbers)
+{
+    fbd_model *model = model_from(scene->text);
+    struct fbd_state *state = settled(model);
+    struct rates *rows = rates_new(state, rates_by_rows), *general = rates_new(state, rates_general);
+    size_t size = 2 * (size_t)model->plan.n;
+    double y[most_size], got[most_size], want[most_size];
+    assert_true(rows && general && size <= most_size);
+    for (int point = 0; point < points; point++) {
+        for (size_t i = 0; i < size; i++) y[i] = random_between(numbers, -2, 2);
+        for (size_t i = 0; i < model->plan.friction_count; i++) {
+            state->slip[i] = (int)(random_bits(numbers) % 3) - 1;
+            if (model->plan.frictions[i].two_sided) state->pull[i] = random_bits(numbers) % 2 ? 1 : -1;
+        }
+        rates_bind(rows);
+        double t = random_between(numbers, 0, 3);
+        call(rows, t, y, got);
+        call(general, t, y, want);
+        for (size_t i = 0; i < size; i++)
+            if (!(got[i] == want[i]) && !(isnan(got[i]) && isnan(want[i])))
+                fail_msg("seed %u: `%s`: rate %zu is %.17g by its row and %.17g in general", seed,
+                         scene->name, i, got[i], want[i]);
+    }
+    rates_free(rows);
+    rates_free(general);
+    fbd_state_free(state);
+    fbd_model_free(model);
+}
+
+static void rows_give_the_bits_of_the_general_path(void **unused)
+{
+    (void)unused;
+    struct random_numbers numbers = {seed};
+    for (size_t i = 0; i < all_scenes_count; i++) check_scene(&all_scenes[i], &numbers);
+}
+
+/* ---- which rows */
+
+#define BODY(motion, rest)                                                                                   \
+    "fbd: 1\nbodies:\n  b:\n    mass: 2\n    motion: {" motion "}\n" rest "simulate: {until: 1}\n"
+#define SLIDE      "slide: {along: 30 deg}"
+#define ON_SURFACE "      - gravity\n      - normal\n"
+
+struct expectation {
+    const char *name, *text;
+    struct rates_census rows;
+};
+
+static void check_census(const struct expectation *want)
+{
+    fbd_model *model = model_from(want->text);
+    struct fbd_state *state = settled(model);
+    struct rates *rates = rates_new(state, rates_by_rows);
+    assert_non_null(rates);
+    struct rates_census got = rates_census(rates);
+    if (memcmp(&got, &want->rows, sizeof got) != 0)
+        fail_msg("%s: %d steady, %d held, %d affine, %d sine, %d of one part, %d with formulas, %d "
+                 "particles, %d bodies",
+                 want->name, got.steady, got.held, got.affine, got.sine, got.parts, got.formulas,
+                 got.particles, got.bodies);
+    rates_free(rates);
+    fbd_state_free(state);
+    fbd_model_free(model);
+}
+
+static void every_scene_gets_the_least_row_that_does(void **unused)
+{
+    (void)unused;
+    static const struct expectation rows[] = {
+        {"a free particle", BODY("particle: {}", ""), {.steady = 2}},
+        {"a particle that falls", BODY("particle: {}", "    forces: [gravity]\n"), {.steady = 2}},
+        {"a block that slips on a line",
+         BODY(SLIDE, "    initial: {v: 3}\n    forces:\n" ON_SURFACE "      - friction: 0.5\n"),
+         {.steady = 1}},
+        {"a block that sticks",
+         BODY(SLIDE, "    forces:\n" ON_SURFACE "      - friction: 0.8\n"),
+         {.held = 1}},
+        {"friction under a push across the line that varies",
+         BODY(SLIDE, "    initial: {v: 3}\n    forces:\n" ON_SURFACE
+                     "      - friction: 0.5\n      - applied: {name: f, value: 2*cos(3*t), angle: 0 deg}\n"),
+         {.bodies = 1}},
+        {"spring and quadratic drag",
+         BODY(SLIDE, "    forces:\n      - spring: {stiffness: 5}\n      - drag: {quadratic: 1}\n"),
+         {.affine = 1}},
+        {"a harmonic force",
+         BODY(SLIDE, "    forces:\n      - applied: {name: f, value: 3*sin(2*t)}\n"),
+         {.parts = 1}},
+        {"another formula",
+         BODY(SLIDE, "    forces:\n      - applied: {name: f, value: \"3*exp(-2*t)\"}\n"),
+         {.formulas = 1}},
+        {"a particle on a spring",
+         BODY("particle: {}", "    forces:\n      - spring: {stiffness: 5, free_length: 1, to: [0, 3]}\n"),
+         {.particles = 1}},
+        {"a pendulum",
+         "fbd: 1\nbodies:\n  b:\n    motion: {pivot: {at: [0, 0]}}\n    shape: point\n    mass: 2\n"
+         "    center: [0, -1 m]\n    forces: [gravity]\nsimulate: {until: 1}\n",
+         {.sine = 1}},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) check_census(&rows[i]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rows_give_the_bits_of_the_general_path),
+        cmocka_unit_test(every_scene_gets_the_least_row_that_does),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
