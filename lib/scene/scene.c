@@ -118,7 +118,8 @@ static void read_bodies(struct reader *reader)
     for (int b = 0; b < count && !is_hopeless(reader); b++) {
         bool initial = body_initial_read(reader, b);
         bool loads = body_loads_read(reader, b), hand = body_hand_read(reader, b);
-        if (!initial || !loads || !hand) scene->bodies[b].complete = false;
+        bool exact = body_exact_read(reader, b);
+        if (!initial || !loads || !hand || !exact) scene->bodies[b].complete = false;
     }
 }
 
