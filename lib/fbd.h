@@ -418,6 +418,7 @@ typedef struct fbd_effect {
     const char *reason;            /* why there is no number: what cannot be left out; "" otherwise */
     double change_end, change_max; /* of the answer: |difference| / scale, at the end and over the run */
     const char *worst;             /* the quantity that changes most */
+    bool noise;                    /* no more than runs of the scene itself differ by */
     double time;                   /* run time without it / run time of the scene; NAN when not measured */
     long events;                   /* of the run without it, less those of the scene */
 } fbd_effect;

@@ -34,13 +34,25 @@ static void mark_front(struct fbd_cost *cost)
     }
 }
 
+/* Where a ladder stops to get better: beyond it roundings add up. */
+static size_t best_of(const struct fbd_cost *cost, const fbd_cost_series *series)
+{
+    size_t best = series->first;
+    for (size_t i = series->first; i < series->first + series->count; i++) {
+        const fbd_cost_point *point = &cost->points[i];
+        if (is_answer(point) && (!is_answer(&cost->points[best]) || point->error < cost->points[best].error))
+            best = i;
+    }
+    return best;
+}
+
 /* log(error) = a + p log(mean step) by least squares, over points that are neither coarse nor at the floor.
  */
 static double observed_order(const struct fbd_cost *cost, const fbd_cost_series *series)
 {
     const double coarse = 0.03, above_floor = 10;
     double sum[5] = {0};
-    for (size_t i = series->first; i < series->first + series->count; i++) {
+    for (size_t i = series->first; i <= best_of(cost, series); i++) {
         const fbd_cost_point *point = &cost->points[i];
         bool tells = is_answer(point) && point->error < coarse && point->stats.steps > 0 &&
                      point->error > above_floor * cost->reference.floor && point->same_events;

@@ -56,11 +56,15 @@ static bool find_axes(const fbd_cost *cost, struct axes *axes)
         most = fmax(most, point->seconds);
     }
     if (!(largest > 0)) return false;
+    const double air = 0.12;
     *axes = (struct axes){.x_first = floor(-log10(largest)),
                           .x_last = ceil(-log10(smallest) + 0.3),
-                          .y_first = floor(log10(least)),
-                          .y_last = ceil(log10(most))};
-    if (axes->y_last <= axes->y_first) axes->y_last = axes->y_first + 1;
+                          .y_first = log10(least) - air,
+                          .y_last = log10(most) + air};
+    if (axes->y_last - axes->y_first < 1) { /* one labelled decade at least */
+        axes->y_first = floor(axes->y_first);
+        axes->y_last = ceil(axes->y_last);
+    }
     if (axes->x_last <= axes->x_first) axes->x_last = axes->x_first + 1;
     return true;
 }
@@ -136,15 +140,18 @@ static void y_label(struct text *text, int decade)
 
 static void y_ticks(struct text *text, const struct axes *axes)
 {
-    for (int d = (int)axes->y_first; d <= (int)axes->y_last; d++) {
-        double y = upward(axes, pow(10, d));
-        line(text, "grid", left, y, right, y);
-        begin_text(text, left - 9, y + 4, " text-anchor=\"end\"");
-        y_label(text, d);
-        text_add(text, "</text>\n");
-        for (int k = 2; k < 10 && d < (int)axes->y_last; k++) {
-            double minor = upward(axes, k * pow(10, d));
-            line(text, "tick", left, minor, left + (k == 5 ? 6 : 4), minor);
+    for (int d = (int)floor(axes->y_first); d <= (int)axes->y_last; d++) {
+        for (int k = 1; k < 10; k++) {
+            double value = k * pow(10, d), y = upward(axes, value);
+            if (y > bottom || y < top) continue;
+            if (k > 1) {
+                line(text, "tick", left, y, left + (k == 5 ? 6 : 4), y);
+                continue;
+            }
+            line(text, "grid", left, y, right, y);
+            begin_text(text, left - 9, y + 4, " text-anchor=\"end\"");
+            y_label(text, d);
+            text_add(text, "</text>\n");
         }
     }
 }

@@ -25,7 +25,7 @@ static void power(struct text *text, double value)
 {
     int exponent = (int)floor(log10(value) + 1e-9);
     double digits = value / pow(10, exponent);
-    if (exponent < -3 || exponent > 5)
+    if (exponent < -2 || exponent > 5)
         text_printf(text, "%.3ge%d", digits, exponent);
     else
         text_number(text, value, 4);
@@ -65,7 +65,11 @@ static void numbers(struct text *text, const struct fbd_cost *cost, const fbd_co
     text_pad(text, 53);
     text_seconds(text, point->seconds);
     text_pad(text, 63);
-    text_printf(text, "%.0f %%", 50 * (point->high - point->low) / point->seconds);
+    enum { enough_for_a_spread = 4 };
+    if (point->repeats >= enough_for_a_spread)
+        text_printf(text, "%.0f %%", 50 * (point->high - point->low) / point->seconds);
+    else
+        text_add(text, "-");
     text_pad(text, 69);
     text_printf(text, "%7lu %7lu %7lu %6lu %6lu", point->stats.rhs, point->stats.jacobians,
                 point->stats.steps, point->stats.rejected, point->stats.events);

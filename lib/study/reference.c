@@ -59,12 +59,10 @@ static bool climb(struct search *search, int c, double seconds)
 
 /* ---- scales */
 
-static void find_scales(struct reference *reference, const struct track *track, const bool *chosen,
-                        const fbd_model *model)
+void reference_scales(double *scale, const struct track *track, const bool *chosen, const fbd_model *model)
 {
     const double least_share = 1e-6;
     size_t n = track->size / 2;
-    double *scale = reference->scale;
     for (size_t i = 0; i < track->size; i++) {
         scale[i] = 0;
         for (size_t k = 0; k < track->reached; k++)
@@ -98,20 +96,37 @@ static double difference(const struct reference *reference, const struct attempt
 struct pair {
     const struct attempt *one, *other;
     double difference;
+    size_t known; /* times of the grid up to which it is below what is good */
 };
 
-/* Among the rungs first <= r < last. */
+static const double good = 1e-6;
+
+static size_t known_times(const struct reference *reference, const struct attempt *a, const struct attempt *b)
+{
+    size_t count = common(&a->track, &b->track), k = 0;
+    while (k < count && tracks_differ(&a->track, &b->track, reference->scale, k, k + 1, NULL) <= good) k++;
+    return k;
+}
+
+/* Among the rungs first <= r < last. Where none agree to the end, what agrees longest is best. */
+static void consider(const struct search *search, const struct attempt *one, const struct attempt *other,
+                     struct pair *best)
+{
+    double apart = difference(search->reference, one, other);
+    if (isinf(apart)) return;
+    size_t known = known_times(search->reference, one, other);
+    if (best->one && (known < best->known || (known == best->known && apart >= best->difference))) return;
+    *best = (struct pair){one, other, apart, known};
+}
+
 static struct pair best_pair(const struct search *search, int first, int last)
 {
     struct pair best = {.difference = INFINITY};
     for (int c = 0; c < candidate_count; c++)
         for (int d = c + 1; d < candidate_count; d++)
             for (int r = first; r < last; r++)
-                for (int s = first; s < last; s++) {
-                    const struct attempt *one = &search->attempts[c][r], *other = &search->attempts[d][s];
-                    double apart = difference(search->reference, one, other);
-                    if (apart < best.difference) best = (struct pair){one, other, apart};
-                }
+                for (int s = first; s < last; s++)
+                    consider(search, &search->attempts[c][r], &search->attempts[d][s], &best);
     return best;
 }
 
@@ -141,20 +156,14 @@ static double growth(const struct reference *reference, const struct pair *pair)
 /* Where the pair parts by more than is good, the rest of the grid is given up. */
 static void cut_grid(struct reference *reference, const struct pair *pair)
 {
-    const double good = 1e-6;
+    const struct track *one = &pair->one->track, *other = &pair->other->track;
     struct track *track = &reference->track;
-    size_t count = common(&pair->one->track, &pair->other->track), k = 0;
-    while (k < count &&
-           tracks_differ(&pair->one->track, &pair->other->track, reference->scale, k, k + 1, NULL) <= good)
-        k++;
-    reference->known = k > 0 ? grid_time(&reference->grid, k - 1) : 0;
-    reference->cut = k < count;
-    if (!reference->cut) reference->known = track->t_end;
-    track->reached = k;
-    size_t first_end = k > 0 ? k - 1 : 0;
-    reference->floor = tracks_differ(&pair->one->track, &pair->other->track, reference->scale, 0, k, NULL);
-    reference->floor_end =
-        tracks_differ(&pair->one->track, &pair->other->track, reference->scale, first_end, k, NULL);
+    size_t last = pair->known > 0 ? pair->known - 1 : 0;
+    reference->cut = pair->known < common(one, other);
+    reference->known = reference->cut ? grid_time(&reference->grid, last) : track->t_end;
+    track->reached = pair->known;
+    reference->floor = tracks_differ(one, other, reference->scale, 0, pair->known, NULL);
+    reference->floor_end = tracks_differ(one, other, reference->scale, last, pair->known, NULL);
 }
 
 static void finish(struct reference *reference, const struct search *search, const struct pair *pair)
@@ -277,7 +286,7 @@ bool reference_make(struct reference *reference, const fbd_model *model, double 
             if (search->attempts[c][r].usable) first = &search->attempts[c][r].track;
     }
     if (!first) return no_reference(search);
-    find_scales(reference, first, chosen, model);
+    reference_scales(reference->scale, first, chosen, model);
     struct pair pair = best_pair(search, 0, rungs);
     if (!pair.one) return no_reference(search);
     finish(reference, search, &pair);

@@ -51,6 +51,9 @@ struct reference {
 bool reference_make(struct reference *reference, const fbd_model *model, double until, const bool *chosen,
                     double seconds, struct arena *arena, fbd_errors *errors);
 
+/* The scale of each quantity, as above. */
+void reference_scales(double *scale, const struct track *track, const bool *chosen, const fbd_model *model);
+
 /* Errors of a run against the reference; NAN where there is none. */
 struct errors_of_a_run {
     double max, end; /* scaled, over the grid and at its last time */
