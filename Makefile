@@ -27,6 +27,7 @@ valgrind: $(BUILD)/.tests
 bench: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	meson test -C $(BUILD) --no-rebuild --benchmark --verbose
+	$(BUILD)/tests/bench/bench_accuracy . docs/accuracy.md
 
 check-format: $(BUILD)/.lint
 	.ci/lint $(BUILD) format

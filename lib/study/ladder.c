@@ -3,6 +3,8 @@
  * Ladder: each method from loose to tight, as far as the budget reaches.
  */
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/diag.h"
@@ -12,7 +14,9 @@
 
 enum { tolerance_rungs = 11, step_rungs = 14, most_series = 40 };
 
-static const double loosest = 1e-3;
+static const double tolerances[tolerance_rungs] = {1e-3, 1e-4,  1e-5,  1e-6,  1e-7, 1e-8,
+                                                   1e-9, 1e-10, 1e-11, 1e-12, 1e-13};
+
 static const char automatic[] = "auto", students[] = "rk4";
 
 /* ---- what is run */
@@ -29,7 +33,7 @@ static bool wanted(const fbd_cost_options *options, const char *name)
 static bool check_methods(const struct fbd_cost *cost, const fbd_cost_options *options)
 {
     for (size_t i = 0; options->methods && i < options->method_count; i++) {
-        const struct setting setting = {.method = options->methods[i], .tolerance = loosest};
+        const struct setting setting = {.method = options->methods[i], .tolerance = tolerances[0]};
         fbd_options run = setting_options(&setting, cost->until);
         fbd_simulation *simulation = fbd_simulation_new(cost->model, &run, cost->errors);
         if (!simulation) return false;
@@ -45,7 +49,7 @@ static void add_series(struct fbd_cost *cost, const char *method, bool fixed)
         .method = method, .fixed = fixed, .first = cost->point_count, .count = rungs, .order = NAN};
     for (size_t r = 0; r < rungs; r++) {
         struct setting *setting = &cost->settings[cost->point_count];
-        *setting = (struct setting){.method = method, .tolerance = fixed ? 0 : loosest * pow(10, -(double)r)};
+        *setting = (struct setting){.method = method, .tolerance = fixed ? 0 : tolerances[r]};
         cost->points[cost->point_count++] = (fbd_cost_point){.method = method,
                                                              .tolerance = setting->tolerance,
                                                              .state = FBD_POINT_SKIPPED,
@@ -78,12 +82,16 @@ bool ladder_plan(struct fbd_cost *cost, const fbd_cost_options *options)
 
 /* ---- fixed steps */
 
-/* The largest of ..., 0.1, 0.2, 0.5, 1, ... that is not above `size`. */
+/* The largest of ..., 0.1, 0.2, 0.5, 1, ... that is not above `size`: the number that such a text reads as.
+ */
 static double round_step(double size)
 {
-    double decade = pow(10, floor(log10(size))), digits = size / decade;
+    int decade = (int)floor(log10(size));
+    double digits = size / pow(10, decade);
     const double slack = 1 + 1e-9;
-    return (digits * slack >= 5 ? 5 : digits * slack >= 2 ? 2 : 1) * decade;
+    char text[32];
+    snprintf(text, sizeof text, "%de%d", digits * slack >= 5 ? 5 : digits * slack >= 2 ? 2 : 1, decade);
+    return strtod(text, NULL);
 }
 
 /* Steps from some that are too coarse, by the steps that a loose tolerance takes, down in the sequence 5,
@@ -92,7 +100,7 @@ static double round_step(double size)
 static bool plan_steps(struct fbd_cost *cost)
 {
     struct track track;
-    const struct setting loose = {.method = automatic, .tolerance = loosest};
+    const struct setting loose = {.method = automatic, .tolerance = tolerances[0]};
     if (!track_make(&track, cost_model(cost), &loose, &cost->reference.grid, cost->budget, &cost->arena,
                     cost->errors))
         return false;
@@ -111,17 +119,21 @@ static bool plan_steps(struct fbd_cost *cost)
 
 /* ---- runs */
 
+/* How far up its ladder a series is. */
+struct climber {
+    size_t rung;     /* the next one */
+    double last;     /* seconds of the one before, ... */
+    double expected; /* ... and of the next one */
+};
+
 /* What the next rung takes at least: work ~ tolerance^(-1/(p + 1)), or twice as many steps. */
-static double next_seconds(const struct fbd_cost *cost, const fbd_cost_series *series, size_t r,
-                           const double *seconds)
+static double next_seconds(const fbd_cost_series *series, const struct climber *climber, double seconds)
 {
     const struct method *method = method_find(series->method);
     double order = method ? method->order : 8;
     double least = series->fixed ? 2 : pow(10, 1 / (order + 1));
-    if (r == 0) return 0;
-    double ratio = r > 1 && seconds[r - 2] > 0 ? seconds[r - 1] / seconds[r - 2] : least;
-    (void)cost;
-    return seconds[r - 1] * fmin(fmax(ratio, least), 12);
+    double ratio = climber->last > 0 ? seconds / climber->last : least;
+    return seconds * fmin(fmax(ratio, least), 12);
 }
 
 static const char *other_end(struct fbd_cost *cost, const struct track *track)
@@ -155,12 +167,11 @@ static void judge(struct fbd_cost *cost, fbd_cost_point *point, const struct tra
     point->same_events = errors.same_events;
 }
 
-static void skip(struct fbd_cost *cost, fbd_cost_point *point, double seconds)
+/* The rest of a ladder is left out, from `rung` on. */
+static void skip_rest(struct fbd_cost *cost, const fbd_cost_series *series, size_t rung, const char *reason)
 {
-    const char *reason = seconds < HUGE_VAL ? arena_printf(&cost->arena, "would take about %.2g s", seconds)
-                                            : "the budget is spent";
-    point->state = FBD_POINT_SKIPPED;
-    point->reason = reason ? reason : "";
+    for (size_t r = rung; r < series->count; r++)
+        cost->points[series->first + r].reason = reason ? reason : "";
 }
 
 static bool run_point(struct fbd_cost *cost, size_t index, double most_seconds)
@@ -184,36 +195,54 @@ static bool run_point(struct fbd_cost *cost, size_t index, double most_seconds)
     return done && !cost->arena.failed;
 }
 
-/* One rung of one series, or a reason why not. */
-static bool climb_rung(struct fbd_cost *cost, size_t s, size_t r, double (*seconds)[step_rungs], double left)
+/* The series whose next rung is the cheapest, so that the fast methods get to the end of their ladders; count
+ * when all are done. */
+static size_t next_series(const struct fbd_cost *cost, const struct climber *climbers)
 {
-    const fbd_cost_series *series = &cost->series[s];
-    fbd_cost_point *point = &cost->points[series->first + r];
-    double most = cost->budget / 30, expected = next_seconds(cost, series, r, seconds[s]);
-    bool given_up = r > 0 && point[-1].state == FBD_POINT_SKIPPED;
-    if (given_up || expected > most || left <= 0) {
-        double guess = given_up && !(seconds[s][r - 1] > 0) ? HUGE_VAL : expected;
-        seconds[s][r] = expected;
-        skip(cost, point, left <= 0 && !(expected > most) ? HUGE_VAL : guess);
-        return true;
+    size_t best = cost->series_count;
+    for (size_t s = 0; s < cost->series_count; s++)
+        if (climbers[s].rung < cost->series[s].count &&
+            (best == cost->series_count || climbers[s].expected < climbers[best].expected))
+            best = s;
+    return best;
+}
+
+static bool climb_rung(struct fbd_cost *cost, const fbd_cost_series *series, struct climber *climber,
+                       double most_seconds)
+{
+    size_t index = series->first + climber->rung;
+    if (climber->expected > most_seconds) {
+        skip_rest(cost, series, climber->rung,
+                  arena_printf(&cost->arena, "would take about %.2g s", climber->expected));
+        climber->rung = series->count;
+        return !cost->arena.failed;
     }
-    if (!run_point(cost, series->first + r, most)) return false;
-    seconds[s][r] = point->seconds;
+    if (!run_point(cost, index, most_seconds)) return false;
+    const fbd_cost_point *point = &cost->points[index];
+    climber->rung++;
+    climber->expected = next_seconds(series, climber, point->seconds);
+    climber->last = point->seconds;
+    if (point->state == FBD_POINT_SKIPPED) { /* given up: what is tighter takes longer */
+        skip_rest(cost, series, climber->rung, point->reason);
+        climber->rung = series->count;
+    }
     return true;
 }
 
 bool ladder_climb(struct fbd_cost *cost)
 {
+    const double longest_share = 1.0 / 30;
     struct stopwatch watch = stopwatch_start();
-    double(*seconds)[step_rungs] = arena_array(&cost->arena, cost->series_count, sizeof *seconds);
-    if (!seconds || !plan_steps(cost)) return false;
-    for (size_t r = 0; r < step_rungs; r++)
-        for (size_t s = 0; s < cost->series_count; s++) {
-            double left = LADDER_SHARE * cost->budget - stopwatch_wall(&watch);
-            if (r >= cost->series[s].count) continue;
-            if (!climb_rung(cost, s, r, seconds, left)) return false;
-            progress_report(&cost->progress, "errors",
-                            ((double)r + (double)s / (double)cost->series_count) / step_rungs);
-        }
+    struct climber *climbers = arena_array(&cost->arena, cost->series_count, sizeof *climbers);
+    if (!climbers || !plan_steps(cost)) return false;
+    for (size_t s; (s = next_series(cost, climbers)) < cost->series_count;) {
+        double spent = stopwatch_wall(&watch) / (LADDER_SHARE * cost->budget);
+        progress_report(&cost->progress, "errors", fmin(spent, 1));
+        if (spent > 1) break;
+        if (!climb_rung(cost, &cost->series[s], &climbers[s], longest_share * cost->budget)) return false;
+    }
+    for (size_t s = 0; s < cost->series_count; s++)
+        if (climbers[s].rung < cost->series[s].count)
+            skip_rest(cost, &cost->series[s], climbers[s].rung, "the budget is spent");
     return true;
 }

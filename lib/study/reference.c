@@ -209,6 +209,7 @@ static void check_exact(struct reference *reference, size_t i, double t, double 
     if (apart <= allowed) return;
     if (!reference->exact_differs) reference->exact_from = t;
     reference->exact_differs = true;
+    if (isnan(apart)) apart = INFINITY; /* it has no value there */
     if (!(apart > reference->exact_error)) return;
     reference->exact_error = apart;
     reference->exact_worst = i;

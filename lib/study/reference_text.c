@@ -15,12 +15,17 @@ static const char *pair_says(struct arena *arena, const struct reference *refere
 
 static const char *exact_says(struct arena *arena, const struct reference *reference, const fbd_model *model)
 {
+    const char *quantity = quantity_name_of(model, reference->exact_worst);
+    if (reference->exact_differs && isinf(reference->exact_error))
+        return arena_printf(
+            arena, "The solution that the file gives for %s has no value at t = %.4g s. It is not used. ",
+            quantity, reference->exact_from);
     if (reference->exact_differs)
         return arena_printf(
             arena,
             "The solution that the file gives for %s is not that of the scene: it differs by %.2g "
             "(scaled) from t = %.4g s on, while two methods agree. It is not used. ",
-            quantity_name_of(model, reference->exact_worst), reference->exact_error, reference->exact_from);
+            quantity, reference->exact_error, reference->exact_from);
     if (reference->all_exact) return "The exact solution of the file, which the runs confirm. ";
     return "The exact solution of the file where it gives one. ";
 }
