@@ -158,7 +158,7 @@ void fbd_cost_free(fbd_cost *cost)
 
 fbd_cost_reference fbd_cost_get_reference(const fbd_cost *cost)
 {
-    const struct reference *r = &cost->reference;
+    const struct certified_reference *r = &cost->reference;
     return (fbd_cost_reference){.says = cost->says,
                                 .method = {r->settings[0].method, r->settings[1].method},
                                 .tolerance = {r->settings[0].tolerance, r->settings[1].tolerance},

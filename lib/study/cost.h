@@ -17,7 +17,7 @@ struct fbd_cost {
     struct arena arena;
     const fbd_model *model;
     fbd_model *stepless; /* the model without a step of its own, where the file gives one; or NULL */
-    struct reference reference;
+    struct certified_reference reference;
     double until, budget;
     bool *chosen; /* of the quantities; NULL for all */
     bool fixed_steps;
@@ -48,7 +48,8 @@ void cost_analyse(struct fbd_cost *cost);
 const fbd_model *cost_model(const struct fbd_cost *cost);
 
 /* What the reference is, in sentences; NULL when memory is out (reference_text.c). */
-const char *reference_says(struct arena *arena, const struct reference *reference, const fbd_model *model);
+const char *reference_says(struct arena *arena, const struct certified_reference *reference,
+                           const fbd_model *model);
 
 /* The name of a quantity. */
 const char *quantity_name_of(const fbd_model *model, size_t quantity);

@@ -143,7 +143,7 @@ static void paragraph(struct text *text, const char *sentences)
 
 static void measure(struct text *text, const struct fbd_cost *cost)
 {
-    const struct reference *reference = &cost->reference;
+    const struct certified_reference *reference = &cost->reference;
     size_t n = fbd_model_coordinates(cost->model);
     text_add(text, "\nReference\n");
     paragraph(text, cost->says);

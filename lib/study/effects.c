@@ -89,33 +89,41 @@ static void compare(struct fbd_effects *effects, fbd_effect *effect, const struc
     effect->events = (long)without->event_count - (long)with->event_count;
 }
 
-/* The model without the effect, run once; NULL with the reason in the row, or when memory is out. */
-static fbd_model *try_without(struct fbd_effects *effects, size_t index, double *seconds)
+static bool run_without(struct fbd_effects *effects, size_t index, fbd_model *model, double *seconds,
+                        fbd_errors *errors)
 {
-    fbd_effect *effect = &effects->effects[index];
-    fbd_errors *errors = fbd_errors_new();
-    if (effects->edits[index].refusal || !errors) {
-        fbd_errors_free(errors);
-        return NULL;
-    }
     struct arena arena = {0};
     struct track track;
-    fbd_model *model = model_variant(effects->model, effect_edit, &effects->edits[index], errors);
-    bool runs = model && track_make(&track, model, &measured, &effects->grid, longest_share * effects->budget,
-                                    &arena, errors);
-    if (runs) {
-        compare(effects, effect, &track);
+    bool done =
+        track_make(&track, model, &measured, &effects->grid, longest_share * effects->budget, &arena, errors);
+    if (done) {
+        compare(effects, &effects->effects[index], &track);
         *seconds = track.seconds;
-    } else {
-        for (size_t i = 0; i < fbd_errors_count(errors); i++)
-            if (fbd_errors_get(errors, i)->severity == FBD_ERROR)
-                effect->reason = words(effects, fbd_errors_get(errors, i)->message);
     }
     arena_free(&arena);
+    return done;
+}
+
+/* Compile the scene without the effect and run it once. *model is NULL where the row has a reason instead.
+ * False when memory is out. */
+static bool try_without(struct fbd_effects *effects, size_t index, fbd_model **model, double *seconds)
+{
+    fbd_effect *effect = &effects->effects[index];
+    *model = NULL;
+    if (effects->edits[index].refusal) return true;
+    fbd_errors *errors = fbd_errors_new();
+    if (!errors) return false;
+    *model = model_variant(effects->model, effect_edit, &effects->edits[index], errors);
+    bool runs = *model && run_without(effects, index, *model, seconds, errors);
+    for (size_t i = 0; !runs && i < fbd_errors_count(errors); i++)
+        if (fbd_errors_get(errors, i)->severity == FBD_ERROR)
+            effect->reason = words(effects, fbd_errors_get(errors, i)->message);
+    bool done = !errors->out_of_memory && !effects->arena.failed;
     fbd_errors_free(errors);
-    if (runs && !effect->reason[0]) return model;
-    model_free(model);
-    return NULL;
+    if (runs && done && !effect->reason[0]) return true;
+    model_free(*model);
+    *model = NULL;
+    return done;
 }
 
 /* ---- all of them, and their times */
@@ -140,7 +148,7 @@ static bool run_all(struct fbd_effects *effects, fbd_model **models, struct time
         double seconds = 0;
         if (stopwatch_wall(&watch) > effects->budget / 2) effects->edits[i].refusal = "the budget is spent";
         if (effects->edits[i].refusal) effects->effects[i].reason = effects->edits[i].refusal;
-        models[i] = try_without(effects, i, &seconds);
+        if (!try_without(effects, i, &models[i], &seconds)) return false;
         if (models[i])
             timed[count++] = (struct timed){.model = models[i], .options = options, .estimate = seconds};
         progress_report(&effects->progress, "effects", (double)i / (double)effects->count);

@@ -189,22 +189,22 @@ static void add_inertia(struct fbd_effects *effects, int b)
 
 /* ---- the whole */
 
-/* The equilibrium nearest to the start; NULL when there is none, or friction could hold anywhere. */
-static const double *find_equilibrium(struct fbd_effects *effects)
+/* The equilibrium nearest to the start; *at is NULL when there is none, or friction could hold anywhere.
+ * False when memory is out. */
+static bool find_equilibrium(struct fbd_effects *effects, const double **at)
 {
     fbd_errors *errors = fbd_errors_new();
     fbd_state *state = fbd_state_new(effects->model);
-    double *at = NULL;
-    if (errors && state) {
-        fbd_linearization *linear = fbd_linearize(state, errors);
-        size_t size = 2 * fbd_model_coordinates(effects->model);
-        if (linear) at = ARENA_ARRAY(&effects->arena, size + 1, double);
-        if (at) memcpy(at, state->y, size * sizeof *at);
-        fbd_linearization_free(linear);
-    }
+    fbd_linearization *linear = errors && state ? fbd_linearize(state, errors) : NULL;
+    size_t size = 2 * fbd_model_coordinates(effects->model);
+    double *copy = linear ? ARENA_ARRAY(&effects->arena, size + 1, double) : NULL;
+    if (copy) memcpy(copy, state->y, size * sizeof *copy);
+    *at = copy;
+    bool done = errors && state && !errors->out_of_memory && !effects->arena.failed;
+    fbd_linearization_free(linear);
     fbd_state_free(state);
     fbd_errors_free(errors);
-    return at;
+    return done;
 }
 
 bool effects_list(struct fbd_effects *effects)
@@ -218,7 +218,8 @@ bool effects_list(struct fbd_effects *effects)
     effects->edits = ARENA_ARRAY(&effects->arena, room, struct edit);
     if (effects->arena.failed) return false;
     effects->room = room;
-    const double *equilibrium = find_equilibrium(effects);
+    const double *equilibrium;
+    if (!find_equilibrium(effects, &equilibrium)) return false;
     for (int b = 0; b < (int)scene->body_count; b++) {
         for (int i = 0; i < (int)scene->bodies[b].load_count; i++) {
             const struct load *load = &scene->bodies[b].loads[i];

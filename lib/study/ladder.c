@@ -149,7 +149,7 @@ static const char *other_end(struct fbd_cost *cost, const struct track *track)
 
 static void judge(struct fbd_cost *cost, fbd_cost_point *point, const struct track *track)
 {
-    const struct reference *reference = &cost->reference;
+    const struct certified_reference *reference = &cost->reference;
     point->stats = track->stats;
     point->seconds = track->seconds;
     if (track->outcome != reference->track.outcome) {

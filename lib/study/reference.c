@@ -25,7 +25,7 @@ struct attempt {
 
 struct search {
     const fbd_model *model;
-    struct reference *reference;
+    struct certified_reference *reference;
     struct arena *arena;
     fbd_errors *errors;
     struct attempt attempts[candidate_count][rungs];
@@ -86,7 +86,8 @@ static size_t common(const struct track *a, const struct track *b)
     return a->reached < b->reached ? a->reached : b->reached;
 }
 
-static double difference(const struct reference *reference, const struct attempt *a, const struct attempt *b)
+static double difference(const struct certified_reference *reference, const struct attempt *a,
+                         const struct attempt *b)
 {
     if (!a->usable || !b->usable || a->track.outcome != b->track.outcome) return INFINITY;
     double d = tracks_differ(&a->track, &b->track, reference->scale, 0, common(&a->track, &b->track), NULL);
@@ -101,7 +102,8 @@ struct pair {
 
 static const double good = 1e-6;
 
-static size_t known_times(const struct reference *reference, const struct attempt *a, const struct attempt *b)
+static size_t known_times(const struct certified_reference *reference, const struct attempt *a,
+                          const struct attempt *b)
 {
     size_t count = common(&a->track, &b->track), k = 0;
     while (k < count && tracks_differ(&a->track, &b->track, reference->scale, k, k + 1, NULL) <= good) k++;
@@ -134,7 +136,7 @@ static struct pair best_pair(const struct search *search, int first, int last)
 
 /* The largest differences up to each time grow; the part between the rounding and the saturation is fitted by
  * a line through their logarithms. */
-static double growth(const struct reference *reference, const struct pair *pair)
+static double growth(const struct certified_reference *reference, const struct pair *pair)
 {
     const double least = 1e-14, most = 1e-2, least_decades = 3;
     double sum[5] = {0}, so_far = 0, low = INFINITY;
@@ -154,7 +156,7 @@ static double growth(const struct reference *reference, const struct pair *pair)
 }
 
 /* Where the pair parts by more than is good, the rest of the grid is given up. */
-static void cut_grid(struct reference *reference, const struct pair *pair)
+static void cut_grid(struct certified_reference *reference, const struct pair *pair)
 {
     const struct track *one = &pair->one->track, *other = &pair->other->track;
     struct track *track = &reference->track;
@@ -166,7 +168,8 @@ static void cut_grid(struct reference *reference, const struct pair *pair)
     reference->floor_end = tracks_differ(one, other, reference->scale, last, pair->known, NULL);
 }
 
-static void finish(struct reference *reference, const struct search *search, const struct pair *pair)
+static void finish(struct certified_reference *reference, const struct search *search,
+                   const struct pair *pair)
 {
     struct pair loose = best_pair(search, 0, 1);
     reference->settings[0] = pair->one->setting;
@@ -203,7 +206,8 @@ static bool exact_value(const struct fbd_model *model, size_t i, double t, doubl
     return true;
 }
 
-static void check_exact(struct reference *reference, size_t i, double t, double apart, double rounding)
+static void check_exact(struct certified_reference *reference, size_t i, double t, double apart,
+                        double rounding)
 {
     double allowed = 1e-9 + 100 * (reference->floor + rounding);
     if (apart <= allowed) return;
@@ -216,7 +220,7 @@ static void check_exact(struct reference *reference, size_t i, double t, double 
 }
 
 /* Put the file's solution in the place of the computed one. */
-static void take_exact(struct reference *reference, const struct fbd_model *model)
+static void take_exact(struct certified_reference *reference, const struct fbd_model *model)
 {
     struct track *track = &reference->track;
     double floor = 0, floor_end = 0;
@@ -265,11 +269,12 @@ static bool no_reference(const struct search *search)
     return false;
 }
 
-bool reference_make(struct reference *reference, const fbd_model *model, double until, const bool *chosen,
-                    double seconds, struct arena *arena, fbd_errors *errors)
+bool reference_make(struct certified_reference *reference, const fbd_model *model, double until,
+                    const bool *chosen, double seconds, struct arena *arena, fbd_errors *errors)
 {
     size_t size = 2 * fbd_model_coordinates(model);
-    *reference = (struct reference){.grid = {.until = until, .count = grid_intervals + 1}, .tenfold = NAN};
+    *reference =
+        (struct certified_reference){.grid = {.until = until, .count = grid_intervals + 1}, .tenfold = NAN};
     reference->scale = ARENA_ARRAY(arena, size + 1, double);
     reference->exact = ARENA_ARRAY(arena, size + 1, bool);
     struct search *search = ARENA_NEW(arena, struct search);
@@ -297,7 +302,7 @@ bool reference_make(struct reference *reference, const fbd_model *model, double 
 
 /* ---- errors */
 
-static void compare_events(const struct reference *reference, const struct track *track,
+static void compare_events(const struct certified_reference *reference, const struct track *track,
                            struct errors_of_a_run *errors)
 {
     const struct track *known = &reference->track;
@@ -315,7 +320,8 @@ static void compare_events(const struct reference *reference, const struct track
     if (!errors->same_events) errors->event = NAN;
 }
 
-struct errors_of_a_run reference_errors(const struct reference *reference, const struct track *track)
+struct errors_of_a_run reference_errors(const struct certified_reference *reference,
+                                        const struct track *track)
 {
     struct errors_of_a_run errors = {.max = NAN, .end = NAN};
     size_t count = reference->track.reached, seen = common(&reference->track, track);

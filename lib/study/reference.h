@@ -24,7 +24,7 @@
 
 #include "study/track.h"
 
-struct reference {
+struct certified_reference {
     struct grid grid; /* ends where the reference is known */
     struct track track;
     struct setting settings[2]; /* of the pair */
@@ -48,8 +48,8 @@ struct reference {
 /* Make the reference of a run until `until`. `chosen` marks the quantities that count (NULL: all). It takes
  * at most about `seconds`. False with notes in `errors`: `no-reference` when fewer than two methods get to
  * the end of the run, and those of fbd_simulation_new. */
-bool reference_make(struct reference *reference, const fbd_model *model, double until, const bool *chosen,
-                    double seconds, struct arena *arena, fbd_errors *errors);
+bool reference_make(struct certified_reference *reference, const fbd_model *model, double until,
+                    const bool *chosen, double seconds, struct arena *arena, fbd_errors *errors);
 
 /* The scale of each quantity, as above. */
 void reference_scales(double *scale, const struct track *track, const bool *chosen, const fbd_model *model);
@@ -62,6 +62,7 @@ struct errors_of_a_run {
     bool same_events;
 };
 
-struct errors_of_a_run reference_errors(const struct reference *reference, const struct track *track);
+struct errors_of_a_run reference_errors(const struct certified_reference *reference,
+                                        const struct track *track);
 
 #endif

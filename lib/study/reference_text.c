@@ -6,14 +6,15 @@
 
 #include "study/cost.h"
 
-static const char *pair_says(struct arena *arena, const struct reference *reference)
+static const char *pair_says(struct arena *arena, const struct certified_reference *reference)
 {
     const struct setting *a = &reference->settings[0], *b = &reference->settings[1];
     return arena_printf(arena, "%s at tolerance %.0e and %s at %.0e differ by %.1e", a->method, a->tolerance,
                         b->method, b->tolerance, reference->whole_floor);
 }
 
-static const char *exact_says(struct arena *arena, const struct reference *reference, const fbd_model *model)
+static const char *exact_says(struct arena *arena, const struct certified_reference *reference,
+                              const fbd_model *model)
 {
     const char *quantity = quantity_name_of(model, reference->exact_worst);
     if (reference->exact_differs && isinf(reference->exact_error))
@@ -31,7 +32,7 @@ static const char *exact_says(struct arena *arena, const struct reference *refer
 }
 
 /* Why it is known to a part of the run only. */
-static const char *cut_says(struct arena *arena, const struct reference *reference)
+static const char *cut_says(struct arena *arena, const struct certified_reference *reference)
 {
     const double shrinks = 0.1;
     bool better = reference->whole_floor < shrinks * reference->loose_floor;
@@ -53,7 +54,8 @@ static const char *cut_says(struct arena *arena, const struct reference *referen
                         why, tenfold, reference->known);
 }
 
-const char *reference_says(struct arena *arena, const struct reference *reference, const fbd_model *model)
+const char *reference_says(struct arena *arena, const struct certified_reference *reference,
+                           const fbd_model *model)
 {
     const char *exact = "", *pair = pair_says(arena, reference), *rest;
     if (reference->any_exact || reference->exact_differs) exact = exact_says(arena, reference, model);

@@ -16,9 +16,11 @@ static bool run_once(const struct timed *timed, fbd_errors *errors)
 {
     fbd_simulation *simulation = fbd_simulation_new(timed->model, &timed->options, errors);
     if (!simulation) return false;
-    while (fbd_simulation_advance(simulation) == FBD_GOING) continue;
+    fbd_outcome outcome;
+    do outcome = fbd_simulation_advance(simulation);
+    while (outcome == FBD_GOING);
     fbd_simulation_free(simulation);
-    return true;
+    return outcome != FBD_OUT_OF_MEMORY;
 }
 
 /* One reading: at least a hundred microseconds, a thousand times what the clock resolves. */

@@ -88,7 +88,7 @@ static bool make(struct track *track, fbd_simulation *simulation, const struct g
     if (!seen) track->outcome = FBD_FAILED;
     track->reason = arena_text(arena, reason, strlen(reason));
     track->stats = fbd_simulation_stats(simulation);
-    return track->reason && keep_events(track, simulation, arena);
+    return track->outcome != FBD_OUT_OF_MEMORY && track->reason && keep_events(track, simulation, arena);
 }
 
 bool track_make(struct track *track, const fbd_model *model, const struct setting *setting,
