@@ -18,7 +18,8 @@ static const char help[] =
     "  --fixed-steps        ladders of fixed steps in place of tolerances\n"
     "  --of A,B,...         errors of these coordinates and rates (default: all)\n"
     "  --budget SECONDS     about how long all may take (default 6)\n"
-    "  --effects            instead: leave out each effect of the scene in turn, and show how much the answer\n"
+    "  --effects            instead: leave out each effect of the scene in turn, and show how much the "
+    "answer\n"
     "                       changes and how much time it saves\n"
     "\n"
     "What is written (FILE may be - for standard output, which leaves the table out)\n"
@@ -28,7 +29,8 @@ static const char help[] =
     "  --quiet              no table\n"
     "  --help, --version\n"
     "\n"
-    "Exit codes: 0 done, 1 the run fails or its true motion cannot be known to the end, 2 usage, 3 the model\n"
+    "Exit codes: 0 done, 1 the run fails or its true motion cannot be known to the end, 2 usage, 3 the "
+    "model\n"
     "file is wrong, 4 the exact solution that the file gives is not that of the scene.\n";
 
 enum {

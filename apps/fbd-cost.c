@@ -132,8 +132,9 @@ static enum exit_code study_cost(const fbd_model *model, const struct cost_optio
     fbd_cost *cost = fbd_cost_new(model, &options->study, errors);
     end_progress(options);
     if (!cost) return blame(errors);
-    const struct output outputs[] = {
-        {options->csv, cost_csv}, {options->json, cost_json}, {options->svg, cost_svg}};
+    const struct output outputs[] = {{options->csv, cost_csv},
+                                     {options->json, cost_json},
+                                     {options->svg, cost_svg}};
     enum exit_code code = write_all(options, outputs, 3, cost_text, cost);
     fflush(stdout);
     if (code == exit_done) code = judge(cost);
