@@ -186,17 +186,17 @@ const struct group initial_groups[] = {
 
 /* ---- where it is known to be */
 
-#define KNOWN(where, index, key, quantity)                                                                   \
-    FIELD_VALUE(offsetof(struct exact_keys, where[index]), key, quantity, 0, "as an expression of t")
+#define KNOWN(where, key, quantity)                                                                          \
+    FIELD_VALUE(offsetof(struct exact_keys, where), key, quantity, 0, "as an expression of t")
 
-static const struct field slide_exact[] = {KNOWN(q, 0, "x", a_length), KNOWN(v, 0, "v", a_velocity)};
-static const struct field pivot_exact[] = {KNOWN(q, 0, "theta", an_angle),
-                                           KNOWN(v, 0, "omega", an_angular_velocity)};
-static const struct field particle_exact[] = {KNOWN(q, 0, "x", a_length), KNOWN(q, 1, "y", a_length),
-                                              KNOWN(v, 0, "vx", a_velocity), KNOWN(v, 1, "vy", a_velocity)};
+static const struct field slide_exact[] = {KNOWN(q[0], "x", a_length), KNOWN(v[0], "v", a_velocity)};
+static const struct field pivot_exact[] = {KNOWN(q[0], "theta", an_angle),
+                                           KNOWN(v[0], "omega", an_angular_velocity)};
+static const struct field particle_exact[] = {KNOWN(q[0], "x", a_length), KNOWN(q[1], "y", a_length),
+                                              KNOWN(v[0], "vx", a_velocity), KNOWN(v[1], "vy", a_velocity)};
 static const struct field planar_exact[] = {
-    KNOWN(q, 0, "x", a_length),    KNOWN(q, 1, "y", a_length),    KNOWN(q, 2, "theta", an_angle),
-    KNOWN(v, 0, "vx", a_velocity), KNOWN(v, 1, "vy", a_velocity), KNOWN(v, 2, "omega", an_angular_velocity)};
+    KNOWN(q[0], "x", a_length),    KNOWN(q[1], "y", a_length),    KNOWN(q[2], "theta", an_angle),
+    KNOWN(v[0], "vx", a_velocity), KNOWN(v[1], "vy", a_velocity), KNOWN(v[2], "omega", an_angular_velocity)};
 
 const struct group exact_groups[] = {
     [motion_slide] = {"`exact` of a slide", NULL, FIELDS(slide_exact), NULL, 0, "the known solution"},

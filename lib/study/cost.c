@@ -22,7 +22,7 @@ const fbd_model *cost_model(const struct fbd_cost *cost)
 const char *quantity_name_of(const fbd_model *model, size_t quantity)
 {
     size_t n = fbd_model_coordinates(model);
-    fbd_coordinate coordinate = fbd_model_coordinate(model, quantity % n);
+    fbd_coordinate coordinate = fbd_model_coordinate(model, quantity < n ? quantity : quantity - n);
     return quantity < n ? coordinate.name : coordinate.rate_name;
 }
 

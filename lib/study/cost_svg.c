@@ -207,13 +207,13 @@ static void front(struct text *text, const fbd_cost *cost, const struct axes *ax
     for (size_t i = 0; i < cost->point_count; i++)
         if (cost->points[i].front && is_drawn(&cost->points[i])) points[count++] = &cost->points[i];
     qsort(points, count, sizeof *points, by_error);
-    if (count > 1) text_add(text, "<path class=\"front\" d=\"");
-    for (size_t i = 0; count > 1 && i < count; i++) {
-        text_add(text, i ? " L" : "M");
-        pair(text, across(axes, drawn_error(cost, points[i])), upward(axes, points[i]->seconds));
-    }
-    if (count > 1) text_add(text, "\"/>\n");
     if (count > 1) {
+        text_add(text, "<path class=\"front\" d=\"");
+        for (size_t i = 0; i < count; i++) {
+            text_add(text, i ? " L" : "M");
+            pair(text, across(axes, drawn_error(cost, points[i])), upward(axes, points[i]->seconds));
+        }
+        text_add(text, "\"/>\n");
         const fbd_cost_point *middle = points[count / 2];
         begin_text(text, across(axes, drawn_error(cost, middle)) + 10, upward(axes, middle->seconds) + 24,
                    " class=\"small\"");

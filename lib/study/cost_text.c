@@ -153,7 +153,7 @@ static void measure(struct text *text, const struct fbd_cost *cost)
     for (size_t i = 0; i < 2 * n; i++) counted += reference->scale[i] > 0;
     for (size_t i = 0; i < 2 * n && shown < most_shown; i++) {
         if (!(reference->scale[i] > 0)) continue;
-        fbd_coordinate coordinate = fbd_model_coordinate(cost->model, i % n);
+        fbd_coordinate coordinate = fbd_model_coordinate(cost->model, i < n ? i : i - n);
         text_printf(text, "%s%s ", shown ? ", " : "", i < n ? coordinate.name : coordinate.rate_name);
         text_number(text, reference->scale[i], 3);
         text_printf(text, " %s", i < n ? coordinate.unit : coordinate.rate_unit);

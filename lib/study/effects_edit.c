@@ -3,7 +3,7 @@
  * The edits of a scene that leave an effect out.
  */
 #include <math.h>
-#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/diag.h"
@@ -15,11 +15,8 @@
 /* The polynomial is put together as text over the names s1, s2, ... of the slots, without dimensions. */
 static struct symbol slot_symbol(void *context, const char *name, struct pos at)
 {
-    int slot;
-    char more;
     (void)context, (void)at;
-    if (sscanf(name, "s%d%c", &slot, &more) != 1) return (struct symbol){.kind = symbol_unknown};
-    return (struct symbol){.kind = symbol_variable, .slot = slot};
+    return (struct symbol){.kind = symbol_variable, .slot = (int)strtol(name + 1, NULL, 10)};
 }
 
 static void term(struct text *text, double factor, int slot, double from)

@@ -70,11 +70,11 @@ void reference_scales(double *scale, const struct track *track, const bool *chos
     }
     double largest[2][2] = {{0}}; /* rate or not, angle or not */
     for (size_t i = 0; i < track->size; i++) {
-        double *most = &largest[i >= n][model->scene->coordinates[i % n].angle];
+        double *most = &largest[i >= n][model->scene->coordinates[i < n ? i : i - n].angle];
         *most = fmax(*most, scale[i]);
     }
     for (size_t i = 0; i < track->size; i++) {
-        double least = least_share * largest[i >= n][model->scene->coordinates[i % n].angle];
+        double least = least_share * largest[i >= n][model->scene->coordinates[i < n ? i : i - n].angle];
         scale[i] = chosen && !chosen[i] ? 0 : fmax(scale[i], least);
     }
 }
@@ -191,8 +191,8 @@ static void finish(struct certified_reference *reference, const struct search *s
 static bool exact_value(const struct fbd_model *model, size_t i, double t, double *value, double *rounding)
 {
     size_t n = model->scene->coordinate_count;
-    const struct body *body = &model->scene->bodies[model->scene->coordinates[i % n].body];
-    size_t k = i % n - (size_t)body->first, count = (size_t)body->count;
+    const struct body *body = &model->scene->bodies[model->scene->coordinates[i < n ? i : i - n].body];
+    size_t k = (i < n ? i : i - n) - (size_t)body->first, count = (size_t)body->count;
     const struct expr *own = body->exact[i < n ? k : count + k].expr, *position = body->exact[k].expr;
     double slope, again;
     if (own) {

@@ -42,10 +42,9 @@ static const char *cut_says(struct arena *arena, const struct certified_referenc
             : arena_printf(arena,
                            " Differences grow tenfold in %.3g s: the motion magnifies whatever disturbs it.",
                            reference->tenfold);
-    const char *why = isnan(reference->tenfold) || better
-                          ? better
-                                ? "tighter tolerances still bring them nearer"
-                                : "tighter tolerances do not bring them nearer: the scene does not converge"
+    const char *why = better ? "tighter tolerances still bring them nearer"
+                      : isnan(reference->tenfold)
+                          ? "tighter tolerances do not bring them nearer: the scene does not converge"
                           : "tighter tolerances do not bring them nearer: the motion is chaotic or unstable";
     if (!tenfold) return NULL;
     return arena_printf(arena,

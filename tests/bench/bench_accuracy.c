@@ -330,19 +330,19 @@ static void hold(struct contest *contest, const struct problem *problem, const c
 int main(int argc, char **argv)
 {
     gsl_set_error_handler_off();
+    if (argc < 2) return 2;
     struct contest *contests = calloc(problem_count, sizeof *contests);
-    if (argc < 2 || !contests) return 2;
+    if (!contests) return 1;
     for (size_t i = 0; i < problem_count; i++) hold(&contests[i], &problems[i], argv[1]);
     struct recommended recommended;
     recommended_measure(&recommended, argv[1]);
     FILE *out = argc > 2 ? fopen(argv[2], "w") : stdout;
-    if (!out) {
+    if (out)
+        write_document(out, contests, &recommended);
+    else
         fprintf(stderr, "cannot write `%s`: %s\n", argv[2], strerror(errno));
-        return 1;
-    }
-    write_document(out, contests, &recommended);
-    if (out != stdout) fclose(out);
+    if (out && out != stdout) fclose(out);
     for (size_t i = 0; i < problem_count; i++) fbd_model_free(contests[i].model);
     free(contests);
-    return 0;
+    return out ? 0 : 1;
 }
