@@ -68,6 +68,14 @@ static void add_friction(struct fbd_effects *effects, int b, int i)
 
 /* ---- nonlinearities */
 
+/* A body by itself: its equation of motion has no other body's mass in it. */
+static bool stands_alone(const struct scene *scene, int b)
+{
+    bool alone = scene->bodies[b].motion.parent == ground_body;
+    for (size_t i = 0; i < scene->body_count; i++) alone = alone && scene->bodies[i].motion.parent != b;
+    return alone;
+}
+
 /* The angle at which G lies along gravity from the axis, of all turns the nearest to the start. */
 static void add_linear_gravity(struct fbd_effects *effects, int b, int i)
 {
@@ -221,13 +229,14 @@ bool effects_list(struct fbd_effects *effects)
     const double *equilibrium;
     if (!find_equilibrium(effects, &equilibrium)) return false;
     for (int b = 0; b < (int)scene->body_count; b++) {
+        bool alone = stands_alone(scene, b);
         for (int i = 0; i < (int)scene->bodies[b].load_count; i++) {
             const struct load *load = &scene->bodies[b].loads[i];
             bool rubs = load->kind == load_friction || load->kind == moment_friction;
             add_load(effects, b, i);
             if (rubs) add_friction(effects, b, i);
-            if (load->kind == load_gravity) add_linear_gravity(effects, b, i);
-            if (load->kind == load_drag) add_linear_drag(effects, b, i);
+            if (load->kind == load_gravity && alone) add_linear_gravity(effects, b, i);
+            if (load->kind == load_drag && alone) add_linear_drag(effects, b, i);
             if (!rubs) add_linear_formula(effects, b, i, equilibrium);
         }
         add_inertia(effects, b);
