@@ -319,7 +319,7 @@ FBD_API int fbd_check_hand(const fbd_model *model, unsigned seed, char **text);
 /* ---------------------------------------------------------------- what accuracy costs */
 
 /* Called now and then by what takes long: what is being done, and how much of it is done, 0 to 1. */
-typedef void fbd_progress(void *context, const char *what, double share);
+typedef void fbd_study_progress(void *context, const char *what, double share);
 
 typedef struct fbd_cost_options {
     double until;               /* end of the run; NAN for the file's */
@@ -328,8 +328,8 @@ typedef struct fbd_cost_options {
     size_t method_count;
     const char *const *quantities; /* coordinates and rates whose error counts, qualified; NULL for all */
     size_t quantity_count;
-    bool fixed_steps;       /* ladders of fixed steps (one-step methods) in place of tolerances */
-    fbd_progress *progress; /* or NULL */
+    bool fixed_steps;             /* ladders of fixed steps (one-step methods) in place of tolerances */
+    fbd_study_progress *progress; /* or NULL */
     void *progress_context;
 } fbd_cost_options;
 

@@ -24,7 +24,7 @@ struct timed {
 
 /* Told now and then how far a study has got, 0 to 1. */
 struct progress {
-    fbd_progress *report; /* or NULL */
+    fbd_study_progress *report; /* or NULL */
     void *context;
 };
 
