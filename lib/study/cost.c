@@ -7,7 +7,6 @@
 
 #include "base/diag.h"
 #include "model/variant.h"
-#include "output/result.h"
 #include "study/stopwatch.h"
 
 static const double default_budget = 6;
@@ -62,18 +61,17 @@ bool quantities_choose(const fbd_model *model, const fbd_cost_options *options, 
 
 /* ---- making it */
 
-/* The end of the run, as any run finds it; false with its notes when there is none. */
-static bool find_until(struct fbd_cost *cost, const fbd_cost_options *options)
+bool study_until(const fbd_model *model, const fbd_cost_options *options, double *until, fbd_errors *errors)
 {
     fbd_options run = FBD_OPTIONS_DEFAULT;
     run.until = options->until;
-    fbd_simulation *simulation = fbd_simulation_new(cost->model, &run, cost->errors);
+    fbd_simulation *simulation = fbd_simulation_new(model, &run, errors);
     if (!simulation) return false;
-    cost->until = simulation->run->options.until;
     fbd_simulation_free(simulation);
-    if (cost->until > 0) return true;
-    diag_add(cost->errors, FBD_ERROR, "bad-option", (struct pos){0, 0}, "give --until a time above 0",
-             "a run of no length costs nothing");
+    *until = isnan(options->until) ? expr_value(model->scene->simulate.until.expr) : options->until;
+    if (*until > 0) return true;
+    diag_add(errors, FBD_ERROR, "bad-option", (struct pos){0, 0}, "give --until a time above 0",
+             "in a run of no length there is nothing to study");
     return false;
 }
 
@@ -111,7 +109,7 @@ static bool study(struct fbd_cost *cost, const fbd_cost_options *options)
 {
     struct stopwatch watch = stopwatch_start();
     if (!quantities_choose(cost->model, options, &cost->arena, &cost->chosen, cost->errors)) return false;
-    if (!find_until(cost, options)) return false;
+    if (!study_until(cost->model, options, &cost->until, cost->errors)) return false;
     if (cost->model->scene->simulate.step > 0) {
         cost->stepless = model_variant(cost->model, forget_step, NULL, cost->errors);
         if (!cost->stepless) return false;

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/diag.h"
-#include "output/result.h"
 #include "study/cost.h"
 #include "study/stopwatch.h"
 
@@ -18,25 +17,11 @@ static const double default_budget = 6, longest_share = 0.1;
 
 /* ---- the scene itself */
 
-static bool find_until(struct fbd_effects *effects, const fbd_cost_options *options)
-{
-    fbd_options run = FBD_OPTIONS_DEFAULT;
-    run.until = options->until;
-    fbd_simulation *simulation = fbd_simulation_new(effects->model, &run, effects->errors);
-    if (!simulation) return false;
-    effects->until = simulation->run->options.until;
-    fbd_simulation_free(simulation);
-    if (effects->until > 0) return true;
-    diag_add(effects->errors, FBD_ERROR, "bad-option", (struct pos){0, 0}, "give --until a time above 0",
-             "in a run of no length nothing has an effect");
-    return false;
-}
-
 static bool run_scene(struct fbd_effects *effects, const fbd_cost_options *options)
 {
     bool *chosen;
     if (!quantities_choose(effects->model, options, &effects->arena, &chosen, effects->errors)) return false;
-    if (!find_until(effects, options)) return false;
+    if (!study_until(effects->model, options, &effects->until, effects->errors)) return false;
     effects->grid = (struct grid){.until = effects->until, .count = grid_intervals + 1};
     struct track *runs[] = {&effects->track, &effects->tight};
     const struct setting *settings[] = {&measured, &tighter};
