@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "solve/method.h"
 #include "study/cost.h"
 
 /* Below the floor all errors are alike. */
@@ -46,24 +47,43 @@ static size_t best_of(const struct fbd_cost *cost, const fbd_cost_series *series
     return best;
 }
 
-/* log(error) = a + p log(mean step) by least squares, over points that are neither coarse nor at the floor.
- */
+/* Sums for a line y = a + p x. */
+struct fit {
+    double n, x, y, xx, xy, yy;
+};
+
+static void fit_add(struct fit *fit, double x, double y)
+{
+    fit->n += 1, fit->x += x, fit->y += y;
+    fit->xx += x * x, fit->xy += x * y, fit->yy += y * y;
+}
+
+/* The slope, or NAN where the points are too few, too near, or not on a line (r^2 below 0.9). */
+static double fit_slope(const struct fit *fit)
+{
+    const double least_spread = 0.5; /* of log(steps), squared and summed: a factor of 2 over three points */
+    double xx = fit->n * fit->xx - fit->x * fit->x, xy = fit->n * fit->xy - fit->x * fit->y,
+           yy = fit->n * fit->yy - fit->y * fit->y;
+    if (fit->n < 3 || !(xx > least_spread) || !(xy * xy > 0.9 * xx * yy)) return NAN;
+    return xy / xx;
+}
+
+/* p in error ~ (mean step)^p by least squares, over points that are neither coarse nor at the floor. Where
+ * stability and not accuracy sets the steps, hardly longer for a loose tolerance, the slope comes out far too
+ * steep and is none. */
 static double observed_order(const struct fbd_cost *cost, const fbd_cost_series *series)
 {
-    const double coarse = 0.03, above_floor = 10;
-    double sum[5] = {0};
+    const double coarse = 0.03, above_floor = 10, highest = 13;
+    struct fit fit = {0};
     for (size_t i = series->first; i <= best_of(cost, series); i++) {
         const fbd_cost_point *point = &cost->points[i];
         bool tells = is_answer(point) && point->error < coarse && point->stats.steps > 0 &&
                      point->error > above_floor * cost->reference.floor && point->same_events;
-        if (!tells) continue;
-        double x = -log((double)point->stats.steps), y = log(point->error);
-        sum[0] += 1, sum[1] += x, sum[2] += y, sum[3] += x * x, sum[4] += x * y;
+        if (tells) fit_add(&fit, -log((double)point->stats.steps), log(point->error));
     }
-    double spread = sum[0] * sum[3] - sum[1] * sum[1];
-    const double least_spread = 0.5; /* of log(steps), squared and summed: a factor of 2 over three points */
-    if (sum[0] < 3 || !(spread > least_spread)) return NAN;
-    return (sum[0] * sum[4] - sum[1] * sum[2]) / spread;
+    const struct method *method = method_find(series->method);
+    double slope = fit_slope(&fit), most = method ? 1.5 * method->order + 1 : highest;
+    return slope <= most ? slope : NAN;
 }
 
 void cost_analyse(struct fbd_cost *cost)

@@ -183,7 +183,8 @@ static void floor_band(struct text *text, const fbd_cost *cost, const struct axe
     text_printf(text, "\" height=\"%d\"/>\n", bottom - top);
     line(text, "floorline", x, top, x, bottom);
     text_add(text, "<text class=\"small\" transform=\"translate(");
-    place(text, fmin(x + 12, right - 4));
+    const double beside = 14;
+    place(text, x + beside < right ? x + beside : x - 5);
     text_printf(text, " %d) rotate(-90)\">floor of the reference</text>\n", bottom - 8);
 }
 
