@@ -67,7 +67,7 @@ static struct study study(const char *text)
 {
     struct study study = {.errors = fbd_errors_new()};
     fbd_cost_options options = FBD_COST_OPTIONS_DEFAULT;
-    options.budget = 0.5;
+    options.budget = 5;
     assert_non_null(study.errors);
     study.model = fbd_model_parse(text, strlen(text), "scene", NULL, 0, study.errors);
     assert_non_null(study.model);
