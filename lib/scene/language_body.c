@@ -204,4 +204,5 @@ const struct group exact_groups[] = {
     [motion_particle] = {"`exact` of a particle", NULL, FIELDS(particle_exact), NULL, 0,
                          "the known solution"},
     [motion_planar] = {"`exact` of a planar body", NULL, FIELDS(planar_exact), NULL, 0, "the known solution"},
+    [motion_weld] = {"`exact` of a weld", NULL, NULL, 0, NULL, 0, "a weld has no coordinate"},
 };

@@ -14,6 +14,7 @@
 
 enum edit_kind {
     edit_leave_out,      /* a force or moment */
+    edit_uncouple,       /* a coupling */
     edit_static,         /* static friction: mu_s becomes mu_k */
     edit_surface,        /* the surface stands still */
     edit_part,           /* the mass of a part */
@@ -25,7 +26,7 @@ enum edit_kind {
 
 struct edit {
     enum edit_kind kind;
-    int body, index;        /* load or part */
+    int body, index;        /* load, part or coupling */
     double value, value2;   /* of the kind: stiffness and neutral angle; speed */
     const fbd_model *model; /* the scene itself */
     const double *at;       /* the equilibrium: 2 n; or NULL */

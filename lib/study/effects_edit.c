@@ -83,6 +83,13 @@ static void leave_out_load(struct body *body, int index)
     for (size_t i = (size_t)index; i < body->load_count; i++) body->loads[i] = body->loads[i + 1];
 }
 
+static void uncouple(struct scene *scene, int index)
+{
+    scene->coupling_count--;
+    for (size_t i = (size_t)index; i < scene->coupling_count; i++)
+        scene->couplings[i] = scene->couplings[i + 1];
+}
+
 static void leave_out_part(struct body *body, int index)
 {
     body->part_count--;
@@ -113,11 +120,12 @@ void effect_edit(struct scene *scene, void *context, fbd_errors *errors)
 {
     const struct edit *edit = context;
     struct body *body = &scene->bodies[edit->body];
-    struct load *load =
-        edit->kind == edit_part || edit->kind == edit_rotary ? NULL : &body->loads[edit->index];
+    bool of_load = edit->kind != edit_part && edit->kind != edit_rotary && edit->kind != edit_uncouple;
+    struct load *load = of_load ? &body->loads[edit->index] : NULL;
     for (size_t b = 0; b < scene->body_count; b++) scene->bodies[b].hand_count = 0; /* of another scene */
     switch (edit->kind) {
     case edit_leave_out: leave_out_load(body, edit->index); break;
+    case edit_uncouple: uncouple(scene, edit->index); break;
     case edit_static: load->mu_s = load->mu_k; break;
     case edit_surface: load->surface_speed = (struct value){0}; break;
     case edit_part: leave_out_part(body, edit->index); break;

@@ -195,6 +195,19 @@ static void add_inertia(struct fbd_effects *effects, int b)
             body->kind == motion_pivot ? "all its mass in G" : "no moment of inertia about G");
 }
 
+/* ---- couplings: a row of the first body that is not the ground */
+
+static void add_couplings(struct fbd_effects *effects)
+{
+    const struct scene *scene = effects->model->scene;
+    for (int i = 0; i < (int)scene->coupling_count; i++) {
+        const struct coupling *coupling = &scene->couplings[i];
+        int body = coupling->body[coupling->body[0] == ground_body];
+        add(effects, (struct edit){.kind = edit_uncouple, .body = body, .index = i}, coupling->load.name,
+            "left out");
+    }
+}
+
 /* ---- the whole */
 
 /* The equilibrium nearest to the start; *at is NULL when there is none, or friction could hold anywhere.
@@ -219,7 +232,7 @@ bool effects_list(struct fbd_effects *effects)
 {
     const struct scene *scene = effects->model->scene;
     enum { kinds_of_a_load = 4 };
-    size_t room = 1;
+    size_t room = 1 + scene->coupling_count;
     for (size_t b = 0; b < scene->body_count; b++)
         room += kinds_of_a_load * scene->bodies[b].load_count + scene->bodies[b].part_count + 1;
     effects->effects = ARENA_ARRAY(&effects->arena, room, fbd_effect);
@@ -241,5 +254,6 @@ bool effects_list(struct fbd_effects *effects)
         }
         add_inertia(effects, b);
     }
+    add_couplings(effects);
     return !effects->arena.failed;
 }

@@ -20,22 +20,30 @@ enum { times = 241 }; /* of the grid, as documented */
 
 #define SCENE(BODY, UNTIL) "fbd: 1\nbodies:\n  b: {" BODY "}\nsimulate: {until: " UNTIL "}\n"
 
-/* A motion on the grid: coordinate and rate of the only body with one of them. */
+enum { most_quantities = 4 };
+
+/* A motion on the grid: all coordinates, then all rates. */
 struct motion_seen {
-    double y[times][2];
+    size_t size;
+    double y[times][most_quantities];
 };
 
 static void watch(const char *text, double until, struct motion_seen *seen)
 {
     struct trial trial = trial_parse(text);
-    fbd_coordinate coordinate = fbd_model_coordinate(trial.model, 0);
+    size_t n = fbd_model_coordinates(trial.model);
     fbd_options options = FBD_OPTIONS_DEFAULT;
     options.tolerance = 1e-12;
+    assert_true(2 * n <= most_quantities);
+    seen->size = 2 * n;
     trial_start(&trial, &options);
     for (int k = 0; k < times; k++) {
         trial_to(&trial, until * k / (times - 1));
-        seen->y[k][0] = trial_get(&trial, coordinate.name);
-        seen->y[k][1] = trial_get(&trial, coordinate.rate_name);
+        for (size_t i = 0; i < n; i++) {
+            fbd_coordinate coordinate = fbd_model_coordinate(trial.model, i);
+            seen->y[k][i] = trial_get(&trial, coordinate.name);
+            seen->y[k][n + i] = trial_get(&trial, coordinate.rate_name);
+        }
     }
     trial_close(&trial);
 }
@@ -44,15 +52,15 @@ static void watch(const char *text, double until, struct motion_seen *seen)
 static void differ(const char *with, const char *without, double until, double *largest, double *end)
 {
     static struct motion_seen a, b;
-    double scale[2] = {0, 0};
+    double scale[most_quantities] = {0};
     watch(with, until, &a);
     watch(without, until, &b);
     *largest = *end = 0;
     for (int k = 0; k < times; k++)
-        for (int i = 0; i < 2; i++) scale[i] = fmax(scale[i], fabs(a.y[k][i]));
+        for (size_t i = 0; i < a.size; i++) scale[i] = fmax(scale[i], fabs(a.y[k][i]));
     for (int k = 0; k < times; k++) {
         *end = 0;
-        for (int i = 0; i < 2; i++) *end = fmax(*end, fabs(a.y[k][i] - b.y[k][i]) / scale[i]);
+        for (size_t i = 0; i < a.size; i++) *end = fmax(*end, fabs(a.y[k][i] - b.y[k][i]) / scale[i]);
         *largest = fmax(*largest, *end);
     }
 }
@@ -120,6 +128,20 @@ static void a_force_left_out_is_a_scene_without_it(void **unused)
          SCENE(BLOCK ", forces: [gravity]", "2 s"), 2, "damper", "left out");
     hold(&checks, SCENE(BLOCK ", forces: [gravity, normal, {friction: {static: 0.5, kinetic: 0.4}}]", "2 s"),
          SCENE(BLOCK ", forces: [gravity, normal]", "2 s"), 2, "friction", "left out");
+    checks_end(&checks);
+}
+
+static void a_spring_between_bodies_is_an_effect(void **unused)
+{
+#define JOINED(COUPLINGS)                                                                                    \
+    "fbd: 1\nbodies:\n  a: {mass: 1 kg, motion: slide, initial: {v: 1 m/s}}\n  b: {mass: 2 kg, motion: "     \
+    "slide, initial: {x: 1 m, v: 0.1 m/s}}\n" COUPLINGS "simulate: {until: 2 s}\n"
+    struct checks checks = {0};
+    (void)unused;
+    hold(&checks,
+         JOINED(
+             "couplings:\n  - spring: {name: s1, between: [a.G, b.G], stiffness: 5 N/m, free_length: 1 m}\n"),
+         JOINED(""), 2, "s1", "left out");
     checks_end(&checks);
 }
 
@@ -246,6 +268,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_force_left_out_is_a_scene_without_it),
+        cmocka_unit_test(a_spring_between_bodies_is_an_effect),
         cmocka_unit_test(static_friction_becomes_kinetic),
         cmocka_unit_test(the_mass_of_a_rod_goes_with_the_rod),
         cmocka_unit_test(gravity_is_linear_about_where_the_body_hangs),
