@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What the files of bench_accuracy share: problems with closed forms, and the programs that solve them.
+ * What the files of bench_accuracy share: problems with known solutions, and the programs that solve them.
  *
  * A solver makes one whole run of a problem from nothing, as a program would that wants its end (allocating,
  * integrating, freeing), and says what error is left. The hand-written ones have the right-hand side, the
@@ -14,7 +14,7 @@
 
 #include "fbd.h"
 
-enum { most_times = 4 };
+enum { most_times = 4, most_size = 4 };
 
 enum problem_kind {
     smooth,
@@ -26,12 +26,13 @@ struct problem {
     const char *name, *model, *options; /* the model file, and what fbd-run is told beside it */
     fbd_setting settings[3];
     size_t setting_count;
-    const char *coordinate, *rate;
+    size_t size;                  /* of the state */
+    const char *names[most_size]; /* its components in fbd */
     enum problem_kind kind;
     bool stiff;
     double times[most_times]; /* where the error is measured, ascending; the last one ends the run */
     size_t time_count;
-    double y0[2], scale[2];
+    double y0[most_size], scale[most_size];
     double c; /* of the oscillator */
     void (*exact)(const struct problem *problem, double t, double *y);
     int (*rhs)(double t, const double y[], double f[], void *context);

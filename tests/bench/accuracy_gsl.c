@@ -30,11 +30,12 @@ static int apply(gsl_odeiv2_driver *driver, struct mode *mode, double *t, double
 static double by_driver(const struct problem *problem, const gsl_odeiv2_step_type *type, double tolerance)
 {
     struct mode mode = {.problem = problem};
-    gsl_odeiv2_system system = {problem->rhs, problem->jacobian, 2, &mode};
+    gsl_odeiv2_system system = {problem->rhs, problem->jacobian, problem->size, &mode};
     gsl_odeiv2_driver *driver =
         gsl_odeiv2_driver_alloc_scaled_new(&system, type, 1e-4, tolerance, tolerance, 1, 0, problem->scale);
-    double t = 0, y[2] = {problem->y0[0], problem->y0[1]}, error = 0;
+    double t = 0, y[most_size], error = 0;
     if (!driver) return NAN;
+    memcpy(y, problem->y0, sizeof y);
     for (size_t i = 0; i < problem->time_count; i++) {
         if (apply(driver, &mode, &t, problem->times[i], y) != GSL_SUCCESS) error = NAN;
         error = fmax(error, problem_error(problem, t, y));

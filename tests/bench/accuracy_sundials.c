@@ -115,11 +115,11 @@ struct vectors {
 static void vectors_make(struct vectors *v, const struct problem *problem, double tolerance)
 {
     SUNContext_Create(NULL, &v->context);
-    v->y = N_VNew_Serial(2, v->context);
-    v->absolute = N_VNew_Serial(2, v->context);
-    v->A = SUNDenseMatrix(2, 2, v->context);
+    v->y = N_VNew_Serial((sunindextype)problem->size, v->context);
+    v->absolute = N_VNew_Serial((sunindextype)problem->size, v->context);
+    v->A = SUNDenseMatrix((sunindextype)problem->size, (sunindextype)problem->size, v->context);
     v->solver = SUNLinSol_Dense(v->y, v->A, v->context);
-    for (int i = 0; i < 2; i++) {
+    for (size_t i = 0; i < problem->size; i++) {
         NV_Ith_S(v->y, i) = problem->y0[i];
         NV_Ith_S(v->absolute, i) = tolerance * problem->scale[i];
     }
@@ -148,7 +148,7 @@ static double by_cvode(const struct problem *problem, int family, double toleran
     CVodeSetMaxNumSteps(memory, most_steps);
     CVodeSetErrFile(memory, NULL);
     CVodeSetLinearSolver(memory, v.solver, v.A);
-    CVodeSetJacFn(memory, jacobian);
+    if (problem->jacobian) CVodeSetJacFn(memory, jacobian);
     if (problem->kind == belt) CVodeRootInit(memory, 1, roots);
     const struct program program = {memory,         cvode_advance, CVodeReInit,    CVodeSetStopTime,
                                     CV_ROOT_RETURN, CV_SUCCESS,    CV_TSTOP_RETURN};
