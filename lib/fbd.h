@@ -373,7 +373,7 @@ typedef struct fbd_cost_reference {
     bool exact, exact_differs; /* from `exact:` of the file; that is not the solution of the scene */
     double floor, floor_end;   /* what the reference is in doubt by (scaled) */
     double until, known;       /* the end of the run; up to when the reference is known to 1e-6 */
-    bool complete;             /* known == until */
+    bool complete;             /* it is known to the end */
     double tenfold;            /* time in which differences grow tenfold, or NAN */
 } fbd_cost_reference;
 

@@ -135,7 +135,6 @@ fbd_cost *fbd_cost_new(const fbd_model *model, const fbd_cost_options *options, 
     }
     cost->model = model;
     cost->budget = options->budget > 0 ? options->budget : default_budget;
-    cost->fixed_steps = options->fixed_steps;
     cost->progress = (struct progress){options->progress, options->progress_context};
     cost->errors = errors;
     if (study(cost, options)) return cost;

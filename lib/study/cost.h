@@ -2,9 +2,9 @@
  *
  * Cost: error against time for every method on one scene.
  *
- * Three stages: a reference (reference.h); one run of each method at each rung of its ladder, for the error
- * and the counts, all methods at the loose rungs first; the times, by repeats in turn (timing.h). Each stage
- * has its share of the budget. A run that would not fit is skipped and said to be.
+ * Three stages: a reference (reference.h); the ladders, one run of each method at each of its settings, for
+ * the error and the counts, always that run next which will take least; the times, by repeats in turn
+ * (timing.h). Each stage has its share of the budget. A run that would not fit is skipped and said to be.
  */
 #ifndef FBD_STUDY_COST_H
 #define FBD_STUDY_COST_H
@@ -20,7 +20,6 @@ struct fbd_cost {
     struct certified_reference reference;
     double until, budget;
     bool *chosen; /* of the quantities; NULL for all */
-    bool fixed_steps;
     fbd_cost_point *points;
     struct setting *settings; /* of the points */
     size_t point_count;
