@@ -27,6 +27,7 @@ valgrind: $(BUILD)/.tests
 bench: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	meson test -C $(BUILD) --no-rebuild --benchmark --verbose
+	$(BUILD)/tests/bench/bench_accuracy . docs/accuracy.md
 
 # Counts instructions anew and puts them into docs/effects.md.
 effects: $(BUILD)/.tests

@@ -429,6 +429,125 @@ FBD_API bool fbd_sweep_over(fbd_sweep_crew *crew);
 
 FBD_API fbd_sweep_end fbd_sweep_finish(fbd_sweep_crew *crew, fbd_sweep_counts *counts);
 
+/* ---------------------------------------------------------------- what accuracy costs */
+
+/* Called now and then by what takes long: what is being done, and how much of it is done, 0 to 1. */
+typedef void fbd_study_progress(void *context, const char *what, double share);
+
+typedef struct fbd_cost_options {
+    double until;               /* end of the run; NAN for the file's */
+    double budget;              /* how long all may take, in seconds; 0 for 6 s */
+    const char *const *methods; /* names; NULL for all */
+    size_t method_count;
+    const char *const *quantities; /* coordinates and rates whose error counts, qualified; NULL for all */
+    size_t quantity_count;
+    bool fixed_steps;             /* ladders of fixed steps (one-step methods) in place of tolerances */
+    fbd_study_progress *progress; /* or NULL */
+    void *progress_context;
+} fbd_cost_options;
+
+#define FBD_COST_OPTIONS_DEFAULT                                                                             \
+    {                                                                                                        \
+        NAN, 0, NULL, 0, NULL, 0, false, NULL, NULL                                                          \
+    }
+
+typedef enum fbd_point_state {
+    FBD_POINT_MEASURED,
+    FBD_POINT_FAILED,  /* the run failed, or ended otherwise than the reference; `reason` says how */
+    FBD_POINT_SKIPPED, /* it would take too long for the budget */
+} fbd_point_state;
+
+/* One method with one setting on the scene: what error is left, and what it costs. */
+typedef struct fbd_cost_point {
+    const char *method;
+    double tolerance, step; /* one of the two; the other is 0 */
+    fbd_point_state state;
+    const char *reason; /* "" when measured */
+
+    /* True global errors: the largest |error| / scale over all quantities that count; over the run (at 241
+     * times) and at its end. The scale of a quantity is its largest magnitude over the run. */
+    double error, error_end;
+    const char *worst;  /* the quantity of `error` */
+    bool floor;         /* no more than what the reference itself is in doubt by */
+    double event_error; /* largest error of an event's time; NAN without events, or with others */
+    bool same_events;   /* as many as the reference has, of the same kinds, in the same order */
+
+    double seconds, low, high; /* of one run without output: median and quartiles */
+    unsigned repeats;
+    fbd_stats stats;
+    bool front; /* no other point is both more accurate and cheaper */
+} fbd_cost_point;
+
+/* What the errors are measured against: lib/study/reference.h. */
+typedef struct fbd_cost_reference {
+    const char *says;          /* one or more sentences */
+    const char *method[2];     /* the pair of runs that agree best, ... */
+    double tolerance[2];       /* ... and their tolerances */
+    bool exact, exact_differs; /* from `exact:` of the file; that is not the solution of the scene */
+    double floor, floor_end;   /* what the reference is in doubt by (scaled) */
+    double until, known;       /* the end of the run; up to when the reference is known to 1e-6 */
+    bool complete;             /* it is known to the end */
+    double tenfold;            /* time in which differences grow tenfold, or NAN */
+} fbd_cost_reference;
+
+/* All points of one method. */
+typedef struct fbd_cost_series {
+    const char *method;
+    bool fixed;          /* a ladder of steps, not of tolerances */
+    size_t first, count; /* its points, from loose to tight */
+    double order;        /* p in error ~ (mean step)^p by least squares; NAN when too few points tell */
+} fbd_cost_series;
+
+typedef struct fbd_cost fbd_cost;
+
+/* Run every method at every tolerance of a ladder on the scene and measure true error against time. NULL with
+ * notes in `errors` (those of fbd_simulation_new, `unknown-quantity`, `no-reference`). The model must outlive
+ * the result. */
+FBD_API fbd_cost *fbd_cost_new(const fbd_model *model, const fbd_cost_options *options, fbd_errors *errors);
+FBD_API void fbd_cost_free(fbd_cost *cost);
+
+FBD_API fbd_cost_reference fbd_cost_get_reference(const fbd_cost *cost);
+FBD_API size_t fbd_cost_series_count(const fbd_cost *cost);
+FBD_API fbd_cost_series fbd_cost_get_series(const fbd_cost *cost, size_t index);
+FBD_API size_t fbd_cost_points(const fbd_cost *cost);
+FBD_API const fbd_cost_point *fbd_cost_get_point(const fbd_cost *cost, size_t index);
+
+/* The cheapest point whose error over the run is at most `error`, and stays so at all tighter settings of its
+ * method; NULL when there is none. Of points that cost the same to 3 %, the default method is taken. */
+FBD_API const fbd_cost_point *fbd_cost_cheapest(const fbd_cost *cost, double error);
+
+/* As text, to be freed with free(); NULL when memory is out. fbd_cost_svg is the work-precision diagram. */
+FBD_API char *fbd_cost_text(const fbd_cost *cost);
+FBD_API char *fbd_cost_csv(const fbd_cost *cost);
+FBD_API char *fbd_cost_json(const fbd_cost *cost);
+FBD_API char *fbd_cost_svg(const fbd_cost *cost);
+
+/* ---------------------------------------------------------------- what each effect costs */
+
+/* The scene with one effect left out, beside the scene itself. */
+typedef struct fbd_effect {
+    const char *body, *name;       /* "block", "friction" */
+    const char *change;            /* "left out", "linear: sin(theta) -> theta", ... */
+    const char *reason;            /* why there is no number: what cannot be left out; "" otherwise */
+    double change_end, change_max; /* of the answer: |difference| / scale, at the end and over the run */
+    const char *worst;             /* the quantity that changes most */
+    bool noise;                    /* no more than runs of the scene itself differ by */
+    double time;                   /* run time without it / run time of the scene; NAN when not measured */
+    long events;                   /* of the run without it, less those of the scene */
+} fbd_effect;
+
+typedef struct fbd_effects fbd_effects;
+
+/* Leave out each effect in turn. Of the options `methods`, `quantities` and `fixed_steps` are not used. */
+FBD_API fbd_effects *fbd_effects_new(const fbd_model *model, const fbd_cost_options *options,
+                                     fbd_errors *errors);
+FBD_API void fbd_effects_free(fbd_effects *effects);
+FBD_API size_t fbd_effects_count(const fbd_effects *effects);
+FBD_API const fbd_effect *fbd_effects_get(const fbd_effects *effects, size_t index);
+FBD_API char *fbd_effects_text(const fbd_effects *effects);
+FBD_API char *fbd_effects_csv(const fbd_effects *effects);
+FBD_API char *fbd_effects_json(const fbd_effects *effects);
+
 FBD_API const char *fbd_version(void);
 
 #ifdef __cplusplus

@@ -132,7 +132,7 @@ struct part_keys {
 struct body_keys {
     const char *description;
     struct part_keys part;
-    const struct node *parts, *points, *motion, *initial, *forces, *moments, *hand;
+    const struct node *parts, *points, *motion, *initial, *forces, *moments, *hand, *exact;
 };
 
 struct inertia_keys {
@@ -149,6 +149,11 @@ struct motion_keys {
 /* In the order of the body's coordinates. */
 struct initial_keys {
     double q[most_coordinates_of_a_body], v[most_coordinates_of_a_body];
+};
+
+/* Likewise. */
+struct exact_keys {
+    struct value q[most_coordinates_of_a_body], v[most_coordinates_of_a_body];
 };
 
 struct load_keys {
@@ -174,7 +179,7 @@ struct hand_keys {
 
 extern const struct group scene_group, ground_group, line_group, simulate_group, output_group, event_group;
 extern const struct group body_group, part_group, inertia_group, hand_group;
-extern const struct group initial_groups[]; /* by enum motion_kind */
+extern const struct group initial_groups[], exact_groups[]; /* by enum motion_kind */
 extern const struct kinds motion_kinds, force_kinds, moment_kinds, coupling_kinds;
 
 /* ---- how a table is written: one row for each key, `at` being the offset in the structure */

@@ -81,6 +81,8 @@ static const struct field body_fields[] = {
                "list of the moments that act on it"),
     FIELD_NODE(offsetof(struct body_keys, hand), "hand", field_any, 0, &hand_group,
                "equations derived by hand, to be checked"),
+    FIELD_NODE(offsetof(struct body_keys, exact), "exact", field_map, 0, NULL,
+               "the solution, where it is known: coordinates as expressions of t"),
 };
 
 const struct group body_group = {"a body",
@@ -180,4 +182,27 @@ const struct group initial_groups[] = {
                          "state at t = 0"},
     [motion_planar] = {"`initial` of a planar body", NULL, FIELDS(planar_initial), NULL, 0, "state at t = 0"},
     [motion_weld] = {"`initial` of a weld", NULL, NULL, 0, NULL, 0, "a weld has no coordinate"},
+};
+
+/* ---- where it is known to be */
+
+#define KNOWN(where, key, quantity)                                                                          \
+    FIELD_VALUE(offsetof(struct exact_keys, where), key, quantity, 0, "as an expression of t")
+
+static const struct field slide_exact[] = {KNOWN(q[0], "x", a_length), KNOWN(v[0], "v", a_velocity)};
+static const struct field pivot_exact[] = {KNOWN(q[0], "theta", an_angle),
+                                           KNOWN(v[0], "omega", an_angular_velocity)};
+static const struct field particle_exact[] = {KNOWN(q[0], "x", a_length), KNOWN(q[1], "y", a_length),
+                                              KNOWN(v[0], "vx", a_velocity), KNOWN(v[1], "vy", a_velocity)};
+static const struct field planar_exact[] = {
+    KNOWN(q[0], "x", a_length),    KNOWN(q[1], "y", a_length),    KNOWN(q[2], "theta", an_angle),
+    KNOWN(v[0], "vx", a_velocity), KNOWN(v[1], "vy", a_velocity), KNOWN(v[2], "omega", an_angular_velocity)};
+
+const struct group exact_groups[] = {
+    [motion_slide] = {"`exact` of a slide", NULL, FIELDS(slide_exact), NULL, 0, "the known solution"},
+    [motion_pivot] = {"`exact` of a pivot", NULL, FIELDS(pivot_exact), NULL, 0, "the known solution"},
+    [motion_particle] = {"`exact` of a particle", NULL, FIELDS(particle_exact), NULL, 0,
+                         "the known solution"},
+    [motion_planar] = {"`exact` of a planar body", NULL, FIELDS(planar_exact), NULL, 0, "the known solution"},
+    [motion_weld] = {"`exact` of a weld", NULL, NULL, 0, NULL, 0, "a weld has no coordinate"},
 };

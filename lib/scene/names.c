@@ -210,6 +210,7 @@ static struct symbol dotted_symbol(const struct names *names, const char *name, 
     if (!pair) return unknown;
     int index = (int)(pair - reader->bodies->pairs);
     if (names->place == place_constant) return variable(DIM_NONE, 0);
+    if (names->place == place_exact) return unknown;
     if (!reader->drafts[index].motion_known) return failed_before;
     struct symbol own = coordinate_symbol(names, index, dot + 1);
     if (own.kind == symbol_unknown && names->place == place_hand)
@@ -222,7 +223,7 @@ static struct symbol own_symbol(const struct names *names, const char *name)
     const struct reader *reader = names->reader;
     bool reserved = name_is_reserved(name);
     if (names->place == place_constant) return reserved ? variable(DIM_NONE, 0) : unknown;
-    if (names->body == ground_body) return unknown;
+    if (names->body == ground_body || names->place == place_exact) return unknown;
     if (!reader->drafts[names->body].motion_known) return reserved ? failed_before : unknown;
     return coordinate_symbol(names, names->body, name);
 }
@@ -269,7 +270,7 @@ static struct symbol load_symbol(const struct names *names, const char *name)
 
 static struct symbol other_symbol(const struct names *names, const char *name)
 {
-    if (names->place == place_load) return load_symbol(names, name);
+    if (names->place == place_load || names->place == place_exact) return load_symbol(names, name);
     if (names->place == place_hand) return hand_symbol(names, name);
     return unknown;
 }
@@ -318,16 +319,16 @@ static void know_all(struct names *names)
 {
     static const char *const of_hand[] = {"m", "I_G", "I_O", "L", "N", "mu_s", "mu_k", "mu"};
     struct reader *reader = names->reader;
-    bool constant = names->place == place_constant;
-    if (!constant && names->body != ground_body) know_coordinates(names, names->body, false);
+    bool constant = names->place == place_constant, moves = !constant && names->place != place_exact;
+    if (moves && names->body != ground_body) know_coordinates(names, names->body, false);
     for (size_t i = 0; reader->parameters && i < reader->parameters->count; i++)
         know(names, reader->parameters->pairs[i].key);
     know(names, "g");
     if (!constant) know(names, "t");
-    if (names->place == place_load) know(names, "m");
+    if (names->place == place_load || names->place == place_exact) know(names, "m");
     for (size_t i = 0; names->place == place_hand && i < sizeof of_hand / sizeof *of_hand; i++)
         if (hand_symbol(names, of_hand[i]).kind == symbol_variable) know(names, of_hand[i]);
-    for (size_t i = 0; !constant && i < reader->scene->body_count && names->known_count < most_known; i++)
+    for (size_t i = 0; moves && i < reader->scene->body_count && names->known_count < most_known; i++)
         if ((int)i != names->body || names->place == place_event) know_coordinates(names, (int)i, true);
 }
 

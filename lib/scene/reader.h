@@ -139,6 +139,9 @@ bool body_loads_read(struct reader *reader, int body);
 bool body_loads_name(struct reader *reader, int body, const char *const *names, const struct pos *places);
 bool body_hand_read(struct reader *reader, int body);
 
+/* The solution that the user knows (read_exact.c). */
+bool body_exact_read(struct reader *reader, int body);
+
 /* ---- couplings (read_couplings.c) */
 
 bool couplings_read(struct reader *reader, const struct node *list);

@@ -120,7 +120,8 @@ static void read_bodies(struct reader *reader)
         bool initial = body_initial_read(reader, b);
         bool loads = body_loads_read(reader, b);
         bool hand = reader->without_hands || body_hand_read(reader, b);
-        if (!initial || !loads || !hand) scene->bodies[b].complete = false;
+        bool exact = reader->without_hands || body_exact_read(reader, b);
+        if (!initial || !loads || !hand || !exact) scene->bodies[b].complete = false;
     }
 }
 

@@ -199,6 +199,8 @@ struct body {
     struct named_point *points; /* all names: given ones and those of its shape */
     struct load *loads;         /* in file order: forces, then moments */
     struct hand *hands;
+    /* What its coordinates and then its rates are known to be, over t alone; expr NULL when not given. */
+    struct value exact[2 * most_coordinates_of_a_body];
 };
 
 /* Where a point of a body is in the world, or how its frame is turned: an expression may name it though it is

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# The manual page and --help speak of the same options.
+# The manual pages and --help speak of the same options.
 set -u
 . "$FBD_SOURCE_ROOT/tests/tools/tap.sh"
 
@@ -11,7 +11,7 @@ same_options() { # same_options PROGRAM
     [ -s "$scratch/help" ] && same "$scratch/help" "$scratch/manual"
 }
 
-for program in fbd-run fbd-sweep; do
+for program in fbd-run fbd-cost fbd-sweep; do
     check "the manual page of $program has the options of --help" same_options "$program"
 done
 finish

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The command line of fbd-cost.
+ */
+#ifndef FBD_APPS_COST_OPTIONS_H
+#define FBD_APPS_COST_OPTIONS_H
+
+#include "options.h"
+
+enum { most_names = 64 };
+
+struct cost_options {
+    const char *model;
+    fbd_setting settings[most_settings];
+    size_t setting_count;
+    const char *methods[most_names], *quantities[most_names];
+    fbd_cost_options study; /* points into the lists above */
+    bool effects, quiet;
+    const char *csv, *json, *svg;
+};
+
+/* Read the command line. Returns true to go on; false with *code set when all is said (help, version, a
+ * mistake). */
+bool cost_options_read(int argc, char **argv, struct cost_options *options, enum exit_code *code);
+
+#endif

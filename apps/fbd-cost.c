@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * fbd-cost: what accuracy costs on a scene, and what each of its effects costs.
+ */
+#include <errno.h>
+#include <gsl/gsl_errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cost_options.h"
+#include "whole_file.h"
+
+static enum exit_code no_memory(void)
+{
+    fputs("fbd-cost: out of memory\n", stderr);
+    return exit_failed;
+}
+
+/* ---- progress, on a terminal only */
+
+static void show_progress(void *context, const char *what, double share)
+{
+    int *shown = context, percent = (int)(100 * share);
+    if (percent == *shown) return;
+    *shown = percent;
+    fprintf(stderr, "\r%-12s %3d %%", what, percent);
+    fflush(stderr);
+}
+
+static void end_progress(const struct cost_options *options)
+{
+    if (options->study.progress) fputs("\r                  \r", stderr);
+}
+
+/* ---- what is written */
+
+struct output {
+    const char *path;
+    char *(*make)(const void *study);
+};
+
+/* Whole or not at all. */
+static enum exit_code write_file(const char *path, char *text)
+{
+    struct whole_file file = {0};
+    if (!text) return no_memory();
+    bool open = whole_file_open(&file, path);
+    bool written = open && whole_file_write(&file, text, strlen(text)) == 0;
+    if (open && !whole_file_close(&file, written)) written = false;
+    free(text);
+    if (written) return exit_done;
+    fprintf(stderr, "fbd-cost: cannot write `%s`: %s\n", path, strerror(errno));
+    return exit_failed;
+}
+
+static enum exit_code write_all(const struct cost_options *options, const struct output *outputs,
+                                size_t count, char *(*table)(const void *study), const void *study)
+{
+    bool table_wanted = !options->quiet;
+    for (size_t i = 0; i < count; i++) {
+        if (!outputs[i].path) continue;
+        if (strcmp(outputs[i].path, "-") == 0) table_wanted = false;
+        enum exit_code code = write_file(outputs[i].path, outputs[i].make(study));
+        if (code != exit_done) return code;
+    }
+    return table_wanted ? write_file("-", table(study)) : exit_done;
+}
+
+static char *cost_text(const void *study)
+{
+    return fbd_cost_text(study);
+}
+
+static char *cost_csv(const void *study)
+{
+    return fbd_cost_csv(study);
+}
+
+static char *cost_json(const void *study)
+{
+    return fbd_cost_json(study);
+}
+
+static char *cost_svg(const void *study)
+{
+    return fbd_cost_svg(study);
+}
+
+static char *effects_text(const void *study)
+{
+    return fbd_effects_text(study);
+}
+
+static char *effects_csv(const void *study)
+{
+    return fbd_effects_csv(study);
+}
+
+static char *effects_json(const void *study)
+{
+    return fbd_effects_json(study);
+}
+
+/* ---- the studies */
+
+/* What is wrong with the options stands in the file when it has a place there. */
+static enum exit_code blame(fbd_errors *errors)
+{
+    const fbd_error *first = fbd_errors_get(errors, 0);
+    if (!first) return exit_failed;
+    if (strcmp(first->id, "no-reference") == 0 || strcmp(first->id, "out-of-memory") == 0) return exit_failed;
+    return first->line > 0 ? exit_bad_model : exit_usage;
+}
+
+/* A reference that does not hold is the first thing that a user must know. */
+static enum exit_code judge(const fbd_cost *cost)
+{
+    fbd_cost_reference reference = fbd_cost_get_reference(cost);
+    if (reference.exact_differs) {
+        fprintf(stderr, "fbd-cost: %s\n", reference.says);
+        return exit_hand_differs;
+    }
+    if (reference.complete) return exit_done;
+    fprintf(stderr, "fbd-cost: %s\n", reference.says);
+    return exit_failed;
+}
+
+static enum exit_code study_cost(const fbd_model *model, const struct cost_options *options,
+                                 fbd_errors *errors)
+{
+    fbd_cost *cost = fbd_cost_new(model, &options->study, errors);
+    end_progress(options);
+    if (!cost) return blame(errors);
+    const struct output outputs[] = {{options->csv, cost_csv},
+                                     {options->json, cost_json},
+                                     {options->svg, cost_svg}};
+    enum exit_code code = write_all(options, outputs, 3, cost_text, cost);
+    fflush(stdout);
+    if (code == exit_done) code = judge(cost);
+    fbd_cost_free(cost);
+    return code;
+}
+
+static enum exit_code study_effects(const fbd_model *model, const struct cost_options *options,
+                                    fbd_errors *errors)
+{
+    fbd_effects *effects = fbd_effects_new(model, &options->study, errors);
+    end_progress(options);
+    if (!effects) return blame(errors);
+    const struct output outputs[] = {{options->csv, effects_csv}, {options->json, effects_json}};
+    enum exit_code code = write_all(options, outputs, 2, effects_text, effects);
+    fbd_effects_free(effects);
+    return code;
+}
+
+static enum exit_code read_and_study(const struct cost_options *options)
+{
+    fbd_errors *errors = fbd_errors_new();
+    if (!errors) return no_memory();
+    fbd_model *model = fbd_model_read(options->model, options->settings, options->setting_count, errors);
+    enum exit_code code = exit_bad_model;
+    if (model)
+        code = options->effects ? study_effects(model, options, errors) : study_cost(model, options, errors);
+    fflush(stdout);
+    fbd_errors_print(errors, stderr);
+    fbd_errors_free(errors);
+    fbd_model_free(model);
+    return code;
+}
+
+int main(int argc, char **argv)
+{
+    struct cost_options options;
+    enum exit_code code;
+    int shown = -1;
+    gsl_set_error_handler_off(); /* every status is looked at instead */
+    if (cost_options_read(argc, argv, &options, &code)) {
+        if (isatty(STDERR_FILENO)) {
+            options.study.progress = show_progress;
+            options.study.progress_context = &shown;
+        }
+        code = read_and_study(&options);
+    }
+    return (int)code;
+}

@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/cost.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/diag.h"
+#include "model/variant.h"
+#include "study/stopwatch.h"
+
+static const double default_budget = 6;
+
+const fbd_model *cost_model(const struct fbd_cost *cost)
+{
+    return cost->stepless ? cost->stepless : cost->model;
+}
+
+/* ---- quantities */
+
+const char *quantity_name_of(const fbd_model *model, size_t quantity)
+{
+    size_t n = fbd_model_coordinates(model);
+    fbd_coordinate coordinate = fbd_model_coordinate(model, quantity < n ? quantity : quantity - n);
+    return quantity < n ? coordinate.name : coordinate.rate_name;
+}
+
+static bool choose_quantity(const fbd_model *model, const char *name, bool *chosen, fbd_errors *errors)
+{
+    enum { most_names = 40 };
+    size_t size = 2 * fbd_model_coordinates(model), count = 0;
+    const char *names[most_names];
+    for (size_t i = 0; i < size; i++) {
+        const char *known = quantity_name_of(model, i), *dot = strchr(known, '.');
+        bool plain = fbd_model_bodies(model) == 1 && dot && strcmp(dot + 1, name) == 0;
+        if (count < most_names) names[count++] = known;
+        if (!plain && strcmp(known, name) != 0) continue;
+        chosen[i] = true;
+        return true;
+    }
+    diag_add(errors, FBD_ERROR, "unknown-quantity", (struct pos){0, 0},
+             diag_nearest(errors, name, names, count), "the scene has no coordinate or rate `%s`", name);
+    return false;
+}
+
+bool quantities_choose(const fbd_model *model, const fbd_cost_options *options, struct arena *arena,
+                       bool **chosen, fbd_errors *errors)
+{
+    *chosen = NULL;
+    errors->file = model->scene->file;
+    if (!options->quantities) return true;
+    *chosen = ARENA_ARRAY(arena, 2 * fbd_model_coordinates(model) + 1, bool);
+    if (!*chosen) {
+        diag_out_of_memory(errors);
+        return false;
+    }
+    for (size_t i = 0; i < options->quantity_count; i++)
+        if (!choose_quantity(model, options->quantities[i], *chosen, errors)) return false;
+    return true;
+}
+
+/* ---- making it */
+
+bool study_until(const fbd_model *model, const fbd_cost_options *options, double *until, fbd_errors *errors)
+{
+    fbd_options run = FBD_OPTIONS_DEFAULT;
+    run.until = options->until;
+    fbd_simulation *simulation = fbd_simulation_new(model, &run, errors);
+    if (!simulation) return false;
+    fbd_simulation_free(simulation);
+    *until = isnan(options->until) ? expr_value(model->scene->simulate.until.expr) : options->until;
+    if (*until > 0) return true;
+    diag_add(errors, FBD_ERROR, "bad-option", (struct pos){0, 0}, "give --until a time above 0",
+             "in a run of no length there is nothing to study");
+    return false;
+}
+
+static void forget_step(struct scene *scene, void *context, fbd_errors *errors)
+{
+    (void)context, (void)errors;
+    scene->simulate.step = 0;
+}
+
+static bool time_points(struct fbd_cost *cost, double seconds)
+{
+    struct timed *timed = calloc(cost->point_count + 1, sizeof *timed);
+    size_t count = 0;
+    if (!timed) return false;
+    for (size_t i = 0; i < cost->point_count; i++)
+        if (cost->points[i].state == FBD_POINT_MEASURED)
+            timed[count++] = (struct timed){.model = cost_model(cost),
+                                            .options = setting_options(&cost->settings[i], cost->until),
+                                            .estimate = cost->points[i].seconds};
+    bool done = timing_in_turn(timed, count, seconds, &cost->progress, cost->errors);
+    count = 0;
+    for (size_t i = 0; done && i < cost->point_count; i++) {
+        if (cost->points[i].state != FBD_POINT_MEASURED) continue;
+        const struct timed *one = &timed[count++];
+        cost->points[i].seconds = one->seconds;
+        cost->points[i].low = one->low;
+        cost->points[i].high = one->high;
+        cost->points[i].repeats = one->repeats;
+    }
+    free(timed);
+    return done;
+}
+
+static bool study(struct fbd_cost *cost, const fbd_cost_options *options)
+{
+    struct stopwatch watch = stopwatch_start();
+    if (!quantities_choose(cost->model, options, &cost->arena, &cost->chosen, cost->errors)) return false;
+    if (!study_until(cost->model, options, &cost->until, cost->errors)) return false;
+    if (cost->model->scene->simulate.step > 0) {
+        cost->stepless = model_variant(cost->model, forget_step, NULL, cost->errors);
+        if (!cost->stepless) return false;
+    }
+    if (!ladder_plan(cost, options)) return false;
+    progress_report(&cost->progress, "reference", 0);
+    if (!reference_make(&cost->reference, cost_model(cost), cost->until, cost->chosen,
+                        REFERENCE_SHARE * cost->budget, &cost->arena, cost->errors))
+        return false;
+    cost->says = reference_says(&cost->arena, &cost->reference, cost->model);
+    if (!cost->says || !ladder_climb(cost)) return false;
+    if (!time_points(cost, fmax(cost->budget - stopwatch_wall(&watch), 0.3 * cost->budget))) return false;
+    cost_analyse(cost);
+    return true;
+}
+
+fbd_cost *fbd_cost_new(const fbd_model *model, const fbd_cost_options *options, fbd_errors *errors)
+{
+    struct fbd_cost *cost = calloc(1, sizeof *cost);
+    if (!cost) {
+        diag_out_of_memory(errors);
+        return NULL;
+    }
+    cost->model = model;
+    cost->budget = options->budget > 0 ? options->budget : default_budget;
+    cost->progress = (struct progress){options->progress, options->progress_context};
+    cost->errors = errors;
+    if (study(cost, options)) return cost;
+    if (fbd_errors_failed(errors) == 0) diag_out_of_memory(errors);
+    fbd_cost_free(cost);
+    return NULL;
+}
+
+void fbd_cost_free(fbd_cost *cost)
+{
+    if (!cost) return;
+    model_free(cost->stepless);
+    arena_free(&cost->arena);
+    free(cost);
+}
+
+/* ---- asking */
+
+fbd_cost_reference fbd_cost_get_reference(const fbd_cost *cost)
+{
+    const struct certified_reference *r = &cost->reference;
+    return (fbd_cost_reference){.says = cost->says,
+                                .method = {r->settings[0].method, r->settings[1].method},
+                                .tolerance = {r->settings[0].tolerance, r->settings[1].tolerance},
+                                .exact = r->any_exact && !r->exact_differs,
+                                .exact_differs = r->exact_differs,
+                                .floor = r->floor,
+                                .floor_end = r->floor_end,
+                                .until = cost->until,
+                                .known = r->known,
+                                .complete = !r->cut,
+                                .tenfold = r->tenfold};
+}
+
+size_t fbd_cost_series_count(const fbd_cost *cost)
+{
+    return cost->series_count;
+}
+
+fbd_cost_series fbd_cost_get_series(const fbd_cost *cost, size_t index)
+{
+    return cost->series[index];
+}
+
+size_t fbd_cost_points(const fbd_cost *cost)
+{
+    return cost->point_count;
+}
+
+const fbd_cost_point *fbd_cost_get_point(const fbd_cost *cost, size_t index)
+{
+    return index < cost->point_count ? &cost->points[index] : NULL;
+}

@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/effects.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/diag.h"
+#include "study/cost.h"
+#include "study/stopwatch.h"
+
+enum { grid_intervals = 240 };
+
+/* What changes is measured tighter than by default, and held against what still tighter runs change. */
+static const struct setting measured = {.tolerance = 1e-11}, tighter = {.tolerance = 1e-13};
+static const double default_budget = 6, longest_share = 0.1;
+
+/* ---- the scene itself */
+
+static bool run_scene(struct fbd_effects *effects, const fbd_cost_options *options)
+{
+    bool *chosen;
+    if (!quantities_choose(effects->model, options, &effects->arena, &chosen, effects->errors)) return false;
+    if (!study_until(effects->model, options, &effects->until, effects->errors)) return false;
+    effects->grid = (struct grid){.until = effects->until, .count = grid_intervals + 1};
+    struct track *runs[] = {&effects->track, &effects->tight};
+    const struct setting *settings[] = {&measured, &tighter};
+    for (int k = 0; k < 2; k++)
+        if (!track_make(runs[k], effects->model, settings[k], &effects->grid, effects->budget,
+                        &effects->arena, effects->errors))
+            return false;
+    if (!track_ended(&effects->track) && effects->track.outcome != FBD_BROKEN) {
+        diag_add(effects->errors, FBD_ERROR, "no-reference", (struct pos){0, 0}, NULL,
+                 "the scene itself does not run to its end: %s",
+                 effects->track.outcome == FBD_GOING ? "it takes too long for the budget"
+                                                     : effects->track.reason);
+        return false;
+    }
+    size_t size = effects->track.size;
+    effects->scale = ARENA_ARRAY(&effects->arena, size + 1, double);
+    if (!effects->scale) return false;
+    reference_scales(effects->scale, &effects->track, chosen, effects->model);
+    size_t seen =
+        effects->track.reached < effects->tight.reached ? effects->track.reached : effects->tight.reached;
+    effects->floor = tracks_differ(&effects->track, &effects->tight, effects->scale, 0, seen, NULL);
+    return true;
+}
+
+/* ---- the scene without an effect */
+
+static const char *words(struct fbd_effects *effects, const char *reason)
+{
+    const char *copy = arena_text(&effects->arena, reason, strlen(reason));
+    return copy ? copy : "";
+}
+
+static void compare(struct fbd_effects *effects, fbd_effect *effect, const struct track *without)
+{
+    const struct track *with = &effects->track;
+    size_t seen = with->reached < without->reached ? with->reached : without->reached, worst = 0;
+    if (without->outcome == FBD_GOING) {
+        effect->reason = "without it the run takes too long for the budget";
+        return;
+    }
+    if (!track_ended(without) && without->outcome != with->outcome) {
+        effect->reason = words(effects, without->reason);
+        return;
+    }
+    if (seen == 0) return;
+    effect->change_max = tracks_differ(with, without, effects->scale, 0, seen, &worst);
+    effect->change_end = tracks_differ(with, without, effects->scale, seen - 1, seen, NULL);
+    effect->worst = quantity_name_of(effects->model, worst);
+    effect->noise = effect->change_max <= effects->floor;
+    effect->events = (long)without->event_count - (long)with->event_count;
+}
+
+static bool run_without(struct fbd_effects *effects, size_t index, fbd_model *model, double *seconds,
+                        fbd_errors *errors)
+{
+    struct arena arena = {0};
+    struct track track;
+    bool done =
+        track_make(&track, model, &measured, &effects->grid, longest_share * effects->budget, &arena, errors);
+    if (done) {
+        compare(effects, &effects->effects[index], &track);
+        *seconds = track.seconds;
+    }
+    arena_free(&arena);
+    return done;
+}
+
+/* Compile the scene without the effect and run it once. *model is NULL where the row has a reason instead.
+ * False when memory is out. */
+static bool try_without(struct fbd_effects *effects, size_t index, fbd_model **model, double *seconds)
+{
+    fbd_effect *effect = &effects->effects[index];
+    *model = NULL;
+    if (effects->edits[index].refusal) return true;
+    fbd_errors *errors = fbd_errors_new();
+    if (!errors) return false;
+    *model = model_variant(effects->model, effect_edit, &effects->edits[index], errors);
+    bool runs = *model && run_without(effects, index, *model, seconds, errors);
+    for (size_t i = 0; !runs && i < fbd_errors_count(errors); i++)
+        if (fbd_errors_get(errors, i)->severity == FBD_ERROR)
+            effect->reason = words(effects, fbd_errors_get(errors, i)->message);
+    bool done = !errors->out_of_memory && !effects->arena.failed;
+    fbd_errors_free(errors);
+    if (runs && done && !effect->reason[0]) return true;
+    model_free(*model);
+    *model = NULL;
+    return done;
+}
+
+/* ---- all of them, and their times */
+
+static void take_times(struct fbd_effects *effects, const struct timed *timed, fbd_model *const *models)
+{
+    const struct timed *one = timed;
+    effects->seconds = one->seconds;
+    for (size_t i = 0; i < effects->count; i++)
+        if (models[i]) effects->effects[i].time = (++one)->seconds / effects->seconds;
+}
+
+static bool run_all(struct fbd_effects *effects, fbd_model **models, struct timed *timed)
+{
+    struct stopwatch watch = stopwatch_start();
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    size_t count = 1;
+    options.until = effects->until;
+    timed[0] =
+        (struct timed){.model = effects->model, .options = options, .estimate = effects->track.seconds};
+    for (size_t i = 0; i < effects->count; i++) {
+        double seconds = 0;
+        if (stopwatch_wall(&watch) > effects->budget / 2) effects->edits[i].refusal = "the budget is spent";
+        if (effects->edits[i].refusal) effects->effects[i].reason = effects->edits[i].refusal;
+        if (!try_without(effects, i, &models[i], &seconds)) return false;
+        if (models[i])
+            timed[count++] = (struct timed){.model = models[i], .options = options, .estimate = seconds};
+        progress_report(&effects->progress, "effects", (double)i / (double)effects->count);
+    }
+    /* A fraction of the budget tells times of some milliseconds well enough. */
+    double seconds =
+        fmin(effects->budget / 2, 0.05 * (double)count + 20 * effects->track.seconds * (double)count);
+    if (!timing_in_turn(timed, count, seconds, &effects->progress, effects->errors)) return false;
+    take_times(effects, timed, models);
+    return !effects->arena.failed;
+}
+
+static bool study(struct fbd_effects *effects, const fbd_cost_options *options)
+{
+    if (!run_scene(effects, options) || !effects_list(effects)) return false;
+    fbd_model **models = calloc(effects->count + 1, sizeof *models);
+    struct timed *timed = calloc(effects->count + 1, sizeof *timed);
+    bool done = models && timed && run_all(effects, models, timed);
+    for (size_t i = 0; models && i < effects->count; i++) model_free(models[i]);
+    free(models);
+    free(timed);
+    return done;
+}
+
+fbd_effects *fbd_effects_new(const fbd_model *model, const fbd_cost_options *options, fbd_errors *errors)
+{
+    fbd_effects *effects = calloc(1, sizeof *effects);
+    if (!effects) {
+        diag_out_of_memory(errors);
+        return NULL;
+    }
+    effects->model = model;
+    effects->budget = options->budget > 0 ? options->budget : default_budget;
+    effects->progress = (struct progress){options->progress, options->progress_context};
+    effects->errors = errors;
+    if (study(effects, options)) return effects;
+    if (fbd_errors_failed(errors) == 0) diag_out_of_memory(errors);
+    fbd_effects_free(effects);
+    return NULL;
+}
+
+void fbd_effects_free(fbd_effects *effects)
+{
+    if (!effects) return;
+    arena_free(&effects->arena);
+    free(effects);
+}
+
+size_t fbd_effects_count(const fbd_effects *effects)
+{
+    return effects->count;
+}
+
+const fbd_effect *fbd_effects_get(const fbd_effects *effects, size_t index)
+{
+    return index < effects->count ? &effects->effects[index] : NULL;
+}

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Effects: the scene beside itself with one thing left out.
+ *
+ * What can be left out of a scene is listed by kind (effects_list.c); each entry is an edit of the typed
+ * scene that model/variant.h compiles anew. Lists, modes and events that belonged to the effect go with it.
+ */
+#ifndef FBD_STUDY_EFFECTS_H
+#define FBD_STUDY_EFFECTS_H
+
+#include "model/variant.h"
+#include "study/reference.h"
+#include "study/timing.h"
+
+enum edit_kind {
+    edit_leave_out,      /* a force or moment */
+    edit_uncouple,       /* a coupling */
+    edit_static,         /* static friction: mu_s becomes mu_k */
+    edit_surface,        /* the surface stands still */
+    edit_part,           /* the mass of a part */
+    edit_rotary,         /* the moment of inertia about the centre of mass */
+    edit_linear_gravity, /* sin(theta) becomes theta about the equilibrium */
+    edit_linear_drag,    /* quadratic drag becomes linear */
+    edit_linear_formula, /* an expression becomes its Taylor polynomial about an equilibrium */
+};
+
+struct edit {
+    enum edit_kind kind;
+    int body, index;        /* load, part or coupling */
+    double value, value2;   /* of the kind: stiffness and neutral angle; speed */
+    const fbd_model *model; /* the scene itself */
+    const double *at;       /* the equilibrium: 2 n; or NULL */
+    const char *refusal;    /* why it cannot be done; NULL otherwise */
+};
+
+struct fbd_effects {
+    struct arena arena;
+    const fbd_model *model;
+    fbd_effect *effects;
+    struct edit *edits;
+    size_t count, room;
+    struct grid grid;
+    struct track track, tight; /* of the scene itself */
+    double *scale;
+    double floor; /* what these two differ by */
+    double until, budget, seconds;
+    struct progress progress;
+    fbd_errors *errors; /* of the caller, while the study runs */
+};
+
+/* List what can be left out; `track` tells how the scene moves. False when memory is out. */
+bool effects_list(struct fbd_effects *effects);
+
+/* Make the edit of `context`, a struct edit (a scene_edit). */
+void effect_edit(struct scene *scene, void *context, fbd_errors *errors);
+
+/* A formula of the scene as its Taylor polynomial of degree 1 or 2 about t = 0 and the state `at`: compiled
+ * into `arena`. NULL when that is not finite or memory is out. */
+const struct expr *taylor_expr(const struct expr *expr, const double *at, int degree, struct arena *arena,
+                               fbd_errors *errors);
+
+#endif

@@ -1,0 +1,259 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What can be left out of a scene, and what cannot, and why.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "base/diag.h"
+#include "dynamics/state.h"
+#include "study/effects.h"
+
+/* ---- entries */
+
+static void add(struct fbd_effects *effects, struct edit edit, const char *name, const char *change)
+{
+    if (effects->count == effects->room || !change) return;
+    edit.model = effects->model;
+    effects->edits[effects->count] = edit;
+    effects->effects[effects->count++] = (fbd_effect){.body = effects->model->bodies[edit.body].name,
+                                                      .name = name,
+                                                      .change = change,
+                                                      .reason = edit.refusal ? edit.refusal : "",
+                                                      .change_end = NAN,
+                                                      .change_max = NAN,
+                                                      .worst = "",
+                                                      .time = NAN};
+}
+
+/* ---- loads */
+
+static const struct load *friction_of(const struct body *body)
+{
+    for (size_t i = 0; i < body->load_count; i++)
+        if (body->loads[i].kind == load_friction) return &body->loads[i];
+    return NULL;
+}
+
+static void add_load(struct fbd_effects *effects, int b, int i)
+{
+    const struct body *body = &effects->model->scene->bodies[b];
+    const struct load *load = &body->loads[i], *friction = friction_of(body);
+    struct edit edit = {.kind = edit_leave_out, .body = b, .index = i};
+    if (load->kind == load_normal && friction)
+        edit.refusal =
+            arena_printf(&effects->arena, "`%s` needs it: nothing else presses the surfaces together",
+                         friction->name);
+    add(effects, edit, load->name, "left out");
+}
+
+static bool same_constant(const struct value *a, const struct value *b)
+{
+    if (!a->expr || !b->expr) return true;
+    return expr_is_constant(a->expr) && expr_is_constant(b->expr) &&
+           expr_value(a->expr) == expr_value(b->expr);
+}
+
+static void add_friction(struct fbd_effects *effects, int b, int i)
+{
+    const struct load *load = &effects->model->scene->bodies[b].loads[i];
+    if (!same_constant(&load->mu_s, &load->mu_k))
+        add(effects, (struct edit){.kind = edit_static, .body = b, .index = i}, load->name,
+            load->kind == load_friction ? "static as kinetic: mu_s = mu_k"
+                                        : "static limit as the kinetic one");
+    if (load->surface_speed.expr)
+        add(effects, (struct edit){.kind = edit_surface, .body = b, .index = i}, load->name,
+            "the surface at rest");
+}
+
+/* ---- nonlinearities */
+
+/* A body by itself: its equation of motion has no other body's mass in it. */
+static bool stands_alone(const struct scene *scene, int b)
+{
+    bool alone = scene->bodies[b].motion.parent == ground_body;
+    for (size_t i = 0; i < scene->body_count; i++) alone = alone && scene->bodies[i].motion.parent != b;
+    return alone;
+}
+
+/* The angle at which G lies along gravity from the axis, of all turns the nearest to the start. */
+static void add_linear_gravity(struct fbd_effects *effects, int b, int i)
+{
+    const struct fbd_model *model = effects->model;
+    const struct model_body *body = &model->bodies[b];
+    struct vec g = model->scene->gravity;
+    double size = body->inertia.mass * vec_norm(g) * body->L, turn = 2 * acos(-1);
+    if (body->kind != motion_pivot || !(size > 0)) return;
+    double hangs = atan2(g.y, g.x) - atan2(body->arm.y, body->arm.x),
+           start = model->scene->coordinates[body->first].initial;
+    hangs += turn * round((start - hangs) / turn);
+    if (fabs(hangs) < 1e-12) hangs = 0;
+    const char *change = hangs == 0
+                             ? "linear: sin(theta) -> theta"
+                             : arena_printf(&effects->arena, "linear: sin -> angle from %.4g rad", hangs);
+    add(effects,
+        (struct edit){.kind = edit_linear_gravity, .body = b, .index = i, .value = size, .value2 = hangs},
+        body->source->loads[i].name, change);
+}
+
+/* The largest speed of the body in the run, at the point where the drag acts on a pivot. */
+static double largest_speed(const struct fbd_effects *effects, const struct model_body *body,
+                            struct vec point)
+{
+    const struct track *track = &effects->track;
+    double most = 0;
+    for (size_t k = 0; k < track->reached; k++) {
+        const double *v = track->y + k * track->size + body->first_rate;
+        bool plane = body->kind == motion_particle || body->kind == motion_planar;
+        most = fmax(most, plane ? hypot(v[0], v[1]) : fabs(v[0]));
+    }
+    return body->kind == motion_pivot ? most * vec_norm(vec_sub(point, body->pin)) : most;
+}
+
+static void add_linear_drag(struct fbd_effects *effects, int b, int i)
+{
+    const struct model_body *body = &effects->model->bodies[b];
+    const struct load *load = &body->source->loads[i];
+    if (load->quadratic == 0) return;
+    double speed = largest_speed(effects, body, effects->model->loads[body->first_load + i].point);
+    fbd_coordinate coordinate = fbd_model_coordinate(effects->model, (size_t)body->first);
+    const char *unit = body->kind == motion_pivot ? "" : coordinate.rate_unit;
+    add(effects, (struct edit){.kind = edit_linear_drag, .body = b, .index = i, .value = speed}, load->name,
+        arena_printf(&effects->arena, "linear: |v| v -> %.4g %s v", speed, unit));
+}
+
+/* Does the second derivative show anywhere along the run? */
+static bool is_nonlinear(const struct fbd_effects *effects, const struct expr *expr)
+{
+    enum { looks = 12 };
+    const struct track *track = &effects->track;
+    const int *slots;
+    size_t count = expr ? expr_variables(expr, &slots) : 0;
+    for (size_t look = 0; count > 0 && look < looks && track->reached > 0; look++) {
+        size_t k = look * (track->reached - 1) / (looks - 1);
+        const double *y = track->y + k * track->size;
+        for (size_t a = 0; a < count; a++)
+            for (size_t c = a; c < count; c++) {
+                double by_a, by_c, both;
+                expr_eval_second(expr, grid_time(&effects->grid, k), y, slots[a], slots[c], NULL, &by_a,
+                                 &by_c, &both);
+                if (both != 0) return true;
+            }
+    }
+    return false;
+}
+
+/* A potential is linear in its force when it is quadratic: its third derivative would tell. Two second
+ * derivatives that differ do so as well. */
+static bool is_beyond_quadratic(const struct fbd_effects *effects, const struct expr *expr)
+{
+    const struct track *track = &effects->track;
+    const int *slots;
+    size_t count = expr ? expr_variables(expr, &slots) : 0;
+    for (size_t a = 0; a < count; a++) {
+        double first = NAN, by_a, by_c, both;
+        for (size_t k = 0; k < track->reached; k += 1 + track->reached / 12) {
+            expr_eval_second(expr, grid_time(&effects->grid, k), track->y + k * track->size, slots[a],
+                             slots[a], NULL, &by_a, &by_c, &both);
+            if (isnan(first)) first = both;
+            if (fabs(both - first) > 1e-9 * fmax(fabs(both), fabs(first))) return true;
+        }
+    }
+    return false;
+}
+
+static void add_linear_formula(struct fbd_effects *effects, int b, int i, const double *equilibrium)
+{
+    const struct load *load = &effects->model->scene->bodies[b].loads[i];
+    const struct expr *all[] = {load->value.expr, load->fx.expr, load->fy.expr, load->potential.expr};
+    bool nonlinear = is_beyond_quadratic(effects, load->potential.expr), timed = false;
+    for (int k = 0; k < 3; k++) nonlinear = nonlinear || is_nonlinear(effects, all[k]);
+    for (int k = 0; k < 4; k++) timed = timed || (all[k] && expr_uses_time(all[k]));
+    if (!nonlinear) return;
+    struct edit edit = {.kind = edit_linear_formula, .body = b, .index = i, .at = equilibrium};
+    if (timed)
+        edit.refusal = "it depends on time: there is no one linear law in its place";
+    else if (!equilibrium)
+        edit.refusal = "there is no equilibrium near the start to take it about";
+    add(effects, edit, load->name, "linear about the equilibrium");
+}
+
+/* ---- inertia */
+
+static void add_inertia(struct fbd_effects *effects, int b)
+{
+    const struct model_body *body = &effects->model->bodies[b];
+    const struct body *source = body->source;
+    for (size_t p = 0; source->part_count > 1 && p < source->part_count; p++) {
+        const char *name = source->parts[p].name ? source->parts[p].name : "part";
+        add(effects, (struct edit){.kind = edit_part, .body = b, .index = (int)p}, name,
+            source->parts[p].mass < 0 ? "the hole filled" : "its mass left out");
+    }
+    bool turns = body->kind == motion_pivot || body->kind == motion_planar;
+    if (turns && body->inertia.I_G > 0)
+        add(effects, (struct edit){.kind = edit_rotary, .body = b}, "I_G",
+            body->kind == motion_pivot ? "all its mass in G" : "no moment of inertia about G");
+}
+
+/* ---- couplings: a row of the first body that is not the ground */
+
+static void add_couplings(struct fbd_effects *effects)
+{
+    const struct scene *scene = effects->model->scene;
+    for (int i = 0; i < (int)scene->coupling_count; i++) {
+        const struct coupling *coupling = &scene->couplings[i];
+        int body = coupling->body[coupling->body[0] == ground_body];
+        add(effects, (struct edit){.kind = edit_uncouple, .body = body, .index = i}, coupling->load.name,
+            "left out");
+    }
+}
+
+/* ---- the whole */
+
+/* The equilibrium nearest to the start; *at is NULL when there is none, or friction could hold anywhere.
+ * False when memory is out. */
+static bool find_equilibrium(struct fbd_effects *effects, const double **at)
+{
+    fbd_errors *errors = fbd_errors_new();
+    fbd_state *state = fbd_state_new(effects->model);
+    fbd_linearization *linear = errors && state ? fbd_linearize(state, errors) : NULL;
+    size_t size = 2 * fbd_model_coordinates(effects->model);
+    double *copy = linear ? ARENA_ARRAY(&effects->arena, size + 1, double) : NULL;
+    if (copy) memcpy(copy, state->y, size * sizeof *copy);
+    *at = copy;
+    bool done = errors && state && !errors->out_of_memory && !effects->arena.failed;
+    fbd_linearization_free(linear);
+    fbd_state_free(state);
+    fbd_errors_free(errors);
+    return done;
+}
+
+bool effects_list(struct fbd_effects *effects)
+{
+    const struct scene *scene = effects->model->scene;
+    enum { kinds_of_a_load = 4 };
+    size_t room = 1 + scene->coupling_count;
+    for (size_t b = 0; b < scene->body_count; b++)
+        room += kinds_of_a_load * scene->bodies[b].load_count + scene->bodies[b].part_count + 1;
+    effects->effects = ARENA_ARRAY(&effects->arena, room, fbd_effect);
+    effects->edits = ARENA_ARRAY(&effects->arena, room, struct edit);
+    if (effects->arena.failed) return false;
+    effects->room = room;
+    const double *equilibrium;
+    if (!find_equilibrium(effects, &equilibrium)) return false;
+    for (int b = 0; b < (int)scene->body_count; b++) {
+        bool alone = stands_alone(scene, b);
+        for (int i = 0; i < (int)scene->bodies[b].load_count; i++) {
+            const struct load *load = &scene->bodies[b].loads[i];
+            bool rubs = load->kind == load_friction || load->kind == moment_friction;
+            add_load(effects, b, i);
+            if (rubs) add_friction(effects, b, i);
+            if (load->kind == load_gravity && alone) add_linear_gravity(effects, b, i);
+            if (load->kind == load_drag && alone) add_linear_drag(effects, b, i);
+            if (!rubs) add_linear_formula(effects, b, i, equilibrium);
+        }
+        add_inertia(effects, b);
+    }
+    add_couplings(effects);
+    return !effects->arena.failed;
+}

@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Track: one run as it was seen at the times of a grid, with its events and its counts.
+ *
+ * A quantity is a coordinate or a rate: quantity i < n is coordinate i, quantity n + i its rate.
+ */
+#ifndef FBD_STUDY_TRACK_H
+#define FBD_STUDY_TRACK_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/arena.h"
+#include "fbd.h"
+
+/* How a run is made: by a tolerance, or with steps of one size. */
+struct setting {
+    const char *method;
+    double tolerance; /* 0 with a fixed step */
+    double step;      /* 0 without */
+};
+
+/* The options of a run with this setting. */
+fbd_options setting_options(const struct setting *setting, double until);
+
+struct grid {
+    double until;
+    size_t count; /* times: k until / (count - 1) */
+};
+
+double grid_time(const struct grid *grid, size_t index);
+
+struct track_event {
+    double t;
+    fbd_event_kind kind;
+    const char *body, *name; /* of the model */
+};
+
+struct track {
+    size_t size;    /* quantities */
+    size_t reached; /* times of the grid that the run has reached */
+    double *y;      /* grid.count x size: the quantities at each time */
+    double *end;    /* size: at the end of the run */
+    double t_end;
+    struct track_event *events;
+    size_t event_count;
+    fbd_outcome outcome; /* FBD_GOING: given up for its time */
+    const char *reason;  /* "" while all is well */
+    fbd_stats stats;
+    double seconds; /* with the looking */
+};
+
+/* Make a run and look at it; one that has not ended after `most_seconds` is given up. Memory is taken from
+ * `arena`. False with a note in `errors` when the run cannot even start, or memory is out. */
+bool track_make(struct track *track, const fbd_model *model, const struct setting *setting,
+                const struct grid *grid, double most_seconds, struct arena *arena, fbd_errors *errors);
+
+/* True when the run got to an end that it was meant to have. */
+bool track_ended(const struct track *track);
+
+/* The largest |a - b| / scale over all quantities with a scale above 0, at times first <= k < count of the
+ * grid. *worst (may be NULL) is the quantity. NAN when that is not a number. */
+double tracks_differ(const struct track *a, const struct track *b, const double *scale, size_t first,
+                     size_t count, size_t *worst);
+
+#endif
