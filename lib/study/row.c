@@ -162,7 +162,7 @@ static enum row_end simulate(struct row_maker *maker, const struct fbd_model *mo
     }
     struct run *run = run_new(model, &options);
     bool ready = run != NULL;
-    if (ready && columns->ledger) ready = ledger_init(&ledger, model, run->state);
+    if (ready && columns->ledger) ready = ledger_init(&ledger, model, run->state, true);
     if (ready && columns->extreme_count) {
         probe = state_new(model);
         ready = probe != NULL;
