@@ -35,6 +35,12 @@ effects: $(BUILD)/.tests
 	FBD_SOURCE_ROOT=$(CURDIR) FBD_RUN=$(BUILD)/apps/fbd-run FBD_COUNT_RHS=$(BUILD)/tests/bench/count_rhs \
 		FBD_RUN_PLAIN= tests/tools/effects --write docs/effects.md
 
+# The tables of docs/error-bars.md; takes some ten minutes.
+error-bars: $(BUILD)/.tests
+	ninja -C $(BUILD)
+	$(BUILD)/tests/bench/bench_error_bars models/*/*.yaml
+	$(BUILD)/tests/bench/validate_error_bars models/*/*.yaml
+
 check-format: $(BUILD)/.lint
 	.ci/lint $(BUILD) format
 
@@ -68,5 +74,5 @@ $(BUILD)-sanitize/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run test sanitize valgrind bench effects check-format format lint install clean
+.PHONY: all run test sanitize valgrind bench effects error-bars check-format format lint install clean
 .SECONDARY:

@@ -27,6 +27,20 @@ static enum exit_code print(char *text, enum exit_code code)
     return exit_failed;
 }
 
+/* Say so when the accuracy that was asked for has not been reached. */
+static enum exit_code accurate(const fbd_result *result, const fbd_simulation *simulation)
+{
+    if (fbd_result_accurate(result)) return exit_done;
+    fbd_stats stats = fbd_simulation_stats(simulation);
+    fprintf(stderr, "fbd-run: the accuracy %g was not reached: ", stats.accuracy);
+    if (isfinite(stats.error_estimate))
+        fprintf(stderr, "%.2g is the best of %lu runs, at tolerance %g\n", stats.error_estimate, stats.runs,
+                stats.tolerance);
+    else
+        fputs("no more accurate run comes to the end, so the error is not known\n", stderr);
+    return exit_inaccurate;
+}
+
 /* ---- the state that --at asks for */
 
 static bool set_coordinate(fbd_state *state, const char *text, fbd_errors *errors)
@@ -48,15 +62,15 @@ static enum exit_code run_until(const fbd_model *model, const struct options *op
     run.until = t;
     fbd_simulation *simulation = fbd_simulation_new(model, &run, errors);
     if (!simulation) return exit_usage;
-    fbd_outcome outcome = FBD_GOING;
-    while (outcome == FBD_GOING) outcome = fbd_simulation_advance(simulation);
+    fbd_result *result = fbd_simulation_run(simulation, NULL);
     double from, to;
     fbd_simulation_interval(simulation, &from, &to);
-    enum exit_code code = exit_failed;
-    if (to == t)
-        code = fbd_simulation_state(simulation, t, state) ? exit_done : exit_failed;
-    else
+    enum exit_code code = result ? exit_failed : no_memory();
+    if (result && to == t)
+        code = !fbd_simulation_state(simulation, t, state) ? exit_failed : accurate(result, simulation);
+    else if (result)
         fprintf(stderr, "fbd-run: the run ends before t = %g: %s\n", t, fbd_simulation_reason(simulation));
+    fbd_result_free(result);
     fbd_simulation_free(simulation);
     return code;
 }
@@ -177,6 +191,7 @@ static enum exit_code run(const fbd_model *model, const struct options *options,
         code = result ? write_result(options, result, &outputs) : refused ? exit_failed : no_memory();
         if (!close_outputs(&outputs, result != NULL)) code = exit_failed;
         fbd_outcome outcome = result ? fbd_result_outcome(result) : FBD_FAILED;
+        if (outcome != FBD_FAILED && code == exit_done) code = accurate(result, simulation);
         if (result && outcome != FBD_DONE && outcome != FBD_STOPPED) {
             fprintf(stderr, "fbd-run: %s\n", fbd_simulation_reason(simulation));
             code = exit_failed;

@@ -14,6 +14,8 @@ static const char help[] =
     "  --set NAME=VALUE     give a parameter of the file another value (may be repeated)\n"
     "  --method NAME        integrate with this method (auto, dop853, rodas5p, rk8pd, msbdf, ...)\n"
     "  --tolerance NUMBER   relative error per step (default: the file's, else 1e-10)\n"
+    "  --accuracy NUMBER    global error allowed, relative to the size of the motion, instead of a "
+    "tolerance\n"
     "  --step TIME          steps of this fixed size, in seconds\n"
     "  --until TIME         end of the run, in seconds\n"
     "\n"
@@ -22,6 +24,8 @@ static const char help[] =
     "  --every TIME         output interval of the rows, in seconds (default: 1/500 of the run)\n"
     "  --ledger             add columns for every force, its work, and the energies\n"
     "  --json FILE          final state, events, forces, energy and cost as one object\n"
+    "  --error-bars         estimate the error of everything that is written, by a second run that goes "
+    "along\n"
     "  --quiet              no report\n"
     "\n"
     "Instead of a run\n"
@@ -36,18 +40,20 @@ static const char help[] =
     "  --help, --version\n"
     "\n"
     "Exit codes: 0 done, 1 the run failed or ended early, 2 usage, 3 the model file is wrong,\n"
-    "4 a hand derivation differs.\n";
+    "4 a hand derivation differs, 5 the accuracy asked for was not reached.\n";
 
 enum {
     option_set = 256,
     option_method,
     option_tolerance,
+    option_accuracy,
     option_step,
     option_until,
     option_csv,
     option_every,
     option_ledger,
     option_json,
+    option_error_bars,
     option_quiet,
     option_equations,
     option_linearize,
@@ -64,12 +70,14 @@ static const struct option long_options[] = {
     {"set", required_argument, NULL, option_set},
     {"method", required_argument, NULL, option_method},
     {"tolerance", required_argument, NULL, option_tolerance},
+    {"accuracy", required_argument, NULL, option_accuracy},
     {"step", required_argument, NULL, option_step},
     {"until", required_argument, NULL, option_until},
     {"csv", required_argument, NULL, option_csv},
     {"every", required_argument, NULL, option_every},
     {"ledger", no_argument, NULL, option_ledger},
     {"json", required_argument, NULL, option_json},
+    {"error-bars", no_argument, NULL, option_error_bars},
     {"quiet", no_argument, NULL, option_quiet},
     {"equations", no_argument, NULL, option_equations},
     {"linearize", no_argument, NULL, option_linearize},
@@ -141,12 +149,14 @@ static bool take_option(int code, struct options *options)
     case option_set: return read_setting(options, optarg);
     case option_method: options->run.method = optarg; return true;
     case option_tolerance: return read_number("tolerance", optarg, tiny, &options->run.tolerance);
+    case option_accuracy: return read_number("accuracy", optarg, tiny, &options->run.accuracy);
     case option_step: return read_number("step", optarg, tiny, &options->run.step);
     case option_until: return read_number("until", optarg, -1e300, &options->run.until);
     case option_every: return read_number("every", optarg, tiny, &options->every);
     case option_csv: options->csv = optarg; return true;
     case option_json: options->json = optarg; return true;
     case option_ledger: options->ledger = true; return true;
+    case option_error_bars: options->run.error_bars = true; return true;
     case option_quiet: options->quiet = true; return true;
     case option_at:
         if (options->at_count == most_settings) return usage("too many --at", "");
@@ -170,6 +180,7 @@ static bool options_agree(const struct options *options)
         return usage("--at goes with --equations or --linearize", "");
     if (stands_still && (options->csv || options->json || options->ledger || options->every > 0))
         return usage("--csv, --json, --ledger and --every belong to a run", "");
+    if (stands_still && options->run.error_bars) return usage("--error-bars belongs to a run", "");
     if (options->csv && options->json && strcmp(options->csv, options->json) == 0)
         return usage("--csv and --json cannot go to the same place: ", options->csv);
     if (!options->csv && (options->ledger || options->every > 0))

@@ -16,6 +16,7 @@ enum exit_code {
     exit_usage = 2,        /* the command line is wrong */
     exit_bad_model = 3,    /* the model file is wrong */
     exit_hand_differs = 4, /* a hand derivation differs */
+    exit_inaccurate = 5,   /* the accuracy asked for was not reached */
 };
 
 struct options {

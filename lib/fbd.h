@@ -172,12 +172,15 @@ typedef struct fbd_options {
     double tolerance;   /* relative error per step; 0 for the file's, else 1e-10 */
     double step;        /* fixed step size, 0 for automatic or the file's */
     const char *method; /* NULL for the file's, else "auto" */
+    bool error_bars;    /* estimate the global errors by a more accurate run that goes along (see below) */
+    double accuracy; /* global accuracy to be delivered by fbd_simulation_run, above 0 and at most 0.1; 0 for
+                        the file's, if any. Brings error bars, and excludes `tolerance` and `step` */
 } fbd_options;
 
 /* Options that leave everything to the file. */
 #define FBD_OPTIONS_DEFAULT                                                                                  \
     {                                                                                                        \
-        NAN, 0, 0, NULL                                                                                      \
+        NAN, 0, 0, NULL, false, 0                                                                            \
     }
 
 typedef enum fbd_event_kind {
@@ -195,6 +198,7 @@ typedef struct fbd_event {
     const char *body; /* "" for a user event */
     const char *name; /* of the user event or of the load */
     const char *detail;
+    double t_error; /* estimated error of t: NAN without error bars, INFINITY when it is not known */
 } fbd_event;
 
 /* "breakaway", "stick", "reversal", "contact_lost", "user", "switch" */
@@ -216,6 +220,16 @@ typedef struct fbd_stats {
     unsigned long stiff_steps; /* of these steps, how many the stiff method of "auto" has made */
     unsigned long steps, rejected, rhs, jacobians, events, event_samples;
     double seconds; /* processor time of the run itself */
+
+    /* With error bars. The estimated global error, without a unit: of each coordinate and rate the largest
+     * error, over its largest size in the run; of these the largest. NAN without error bars, INFINITY when it
+     * is not known. A size counts as at least 1/1000 of the others of the same body and kind (lengths,
+     * angles), that of a rate also as 1/1000 of the size of its coordinate over the duration of the run. */
+    double error_estimate;
+    unsigned long companion_steps, companion_rhs; /* what the estimate has cost */
+    double accuracy;                              /* that was asked for, or 0 */
+    unsigned long runs;                           /* made to reach it */
+    double seconds_spent; /* processor time of all of them, with ledgers, output and companions */
 } fbd_stats;
 
 typedef struct fbd_simulation fbd_simulation;
@@ -226,13 +240,23 @@ FBD_API fbd_simulation *fbd_simulation_new(const fbd_model *model, const fbd_opt
                                            fbd_errors *errors);
 FBD_API void fbd_simulation_free(fbd_simulation *simulation);
 
-/* Advance by one accepted step, or to the next event. */
+/* Advance by one accepted step, or to the next event. With options.accuracy this is a run at the tolerance of
+ * a first guess: only fbd_simulation_run makes sure. */
 FBD_API fbd_outcome fbd_simulation_advance(fbd_simulation *simulation);
 
 /* The interval of the last step, and the state anywhere in it (dense output; modes are those of the step).
  * The state must belong to the same model. Looking changes nothing in the trajectory. */
 FBD_API void fbd_simulation_interval(const fbd_simulation *simulation, double *from, double *to);
 FBD_API bool fbd_simulation_state(fbd_simulation *simulation, double t, fbd_state *state);
+
+/* Estimated errors at a time t of the last step, of each coordinate and then of each rate (in the order of
+ * fbd_model_coordinate, in their units); INFINITY when they are not known. False without error bars, for
+ * another t, or when memory is out.
+ *
+ * They are differences from a second run of the same scene with a smaller tolerance (a fifth, or a hundredth
+ * for methods of lower order), and steps and events of its own. See docs/error-bars.md. The trajectory is the
+ * same, bit by bit, with error bars and without. */
+FBD_API bool fbd_simulation_errors(fbd_simulation *simulation, double t, double *errors);
 
 FBD_API size_t fbd_simulation_events(const fbd_simulation *simulation);
 /* Event `index`; past the end one whose time is NAN. */
@@ -266,7 +290,10 @@ typedef struct fbd_energy {
 /* A run from start to end, with its ledger (without it where only the motion was wanted). */
 typedef struct fbd_result fbd_result;
 
-/* Carry a simulation from its start to its end. NULL when memory is out or the simulation has been
+/* Carry a simulation from its start to its end. With options.accuracy the run is repeated with smaller
+ * tolerances until the estimated global error (fbd_stats.error_estimate) is at most that, or until rounding
+ * keeps it from getting better: then the best one stands, and fbd_result_accurate is false. Only the last run
+ * is recorded. NULL when memory is out or the simulation has been
  * advanced already (the ledger has to see every step). The simulation must outlive the result. */
 FBD_API fbd_result *fbd_simulation_run(fbd_simulation *simulation, const fbd_recording *recording);
 FBD_API void fbd_result_free(fbd_result *result);
@@ -277,6 +304,20 @@ FBD_API fbd_energy fbd_result_energy(fbd_result *result);
 
 /* The work that a force or moment of a body has done since the start; NAN when there is no such name. */
 FBD_API double fbd_result_work(fbd_result *result, const char *body, const char *load);
+
+/* Estimated errors at the end of the run; INFINITY when they are not known, NAN without error bars or for a
+ * name that does not exist. Of "block.x" or "block.v"; of energies (of the initial ones: 0); of a
+ * work. */
+FBD_API double fbd_result_error(fbd_result *result, const char *name);
+FBD_API fbd_energy fbd_result_energy_error(fbd_result *result);
+FBD_API double fbd_result_work_error(fbd_result *result, const char *body, const char *load);
+
+/* As fbd_diagram at the end of the run, with the estimated errors of fx, fy, x, y, couple, moment and power.
+ * 0 without error bars. */
+FBD_API size_t fbd_result_force_errors(fbd_result *result, size_t body, fbd_arrow *arrows, size_t room);
+
+/* False when options.accuracy, or the file, asked for an accuracy that the estimated global error exceeds. */
+FBD_API bool fbd_result_accurate(const fbd_result *result);
 
 /* The same as text, to be freed with free(); NULL when memory is out. */
 FBD_API char *fbd_result_report(fbd_result *result);

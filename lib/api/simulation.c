@@ -1,51 +1,76 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Public interface: simulations and whole runs.
+ * Public interface: simulations.
  */
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
-#include "output/csv.h"
-#include "output/result.h"
+#include "api/record.h"
 #include "solve/options.h"
+
+static void bad_accuracy(fbd_errors *errors, const char *hint, const char *message)
+{
+    diag_add(errors, FBD_ERROR, "bad-option", (struct pos){0, 0}, hint, "%s", message);
+}
+
+/* An accuracy that is asked for chooses the tolerance. What is given as an option stands before what the file
+ * says to the same end. */
+static bool choose_accuracy(const fbd_model *model, const fbd_options *options, struct run_options *chosen,
+                            double *accuracy, fbd_errors *errors)
+{
+    bool by_hand = options->tolerance != 0 || options->step != 0;
+    size_t before = fbd_errors_failed(errors);
+    *accuracy = options->accuracy != 0 ? options->accuracy : by_hand ? 0 : model->scene->simulate.accuracy;
+    if (options->accuracy != 0 && by_hand)
+        bad_accuracy(errors, "ask for an accuracy, or say how the steps are to be made",
+                     "an accuracy excludes a tolerance and a step: it chooses them");
+    if (!(*accuracy >= 0 && *accuracy <= 0.1))
+        bad_accuracy(errors, "1e-8 is careful, 1e-3 is quick",
+                     "the accuracy must be above 0 and at most 0.1");
+    if (*accuracy > 0) {
+        chosen->tolerance = accuracy_first_guess(*accuracy);
+        chosen->step = 0;
+    }
+    return fbd_errors_failed(errors) == before;
+}
 
 fbd_simulation *fbd_simulation_new(const fbd_model *model, const fbd_options *options, fbd_errors *errors)
 {
     struct run_options chosen;
+    double accuracy;
     if (!options_choose(model, options, &chosen, errors)) return NULL;
+    if (!choose_accuracy(model, options, &chosen, &accuracy, errors)) return NULL;
     fbd_simulation *simulation = calloc(1, sizeof *simulation);
-    if (simulation) simulation->run = run_new(model, &chosen);
-    if (!simulation || !simulation->run) {
-        free(simulation);
-        diag_out_of_memory(errors);
-        return NULL;
+    bool made = simulation != NULL;
+    if (made) {
+        simulation->accuracy = accuracy;
+        if (options->error_bars || accuracy > 0) simulation->bars = calloc(1, sizeof *simulation->bars);
+        made = (simulation->bars || !(options->error_bars || accuracy > 0)) &&
+               simulation_begin(simulation, model, &chosen);
     }
-    return simulation;
+    if (made) return simulation;
+    fbd_simulation_free(simulation);
+    diag_out_of_memory(errors);
+    return NULL;
 }
 
 void fbd_simulation_free(fbd_simulation *simulation)
 {
     if (!simulation) return;
-    run_free(simulation->run);
-    for (size_t i = 0; i < simulation->detail_count; i++) free(simulation->details[i]);
-    free(simulation->details);
+    simulation_end(simulation);
+    free(simulation->bars);
     free(simulation);
 }
 
 /* ---- step by step */
 
-static double processor_seconds(void)
-{
-    struct timespec now;
-    return clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now) == 0
-               ? (double)now.tv_sec + 1e-9 * (double)now.tv_nsec
-               : 0;
-}
-
 fbd_outcome fbd_simulation_advance(fbd_simulation *simulation)
 {
-    return run_advance(simulation->run);
+    struct run *run = simulation->run;
+    if (!bars_catch_up(simulation->bars, run)) run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
+    run_advance(run);
+    if (simulation->bars) simulation->bars->behind = true;
+    return run->outcome;
 }
 
 void fbd_simulation_interval(const fbd_simulation *simulation, double *from, double *to)
@@ -91,18 +116,20 @@ static const char *detail_of(fbd_simulation *simulation, size_t index)
 fbd_event fbd_simulation_event(fbd_simulation *simulation, size_t index)
 {
     const struct run *run = simulation->run;
-    if (index >= run->event_count) return (fbd_event){.t = NAN, .body = "", .name = "", .detail = ""};
+    if (index >= run->event_count)
+        return (fbd_event){.t = NAN, .body = "", .name = "", .detail = "", .t_error = NAN};
     const struct run_event *event = &run->events[index];
     return (fbd_event){.t = event->t,
                        .kind = event->kind,
                        .body = event_body(run->model, event),
                        .name = event_name(run->model, event),
-                       .detail = detail_of(simulation, index)};
+                       .detail = detail_of(simulation, index),
+                       .t_error = simulation_event_error(simulation, index)};
 }
 
 fbd_stats fbd_simulation_stats(const fbd_simulation *simulation)
 {
-    const struct run *run = simulation->run;
+    struct run *run = simulation->run;
     const struct stepper_counts counts = switcher_counts(run->stepper);
     fbd_stats stats = {.method = options_method(&run->options),
                        .stiff_steps = switcher_stiff_steps(run->stepper),
@@ -112,7 +139,18 @@ fbd_stats fbd_simulation_stats(const fbd_simulation *simulation)
                        .jacobians = run->system.jacobians,
                        .events = run->event_count,
                        .event_samples = (unsigned long)(run->timed.samples + run->moving.samples),
-                       .seconds = simulation->seconds};
+                       .seconds = simulation->seconds,
+                       .error_estimate = NAN,
+                       .accuracy = simulation->accuracy,
+                       .runs = simulation->runs,
+                       .seconds_spent = simulation->seconds_spent};
+    if (simulation->bars) {
+        const struct companion *companion = simulation->bars->companion;
+        if (run->outcome != FBD_GOING) bars_catch_up(simulation->bars, run);
+        stats.error_estimate = companion_global(companion);
+        stats.companion_steps = switcher_counts(companion->run->stepper).accepted;
+        stats.companion_rhs = companion->run->system.rhs;
+    }
     for (int kind = 0; kind < rejection_kinds; kind++) stats.rejected += counts.rejected[kind];
     return stats;
 }
@@ -120,78 +158,4 @@ fbd_stats fbd_simulation_stats(const fbd_simulation *simulation)
 const char *fbd_simulation_reason(const fbd_simulation *simulation)
 {
     return simulation->run->reason;
-}
-
-/* ---- a whole run */
-
-static bool carry(fbd_result *result, struct csv *csv)
-{
-    struct run *run = result->simulation->run;
-    while (run->outcome == FBD_GOING) {
-        size_t events = run->event_count;
-        double before = processor_seconds();
-        run_advance(run);
-        result->simulation->seconds += processor_seconds() - before;
-        if (!(run->state->t > run->from) && run->outcome != FBD_GOING) break; /* no step was made */
-        if (csv && !csv_step(csv, run, run->event_count > events)) return false;
-        if (!ledger_step(&result->ledger, run)) return false;
-    }
-    return run->outcome != FBD_OUT_OF_MEMORY;
-}
-
-fbd_result *fbd_simulation_run(fbd_simulation *simulation, const fbd_recording *recording)
-{
-    struct run *run = simulation->run;
-    if (run->state->t > 0) return NULL; /* the ledger has to see every step */
-    fbd_result *result = calloc(1, sizeof *result);
-    if (!result) return NULL;
-    result->simulation = simulation;
-    result->start = state_new(run->model);
-    struct csv csv = {0};
-    bool works = !recording || recording->ledger || !recording->motion_only;
-    bool done = result->start && ledger_init(&result->ledger, run->model, run->state, works);
-    if (done) {
-        state_copy(result->start, run->state);
-        bool rows = recording && recording->csv;
-        if (rows)
-            done = csv_begin(&csv, run->model, &result->ledger, recording, run->options.until, run->state);
-        done = done && carry(result, rows ? &csv : NULL);
-    }
-    csv_free(&csv);
-    if (done) return result;
-    fbd_result_free(result);
-    return NULL;
-}
-
-void fbd_result_free(fbd_result *result)
-{
-    if (!result) return;
-    ledger_free(&result->ledger);
-    state_free(result->start);
-    free(result);
-}
-
-fbd_outcome fbd_result_outcome(const fbd_result *result)
-{
-    return result->simulation->run->outcome;
-}
-
-fbd_state *fbd_result_state(fbd_result *result)
-{
-    return result->simulation->run->state;
-}
-
-fbd_energy fbd_result_energy(fbd_result *result)
-{
-    return ledger_energy(&result->ledger, result->simulation->run->state, result->ledger.work);
-}
-
-double fbd_result_work(fbd_result *result, const char *body, const char *load)
-{
-    const struct fbd_model *model = result->ledger.model;
-    for (size_t i = 0; i < model->load_count; i++)
-        if (strcmp(model->loads[i].source->name, load) == 0 &&
-            strcmp(model->bodies[model->loads[i].body].name, body) == 0)
-            return ledger_work(&result->ledger, result->simulation->run->state, i, result->ledger.work);
-    return NAN;
 }

@@ -9,16 +9,25 @@ enum { digits = 17, default_rows = 500 };
 /* ---- columns of forces: a slide shows the component along itself (normal force: across), a pivot the moment
  * about its axis, a body in the plane its components */
 
+/* One column and, with error bars, that of its error: `a.b.part [unit],a.b.part ± [unit]`. `b` and `part` may
+ * be empty. */
+static void header(struct csv *csv, const char *a, const char *b, const char *part, const char *unit)
+{
+    for (int error = 0; error <= (csv->bars ? 1 : 0); error++)
+        text_printf(&csv->line, ",%s%s%s%s%s%s [%s]", a, b[0] ? "." : "", b, part[0] ? "." : "", part,
+                    error ? " ±" : "", unit);
+}
+
 static void force_headers(struct csv *csv, const struct model_body *body, const char *name)
 {
-    struct text *line = &csv->line;
     const char *force = force_unit(csv->model), *moment = moment_unit(csv->model);
     if (body->count == 1) {
-        text_printf(line, ",%s.%s [%s]", body->name, name, body->kind == motion_pivot ? moment : force);
+        header(csv, body->name, name, "", body->kind == motion_pivot ? moment : force);
         return;
     }
-    text_printf(line, ",%s.%s.x [%s],%s.%s.y [%s]", body->name, name, force, body->name, name, force);
-    if (body->kind == motion_planar) text_printf(line, ",%s.%s.moment [%s]", body->name, name, moment);
+    header(csv, body->name, name, "x", force);
+    header(csv, body->name, name, "y", force);
+    if (body->kind == motion_planar) header(csv, body->name, name, "moment", moment);
 }
 
 /* A jointed body has its whole diagram: components and moment about its centre of mass of every force. */
@@ -31,10 +40,10 @@ static void diagram_headers(struct csv *csv, int b, const struct fbd_state *star
     size_t count = diagram_fill(model, b, &at, start->a, start->slots, csv->arrows);
     for (size_t i = 0; i < count; i++) {
         const char *name = csv->arrows[i].name;
-        text_printf(&csv->line, ",%s.%s.x [%s],%s.%s.y [%s],%s.%s.moment [%s]", body->name, name, force,
-                    body->name, name, force, body->name, name, moment);
-        if (i < (size_t)body->load_count)
-            text_printf(&csv->line, ",%s.%s.work [%s]", body->name, name, energy_unit(model));
+        header(csv, body->name, name, "x", force);
+        header(csv, body->name, name, "y", force);
+        header(csv, body->name, name, "moment", moment);
+        if (i < (size_t)body->load_count) header(csv, body->name, name, "work", energy_unit(model));
     }
 }
 
@@ -51,15 +60,15 @@ static void ledger_headers(struct csv *csv, const struct fbd_state *start)
         for (int i = 0; i < body->load_count; i++) {
             const char *name = model->loads[body->first_load + i].source->name;
             force_headers(csv, body, name);
-            text_printf(&csv->line, ",%s.%s.work [%s]", body->name, name, energy);
+            header(csv, body->name, name, "work", energy);
         }
-        if (body->kind == motion_pivot)
-            text_printf(&csv->line, ",%s.pin.x [%s],%s.pin.y [%s]", body->name, force_unit(model), body->name,
-                        force_unit(model));
+        if (body->kind == motion_pivot) {
+            header(csv, body->name, "pin", "x", force_unit(model));
+            header(csv, body->name, "pin", "y", force_unit(model));
+        }
     }
-    text_printf(&csv->line,
-                ",energy.kinetic [%s],energy.potential [%s],energy.work [%s],energy.residual [%s]", energy,
-                energy, energy, energy);
+    static const char *const energies[] = {"kinetic", "potential", "work", "residual"};
+    for (int k = 0; k < 4; k++) header(csv, "energy", energies[k], "", energy);
 }
 
 static void headers(struct csv *csv, const struct fbd_state *start)
@@ -69,10 +78,8 @@ static void headers(struct csv *csv, const struct fbd_state *start)
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
         const struct label *labels = model->labels + body->first;
-        for (int k = 0; k < body->count; k++)
-            text_printf(&csv->line, ",%s [%s]", labels[k].name, labels[k].unit);
-        for (int k = 0; k < body->count; k++)
-            text_printf(&csv->line, ",%s [%s]", labels[k].rate_name, labels[k].rate_unit);
+        for (int k = 0; k < body->count; k++) header(csv, labels[k].name, "", "", labels[k].unit);
+        for (int k = 0; k < body->count; k++) header(csv, labels[k].rate_name, "", "", labels[k].rate_unit);
     }
     if (csv->ledger) ledger_headers(csv, start);
 }
@@ -85,11 +92,61 @@ static void number(struct csv *csv, double value)
     text_number(&csv->line, value, digits);
 }
 
-static void force_values(struct csv *csv, const struct model_body *body, const struct arrow *arrow)
+/* An error of INFINITY (unknown) is written `inf`. */
+static void error(struct csv *csv, double value)
+{
+    if (csv->bars) number(csv, value);
+}
+
+/* A quantity of the run and of its companion. */
+static void value(struct csv *csv, double main, double other)
+{
+    number(csv, main);
+    if (csv->bars) number(csv, bars_difference(csv->bars, main, other));
+}
+
+static double shown_force(const struct csv *csv, const struct model_body *body, const struct arrow *arrow)
 {
     bool normal = csv->model->loads[arrow->load].source->kind == load_normal;
-    number(csv, normal ? vec_dot(arrow->force, body->n) : arrow->share[0]);
-    for (int k = 1; k < body->count; k++) number(csv, arrow->share[k]);
+    return normal ? vec_dot(arrow->force, body->n) : arrow->share[0];
+}
+
+static void force_values(struct csv *csv, const struct model_body *body, const struct arrow *arrow,
+                         const struct arrow *other)
+{
+    value(csv, shown_force(csv, body, arrow), shown_force(csv, body, other));
+    for (int k = 1; k < body->count; k++) value(csv, arrow->share[k], other->share[k]);
+}
+
+static void work_value(struct csv *csv, size_t load, const struct fbd_state *state)
+{
+    double work = ledger_work(csv->ledger, state, load, csv->work);
+    number(csv, work);
+    if (csv->bars) error(csv, bars_work(csv->bars, load, work));
+}
+
+static void body_values(struct csv *csv, size_t b, const struct fbd_state *state)
+{
+    const struct model_body *body = &csv->model->bodies[b];
+    struct instant at = state_instant(state);
+    diagram_fill(csv->model, (int)b, &at, state->a, state->slots, csv->arrows);
+    const struct arrow *others = csv->bars ? bars_diagram(csv->bars, (int)b) : csv->arrows;
+    for (int i = 0; i < body->load_count; i++) {
+        force_values(csv, body, &csv->arrows[i], &others[i]);
+        work_value(csv, (size_t)csv->arrows[i].load, state);
+    }
+    if (body->kind == motion_pivot) {
+        value(csv, csv->arrows[body->load_count].force.x, others[body->load_count].force.x);
+        value(csv, csv->arrows[body->load_count].force.y, others[body->load_count].force.y);
+    }
+}
+
+/* Where the moments of its diagram are taken about. */
+static struct vec mass_center(const struct model_body *body, const struct fbd_state *state)
+{
+    struct instant at = state_instant(state);
+    struct pose pose = body_pose(body, &at);
+    return point_motion(body, &pose, body->inertia.G).p;
 }
 
 static void diagram_values(struct csv *csv, int b, const struct fbd_state *state)
@@ -97,43 +154,36 @@ static void diagram_values(struct csv *csv, int b, const struct fbd_state *state
     const struct fbd_model *model = csv->model;
     const struct model_body *body = &model->bodies[b];
     struct instant at = state_instant(state);
-    struct pose pose = body_pose(body, &at);
-    struct vec G = point_motion(body, &pose, body->inertia.G).p;
+    struct vec G = mass_center(body, state), other_G = csv->bars ? mass_center(body, csv->bars->state) : G;
     size_t count = diagram_fill(model, b, &at, state->a, state->slots, csv->arrows);
+    const struct arrow *others = csv->bars ? bars_diagram(csv->bars, b) : csv->arrows;
     for (size_t i = 0; i < count; i++) {
-        number(csv, csv->arrows[i].force.x);
-        number(csv, csv->arrows[i].force.y);
-        number(csv, arrow_moment(&csv->arrows[i], G));
-        if (i < (size_t)body->load_count)
-            number(csv, ledger_work(csv->ledger, state, (size_t)csv->arrows[i].load, csv->work));
+        const struct arrow *arrow = &csv->arrows[i], *other = &others[i];
+        value(csv, arrow->force.x, other->force.x);
+        value(csv, arrow->force.y, other->force.y);
+        value(csv, arrow_moment(arrow, G), arrow_moment(other, other_G));
+        if (i < (size_t)body->load_count) work_value(csv, (size_t)arrow->load, state);
     }
 }
 
 static void ledger_values(struct csv *csv, const struct fbd_state *state)
 {
-    const struct fbd_model *model = csv->model;
-    struct instant at = state_instant(state);
-    for (size_t b = 0; b < model->body_count; b++) {
-        const struct model_body *body = &model->bodies[b];
-        if (body->place.link > 0) {
+    for (size_t b = 0; b < csv->model->body_count; b++) {
+        if (csv->model->bodies[b].place.link > 0)
             diagram_values(csv, (int)b, state);
-            continue;
-        }
-        diagram_fill(model, (int)b, &at, state->a, state->slots, csv->arrows);
-        for (int i = 0; i < body->load_count; i++) {
-            force_values(csv, body, &csv->arrows[i]);
-            number(csv, ledger_work(csv->ledger, state, (size_t)csv->arrows[i].load, csv->work));
-        }
-        if (body->kind == motion_pivot) {
-            number(csv, csv->arrows[body->load_count].force.x);
-            number(csv, csv->arrows[body->load_count].force.y);
-        }
+        else
+            body_values(csv, b, state);
     }
-    fbd_energy energy = ledger_energy(csv->ledger, state, csv->work);
+    fbd_energy energy = ledger_energy(csv->ledger, state, csv->work), errors = energy;
+    if (csv->bars) errors = bars_energy(csv->bars, &energy);
     number(csv, energy.kinetic);
+    error(csv, errors.kinetic);
     number(csv, energy.potential);
+    error(csv, errors.potential);
     number(csv, energy.work);
+    error(csv, errors.work);
     number(csv, energy.residual);
+    error(csv, errors.residual);
 }
 
 static bool put_line(struct csv *csv)
@@ -145,14 +195,20 @@ static bool put_line(struct csv *csv)
     return !csv->failed;
 }
 
+static void component(struct csv *csv, const struct fbd_state *state, int i)
+{
+    number(csv, state->y[i]);
+    if (csv->bars) error(csv, bars_component(csv->bars, state, (size_t)i));
+}
+
 static bool row(struct csv *csv, const struct fbd_state *state)
 {
     const struct fbd_model *model = csv->model;
     text_number(&csv->line, state->t, digits);
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
-        for (int k = 0; k < body->count; k++) number(csv, state->y[body->first + k]);
-        for (int k = 0; k < body->count; k++) number(csv, state->y[body->first_rate + k]);
+        for (int k = 0; k < body->count; k++) component(csv, state, body->first + k);
+        for (int k = 0; k < body->count; k++) component(csv, state, body->first_rate + k);
     }
     if (csv->ledger) ledger_values(csv, state);
     return put_line(csv);
@@ -166,29 +222,34 @@ static bool row_within(struct csv *csv, struct run *run, double t)
         memcpy(csv->work, csv->ledger->work, csv->model->load_count * sizeof *csv->work);
         if (!ledger_integrate(csv->ledger, run, run->from, t, csv->work)) return false;
     }
+    if (csv->bars && !bars_look(csv->bars, run, t, false, csv->ledger)) return false;
     return row(csv, csv->probe);
 }
 
 /* ---- the file */
 
-bool csv_begin(struct csv *csv, const struct fbd_model *model, struct ledger *ledger,
-               const fbd_recording *recording, double until, struct fbd_state *start)
+bool csv_begin(struct csv *csv, struct run *run, struct ledger *ledger, struct bars *bars,
+               const fbd_recording *recording)
 {
+    const struct fbd_model *model = run->model;
+    double start = run->state->t, until = run->options.until;
     double every = recording->every > 0 ? recording->every : model->scene->simulate.every;
     *csv = (struct csv){.model = model,
                         .ledger = recording->ledger ? ledger : NULL,
+                        .bars = bars,
                         .write = recording->csv,
                         .context = recording->csv_context,
-                        .start = start->t,
+                        .start = start,
                         .until = until,
-                        .every = every > 0 ? every : (until - start->t) / default_rows,
+                        .every = every > 0 ? every : (until - start) / default_rows,
                         .next = 1};
     csv->probe = state_new(model);
     csv->arrows = calloc(diagram_most_arrows(model), sizeof *csv->arrows);
     csv->work = calloc(model->load_count + 1, sizeof *csv->work);
     if (!csv->probe || !csv->arrows || !csv->work) return false;
-    headers(csv, start);
-    return put_line(csv) && row(csv, start);
+    headers(csv, run->state);
+    if (bars && !bars_look(bars, run, start, false, csv->ledger)) return false;
+    return put_line(csv) && row(csv, run->state);
 }
 
 bool csv_step(struct csv *csv, struct run *run, bool event)
@@ -209,6 +270,7 @@ bool csv_step(struct csv *csv, struct run *run, bool event)
         memcpy(csv->work, csv->ledger->work, csv->model->load_count * sizeof *csv->work);
         if (!ledger_integrate(csv->ledger, run, run->from, end, csv->work)) return false;
     }
+    if (csv->bars && !bars_look(csv->bars, run, end, event, csv->ledger)) return false;
     return row(csv, run->state);
 }
 

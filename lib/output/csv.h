@@ -10,6 +10,7 @@
 struct csv {
     const struct fbd_model *model;
     struct ledger *ledger; /* NULL without force and energy columns */
+    struct bars *bars;     /* NULL without columns of errors */
     fbd_write *write;
     void *context;
     double start, every, until;
@@ -21,9 +22,10 @@ struct csv {
     bool failed;  /* memory or the writer */
 };
 
-/* Write the header and the row of the start. False when memory is out or the writer refused. */
-bool csv_begin(struct csv *csv, const struct fbd_model *model, struct ledger *ledger,
-               const fbd_recording *recording, double until, struct fbd_state *start);
+/* Write the header and the row of the start, where the run is; `bars` may be NULL. False when memory is out
+ * or the writer refused. */
+bool csv_begin(struct csv *csv, struct run *run, struct ledger *ledger, struct bars *bars,
+               const fbd_recording *recording);
 
 /* Rows within the last step of the run; to be called before ledger_step. `event` adds a row at its end. */
 bool csv_step(struct csv *csv, struct run *run, bool event);

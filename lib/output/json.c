@@ -64,6 +64,31 @@ static void write_final(struct text *text, const struct fbd_model *model, const 
     text_add(text, "\n  },\n");
 }
 
+/* As `final`, without the time. */
+static void write_final_errors(struct text *text, const fbd_simulation *simulation)
+{
+    const struct fbd_model *model = simulation->run->model;
+    const struct fbd_state *state = simulation->run->state;
+    if (!simulation->bars) return;
+    text_add(text, "  \"final_error\": {");
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
+        text_add(text, b ? ",\n    " : "\n    ");
+        key(text, body->name);
+        text_add(text, "{");
+        for (int k = 0; k < 2 * body->count; k++) {
+            bool rate = k >= body->count;
+            int i = k % body->count;
+            const struct coordinate *c = &model->scene->coordinates[body->first + i];
+            int component = (rate ? body->first_rate : body->first) + i;
+            member(text, rate ? c->rate_name : c->name,
+                   bars_component(simulation->bars, state, (size_t)component), k + 1 == 2 * body->count);
+        }
+        text_add(text, "}");
+    }
+    text_add(text, "\n  },\n");
+}
+
 static void text_member(struct text *text, const char *name, const char *value, bool last)
 {
     key(text, name);
@@ -71,8 +96,9 @@ static void text_member(struct text *text, const char *name, const char *value, 
     if (!last) text_add(text, ", ");
 }
 
-static void write_events(struct text *text, const struct run *run)
+static void write_events(struct text *text, const fbd_simulation *simulation)
 {
+    const struct run *run = simulation->run;
     text_add(text, "  \"events\": [");
     for (size_t i = 0; i < run->event_count; i++) {
         const struct run_event *event = &run->events[i];
@@ -80,6 +106,7 @@ static void write_events(struct text *text, const struct run *run)
         event_detail(run->model, event, detail, sizeof detail);
         text_add(text, i ? ",\n    {" : "\n    {");
         member(text, "t", event->t, false);
+        if (simulation->bars) member(text, "t_error", simulation->event_errors[i], false);
         text_member(text, "body", event_body(run->model, event), false);
         text_member(text, "kind", fbd_event_kind_name(event->kind), false);
         text_member(text, "name", event_name(run->model, event), false);
@@ -100,18 +127,42 @@ static void write_friction(struct text *text, struct fbd_state *state, const str
     member(text, "margin", values.limit_static > 0 ? fabs(values.force) / values.limit_static : NAN, true);
 }
 
+/* Where moments are taken about: the axis of a pivot, else the centre of mass. */
+static struct vec moment_center(const struct model_body *body, const struct fbd_state *state)
+{
+    struct instant at = state_instant(state);
+    struct pose pose = body_pose(body, &at);
+    return body->kind == motion_pivot ? pose.origin : point_motion(body, &pose, body->inertia.G).p;
+}
+
+/* `other` is the same arrow of the companion. */
+static void write_force_error(struct text *text, struct bars *bars, const struct model_body *body,
+                              const struct arrow *arrow, const struct arrow *other, double moment,
+                              double work)
+{
+    double other_moment = arrow_moment(other, moment_center(body, bars->state));
+    text_add(text, ", \"error\": {");
+    member(text, "fx", bars_difference(bars, arrow->force.x, other->force.x), false);
+    member(text, "fy", bars_difference(bars, arrow->force.y, other->force.y), false);
+    member(text, "moment", bars_difference(bars, moment, other_moment), false);
+    member(text, "power", bars_difference(bars, arrow->power, other->power), false);
+    member(text, "work", arrow->load >= 0 ? bars_work(bars, (size_t)arrow->load, work) : 0, true);
+    text_add(text, "}");
+}
+
 static void write_body_forces(struct text *text, fbd_result *result, struct fbd_state *state, int b)
 {
     struct ledger *ledger = &result->ledger;
     const struct fbd_model *model = ledger->model;
     const struct model_body *body = &model->bodies[b];
+    struct bars *bars = result->simulation->bars;
     struct instant at = state_instant(state);
-    struct pose pose = body_pose(body, &at);
-    struct vec about =
-        body->kind == motion_pivot ? pose.origin : point_motion(body, &pose, body->inertia.G).p;
+    struct vec about = moment_center(body, state);
     size_t count = diagram_fill(model, b, &at, state->a, state->slots, ledger->arrows);
+    const struct arrow *others = bars ? bars_diagram(bars, b) : NULL;
     for (size_t i = 0; i < count; i++) {
         const struct arrow *arrow = &ledger->arrows[i];
+        double moment = arrow_moment(arrow, about);
         double work = arrow->load >= 0 ? ledger_work(ledger, state, (size_t)arrow->load, ledger->work) : 0;
         text_add(text, i ? ",\n      " : "\n      ");
         key(text, arrow->name);
@@ -120,11 +171,12 @@ static void write_body_forces(struct text *text, fbd_result *result, struct fbd_
         member(text, "fy", arrow->force.y, false);
         member(text, "x", arrow->point.x, false);
         member(text, "y", arrow->point.y, false);
-        member(text, "moment", arrow_moment(arrow, about), false);
+        member(text, "moment", moment, false);
         member(text, "power", arrow->power, false);
         member(text, "work", work, true);
         if (body->friction >= 0 && arrow->load == model->plan.frictions[body->friction].load)
             write_friction(text, state, body);
+        if (bars) write_force_error(text, bars, body, arrow, &others[i], moment, work);
         text_add(text, "}");
     }
     if (count > 0) text_add(text, "\n    ");
@@ -183,6 +235,14 @@ static void write_energy(struct text *text, fbd_result *result)
     member(text, "initial_kinetic", energy.initial_kinetic, false);
     member(text, "initial_potential", energy.initial_potential, true);
     text_add(text, "},\n");
+    if (!result->simulation->bars) return;
+    fbd_energy error = fbd_result_energy_error(result);
+    text_add(text, "  \"energy_error\": {");
+    member(text, "kinetic", error.kinetic, false);
+    member(text, "potential", error.potential, false);
+    member(text, "work", error.work, false);
+    member(text, "residual", error.residual, true);
+    text_add(text, "},\n");
 }
 
 static void write_stats(struct text *text, const fbd_simulation *simulation)
@@ -197,7 +257,17 @@ static void write_stats(struct text *text, const fbd_simulation *simulation)
                 "\"stiff_steps\": %lu, ",
                 stats.steps, stats.rejected, stats.rhs, stats.jacobians, stats.events, stats.stiff_steps);
     member(text, "seconds", stats.seconds, false);
-    text_add(text, "\"error_estimate\": null}\n");
+    member(text, "error_estimate", stats.error_estimate, true);
+    if (simulation->bars) {
+        text_printf(text, ", \"companion_steps\": %lu, \"companion_rhs\": %lu, \"runs\": %lu, ",
+                    stats.companion_steps, stats.companion_rhs, stats.runs);
+        member(text, "seconds_spent", stats.seconds_spent, true);
+    }
+    if (stats.accuracy > 0) {
+        text_add(text, ", ");
+        member(text, "accuracy", stats.accuracy, true);
+    }
+    text_add(text, "}\n");
 }
 
 char *fbd_result_json(fbd_result *result)
@@ -214,7 +284,8 @@ char *fbd_result_json(fbd_result *result)
     text_add(&text, ",\n");
     state_ready(run->state);
     write_final(&text, model, run->state);
-    write_events(&text, run);
+    write_final_errors(&text, simulation);
+    write_events(&text, simulation);
     write_forces(&text, result, run->state);
     write_balances(&text, result, run->state);
     write_energy(&text, result);

@@ -10,33 +10,56 @@
 
 enum { digits = 9, most_events = 40 };
 
-static void value(struct text *text, const char *name, double number, const char *unit)
+/* What writes a run: columns are further apart with error bars. */
+struct page {
+    struct text *text;
+    fbd_result *result;
+    struct bars *bars; /* NULL without */
+};
+
+static size_t column(const struct page *page, size_t plain, size_t with_bars)
 {
-    text_printf(text, "%s = ", name);
-    text_number(text, number, digits);
-    text_printf(text, " %s", unit);
+    return page->bars ? with_bars : plain;
+}
+
+/* ` ± 3.1e-11`, or a question mark for an error that is not known. */
+static void plus_minus(const struct page *page, double error)
+{
+    if (!page->bars) return;
+    if (isfinite(error))
+        text_printf(page->text, " ± %.1e", error);
+    else
+        text_add(page->text, " ± ?");
 }
 
 /* ---- events; switches of expressions are counted, not listed, when there are many */
 
-static void write_event(struct text *text, const struct fbd_model *model, const struct run_event *event)
+static void write_event(const struct page *page, size_t index)
 {
+    struct text *text = page->text;
+    const fbd_simulation *simulation = page->result->simulation;
+    const struct fbd_model *model = simulation->run->model;
+    const struct run_event *event = &simulation->run->events[index];
     char detail[event_detail_size];
     const char *body = event_body(model, event);
     event_detail(model, event, detail, sizeof detail);
     text_add(text, "  t = ");
     text_number(text, event->t, digits);
+    if (page->bars) plus_minus(page, simulation->event_errors[index]);
     text_add(text, " s");
-    text_pad(text, 24);
+    size_t from = column(page, 24, 34);
+    text_pad(text, from);
     text_add(text, body[0] ? body : "-");
-    text_pad(text, 38);
+    text_pad(text, from + 14);
     text_add(text, fbd_event_kind_name(event->kind));
-    text_pad(text, 52);
+    text_pad(text, from + 28);
     text_printf(text, "%s\n", detail);
 }
 
-static void write_events(struct text *text, const struct run *run)
+static void write_events(const struct page *page)
 {
+    struct text *text = page->text;
+    const struct run *run = page->result->simulation->run;
     enum { most_switches = 8 };
     size_t count = run->event_count, shown = 0, switches = 0, hidden = 0;
     text_add(text, count ? "\nEvents\n" : "\nEvents: none\n");
@@ -45,7 +68,7 @@ static void write_events(struct text *text, const struct run *run)
     for (size_t i = 0; i < count; i++) {
         if (run->events[i].kind == FBD_EVENT_SWITCH && !with_switches) continue;
         if (shown < most_events || i + 1 == count) {
-            write_event(text, run->model, &run->events[i]);
+            write_event(page, i);
             shown++;
         } else {
             hidden++;
@@ -73,8 +96,11 @@ static void write_friction(struct text *text, struct fbd_state *state, const str
         text_add(text, "   (sticks)");
 }
 
-static void write_final(struct text *text, const struct fbd_model *model, struct fbd_state *state)
+static void write_final(const struct page *page)
 {
+    struct text *text = page->text;
+    struct fbd_state *state = page->result->simulation->run->state;
+    const struct fbd_model *model = state->model;
     text_add(text, "\nFinal state at t = ");
     text_number(text, state->t, digits);
     text_add(text, " s\n");
@@ -86,33 +112,45 @@ static void write_final(struct text *text, const struct fbd_model *model, struct
             bool rate = k >= body->count;
             const struct coordinate *c = &model->scene->coordinates[i];
             const struct label *label = &model->labels[i];
-            text_pad(text, 16 + 26 * (size_t)k);
-            text_add(text, " ");
-            value(text, rate ? c->rate_name : c->name, state->y[rate ? i + model->plan.n : i],
-                  rate ? label->rate_unit : label->unit);
+            int component = rate ? i + model->plan.n : i;
+            text_pad(text, 16 + column(page, 26, 38) * (size_t)k);
+            text_printf(text, " %s = ", rate ? c->rate_name : c->name);
+            text_number(text, state->y[component], digits);
+            if (page->bars) plus_minus(page, bars_component(page->bars, state, (size_t)component));
+            text_printf(text, " %s", rate ? label->rate_unit : label->unit);
         }
         if (body->friction >= 0) write_friction(text, state, body);
         text_add(text, "\n");
     }
 }
 
-static void write_force(struct text *text, struct ledger *ledger, const struct fbd_state *state,
-                        const struct arrow *arrow)
+/* A number and its error, `other` being the companion's. */
+static void force(const struct page *page, double main, double other)
 {
+    text_number(page->text, main, 6);
+    if (page->bars) plus_minus(page, bars_difference(page->bars, main, other));
+}
+
+/* `other`: the same arrow of the companion, or `arrow`. */
+static void write_force(const struct page *page, const struct fbd_state *state, const struct arrow *arrow,
+                        const struct arrow *other)
+{
+    struct text *text = page->text;
+    struct ledger *ledger = &page->result->ledger;
     const struct fbd_model *model = ledger->model;
     text_printf(text, "    %s", arrow->name);
     text_pad(text, 20);
     bool couple_only = arrow->couple != 0 && arrow->force.x == 0 && arrow->force.y == 0;
     if (!couple_only) {
         text_add(text, " (");
-        text_number(text, arrow->force.x, 6);
+        force(page, arrow->force.x, other->force.x);
         text_add(text, ", ");
-        text_number(text, arrow->force.y, 6);
+        force(page, arrow->force.y, other->force.y);
         text_printf(text, ") %s", force_unit(model));
     }
     if (arrow->couple != 0) {
-        text_pad(text, couple_only ? 21 : 48);
-        text_number(text, arrow->couple, 6);
+        text_pad(text, couple_only ? 21 : column(page, 48, 68));
+        force(page, arrow->couple, other->couple);
         text_printf(text, " %s", moment_unit(model));
     }
     if (arrow->load < 0) {
@@ -120,65 +158,95 @@ static void write_force(struct text *text, struct ledger *ledger, const struct f
         return;
     }
     double work = ledger_work(ledger, state, (size_t)arrow->load, ledger->work);
-    text_pad(text, 60);
+    text_pad(text, column(page, 60, 92));
     text_add(text, "work ");
     if (isnan(work)) {
         text_add(text, "not integrated\n");
         return;
     }
     text_number(text, work, digits);
+    if (page->bars) plus_minus(page, bars_work(page->bars, (size_t)arrow->load, work));
     text_printf(text, " %s\n", energy_unit(model));
 }
 
-static void write_forces(struct text *text, fbd_result *result, struct fbd_state *state)
+static void write_forces(const struct page *page)
 {
-    struct ledger *ledger = &result->ledger;
+    struct text *text = page->text;
+    struct ledger *ledger = &page->result->ledger;
+    const struct fbd_state *state = page->result->simulation->run->state;
     const struct fbd_model *model = ledger->model;
     struct instant at = state_instant(state);
     text_add(text, "\nForces at the end, in the world's x and y, and their work since the start\n");
     for (size_t b = 0; b < model->body_count; b++) {
         text_printf(text, "  %s\n", model->bodies[b].name);
         size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, ledger->arrows);
-        for (size_t i = 0; i < count; i++) write_force(text, ledger, state, &ledger->arrows[i]);
+        const struct arrow *others = page->bars ? bars_diagram(page->bars, (int)b) : ledger->arrows;
+        for (size_t i = 0; i < count; i++) write_force(page, state, &ledger->arrows[i], &others[i]);
     }
 }
 
 /* ---- energy and cost */
 
-static void energy_row(struct text *text, const char *name, double start, double end, const char *unit)
+static void energy_row(const struct page *page, const char *name, double start, double end, double error)
 {
+    struct text *text = page->text;
     text_printf(text, "  %s", name);
     text_pad(text, 22);
     text_number(text, start, digits);
     text_pad(text, 40);
     text_number(text, end, digits);
-    text_pad(text, 58);
-    text_printf(text, "%s\n", unit);
+    plus_minus(page, error);
+    text_pad(text, column(page, 58, 70));
+    text_printf(text, "%s\n", energy_unit(page->result->ledger.model));
 }
 
-static void write_energy(struct text *text, fbd_result *result)
+static void write_energy(const struct page *page)
 {
-    fbd_energy energy = fbd_result_energy(result);
-    const char *unit = energy_unit(result->ledger.model);
-    text_add(text, "\nEnergy                start             end\n");
-    energy_row(text, "kinetic", energy.initial_kinetic, energy.kinetic, unit);
-    energy_row(text, "potential", energy.initial_potential, energy.potential, unit);
+    fbd_energy energy = fbd_result_energy(page->result), error = fbd_result_energy_error(page->result);
+    text_add(page->text, "\nEnergy                start             end\n");
+    energy_row(page, "kinetic", energy.initial_kinetic, energy.kinetic, error.kinetic);
+    energy_row(page, "potential", energy.initial_potential, energy.potential, error.potential);
     if (isnan(energy.work)) return; /* only the motion was wanted */
-    energy_row(text, "work of the others", 0, energy.work, unit);
-    text_printf(text,
+    energy_row(page, "work of the others", 0, energy.work, error.work);
+    text_printf(page->text,
                 "  residual %.2e %s: change of kinetic + potential, less that work (0 for the true motion)\n",
-                energy.residual, unit);
+                energy.residual, energy_unit(page->result->ledger.model));
 }
 
-static void write_cost(struct text *text, const fbd_simulation *simulation)
+/* What the error bars say of the whole run, what they cost, and what was asked for. */
+static void write_accuracy(const struct page *page, const fbd_stats *stats)
 {
-    fbd_stats stats = fbd_simulation_stats(simulation);
+    const double all = 0.1;
+    struct text *text = page->text;
+    if (!page->bars) return;
+    if (isfinite(stats->error_estimate))
+        text_printf(text, "  global error about %.1e of the size of the motion", stats->error_estimate);
+    else
+        text_add(text, "  global error not known: the companion could not follow");
+    text_printf(text, "; the estimate took %lu steps, %lu right-hand sides\n", stats->companion_steps,
+                stats->companion_rhs);
+    if (stats->error_estimate > all && isfinite(stats->error_estimate))
+        text_add(text,
+                 "  two runs of different accuracy part: a chaotic motion, a run that is too long, or a "
+                 "tolerance that is too large\n");
+    if (stats->accuracy == 0) return;
+    bool reached = fbd_result_accurate(page->result);
+    text_printf(text, "  accuracy %g asked for: %s, with %lu run%s in %.3f ms in all\n", stats->accuracy,
+                reached ? "reached" : "NOT reached, this is the best", stats->runs,
+                stats->runs == 1 ? "" : "s", 1e3 * stats->seconds_spent);
+}
+
+static void write_cost(const struct page *page)
+{
+    struct text *text = page->text;
+    fbd_stats stats = fbd_simulation_stats(page->result->simulation);
     text_printf(text, "\nAccuracy and cost: %s at tolerance %g", stats.method, stats.tolerance);
     text_printf(text, "\n  %lu steps (%lu rejected), %lu right-hand sides", stats.steps, stats.rejected,
                 stats.rhs);
     if (stats.jacobians) text_printf(text, ", %lu Jacobians", stats.jacobians);
     if (stats.stiff_steps) text_printf(text, ", %lu steps by rodas5p (stiff)", stats.stiff_steps);
     text_printf(text, ", %lu event samples, %.3f ms\n", stats.event_samples, 1e3 * stats.seconds);
+    write_accuracy(page, &stats);
 }
 
 char *fbd_result_report(fbd_result *result)
@@ -190,12 +258,13 @@ char *fbd_result_report(fbd_result *result)
     if (model->scene->title[0]) text_printf(&text, "%s\n\n", model->scene->title);
     equations_write(&text, result->start);
     state_ready(run->state);
-    write_events(&text, run);
+    const struct page page = {&text, result, simulation->bars};
+    write_events(&page);
     if (run->reason[0]) text_printf(&text, "\nThe run ended early: %s.\n", run->reason);
-    write_final(&text, model, run->state);
-    write_forces(&text, result, run->state);
-    write_energy(&text, result);
-    write_cost(&text, simulation);
+    write_final(&page);
+    write_forces(&page);
+    write_energy(&page);
+    write_cost(&page);
     if (text.failed) text_free(&text);
     return text.data;
 }

@@ -6,13 +6,20 @@
 #define FBD_OUTPUT_RESULT_H
 
 #include "base/text.h"
+#include "output/bars.h"
 #include "output/ledger.h"
 
-/* The simulation of the public interface: a run and where its time went. */
+/* The simulation of the public interface: a run, its error bars, and where its time went. */
 struct fbd_simulation {
     struct run *run;
+    struct bars *bars; /* NULL without error bars */
     double seconds;
-    char **details; /* texts of events, made when they are asked for */
+    double accuracy;                  /* asked for, 0 when it is not */
+    unsigned long runs;               /* it took, each with its companion */
+    double seconds_spent;             /* in all of them, companions and ledgers included */
+    double *event_errors;             /* of the times of run->events; NULL until asked for */
+    size_t main_events, other_events; /* ... when both runs had that many */
+    char **details;                   /* texts of events, made when they are asked for */
     size_t detail_count;
 };
 

@@ -66,6 +66,8 @@ static const struct field simulate_fields[] = {
                 "time at which the run ends"),
     FIELD_NUMBER(offsetof(struct simulate_keys, tolerance), "tolerance", a_number, positive,
                  "error allowed in one step, relative to the size of the motion; 2.2e-16 to 0.1"),
+    FIELD_NUMBER(offsetof(struct simulate_keys, accuracy), "accuracy", a_number, positive,
+                 "global error allowed, relative to the size of the motion, instead of a tolerance"),
     FIELD_TEXT(offsetof(struct simulate_keys, method), "method", "name of the stepper, or `auto`"),
     FIELD_NUMBER(offsetof(struct simulate_keys, step), "step", a_time, positive,
                  "fixed step instead of an automatic one"),

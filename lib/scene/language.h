@@ -106,7 +106,7 @@ struct line_keys {
 
 struct simulate_keys {
     struct value until;
-    double tolerance, step, every;
+    double tolerance, accuracy, step, every;
     const char *method;
     const struct node *output, *events;
 };

@@ -121,19 +121,29 @@ static bool read_output(struct reader *reader, const struct node *node, const st
     return fine;
 }
 
-static bool check_tolerance(struct reader *reader, const struct node *map, double tolerance)
+static bool check_share(struct reader *reader, const struct node *map, const char *key, double value,
+                        const char *hint)
 {
     const double most = 0.1;
-    const struct pair *pair = node_find(map, "tolerance"); /* absent: 0 */
-    if (!pair || (tolerance <= most && (tolerance >= DBL_EPSILON || !(tolerance > 0)))) return true;
-    if (tolerance > most)
-        diag_add(reader->errors, FBD_ERROR, "out-of-range", pair->value->at, "1e-9 is careful, 1e-4 is quick",
-                 "`tolerance` must be at most %g", most);
+    const struct pair *pair = node_find(map, key); /* absent: 0 */
+    if (!pair || (value <= most && (value >= DBL_EPSILON || !(value > 0)))) return true;
+    if (value > most)
+        diag_add(reader->errors, FBD_ERROR, "out-of-range", pair->value->at, hint, "`%s` must be at most %g",
+                 key, most);
     else
         diag_add(reader->errors, FBD_ERROR, "out-of-range", pair->value->at,
-                 "1e-13 is about what a run can keep; 1e-10 is the default",
-                 "`tolerance` is below what numbers resolve (2.2e-16)");
+                 "1e-13 is about what a run can keep; 1e-10 is the default tolerance",
+                 "`%s` is below what numbers resolve (2.2e-16)", key);
     return false;
+}
+
+static bool check_accuracy(struct reader *reader, const struct node *map, const struct simulate_keys *keys)
+{
+    static const char hint[] = "`accuracy` chooses the steps by itself";
+    bool fine = check_share(reader, map, "tolerance", keys->tolerance, "1e-9 is careful, 1e-4 is quick");
+    if (!check_share(reader, map, "accuracy", keys->accuracy, "1e-8 is careful, 1e-3 is quick")) fine = false;
+    if (!fields_exclude(reader, map, "accuracy", "tolerance", hint)) fine = false;
+    return fields_exclude(reader, map, "accuracy", "step", hint) && fine;
 }
 
 static bool read_run(struct reader *reader, const struct node *map, struct pos at)
@@ -142,9 +152,10 @@ static bool read_run(struct reader *reader, const struct node *map, struct pos a
     struct simulate_keys keys = {0};
     const struct pair *method = node_find(map, "method"), *output = node_find(map, "output");
     bool fine = fields_read(reader, &simulate_group, map, at, &reader->constants, &keys);
-    if (!check_tolerance(reader, map, keys.tolerance)) fine = false;
+    if (!check_accuracy(reader, map, &keys)) fine = false;
     *simulate = (struct simulate){.until = keys.until,
                                   .tolerance = keys.tolerance,
+                                  .accuracy = keys.accuracy,
                                   .step = keys.step,
                                   .every = keys.every,
                                   .method = keys.method,

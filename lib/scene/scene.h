@@ -251,6 +251,7 @@ struct user_event {
 struct simulate {
     struct value until; /* expr NULL when the file has no `simulate` */
     double tolerance;   /* 0 when not given */
+    double accuracy;    /* global, 0 when not given; excludes tolerance and step */
     double step;        /* fixed step, 0 for automatic */
     double every;       /* output interval, 0 for the default */
     const char *method; /* NULL for the default */

@@ -369,14 +369,18 @@ fbd_outcome run_advance(struct run *run)
     return run->outcome;
 }
 
+bool run_coordinates(struct run *run, double t, double *y)
+{
+    if (t != run->state->t) return switcher_dense(run->stepper, t, y) == GSL_SUCCESS;
+    memcpy(y, run->state->y, 2 * (size_t)run->model->plan.n * sizeof *y);
+    return true;
+}
+
 bool run_look(struct run *run, double t, struct fbd_state *state)
 {
     state_copy(state, run->during);
     state->t = t;
-    if (t == run->state->t)
-        memcpy(state->y, run->state->y, 2 * (size_t)run->model->plan.n * sizeof *state->y);
-    else if (switcher_dense(run->stepper, t, state->y) != GSL_SUCCESS)
-        return false;
+    if (!run_coordinates(run, t, state->y)) return false;
     modes_hold(state);
     state_evaluate(state);
     return true;

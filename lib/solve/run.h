@@ -55,7 +55,7 @@ struct run {
     struct switcher *stepper;
     struct counted_system system;
     struct rates *rates;    /* in the modes of `during` */
-    double *y, *f, *sample; /* 2 n each */
+    double *y, *f, *sample; /* 2 n each; y: the end of the last step, before its events */
     double *values;         /* moving event functions and their rates */
     struct decided decided;
     struct arrow *arrows; /* of one body */
@@ -78,6 +78,9 @@ fbd_outcome run_advance(struct run *run);
 /* The state at t in [from, state->t] of the last step, with the modes of that step; evaluated (accelerations
  * are there). */
 bool run_look(struct run *run, double t, struct fbd_state *state);
+
+/* Only coordinates and rates there, 2 n, without evaluating anything but the dense output. */
+bool run_coordinates(struct run *run, double t, double *y);
 
 /* ---- for the files of the loop */
 

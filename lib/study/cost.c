@@ -78,7 +78,7 @@ bool study_until(const fbd_model *model, const fbd_cost_options *options, double
 static void forget_step(struct scene *scene, void *context, fbd_errors *errors)
 {
     (void)context, (void)errors;
-    scene->simulate.step = 0;
+    scene->simulate.step = scene->simulate.accuracy = 0;
 }
 
 static bool time_points(struct fbd_cost *cost, double seconds)

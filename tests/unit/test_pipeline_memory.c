@@ -64,12 +64,11 @@ static bool some(char *string)
     return there;
 }
 
-static bool run_and_write(void)
+static bool run_and_write_with(fbd_options options)
 {
     fbd_errors *errors;
     fbd_model *model = load(&errors);
     if (!model) return false;
-    fbd_options options = FBD_OPTIONS_DEFAULT;
     fbd_simulation *simulation = fbd_simulation_new(model, &options, errors);
     fbd_recording recording = {.ledger = true, .csv = swallow};
     fbd_result *result = simulation ? fbd_simulation_run(simulation, &recording) : NULL;
@@ -80,6 +79,25 @@ static bool run_and_write(void)
     fbd_model_free(model);
     fbd_errors_free(errors);
     return done;
+}
+
+static bool run_and_write(void)
+{
+    return run_and_write_with((fbd_options)FBD_OPTIONS_DEFAULT);
+}
+
+static bool run_with_error_bars(void)
+{
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    options.error_bars = true;
+    return run_and_write_with(options);
+}
+
+static bool run_accurately(void)
+{
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    options.accuracy = 1e-9;
+    return run_and_write_with(options);
 }
 
 static bool look_closer(void)
@@ -139,6 +157,13 @@ static void a_run_without_memory_fails_and_leaks_nothing(void **unused)
     fail_each(run_and_write);
 }
 
+static void error_bars_without_memory_fail_and_leak_nothing(void **unused)
+{
+    (void)unused;
+    fail_each(run_with_error_bars);
+    fail_each(run_accurately);
+}
+
 static void looking_without_memory_fails_and_leaks_nothing(void **unused)
 {
     (void)unused;
@@ -162,6 +187,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_run_without_memory_fails_and_leaks_nothing),
+        cmocka_unit_test(error_bars_without_memory_fail_and_leak_nothing),
         cmocka_unit_test(looking_without_memory_fails_and_leaks_nothing),
         cmocka_unit_test(linearisation_without_memory_fails_and_leaks_nothing),
     };

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Public interface: error bars.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "api/record.h"
+
+bool simulation_match_events(fbd_simulation *simulation)
+{
+    struct run *main = simulation->run;
+    const struct companion *companion = simulation->bars->companion;
+    bool fresh = simulation->event_errors && simulation->main_events == main->event_count &&
+                 simulation->other_events == companion->run->event_count;
+    if (fresh) return true;
+    double *errors = realloc(simulation->event_errors, (main->event_count + 1) * sizeof *errors);
+    if (!errors) return false;
+    companion_event_errors(companion, main, errors);
+    simulation->event_errors = errors;
+    simulation->main_events = main->event_count;
+    simulation->other_events = companion->run->event_count;
+    return true;
+}
+
+double simulation_event_error(fbd_simulation *simulation, size_t index)
+{
+    struct run *main = simulation->run;
+    if (!simulation->bars || index >= main->event_count) return NAN;
+    bool fine = main->outcome == FBD_GOING || bars_catch_up(simulation->bars, main);
+    return fine && simulation_match_events(simulation) ? simulation->event_errors[index] : NAN;
+}
+
+bool fbd_simulation_errors(fbd_simulation *simulation, double t, double *errors)
+{
+    struct run *run = simulation->run;
+    struct bars *bars = simulation->bars;
+    size_t n = (size_t)run->model->plan.n;
+    struct fbd_state *state = bars && t >= run->from && t <= run->state->t ? state_new(run->model) : NULL;
+    if (!state) return false;
+    bool end = t == run->state->t, fine = true;
+    if (end)
+        state_copy(state, run->state);
+    else
+        fine = run_look(run, t, state);
+    if (fine && !bars_looked(bars, t)) fine = bars_look(bars, run, t, end && run->restart, false);
+    for (size_t i = 0; fine && i < 2 * n; i++) errors[i] = bars_component(bars, state, i);
+    state_free(state);
+    return fine;
+}
+
+/* ---- at the end of a run */
+
+double fbd_result_error(fbd_result *result, const char *name)
+{
+    const struct fbd_model *model = result->ledger.model;
+    const struct fbd_state *state = result->simulation->run->state;
+    const struct bars *bars = result->simulation->bars;
+    size_t n = (size_t)model->plan.n;
+    for (size_t i = 0; bars && i < n; i++) {
+        if (strcmp(model->labels[i].name, name) == 0) return bars_component(bars, state, i);
+        if (strcmp(model->labels[i].rate_name, name) == 0) return bars_component(bars, state, n + i);
+    }
+    return NAN;
+}
+
+fbd_energy fbd_result_energy_error(fbd_result *result)
+{
+    fbd_energy energy = fbd_result_energy(result);
+    if (result->simulation->bars) return bars_energy(result->simulation->bars, &energy);
+    return (fbd_energy){NAN, NAN, NAN, NAN, NAN, NAN};
+}
+
+double fbd_result_work_error(fbd_result *result, const char *body, const char *load)
+{
+    const struct fbd_model *model = result->ledger.model;
+    double work = fbd_result_work(result, body, load);
+    for (size_t i = 0; result->simulation->bars && i < model->load_count; i++)
+        if (strcmp(model->loads[i].source->name, load) == 0 &&
+            strcmp(model->bodies[model->loads[i].body].name, body) == 0)
+            return bars_work(result->simulation->bars, i, work);
+    return NAN;
+}
+
+size_t fbd_result_force_errors(fbd_result *result, size_t body, fbd_arrow *arrows, size_t room)
+{
+    struct bars *bars = result->simulation->bars;
+    if (!bars) return 0;
+    size_t count = fbd_diagram(result->simulation->run->state, body, arrows, room);
+    fbd_arrow *others = calloc(room + 1, sizeof *others);
+    if (!others) return 0;
+    fbd_diagram(bars->state, body, others, room);
+    for (size_t i = 0; i < count && i < room; i++) {
+        arrows[i].fx = bars_difference(bars, arrows[i].fx, others[i].fx);
+        arrows[i].fy = bars_difference(bars, arrows[i].fy, others[i].fy);
+        arrows[i].x = bars_difference(bars, arrows[i].x, others[i].x);
+        arrows[i].y = bars_difference(bars, arrows[i].y, others[i].y);
+        arrows[i].couple = bars_difference(bars, arrows[i].couple, others[i].couple);
+        arrows[i].moment = bars_difference(bars, arrows[i].moment, others[i].moment);
+        arrows[i].power = bars_difference(bars, arrows[i].power, others[i].power);
+    }
+    free(others);
+    return count;
+}
+
+bool fbd_result_accurate(const fbd_result *result)
+{
+    const fbd_simulation *simulation = result->simulation;
+    return simulation->accuracy == 0 || companion_global(simulation->bars->companion) <= simulation->accuracy;
+}

@@ -1,0 +1,455 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Error bars and accuracy on request: estimates against true errors, the same bits with and without, events
+ * that only one of the two runs has, and accuracy that is delivered or not. `make error-bars` does the same
+ * for all models, methods and six tolerances.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "error_ratio.h"
+#include "gallery.h"
+#include "scenes.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- estimates against truth */
+
+/* One of each kind: smooth, damped, with drag and a stop, sticking at once, stick-slip, a rotating body. */
+static const char *const validated[] = {"rotation/simple_pendulum.yaml",   "vibration/damped_oscillator.yaml",
+                                        "kinetics/falling_with_drag.yaml", "kinetics/incline.yaml",
+                                        "hard/stick_slip_belt.yaml",       "plane/spring_pendulum.yaml"};
+
+static void estimates_are_within_0_3_to_10_times_the_true_error_in_95_of_100_cases(void **unused)
+{
+    static const char *const methods[] = {"auto", "rodas5p", "rk8pd", "rkf45", "rk4", "msbdf"};
+    static const double tolerances[] = {1e-4, 1e-7, 1e-10, 1e-12};
+    (void)unused;
+    struct ratio_table table = {.verbose = true};
+    for (size_t i = 0; i < sizeof validated / sizeof *validated; i++) {
+        struct trial trial = trial_open(validated[i], NULL);
+        struct truth *truth = truth_new(trial.model, exact_motion_of(validated[i]));
+        assert_non_null(truth);
+        for (size_t m = 0; m < sizeof methods / sizeof *methods; m++)
+            for (size_t k = 0; k < sizeof tolerances / sizeof *tolerances; k++)
+                ratio_add(&table, truth, methods[m], tolerances[k], 0);
+        truth_free(truth);
+        trial_close(&trial);
+    }
+    for (int k = 0; k < ratio_kinds; k++) {
+        printf("# %s: %.1f %% of %lu determined cases, %.1f %% of all\n", ratio_names[k],
+               100 * ratio_determined_share(&table.counts[k]), ratio_determined(&table.counts[k]),
+               100 * ratio_share(&table.counts[k]));
+        assert_true(ratio_determined(&table.counts[k]) >= 40);
+        assert_true(ratio_determined_share(&table.counts[k]) >= 0.95);
+        assert_true(ratio_share(&table.counts[k]) >= 0.95);
+    }
+}
+
+/* Steps of a fixed size have no tolerance that could be made smaller. */
+static void fixed_steps_have_error_bars_too(void **unused)
+{
+    static const double steps[] = {0.04, 0.01, 0.0025};
+    (void)unused;
+    struct ratio_table table = {.verbose = true};
+    struct trial trial = trial_open("vibration/damped_oscillator.yaml", NULL);
+    struct truth *truth = truth_new(trial.model, exact_motion_of("vibration/damped_oscillator.yaml"));
+    for (size_t k = 0; k < sizeof steps / sizeof *steps; k++) {
+        assert_true(ratio_add(&table, truth, "rk4", 0, steps[k]));
+        assert_true(ratio_add(&table, truth, "rk2", 0, steps[k]));
+    }
+    assert_int_equal(table.counts[ratio_global].good, 6);
+    truth_free(truth);
+    trial_close(&trial);
+}
+
+/* ---- the first run is left alone */
+
+struct rows {
+    char *text;
+    size_t length;
+};
+
+static int append(void *context, const char *text, size_t length)
+{
+    struct rows *rows = context;
+    char *longer = realloc(rows->text, rows->length + length + 1);
+    if (!longer) return -1;
+    rows->text = longer;
+    memcpy(rows->text + rows->length, text, length);
+    rows->length += length;
+    rows->text[rows->length] = '\0';
+    return 0;
+}
+
+/* Take out every column whose name has a plus-minus sign. */
+static void drop_bars(char *text)
+{
+    static const char sign[] = "±";
+    enum { most_columns = 2000 };
+    bool bar[most_columns] = {false}, first = true;
+    char *to = text;
+    for (char *from = text; *from;) {
+        size_t column = 0;
+        for (bool more = true; more; column++) {
+            size_t width = strcspn(from, ",\n");
+            assert_true(column < most_columns);
+            const char *found = first ? strstr(from, sign) : NULL;
+            if (found && found < from + width) bar[column] = true;
+            more = from[width] == ',';
+            if (!bar[column]) {
+                if (column > 0) *to++ = ',';
+                memmove(to, from, width);
+                to += width;
+            }
+            from += width + 1;
+        }
+        *to++ = '\n';
+        first = false;
+    }
+    *to = '\0';
+}
+
+static struct rows record_rows(const fbd_model *model, bool error_bars, bool ledger)
+{
+    struct rows rows = {0};
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    options.error_bars = error_bars;
+    fbd_errors *errors = fbd_errors_new();
+    fbd_simulation *simulation = fbd_simulation_new(model, &options, errors);
+    const fbd_recording recording = {.ledger = ledger, .csv = append, .csv_context = &rows};
+    fbd_result *result = fbd_simulation_run(simulation, &recording);
+    assert_non_null(result);
+    fbd_result_free(result);
+    fbd_simulation_free(simulation);
+    fbd_errors_free(errors);
+    return rows;
+}
+
+static void check_same_rows(const fbd_model *model)
+{
+    for (int ledger = 0; ledger < 2; ledger++) {
+        struct rows plain = record_rows(model, false, ledger), bars = record_rows(model, true, ledger);
+        assert_non_null(strstr(bars.text, "±"));
+        drop_bars(bars.text);
+        assert_string_equal(plain.text, bars.text);
+        free(plain.text);
+        free(bars.text);
+    }
+}
+
+static void every_bit_of_the_motion_is_the_same_with_error_bars_and_without(void **unused)
+{
+    static const char *const paths[] = {"hard/stick_slip_belt.yaml", "hard/coupled_friction.yaml",
+                                        "hard/stiff_springs.yaml", "plane/projectile_with_drag.yaml"};
+    (void)unused;
+    for (size_t i = 0; i < all_scenes_count; i++) {
+        fbd_model *model = model_from(all_scenes[i].text);
+        check_same_rows(model);
+        fbd_model_free(model);
+    }
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
+        struct trial trial = trial_open(paths[i], NULL);
+        check_same_rows(trial.model);
+        trial_close(&trial);
+    }
+}
+
+/* The estimate belongs to the run, not to what is written of it. */
+static void the_estimate_is_the_same_whatever_is_written(void **unused)
+{
+    (void)unused;
+    double estimates[3];
+    for (int i = 0; i < 3; i++) {
+        struct rows rows = {0};
+        fbd_options options = FBD_OPTIONS_DEFAULT;
+        options.error_bars = true;
+        fbd_recording recording = {.every = i == 1 ? 0.011 : 0, .ledger = i == 2, .csv_context = &rows};
+        if (i > 0) recording.csv = append;
+        struct trial trial = trial_open("hard/stick_slip_belt.yaml", NULL);
+        trial_start(&trial, &options);
+        trial.result = fbd_simulation_run(trial.simulation, &recording);
+        assert_non_null(trial.result);
+        estimates[i] = fbd_simulation_stats(trial.simulation).error_estimate;
+        trial_close(&trial);
+        free(rows.text);
+    }
+    assert_true(estimates[0] > 0 && estimates[0] == estimates[1] && estimates[0] == estimates[2]);
+}
+
+/* ---- events */
+
+/* A method of low order loses energy, so that it meets a threshold that the better run never comes to. */
+static void an_event_that_only_one_run_has_is_not_known(void **unused)
+{
+    (void)unused;
+    struct trial trial =
+        trial_parse("fbd: 1\n"
+                    "bodies:\n"
+                    "  p: {mass: 1 kg, center: [0, -1 m], motion: pivot,\n"
+                    "      initial: {theta: 1 rad}, forces: [gravity]}\n"
+                    "simulate:\n"
+                    "  until: 30 s\n"
+                    "  events:\n"
+                    "    - {name: lost, when: 'omega^2/2 - 9.81[1/s^2]*cos(theta) < -5.301[1/s^2]'}\n"
+                    "    - {name: low, when: theta = 0}\n");
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    options.error_bars = true;
+    options.method = "rk2";
+    options.step = 0.02;
+    trial_run(&trial, &options);
+    size_t lost = 0, low = 0;
+    for (size_t i = 0; i < fbd_simulation_events(trial.simulation); i++) {
+        fbd_event event = fbd_simulation_event(trial.simulation, i);
+        bool is_lost = strcmp(event.name, "lost") == 0;
+        if (is_lost) assert_true(isinf(event.t_error));
+        if (!is_lost) assert_true(event.t_error > 0 && event.t_error < 1);
+        lost += is_lost;
+        low += !is_lost;
+    }
+    assert_true(lost > 0 && low > 20);
+    trial_close(&trial);
+}
+
+/* The companion may stop before the run or after it; the end has error bars in both cases. x(t) = 30 - 16.1
+ * t^2 stops at x = 10; with drag the time is not exact. */
+static void a_run_that_an_event_stops_has_error_bars_at_its_end(void **unused)
+{
+    static const char *const methods[] = {"auto", "rkf45", "rk4", "msadams", "msbdf", "rodas5p"};
+    (void)unused;
+    struct checks checks = {0};
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
+        struct trial trial = trial_open("kinetics/falling_with_drag.yaml", NULL);
+        fbd_options options = FBD_OPTIONS_DEFAULT;
+        options.error_bars = true;
+        options.tolerance = 1e-8;
+        options.method = methods[i];
+        trial_run(&trial, &options);
+        double y[2], t = trial_event(&trial, FBD_EVENT_USER, "ground", 0);
+        exact_motion_of("kinetics/falling_with_drag.yaml")(t, y);
+        double x, v;
+        fbd_state_get(fbd_result_state(trial.result), "ball.x", &x);
+        fbd_state_get(fbd_result_state(trial.result), "ball.v", &v);
+        double error = fabs(v - y[1]), x_error = fabs(x - y[0]);
+        double bar = fbd_result_error(trial.result, "ball.v"),
+               x_bar = fbd_result_error(trial.result, "ball.x");
+        check_that(&checks, methods[i], bar >= 0.3 * error - 1e-14 && bar <= 10 * error + 1e-13);
+        check_that(&checks, methods[i], x_bar >= 0.3 * x_error - 1e-14 && x_bar <= 10 * x_error + 1e-13);
+        double true_t = acosh(exp(100 * 9.81 / (0.4 * 9.81 / 0.01))) * sqrt(0.4 * 9.81 / 0.01) / 9.81;
+        printf("# %s: v off by %.2g, bar %.2g; x by %.2g, bar %.2g\n", methods[i], error, bar, x_error,
+               x_bar);
+        double t_error = fbd_simulation_event(trial.simulation, 0).t_error, off = fabs(t - true_t);
+        check_that(&checks, "its time", t_error >= 0.3 * off - 1e-14 && t_error <= 10 * off + 1e-13);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
+/* ---- step by step */
+
+static void who_advances_by_hand_sees_the_errors_within_each_step(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct trial trial = trial_open("vibration/damped_oscillator.yaml", NULL);
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    options.error_bars = true;
+    options.tolerance = 1e-6;
+    options.method = "rkf45";
+    trial_start(&trial, &options);
+    double from, to, errors[2], exact[2], worst = 0, estimated = 0;
+    while (fbd_simulation_advance(trial.simulation) == FBD_GOING) {
+        fbd_simulation_interval(trial.simulation, &from, &to);
+        const double times[] = {from + 0.3 * (to - from), from + 0.8 * (to - from), to};
+        for (int k = 0; k < 3; k++) {
+            assert_true(fbd_simulation_state(trial.simulation, times[k], trial.state));
+            assert_true(fbd_simulation_errors(trial.simulation, times[k], errors));
+            exact_motion_of("vibration/damped_oscillator.yaml")(times[k], exact);
+            worst = fmax(worst, fabs(trial_get(&trial, "x") - exact[0]));
+            estimated = fmax(estimated, errors[0]);
+        }
+        assert_false(fbd_simulation_errors(trial.simulation, to + 1, errors));
+    }
+    check_close(&checks, "largest error", estimated, worst, 0.2 * worst);
+    check_that(&checks, "there is one", worst > 1e-7);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+static void without_error_bars_there_are_none(void **unused)
+{
+    (void)unused;
+    struct trial trial = trial_open("kinetics/incline.yaml", NULL);
+    double errors[2];
+    fbd_arrow arrow;
+    trial_run(&trial, NULL);
+    assert_true(isnan(fbd_simulation_stats(trial.simulation).error_estimate));
+    assert_true(isnan(fbd_simulation_event(trial.simulation, 0).t_error));
+    assert_true(isnan(fbd_result_error(trial.result, "block.x")));
+    assert_true(isnan(fbd_result_work_error(trial.result, "block", "push")));
+    assert_true(isnan(fbd_result_energy_error(trial.result).kinetic));
+    assert_int_equal(fbd_result_force_errors(trial.result, 0, &arrow, 1), 0);
+    assert_false(fbd_simulation_errors(trial.simulation, 3, errors));
+    assert_true(fbd_result_accurate(trial.result));
+    trial_close(&trial);
+}
+
+/* ---- accuracy on request */
+
+/* The largest error over the run, each coordinate and rate by its size. */
+static double true_error(struct trial *trial, const char *path, double x_size, double v_size)
+{
+    double worst = 0, exact[2];
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    fbd_stats stats = fbd_simulation_stats(trial->simulation);
+    options.tolerance = stats.tolerance;
+    options.method = stats.method;
+    struct trial again = trial_open(path, NULL);
+    trial_start(&again, &options);
+    double until = 0;
+    fbd_state_get(fbd_result_state(trial->result), "t", &until);
+    for (int k = 1; k <= 300; k++) {
+        trial_to(&again, until * k / 300);
+        exact_motion_of(path)(until * k / 300, exact);
+        worst = fmax(worst, fabs(trial_get(&again, x_size > 0 ? "x" : "theta") - exact[0]) / fabs(x_size));
+        worst = fmax(worst, fabs(trial_get(&again, x_size > 0 ? "v" : "omega") - exact[1]) / v_size);
+    }
+    trial_close(&again);
+    return worst;
+}
+
+static void an_accuracy_that_is_asked_for_is_delivered(void **unused)
+{
+    static const double accuracies[] = {1e-3, 1e-6, 1e-9, 1e-12};
+    static const char *const methods[] = {"auto", "dop853", "rkf45", "rk8pd", "msadams", "rodas5p"};
+    static const char path[] = "vibration/damped_oscillator.yaml";
+    (void)unused;
+    struct checks checks = {0};
+    for (size_t i = 0; i < sizeof accuracies / sizeof *accuracies; i++)
+        for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
+            struct trial trial = trial_open(path, NULL);
+            fbd_options options = FBD_OPTIONS_DEFAULT;
+            options.accuracy = accuracies[i];
+            options.method = methods[m];
+            trial_run(&trial, &options);
+            fbd_stats stats = fbd_simulation_stats(trial.simulation);
+            assert_string_equal(stats.method, methods[m]);
+            check_that(&checks, "the estimate says so", fbd_result_accurate(trial.result));
+            check_that(&checks, "few runs", stats.runs <= 4);
+            /* largest x: x0 = 1 m; largest v: 9.3 m/s at the first passage */
+            double error = true_error(&trial, path, 1, 9.3);
+            printf("# %s, %g asked for: %.2g at tolerance %.2g, %lu runs\n", methods[m], accuracies[i], error,
+                   stats.tolerance, stats.runs);
+            check_close(&checks, methods[m], error, 0, accuracies[i]);
+            trial_close(&trial);
+        }
+    checks_end(&checks);
+}
+
+/* An accuracy below the rounding of a number cannot be had; the best is delivered and says what it is. */
+static void an_accuracy_below_rounding_is_refused_with_the_best(void **unused)
+{
+    (void)unused;
+    struct trial trial = trial_open("vibration/damped_oscillator.yaml", NULL);
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    options.accuracy = 1e-16;
+    trial_run(&trial, &options);
+    assert_false(fbd_result_accurate(trial.result));
+    fbd_stats stats = fbd_simulation_stats(trial.simulation);
+    double error = true_error(&trial, "vibration/damped_oscillator.yaml", 1, 9.3);
+    assert_true(stats.error_estimate < 1e-13 && error < 1e-13);
+    assert_true(stats.runs <= 8);
+    trial_close(&trial);
+}
+
+/* Only the last run is written. */
+static void the_rows_are_those_of_the_run_that_was_accurate(void **unused)
+{
+    (void)unused;
+    struct rows rows = {0};
+    struct trial trial = trial_open("energy/softening_spring.yaml", NULL);
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    options.accuracy = 1e-10;
+    const fbd_recording recording = {.csv = append, .csv_context = &rows};
+    trial_start(&trial, &options);
+    fbd_result *result = fbd_simulation_run(trial.simulation, &recording);
+    assert_true(fbd_result_accurate(result));
+    assert_true(fbd_simulation_stats(trial.simulation).runs > 1);
+    size_t headers = 0, starts = 0;
+    for (char *line = rows.text; line; line = strchr(line, '\n')) {
+        line += *line == '\n';
+        headers += strncmp(line, "t [s]", 5) == 0;
+        starts += strncmp(line, "0,", 2) == 0;
+        if (!*line) break;
+    }
+    assert_int_equal(headers, 1);
+    assert_int_equal(starts, 1);
+    free(rows.text);
+    fbd_result_free(result);
+    trial_close(&trial);
+}
+
+static void check_refused(const fbd_model *model, fbd_options options, const char *id)
+{
+    fbd_errors *errors = fbd_errors_new();
+    assert_null(fbd_simulation_new(model, &options, errors));
+    assert_string_equal(fbd_errors_get(errors, 0)->id, id);
+    fbd_errors_free(errors);
+}
+
+static void an_accuracy_excludes_what_it_chooses(void **unused)
+{
+    (void)unused;
+    struct trial trial = trial_open("kinetics/incline.yaml", NULL);
+    check_refused(trial.model, (fbd_options){.until = NAN, .accuracy = 1e-8, .tolerance = 1e-9},
+                  "bad-option");
+    check_refused(trial.model, (fbd_options){.until = NAN, .accuracy = 1e-8, .step = 0.1}, "bad-option");
+    check_refused(trial.model, (fbd_options){.until = NAN, .accuracy = 0.5}, "bad-option");
+    check_refused(trial.model, (fbd_options){.until = NAN, .accuracy = -1}, "bad-option");
+    check_refused(trial.model, (fbd_options){.until = NAN, .accuracy = NAN}, "bad-option");
+    trial_close(&trial);
+}
+
+static void an_option_stands_before_the_file(void **unused)
+{
+    static const char text[] = "fbd: 1\nbodies:\n  b: {mass: 1 kg, motion: slide, initial: {x: 1 m}, "
+                               "forces: [{spring: {stiffness: 1 N/m}}]}\n"
+                               "simulate: {until: 20 s, accuracy: 1e-6}\n";
+    (void)unused;
+    struct trial trial = trial_parse(text);
+    trial_run(&trial, NULL);
+    assert_true(fbd_simulation_stats(trial.simulation).accuracy == 1e-6);
+    assert_true(fbd_simulation_stats(trial.simulation).error_estimate <= 1e-6);
+    trial_close(&trial);
+    trial = trial_parse(text);
+    trial_run(&trial, &(fbd_options){.until = NAN, .tolerance = 1e-3});
+    assert_true(fbd_simulation_stats(trial.simulation).tolerance == 1e-3);
+    assert_true(fbd_simulation_stats(trial.simulation).accuracy == 0);
+    assert_true(isnan(fbd_simulation_stats(trial.simulation).error_estimate));
+    trial_close(&trial);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(estimates_are_within_0_3_to_10_times_the_true_error_in_95_of_100_cases),
+        cmocka_unit_test(fixed_steps_have_error_bars_too),
+        cmocka_unit_test(every_bit_of_the_motion_is_the_same_with_error_bars_and_without),
+        cmocka_unit_test(the_estimate_is_the_same_whatever_is_written),
+        cmocka_unit_test(an_event_that_only_one_run_has_is_not_known),
+        cmocka_unit_test(a_run_that_an_event_stops_has_error_bars_at_its_end),
+        cmocka_unit_test(who_advances_by_hand_sees_the_errors_within_each_step),
+        cmocka_unit_test(without_error_bars_there_are_none),
+        cmocka_unit_test(an_accuracy_that_is_asked_for_is_delivered),
+        cmocka_unit_test(an_accuracy_below_rounding_is_refused_with_the_best),
+        cmocka_unit_test(the_rows_are_those_of_the_run_that_was_accurate),
+        cmocka_unit_test(an_accuracy_excludes_what_it_chooses),
+        cmocka_unit_test(an_option_stands_before_the_file),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
