@@ -2,10 +2,16 @@
 #include "dynamics/state.h"
 
 #include "dynamics/absolute.h"
-#include "dynamics/tree.h"
+#include "dynamics/project.h"
+#include "dynamics/tree_system.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+static size_t tie_bytes(const struct fbd_model *model)
+{
+    return (size_t)model->tree->tie_count * sizeof(struct tie_state);
+}
 
 static size_t scratch_size(const struct plan *plan)
 {
@@ -18,7 +24,7 @@ struct fbd_state *state_new(const struct fbd_model *model)
     size_t n = (size_t)plan->n, extended = extended_size(model);
     size_t extra = model->absolute_count > 0 ? 2 * extended : 0;
     size_t doubles = extended + n + (size_t)plan->slots + scratch_size(plan) + extra;
-    size_t ints = 2 * (size_t)plan->branches + 3 * plan->friction_count;
+    size_t ints = 2 * (size_t)plan->branches + 4 * plan->friction_count;
     size_t tree = model->tree ? sizeof(struct tree_work) + tree_work_size(model) : 0;
     struct fbd_state *state = calloc(1, sizeof *state + tree + doubles * sizeof(double) + ints * sizeof(int));
     if (!state) return NULL;
@@ -39,11 +45,14 @@ struct fbd_state *state_new(const struct fbd_model *model)
     state->pull = state->slip + plan->friction_count;
     state->branch_before = state->pull + plan->friction_count;
     state->slip_before = state->branch_before + plan->branches;
+    state->all_stick = state->slip_before + plan->friction_count;
     for (size_t i = 0; i < n; i++) {
         state->y[i] = model->scene->coordinates[i].initial;
         state->y[n + i] = model->scene->coordinates[i].initial_rate;
     }
     for (size_t i = 0; i < plan->friction_count; i++) state->pull[i] = 1;
+    state_start_constraints(state);
+    if (model->assembles) state_project(state, true);
     return state;
 }
 
@@ -63,6 +72,7 @@ void state_copy(struct fbd_state *to, const struct fbd_state *from)
     memcpy(to->slots, from->slots, (size_t)plan->slots * sizeof *to->slots);
     memcpy(to->branch, from->branch, (size_t)plan->branches * sizeof *to->branch);
     memcpy(to->slip, from->slip, plan->friction_count * sizeof *to->slip);
+    if (to->tree) memcpy(to->tree->ties, from->tree->ties, tie_bytes(from->model));
     memcpy(to->pull, from->pull, plan->friction_count * sizeof *to->pull);
 }
 

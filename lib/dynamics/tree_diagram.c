@@ -6,9 +6,9 @@
  * of a pivot a force at its axis; of a slide a force across it and the couple that keeps it from turning; of
  * a weld, what the body needs beyond all else that acts on it.
  */
+#include "dynamics/constraint.h"
 #include "dynamics/diagram.h"
 #include "dynamics/laws.h"
-#include "dynamics/tree.h"
 
 static const struct tree_state *link_of(const struct model_body *body, const struct instant *at)
 {
@@ -116,6 +116,45 @@ static struct arrow opposite(struct arrow arrow, const char *name)
     return arrow;
 }
 
+/* ---- constraints: the multipliers as forces */
+
+/* What the row does at end k of its tie. */
+static struct arrow row_arrow(const struct instant *at, const struct row *row, int k, const char *name)
+{
+    struct arrow arrow = {.name = name, .load = -1};
+    for (int i = 0; i < row->port_count; i++) {
+        const struct port *port = &row->ports[i];
+        if (port->end != k) continue;
+        arrow.point = vec_add(at->tree->links[port->link].p, port->arm);
+        arrow.force = vec_add(arrow.force, vec_scale(row->lambda, port->force));
+    }
+    return arrow;
+}
+
+/* All constraint forces on body b; returns their number. */
+static size_t fill_ties(const struct fbd_model *model, int b, const struct instant *at, struct arrow *arrows)
+{
+    const struct tree *tree = model->tree;
+    size_t count = 0;
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        const struct row *rows = &at->tree->rows[tie->first_row];
+        for (int k = 0; k < tie->end_count; k++) {
+            if (tie->end[k].body != b) continue;
+            struct arrow arrow = row_arrow(at, &rows[0], k, tie->end[k].name[0]);
+            if (tie->row_count == 2) {
+                struct arrow second = row_arrow(at, &rows[1], k, tie->end[k].name[1]);
+                if (tie->kind == constraint_pin)
+                    arrow.force = vec_add(arrow.force, second.force);
+                else
+                    arrows[count++] = second;
+            }
+            arrows[count++] = arrow;
+        }
+    }
+    return count;
+}
+
 /* ---- reactions */
 
 /* What the force across a slide is, and the couple about its point, given all that its joint passes on. The
@@ -168,6 +207,9 @@ static void add_needs(const struct fbd_model *model, int b, const struct instant
         if (load->body != b) arrow = opposite(arrow, arrow.name);
         add_arrow(sum, &arrow, point);
     }
+    struct arrow ties[8 * most_constraint_ends];
+    size_t count = body->arrow_count <= 8 * most_constraint_ends ? fill_ties(model, b, at, ties) : 0;
+    for (size_t i = 0; i < count; i++) add_arrow(sum, &ties[i], point);
     for (int c = body->child; c >= 0; c = model->bodies[c].sibling) {
         const struct tree_state *s = link_of(&model->bodies[c], at);
         if (model->bodies[c].kind == motion_weld) continue;
@@ -274,6 +316,7 @@ size_t tree_diagram_fill(const struct fbd_model *model, int index, const struct 
         arrow.point = other_end(model, load, at).p;
         arrows[count++] = opposite(arrow, arrow.name);
     }
+    if (model->tree->tie_count > 0) count += fill_ties(model, index, at, arrows + count);
     if (body->reaction) arrows[count++] = reaction_arrow(model, index, at, slots);
     for (int c = body->child; c >= 0; c = model->bodies[c].sibling)
         count += fill_child(model, c, at, slots, arrows + count);

@@ -210,6 +210,7 @@ struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors)
         if (scene->bodies[b].complete)
             set_body(&model->bodies[b], &scene->bodies[b], (int)scene->coordinate_count, errors);
     if (done && fbd_errors_failed(errors) == 0) {
+        for (size_t b = 0; b < scene->body_count; b++) model->assembles |= scene->bodies[b].assemble;
         set_loads(&builder);
         set_couplings(&builder);
         model->labels = labels_make(&model->arena, scene);

@@ -91,6 +91,7 @@ struct fbd_model {
     struct model_absolute *absolutes;
     struct plan plan;
     struct tree *tree; /* the jointed bodies; NULL when there are none */
+    bool assembles;    /* some bodies find their place from their couplings at the start */
 };
 
 /* Compile a scene; the model takes the scene over, also when it fails. NULL with notes in `errors`: masses

@@ -391,7 +391,7 @@ bool plan_build(struct builder *builder)
     pack(builder);
     for (size_t b = 0; b < model->body_count; b++)
         if (model->bodies[b].place.link > 0) mark_body_slots(model, (int)b);
-    if (model->tree) tree_finish(model);
+    if (model->tree && !tree_finish(model)) return false;
     for (size_t i = 0; i < plan->link_count; i++) mark_body_slots(model, plan->links[i].body);
     for (size_t i = 0; i < plan->drag_count; i++) mark_body_slots(model, plan->drags[i].body);
     for (size_t i = 0; i < plan->force_count; i++) mark_body_slots(model, plan->forces[i].body);

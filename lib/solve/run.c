@@ -6,6 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dynamics/project.h"
+#include "dynamics/tree_system.h"
+
 /* ---- the system that the stepper sees */
 
 static int rates(double t, const double y[], double dydt[], void *context)
@@ -295,6 +298,21 @@ static int find_event(struct run *run, double *t)
     return 0;
 }
 
+/* Back onto the constraints; the rates that the stepper goes on with belong to the projected state. */
+static void project(struct run *run)
+{
+    const struct tree *tree = run->model->tree;
+    if (!tree || tree->tie_count == 0) return;
+    struct misfit misfit = state_misfit(run->state);
+    run->drift = fmax(run->drift, misfit.position);
+    run->projected = true;
+    if (!state_project(run->state, false))
+        run_fail(run, FBD_FAILED,
+                 "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the mechanism "
+                 "is at the end of its reach, or the tolerance is too large",
+                 run->state->t, tree->ties[tree->tie_of_row[misfit.row]].name, misfit.position);
+}
+
 static void accept(struct run *run, double t)
 {
     size_t n = (size_t)run->model->plan.n;
@@ -304,6 +322,7 @@ static void accept(struct run *run, double t)
     memset(run->watchers.fired, 0, run->model->plan.watch_count * sizeof *run->watchers.fired);
     memcpy(run->state->y, run->y, 2 * n * sizeof *run->y);
     modes_hold(run->state);
+    project(run);
     memcpy(run->y, run->state->y, 2 * n * sizeof *run->y);
 }
 
@@ -357,6 +376,8 @@ fbd_outcome run_advance(struct run *run)
             run_fail_step(run, stepper_underflow);
         return run->outcome;
     }
+    if (run->outcome != FBD_GOING) return run->outcome;
+    if (run->projected) counted_system_rhs(&run->system, t, run->y, run->f);
     timed = timed && t == limit;
     bool at_end = t >= run->options.until;
     if (moving || timed)

@@ -43,6 +43,8 @@ struct run {
     double from;              /* start of the last step; it ends at state->t */
     double h;                 /* step size proposed */
     bool restart;             /* the stepper has to start anew */
+    double drift;             /* the most that a step left the constraints by, before it was projected back */
+    bool projected;
     int crawl;                /* steps in a row of a few roundings of the time */
     unsigned long not_finite; /* rejections for that reason before the last step */
     fbd_outcome outcome;

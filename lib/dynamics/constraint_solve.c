@@ -1,0 +1,225 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Multipliers: M a = tau + J^T lambda with J a = gamma.
+ *
+ * The accelerations a_0 without constraints leave g'' = g''_0 in each row; the multipliers make up for it,
+ * S lambda = -g''_0 with S = J M^-1 J^T. A column of S is the answer of the trees that a row joins to its
+ * unit force, by the recursion; rows that join no common tree do not meet, and S is kept in its envelope: a
+ * chain of loops whose rows are numbered along it costs time in proportion to its length.
+ *
+ * Dry friction of slides that slip is in the same system: tau_k + c_k N_k = 0, with N_k the normal force, on
+ * which all multipliers and all other frictions bear. So it is not symmetric, and is factored as L D U in its
+ * envelope (Duff, Erisman and Reid, Direct Methods for Sparse Matrices, chapter 8), without pivoting: S is
+ * positive definite, and friction shifts it by less than its diagonal. A pivot that vanishes to rounding is a
+ * row that says nothing new: it is left out, with no force.
+ */
+#include <float.h>
+#include <string.h>
+
+#include "dynamics/constraint.h"
+#include "dynamics/tree_system.h"
+
+/* ---- the unknowns: rows of ties, then frictions of slides */
+
+int tree_unknowns(const struct tree *tree)
+{
+    return tree->row_count + tree->pair_count;
+}
+
+static bool is_row(const struct tree *tree, int k)
+{
+    return k < tree->row_count;
+}
+
+/* Does unknown k take part in the present modes? */
+static bool takes_part(const struct tree *tree, const struct instant *at, int k)
+{
+    if (!is_row(tree, k)) {
+        int link = tree->pairs[k - tree->row_count];
+        return at->slip[tree->links[link].pair] != stick;
+    }
+    return true;
+}
+
+/* ---- forces of an unknown on the links */
+
+static void apply_ports(const struct row *row, double lambda, struct tree_rhs *x)
+{
+    for (int i = 0; i < row->port_count; i++) {
+        const struct port *port = &row->ports[i];
+        struct wrench *p = &x[port->link].p;
+        p->force = vec_sub(p->force, vec_scale(lambda, port->force));
+        p->moment -= lambda * vec_cross(port->arm, port->force);
+    }
+}
+
+static void apply_ports_along(const struct row *row, struct tree_rhs *x)
+{
+    for (int i = 0; i < row->port_count; i++) {
+        const struct port *port = &row->ports[i];
+        struct wrench *p = &x[port->link].p;
+        p->force = vec_sub(p->force, vec_scale(row->lambda, port->d_force));
+        p->moment -=
+            row->lambda * (vec_cross(port->d_arm, port->force) + vec_cross(port->arm, port->d_force));
+    }
+}
+
+/* J a for the accelerations x.A of links whose tree is marked. */
+static double row_answer(const struct tree_work *work, const struct tree *tree, const struct row *row,
+                         int mark)
+{
+    double sum = 0;
+    for (int i = 0; i < row->port_count; i++) {
+        const struct port *port = &row->ports[i];
+        const struct acceleration *A = &work->x[port->link].A;
+        if (port->link == 0 || work->mark[tree->links[port->link].root] != mark) continue;
+        sum += vec_dot(port->force, A->a) + vec_cross(port->arm, port->force) * A->alpha;
+    }
+    return sum;
+}
+
+static void apply_unknown(const struct fbd_model *model, struct tree_work *work, int k, double size)
+{
+    const struct tree *tree = model->tree;
+    if (is_row(tree, k))
+        apply_ports(&work->rows[k], size, work->x);
+    else
+        work->x[tree->pairs[k - tree->row_count]].g += size;
+}
+
+/* The trees that unknown k joins: their first links. */
+static int roots_of(const struct tree *tree, int k, const int **roots)
+{
+    if (!is_row(tree, k)) {
+        *roots = &tree->links[tree->pairs[k - tree->row_count]].root;
+        return 1;
+    }
+    const struct tie *tie = &tree->ties[tree->tie_of_row[k]];
+    *roots = tie->root;
+    return tie->root_count;
+}
+
+static void clear_range(struct tree_rhs *x, int from, int to)
+{
+    memset(&x[from], 0, (size_t)(to - from) * sizeof *x);
+}
+
+/* The answer of its trees to unknown k alone. */
+static void answer_unit(const struct fbd_model *model, struct tree_work *work, int k)
+{
+    const struct tree *tree = model->tree;
+    const int *roots;
+    int count = roots_of(tree, k, &roots);
+    for (int i = 0; i < count; i++) {
+        clear_range(work->x, roots[i], tree->links[roots[i]].end);
+        work->mark[roots[i]] = k + 1;
+    }
+    apply_unknown(model, work, k, 1);
+    for (int i = 0; i < count; i++) {
+        tree_inward(tree, work, roots[i], tree->links[roots[i]].end);
+        tree_outward(tree, work, roots[i], tree->links[roots[i]].end, work->unit);
+    }
+}
+
+/* Row j of the system for the answer to unknown k. */
+static double entry(const struct fbd_model *model, const struct instant *at, int j, int k)
+{
+    const struct tree *tree = model->tree;
+    if (is_row(tree, j)) return row_answer(at->tree, tree, &at->tree->rows[j], k + 1);
+    int link = tree->pairs[j - tree->row_count];
+    if (at->tree->mark[tree->links[link].root] != k + 1) return j == k;
+    return tree_slip_share(model, at, link) * tree_normal_in(tree, at->tree, link) + (j == k);
+}
+
+/* ---- L D U in the envelope: row i from column first[i], column i from row first[i] */
+
+/* Entry k of the row or column j, which is kept from `from` on. */
+static double *entry_of(const struct tree *tree, double *kept, int j, int k)
+{
+    return &kept[tree->envelope[j] + (size_t)(k - tree->first[j])];
+}
+
+/* Row and column j up to the diagonal, given those before. */
+static void factor_row(const struct tree *tree, struct tree_work *work, int j)
+{
+    const int *first = tree->first;
+    double pivot = work->diagonal[j];
+    for (int i = first[j]; i < j; i++) {
+        double *lower = entry_of(tree, work->lower, j, i), *upper = entry_of(tree, work->upper, j, i);
+        for (int k = first[i] > first[j] ? first[i] : first[j]; k < i; k++) {
+            *upper -= *entry_of(tree, work->lower, i, k) * *entry_of(tree, work->upper, j, k);
+            *lower -= *entry_of(tree, work->lower, j, k) * *entry_of(tree, work->upper, i, k);
+        }
+        *lower *= work->inverse[i];
+        pivot -= *lower * *upper;
+    }
+    const double nothing = 1e-11;
+    bool redundant = !(fabs(pivot) > nothing * fabs(work->diagonal[j]));
+    if (j < tree->row_count) work->rows[j].redundant = redundant;
+    work->inverse[j] = redundant ? 0 : 1 / pivot;
+}
+
+static void substitute(const struct tree *tree, const struct tree_work *work, double *z)
+{
+    int m = tree_unknowns(tree);
+    for (int j = 0; j < m; j++)
+        for (int k = tree->first[j]; k < j; k++) z[j] -= *entry_of(tree, work->lower, j, k) * z[k];
+    for (int j = m - 1; j >= 0; j--) {
+        z[j] *= work->inverse[j];
+        for (int k = tree->first[j]; k < j; k++) z[k] -= *entry_of(tree, work->upper, j, k) * z[j];
+    }
+}
+
+void tree_system_factor(const struct fbd_model *model, const struct instant *at)
+{
+    const struct tree *tree = model->tree;
+    struct tree_work *work = at->tree;
+    int m = tree_unknowns(tree);
+    memset(work->mark, 0, (size_t)tree->count * sizeof *work->mark);
+    for (int k = 0; k < m; k++) {
+        bool part = takes_part(tree, at, k);
+        if (part) answer_unit(model, work, k);
+        /* Column k meets rows j whose envelope reaches it, and those in its own. */
+        for (int j = tree->first[k]; j < m && j < tree->reach[k]; j++) {
+            bool both = part && takes_part(tree, at, j);
+            double value = both ? entry(model, at, j, k) : j == k;
+            if (j < k) *entry_of(tree, work->upper, k, j) = value;
+            if (j == k) work->diagonal[k] = value;
+            if (j > k && tree->first[j] <= k) *entry_of(tree, work->lower, j, k) = value;
+        }
+    }
+    for (int j = 0; j < m; j++) factor_row(tree, work, j);
+}
+
+void tree_system_solve(const struct fbd_model *model, const struct instant *at, double *z)
+{
+    const struct tree *tree = model->tree;
+    struct tree_work *work = at->tree;
+    int m = tree_unknowns(tree);
+    for (int k = 0; k < m; k++)
+        if (!takes_part(tree, at, k)) z[k] = 0;
+    substitute(tree, work, z);
+    clear_range(work->x, 0, tree->count);
+    for (int k = 0; k < m; k++)
+        if (z[k] != 0) apply_unknown(model, work, k, z[k]);
+    tree_inward(tree, work, 1, tree->count);
+    tree_outward(tree, work, 1, tree->count, work->unit);
+}
+
+double tree_row_answer(const struct tree_work *work, int j)
+{
+    const struct row *row = &work->rows[j];
+    double sum = 0;
+    for (int i = 0; i < row->port_count; i++) {
+        const struct port *port = &row->ports[i];
+        const struct acceleration *A = &work->x[port->link].A;
+        if (port->link == 0) continue;
+        sum += vec_dot(port->force, A->a) + vec_cross(port->arm, port->force) * A->alpha;
+    }
+    return sum;
+}
+
+void tree_apply_variations(const struct tree *tree, struct tree_work *work)
+{
+    for (int j = 0; j < tree->row_count; j++) apply_ports_along(&work->rows[j], work->x);
+}
