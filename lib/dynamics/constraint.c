@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/constraint.h"
 
+#include <float.h>
+
 /* ---- points, angles and directions of links as jets */
 
 struct view {
@@ -285,4 +287,30 @@ void constraints_start(const struct fbd_model *model, const struct instant *at)
         evaluate(&view, tie, state, rows);
         state->zero = tie->length_given ? tie->length : rows[tie->row_count - 1].g.x;
     }
+}
+
+/* ---- rolling bodies */
+
+static const struct row *row_along(const struct fbd_model *model, const struct tree_work *work, int tie)
+{
+    return &work->rows[model->tree->ties[tie].first_row + 1];
+}
+
+double tie_slip_velocity(const struct fbd_model *model, const struct instant *at, int tie)
+{
+    const struct tie_end *circle = &model->tree->ties[tie].end[0];
+    const struct tree_state *s = &at->tree->links[circle->link];
+    double v = row_along(model, at->tree, tie)->g.x1;
+    double size = vec_norm(s->v) + fabs(s->omega) * (circle->radius + vec_norm(circle->point));
+    return fabs(v) <= 64 * DBL_EPSILON * size ? 0 : v;
+}
+
+double tie_slip_acceleration(const struct fbd_model *model, const struct instant *at, int tie)
+{
+    return row_along(model, at->tree, tie)->g.x2;
+}
+
+void tie_rezero(const struct fbd_model *model, struct tree_work *work, int tie)
+{
+    work->ties[tie].zero += row_along(model, work, tie)->g.x;
 }

@@ -32,13 +32,15 @@ static bool is_row(const struct tree *tree, int k)
 }
 
 /* Does unknown k take part in the present modes? */
-static bool takes_part(const struct tree *tree, const struct instant *at, int k)
+bool tree_takes_part(const struct tree *tree, const struct instant *at, int k)
 {
     if (!is_row(tree, k)) {
         int link = tree->pairs[k - tree->row_count];
-        return at->slip[tree->links[link].pair] != stick;
+        return !at->tree->projecting && at->slip[tree->links[link].pair] != stick;
     }
-    return true;
+    const struct tie *tie = &tree->ties[tree->tie_of_row[k]];
+    bool along = tie->pair >= 0 && k == tie->first_row + 1;
+    return !along || at->slip[tie->pair] == stick;
 }
 
 /* ---- forces of an unknown on the links */
@@ -78,13 +80,25 @@ static double row_answer(const struct tree_work *work, const struct tree *tree, 
     return sum;
 }
 
-static void apply_unknown(const struct fbd_model *model, struct tree_work *work, int k, double size)
+/* The friction of a rolling body that slips, per normal force: -slip mu_k along its line; 0 when it does not. */
+static double rolling_share(const struct fbd_model *model, const struct instant *at, int k)
+{
+    const struct tie *tie = &model->tree->ties[model->tree->tie_of_row[k]];
+    if (at->tree->projecting || tie->pair < 0 || k != tie->first_row || at->slip[tie->pair] == stick) return 0;
+    return -at->slip[tie->pair] * formula_value(&model->plan.frictions[tie->pair].mu_k, at);
+}
+
+static void apply_unknown(const struct fbd_model *model, const struct instant *at, int k, double size)
 {
     const struct tree *tree = model->tree;
-    if (is_row(tree, k))
-        apply_ports(&work->rows[k], size, work->x);
-    else
+    struct tree_work *work = at->tree;
+    if (!is_row(tree, k)) {
         work->x[tree->pairs[k - tree->row_count]].g += size;
+        return;
+    }
+    apply_ports(&work->rows[k], size, work->x);
+    double share = rolling_share(model, at, k);
+    if (share != 0) apply_ports(&work->rows[k + 1], share * size, work->x);
 }
 
 /* The trees that unknown k joins: their first links. */
@@ -105,16 +119,17 @@ static void clear_range(struct tree_rhs *x, int from, int to)
 }
 
 /* The answer of its trees to unknown k alone. */
-static void answer_unit(const struct fbd_model *model, struct tree_work *work, int k)
+static void answer_unit(const struct fbd_model *model, const struct instant *at, int k)
 {
     const struct tree *tree = model->tree;
+    struct tree_work *work = at->tree;
     const int *roots;
     int count = roots_of(tree, k, &roots);
     for (int i = 0; i < count; i++) {
         clear_range(work->x, roots[i], tree->links[roots[i]].end);
         work->mark[roots[i]] = k + 1;
     }
-    apply_unknown(model, work, k, 1);
+    apply_unknown(model, at, k, 1);
     for (int i = 0; i < count; i++) {
         tree_inward(tree, work, roots[i], tree->links[roots[i]].end);
         tree_outward(tree, work, roots[i], tree->links[roots[i]].end, work->unit);
@@ -177,11 +192,11 @@ void tree_system_factor(const struct fbd_model *model, const struct instant *at)
     int m = tree_unknowns(tree);
     memset(work->mark, 0, (size_t)tree->count * sizeof *work->mark);
     for (int k = 0; k < m; k++) {
-        bool part = takes_part(tree, at, k);
-        if (part) answer_unit(model, work, k);
+        bool part = tree_takes_part(tree, at, k);
+        if (part) answer_unit(model, at, k);
         /* Column k meets rows j whose envelope reaches it, and those in its own. */
         for (int j = tree->first[k]; j < m && j < tree->reach[k]; j++) {
-            bool both = part && takes_part(tree, at, j);
+            bool both = part && tree_takes_part(tree, at, j);
             double value = both ? entry(model, at, j, k) : j == k;
             if (j < k) *entry_of(tree, work->upper, k, j) = value;
             if (j == k) work->diagonal[k] = value;
@@ -197,11 +212,11 @@ void tree_system_solve(const struct fbd_model *model, const struct instant *at, 
     struct tree_work *work = at->tree;
     int m = tree_unknowns(tree);
     for (int k = 0; k < m; k++)
-        if (!takes_part(tree, at, k)) z[k] = 0;
+        if (!tree_takes_part(tree, at, k)) z[k] = 0;
     substitute(tree, work, z);
     clear_range(work->x, 0, tree->count);
     for (int k = 0; k < m; k++)
-        if (z[k] != 0) apply_unknown(model, work, k, z[k]);
+        if (z[k] != 0) apply_unknown(model, at, k, z[k]);
     tree_inward(tree, work, 1, tree->count);
     tree_outward(tree, work, 1, tree->count, work->unit);
 }
@@ -219,7 +234,30 @@ double tree_row_answer(const struct tree_work *work, int j)
     return sum;
 }
 
-void tree_apply_variations(const struct tree *tree, struct tree_work *work)
+void tree_take_multipliers(const struct fbd_model *model, const struct instant *at)
 {
+    const struct tree *tree = model->tree;
+    struct tree_work *work = at->tree;
+    for (int j = 0; j < tree->row_count; j++) work->rows[j].lambda = work->z[j];
+    for (int i = 0; i < tree->tie_count; i++) {
+        int j = tree->ties[i].first_row;
+        if (tree->ties[i].pair >= 0 && at->slip[tree->ties[i].pair] != stick)
+            work->rows[j + 1].lambda = rolling_share(model, at, j) * work->z[j];
+    }
+}
+
+void tree_apply_variations(const struct fbd_model *model, const struct instant *at,
+                           const struct direction *along)
+{
+    const struct tree *tree = model->tree;
+    struct tree_work *work = at->tree;
     for (int j = 0; j < tree->row_count; j++) apply_ports_along(&work->rows[j], work->x);
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (tie->pair < 0 || at->slip[tie->pair] == stick) continue;
+        double d_mu;
+        formula_along(&model->plan.frictions[tie->pair].mu_k, at, along, &d_mu);
+        apply_ports(&work->rows[tie->first_row + 1],
+                    -at->slip[tie->pair] * d_mu * work->rows[tie->first_row].lambda, work->x);
+    }
 }

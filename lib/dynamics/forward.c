@@ -84,11 +84,17 @@ static void add_kinetic_friction(const struct fbd_model *model, const struct ins
     }
 }
 
+/* Does the pair stick, and is it a coordinate that it holds? (A rolling body is held by a row.) */
+static bool holds_coordinate(const struct plan *plan, const struct instant *at, int pair)
+{
+    return at->slip[pair] == stick && plan->frictions[pair].tie < 0;
+}
+
 static void hold_sticking(const struct fbd_model *model, const struct instant *at, double *a)
 {
     const struct plan *plan = &model->plan;
     for (int pair = 0; pair < (int)plan->friction_count; pair++)
-        if (at->slip[pair] == stick)
+        if (holds_coordinate(plan, at, pair))
             friction_surface_speed(&plan->frictions[pair], at, &a[plan->frictions[pair].coordinate]);
 }
 
@@ -124,7 +130,7 @@ void accelerations_along(const struct fbd_model *model, const struct instant *gi
         offset_variations(&plan->offsets[i], at, plan->n, along, slots, slots_along, a_along);
     if (model->tree) take_tree_variations(model->tree, at->tree, a_along);
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        if (at->slip[pair] != stick) continue;
+        if (!holds_coordinate(plan, at, pair)) continue;
         const struct friction *friction = &plan->frictions[pair];
         double jerk = 0, d_a, d_b;
         if (friction->surface_speed.expr)
@@ -142,7 +148,7 @@ void state_rates(const struct fbd_model *model, const struct instant *at, double
     accelerations(model, at, slots, dydt + n);
     double acceleration;
     for (int pair = 0; pair < (int)plan->friction_count; pair++)
-        if (at->slip[pair] == stick)
+        if (holds_coordinate(plan, at, pair))
             dydt[plan->frictions[pair].coordinate] =
                 friction_surface_speed(&plan->frictions[pair], at, &acceleration);
 }
@@ -168,7 +174,7 @@ void state_jacobian(const struct fbd_model *model, const struct instant *at, dou
     memset(dfdt, 0, n * sizeof *dfdt);
     accelerations_along(model, at, &in_time, slots, slots_along, dfdt + n);
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        if (at->slip[pair] != stick) continue;
+        if (!holds_coordinate(plan, at, pair)) continue;
         size_t i = (size_t)plan->frictions[pair].coordinate;
         dfdy[i * size + n + i] = 0;
         friction_surface_speed(&plan->frictions[pair], at, &dfdt[i]);

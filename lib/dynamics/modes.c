@@ -5,11 +5,12 @@
 #include <string.h>
 
 #include "dynamics/absolute.h"
-#include "dynamics/tree.h"
+#include "dynamics/constraint.h"
 
 double slip_velocity(const struct fbd_model *model, int pair, const struct instant *at)
 {
     const struct friction *friction = &model->plan.frictions[pair];
+    if (friction->tie >= 0) return tie_slip_velocity(model, at, friction->tie);
     double v = at->y[model->plan.n + friction->coordinate], acceleration;
     double s = friction_surface_speed(friction, at, &acceleration);
     return fabs(v - s) <= 4 * DBL_EPSILON * fabs(s) ? 0 : v - s;
@@ -21,7 +22,7 @@ void modes_hold(struct fbd_state *state)
     struct instant at = state_instant(state);
     double acceleration;
     for (int pair = 0; pair < (int)plan->friction_count; pair++)
-        if (state->slip[pair] == stick)
+        if (state->slip[pair] == stick && plan->frictions[pair].tie < 0)
             state->y[plan->n + plan->frictions[pair].coordinate] =
                 friction_surface_speed(&plan->frictions[pair], &at, &acceleration);
 }
@@ -79,7 +80,7 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
         same = same && state->slip[pair] == (int)next;
         state->slip[pair] = next;
     }
-    if (model->tree && model->tree->watched_count > 0) same = tree_settle_slips(state, decided) && same;
+    if (model->tree && plan->friction_count > 0) same = tree_settle_slips(state, decided) && same;
     return same;
 }
 

@@ -32,8 +32,10 @@ static void release(struct fbd_state *state)
 static struct misfit misfit_of(const struct fbd_state *state)
 {
     struct misfit misfit = {.row = -1, .velocity_row = -1};
+    struct instant at = state_instant(state);
     for (int j = 0; j < state->model->tree->row_count; j++) {
         const struct row *row = &state->tree->rows[j];
+        if (!tree_takes_part(state->model->tree, &at, j)) continue;
         if (!(fabs(row->g.x) <= misfit.position)) {
             misfit.position = fabs(row->g.x);
             misfit.row = j;
@@ -79,11 +81,12 @@ static void step(struct fbd_state *state, bool velocity, double share, double *t
     const struct tree *tree = model->tree;
     struct tree_work *work = state->tree;
     struct instant at = state_instant(state);
-    at.slip = state->all_stick; /* frictions take no part */
+    work->projecting = true;
     for (int j = 0; j < tree_unknowns(tree); j++)
         work->z[j] = j >= tree->row_count ? 0 : velocity ? -work->rows[j].g.x1 : -work->rows[j].g.x;
     tree_system_factor(model, &at);
     tree_system_solve(model, &at, work->z);
+    work->projecting = false;
     for (int i = 1; i < tree->count; i++) {
         int first = tree->links[i].coordinate, count = joint_freedom(tree->links[i].kind);
         for (int k = first; k < first + count && !work->links[i].locked; k++)

@@ -18,7 +18,6 @@ struct fbd_state {
     int *branch, *slip, *pull; /* modes, see instant.h */
     int *branch_before;        /* scratch for settling: plan.branches */
     int *slip_before;          /* and plan.friction_count */
-    int *all_stick;            /* plan.friction_count zeros */
     double *scratch;           /* 2 plan.slots + 3 n */
     double *extended;          /* scratch of absolute.h */
     struct tree_work *tree;    /* of the jointed bodies, by state_evaluate; NULL when there are none */

@@ -87,6 +87,13 @@ void tree_slots(const struct fbd_model *model, const struct instant *at, double 
         double F = link->kind == motion_pivot ? s->F.moment : vec_dot(s->e, s->F.force);
         slots[model->plan.frictions[link->pair].hold_slot] = slots[link->coordinate] - F;
     }
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (tie->kind != constraint_roll) continue;
+        slots[tie->normal_slot] = -work->rows[tie->first_row].lambda;
+        if (tie->pair >= 0)
+            slots[model->plan.frictions[tie->pair].hold_slot] = -work->rows[tie->first_row + 1].lambda;
+    }
 }
 
 void tree_add_unit(const struct tree *tree, const struct tree_work *work, double *a)
@@ -149,9 +156,10 @@ static void close_system(const struct fbd_model *model, const struct instant *at
     }
     tree_system_factor(model, at);
     tree_system_solve(model, at, work->z);
-    for (int j = 0; j < tree->row_count; j++) work->rows[j].lambda = work->z[j];
+    tree_take_multipliers(model, at);
     tree_add_unit(tree, work, a);
     add_result(tree, work);
+    constraints_evaluate(model, work, false); /* with the accelerations that they lead to */
 }
 
 void tree_accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a)

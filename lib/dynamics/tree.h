@@ -72,6 +72,7 @@ struct tree_work {
     int *mark;                                      /* count: which unknown a tree answers to */
     double *unit;                                   /* n: accelerations that are added */
     double *a, *a_along; /* n: accelerations of the last force_balance, and their variation */
+    bool projecting; /* the system is set up for a projection: no friction */
     bool complete;       /* A and F of the links are final, see tree_complete */
 };
 

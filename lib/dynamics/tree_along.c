@@ -129,7 +129,7 @@ void tree_accelerations_along(const struct fbd_model *model, const struct instan
     vary_joint_forces(model, at, along, slots, slots_along);
     if (tree->tie_count > 0) {
         constraints_evaluate(model, work, true);
-        tree_apply_variations(tree, work);
+        tree_apply_variations(model, at, along);
     }
     tree_inward(tree, work, 1, tree->count);
     tree_outward(tree, work, 1, tree->count, a_along);
@@ -142,4 +142,11 @@ void tree_accelerations_along(const struct fbd_model *model, const struct instan
     tree_system_solve(model, at, work->z);
     tree_add_unit(tree, work, a_along);
     add_slots(model, at, false, slots_along);
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (tie->kind != constraint_roll) continue;
+        slots_along[tie->normal_slot] = -work->z[tie->first_row];
+        if (tie->pair >= 0)
+            slots_along[model->plan.frictions[tie->pair].hold_slot] = -work->z[tie->first_row + 1];
+    }
 }

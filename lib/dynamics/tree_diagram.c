@@ -131,6 +131,14 @@ static struct arrow row_arrow(const struct instant *at, const struct row *row, i
     return arrow;
 }
 
+/* The load that stands for the friction of rolling tie `tie`. */
+static int roll_load(const struct fbd_model *model, int tie)
+{
+    int load = (int)model->coupled_count;
+    for (int i = 0; i < tie; i++) load += model->tree->ties[i].kind == constraint_roll;
+    return load;
+}
+
 /* All constraint forces on body b; returns their number. */
 static size_t fill_ties(const struct fbd_model *model, int b, const struct instant *at, struct arrow *arrows)
 {
@@ -146,8 +154,10 @@ static size_t fill_ties(const struct fbd_model *model, int b, const struct insta
                 struct arrow second = row_arrow(at, &rows[1], k, tie->end[k].name[1]);
                 if (tie->kind == constraint_pin)
                     arrow.force = vec_add(arrow.force, second.force);
-                else
+                else {
+                    second.load = roll_load(model, i);
                     arrows[count++] = second;
+                }
             }
             arrows[count++] = arrow;
         }
@@ -199,7 +209,7 @@ static void add_needs(const struct fbd_model *model, int b, const struct instant
         struct arrow arrow = load_arrow(model, i, at, slots);
         add_arrow(sum, &arrow, point);
     }
-    for (size_t i = model->listed_count; i < model->load_count; i++) {
+    for (size_t i = model->listed_count; i < model->coupled_count; i++) {
         const struct model_load *load = &model->loads[i];
         if (load->body != b && load->partner != b) continue;
         struct arrow arrow = load_arrow(model, (int)i, at, slots);
@@ -307,7 +317,7 @@ size_t tree_diagram_fill(const struct fbd_model *model, int index, const struct 
         }
         count++;
     }
-    for (size_t i = model->listed_count; i < model->load_count; i++) {
+    for (size_t i = model->listed_count; i < model->coupled_count; i++) {
         const struct model_load *load = &model->loads[i];
         if (load->body != index && load->partner != index) continue;
         struct arrow arrow = load_arrow(model, (int)i, at, slots);

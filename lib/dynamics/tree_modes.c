@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "dynamics/modes.h"
-#include "dynamics/tree.h"
+#include "dynamics/constraint.h"
 
 static bool is_open(const struct fbd_state *state, const struct decided *decided, int pair)
 {
@@ -42,6 +42,8 @@ static bool turns_back(const struct fbd_state *state, int pair)
     const struct friction *friction = &state->model->plan.frictions[pair];
     struct instant at = state_instant(state);
     double surface;
+    if (friction->tie >= 0)
+        return state->slip[pair] * tie_slip_acceleration(state->model, &at, friction->tie) < 0;
     friction_surface_speed(friction, &at, &surface);
     double a = state->a[friction->coordinate];
     return state->slip[pair] * (a - surface) < -8 * DBL_EPSILON * (fabs(a) + fabs(surface));

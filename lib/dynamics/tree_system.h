@@ -23,6 +23,13 @@ void tree_add_unit(const struct tree *tree, const struct tree_work *work, double
 double tree_row_answer(const struct tree_work *work, int j);
 
 /* Subtract the variations of the constraint forces, at fixed multipliers, from p of the links. */
-void tree_apply_variations(const struct tree *tree, struct tree_work *work);
+void tree_apply_variations(const struct fbd_model *model, const struct instant *at,
+                           const struct direction *along);
+
+/* Does unknown k take part in the modes of the instant? */
+bool tree_takes_part(const struct tree *tree, const struct instant *at, int k);
+
+/* After tree_system_solve of work->z: the multipliers of the rows. */
+void tree_take_multipliers(const struct fbd_model *model, const struct instant *at);
 
 #endif

@@ -148,6 +148,24 @@ static void set_couplings(struct builder *builder)
     }
 }
 
+/* The force along the line of a rolling body, by name, for events and its work. */
+static bool set_rolls(struct builder *builder)
+{
+    struct fbd_model *model = builder->model;
+    size_t next = model->coupled_count;
+    for (size_t c = 0; c < model->scene->constraint_count; c++) {
+        const struct constraint *constraint = &model->scene->constraints[c];
+        if (constraint->kind != constraint_roll) continue;
+        struct load *source = ARENA_ARRAY(&model->arena, 1, struct load);
+        if (!source) return false;
+        source->kind = constraint->mu_s.expr ? load_friction : load_normal;
+        source->name = arena_printf(&model->arena, "%s.friction", constraint->name);
+        source->at = constraint->at;
+        set_load(builder, &model->loads[next++], source, constraint->body[0]);
+    }
+    return true;
+}
+
 static bool set_absolutes(struct fbd_model *model)
 {
     const struct scene *scene = model->scene;
@@ -170,7 +188,10 @@ static bool allocate(struct fbd_model *model)
     enum { formulas_of_a_load = 8 }; /* value, angle, fx, fy, potential, mu_s, mu_k, surface_speed */
     model->body_count = scene->body_count;
     for (size_t b = 0; b < scene->body_count; b++) model->listed_count += scene->bodies[b].load_count;
-    model->load_count = model->listed_count + scene->coupling_count;
+    model->coupled_count = model->listed_count + scene->coupling_count;
+    model->load_count = model->coupled_count;
+    for (size_t c = 0; c < scene->constraint_count; c++)
+        model->load_count += scene->constraints[c].kind == constraint_roll;
     model->bodies = ARENA_ARRAY(&model->arena, model->body_count, struct model_body);
     model->loads = ARENA_ARRAY(&model->arena, model->load_count, struct model_load);
     size_t formulas = formulas_of_a_load * model->load_count + 2 * scene->event_count;
@@ -214,7 +235,7 @@ struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors)
         set_loads(&builder);
         set_couplings(&builder);
         model->labels = labels_make(&model->arena, scene);
-        done = model->labels && set_absolutes(model) && tree_number(model) && tree_name_reactions(model) &&
+        done = model->labels && set_rolls(&builder) && set_absolutes(model) && tree_number(model) && tree_name_reactions(model) &&
                plan_build(&builder) && classify_loads(&builder);
         set_watches(&builder);
     }

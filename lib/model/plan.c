@@ -227,6 +227,7 @@ static void add_friction(struct builder *builder, struct model_body *body, int i
                                            : bearing ? body->I_O
                                                      : body->inertia.mass,
                                 .hold_slot = jointed ? plan->slots++ : body->first,
+                                .tie = -1,
                                 .jointed = jointed};
     for (int i = 0; i < body->load_count; i++) {
         const struct load *other = builder->model->loads[body->first_load + i].source;
@@ -300,7 +301,8 @@ static bool allocate(struct builder *builder)
     struct fbd_model *model = builder->model;
     struct plan *plan = &model->plan;
     struct arena *arena = &model->arena;
-    size_t loads = model->load_count, most_slots = model->scene->coordinate_count + 2 * model->body_count;
+    size_t loads = model->load_count, most_slots = model->scene->coordinate_count +
+                                              2 * (model->body_count + model->scene->constraint_count);
     plan->n = (int)model->scene->coordinate_count;
     plan->slots = plan->n;
     plan->inverse_inertia = ARENA_ARRAY(arena, (size_t)plan->n, double);
@@ -313,7 +315,7 @@ static bool allocate(struct builder *builder)
     plan->drags = ARENA_ARRAY(arena, loads, struct drag_term);
     plan->forces = ARENA_ARRAY(arena, 2 * loads, struct force_term);
     plan->frictions = ARENA_ARRAY(arena, loads, struct friction);
-    plan->contacts = ARENA_ARRAY(arena, model->body_count, struct contact);
+    plan->contacts = ARENA_ARRAY(arena, model->body_count + model->scene->constraint_count, struct contact);
     plan->offsets = ARENA_ARRAY(arena, model->body_count, struct offset_body);
     plan->slot_constant = ARENA_ARRAY(arena, most_slots, bool);
     struct tree *tree = model->tree;
@@ -371,6 +373,34 @@ static void mark_body_slots(struct fbd_model *model, int b)
     if (body->normal_slot >= 0) model->plan.slot_constant[body->normal_slot] = false;
 }
 
+/* A rolling body presses on its line, and its friction, when it has coefficients, sticks or slips. */
+static void plan_rolls(struct builder *builder)
+{
+    struct fbd_model *model = builder->model;
+    struct plan *plan = &model->plan;
+    size_t load = model->coupled_count;
+    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
+        struct tie *tie = &model->tree->ties[i];
+        if (tie->kind != constraint_roll) continue;
+        const struct constraint *source = &model->scene->constraints[tie->constraint];
+        int body = tie->end[0].body, index = (int)load++;
+        tie->normal_slot = plan->slots++;
+        plan->contacts[plan->contact_count++] = (struct contact){body, index, tie->normal_slot};
+        if (!source->mu_s.expr) continue;
+        tie->pair = (int)plan->friction_count;
+        plan->frictions[plan->friction_count++] =
+            (struct friction){.body = body,
+                              .load = index,
+                              .normal_slot = tie->normal_slot,
+                              .mu_s = builder_formula(builder, &source->mu_s, body, index),
+                              .mu_k = builder_formula(builder, &source->mu_k, body, index),
+                              .surface_speed = formula_constant(0),
+                              .hold_slot = plan->slots++,
+                              .tie = i,
+                              .jointed = true};
+    }
+}
+
 bool plan_build(struct builder *builder)
 {
     struct fbd_model *model = builder->model;
@@ -387,7 +417,8 @@ bool plan_build(struct builder *builder)
             else
                 add_load(builder, body, i);
     }
-    for (size_t i = model->listed_count; i < model->load_count; i++) tree_add_load(builder, (int)i);
+    for (size_t i = model->listed_count; i < model->coupled_count; i++) tree_add_load(builder, (int)i);
+    plan_rolls(builder);
     pack(builder);
     for (size_t b = 0; b < model->body_count; b++)
         if (model->bodies[b].place.link > 0) mark_body_slots(model, (int)b);

@@ -32,6 +32,7 @@ struct tie {
     double turn;       /* roll, rack: the angle of the line there */
     bool length_given; /* rod, rope */
     double length;
+    int normal_slot; /* roll: where minus its normal force goes */
     int pair;                                   /* roll: its dry friction, index into plan.frictions, or -1 */
     int root[most_constraint_ends], root_count; /* first links of the trees that it joins */
 };

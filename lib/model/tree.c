@@ -376,7 +376,7 @@ bool tree_name_reactions(struct fbd_model *model)
         body->sibling = model->bodies[body->parent].child;
         model->bodies[body->parent].child = b;
     }
-    for (size_t i = model->listed_count; i < model->load_count; i++) {
+    for (size_t i = model->listed_count; i < model->coupled_count; i++) {
         model->bodies[model->loads[i].body].arrow_count++;
         if (model->loads[i].partner >= 0) model->bodies[model->loads[i].partner].arrow_count++;
     }
@@ -391,7 +391,7 @@ bool tree_finish(struct fbd_model *model)
         tree->links[i].normal_slot = model->bodies[tree->links[i].body].normal_slot;
     for (int p = 0; p < (int)plan->friction_count; p++) {
         const struct friction *friction = &plan->frictions[p];
-        if (!friction->jointed) continue;
+        if (!friction->jointed || friction->tie >= 0) continue;
         int link = model->bodies[friction->body].place.link;
         tree->links[link].pair = p;
         if (friction->normal_slot >= 0) tree->pairs[tree->pair_count++] = link;

@@ -75,20 +75,38 @@ static bool is_taken(const struct taken_name *names, const char *name, size_t co
     return false;
 }
 
+/* Forces of joints have their names, and so have the loads of the bodies: a coupling cannot be called so. */
+static bool is_in_diagrams(const struct reader *reader, const char *name)
+{
+    static const char *const reactions[] = {"pin", "guide", "weld"};
+    for (size_t i = 0; i < sizeof reactions / sizeof *reactions; i++)
+        if (strcmp(name, reactions[i]) == 0) return true;
+    for (size_t b = 0; b < reader->scene->body_count; b++)
+        for (size_t i = 0; i < reader->scene->bodies[b].load_count; i++)
+            if (strcmp(reader->scene->bodies[b].loads[i].name, name) == 0) return true;
+    return false;
+}
+
+static bool check_given(struct reader *reader, const struct taken_name *names, size_t i)
+{
+    bool twice = is_taken(names, names[i].name, i);
+    if (!twice && !is_in_diagrams(reader, names[i].name)) return true;
+    diag_add(reader->errors, FBD_ERROR, "duplicate-name", names[i].at, "choose another name",
+             twice ? "two couplings are called `%s`" : "a force of a body is called `%s` already",
+             names[i].name);
+    return false;
+}
+
 static bool name_couplings(struct reader *reader, struct taken_name *names, size_t count)
 {
-    for (size_t i = 0; i < count; i++) {
-        if (!names[i].name || !is_taken(names, names[i].name, i)) continue;
-        diag_add(reader->errors, FBD_ERROR, "duplicate-name", names[i].at, "choose another name",
-                 "two couplings are called `%s`", names[i].name);
-        return false;
-    }
+    for (size_t i = 0; i < count; i++)
+        if (names[i].name && !check_given(reader, names, i)) return false;
     for (size_t i = 0; i < count; i++)
         for (int number = 1; !names[i].name; number++) {
             const char *name = names[i].kind;
             if (number > 1) name = arena_printf(reader->arena, "%s_%d", names[i].kind, number);
             if (!name) return false;
-            if (!is_taken(names, name, count)) names[i].name = name;
+            if (!is_taken(names, name, count) && !is_in_diagrams(reader, name)) names[i].name = name;
         }
     return true;
 }

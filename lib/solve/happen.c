@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dynamics/constraint.h"
+#include "dynamics/project.h"
 #include "solve/run.h"
 
 /* ---- the log */
@@ -59,6 +61,11 @@ static void stop_slipping(struct run *run, int pair)
     const struct friction *friction = &run->model->plan.frictions[pair];
     struct instant at = state_instant(run->state);
     double acceleration;
+    if (friction->tie >= 0) {
+        run->state->slip[pair] = stick;
+        state_project_velocity(run->state, false);
+        return;
+    }
     run->state->y[run->model->plan.n + friction->coordinate] =
         friction_surface_speed(friction, &at, &acceleration);
 }
@@ -113,7 +120,11 @@ static void note_frictions(struct run *run, const bool *moving)
             stopped |=
                 moving[i] && set->watchers[i].kind == watch_slip_stop && set->watchers[i].index == pair;
         if (before == stick && after != stick) note_friction(run, FBD_EVENT_BREAKAWAY, pair);
-        if (before != stick && after == stick) note_friction(run, FBD_EVENT_STICK, pair);
+        if (before != stick && after == stick) {
+            int tie = run->model->plan.frictions[pair].tie;
+            if (tie >= 0) tie_rezero(run->model, run->state->tree, tie);
+            note_friction(run, FBD_EVENT_STICK, pair);
+        }
         if (stopped && after != stick && after != before) note_friction(run, FBD_EVENT_REVERSAL, pair);
     }
 }

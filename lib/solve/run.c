@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "dynamics/project.h"
-#include "dynamics/tree_system.h"
 
 /* ---- the system that the stepper sees */
 
@@ -117,6 +115,8 @@ static void start(struct run *run)
 {
     run->restart = true;
     run->from = run->state->t;
+    run_close_start(run);
+    if (run->outcome != FBD_GOING) return;
     if (!modes_settle(run->state, NULL)) {
         run_fail(
             run, FBD_FAILED,
@@ -298,21 +298,6 @@ static int find_event(struct run *run, double *t)
     return 0;
 }
 
-/* Back onto the constraints; the rates that the stepper goes on with belong to the projected state. */
-static void project(struct run *run)
-{
-    const struct tree *tree = run->model->tree;
-    if (!tree || tree->tie_count == 0) return;
-    struct misfit misfit = state_misfit(run->state);
-    run->drift = fmax(run->drift, misfit.position);
-    run->projected = true;
-    if (!state_project(run->state, false))
-        run_fail(run, FBD_FAILED,
-                 "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the mechanism "
-                 "is at the end of its reach, or the tolerance is too large",
-                 run->state->t, tree->ties[tree->tie_of_row[misfit.row]].name, misfit.position);
-}
-
 static void accept(struct run *run, double t)
 {
     size_t n = (size_t)run->model->plan.n;
@@ -322,7 +307,7 @@ static void accept(struct run *run, double t)
     memset(run->watchers.fired, 0, run->model->plan.watch_count * sizeof *run->watchers.fired);
     memcpy(run->state->y, run->y, 2 * n * sizeof *run->y);
     modes_hold(run->state);
-    project(run);
+    run_close_step(run);
     memcpy(run->y, run->state->y, 2 * n * sizeof *run->y);
 }
 

@@ -85,6 +85,10 @@ bool run_look(struct run *run, double t, struct fbd_state *state);
  * crossed; NULL for none. Settles the modes. */
 void run_apply(struct run *run, const bool *timed, const bool *moving);
 
+/* Refuse a start that couplings do not allow (closing.c); bring the end of a step back onto them. */
+void run_close_start(struct run *run);
+void run_close_step(struct run *run);
+
 /* User events whose function is exactly zero at run->state (a body came to rest there, or the run ends there)
  * happen now; within its band (watchers.h) a zero counts at an event only, which may be what stopped the
  * body. */

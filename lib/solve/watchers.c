@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "dynamics/absolute.h"
+#include "dynamics/constraint.h"
 
 /* ---- which functions a plan needs */
 
@@ -30,7 +31,7 @@ static void add_kinks(struct watchers *watchers, const struct plan *plan)
 
 static bool always_the_same(const struct plan *plan, const struct friction *friction)
 {
-    return plan->slot_constant[friction->coordinate] && !friction->surface_speed.expr &&
+    return friction->tie < 0 && plan->slot_constant[friction->coordinate] && !friction->surface_speed.expr &&
            !friction->mu_s.expr && !friction->mu_k.expr &&
            (friction->normal_slot < 0 || plan->slot_constant[friction->normal_slot]);
 }
@@ -124,6 +125,10 @@ static double friction_value(const struct watcher *watcher, const struct view *v
     *rate = 0;
     if (watcher->kind == watch_slip_stop) {
         if (slip == stick) return HUGE_VAL;
+        if (friction->tie >= 0) {
+            *rate = slip * tie_slip_acceleration(model, &view->at, friction->tie);
+            return slip * tie_slip_velocity(model, &view->at, friction->tie);
+        }
         double acceleration, speed = friction_surface_speed(friction, &view->at, &acceleration);
         int index = model->plan.n + friction->coordinate;
         *rate = slip * (view->flow.dy[index] - acceleration);
