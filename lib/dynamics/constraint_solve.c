@@ -7,11 +7,17 @@
  * unit force, by the recursion; rows that join no common tree do not meet, and S is kept in its envelope: a
  * chain of loops whose rows are numbered along it costs time in proportion to its length.
  *
- * Dry friction of slides that slip is in the same system: tau_k + c_k N_k = 0, with N_k the normal force, on
- * which all multipliers and all other frictions bear. So it is not symmetric, and is factored as L D U in its
- * envelope (Duff, Erisman and Reid, Direct Methods for Sparse Matrices, chapter 8), without pivoting: S is
- * positive definite, and friction shifts it by less than its diagonal. A pivot that vanishes to rounding is a
- * row that says nothing new: it is left out, with no force.
+ * Dry friction of slides that slip is in the same system: tau_k + c_k N_k = 0, with N_k the normal force, on which
+ * all multipliers and all other frictions bear. So it is not symmetric, and is factored as L D U in its envelope
+ * (Duff, Erisman and Reid, Direct Methods for Sparse Matrices, chapter 8), without pivoting: S is positive
+ * definite, and friction shifts it by less than its diagonal.
+ *
+ * Where a row says nothing that others do not say, always or in passing (all bars of a parallelogram in one line), S
+ * is singular. So what is factored is S + epsilon diag(S), and two corrections by what is left over of the true system
+ * make up for it: a direction of S with the relative size s comes out right to (epsilon / (epsilon + s))^3, which is
+ * rounding for s > 1e-3; multipliers of a redundant row are those of the least norm; and near a singular position
+ * everything stays smooth, so that motion passes it. (The augmented Lagrangian method of Bayo and Ledesma, Nonlinear
+ * Dynamics 9, 1996, does the same.)
  */
 #include <float.h>
 #include <string.h>
@@ -155,10 +161,10 @@ static double *entry_of(const struct tree *tree, double *kept, int j, int k)
 }
 
 /* Row and column j up to the diagonal, given those before. */
-static void factor_row(const struct tree *tree, struct tree_work *work, int j)
+static void factor_row(const struct tree *tree, struct tree_work *work, int j, double epsilon)
 {
     const int *first = tree->first;
-    double pivot = work->diagonal[j];
+    double pivot = work->diagonal[j] * (1 + epsilon);
     for (int i = first[j]; i < j; i++) {
         double *lower = entry_of(tree, work->lower, j, i), *upper = entry_of(tree, work->upper, j, i);
         for (int k = first[i] > first[j] ? first[i] : first[j]; k < i; k++) {
@@ -168,10 +174,32 @@ static void factor_row(const struct tree *tree, struct tree_work *work, int j)
         *lower *= work->inverse[i];
         pivot -= *lower * *upper;
     }
-    const double nothing = 1e-11;
-    bool redundant = !(fabs(pivot) > nothing * fabs(work->diagonal[j]));
-    if (j < tree->row_count) work->rows[j].redundant = redundant;
-    work->inverse[j] = redundant ? 0 : 1 / pivot;
+    if (j < tree->row_count) work->rows[j].redundant = !(pivot > 10 * epsilon * work->diagonal[j]);
+    work->inverse[j] = 1 / pivot;
+}
+
+static void keep(const struct tree *tree, struct tree_work *work)
+{
+    size_t bytes = tree->envelope_size * sizeof *work->lower, m = (size_t)tree_unknowns(tree);
+    memcpy(work->whole, work->lower, bytes);
+    memcpy(work->whole + tree->envelope_size, work->upper, bytes);
+    memcpy(work->whole + 2 * tree->envelope_size, work->diagonal, m * sizeof *work->diagonal);
+}
+
+/* rest = right - S z. */
+static void rest_of(const struct tree *tree, const struct tree_work *work, const double *right, const double *z,
+                    double *rest)
+{
+    double *lower = work->whole, *upper = lower + tree->envelope_size,
+           *diagonal = upper + tree->envelope_size;
+    int m = tree_unknowns(tree);
+    for (int j = 0; j < m; j++) {
+        rest[j] = right[j] - diagonal[j] * z[j];
+        for (int k = tree->first[j]; k < j; k++) {
+            rest[j] -= *entry_of(tree, lower, j, k) * z[k];
+            rest[k] -= *entry_of(tree, upper, j, k) * z[j];
+        }
+    }
 }
 
 static void substitute(const struct tree *tree, const struct tree_work *work, double *z)
@@ -182,6 +210,20 @@ static void substitute(const struct tree *tree, const struct tree_work *work, do
     for (int j = m - 1; j >= 0; j--) {
         z[j] *= work->inverse[j];
         for (int k = tree->first[j]; k < j; k++) z[k] -= *entry_of(tree, work->upper, j, k) * z[j];
+    }
+}
+
+static void solve(const struct tree *tree, struct tree_work *work, double *z)
+{
+    int m = tree_unknowns(tree), corrections = work->projecting ? 0 : 2;
+    size_t bytes = (size_t)m * sizeof *z;
+    double *right = work->right, *rest = work->rest;
+    memcpy(right, z, bytes);
+    substitute(tree, work, z);
+    for (int pass = 0; pass < corrections; pass++) {
+        rest_of(tree, work, right, z, rest);
+        substitute(tree, work, rest);
+        for (int j = 0; j < m; j++) z[j] += rest[j];
     }
 }
 
@@ -203,7 +245,10 @@ void tree_system_factor(const struct fbd_model *model, const struct instant *at)
             if (j > k && tree->first[j] <= k) *entry_of(tree, work->lower, j, k) = value;
         }
     }
-    for (int j = 0; j < m; j++) factor_row(tree, work, j);
+    /* A projection must not throw the state about for what a row with no slope has left. */
+    const double epsilon = work->projecting ? 1e-6 : 1e-8;
+    keep(tree, work);
+    for (int j = 0; j < m; j++) factor_row(tree, work, j, epsilon);
 }
 
 void tree_system_solve(const struct fbd_model *model, const struct instant *at, double *z)
@@ -213,7 +258,7 @@ void tree_system_solve(const struct fbd_model *model, const struct instant *at, 
     int m = tree_unknowns(tree);
     for (int k = 0; k < m; k++)
         if (!tree_takes_part(tree, at, k)) z[k] = 0;
-    substitute(tree, work, z);
+    solve(tree, work, z);
     clear_range(work->x, 0, tree->count);
     for (int k = 0; k < m; k++)
         if (z[k] != 0) apply_unknown(model, at, k, z[k]);

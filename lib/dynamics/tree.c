@@ -15,7 +15,7 @@
 static size_t doubles_of(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
-    return 2 * tree->envelope_size + 3 * (size_t)tree_unknowns(tree) + 3 * (size_t)model->plan.n;
+    return 4 * tree->envelope_size + 6 * (size_t)tree_unknowns(tree) + 3 * (size_t)model->plan.n;
 }
 
 size_t tree_work_size(const struct fbd_model *model)
@@ -42,7 +42,10 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->diagonal = work->upper + tree->envelope_size;
     work->inverse = work->diagonal + unknowns;
     work->z = work->inverse + unknowns;
-    work->unit = work->z + unknowns;
+    work->whole = work->z + unknowns;
+    work->right = work->whole + 2 * tree->envelope_size + unknowns;
+    work->rest = work->right + unknowns;
+    work->unit = work->rest + unknowns;
     work->a = work->unit + n;
     work->a_along = work->a + n;
     work->mark = (int *)(work->a_along + n);

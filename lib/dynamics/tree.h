@@ -69,6 +69,8 @@ struct tree_work {
     struct row *rows;                               /* row_count: constraints, see constraint.h */
     struct tie_state *ties;                         /* tie_count: what they keep of the start */
     double *lower, *upper, *diagonal, *inverse, *z; /* the system of tree_system.h */
+    double *whole;          /* the system before it was factored: lower, upper, diagonal */
+    double *right, *rest;   /* unknowns */
     int *mark;                                      /* count: which unknown a tree answers to */
     double *unit;                                   /* n: accelerations that are added */
     double *a, *a_along; /* n: accelerations of the last force_balance, and their variation */

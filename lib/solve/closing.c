@@ -79,6 +79,11 @@ void run_close_step(struct run *run)
     run->drift = fmax(run->drift, misfit.position);
     run->projected = true;
     if (state_project(run->state, false)) return;
+    struct misfit left = state_misfit(run->state);
+    double reach = 0;
+    for (int i = 1; i < run->model->tree->count; i++)
+        reach = fmax(reach, vec_norm(run->state->tree->links[i].p));
+    if (left.position <= 100 * fmax(run->options.tolerance, 1e-12) * reach) return; /* singular here */
     run_fail(run, FBD_FAILED,
              "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the mechanism is at the end "
              "of its reach, or the tolerance is too large",

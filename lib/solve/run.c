@@ -115,7 +115,7 @@ static void start(struct run *run)
 {
     run->restart = true;
     run->from = run->state->t;
-    run_close_start(run);
+    if (modes_settle(run->state, NULL)) run_close_start(run); /* what slips is not closed */
     if (run->outcome != FBD_GOING) return;
     if (!modes_settle(run->state, NULL)) {
         run_fail(
