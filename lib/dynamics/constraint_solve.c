@@ -7,17 +7,17 @@
  * unit force, by the recursion; rows that join no common tree do not meet, and S is kept in its envelope: a
  * chain of loops whose rows are numbered along it costs time in proportion to its length.
  *
- * Dry friction of slides that slip is in the same system: tau_k + c_k N_k = 0, with N_k the normal force, on which
- * all multipliers and all other frictions bear. So it is not symmetric, and is factored as L D U in its envelope
- * (Duff, Erisman and Reid, Direct Methods for Sparse Matrices, chapter 8), without pivoting: S is positive
- * definite, and friction shifts it by less than its diagonal.
+ * Dry friction of slides that slip is in the same system: tau_k + c_k N_k = 0, with N_k the normal force, on
+ * which all multipliers and all other frictions bear. So it is not symmetric, and is factored as L D U in its
+ * envelope (Duff, Erisman and Reid, Direct Methods for Sparse Matrices, chapter 8), without pivoting: S is
+ * positive definite, and friction shifts it by less than its diagonal.
  *
- * Where a row says nothing that others do not say, always or in passing (all bars of a parallelogram in one line), S
- * is singular. So what is factored is S + epsilon diag(S), and two corrections by what is left over of the true system
- * make up for it: a direction of S with the relative size s comes out right to (epsilon / (epsilon + s))^3, which is
- * rounding for s > 1e-3; multipliers of a redundant row are those of the least norm; and near a singular position
- * everything stays smooth, so that motion passes it. (The augmented Lagrangian method of Bayo and Ledesma, Nonlinear
- * Dynamics 9, 1996, does the same.)
+ * Where a row says nothing that others do not say, always or in passing (all bars of a parallelogram in one
+ * line), S is singular. So what is factored is S + epsilon diag(S), and two corrections by what is left over
+ * of the true system make up for it: a direction of S with the relative size s comes out right to (epsilon /
+ * (epsilon + s))^3, which is rounding for s > 1e-3; multipliers of a redundant row are those of the least
+ * norm; and near a singular position everything stays smooth, so that motion passes it. (The augmented
+ * Lagrangian method of Bayo and Ledesma, Nonlinear Dynamics 9, 1996, does the same.)
  */
 #include <float.h>
 #include <string.h>
@@ -86,11 +86,13 @@ static double row_answer(const struct tree_work *work, const struct tree *tree, 
     return sum;
 }
 
-/* The friction of a rolling body that slips, per normal force: -slip mu_k along its line; 0 when it does not. */
+/* The friction of a rolling body that slips, per normal force: -slip mu_k along its line; 0 when it does not.
+ */
 static double rolling_share(const struct fbd_model *model, const struct instant *at, int k)
 {
     const struct tie *tie = &model->tree->ties[model->tree->tie_of_row[k]];
-    if (at->tree->projecting || tie->pair < 0 || k != tie->first_row || at->slip[tie->pair] == stick) return 0;
+    if (at->tree->projecting || tie->pair < 0 || k != tie->first_row || at->slip[tie->pair] == stick)
+        return 0;
     return -at->slip[tie->pair] * formula_value(&model->plan.frictions[tie->pair].mu_k, at);
 }
 
@@ -175,7 +177,9 @@ static void factor_row(const struct tree *tree, struct tree_work *work, int j, d
         pivot -= *lower * *upper;
     }
     if (j < tree->row_count) work->rows[j].redundant = !(pivot > 10 * epsilon * work->diagonal[j]);
-    work->inverse[j] = 1 / pivot;
+    bool immovable = !(work->diagonal[j] > work->least);
+    work->inverse[j] = immovable ? 0 : 1 / pivot;
+    if (immovable && j < tree->row_count) work->rows[j].redundant = true;
 }
 
 static void keep(const struct tree *tree, struct tree_work *work)
@@ -187,8 +191,8 @@ static void keep(const struct tree *tree, struct tree_work *work)
 }
 
 /* rest = right - S z. */
-static void rest_of(const struct tree *tree, const struct tree_work *work, const double *right, const double *z,
-                    double *rest)
+static void rest_of(const struct tree *tree, const struct tree_work *work, const double *right,
+                    const double *z, double *rest)
 {
     double *lower = work->whole, *upper = lower + tree->envelope_size,
            *diagonal = upper + tree->envelope_size;
@@ -232,6 +236,8 @@ void tree_system_factor(const struct fbd_model *model, const struct instant *at)
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
     int m = tree_unknowns(tree);
+    memset(work->lower, 0, tree->envelope_size * sizeof *work->lower);
+    memset(work->upper, 0, tree->envelope_size * sizeof *work->upper);
     memset(work->mark, 0, (size_t)tree->count * sizeof *work->mark);
     for (int k = 0; k < m; k++) {
         bool part = tree_takes_part(tree, at, k);
@@ -246,8 +252,12 @@ void tree_system_factor(const struct fbd_model *model, const struct instant *at)
         }
     }
     /* A projection must not throw the state about for what a row with no slope has left. */
-    const double epsilon = work->projecting ? 1e-6 : 1e-8;
+    const double epsilon = work->projecting ? work->damping : 1e-8;
     keep(tree, work);
+    /* A row that nothing can move, as a rod on the axis of a pivot, has no multiplier. */
+    work->least = 0;
+    for (int j = 0; j < tree->row_count; j++)
+        if (tree_takes_part(tree, at, j)) work->least = fmax(work->least, 1e-15 * work->diagonal[j]);
     for (int j = 0; j < m; j++) factor_row(tree, work, j, epsilon);
 }
 

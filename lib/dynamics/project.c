@@ -113,9 +113,8 @@ bool state_project_velocity(struct fbd_state *state, bool assemble)
     return there;
 }
 
-static bool project_position(struct fbd_state *state, bool assemble)
+static bool project_position(struct fbd_state *state, bool assemble, int most_steps)
 {
-    enum { most_steps = 60 };
     size_t bytes = (size_t)state->model->plan.n * sizeof *state->y;
     double *before = state->scratch, share = 1;
     prepare(state, assemble);
@@ -141,6 +140,17 @@ static bool project_position(struct fbd_state *state, bool assemble)
 bool state_project(struct fbd_state *state, bool assemble)
 {
     if (!state->tree || state->model->tree->tie_count == 0) return true;
-    bool there = project_position(state, assemble);
+    enum { most_steps = 60 };
+    state->tree->damping = 1e-6;
+    bool there = project_position(state, assemble, most_steps);
     return state_project_velocity(state, assemble) && there;
+}
+
+void state_return(struct fbd_state *state)
+{
+    if (!state->tree || state->model->tree->tie_count == 0) return;
+    state->tree->damping = 1e-3;
+    project_position(state, false, 2);
+    state_project_velocity(state, false);
+    state->tree->damping = 1e-6;
 }

@@ -24,6 +24,10 @@ void state_start_constraints(struct fbd_state *state);
  * that does not converge: the best state that was found stays. */
 bool state_project(struct fbd_state *state, bool assemble);
 
+/* Bring the end of a step back, which is off by its error: where rows have a slope. Near a singular position
+ * they have hardly any, and making them fit would throw the state about by more than it is off. */
+void state_return(struct fbd_state *state);
+
 /* The state's velocities alone. */
 bool state_project_velocity(struct fbd_state *state, bool assemble);
 

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/diag.h"
+#include "dynamics/project.h"
 
 enum { parameter_draws = 12, states_of_a_draw = 24, tries_of_a_state = 8 };
 
@@ -53,6 +54,21 @@ static bool changed_model(const fbd_model *model, gsl_rng *rng, fbd_model **resu
     return done;
 }
 
+/* Where couplings close loops, most states do not fit: so the start moves by up to 0.3 rad or a tenth of a
+ * metre, with random rates, and the nearest state that fits is taken. */
+static void draw_closed(gsl_rng *rng, struct fbd_state *state)
+{
+    const struct fbd_model *model = state->model;
+    size_t n = model->scene->coordinate_count;
+    if (!model->tree || model->tree->tie_count == 0) return;
+    struct fbd_state *start = state_new(model);
+    if (!start) return;
+    for (size_t i = 0; i < n; i++)
+        state->y[i] = start->y[i] + between(rng, -1, 1) * (model->scene->coordinates[i].angle ? 0.3 : 0.1);
+    state_free(start);
+    state_project(state, false);
+}
+
 /* Random coordinates and rates of the size of the initial ones, at least one unit; angles all around. */
 static void draw_state(gsl_rng *rng, struct fbd_state *state)
 {
@@ -69,6 +85,7 @@ static void draw_state(gsl_rng *rng, struct fbd_state *state)
         state->y[n + i] = between(rng, -speed, speed);
     }
     state->settled = false;
+    draw_closed(rng, state);
 }
 
 static bool admissible(struct fbd_state *state)
@@ -206,6 +223,8 @@ static void take_sample(struct hand_check *check, const struct hand *hand, struc
     }
     sample.lack = scale * (sample.left - sample.right);
     sample.size = fabs(scale) * (fabs(sample.left) + fabs(sample.right)) + DBL_MIN;
+    for (size_t j = 0; jointed && j < hand->summand_count; j++)
+        sample.size += fabs(expr_eval(hand->summands[j].expr, state->t, y, NULL));
     for (int i = 0; !jointed && i < body->load_count; i++) {
         sample.terms[i] = arrows[i].share[part < 0 ? 0 : part];
         sample.size += fabs(sample.terms[i]);

@@ -44,11 +44,9 @@ static void refuse(struct run *run, const struct misfit *misfit, bool by_velocit
     bool closed = state_project(run->during, false);
     list_changes(&text, run->state, run->during);
     int row = by_velocity ? misfit->velocity_row : misfit->row;
-    run_fail(run, FBD_FAILED,
-             "the start does not fit: `%s` is off by %.3g%s. %s%s%s", tie_name(run, row),
+    run_fail(run, FBD_FAILED, "the start does not fit: `%s` is off by %.3g%s. %s%s%s", tie_name(run, row),
              by_velocity ? misfit->velocity : misfit->position, by_velocity ? " in velocity" : "",
-             closed ? "Nearest is " : "No state near it fits",
-             closed && !text.failed ? text.data : "",
+             closed ? "Nearest is " : "No state near it fits", closed && !text.failed ? text.data : "",
              closed ? "; or let bodies find their place, `initial: {assemble: true}`" : "");
     text_free(&text);
 }
@@ -78,14 +76,16 @@ void run_close_step(struct run *run)
     struct misfit misfit = state_misfit(run->state);
     run->drift = fmax(run->drift, misfit.position);
     run->projected = true;
-    if (state_project(run->state, false)) return;
+    state_return(run->state);
     struct misfit left = state_misfit(run->state);
     double reach = 0;
     for (int i = 1; i < run->model->tree->count; i++)
         reach = fmax(reach, vec_norm(run->state->tree->links[i].p));
-    if (left.position <= 100 * fmax(run->options.tolerance, 1e-12) * reach) return; /* singular here */
+    run->left = fmax(run->left, left.position);
+    if (left.position <= 1e3 * fmax(run->options.tolerance, 1e-12) * reach) return;
     run_fail(run, FBD_FAILED,
-             "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the mechanism is at the end "
+             "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the mechanism is "
+             "at the end "
              "of its reach, or the tolerance is too large",
              run->state->t, tie_name(run, misfit.row >= 0 ? misfit.row : 0), misfit.position);
 }

@@ -44,6 +44,7 @@ struct run {
     double h;                 /* step size proposed */
     bool restart;             /* the stepper has to start anew */
     double drift;             /* the most that a step left the constraints by, before it was projected back */
+    double left;              /* and after that */
     bool projected;
     int crawl;                /* steps in a row of a few roundings of the time */
     unsigned long not_finite; /* rejections for that reason before the last step */
