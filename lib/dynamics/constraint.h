@@ -46,10 +46,18 @@ struct tie_state {
 /* Set what the ties keep, from where the links are. */
 void constraints_start(const struct fbd_model *model, const struct instant *at);
 
-/* The velocity of a rolling body's point of contact against its line, and its acceleration; after accelerations() at the
- * instant. A velocity within rounding of zero is zero. */
+/* The velocity of a rolling body's point of contact against its line, and its acceleration; after
+ * accelerations() at the instant. A velocity within rounding of zero is zero. */
 double tie_slip_velocity(const struct fbd_model *model, const struct instant *at, int tie);
 double tie_slip_acceleration(const struct fbd_model *model, const struct instant *at, int tie);
+
+/* A rope: how it is, after accelerations() at the instant. */
+struct rope_state {
+    double excess, rate, acceleration; /* of its way over its length, and how that changes */
+    double tension;
+    bool touches; /* just taut to rounding, in length and rate */
+};
+struct rope_state rope_at(const struct fbd_model *model, const struct instant *at, int tie);
 
 /* A rolling body that has slipped rolls on from where it is. */
 void tie_rezero(const struct fbd_model *model, struct tree_work *work, int tie);

@@ -45,8 +45,8 @@ bool tree_takes_part(const struct tree *tree, const struct instant *at, int k)
         return !at->tree->projecting && at->slip[tree->links[link].pair] != stick;
     }
     const struct tie *tie = &tree->ties[tree->tie_of_row[k]];
-    bool along = tie->pair >= 0 && k == tie->first_row + 1;
-    return !along || at->slip[tie->pair] == stick;
+    bool has_mode = tie->kind == constraint_rope || (tie->pair >= 0 && k == tie->first_row + 1);
+    return !has_mode || at->slip[tie->pair] == stick;
 }
 
 /* ---- forces of an unknown on the links */
@@ -91,7 +91,8 @@ static double row_answer(const struct tree_work *work, const struct tree *tree, 
 static double rolling_share(const struct fbd_model *model, const struct instant *at, int k)
 {
     const struct tie *tie = &model->tree->ties[model->tree->tie_of_row[k]];
-    if (at->tree->projecting || tie->pair < 0 || k != tie->first_row || at->slip[tie->pair] == stick)
+    if (tie->kind != constraint_roll || at->tree->projecting || tie->pair < 0 || k != tie->first_row ||
+        at->slip[tie->pair] == stick)
         return 0;
     return -at->slip[tie->pair] * formula_value(&model->plan.frictions[tie->pair].mu_k, at);
 }
@@ -296,6 +297,7 @@ void tree_take_multipliers(const struct fbd_model *model, const struct instant *
     for (int j = 0; j < tree->row_count; j++) work->rows[j].lambda = work->z[j];
     for (int i = 0; i < tree->tie_count; i++) {
         int j = tree->ties[i].first_row;
+        if (tree->ties[i].kind != constraint_roll) continue;
         if (tree->ties[i].pair >= 0 && at->slip[tree->ties[i].pair] != stick)
             work->rows[j + 1].lambda = rolling_share(model, at, j) * work->z[j];
     }
@@ -309,7 +311,7 @@ void tree_apply_variations(const struct fbd_model *model, const struct instant *
     for (int j = 0; j < tree->row_count; j++) apply_ports_along(&work->rows[j], work->x);
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
-        if (tie->pair < 0 || at->slip[tie->pair] == stick) continue;
+        if (tie->kind != constraint_roll || tie->pair < 0 || at->slip[tie->pair] == stick) continue;
         double d_mu;
         formula_along(&model->plan.frictions[tie->pair].mu_k, at, along, &d_mu);
         apply_ports(&work->rows[tie->first_row + 1],

@@ -69,6 +69,17 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
         if (plan->frictions[pair].two_sided && !(decided && decided->pulls[pair]))
             state->pull[pair] = slots[plan->frictions[pair].normal_slot] > 0 ? -1 : 1;
         if (decided && decided->slips[pair]) continue;
+        if (plan->frictions[pair].rope) {
+            struct rope_state rope = rope_at(model, &at, plan->frictions[pair].tie);
+            if (rope.touches) continue; /* with the others that rest */
+            enum slip next = rope.rate > 0 && rope.excess > -1e-9 ? stick : slip_plus;
+            if (state->slip[pair] == stick &&
+                fabs(rope.excess) <= 1e-6 * state->tree->ties[plan->frictions[pair].tie].zero)
+                next = stick; /* taut until its tension ends */
+            same = same && state->slip[pair] == (int)next;
+            state->slip[pair] = next;
+            continue;
+        }
         double v = slip_velocity(model, pair, &at);
         enum slip next = v > 0 ? slip_plus : slip_minus;
         if (v == 0 && plan->frictions[pair].jointed) continue; /* all of them together */

@@ -82,6 +82,7 @@ static struct arrow load_arrow(const struct fbd_model *model, int index, const s
     struct arrow arrow = {.name = source->name, .load = index, .point = point.p};
     switch (source->kind) {
     case load_gravity: arrow.force = vec_scale(body->inertia.mass, model->scene->gravity); break;
+    case load_rope:
     case load_normal: break; /* a reaction: see below */
     case load_friction:
         arrow.force = vec_scale(friction_at(model, body->friction, at, slots).force, link_of(body, at)->e);
@@ -131,14 +132,6 @@ static struct arrow row_arrow(const struct instant *at, const struct row *row, i
     return arrow;
 }
 
-/* The load that stands for the friction of rolling tie `tie`. */
-static int roll_load(const struct fbd_model *model, int tie)
-{
-    int load = (int)model->coupled_count;
-    for (int i = 0; i < tie; i++) load += model->tree->ties[i].kind == constraint_roll;
-    return load;
-}
-
 /* All constraint forces on body b; returns their number. */
 static size_t fill_ties(const struct fbd_model *model, int b, const struct instant *at, struct arrow *arrows)
 {
@@ -155,7 +148,7 @@ static size_t fill_ties(const struct fbd_model *model, int b, const struct insta
                 if (tie->kind == constraint_pin)
                     arrow.force = vec_add(arrow.force, second.force);
                 else {
-                    second.load = roll_load(model, i);
+                    second.load = tie->load;
                     arrows[count++] = second;
                 }
             }

@@ -148,20 +148,27 @@ static void set_couplings(struct builder *builder)
     }
 }
 
-/* The force along the line of a rolling body, by name, for events and its work. */
-static bool set_rolls(struct builder *builder)
+static bool constraint_has_load(const struct constraint *constraint)
+{
+    return constraint->kind == constraint_roll || constraint->kind == constraint_rope;
+}
+
+/* The force along the line of a rolling body, and a rope, by name: for events and their work. */
+static bool set_named_ties(struct builder *builder)
 {
     struct fbd_model *model = builder->model;
     size_t next = model->coupled_count;
     for (size_t c = 0; c < model->scene->constraint_count; c++) {
         const struct constraint *constraint = &model->scene->constraints[c];
-        if (constraint->kind != constraint_roll) continue;
+        if (!constraint_has_load(constraint)) continue;
         struct load *source = ARENA_ARRAY(&model->arena, 1, struct load);
         if (!source) return false;
-        source->kind = constraint->mu_s.expr ? load_friction : load_normal;
-        source->name = arena_printf(&model->arena, "%s.friction", constraint->name);
+        bool rope = constraint->kind == constraint_rope;
+        source->kind = rope ? load_rope : constraint->mu_s.expr ? load_friction : load_normal;
+        source->name = rope ? constraint->name : arena_printf(&model->arena, "%s.friction", constraint->name);
         source->at = constraint->at;
-        set_load(builder, &model->loads[next++], source, constraint->body[0]);
+        int end = constraint->body[0] >= 0 ? 0 : 1;
+        set_load(builder, &model->loads[next++], source, constraint->body[end]);
     }
     return true;
 }
@@ -191,7 +198,7 @@ static bool allocate(struct fbd_model *model)
     model->coupled_count = model->listed_count + scene->coupling_count;
     model->load_count = model->coupled_count;
     for (size_t c = 0; c < scene->constraint_count; c++)
-        model->load_count += scene->constraints[c].kind == constraint_roll;
+        model->load_count += constraint_has_load(&scene->constraints[c]);
     model->bodies = ARENA_ARRAY(&model->arena, model->body_count, struct model_body);
     model->loads = ARENA_ARRAY(&model->arena, model->load_count, struct model_load);
     size_t formulas = formulas_of_a_load * model->load_count + 2 * scene->event_count;
@@ -235,8 +242,8 @@ struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors)
         set_loads(&builder);
         set_couplings(&builder);
         model->labels = labels_make(&model->arena, scene);
-        done = model->labels && set_rolls(&builder) && set_absolutes(model) && tree_number(model) && tree_name_reactions(model) &&
-               plan_build(&builder) && classify_loads(&builder);
+        done = model->labels && set_named_ties(&builder) && set_absolutes(model) && tree_number(model) &&
+               tree_name_reactions(model) && plan_build(&builder) && classify_loads(&builder);
         set_watches(&builder);
     }
     if (!done) diag_out_of_memory(errors);

@@ -33,7 +33,8 @@ struct tie {
     bool length_given; /* rod, rope */
     double length;
     int normal_slot; /* roll: where minus its normal force goes */
-    int pair;                                   /* roll: its dry friction, index into plan.frictions, or -1 */
+    int load;        /* roll, rope: its entry in the model's loads */
+    int pair;        /* roll: its dry friction; rope: its mode; index into plan.frictions, or -1 */
     int root[most_constraint_ends], root_count; /* first links of the trees that it joins */
 };
 

@@ -284,6 +284,7 @@ void tree_add_load(struct builder *builder, int index)
     case moment_applied: add_moment(builder, body, load); break;
     case moment_spring:
     case moment_damper: add_joint_spring(builder, body, source); break;
+    case load_rope:
     case load_normal:
     case load_friction:
     case moment_friction:

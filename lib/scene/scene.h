@@ -111,6 +111,7 @@ enum load_kind {
     moment_damper,
     moment_friction,
     moment_potential,
+    load_rope, /* not listed: a rope under `couplings`, see struct constraint */
 };
 
 /* One entry of `forces` or `moments`. Fields that a kind does not use are zero. */

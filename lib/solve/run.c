@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-
 /* ---- the system that the stepper sees */
 
 static int rates(double t, const double y[], double dydt[], void *context)
@@ -105,7 +104,9 @@ static bool make_run(struct run *run)
     run->values = calloc(2 * run->moving.count + 1, sizeof *run->values);
     run->anchor = calloc(4 * n + 1, sizeof *run->anchor);
     run->arrows = calloc(diagram_most_arrows(run->model), sizeof *run->arrows);
-    if (!run->values || !run->anchor || !run->arrows) return false;
+    run->impact_work = calloc(run->model->load_count + 1, sizeof *run->impact_work);
+    run->snap_pair = -1;
+    if (!run->values || !run->anchor || !run->arrows || !run->impact_work) return false;
     gsl_odeiv2_system system = {rates, jacobian, 2 * n, run};
     counted_system_init(&run->system, &system);
     return make_decided(&run->decided, plan) && make_stepper(run);
@@ -160,6 +161,7 @@ void run_free(struct run *run)
     free(run->values);
     free(run->anchor);
     free(run->arrows);
+    free(run->impact_work);
     free(run);
 }
 

@@ -43,6 +43,9 @@ struct run {
     double from;              /* start of the last step; it ends at state->t */
     double h;                 /* step size proposed */
     bool restart;             /* the stepper has to start anew */
+    int snap_pair;            /* the rope that has just snapped taut, or -1 */
+    double snap_work;         /* what that has taken (below zero) */
+    double *impact_work;      /* per load: the same, summed up */
     double drift;             /* the most that a step left the constraints by, before it was projected back */
     double left;              /* and after that */
     bool projected;

@@ -40,6 +40,10 @@ static void add_frictions(struct watchers *watchers, const struct plan *plan)
 {
     for (size_t i = 0; i < plan->friction_count; i++) {
         const struct friction *friction = &plan->frictions[i];
+        if (friction->rope) {
+            add(&watchers->moving, (struct watcher){watch_rope, (int)i, 0, 0, true});
+            continue;
+        }
         bool moving_surface = friction->surface_speed.expr != NULL;
         add(&watchers->moving, (struct watcher){watch_slip_stop, (int)i, 0, 0, moving_surface});
         if (!always_the_same(plan, friction))
@@ -115,6 +119,20 @@ static double user_value(const struct watch *watch, const struct view *view, dou
     double right = formula_along(&watch->right, &view->at, &view->flow, &right_rate);
     *rate = left_rate - right_rate;
     return left - right;
+}
+
+/* Taut: the tension. Slack: what is left of its length. */
+static double rope_value(const struct watcher *watcher, const struct view *view, double *rate)
+{
+    const struct fbd_model *model = view->state->model;
+    int tie = model->plan.frictions[watcher->index].tie;
+    struct rope_state rope = rope_at(model, &view->at, tie);
+    if (view->at.slip[watcher->index] != stick) {
+        *rate = -rope.rate;
+        return -rope.excess;
+    }
+    *rate = -view->state->tree->z[model->tree->ties[tie].first_row];
+    return rope.tension;
 }
 
 static double friction_value(const struct watcher *watcher, const struct view *view, double *rate)
@@ -206,6 +224,7 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
             rates[i] *= armed;
             break;
         }
+        case watch_rope: values[i] = rope_value(watcher, &view, &rates[i]); break;
         case watch_slip_stop:
         case watch_stick_limit:
         case watch_normal_turns: values[i] = friction_value(watcher, &view, &rates[i]); break;

@@ -294,6 +294,37 @@ static void a_linkage_keeps_its_energy_and_its_loop(void **unused)
     checks_end(&checks);
 }
 
+/* Taut as a pendulum until cos(theta) = -v0^2/(3 g L), then a free flight until |r| = L, where the velocity
+ * along the rope is lost: m v_r^2 / 2. */
+static void a_rope_goes_slack_and_snaps_taut(void **unused)
+{
+    (void)unused;
+    const double g = 9.81, v0 = 4;
+    struct checks checks = {0};
+    double c = -v0 * v0 / (3 * g), s = sqrt(1 - c * c), v = sqrt(v0 * v0 + 2 * g * c);
+    struct trial trial = trial_open("couplings/rope_pendulum.yaml", NULL);
+    trial_start(&trial, NULL);
+    double slack = trial_to_event(&trial, FBD_EVENT_ROPE_SLACK, "cord", 0);
+    check_close(&checks, "x", trial_get(&trial, "bob.x"), s, 1e-9);
+    check_close(&checks, "y", trial_get(&trial, "bob.y"), -c, 1e-9);
+    double taut = trial_to_event(&trial, FBD_EVENT_ROPE_TAUT, "cord", 0), flight = taut - slack;
+    double x = s + v * c * flight, y = -c + v * s * flight - g * flight * flight / 2;
+    check_close(&checks, "x", trial_get(&trial, "bob.x"), x, 1e-9);
+    check_close(&checks, "y", trial_get(&trial, "bob.y"), y, 1e-9);
+    check_close(&checks, "|r|", hypot(x, y), 1, 1e-9);
+    double vx = v * c, vy = v * s - g * flight, along = vx * x + vy * y;
+    check_close(&checks, "vx", trial_get(&trial, "bob.vx"), vx - along * x, 1e-8);
+    check_close(&checks, "vy", trial_get(&trial, "bob.vy"), vy - along * y, 1e-8);
+    trial_close(&trial);
+    trial = trial_open("couplings/rope_pendulum.yaml", NULL);
+    trial_run(&trial, NULL);
+    fbd_energy energy = fbd_result_energy(trial.result);
+    check_close(&checks, "work", energy.work, -along * along, 1e-7); /* m = 2 */
+    check_close(&checks, "residual", energy.residual, 0, 1e-9);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -306,6 +337,7 @@ int main(void)
         cmocka_unit_test(the_squeezer_moves_as_published_to_eight_digits),
         cmocka_unit_test(a_nearly_singular_slider_crank_stays_on_its_branch),
         cmocka_unit_test(a_linkage_keeps_its_energy_and_its_loop),
+        cmocka_unit_test(a_rope_goes_slack_and_snaps_taut),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
