@@ -48,7 +48,8 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->unit = work->rest + unknowns;
     work->a = work->unit + n;
     work->a_along = work->a + n;
-    work->mark = (int *)(work->a_along + n);
+    void *behind = work->a_along + n;
+    work->mark = behind;
     work->damping = 1e-6;
     work->links[0].turn = work->links[0].e = (struct vec){1, 0};
 }

@@ -132,29 +132,29 @@ static struct arrow row_arrow(const struct instant *at, const struct row *row, i
     return arrow;
 }
 
+/* What a tie does at its end k: one force, or for a rolling body those along and across its line. */
+static size_t fill_end(const struct tie *tie, int k, const struct instant *at, struct arrow *arrows)
+{
+    const struct row *rows = &at->tree->rows[tie->first_row];
+    arrows[0] = row_arrow(at, &rows[0], k, tie->end[k].name[0]);
+    if (tie->row_count == 1) return 1;
+    arrows[1] = row_arrow(at, &rows[1], k, tie->end[k].name[1]);
+    if (tie->kind == constraint_pin) {
+        arrows[0].force = vec_add(arrows[0].force, arrows[1].force);
+        return 1;
+    }
+    arrows[1].load = tie->load;
+    return 2;
+}
+
 /* All constraint forces on body b; returns their number. */
 static size_t fill_ties(const struct fbd_model *model, int b, const struct instant *at, struct arrow *arrows)
 {
     const struct tree *tree = model->tree;
     size_t count = 0;
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        const struct row *rows = &at->tree->rows[tie->first_row];
-        for (int k = 0; k < tie->end_count; k++) {
-            if (tie->end[k].body != b) continue;
-            struct arrow arrow = row_arrow(at, &rows[0], k, tie->end[k].name[0]);
-            if (tie->row_count == 2) {
-                struct arrow second = row_arrow(at, &rows[1], k, tie->end[k].name[1]);
-                if (tie->kind == constraint_pin)
-                    arrow.force = vec_add(arrow.force, second.force);
-                else {
-                    second.load = tie->load;
-                    arrows[count++] = second;
-                }
-            }
-            arrows[count++] = arrow;
-        }
-    }
+    for (int i = 0; i < tree->tie_count; i++)
+        for (int k = 0; k < tree->ties[i].end_count; k++)
+            if (tree->ties[i].end[k].body == b) count += fill_end(&tree->ties[i], k, at, arrows + count);
     return count;
 }
 

@@ -110,7 +110,7 @@ bool tree_number(struct fbd_model *model);
 bool tree_name_reactions(struct fbd_model *model);
 
 /* Add a load of a jointed body to the lists of the tree and to those of the plan that act in joints. */
-void tree_add_load(struct builder *builder, int load);
+void tree_add_load(struct builder *builder, int index);
 
 /* The constants of the links, when all loads are in. False when memory is out. */
 bool tree_finish(struct fbd_model *model);

@@ -79,20 +79,15 @@ static const struct field rack_fields[] = {
 static const struct group rack_group =
     COUPLING_GROUP("a rack", rack_fields, "a pitch circle and a line that move along together");
 
-#define CONSTRAINT(name, group)                                                                              \
-    {                                                                                                        \
-#name, coupling_constraint + constraint_##name, &group, ~0u, NULL                                    \
-    }
-
 static const struct kind kinds[] = {
     {"spring", load_spring, &spring_group, ~0u, NULL},
     {"damper", load_damper, &damper_group, ~0u, NULL},
-    CONSTRAINT(pin, pin_group),
-    CONSTRAINT(rod, rod_group),
-    CONSTRAINT(rope, rope_group),
-    CONSTRAINT(gear, gear_group),
-    CONSTRAINT(rack, rack_group),
-    CONSTRAINT(roll, roll_group),
+    {"pin", coupling_constraint + constraint_pin, &pin_group, ~0u, NULL},
+    {"rod", coupling_constraint + constraint_rod, &rod_group, ~0u, NULL},
+    {"rope", coupling_constraint + constraint_rope, &rope_group, ~0u, NULL},
+    {"gear", coupling_constraint + constraint_gear, &gear_group, ~0u, NULL},
+    {"rack", coupling_constraint + constraint_rack, &rack_group, ~0u, NULL},
+    {"roll", coupling_constraint + constraint_roll, &roll_group, ~0u, NULL},
 };
 
 const struct kinds coupling_kinds = {"coupling", FIELDS(kinds)};
