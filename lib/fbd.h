@@ -189,6 +189,9 @@ typedef enum fbd_event_kind {
     FBD_EVENT_REVERSAL,     /* a slipping body stops and slips back at once */
     FBD_EVENT_CONTACT_LOST, /* a normal force reaches zero: the run ends, since the scene is no longer true */
     FBD_EVENT_USER,         /* an event of the file */
+    FBD_EVENT_ROPE_SLACK,   /* the tension of a rope reaches zero */
+    FBD_EVENT_ROPE_TAUT,    /* a slack rope reaches its length: what that takes from the motion is a plastic
+                               impact */
     FBD_EVENT_SWITCH,       /* an expression passes from one branch to another (step, abs, if, ...) */
 } fbd_event_kind;
 

@@ -88,7 +88,10 @@ bool ledger_integrate(struct ledger *ledger, struct run *run, double from, doubl
 
 bool ledger_step(struct ledger *ledger, struct run *run)
 {
-    return ledger_integrate(ledger, run, run->from, run->state->t, ledger->work);
+    if (!ledger_integrate(ledger, run, run->from, run->state->t, ledger->work)) return false;
+    for (size_t i = ledger->model->coupled_count; i < ledger->model->load_count; i++)
+        if (ledger->model->loads[i].source->kind == load_rope) ledger->work[i] = run->impact_work[i];
+    return true;
 }
 
 double ledger_work(struct ledger *ledger, const struct fbd_state *state, size_t index, const double *work)

@@ -85,6 +85,16 @@ char *random_tree_text(struct random_numbers *numbers, const struct random_tree 
                 pick(numbers, b));
     if (!tree->conservative && tree->bodies > 1)
         fprintf(out, "  - damper: {between: [b1.P, b0.P], coefficient: 0.5}\n");
+    for (int k = 0; k < tree->loops; k++) {
+        int b = 1 + pick(numbers, tree->bodies - 1);
+        if (k % 3 == 0)
+            fprintf(out, "  - rod: {between: [b%d.P, ground.A%d]}\n", b, k);
+        else if (k % 3 == 1)
+            fprintf(out, "  - rod: {between: [b%d.P, b%d]}\n", b, pick(numbers, b));
+        else
+            fprintf(out, "  - rope: {through: [b%d, ground.A%d, b%d.P]}\n", b, k, pick(numbers, b));
+    }
+    fprintf(out, "ground: {points: {A0: [3, 1], A1: [-2, 2.5], A2: [0.3, 4]}}\n");
     fprintf(out, "simulate: {until: 0.5 s, tolerance: 1e-11}\n");
     fclose(out);
     return text;

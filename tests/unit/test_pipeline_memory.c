@@ -39,6 +39,22 @@ static const char text[] = "fbd: 1\n"
                            "    moments: [{damper: {coefficient: 0.1 N*m*s/rad}}]\n"
                            "simulate: {until: 0.4 s, events: [{when: 'block.x = 0.05[m]'}]}\n";
 
+static const char joined[] =
+    "fbd: 1\n"
+    "bodies:\n"
+    "  arm:\n"
+    "    shape: rod\n"
+    "    mass: 1 kg\n"
+    "    length: 1 m\n"
+    "    motion: {pivot: {point: left}}\n"
+    "    forces: [gravity]\n"
+    "  tip: {mass: 1 kg, motion: {weld: {on: arm, at: right}}, forces: [gravity]}\n"
+    "  bob: {mass: 1 kg, motion: particle, initial: {x: 1, y: -1}, forces: [gravity]}\n"
+    "couplings:\n"
+    "  - rope: {through: [bob, arm.right]}\n"
+    "  - spring: {between: [bob, arm], stiffness: 1}\n"
+    "simulate: {until: 0.1 s, events: [{when: 'arm.right.y < -0.01[m]'}]}\n";
+
 /* A call under test: true when everything in it worked. */
 typedef bool call(void);
 
@@ -48,11 +64,11 @@ static int swallow(void *context, const char *bytes, size_t length)
     return 0;
 }
 
-static fbd_model *load(fbd_errors **errors)
+static fbd_model *load(const char *scene, fbd_errors **errors)
 {
     *errors = fbd_errors_new();
     if (!*errors) return NULL;
-    fbd_model *model = fbd_model_parse(text, strlen(text), "scene", NULL, 0, *errors);
+    fbd_model *model = fbd_model_parse(scene, strlen(scene), "scene", NULL, 0, *errors);
     if (!model) fbd_errors_free(*errors);
     return model;
 }
@@ -64,10 +80,10 @@ static bool some(char *string)
     return there;
 }
 
-static bool run_and_write_with(fbd_options options)
+static bool run_and_write_with(const char *scene, fbd_options options)
 {
     fbd_errors *errors;
-    fbd_model *model = load(&errors);
+    fbd_model *model = load(scene, &errors);
     if (!model) return false;
     fbd_simulation *simulation = fbd_simulation_new(model, &options, errors);
     fbd_recording recording = {.ledger = true, .csv = swallow};
@@ -83,27 +99,32 @@ static bool run_and_write_with(fbd_options options)
 
 static bool run_and_write(void)
 {
-    return run_and_write_with((fbd_options)FBD_OPTIONS_DEFAULT);
+    return run_and_write_with(text, (fbd_options)FBD_OPTIONS_DEFAULT);
+}
+
+static bool run_and_write_joined(void)
+{
+    return run_and_write_with(joined, (fbd_options)FBD_OPTIONS_DEFAULT);
 }
 
 static bool run_with_error_bars(void)
 {
     fbd_options options = FBD_OPTIONS_DEFAULT;
     options.error_bars = true;
-    return run_and_write_with(options);
+    return run_and_write_with(text, options);
 }
 
 static bool run_accurately(void)
 {
     fbd_options options = FBD_OPTIONS_DEFAULT;
     options.accuracy = 1e-9;
-    return run_and_write_with(options);
+    return run_and_write_with(text, options);
 }
 
 static bool look_closer(void)
 {
     fbd_errors *errors;
-    fbd_model *model = load(&errors);
+    fbd_model *model = load(text, &errors);
     if (!model) return false;
     fbd_options options = FBD_OPTIONS_DEFAULT;
     char *verdict = NULL;
@@ -164,6 +185,12 @@ static void error_bars_without_memory_fail_and_leak_nothing(void **unused)
     fail_each(run_accurately);
 }
 
+static void a_run_of_joined_bodies_without_memory_fails_and_leaks_nothing(void **unused)
+{
+    (void)unused;
+    fail_each(run_and_write_joined);
+}
+
 static void looking_without_memory_fails_and_leaks_nothing(void **unused)
 {
     (void)unused;
@@ -188,6 +215,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_run_without_memory_fails_and_leaks_nothing),
         cmocka_unit_test(error_bars_without_memory_fail_and_leak_nothing),
+        cmocka_unit_test(a_run_of_joined_bodies_without_memory_fails_and_leaks_nothing),
         cmocka_unit_test(looking_without_memory_fails_and_leaks_nothing),
         cmocka_unit_test(linearisation_without_memory_fails_and_leaks_nothing),
     };
