@@ -8,6 +8,8 @@
 #include <string.h>
 #include <time.h>
 
+#include "draw/record.h"
+
 /* ---- a run of a simulation */
 
 bool simulation_begin(fbd_simulation *simulation, const struct fbd_model *model,
@@ -38,7 +40,15 @@ static double processor_seconds(void)
                : 0;
 }
 
-static bool carry(fbd_result *result, struct csv *csv)
+/* Tell how far the run is, and end it when that is answered by a stop. */
+static void tell_progress(struct run *run, const fbd_recording *recording)
+{
+    fbd_progress progress = run_progress(run, run->state->t);
+    if (recording->progress(recording->progress_context, &progress) != 0)
+        run_cut(run, run->state->t, run->event_count);
+}
+
+static bool carry(fbd_result *result, const fbd_recording *recording, struct csv *csv)
 {
     struct run *run = result->simulation->run;
     struct bars *bars = result->simulation->bars;
@@ -48,26 +58,36 @@ static bool carry(fbd_result *result, struct csv *csv)
         run_advance(run);
         result->simulation->seconds += processor_seconds() - before;
         if (!(run->state->t > run->from) && run->outcome != FBD_GOING) break; /* no step was made */
-        if (csv && !csv_step(csv, run, run->event_count > events)) return false;
+        if (recording && recording->progress && run->outcome == FBD_GOING) tell_progress(run, recording);
+        if (csv && !csv_step(csv, run, events)) return false;
         if (!ledger_step(&result->ledger, run)) return false;
+        if (result->record && !record_step(result->record, run, events)) return false;
         if (bars && !bars_step(bars, run)) return false;
     }
     if (run->outcome == FBD_OUT_OF_MEMORY) return false;
     return !bars || (bars_finish(bars, run) && simulation_match_events(result->simulation));
 }
 
+static bool begin_record(fbd_result *result, const fbd_recording *recording)
+{
+    result->record = calloc(1, sizeof *result->record);
+    return result->record &&
+           record_begin(result->record, result->simulation->run, &result->ledger, recording->every);
+}
+
 static bool record_into(fbd_result *result, const fbd_recording *recording)
 {
     struct run *run = result->simulation->run;
     struct bars *bars = result->simulation->bars;
-    bool works = !recording || recording->ledger || !recording->motion_only;
+    bool works = !recording || recording->ledger || recording->keep || !recording->motion_only;
     result->start = state_new(run->model);
     if (!result->start || !ledger_init(&result->ledger, run->model, run->state, works)) return false;
     if (bars && !works) bars->ledger.any = false;
     state_copy(result->start, run->state);
-    if (!recording || !recording->csv) return carry(result, NULL);
+    if (recording && recording->keep && !begin_record(result, recording)) return false;
+    if (!recording || !recording->csv) return carry(result, recording, NULL);
     struct csv csv = {0};
-    bool done = csv_begin(&csv, run, &result->ledger, bars, recording) && carry(result, &csv);
+    bool done = csv_begin(&csv, run, &result->ledger, bars, recording) && carry(result, recording, &csv);
     csv_free(&csv);
     return done;
 }
@@ -97,6 +117,8 @@ fbd_result *fbd_simulation_run(fbd_simulation *simulation, const fbd_recording *
 void fbd_result_free(fbd_result *result)
 {
     if (!result) return;
+    if (result->record) record_free(result->record);
+    free(result->record);
     ledger_free(&result->ledger);
     state_free(result->start);
     free(result);

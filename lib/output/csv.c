@@ -189,7 +189,8 @@ static void ledger_values(struct csv *csv, const struct fbd_state *state)
 static bool put_line(struct csv *csv)
 {
     text_add(&csv->line, "\n");
-    if (csv->line.failed || csv->write(csv->context, csv->line.data, csv->line.length) != 0)
+    if (csv->line.failed ||
+        csv->recording->csv(csv->recording->csv_context, csv->line.data, csv->line.length) != 0)
         csv->failed = true;
     csv->line.length = 0;
     return !csv->failed;
@@ -237,8 +238,7 @@ bool csv_begin(struct csv *csv, struct run *run, struct ledger *ledger, struct b
     *csv = (struct csv){.model = model,
                         .ledger = recording->ledger ? ledger : NULL,
                         .bars = bars,
-                        .write = recording->csv,
-                        .context = recording->csv_context,
+                        .recording = recording,
                         .start = start,
                         .until = until,
                         .every = every > 0 ? every : (until - start) / default_rows,
@@ -252,7 +252,15 @@ bool csv_begin(struct csv *csv, struct run *run, struct ledger *ledger, struct b
     return put_line(csv) && row(csv, run->state);
 }
 
-bool csv_step(struct csv *csv, struct run *run, bool event)
+static bool told_to_stop(const struct csv *csv, const struct run *run, double t)
+{
+    const fbd_recording *recording = csv->recording;
+    if (!recording->progress) return false;
+    fbd_progress progress = run_progress(run, t);
+    return recording->progress(recording->progress_context, &progress) != 0;
+}
+
+bool csv_step(struct csv *csv, struct run *run, size_t events)
 {
     double end = run->state->t, t;
     /* A regular row at the very end, or the last row, belongs to the end; a row within rounding of it is not
@@ -261,10 +269,14 @@ bool csv_step(struct csv *csv, struct run *run, bool event)
     while (csv->every > 0 && (t = csv->start + (double)csv->next * csv->every) < end - near) {
         if (!row_within(csv, run, t)) return false;
         csv->next++;
+        if (told_to_stop(csv, run, t)) {
+            run_cut(run, t, events);
+            return true;
+        }
     }
     bool regular = csv->every > 0 && fabs(csv->start + (double)csv->next * csv->every - end) <= near;
     if (regular) csv->next++;
-    bool last = run->outcome != FBD_GOING;
+    bool last = run->outcome != FBD_GOING, event = run->event_count > events;
     if (!regular && !event && !last) return true;
     if (csv->ledger) {
         memcpy(csv->work, csv->ledger->work, csv->model->load_count * sizeof *csv->work);

@@ -393,3 +393,22 @@ bool run_look(struct run *run, double t, struct fbd_state *state)
     state_evaluate(state);
     return true;
 }
+
+fbd_progress run_progress(const struct run *run, double t)
+{
+    return (fbd_progress){.t = t,
+                          .until = run->options.until,
+                          .steps = switcher_counts(run->stepper).accepted,
+                          .events = run->event_count};
+}
+
+void run_cut(struct run *run, double t, size_t events)
+{
+    if (t < run->state->t) {
+        if (!run_look(run, t, run->state)) return;
+        run->event_count = events;
+        run->outcome = FBD_GOING; /* what ended it comes later than t */
+        run->reason[0] = '\0';
+    }
+    run_fail(run, FBD_INTERRUPTED, "interrupted at t = %.9g", run->state->t);
+}

@@ -88,6 +88,13 @@ bool run_look(struct run *run, double t, struct fbd_state *state);
 /* Only coordinates and rates there, 2 n, without evaluating anything but the dense output. */
 bool run_coordinates(struct run *run, double t, double *y);
 
+/* How far the run is, looked at from t. */
+fbd_progress run_progress(const struct run *run, double t);
+
+/* End the run at t in (from, state->t] of the last step, as interrupted: that moment becomes the last state,
+ * and the events after the first `events` are forgotten. */
+void run_cut(struct run *run, double t, size_t events);
+
 /* ---- for the files of the loop */
 
 /* Apply what has happened at run->state: `timed` and `moving` flag the functions of each set that have

@@ -86,10 +86,12 @@ static bool run_and_write_with(const char *scene, fbd_options options)
     fbd_model *model = load(scene, &errors);
     if (!model) return false;
     fbd_simulation *simulation = fbd_simulation_new(model, &options, errors);
-    fbd_recording recording = {.ledger = true, .csv = swallow};
+    fbd_recording recording = {.ledger = true, .csv = swallow, .keep = true};
     fbd_result *result = simulation ? fbd_simulation_run(simulation, &recording) : NULL;
     bool done = result && fbd_result_outcome(result) == FBD_DONE;
     done = done && some(fbd_result_report(result)) && some(fbd_result_json(result));
+    done = done && (!fbd_has_html() || some(fbd_result_html(result, errors)));
+    done = done && some(fbd_result_gnuplot(result, "a.svg", NULL, errors));
     fbd_result_free(result);
     fbd_simulation_free(simulation);
     fbd_model_free(model);
@@ -130,6 +132,8 @@ static bool look_closer(void)
     char *verdict = NULL;
     fbd_state *state = fbd_state_new(model);
     bool done = state && some(fbd_equations_text(state)) && some(fbd_explain(model, &options));
+    done = done && some(fbd_diagram_svg(state, NULL, errors));
+    done = done && fbd_model_has_columns(model, "arm.omega,block.friction", errors);
     done = done && fbd_check_hand(model, 1, &verdict) == 0;
     free(verdict);
     fbd_state_free(state);
@@ -148,7 +152,7 @@ static bool linearize(void)
     fbd_model *model = fbd_model_parse(pendulum, strlen(pendulum), "scene", NULL, 0, errors);
     fbd_state *state = model ? fbd_state_new(model) : NULL;
     fbd_linearization *linear = state ? fbd_linearize(state, errors) : NULL;
-    bool done = linear && some(fbd_linearization_text(linear));
+    bool done = linear && some(fbd_linearization_text(linear)) && some(fbd_linearization_svg(linear));
     fbd_linearization_free(linear);
     fbd_state_free(state);
     fbd_model_free(model);
