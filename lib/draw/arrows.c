@@ -24,8 +24,8 @@ static const char *kind_of(const struct fbd_model *model, const struct arrow *ar
     if (arrow->load < 0) return "reaction";
     switch (model->loads[arrow->load].source->kind) {
     case load_gravity: return "gravity";
-    case load_rope:
-    case load_normal: return "reaction";
+    case load_normal:
+    case load_rope: return "reaction";
     case load_friction:
     case moment_friction: return "friction";
     case load_applied:

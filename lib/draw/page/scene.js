@@ -46,7 +46,7 @@ function tracePoint(body) {
 
 function percentile(values) {
   const sorted = values.filter(Number.isFinite).sort((a, b) => a - b);
-  return sorted.length ? sorted[Math.floor(0.98 * (sorted.length - 1))] : 0;
+  return sorted.length ? sorted[Math.floor(0.85 * (sorted.length - 1))] : 0;
 }
 
 // A spring or damper along a slide has its other end at a wall that the model does not place: above, on a level
