@@ -1,151 +1,202 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * One right-hand side of a chain of n rods beside a recursion written for this one chain.
- *
- * The rods are uniform, of length 1 and mass 1, pinned end to end; only gravity acts. The recursion by hand
- * is the articulated-body algorithm with everything known put in: two sweeps with a sine and a cosine a rod.
- * Both are run in turns, and the median of the ratios of neighbours is what counts.
+ * One right-hand side of a chain of n rods, n = 1 ... 512: ours, the same written by hand for this chain, and
+ * MuJoCo and Simbody where they are installed. Each round times all of them one after the other; what is
+ * printed is the median time of a rod, and the median over the rounds of the ratios.
  */
+#include <gsl/gsl_errno.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
-#include "dynamics/state.h"
+#include "chain.h"
 
-enum { most_rods = 512, pairs_of_runs = 15 };
+enum { most_rods = 512, states = 4, rounds = 101, most_solvers = 4 };
 
-/* ---- by hand */
+static const double a_batch = 1e-4; /* s */
 
-struct rod {
-    double c, s, omega;  /* of the absolute angle, from straight down */
-    double fx, fy;       /* what the rest of the chain asks of the joint, less its inertia */
-    double hx, hy, J, u; /* at the joint */
+/* Ours is first, the yardstick second. `bound` is what the ratio of its time to ours has to reach;
+ * `agreement` how far its accelerations may be off, by the largest one: rounding of an O(n) recursion, or of
+ * a mass matrix whose condition number grows as n^4. */
+struct rival {
+    const struct chain_solver *solver;
+    double bound, agreement;
 };
 
-/* q and v are those of fbd: relative angles. The acceleration of each joint goes to a. */
-static void chain_by_hand(int n, const double *q, const double *v, struct rod *rods, double *a)
-{
-    const double g = 9.81, I_O = 1.0 / 3;
-    double angle = 0, omega = 0, ax = 0, ay = 0;
-    double xx = 0, xy = 0, yy = 0, px = 0, py = 0; /* of the part that hangs on the rod */
-    for (int i = 0; i < n; i++) {
-        angle += q[i];
-        omega += v[i];
-        rods[i].c = cos(angle);
-        rods[i].s = sin(angle);
-        rods[i].omega = omega;
-    }
-    /* A rod points along d = (s, -c). The part below passes M a + p at its end, d away; with k x d = (c, s):
-     * a_end = a + alpha (c, s) - omega^2 d. */
-    for (int i = n - 1; i >= 0; i--) {
-        struct rod *r = &rods[i];
-        double c = r->c, s = r->s, w2 = r->omega * r->omega;
-        double bx = -w2 * s, by = w2 * c;
-        double qx = px + xx * bx + xy * by, qy = py + xy * bx + yy * by;
-        double tx = xx * c + xy * s, ty = xy * c + yy * s;
-        r->J = I_O + tx * c + ty * s;
-        r->hx = tx + 0.5 * c;
-        r->hy = ty + 0.5 * s;
-        double fx = qx + 0.5 * bx, fy = qy + 0.5 * by + g, moment = c * qx + s * qy + 0.5 * s * g;
-        r->u = -moment / r->J;
-        px = fx + r->hx * r->u;
-        py = fy + r->hy * r->u;
-        double kx = r->hx / r->J, ky = r->hy / r->J;
-        xx += 1 - kx * r->hx;
-        xy -= kx * r->hy;
-        yy += 1 - ky * r->hy;
-    }
-    double before = 0;
-    for (int i = 0; i < n; i++) {
-        struct rod *r = &rods[i];
-        double alpha = r->u - (r->hx * ax + r->hy * ay) / r->J, w2 = r->omega * r->omega;
-        a[i] = alpha - before;
-        before = alpha;
-        ax += alpha * r->c - w2 * r->s;
-        ay += alpha * r->s + w2 * r->c;
-    }
-}
+static const struct rival rivals[] = {
+    {&chain_by_fbd, 1, 1e-10},
+    {&chain_by_hand, 0.5, 1e-10},
+#ifdef HAVE_MUJOCO
+    {&chain_by_mujoco, 5, 1e-6},
+#endif
+#ifdef HAVE_SIMBODY
+    {&chain_by_simbody, 10, 1e-10},
+#endif
+};
+enum { ours, yardstick, solvers = sizeof rivals / sizeof *rivals };
 
-/* ---- the same chain as a model */
+struct inputs {
+    double q[states][most_rods], v[states][most_rods];
+};
 
-static fbd_model *chain_model(int n)
-{
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) return NULL;
-    fprintf(out, "fbd: 1\nbodies:\n");
-    for (int i = 0; i < n; i++) {
-        fprintf(out,
-                "  r%d: {mass: 1, shape: rod, from: [0, 0], to: [0, -1], forces: [gravity], motion: ", i);
-        if (i == 0)
-            fprintf(out, "pivot}\n");
-        else
-            fprintf(out, "{pivot: {on: r%d, at: right, point: left}}}\n", i - 1);
-    }
-    fclose(out);
-    fbd_errors *errors = fbd_errors_new();
-    fbd_model *model = fbd_model_parse(text, size, "chain", NULL, 0, errors);
-    if (!model) fbd_errors_print(errors, stderr);
-    fbd_errors_free(errors);
-    free(text);
-    return model;
-}
+struct times {
+    double seconds[most_solvers][rounds], ratio[most_solvers][rounds];
+};
 
+/* Processor time of all threads: a busy machine disturbs it least. */
 static double now(void)
 {
     struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-static int ascending(const void *a, const void *b)
+static int ascending(const void *left, const void *right)
 {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
+    double a = *(const double *)left, b = *(const double *)right;
+    return (a > b) - (a < b);
 }
 
-static double median(double *values, int count)
+static double median(double *values)
 {
-    qsort(values, (size_t)count, sizeof *values, ascending);
-    return values[count / 2];
+    qsort(values, rounds, sizeof *values, ascending);
+    return values[rounds / 2];
 }
 
-static void bench(int n)
+/* The same on every machine: a linear congruential generator, -1 to 1. */
+static void fill(struct inputs *inputs)
 {
-    static double y[2 * most_rods], f[2 * most_rods], a[most_rods];
-    static struct rod rods[most_rods];
-    double ours[pairs_of_runs], ratio[pairs_of_runs], worst = 0;
-    fbd_model *model = chain_model(n);
-    struct fbd_state *state = model ? state_new(model) : NULL;
-    if (!state) exit(1);
-    for (int i = 0; i < n; i++) {
-        y[i] = 0.3 * sin(1.7 * i);
-        y[n + i] = 0.5 * cos(2.3 * i);
+    unsigned long long x = 20;
+    for (int k = 0; k < states; k++) {
+        for (int i = 0; i < 2 * most_rods; i++) {
+            x = x * 6364136223846793005ULL + 1442695040888963407ULL;
+            double number = (double)(x >> 11) * 0x1p-52 - 1;
+            if (i < most_rods)
+                inputs->q[k][i] = number;
+            else
+                inputs->v[k][i - most_rods] = number;
+        }
     }
-    struct instant at = state_instant(state);
-    at.y = y;
-    int turns = 400000 / n + 1;
-    for (int k = 0; k < pairs_of_runs; k++) {
-        double start = now();
-        for (int turn = 0; turn < turns; turn++) state_rates(model, &at, state->slots, f);
-        double middle = now();
-        for (int turn = 0; turn < turns; turn++) chain_by_hand(n, y, y + n, rods, a);
-        double end = now();
-        ours[k] = (middle - start) / turns;
-        ratio[k] = (middle - start) / (end - middle);
+}
+
+/* The largest difference from the yardstick over the largest acceleration. */
+static double disagreement(const struct chain_solver *solver, void *chain, void *reference, int n,
+                           const struct inputs *inputs)
+{
+    double a[most_rods], b[most_rods], worst = 0;
+    for (int k = 0; k < states; k++) {
+        double most = 0, off = 0;
+        solver->accelerations(chain, inputs->q[k], inputs->v[k], a);
+        chain_by_hand.accelerations(reference, inputs->q[k], inputs->v[k], b);
+        for (int i = 0; i < n; i++) {
+            most = fmax(most, fabs(b[i]));
+            off = fmax(off, fabs(a[i] - b[i]));
+        }
+        worst = fmax(worst, off / most);
     }
-    for (int i = 0; i < n; i++) worst = fmax(worst, fabs(a[i] - f[n + i]) / (1 + fabs(a[i])));
-    printf("%5d rods  %8.1f ns  %6.1f ns a rod  %5.2f times by hand  (accelerations differ by %.1e)\n", n,
-           1e9 * median(ours, pairs_of_runs), 1e9 * median(ours, pairs_of_runs) / n,
-           median(ratio, pairs_of_runs), worst);
-    state_free(state);
-    fbd_model_free(model);
+    return worst;
+}
+
+/* Seconds of one right-hand side. */
+static double time_of(const struct chain_solver *solver, void *chain, int calls, const struct inputs *inputs)
+{
+    double a[most_rods], start = now();
+    for (int call = 0; call < calls; call++)
+        solver->accelerations(chain, inputs->q[call % states], inputs->v[call % states], a);
+    return (now() - start) / calls;
+}
+
+static void measure(void **chains, const struct inputs *inputs, struct times *times)
+{
+    int calls[solvers];
+    for (int s = 0; s < solvers; s++) { /* the first time warms up */
+        time_of(rivals[s].solver, chains[s], states, inputs);
+        double seconds = time_of(rivals[s].solver, chains[s], states, inputs);
+        calls[s] = (int)fmin(1e5, fmax(1, a_batch / seconds));
+    }
+    for (int round = 0; round < rounds; round++) {
+        for (int s = 0; s < solvers; s++) {
+            double seconds = time_of(rivals[s].solver, chains[s], calls[s], inputs);
+            times->seconds[s][round] = seconds;
+            times->ratio[s][round] = seconds / times->seconds[0][round];
+        }
+    }
+}
+
+/* Open a chain for each solver; they have to find the same accelerations. */
+static void open_all(int n, const struct inputs *inputs, void **chains)
+{
+    for (int s = 0; s < solvers; s++) {
+        chains[s] = rivals[s].solver->open(n);
+        if (chains[s]) continue;
+        fprintf(stderr, "%s: no chain of %d rods\n", rivals[s].solver->name, n);
+        exit(1);
+    }
+    for (int s = 0; s < solvers; s++) {
+        double off = disagreement(rivals[s].solver, chains[s], chains[yardstick], n, inputs);
+        if (off <= rivals[s].agreement) continue;
+        fprintf(stderr, "%s: accelerations of %d rods are off by %.2g\n", rivals[s].solver->name, n, off);
+        exit(1);
+    }
+}
+
+/* One line of the table. The time of a rod in ours, and whether all bounds are met. */
+static double compare(int n, const struct inputs *inputs, bool *met)
+{
+    static struct times times;
+    void *chains[solvers];
+    open_all(n, inputs, chains);
+    measure(chains, inputs, &times);
+    double a_rod = 0;
+    printf("%5d", n);
+    for (int s = 0; s < solvers; s++) {
+        double ns = 1e9 * median(times.seconds[s]) / n, ratio = median(times.ratio[s]);
+        if (s == ours) {
+            a_rod = ns;
+            printf("  %8.1f", ns);
+        } else {
+            bool enough = ratio >= rivals[s].bound;
+            *met = *met && enough;
+            printf("  %8.1f %7.2f %-7s", ns, s == yardstick ? 1 / ratio : ratio, enough ? "met" : "NOT MET");
+        }
+        rivals[s].solver->close(chains[s]);
+    }
+    putchar('\n');
+    return a_rod;
+}
+
+static void heading(void)
+{
+    printf("one right-hand side of a chain of n rods: ns a rod, medians of %d rounds, and ratios\n    n",
+           rounds);
+    for (int s = 0; s < solvers; s++)
+        printf(s == ours ? "  %8s" : "  %8s                ", rivals[s].solver->name);
+    printf("\n               ");
+    for (int s = 1; s < solvers; s++) {
+        if (s == yardstick) printf("  ours / it <= %-9.3g ", 1 / rivals[s].bound);
+        if (s != yardstick) printf("  it / ours >= %-9.3g ", rivals[s].bound);
+    }
+    putchar('\n');
 }
 
 int main(void)
 {
-    for (int n = 1; n <= most_rods; n *= 2) bench(n);
+    static struct inputs inputs;
+    gsl_set_error_handler_off();
+    fill(&inputs);
+    heading();
+    bool met = true;
+    double least = HUGE_VAL, most = 0;
+    for (int n = 1; n <= most_rods; n *= 2) {
+        double ns = compare(n, &inputs, &met);
+        if (n >= 8) { /* before, what a right-hand side costs without rods shows */
+            least = fmin(least, ns);
+            most = fmax(most, ns);
+        }
+    }
+    printf("from 8 to %d rods the time of a rod stays within a factor of %.2f\n", most_rods, most / least);
+    printf("%s\n", met ? "all bounds are met" : "a bound is NOT MET");
+    return 0;
 }
