@@ -104,7 +104,8 @@ void body_accelerations(const struct fbd_model *model, int b, const struct insta
 
 void accelerations(const struct fbd_model *model, const struct instant *given, double *slots, double *a)
 {
-    const struct instant extended = instant_extend(model, given), *at = &extended;
+    struct instant extended;
+    const struct instant *at = instant_with_places(model, given, &extended);
     for (int b = 0; b < (int)model->body_count; b++) body_accelerations(model, b, at, slots, a);
     if (!model->tree) return;
     tree_accelerations(model, at, slots, a);

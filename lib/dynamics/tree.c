@@ -171,13 +171,17 @@ void tree_accelerations(const struct fbd_model *model, const struct instant *at,
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
-    if (tree->watched_count > 0) lock(model, at);
-    tree_move(model, at);
-    tree_bias(tree, at, model->plan.n);
-    tree_load(tree, at);
-    set_joint_forces(model, at, slots);
-    tree_factor(tree, work);
-    tree_outward(tree, work, 1, tree->count, a);
+    if (tree->pivots_only) {
+        tree_pivots(model, at, slots, a);
+    } else {
+        if (tree->watched_count > 0) lock(model, at);
+        tree_move(model, at);
+        tree_bias(tree, at, model->plan.n);
+        tree_load(tree, at);
+        set_joint_forces(model, at, slots);
+        tree_factor(tree, work);
+        tree_outward(tree, work, 1, tree->count, a);
+    }
     work->complete = false;
     if (tree->watched_count + tree->tie_count == 0) return;
     tree_complete(model, work);

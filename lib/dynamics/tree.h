@@ -131,6 +131,9 @@ void tree_factor(const struct tree *tree, struct tree_work *work);
 void tree_inward(const struct tree *tree, struct tree_work *work, int from, int to);
 void tree_outward(const struct tree *tree, struct tree_work *work, int from, int to, double *a);
 
+/* All of it at once for a tree of free pivots, tree->pivots_only (tree_pivots.c). */
+void tree_pivots(const struct fbd_model *model, const struct instant *at, const double *slots, double *a);
+
 /* Does any slide slip whose friction goes with its normal force? */
 bool tree_slips(const struct tree *tree, const struct instant *at);
 

@@ -400,5 +400,11 @@ bool tree_finish(struct fbd_model *model)
     for (int i = 1; i < tree->count; i++)
         if (tree->links[i].normal_slot >= 0 || tree->links[i].pair >= 0)
             tree->watched[tree->watched_count++] = i;
+    tree->loaded = tree->following_count + tree->force_count + tree->moment_count + tree->spring_count +
+                       tree->drag_count >
+                   0;
+    tree->pivots_only = tree->watched_count == 0;
+    for (int i = 1; i < tree->count; i++)
+        if (tree->links[i].kind != motion_pivot) tree->pivots_only = false;
     return ties_envelope(model);
 }

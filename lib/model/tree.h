@@ -84,6 +84,8 @@ struct tree {
     struct tree_moment *moments;
     struct tree_spring *springs;
     struct tree_drag *drags;
+    bool loaded;              /* something of the lists above acts on links */
+    bool pivots_only;         /* every joint is a pivot, and none has dry friction */
     int pair_count;           /* links whose dry friction goes with a normal force */
     int *pairs;               /* their numbers */
     int watched_count;        /* links whose joint has a normal force or dry friction */

@@ -38,7 +38,7 @@ static const struct rival rivals[] = {
 enum { ours, yardstick, solvers = sizeof rivals / sizeof *rivals };
 
 struct inputs {
-    double q[states][most_rods], v[states][most_rods];
+    double y[states][2 * most_rods];
 };
 
 struct times {
@@ -72,11 +72,7 @@ static void fill(struct inputs *inputs)
     for (int k = 0; k < states; k++) {
         for (int i = 0; i < 2 * most_rods; i++) {
             x = x * 6364136223846793005ULL + 1442695040888963407ULL;
-            double number = (double)(x >> 11) * 0x1p-52 - 1;
-            if (i < most_rods)
-                inputs->q[k][i] = number;
-            else
-                inputs->v[k][i - most_rods] = number;
+            inputs->y[k][i] = (double)(x >> 11) * 0x1p-52 - 1;
         }
     }
 }
@@ -85,12 +81,12 @@ static void fill(struct inputs *inputs)
 static double disagreement(const struct chain_solver *solver, void *chain, void *reference, int n,
                            const struct inputs *inputs)
 {
-    double a[most_rods], b[most_rods], worst = 0;
+    double a[2 * most_rods], b[2 * most_rods], worst = 0;
     for (int k = 0; k < states; k++) {
         double most = 0, off = 0;
-        solver->accelerations(chain, inputs->q[k], inputs->v[k], a);
-        chain_by_hand.accelerations(reference, inputs->q[k], inputs->v[k], b);
-        for (int i = 0; i < n; i++) {
+        solver->rates(chain, inputs->y[k], a);
+        chain_by_hand.rates(reference, inputs->y[k], b);
+        for (int i = n; i < 2 * n; i++) {
             most = fmax(most, fabs(b[i]));
             off = fmax(off, fabs(a[i] - b[i]));
         }
@@ -102,9 +98,8 @@ static double disagreement(const struct chain_solver *solver, void *chain, void 
 /* Seconds of one right-hand side. */
 static double time_of(const struct chain_solver *solver, void *chain, int calls, const struct inputs *inputs)
 {
-    double a[most_rods], start = now();
-    for (int call = 0; call < calls; call++)
-        solver->accelerations(chain, inputs->q[call % states], inputs->v[call % states], a);
+    double dydt[2 * most_rods], start = now();
+    for (int call = 0; call < calls; call++) solver->rates(chain, inputs->y[call % states], dydt);
     return (now() - start) / calls;
 }
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * A chain of equal uniform rods hanging from the ground, each pinned to the end of the one before, for
- * several programs that find its accelerations. q[0] is the angle of the first rod from straight down, q[i]
- * that of rod i from the rod before; v are their rates.
+ * A chain of n equal uniform rods hanging from the ground, each pinned to the end of the one before, for
+ * several programs that find its accelerations. y[2 n] has the angles, that of the first rod from straight
+ * down and those of the others from the rod before, and then their rates.
  */
 #ifndef FBD_BENCH_CHAIN_H
 #define FBD_BENCH_CHAIN_H
@@ -15,11 +15,11 @@
 extern "C" {
 #endif
 
-/* One way to find a[n] from q[n] and v[n]. */
+/* One way to find the right-hand side dydt[2 n] from y[2 n]. */
 struct chain_solver {
     const char *name;
     void *(*open)(int n); /* NULL when it cannot be had */
-    void (*accelerations)(void *chain, const double *q, const double *v, double *a);
+    void (*rates)(void *chain, const double *y, double *dydt);
     void (*close)(void *chain);
 };
 

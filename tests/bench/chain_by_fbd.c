@@ -13,7 +13,6 @@
 struct chain {
     fbd_model *model;
     struct fbd_state *state;
-    double *rates;
 };
 
 /* The model text; release it with free(). */
@@ -40,7 +39,6 @@ static void chain_close(void *data)
     if (!chain) return;
     state_free(chain->state);
     fbd_model_free(chain->model);
-    free(chain->rates);
     free(chain);
 }
 
@@ -53,24 +51,18 @@ static void *chain_open(int n)
     if (errors && fbd_errors_count(errors) > 0) fbd_errors_print(errors, stderr);
     fbd_errors_free(errors);
     free(text);
-    if (chain && chain->model) {
-        chain->state = state_new(chain->model);
-        chain->rates = calloc(2 * (size_t)n, sizeof *chain->rates);
-    }
-    if (chain && chain->state && chain->rates) return chain;
+    if (chain && chain->model) chain->state = state_new(chain->model);
+    if (chain && chain->state) return chain;
     chain_close(chain);
     return NULL;
 }
 
-static void chain_accelerations(void *data, const double *q, const double *v, double *a)
+static void chain_rates(void *data, const double *y, double *dydt)
 {
     struct chain *chain = data;
-    size_t n = (size_t)chain->model->plan.n;
-    memcpy(chain->state->y, q, n * sizeof *q);
-    memcpy(chain->state->y + n, v, n * sizeof *v);
     struct instant at = state_instant(chain->state);
-    state_rates(chain->model, &at, chain->state->slots, chain->rates);
-    memcpy(a, chain->rates + n, n * sizeof *a);
+    at.y = y;
+    state_rates(chain->model, &at, chain->state->slots, dydt);
 }
 
-const struct chain_solver chain_by_fbd = {"fbd", chain_open, chain_accelerations, chain_close};
+const struct chain_solver chain_by_fbd = {"fbd", chain_open, chain_rates, chain_close};

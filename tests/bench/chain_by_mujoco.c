@@ -101,14 +101,15 @@ static void *chain_open(int n)
     return NULL;
 }
 
-static void chain_accelerations(void *data, const double *q, const double *v, double *a)
+static void chain_rates(void *data, const double *y, double *dydt)
 {
     struct chain *chain = data;
-    size_t size = (size_t)chain->model->nv * sizeof *a;
-    memcpy(chain->data->qpos, q, size);
-    memcpy(chain->data->qvel, v, size);
+    size_t n = (size_t)chain->model->nv, size = n * sizeof *y;
+    memcpy(chain->data->qpos, y, size);
+    memcpy(chain->data->qvel, y + n, size);
     mj_forwardSkip(chain->model, chain->data, mjSTAGE_NONE, 1);
-    memcpy(a, chain->data->qacc, size);
+    memcpy(dydt, y + n, size);
+    memcpy(dydt + n, chain->data->qacc, size);
 }
 
-const struct chain_solver chain_by_mujoco = {"MuJoCo", chain_open, chain_accelerations, chain_close};
+const struct chain_solver chain_by_mujoco = {"MuJoCo", chain_open, chain_rates, chain_close};

@@ -40,18 +40,21 @@ void *open(int n)
     }
 }
 
-void accelerations(void *data, const double *q, const double *v, double *a)
+void rates(void *data, const double *y, double *dydt)
 {
     Chain *chain = static_cast<Chain *>(data);
     SimTK::Vector &Q = chain->state.updQ(), &U = chain->state.updU();
     int n = Q.size();
     for (int i = 0; i < n; i++) {
-        Q[i] = q[i];
-        U[i] = v[i];
+        Q[i] = y[i];
+        U[i] = y[n + i];
     }
     chain->system.realize(chain->state, SimTK::Stage::Acceleration);
-    const SimTK::Vector &rates = chain->state.getUDot();
-    for (int i = 0; i < n; i++) a[i] = rates[i];
+    const SimTK::Vector &accelerations = chain->state.getUDot();
+    for (int i = 0; i < n; i++) {
+        dydt[i] = y[n + i];
+        dydt[n + i] = accelerations[i];
+    }
 }
 
 void close(void *data)
@@ -61,4 +64,4 @@ void close(void *data)
 
 } // namespace
 
-extern "C" const chain_solver chain_by_simbody = {"Simbody", open, accelerations, close};
+extern "C" const chain_solver chain_by_simbody = {"Simbody", open, rates, close};
