@@ -35,7 +35,7 @@ struct subject {
 static struct subject subject_with(uint64_t seed, bool conservative, bool friction, int loops)
 {
     struct subject subject = {.numbers = {seed}};
-    struct random_tree tree = {2 + (int)(seed % 8), conservative, friction, loops};
+    struct random_tree tree = {2 + (int)(seed % 8), conservative, friction, loops, false};
     char *text = random_tree_text(&subject.numbers, &tree);
     assert_non_null(text);
     subject.model = model_from(text);
@@ -319,7 +319,7 @@ static void conservative_trees_keep_their_energy(void **unused)
     fbd_errors *errors = fbd_errors_new();
     for (uint64_t seed = 1; seed <= 20; seed++) {
         struct random_numbers numbers = {seed};
-        struct random_tree tree = {2 + (int)(seed % 6), true, false, 0};
+        struct random_tree tree = {2 + (int)(seed % 6), true, false, 0, false};
         char *text = random_tree_text(&numbers, &tree);
         assert_non_null(text);
         fbd_model *model = model_from(text);
