@@ -6,6 +6,11 @@
 set -u
 . "$FBD_SOURCE_ROOT/tests/tools/tap.sh"
 
+command -v valgrind >/dev/null || {
+    echo '1..0 # SKIP valgrind is not installed'
+    exit 0
+}
+
 # chain N: its scene in $scratch/chainN.yaml.
 chain() {
     awk -v n="$1" 'BEGIN {
@@ -13,7 +18,7 @@ chain() {
         for (i = 1; i <= n; i++) {
             printf "  rod%d:\n    shape: rod\n    mass: 1 kg\n    from: [0, 0]\n    to: [0, -0.2 m]\n", i
             print "    forces: [gravity]"
-            if (i == 1) print "    motion: pivot\n    initial: {theta: 1e-3}"
+            if (i == 1) print "    motion: pivot"
             else printf "    motion: {pivot: {on: rod%d, at: right, point: left}}\n", i - 1
         }
     }' >"$scratch/chain$1.yaml"
@@ -39,9 +44,8 @@ grows_linearly() {
     }'
 }
 
-# Two runs that differ in nothing but a thousand right-hand sides.
-# steps_grow_linearly: the same for what fixed steps add.
+# The chain hangs at rest, so that every length takes the same number of steps.
 for n in 128 256 512; do chain $n; done
 check 'reading and checking a chain takes instructions in proportion to its rods' grows_linearly --check
-check 'so do its equations at the start and a run' grows_linearly --method rk4 --tolerance 1e-3 --until 1e-4
+check 'and so does a whole run' grows_linearly --method dop853 --until 1
 finish
