@@ -276,6 +276,7 @@ static void add_load(struct builder *builder, struct model_body *body, int index
     case moment_applied: add_formula(builder, angle_coordinate(body), 1, &load->value); break;
     case moment_spring: add_moment_spring(builder, body, source); break;
     case moment_damper: add_moment_damper(builder, body, source); break;
+    case load_drive:
     case load_rope:
     case load_normal: break; /* the contact below, and the friction that needs it */
     case load_friction:
@@ -401,61 +402,6 @@ static void mark_body_slots(struct fbd_model *model, int b)
     if (body->friction >= 0)
         model->plan.slot_constant[model->plan.frictions[body->friction].hold_slot] = false;
     if (body->normal_slot >= 0) model->plan.slot_constant[body->normal_slot] = false;
-}
-
-/* A rolling body presses on its line, and its friction, when it has coefficients, sticks or slips. */
-static void plan_roll(struct builder *builder, struct tie *tie)
-{
-    struct plan *plan = &builder->model->plan;
-    const struct constraint *source = &builder->model->scene->constraints[tie->constraint];
-    int body = tie->end[0].body;
-    tie->normal_slot = plan->slots++;
-    plan->contacts[plan->contact_count++] = (struct contact){body, tie->load, tie->normal_slot};
-    if (!source->mu_s.expr) return;
-    tie->pair = (int)plan->friction_count;
-    plan->frictions[plan->friction_count++] =
-        (struct friction){.body = body,
-                          .load = tie->load,
-                          .normal_slot = tie->normal_slot,
-                          .mu_s = builder_formula(builder, &source->mu_s, body, tie->load),
-                          .mu_k = builder_formula(builder, &source->mu_k, body, tie->load),
-                          .surface_speed = formula_constant(0),
-                          .hold_slot = plan->slots++,
-                          .tie = (int)(tie - builder->model->tree->ties),
-                          .jointed = true};
-}
-
-/* A rope is taut or slack. */
-static void plan_rope(struct fbd_model *model, struct tie *tie)
-{
-    struct plan *plan = &model->plan;
-    int first = tie->end[0].body >= 0 ? 0 : 1;
-    tie->pair = (int)plan->friction_count;
-    plan->frictions[plan->friction_count++] = (struct friction){.body = tie->end[first].body,
-                                                                .load = tie->load,
-                                                                .normal_slot = -1,
-                                                                .hold_slot = 0,
-                                                                .tie = (int)(tie - model->tree->ties),
-                                                                .rope = true,
-                                                                .jointed = true};
-}
-
-static void plan_ties(struct builder *builder)
-{
-    struct fbd_model *model = builder->model;
-    int load = (int)model->coupled_count - 1, last = -1;
-    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
-        struct tie *tie = &model->tree->ties[i];
-        bool named = tie->kind == constraint_roll || tie->kind == constraint_rope;
-        if (!named) continue;
-        if (tie->constraint != last) load++; /* the pieces of a rope share one */
-        last = tie->constraint;
-        tie->load = load;
-        if (tie->kind == constraint_roll)
-            plan_roll(builder, tie);
-        else
-            plan_rope(model, tie);
-    }
 }
 
 bool plan_build(struct builder *builder)
