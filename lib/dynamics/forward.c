@@ -137,10 +137,7 @@ void accelerations_along(const struct fbd_model *model, const struct instant *gi
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
         if (!holds_coordinate(plan, at, pair)) continue;
         const struct friction *friction = &plan->frictions[pair];
-        double jerk = 0, d_a, d_b;
-        if (friction->surface_speed.expr)
-            expr_eval_second(friction->surface_speed.expr, at->t, at->y, 0, 0,
-                             formula_branches(&friction->surface_speed, at), &d_a, &d_b, &jerk);
+        double jerk = friction_surface_jerk(friction, at);
         a_along[friction->coordinate] = jerk * along->dt;
     }
 }

@@ -6,9 +6,33 @@
 double friction_surface_speed(const struct friction *friction, const struct instant *at, double *acceleration)
 {
     *acceleration = 0;
+    if (friction->driven) {
+        double speed, same;
+        if (!friction->position.expr) return 0;
+        expr_eval_second(friction->position.expr, at->t, at->y, 0, 0,
+                         formula_branches(&friction->position, at), &speed, &same, acceleration);
+        return speed;
+    }
     if (!friction->surface_speed.expr) return friction->surface_speed.constant;
     return expr_eval_slot(friction->surface_speed.expr, at->t, at->y, 0,
                           formula_branches(&friction->surface_speed, at), acceleration);
+}
+
+double friction_surface_jerk(const struct friction *friction, const struct instant *at)
+{
+    double d_a, d_b, jerk = 0;
+    if (friction->driven && friction->position.expr) {
+        /* Expressions know two derivatives; the third only enters how accelerations vary with time. */
+        double h = 1e-4 * fmax(1, fabs(at->t)), low, high;
+        const int *branch = formula_branches(&friction->position, at);
+        expr_eval_second(friction->position.expr, at->t - h, at->y, 0, 0, branch, &d_a, &d_b, &low);
+        expr_eval_second(friction->position.expr, at->t + h, at->y, 0, 0, branch, &d_a, &d_b, &high);
+        return (high - low) / (2 * h);
+    }
+    if (friction->surface_speed.expr)
+        expr_eval_second(friction->surface_speed.expr, at->t, at->y, 0, 0,
+                         formula_branches(&friction->surface_speed, at), &d_a, &d_b, &jerk);
+    return jerk;
 }
 
 struct friction_values friction_at(const struct fbd_model *model, int pair, const struct instant *at,
@@ -48,10 +72,7 @@ struct friction_values friction_along(const struct fbd_model *model, int pair, c
     rate.limit_static = d_mu * press + mu * d_press;
     mu = formula_along(&friction->mu_k, at, along, &d_mu);
     rate.limit_kinetic = d_mu * press + mu * d_press;
-    double jerk = 0, d_a, d_b;
-    if (friction->surface_speed.expr)
-        expr_eval_second(friction->surface_speed.expr, at->t, at->y, 0, 0,
-                         formula_branches(&friction->surface_speed, at), &d_a, &d_b, &jerk);
+    double jerk = friction_surface_jerk(friction, at);
     rate.hold = friction->inertia * jerk * along->dt - slots_along[friction->hold_slot];
     rate.force = at->slip[pair] == stick ? rate.hold : -at->slip[pair] * rate.limit_kinetic;
     return rate;

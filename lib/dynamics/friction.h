@@ -30,6 +30,9 @@ struct friction_values {
 double friction_surface_speed(const struct friction *friction, const struct instant *at,
                               double *acceleration);
 
+/* The rate of change of that acceleration with time. */
+double friction_surface_jerk(const struct friction *friction, const struct instant *at);
+
 struct friction_values friction_at(const struct fbd_model *model, int pair, const struct instant *at,
                                    const double *slots);
 

@@ -21,10 +21,12 @@ void modes_hold(struct fbd_state *state)
     const struct plan *plan = &state->model->plan;
     struct instant at = state_instant(state);
     double acceleration;
-    for (int pair = 0; pair < (int)plan->friction_count; pair++)
-        if (state->slip[pair] == stick && plan->frictions[pair].tie < 0)
-            state->y[plan->n + plan->frictions[pair].coordinate] =
-                friction_surface_speed(&plan->frictions[pair], &at, &acceleration);
+    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
+        const struct friction *friction = &plan->frictions[pair];
+        if (friction->driven) state->y[friction->coordinate] = formula_value(&friction->position, &at);
+        if (state->slip[pair] == stick && friction->tie < 0)
+            state->y[plan->n + friction->coordinate] = friction_surface_speed(friction, &at, &acceleration);
+    }
 }
 
 /* The direction in which the state goes on: (1, v, a). Stored in the last 2 n entries of the scratch. */
@@ -68,7 +70,7 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
         if (plan->frictions[pair].two_sided && !(decided && decided->pulls[pair]))
             state->pull[pair] = slots[plan->frictions[pair].normal_slot] > 0 ? -1 : 1;
-        if (decided && decided->slips[pair]) continue;
+        if (plan->frictions[pair].driven || (decided && decided->slips[pair])) continue;
         if (plan->frictions[pair].rope) {
             struct rope_state rope = rope_at(model, &at, plan->frictions[pair].tie);
             if (rope.touches) continue; /* with the others that rest */

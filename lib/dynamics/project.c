@@ -15,7 +15,7 @@ static void prepare(struct fbd_state *state, bool assemble)
     struct instant at = state_instant(state);
     for (int i = 1; i < tree->count; i++) {
         const struct body *body = model->bodies[tree->links[i].body].source;
-        work->links[i].locked = assemble && !body->assemble;
+        work->links[i].locked = (assemble && !body->assemble) || body->motion.prescribed.expr;
         work->links[i].held = 0;
     }
     tree_move(model, &at);

@@ -22,10 +22,7 @@ static void vary_held(const struct fbd_model *model, const struct instant *at, c
     for (int k = 0; k < tree->watched_count; k++) {
         int i = tree->watched[k], pair = tree->links[i].pair;
         if (!at->tree->links[i].locked) continue;
-        const struct formula *speed = &model->plan.frictions[pair].surface_speed;
-        double jerk = 0, d_a, d_b;
-        if (speed->expr)
-            expr_eval_second(speed->expr, at->t, at->y, 0, 0, formula_branches(speed, at), &d_a, &d_b, &jerk);
+        double jerk = friction_surface_jerk(&model->plan.frictions[pair], at);
         at->tree->variation[i].held = jerk * along->dt;
     }
 }

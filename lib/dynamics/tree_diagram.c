@@ -82,6 +82,12 @@ static struct arrow load_arrow(const struct fbd_model *model, int index, const s
     struct arrow arrow = {.name = source->name, .load = index, .point = point.p};
     switch (source->kind) {
     case load_gravity: arrow.force = vec_scale(body->inertia.mass, model->scene->gravity); break;
+    case load_drive: {
+        double drive = -slots[model->plan.frictions[body->drive_pair].hold_slot];
+        if (body->kind == motion_pivot) arrow.couple = drive;
+        if (body->kind == motion_slide) arrow.force = vec_scale(drive, link_of(body, at)->e);
+        break;
+    }
     case load_rope:
     case load_normal: break; /* a reaction: see below */
     case load_friction:
@@ -290,6 +296,8 @@ static size_t fill_child(const struct fbd_model *model, int c, const struct inst
         }
         arrows[count++] = opposite(arrow, load->name_on_parent);
     }
+    if (child->drive >= 0)
+        arrows[count++] = opposite(load_arrow(model, child->drive, at, slots), child->drive_on_parent);
     if (child->reaction)
         arrows[count++] = opposite(reaction_arrow(model, c, at, slots), child->reaction_on_parent);
     return count;
@@ -319,6 +327,7 @@ size_t tree_diagram_fill(const struct fbd_model *model, int index, const struct 
         arrow.point = other_end(model, load, at).p;
         arrows[count++] = opposite(arrow, arrow.name);
     }
+    if (body->drive >= 0) arrows[count++] = load_arrow(model, body->drive, at, slots);
     if (model->tree->tie_count > 0) count += fill_ties(model, index, at, arrows + count);
     if (body->reaction) arrows[count++] = reaction_arrow(model, index, at, slots);
     for (int c = body->child; c >= 0; c = model->bodies[c].sibling)

@@ -19,6 +19,7 @@ static bool is_open(const struct fbd_state *state, const struct decided *decided
     struct instant at = state_instant(state);
     if (!state->model->plan.frictions[pair].jointed || (decided && decided->slips[pair])) return false;
     const struct friction *friction = &state->model->plan.frictions[pair];
+    if (friction->driven) return false;
     if (friction->rope) return rope_at(state->model, &at, friction->tie).touches;
     return slip_velocity(state->model, pair, &at) == 0;
 }

@@ -77,6 +77,8 @@ static void set_body(struct model_body *body, const struct body *source, int n, 
                                 .parent = motion->parent,
                                 .child = -1,
                                 .sibling = -1,
+                                .drive = -1,
+                                .drive_pair = -1,
                                 .arrow_count = (int)source->load_count + 1,
                                 .friction = -1};
     body->inertia = inertia_of_parts(source->parts, source->part_count, motion->point);
@@ -173,6 +175,26 @@ static bool set_named_ties(struct builder *builder)
     return true;
 }
 
+/* What a prescribed motion takes, by name. */
+static bool set_drives(struct builder *builder)
+{
+    struct fbd_model *model = builder->model;
+    size_t next = model->load_count;
+    for (size_t b = model->body_count; b-- > 0;) {
+        struct model_body *body = &model->bodies[b];
+        if (!body->source->motion.prescribed.expr) continue;
+        struct load *source = ARENA_ARRAY(&model->arena, 1, struct load);
+        if (!source) return false;
+        *source = (struct load){.kind = load_drive, .name = "drive", .at = body->source->motion.at};
+        body->drive = (int)--next;
+        body->arrow_count++;
+        body->drive_on_parent = arena_printf(&model->arena, "%s.drive", body->name);
+        if (body->parent >= 0) model->bodies[body->parent].arrow_count++;
+        set_load(builder, &model->loads[next], source, (int)b);
+    }
+    return true;
+}
+
 static bool set_absolutes(struct fbd_model *model)
 {
     const struct scene *scene = model->scene;
@@ -199,6 +221,8 @@ static bool allocate(struct fbd_model *model)
     model->load_count = model->coupled_count;
     for (size_t c = 0; c < scene->constraint_count; c++)
         model->load_count += constraint_has_load(&scene->constraints[c]);
+    for (size_t b = 0; b < scene->body_count; b++)
+        model->load_count += scene->bodies[b].motion.prescribed.expr != NULL;
     model->bodies = ARENA_ARRAY(&model->arena, model->body_count, struct model_body);
     model->loads = ARENA_ARRAY(&model->arena, model->load_count, struct model_load);
     size_t formulas = formulas_of_a_load * model->load_count + 2 * scene->event_count;
@@ -242,8 +266,9 @@ struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors)
         set_loads(&builder);
         set_couplings(&builder);
         model->labels = labels_make(&model->arena, scene);
-        done = model->labels && set_named_ties(&builder) && set_absolutes(model) && tree_number(model) &&
-               tree_name_reactions(model) && plan_build(&builder) && classify_loads(&builder);
+        done = model->labels && set_named_ties(&builder) && set_drives(&builder) && set_absolutes(model) &&
+               tree_number(model) && tree_name_reactions(model) && plan_build(&builder) &&
+               classify_loads(&builder);
         set_watches(&builder);
     }
     if (!done) diag_out_of_memory(errors);

@@ -30,11 +30,13 @@ struct model_body {
     struct vec e, n; /* slide: direction of +x; direction that the surface pushes to */
     int normal_slot; /* slide whose normal force is needed: slot of the forces along n, else -1 */
     int friction;    /* index into plan.frictions, or -1 */
-    struct placement place; /* of a jointed body in the tree */
-    int parent;             /* jointed: the body that it moves on, or -1 for the ground */
-    int child, sibling;     /* jointed: the first body that moves on it, the next one beside it; or -1 */
-    int arrow_count;        /* the most arrows that its diagram can have */
-    const char *reaction;   /* name of the force of its joint: "pin", "guide", "weld"; NULL without one */
+    struct placement place;      /* of a jointed body in the tree */
+    int parent;                  /* jointed: the body that it moves on, or -1 for the ground */
+    int child, sibling;          /* jointed: the first body that moves on it, the next one beside it; or -1 */
+    int drive, drive_pair;       /* prescribed: its entry in the loads, and in plan.frictions; else -1 */
+    const char *drive_on_parent; /* name of the drive on the body that it moves on */
+    int arrow_count;             /* the most arrows that its diagram can have */
+    const char *reaction; /* name of the force of its joint: "pin", "guide", "weld"; NULL without one */
     const char *reaction_on_parent; /* and on the body that it moves on: "rod.pin" */
     int first_load, load_count;
 };
@@ -82,8 +84,8 @@ struct fbd_model {
     char *source;        /* the file's text, owned: hand derivations are checked under changed parameters */
     size_t source_length;
     size_t body_count;
-    size_t load_count;   /* the loads that bodies list, then the couplings that are springs and dampers */
-    size_t listed_count; /* the former */
+    size_t load_count;    /* the loads that bodies list, then the couplings that are springs and dampers */
+    size_t listed_count;  /* the former */
     size_t coupled_count; /* with the latter; behind them one for each rolling body: its friction */
     struct model_body *bodies;
     struct model_load *loads;

@@ -276,6 +276,7 @@ static void add_load(struct builder *builder, struct model_body *body, int index
     case moment_applied: add_formula(builder, angle_coordinate(body), 1, &load->value); break;
     case moment_spring: add_moment_spring(builder, body, source); break;
     case moment_damper: add_moment_damper(builder, body, source); break;
+    case load_drive:
     case load_rope:
     case load_normal: break; /* the contact below, and the friction that needs it */
     case load_friction:
@@ -458,6 +459,26 @@ static void plan_ties(struct builder *builder)
     }
 }
 
+/* A prescribed motion is a joint that sticks to a surface which moves so. */
+static void plan_drive(struct builder *builder, struct model_body *body)
+{
+    struct plan *plan = &builder->model->plan;
+    int b = (int)(body - builder->model->bodies);
+    if (body->drive < 0) return;
+    body->drive_pair = (int)plan->friction_count;
+    plan->frictions[plan->friction_count++] =
+        (struct friction){.body = b,
+                          .load = body->drive,
+                          .coordinate = body->first,
+                          .normal_slot = -1,
+                          .hold_slot = plan->slots++,
+                          .tie = -1,
+                          .driven = true,
+                          .position =
+                              builder_formula(builder, &body->source->motion.prescribed, b, body->drive),
+                          .jointed = true};
+}
+
 bool plan_build(struct builder *builder)
 {
     struct fbd_model *model = builder->model;
@@ -468,6 +489,7 @@ bool plan_build(struct builder *builder)
     for (size_t b = 0; b < model->body_count; b++) body_terms_add(builder, (int)b);
     for (size_t i = model->listed_count; i < model->coupled_count; i++) tree_add_load(builder, (int)i);
     plan_ties(builder);
+    for (size_t b = 0; b < model->body_count; b++) plan_drive(builder, &model->bodies[b]);
     pack(builder);
     for (size_t b = 0; b < model->body_count; b++)
         if (model->bodies[b].place.link > 0) mark_body_slots(model, (int)b);

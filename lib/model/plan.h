@@ -95,8 +95,10 @@ struct friction {
     double inertia; /* m or I_O; 0 when jointed */
     int hold_slot;  /* the force needed to hold is inertia times acceleration minus this slot */
     int tie;        /* of a rolling body: index into tree.ties; else -1, and `coordinate` slips */
-    bool rope;      /* no friction: `stick` is taut, `slip_plus` is slack; see tie.h */
-    bool jointed;   /* between jointed bodies: the tree finds N and what holds */
+    bool driven;    /* no friction: it always sticks, and `position` says where */
+    struct formula position;
+    bool rope;    /* no friction: `stick` is taut, `slip_plus` is slack; see tie.h */
+    bool jointed; /* between jointed bodies: the tree finds N and what holds */
 };
 
 /* A normal force that must not become a pull. */

@@ -18,6 +18,7 @@ static void mark_jointed(const struct fbd_model *model, bool *jointed)
     const struct scene *scene = model->scene;
     for (size_t b = 0; b < scene->body_count; b++) {
         int parent = scene->bodies[b].motion.parent;
+        if (scene->bodies[b].motion.prescribed.expr) jointed[b] = true;
         if (parent == ground_body) continue;
         jointed[b] = true;
         jointed[parent] = true;
@@ -284,6 +285,7 @@ void tree_add_load(struct builder *builder, int index)
     case moment_applied: add_moment(builder, body, load); break;
     case moment_spring:
     case moment_damper: add_joint_spring(builder, body, source); break;
+    case load_drive:
     case load_rope:
     case load_normal:
     case load_friction:

@@ -143,7 +143,7 @@ struct inertia_keys {
 /* What every motion says of its place; each kind has some of them. */
 struct motion_keys {
     double along, angle;
-    const struct node *on, *through, *line, *at, *point;
+    const struct node *on, *through, *line, *at, *point, *prescribed;
 };
 
 /* In the order of the body's coordinates. */

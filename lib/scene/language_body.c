@@ -104,6 +104,7 @@ static const struct field slide_fields[] = {
                "where x = 0: [x, y] or a point of what it moves on; default [0, 0]"),
     FIELD_NODE(MOTION(line), "line", field_scalar, 0, NULL,
                "a line of the ground, instead of `along` and `through`"),
+    FIELD_NODE(MOTION(prescribed), "x", field_scalar, 0, NULL, "prescribed: an expression of t"),
     ON_ROW,
 };
 
@@ -115,6 +116,7 @@ static const struct field pivot_fields[] = {
                "the axis O: [x, y] or a point of what it moves on; default [0, 0]"),
     FIELD_NODE(MOTION(point), "point", field_any, 0, NULL,
                "the point of the body on the axis: a name or [x, y]; default the origin of the body frame"),
+    FIELD_NODE(MOTION(prescribed), "theta", field_scalar, 0, NULL, "prescribed: an expression of t"),
     ON_ROW,
 };
 

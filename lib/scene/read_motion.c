@@ -89,3 +89,40 @@ bool body_initial_read(struct reader *reader, int index)
     }
     return fine;
 }
+
+/* A prescribed coordinate: a function of time alone. It leaves nothing to `initial`, and to dry friction. */
+bool body_prescribed_read(struct reader *reader, int index)
+{
+    struct body *body = &reader->scene->bodies[index];
+    const struct draft *draft = &reader->drafts[index];
+    const struct node *node = draft->motion_keys.prescribed;
+    if (!node || !draft->motion_known) return true;
+    bool turns = body->motion.kind == motion_pivot;
+    const char *name = turns ? "theta" : "x";
+    struct names names = {.reader = reader, .place = place_load, .body = index};
+    struct scope scope = names_scope(&names);
+    const int *slots;
+    if (!value_formula(reader, node, name, turns ? an_angle : a_length, 0, &scope, &body->motion.prescribed))
+        return false;
+    const struct expr *expr = body->motion.prescribed.expr;
+    bool fine = true;
+    if (!expr_is_constant(expr) && expr_variables(expr, &slots) > 0) {
+        diag_add(reader->errors, FBD_ERROR, "not-here", node->at, "write it as an expression of t",
+                 "a prescribed `%s` cannot depend on a motion", name);
+        fine = false;
+    }
+    const struct pair *initial = node_find(draft->node, "initial");
+    if (initial) {
+        diag_add(reader->errors, FBD_ERROR, "conflicting-keys", initial->at, "delete it",
+                 "the motion of `%s` is prescribed: it has no initial state", body->name);
+        fine = false;
+    }
+    for (size_t i = 0; i < body->load_count; i++) {
+        if (body->loads[i].kind != load_friction && body->loads[i].kind != moment_friction) continue;
+        diag_add(reader->errors, FBD_ERROR, "not-here", body->loads[i].at,
+                 "leave it out: the drive would only take that much more",
+                 "the motion of `%s` is prescribed: friction in its joint decides nothing", body->name);
+        fine = false;
+    }
+    return fine;
+}

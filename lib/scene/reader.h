@@ -129,6 +129,7 @@ bool body_name_read(struct reader *reader, const struct node *node, const char *
 /* The centre of mass of the parts of a body: the sum of m r over the sum of m. */
 struct vec body_centre_of_mass(const struct body *body);
 bool body_initial_read(struct reader *reader, int body);
+bool body_prescribed_read(struct reader *reader, int body);
 
 /* [x, y], G, O or the name of a point of the body. */
 bool body_point_read(struct reader *reader, int body, const struct node *node, const char *what,

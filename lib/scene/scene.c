@@ -121,7 +121,8 @@ static void read_bodies(struct reader *reader)
         bool loads = body_loads_read(reader, b);
         bool hand = reader->without_hands || body_hand_read(reader, b);
         bool exact = reader->without_hands || body_exact_read(reader, b);
-        if (!initial || !loads || !hand || !exact) scene->bodies[b].complete = false;
+        bool prescribed = body_prescribed_read(reader, b);
+        if (!initial || !loads || !hand || !exact || !prescribed) scene->bodies[b].complete = false;
     }
 }
 

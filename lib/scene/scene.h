@@ -92,7 +92,8 @@ struct motion {
     int parent;         /* body that it moves on, or ground_body */
     double along;       /* slide: direction of +x in the parent frame; weld: angle of the body frame [rad] */
     struct vec through; /* slide: where x = 0; pivot: the axis O; weld: the joint; all in the parent frame */
-    struct vec point;   /* pivot, weld: the point of the body that sits there, in the body frame */
+    struct value prescribed; /* slide, pivot: the coordinate as a function of t; expr NULL when it is free */
+    struct vec point;        /* pivot, weld: the point of the body that sits there, in the body frame */
 };
 
 /* ---- what acts */
@@ -111,7 +112,8 @@ enum load_kind {
     moment_damper,
     moment_friction,
     moment_potential,
-    load_rope, /* not listed: a rope under `couplings`, see struct constraint */
+    load_drive, /* not listed: what a prescribed motion takes */
+    load_rope,  /* not listed: a rope under `couplings`, see struct constraint */
 };
 
 /* One entry of `forces` or `moments`. Fields that a kind does not use are zero. */

@@ -40,6 +40,7 @@ static void add_frictions(struct watchers *watchers, const struct plan *plan)
 {
     for (size_t i = 0; i < plan->friction_count; i++) {
         const struct friction *friction = &plan->frictions[i];
+        if (friction->driven) continue;
         if (friction->rope) {
             add(&watchers->moving, (struct watcher){watch_rope, (int)i, 0, 0, true});
             continue;

@@ -325,6 +325,54 @@ static void a_rope_goes_slack_and_snaps_taut(void **unused)
     checks_end(&checks);
 }
 
+/* ---- prescribed motion */
+
+static void a_driven_slider_crank_is_where_geometry_says(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct trial trial = trial_open("couplings/driven_slider_crank.yaml", NULL);
+    trial_start(&trial, NULL);
+    for (int i = 0; i <= 20; i++) {
+        if (i > 0) trial_to(&trial, 0.05 * i);
+        double theta = 0.3 + 10 * 0.05 * i, s = 0.2 * sin(theta), c = 0.2 * cos(theta);
+        double root = sqrt(0.25 - s * s);
+        /* The default tolerance is 1e-10; positions are projected onto the loop. */
+        check_close(&checks, "theta", trial_get(&trial, "crank.theta"), theta, 1e-12);
+        check_close(&checks, "x", trial_get(&trial, "piston.x"), c + root, 1e-9);
+        check_close(&checks, "v", trial_get(&trial, "piston.v"), 10 * (-s - s * c / root), 1e-8);
+    }
+    trial_close(&trial);
+    trial = trial_open("couplings/driven_slider_crank.yaml", NULL);
+    trial_run(&trial, NULL);
+    fbd_energy energy = fbd_result_energy(trial.result);
+    /* The work of the drive is what the energies have gained. */
+    check_close(&checks, "residual", energy.residual, 0, 1e-9);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+static void a_shaken_support_takes_the_force_by_hand(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    const double m_c = 2, m = 0.5, l = 0.5;
+    struct trial trial = trial_open("trees/shaken_pendulum.yaml", NULL);
+    trial_start(&trial, NULL);
+    for (int i = 1; i <= 6; i++) {
+        double t = 0.5 * i;
+        trial_to(&trial, t);
+        double theta = trial_get(&trial, "pole.theta"), omega = trial_get(&trial, "pole.omega");
+        double acceleration = -0.9 * sin(3 * t);
+        double alpha = -3 * l * (9.81 * sin(theta) + cos(theta) * acceleration);
+        double force = (m_c + m) * acceleration + m * l * (alpha * cos(theta) - omega * omega * sin(theta));
+        check_close(&checks, "alpha", trial_acceleration(&trial, "pole.theta"), alpha, 1e-12);
+        check_close(&checks, "drive", arrow_on(&trial, 0, "drive").fx, force, 1e-12);
+    }
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -338,6 +386,8 @@ int main(void)
         cmocka_unit_test(a_nearly_singular_slider_crank_stays_on_its_branch),
         cmocka_unit_test(a_linkage_keeps_its_energy_and_its_loop),
         cmocka_unit_test(a_rope_goes_slack_and_snaps_taut),
+        cmocka_unit_test(a_driven_slider_crank_is_where_geometry_says),
+        cmocka_unit_test(a_shaken_support_takes_the_force_by_hand),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
