@@ -16,6 +16,19 @@ double slip_velocity(const struct fbd_model *model, int pair, const struct insta
     return fabs(v - s) <= 4 * DBL_EPSILON * fabs(s) ? 0 : v - s;
 }
 
+void modes_drive(struct fbd_state *state)
+{
+    const struct plan *plan = &state->model->plan;
+    struct instant at = state_instant(state);
+    double acceleration;
+    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
+        const struct friction *friction = &plan->frictions[pair];
+        if (!friction->driven) continue;
+        state->y[friction->coordinate] = formula_value(&friction->position, &at);
+        state->y[plan->n + friction->coordinate] = friction_surface_speed(friction, &at, &acceleration);
+    }
+}
+
 void modes_hold(struct fbd_state *state)
 {
     const struct plan *plan = &state->model->plan;

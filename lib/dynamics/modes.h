@@ -34,4 +34,7 @@ double slip_velocity(const struct fbd_model *model, int pair, const struct insta
 /* Give the rates of sticking coordinates the exact velocity of their surface. */
 void modes_hold(struct fbd_state *state);
 
+/* Put prescribed coordinates and their rates where the time says. */
+void modes_drive(struct fbd_state *state);
+
 #endif

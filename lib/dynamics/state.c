@@ -51,7 +51,7 @@ struct fbd_state *state_new(const struct fbd_model *model)
         state->y[n + i] = model->scene->coordinates[i].initial_rate;
     }
     for (size_t i = 0; i < plan->friction_count; i++) state->pull[i] = 1;
-    modes_hold(state);
+    modes_drive(state);
     state_start_constraints(state);
     if (model->assembles) state_project(state, true);
     return state;

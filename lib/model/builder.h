@@ -30,6 +30,9 @@ unsigned formula_depends(const struct model_body *body, const struct formula *fo
 /* Put one load of a body into the plan's lists. */
 void plan_load(struct builder *builder, struct model_body *body, int index);
 
+/* Add the modes of couplings and of prescribed motion (plan_ties.c). */
+void plan_ties(struct builder *builder);
+
 /* Put all loads of a body into the lists and note which part of them is its own; when all bodies are in and
  * the terms by slot are packed, finish. */
 void body_terms_add(struct builder *builder, int b);

@@ -404,81 +404,6 @@ static void mark_body_slots(struct fbd_model *model, int b)
     if (body->normal_slot >= 0) model->plan.slot_constant[body->normal_slot] = false;
 }
 
-/* A rolling body presses on its line, and its friction, when it has coefficients, sticks or slips. */
-static void plan_roll(struct builder *builder, struct tie *tie)
-{
-    struct plan *plan = &builder->model->plan;
-    const struct constraint *source = &builder->model->scene->constraints[tie->constraint];
-    int body = tie->end[0].body;
-    tie->normal_slot = plan->slots++;
-    plan->contacts[plan->contact_count++] = (struct contact){body, tie->load, tie->normal_slot};
-    if (!source->mu_s.expr) return;
-    tie->pair = (int)plan->friction_count;
-    plan->frictions[plan->friction_count++] =
-        (struct friction){.body = body,
-                          .load = tie->load,
-                          .normal_slot = tie->normal_slot,
-                          .mu_s = builder_formula(builder, &source->mu_s, body, tie->load),
-                          .mu_k = builder_formula(builder, &source->mu_k, body, tie->load),
-                          .surface_speed = formula_constant(0),
-                          .hold_slot = plan->slots++,
-                          .tie = (int)(tie - builder->model->tree->ties),
-                          .jointed = true};
-}
-
-/* A rope is taut or slack. */
-static void plan_rope(struct fbd_model *model, struct tie *tie)
-{
-    struct plan *plan = &model->plan;
-    int first = tie->end[0].body >= 0 ? 0 : 1;
-    tie->pair = (int)plan->friction_count;
-    plan->frictions[plan->friction_count++] = (struct friction){.body = tie->end[first].body,
-                                                                .load = tie->load,
-                                                                .normal_slot = -1,
-                                                                .hold_slot = 0,
-                                                                .tie = (int)(tie - model->tree->ties),
-                                                                .rope = true,
-                                                                .jointed = true};
-}
-
-static void plan_ties(struct builder *builder)
-{
-    struct fbd_model *model = builder->model;
-    int load = (int)model->coupled_count - 1, last = -1;
-    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
-        struct tie *tie = &model->tree->ties[i];
-        bool named = tie->kind == constraint_roll || tie->kind == constraint_rope;
-        if (!named) continue;
-        if (tie->constraint != last) load++; /* the pieces of a rope share one */
-        last = tie->constraint;
-        tie->load = load;
-        if (tie->kind == constraint_roll)
-            plan_roll(builder, tie);
-        else
-            plan_rope(model, tie);
-    }
-}
-
-/* A prescribed motion is a joint that sticks to a surface which moves so. */
-static void plan_drive(struct builder *builder, struct model_body *body)
-{
-    struct plan *plan = &builder->model->plan;
-    int b = (int)(body - builder->model->bodies);
-    if (body->drive < 0) return;
-    body->drive_pair = (int)plan->friction_count;
-    plan->frictions[plan->friction_count++] =
-        (struct friction){.body = b,
-                          .load = body->drive,
-                          .coordinate = body->first,
-                          .normal_slot = -1,
-                          .hold_slot = plan->slots++,
-                          .tie = -1,
-                          .driven = true,
-                          .position =
-                              builder_formula(builder, &body->source->motion.prescribed, b, body->drive),
-                          .jointed = true};
-}
-
 bool plan_build(struct builder *builder)
 {
     struct fbd_model *model = builder->model;
@@ -489,7 +414,6 @@ bool plan_build(struct builder *builder)
     for (size_t b = 0; b < model->body_count; b++) body_terms_add(builder, (int)b);
     for (size_t i = model->listed_count; i < model->coupled_count; i++) tree_add_load(builder, (int)i);
     plan_ties(builder);
-    for (size_t b = 0; b < model->body_count; b++) plan_drive(builder, &model->bodies[b]);
     pack(builder);
     for (size_t b = 0; b < model->body_count; b++)
         if (model->bodies[b].place.link > 0) mark_body_slots(model, (int)b);

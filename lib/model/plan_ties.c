@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The modes of couplings: rolling bodies that stick or slip, ropes that are taut or slack, prescribed joints.
+ * They stand with the pairs of dry friction, so that one list of modes serves all.
+ */
+#include "model/builder.h"
+
+/* A rolling body presses on its line, and its friction, when it has coefficients, sticks or slips. */
+static void plan_roll(struct builder *builder, struct tie *tie)
+{
+    struct plan *plan = &builder->model->plan;
+    const struct constraint *source = &builder->model->scene->constraints[tie->constraint];
+    int body = tie->end[0].body;
+    tie->normal_slot = plan->slots++;
+    plan->contacts[plan->contact_count++] = (struct contact){body, tie->load, tie->normal_slot};
+    if (!source->mu_s.expr) return;
+    tie->pair = (int)plan->friction_count;
+    plan->frictions[plan->friction_count++] =
+        (struct friction){.body = body,
+                          .load = tie->load,
+                          .normal_slot = tie->normal_slot,
+                          .mu_s = builder_formula(builder, &source->mu_s, body, tie->load),
+                          .mu_k = builder_formula(builder, &source->mu_k, body, tie->load),
+                          .surface_speed = formula_constant(0),
+                          .hold_slot = plan->slots++,
+                          .tie = (int)(tie - builder->model->tree->ties),
+                          .jointed = true};
+}
+
+/* A rope is taut or slack. */
+static void plan_rope(struct fbd_model *model, struct tie *tie)
+{
+    struct plan *plan = &model->plan;
+    int first = tie->end[0].body >= 0 ? 0 : 1;
+    tie->pair = (int)plan->friction_count;
+    plan->frictions[plan->friction_count++] = (struct friction){.body = tie->end[first].body,
+                                                                .load = tie->load,
+                                                                .normal_slot = -1,
+                                                                .hold_slot = 0,
+                                                                .tie = (int)(tie - model->tree->ties),
+                                                                .rope = true,
+                                                                .jointed = true};
+}
+
+/* A prescribed motion is a joint that sticks to a surface which moves so. */
+static void plan_drive(struct builder *builder, struct model_body *body)
+{
+    struct plan *plan = &builder->model->plan;
+    int b = (int)(body - builder->model->bodies);
+    if (body->drive < 0) return;
+    body->drive_pair = (int)plan->friction_count;
+    plan->frictions[plan->friction_count++] =
+        (struct friction){.body = b,
+                          .load = body->drive,
+                          .coordinate = body->first,
+                          .normal_slot = -1,
+                          .hold_slot = plan->slots++,
+                          .tie = -1,
+                          .driven = true,
+                          .position =
+                              builder_formula(builder, &body->source->motion.prescribed, b, body->drive),
+                          .jointed = true};
+}
+
+void plan_ties(struct builder *builder)
+{
+    struct fbd_model *model = builder->model;
+    int load = (int)model->coupled_count - 1, last = -1;
+    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
+        struct tie *tie = &model->tree->ties[i];
+        bool named = tie->kind == constraint_roll || tie->kind == constraint_rope;
+        if (!named) continue;
+        if (tie->constraint != last) load++; /* the pieces of a rope share one */
+        last = tie->constraint;
+        tie->load = load;
+        if (tie->kind == constraint_roll)
+            plan_roll(builder, tie);
+        else
+            plan_rope(model, tie);
+    }
+    for (size_t b = 0; b < model->body_count; b++) plan_drive(builder, &model->bodies[b]);
+}
