@@ -26,7 +26,7 @@ static const char *side_of_equation(const struct model_body *body, int part)
 
 static void write_row(struct text *text, const char *name, double value, const char *unit, const char *remark)
 {
-    text_printf(text, "    %s", name);
+    text_printf(text, "    %s ", name);
     text_pad(text, value_column);
     if (value >= 0 || value != value) text_add(text, " "); /* room for a sign */
     text_number(text, value, 9);

@@ -24,6 +24,8 @@ static void write_tree(struct text *text, const struct tree *tree)
     write_list(text, tree->spring_count, "spring or damper between two points of links or the ground");
     write_list(text, tree->drag_count, "drag at a point of a link");
     write_list(text, (size_t)tree->pair_count, "friction that goes with the normal force between two links");
+    write_list(text, (size_t)tree->row_count,
+               "row of couplings: a multiplier each, projected after every step");
 }
 
 static void write_terms(struct text *text, const struct plan *plan, const struct tree *tree)

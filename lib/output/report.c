@@ -249,6 +249,30 @@ static void write_cost(const struct page *page)
     write_accuracy(page, &stats);
 }
 
+/* What `assemble: true` has decided. */
+static void write_assembled(struct text *text, const struct fbd_model *model, const struct fbd_state *start)
+{
+    if (!model->assembles) return;
+    text_add(text, "Assembled at the start\n");
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
+        for (int k = 0; body->source->assemble && k < 2 * body->count; k++) {
+            int i = body->first + k % body->count;
+            bool rate = k >= body->count;
+            const struct coordinate *c = &model->scene->coordinates[i];
+            const struct label *label = &model->labels[i];
+            text_add(text, "  ");
+            text_printf(text, "%s = ", rate ? label->rate_name : label->name);
+            text_number(text, start->y[rate ? i + model->plan.n : i], digits);
+            text_printf(text, " %s", rate ? label->rate_unit : label->unit);
+            text_add(text, ", looked for near ");
+            text_number(text, rate ? c->initial_rate : c->initial, digits);
+            text_add(text, "\n");
+        }
+    }
+    text_add(text, "\n");
+}
+
 char *fbd_result_report(fbd_result *result)
 {
     fbd_simulation *simulation = result->simulation;
@@ -256,6 +280,7 @@ char *fbd_result_report(fbd_result *result)
     const struct fbd_model *model = run->model;
     struct text text = {0};
     if (model->scene->title[0]) text_printf(&text, "%s\n\n", model->scene->title);
+    write_assembled(&text, model, result->start);
     equations_write(&text, result->start);
     state_ready(run->state);
     const struct page page = {&text, result, simulation->bars};

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "dynamics/energy.h"
 #include "dynamics/project.h"
 #include "dynamics/tree_system.h"
 #include "solve/run.h"
@@ -12,6 +13,16 @@
 static bool has_ties(const struct run *run)
 {
     return run->model->tree && run->model->tree->tie_count > 0;
+}
+
+static double kinetic(struct fbd_state *state)
+{
+    struct instant at = state_instant(state);
+    double sum = 0;
+    tree_move(state->model, &at);
+    for (size_t b = 0; b < state->model->body_count; b++)
+        if (state->model->bodies[b].place.link > 0) sum += kinetic_energy(&state->model->bodies[b], &at);
+    return sum;
 }
 
 static const char *tie_name(const struct run *run, int row)
@@ -76,12 +87,25 @@ void run_close_step(struct run *run)
     struct misfit misfit = state_misfit(run->state);
     run->drift = fmax(run->drift, misfit.position);
     run->projected = true;
+    double before = kinetic(run->state);
     state_return(run->state);
+    double after = kinetic(run->state);
+    run->liveliest = fmax(run->liveliest, fmax(before, after));
     struct misfit left = state_misfit(run->state);
     double reach = 0;
     for (int i = 1; i < run->model->tree->count; i++)
         reach = fmax(reach, vec_norm(run->state->tree->links[i].p));
     run->left = fmax(run->left, left.position);
+    /* Where a mechanism can fold over to another branch (all bars in one line) a step may start to, and going
+     * back takes the energy with it: that is no rounding any more. */
+    if (!(fabs(after - before) <= 1e4 * fmax(run->options.tolerance, 1e-12) * run->liveliest)) {
+        run_fail(run, FBD_FAILED,
+                 "at t = %.9g the couplings pass a singular position, where the mechanism could go on in two "
+                 "ways, and "
+                 "the step cannot tell which: try another tolerance or --method dop853",
+                 run->state->t);
+        return;
+    }
     if (left.position <= 1e3 * fmax(run->options.tolerance, 1e-12) * reach) return;
     run_fail(run, FBD_FAILED,
              "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the mechanism is "

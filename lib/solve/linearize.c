@@ -178,6 +178,25 @@ static bool find_modes(struct fbd_linearization *linear)
 
 /* ---- the whole */
 
+/* With loops the coordinates are not independent, and with a prescribed motion there is no state of rest. */
+static bool refuse_closed(const struct fbd_state *state, fbd_errors *errors)
+{
+    const struct fbd_model *model = state->model;
+    bool tied = model->tree && model->tree->tie_count > 0;
+    int driven = -1;
+    for (size_t b = 0; b < model->body_count; b++)
+        if (model->bodies[b].drive >= 0) driven = (int)b;
+    if (!tied && driven < 0) return false;
+    struct pos at = tied ? model->scene->constraints[model->tree->ties[0].constraint].at
+                         : model->bodies[driven].source->motion.at;
+    diag_add(errors, FBD_ERROR, "not-independent", at,
+             "simulate it, from a start near the equilibrium; a tree of bodies can be linearised",
+             tied ? "the coupling `%s` makes coordinates depend on each other"
+                  : "the motion of `%s` is prescribed: it is never at rest",
+             tied ? model->tree->ties[0].name : model->bodies[driven].name);
+    return true;
+}
+
 static bool refuse_sticking(const struct fbd_state *state, fbd_errors *errors)
 {
     const struct plan *plan = &state->model->plan;
@@ -235,7 +254,7 @@ fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *errors)
 {
     const struct fbd_model *model = state->model;
     errors->file = model->scene->file;
-    if (refuse_sticking(state, errors)) return NULL;
+    if (refuse_closed(state, errors) || refuse_sticking(state, errors)) return NULL;
     fbd_linearization *linear = linearization_new(model);
     int found = -1;
     double before = 0;
