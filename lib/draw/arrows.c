@@ -28,6 +28,7 @@ static const char *kind_of(const struct fbd_model *model, const struct arrow *ar
     case load_rope: return "reaction";
     case load_friction:
     case moment_friction: return "friction";
+    case load_drive:
     case load_applied:
     case moment_applied: return "applied";
     case load_spring:
