@@ -113,6 +113,30 @@ function velocityAt(body, t, row) {
   return [valueAt(body.velocity[0], t, row), valueAt(body.velocity[1], t, row)];
 }
 
+// Half the size of a body around its centre of mass, 0 for one without a size.
+function bodyExtent(body) {
+  let most = 0;
+  for (const shape of body.shapes)
+    if (shape.corners || shape.radius)
+      for (const [x, y] of shapePoints(shape)) most = Math.max(most, Math.hypot(x - body.pin[0] - body.G[0], y - body.pin[1] - body.G[1]));
+  return most;
+}
+
+// Are the bodies so small on the way that they go that nobody would see them turn?
+function bodiesAreSpecks() {
+  const extents = run.bodies.map(bodyExtent);
+  return Math.min(...extents) > 0 && Math.max(...extents) * view.scale < 5;
+}
+
+// The eye goes with a body, near enough to see it.
+function follow(body, frame) {
+  const [x, y] = place(frame, ...body.G);
+  view.scale = Math.max(view.wholeScale, 0.09 * Math.min(view.width, view.height) / (bodyExtent(body) || Infinity));
+  view.x = view.width / 2 - view.scale * x;
+  view.y = view.height / 2 + view.scale * y;
+  drawStill();
+}
+
 function fit() {
   const ratio = view.ratio = window.devicePixelRatio || 1;
   view.width = canvas.clientWidth;
@@ -121,6 +145,7 @@ function fit() {
   canvas.height = Math.round(view.height * ratio);
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   view.scale = Math.min(view.width / (view.right - view.left), view.height / (view.top - view.bottom));
+  view.wholeScale = view.scale;
   view.x = view.width / 2 - view.scale * (view.left + view.right) / 2;
   view.y = view.height / 2 + view.scale * (view.bottom + view.top) / 2;
   view.block = Math.min(0.045 * Math.min(view.width, view.height), Math.max(7, 0.45 * view.scale * slideGap()));
@@ -156,13 +181,15 @@ function strokeWith(colour, width, dash) {
 
 // ---- what does not move
 
+const hatchStep = 9;
+
 function hatch(from, to, nx, ny) {
   const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
   const ux = (to[0] - from[0]) / length, uy = (to[1] - from[1]) / length;
   path([from, to]);
   strokeWith(view.colour.soft, 1.5);
   pen.beginPath();
-  for (let d = 0; d < length; d += 9) {
+  for (let d = 0; d < length; d += hatchStep) {
     const x = from[0] + d * ux, y = from[1] + d * uy;
     pen.moveTo(x, y);
     pen.lineTo(x + 8 * (nx - 0.7 * ux), y + 8 * (ny - 0.7 * uy));
@@ -176,7 +203,8 @@ function acrossCanvas(through, along, normal, down) {
   const bx = x - normal[0] * down, by = y + normal[1] * down;
   // from the foot of the canvas's middle, so that the ends are far outside wherever the line starts
   const k = (view.width / 2 - bx) * ex + (view.height / 2 - by) * ey;
-  return [[bx + (k - far) * ex, by + (k - far) * ey], [bx + (k + far) * ex, by + (k + far) * ey]];
+  const first = hatchStep * Math.floor((k - far) / hatchStep); // marks stay where they are when the eye moves
+  return [[bx + first * ex, by + first * ey], [bx + (k + far) * ex, by + (k + far) * ey]];
 }
 
 function drawSurface(through, along, normal, down) {
@@ -187,7 +215,7 @@ function drawSurface(through, along, normal, down) {
 function drawLine(body) {
   const { through, along, normal, surface, reach } = body.line;
   if (surface) {
-    drawSurface(through, along, normal, reach * view.scale || view.block * 0.7);
+    drawSurface(through, along, normal, wedgeReach(body) * view.scale || reach * view.scale || view.block * 0.7);
   } else {
     path(acrossCanvas(through, along, normal, 0));
     strokeWith(view.colour.line, 1, [6, 4]);
@@ -345,9 +373,11 @@ function caption(text, x, y, ux, uy, colour) {
 }
 
 function arrowColour(arrow) {
-  if (arrow.reaction || arrow.name === "normal") return view.colour.reaction;
+  const what = arrow.name.split(".").pop(); // on the other body it is called body.normal
+  if (what.startsWith("friction")) return view.colour.friction;
+  if (arrow.reaction || what === "normal") return view.colour.reaction;
   if (arrow.name === "gravity") return view.colour.gravity;
-  return arrow.name.startsWith("friction") ? view.colour.friction : view.colour.applied;
+  return view.colour.applied;
 }
 
 function drawCouple(from, couple, colour, text) {
@@ -386,9 +416,11 @@ function drawTrace(body, t) {
   strokeWith(view.colour.trace, 1.2, [4, 3]);
 }
 
-// Draw everything at time t. shows: {forces, names, velocity, trace}; forces and names of `chosen` or, when null, all.
+// Draw everything at time t. shows: {forces, names, velocity, trace, follow}; forces and names of `chosen` or, when
+// null, all. The eye follows the chosen body, or the first one.
 function drawScene(t, shows, chosen) {
   const row = rowAt(t), frames = run.bodies.map((body) => frameAt(body, t, row));
+  if (shows.follow) follow(run.bodies[chosen || 0], frames[chosen || 0]);
   pen.drawImage(still, 0, 0, view.width, view.height);
   if (shows.trace) for (const body of run.bodies) drawTrace(body, t);
   for (const link of run.links) drawLink(link, frames);

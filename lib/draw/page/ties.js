@@ -65,6 +65,7 @@ function jointsOf(index) {
 }
 
 function prepareTies() {
+  prepareWedges();
   for (const tie of run.ties) {
     if (tie.kind === "roll" || tie.kind === "rack") prepareLine(tie);
     if (tie.kind === "gear") prepareGear(tie);
@@ -81,6 +82,34 @@ function lineEnds(tie) {
   return tie.span.map((s) => [x + s * ex + tie.lift * nx, y + s * ey + tie.lift * ny]);
 }
 
+// A body without a shape that another one slides on: which stretch of the line it needs.
+function prepareWedges() {
+  for (const body of run.bodies) {
+    const under = body.line && run.bodies[body.line.on];
+    if (!under || !under.shapes.every((shape) => shape.kind === "unknown")) continue;
+    const { through, along, normal } = body.line, places = survey.map((t) => {
+      const row = rowAt(t), frame = frameAt(body, t, row), [x, y] = inFrame(frameAt(under, t, row), [frame.x, frame.y]);
+      return (x - through[0]) * along[0] + (y - through[1]) * along[1];
+    });
+    const low = Math.min(...places), high = Math.max(...places), pad = 0.15 * (high - low) || 0.1;
+    under.wedge = { from: [low - pad, high + pad], through, along, normal, reach: body.line.reach };
+  }
+}
+
+// Its corners in its frame: the line, under what slides there, and a base along the way of the wedge itself.
+function wedgeCorners(body) {
+  const { from, through, along, normal, reach } = body.wedge, down = reach || view.block * 0.7 / view.scale;
+  const top = from.map((s) => [0, 1].map((k) => through[k] + s * along[k] - down * normal[k]));
+  const rise = Math.abs(top[1][1] - top[0][1]), thick = Math.max(0, 0.2 * (from[1] - from[0]) - rise);
+  const base = Math.min(top[0][1], top[1][1]) - thick;
+  return [...top, [top[1][0], base], [top[0][0], base]];
+}
+
+// How far below the frame of the body its base is; 0 for a body that is no wedge.
+function wedgeReach(body) {
+  return body.wedge ? Math.max(0, -wedgeCorners(body)[2][1]) : 0;
+}
+
 // Points that the picture has to hold at some instant.
 function tiePoints(frameOf) {
   const points = [];
@@ -91,7 +120,10 @@ function tiePoints(frameOf) {
     }
     if (tie.span && tie.ends[1].body >= 0) points.push(...lineEnds(tie).map((p) => place(frameOf(tie.ends[1].body), ...p)));
   }
-  run.bodies.forEach((body, i) => body.joints.forEach((p) => points.push(place(frameOf(i), ...p))));
+  run.bodies.forEach((body, i) => {
+    for (const p of body.joints) points.push(place(frameOf(i), ...p));
+    if (body.wedge) for (const p of wedgeCorners(body)) points.push(place(frameOf(i), ...p));
+  });
   return points;
 }
 
@@ -117,10 +149,7 @@ function drawBoard(tie, frame) {
   const length = Math.hypot(b[0] - a[0], b[1] - a[1]) || 1, ux = (b[0] - a[0]) / length, uy = (b[1] - a[1]) / length;
   const way = -tie.side, thick = Math.max(6, 0.25 * tie.ends[0].radius * view.scale);
   const down = ([x, y], d) => [x + way * uy * d, y - way * ux * d];
-  path([a, b, down(b, thick), down(a, thick)], true);
-  pen.fillStyle = view.colour.body;
-  pen.fill();
-  strokeWith(view.colour.edge, 1.4);
+  drawPlate([a, b, down(b, thick), down(a, thick)]);
   if (tie.kind !== "rack") return;
   const pitch = 2 * Math.PI * tie.ends[0].radius * view.scale / 12;
   pen.beginPath();
@@ -136,9 +165,18 @@ function drawTiesUnder(frames) {
   for (const tie of run.ties) if (tie.span && tie.ends[1].body >= 0) drawBoard(tie, frames[tie.ends[1].body]);
 }
 
-// A body without a shape: the wheel that a gear makes of it, else a plate or a bar through its joints.
+function drawPlate(points) {
+  path(points, true);
+  pen.fillStyle = view.colour.body;
+  pen.fill();
+  strokeWith(view.colour.edge, 1.4);
+}
+
+// A body without a shape: the wedge that another one slides on, the wheel that a gear makes of it, else a plate or a bar through its joints.
 function drawShapeless(body, frame) {
-  if (body.wheel) {
+  if (body.wedge) {
+    drawPlate(wedgeCorners(body).map((point) => toScreen(place(frame, ...point))));
+  } else if (body.wheel) {
     const [x, y] = toScreen(place(frame, ...body.wheel.point)), r = body.wheel.radius * view.scale;
     pen.beginPath();
     pen.arc(x, y, r, 0, 2 * Math.PI);
@@ -155,7 +193,7 @@ function drawShapeless(body, frame) {
     strokeWith(view.colour.body, 5.4);
     pen.lineJoin = "miter";
   }
-  return body.wheel || body.joints.length > 1;
+  return body.wedge || body.wheel || body.joints.length > 1;
 }
 
 // ---- over the bodies
