@@ -99,7 +99,7 @@ function measure() {
 
 // The least distance of two parallel lines with bodies that have no size: their blocks pass each other.
 function slideGap() {
-  const lines = run.bodies.filter((body) => body.line && body.line.on < 0 && !body.shapes.some((s) => s.corners || s.radius)).map((body) => body.line);
+  const lines = run.bodies.filter((body) => body.line && body.line.on < 0 && !isSized(body)).map((body) => body.line);
   let gap = Infinity;
   lines.forEach((a, i) => lines.slice(i + 1).forEach((b) => {
     const away = Math.abs((b.through[0] - a.through[0]) * a.normal[0] + (b.through[1] - a.through[1]) * a.normal[1]);
@@ -334,9 +334,8 @@ function drawBody(body, frame) {
       strokeWith(view.colour.edge, 1.2);
     }
   }
-  const sized = body.shapes.some((shape) => shape.corners || shape.radius);
-  if (!sized && body.board) return;
-  if (!sized && body.line) { drawBlock(frame); return; }
+  if (!isSized(body) && body.board) return;
+  if (!isSized(body) && body.line) { drawBlock(frame); return; }
   for (const hole of [false, true]) for (const shape of body.shapes) if (Boolean(shape.hole) === hole) drawShape(body, frame, shape);
 }
 

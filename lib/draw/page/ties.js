@@ -7,6 +7,10 @@ function tieEnd(end, frameOf) {
   return end.body < 0 ? end.point : place(frameOf(end.body), ...end.point);
 }
 
+function isSized(body) {
+  return body.shapes.some((shape) => shape.corners || shape.radius);
+}
+
 // A point of the world in a body's frame.
 function inFrame(frame, [x, y]) {
   const dx = x - frame.x, dy = y - frame.y;
@@ -86,7 +90,7 @@ function lineEnds(tie) {
 function prepareWedges() {
   for (const body of run.bodies) {
     const under = body.line && run.bodies[body.line.on];
-    if (!under || !under.shapes.every((shape) => shape.kind === "unknown")) continue;
+    if (!under || isSized(under)) continue;
     const { through, along, normal } = body.line, places = survey.map((t) => {
       const row = rowAt(t), frame = frameAt(body, t, row), [x, y] = inFrame(frameAt(under, t, row), [frame.x, frame.y]);
       return (x - through[0]) * along[0] + (y - through[1]) * along[1];
