@@ -335,7 +335,8 @@ FBD_API double fbd_result_work_error(fbd_result *result, const char *body, const
  * 0 without error bars. */
 FBD_API size_t fbd_result_force_errors(fbd_result *result, size_t body, fbd_arrow *arrows, size_t room);
 
-/* False when options.accuracy, or the file, asked for an accuracy that the estimated global error exceeds. */
+/* False when options.accuracy, or the file, asked for an accuracy that the estimated global error exceeds, or
+ * that nothing can be said of because the run failed or was interrupted. */
 FBD_API bool fbd_result_accurate(const fbd_result *result);
 
 /* The same as text, to be freed with free(); NULL when memory is out. */

@@ -97,7 +97,9 @@ fbd_result *record_accurately(fbd_simulation *simulation, const fbd_recording *r
                       count == most_attempts || simulation->run->outcome == FBD_FAILED ||
                       simulation->run->outcome == FBD_INTERRUPTED ||
                       takes_too_long(simulation->run, tolerance);
-        if (enough && best == last && !written) return result;
+        bool stop = simulation->run->outcome == FBD_INTERRUPTED; /* no other run comes any farther */
+        if (enough && (best == last || stop) && !written) return result;
+        if (stop) best = last;
         fbd_result_free(result);
         if (enough) tolerance = best->tolerance;
         if (!begin_again(simulation, tolerance)) return NULL;

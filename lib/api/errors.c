@@ -106,5 +106,8 @@ size_t fbd_result_force_errors(fbd_result *result, size_t body, fbd_arrow *arrow
 bool fbd_result_accurate(const fbd_result *result)
 {
     const fbd_simulation *simulation = result->simulation;
-    return simulation->accuracy == 0 || companion_global(simulation->bars->companion) <= simulation->accuracy;
+    fbd_outcome outcome = simulation->run->outcome;
+    if (simulation->accuracy == 0) return true;
+    if (outcome == FBD_FAILED || outcome == FBD_INTERRUPTED || outcome == FBD_OUT_OF_MEMORY) return false;
+    return companion_global(simulation->bars->companion) <= simulation->accuracy;
 }

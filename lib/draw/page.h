@@ -22,4 +22,8 @@ extern const size_t page_asset_count;
 /* The data of the page as JSON: see page_data.c for its members. False when memory is out. */
 bool page_data_write(struct text *text, fbd_result *result, struct record *record);
 
+/* Its members `links` and `ties`. */
+void page_links_write(struct text *text, const struct record *record);
+void page_ties_write(struct text *text, const fbd_result *result, const struct record *record);
+
 #endif

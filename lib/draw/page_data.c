@@ -2,13 +2,15 @@
  *
  * What the page knows of a run, as one JSON object:
  *
- *     title, units, outcome, reason, stats    as in the JSON of the run
- *     rows, thinned, bucket, buckets          of the data
- *     columns    [{n: name, u: unit, c: constant} | {.., of, a, b: a + b column[of]} | {.., d | f: number of
- * data}] doubles, floats, envelope               base 64, see pack.h; `doubles` begins with the times bodies
- * [{name, motion, frame: [3 columns], shapes, G, axis | line, arrows, equations}] links      springs and
- * dampers that have another end energy     [4 columns] events     {kinds, labels, times (base 64), of (index
- * into labels), details}
+ * - title, units, reason, stats: as in the JSON of the run; start and end [s]
+ * - rows, thinned, bucket, buckets, doubleColumns, floatColumns: of the data
+ * - columns: {n: name, u: unit} and one of {c: constant}, {of, a, b: a + b column[of]}, {d | f: number of
+ * data}
+ * - doubles, floats, envelope: base 64, see pack.h; `doubles` begins with the times
+ * - bodies: {name, motion, parent, frame: 3 columns, shapes, G, axis | line, arrows, equations}
+ * - links: springs and dampers that have another end; ties: couplings that hold (both: page_links.c)
+ * - energy: 4 columns
+ * - events: {kinds, labels, times, of: index into labels, details}
  *
  * Names and titles are data, never markup: the script puts them into the page as text.
  */
@@ -18,68 +20,9 @@
 #include "draw/outline.h"
 #include "draw/pack.h"
 #include "draw/page.h"
+#include "draw/page_json.h"
 
-enum {
-    digits = 17,
-    most_bytes = 3600 * 1024,
-    most_listed_events = 60000,
-    bytes_of_event = 26,
-    most_details = 2000
-};
-
-/* ---- JSON */
-
-static void key(struct text *text, const char *name)
-{
-    text_json_string(text, name);
-    text_add(text, ":");
-}
-
-static void number(struct text *text, double value)
-{
-    if (isfinite(value))
-        text_number(text, value, digits);
-    else
-        text_add(text, "null");
-}
-
-static void vector(struct text *text, struct vec v)
-{
-    text_add(text, "[");
-    number(text, v.x);
-    text_add(text, ",");
-    number(text, v.y);
-    text_add(text, "]");
-}
-
-static void text_member(struct text *text, const char *name, const char *value)
-{
-    key(text, name);
-    text_json_string(text, value);
-    text_add(text, ",");
-}
-
-static void number_member(struct text *text, const char *name, double value)
-{
-    key(text, name);
-    number(text, value);
-    text_add(text, ",");
-}
-
-/* The comma of a list before all but its first entry. */
-static void comma(struct text *text, size_t index)
-{
-    if (index) text_add(text, ",");
-}
-
-/* "name":[first, first + 1, ...], */
-static void columns_member(struct text *text, const char *name, int first, int count)
-{
-    key(text, name);
-    text_add(text, "[");
-    for (int i = 0; i < count; i++) text_printf(text, i ? ",%d" : "%d", first + i);
-    text_add(text, "],");
-}
+enum { most_bytes = 3600 * 1024, most_listed_events = 60000, bytes_of_event = 26, most_details = 2000 };
 
 /* ---- columns */
 
@@ -89,18 +32,18 @@ static void write_columns(struct text *text, const struct pack *pack)
     text_add(text, "\"columns\":[");
     for (size_t c = 0; c < record->column_count; c++) {
         const struct packed_column *packed = &pack->columns[c];
-        comma(text, c);
+        json_comma(text, c);
         text_add(text, "\n{");
-        text_member(text, "n", record->columns[c].name);
-        text_member(text, "u", record->columns[c].unit);
+        json_text_member(text, "n", record->columns[c].name);
+        json_text_member(text, "u", record->columns[c].unit);
         switch (packed->kind) {
         case packed_constant:
-            key(text, "c");
-            number(text, packed->offset);
+            json_key(text, "c");
+            json_number(text, packed->offset);
             break;
         case packed_affine:
-            number_member(text, "a", packed->offset);
-            number_member(text, "b", packed->factor);
+            json_number_member(text, "a", packed->offset);
+            json_number_member(text, "b", packed->factor);
             text_printf(text, "\"of\":%d", packed->of);
             break;
         case packed_double: text_printf(text, "\"d\":%zu", packed->slot); break;
@@ -118,7 +61,7 @@ static void write_numbers(struct text *text, const struct pack *pack)
                 "\"rows\":%zu,\"thinned\":%s,\"buckets\":%zu,\"doubleColumns\":%zu,\"floatColumns\":%zu,",
                 record->count, record_is_thinned(record) ? "true" : "false", record->bucket_count,
                 pack->doubles, pack->floats);
-    number_member(text, "bucket", record->bucket);
+    json_number_member(text, "bucket", record->bucket);
     text_add(text, "\n\"doubles\":\"");
     pack_write_doubles(pack, text);
     text_add(text, "\",\n\"floats\":\"");
@@ -134,32 +77,32 @@ static void write_shape(struct text *text, const struct outline_part *part)
 {
     static const char *const kinds[] = {"dot", "bar", "circle", "polygon", "unknown"};
     text_add(text, "{");
-    text_member(text, "kind", kinds[part->kind]);
+    json_text_member(text, "kind", kinds[part->kind]);
     if (part->hole) text_add(text, "\"hole\":true,");
     if (part->kind == outline_circle) {
-        number_member(text, "radius", part->radius);
-        number_member(text, "inner", part->inner);
+        json_number_member(text, "radius", part->radius);
+        json_number_member(text, "inner", part->inner);
     }
     int corners = part->kind == outline_polygon ? 4 : part->kind == outline_bar ? 2 : 0;
     if (corners > 0) {
         text_add(text, "\"corners\":[");
         for (int i = 0; i < corners; i++) {
-            comma(text, (size_t)i);
-            vector(text, part->corner[i]);
+            json_comma(text, (size_t)i);
+            json_vector(text, part->corner[i]);
         }
         text_add(text, "],");
     }
-    key(text, "center");
-    vector(text, part->center);
+    json_key(text, "center");
+    json_vector(text, part->center);
     text_add(text, "}");
 }
 
 static void write_arrow(struct text *text, const struct record_of_arrow *arrow)
 {
     text_add(text, "\n{");
-    text_member(text, "name", arrow->name);
-    columns_member(text, "arrow", arrow->arrow, 5);
-    columns_member(text, "force", arrow->force, arrow->force_count);
+    json_text_member(text, "name", arrow->name);
+    json_columns_member(text, "arrow", arrow->arrow, 5);
+    json_columns_member(text, "force", arrow->force, arrow->force_count);
     text_printf(text, "\"reaction\":%s,\"work\":%d}", arrow->load < 0 ? "true" : "false", arrow->work);
 }
 
@@ -175,15 +118,15 @@ static void begin_equation(struct text *text, const struct row *row)
     struct text name = {0};
     text_printf(&name, row->body ? "%s.%s" : "%s%s", row->body ? row->body : "", row->coordinate);
     text_add(text, "\n{");
-    text_member(text, "name", name.data ? name.data : "");
+    json_text_member(text, "name", name.data ? name.data : "");
     text->failed |= name.failed;
     text_free(&name);
-    text_member(text, "inertia", row->inertia);
-    number_member(text, "value", row->value);
-    text_member(text, "inertiaUnit", row->inertia_unit);
-    text_member(text, "accelerationName", row->acceleration);
-    text_member(text, "accelerationUnit", row->acceleration_unit);
-    text_member(text, "unit", row->unit);
+    json_text_member(text, "inertia", row->inertia);
+    json_number_member(text, "value", row->value);
+    json_text_member(text, "inertiaUnit", row->inertia_unit);
+    json_text_member(text, "accelerationName", row->acceleration);
+    json_text_member(text, "accelerationUnit", row->acceleration_unit);
+    json_text_member(text, "unit", row->unit);
     text_printf(text, "\"acceleration\":%d,\"terms\":[", row->column);
 }
 
@@ -268,7 +211,7 @@ static void write_equations(struct text *text, const struct record *record, int 
     bool jointed = record->bodies[b].newton >= 0;
     text_add(text, "\"equations\":[");
     for (int k = 0; k < body->count && (!jointed || body->count == 1); k++) {
-        comma(text, (size_t)k);
+        json_comma(text, (size_t)k);
         write_coordinate_equation(text, record, b, k);
     }
     if (jointed) write_newton_equations(text, record, b);
@@ -278,8 +221,8 @@ static void write_equations(struct text *text, const struct record *record, int 
 static void write_guide(struct text *text, const struct model_body *body)
 {
     if (body->kind == motion_pivot && body->parent == ground_body) {
-        key(text, "axis");
-        vector(text, body->origin);
+        json_key(text, "axis");
+        json_vector(text, body->origin);
         text_add(text, ",");
     }
     if (body->kind == motion_pivot || body->kind == motion_weld) text_add(text, "\"joint\":true,");
@@ -290,14 +233,14 @@ static void write_guide(struct text *text, const struct model_body *body)
     struct vec down = vec_scale(-1, body->n),
                in_body = {vec_dot(down, body->e), vec_dot(down, vec_perp(body->e))};
     text_add(text, "\"line\":{\"through\":");
-    vector(text, body->origin);
+    json_vector(text, body->origin);
     text_add(text, ",\"along\":");
-    vector(text, body->e);
+    json_vector(text, body->e);
     text_add(text, ",\"normal\":");
-    vector(text, body->n);
+    json_vector(text, body->n);
     text_printf(text, ",\"on\":%d", body->parent);
     text_printf(text, ",\"surface\":%s,\"reach\":", surface ? "true" : "false");
-    number(text, outline_reach(body->source, body->inertia.G, in_body));
+    json_number(text, outline_reach(body->source, body->inertia.G, in_body));
     text_add(text, "},");
 }
 
@@ -307,69 +250,36 @@ static void write_body(struct text *text, const struct record *record, int b)
     const struct model_body *body = &record->model->bodies[b];
     const struct record_of_body *columns = &record->bodies[b];
     text_add(text, "\n{");
-    text_member(text, "name", body->name);
-    text_member(text, "motion", motions[body->kind]);
-    columns_member(text, "frame", columns->pose, 3);
-    columns_member(text, "velocity", columns->pose + 3, 2);
+    json_text_member(text, "name", body->name);
+    json_text_member(text, "motion", motions[body->kind]);
+    text_printf(text, "\"parent\":%d,", body->parent);
+    json_columns_member(text, "frame", columns->pose, 3);
+    json_columns_member(text, "velocity", columns->pose + 3, 2);
     /* the accelerations of a planar body that is not jointed are those of its centre of mass */
     bool offset = body->kind == motion_planar && columns->newton < 0 && body->L > 0;
     text_printf(text, "\"sloped\":%s,", offset ? "false" : "true");
-    columns_member(text, "coordinates", columns->coordinate, body->count);
-    columns_member(text, "rates", columns->rate, body->count);
-    columns_member(text, "accelerations", columns->acceleration, body->count);
+    json_columns_member(text, "coordinates", columns->coordinate, body->count);
+    json_columns_member(text, "rates", columns->rate, body->count);
+    json_columns_member(text, "accelerations", columns->acceleration, body->count);
     write_guide(text, body);
     write_equations(text, record, b);
     text_add(text, "\"shapes\":[");
     for (size_t i = 0; i < body->source->part_count; i++) {
         struct outline_part part = outline_of_part(&body->source->parts[i]);
-        comma(text, i);
+        json_comma(text, i);
         write_shape(text, &part);
     }
     text_add(text, "],\"arrows\":[");
     for (size_t i = 0; i < columns->arrow_count; i++) {
-        comma(text, i);
+        json_comma(text, i);
         write_arrow(text, &columns->arrows[i]);
     }
     /* the frame of a pivot sits on the axis: its points are told from there */
     text_add(text, "],\"pin\":");
-    vector(text, body->pin);
+    json_vector(text, body->pin);
     text_add(text, ",\"G\":");
-    vector(text, vec_sub(body->inertia.G, body->pin));
+    json_vector(text, vec_sub(body->inertia.G, body->pin));
     text_add(text, "}");
-}
-
-/* The other end: on the ground, on another body (from its frame's origin), or a wall that the file does not
- * place. */
-static void write_other_end(struct text *text, const struct fbd_model *model, const struct model_load *load)
-{
-    text_printf(text, ",\"partner\":%d,\"anchor\":", load->linked ? load->partner : ground_body);
-    if (!load->linked)
-        text_add(text, "null");
-    else if (load->partner >= 0)
-        vector(text, vec_sub(load->anchor, model->bodies[load->partner].pin));
-    else
-        vector(text, load->anchor);
-}
-
-static void write_links(struct text *text, const struct fbd_model *model)
-{
-    size_t written = 0;
-    text_add(text, "\"links\":[");
-    for (size_t i = 0; i < model->load_count; i++) {
-        const struct model_load *load = &model->loads[i];
-        const struct model_body *body = &model->bodies[load->body];
-        enum load_kind kind = load->source->kind;
-        if (kind != load_spring && kind != load_damper) continue;
-        bool to_a_wall = body->kind == motion_slide && body->parent == ground_body;
-        if (!load->linked && !to_a_wall) continue;
-        comma(text, written++);
-        text_printf(text, "{\"body\":%d,\"kind\":\"%s\",\"point\":", load->body,
-                    kind == load_damper ? "damper" : "spring");
-        vector(text, vec_sub(load->point, body->pin));
-        write_other_end(text, model, load);
-        text_add(text, "}");
-    }
-    text_add(text, "],\n");
 }
 
 /* ---- events */
@@ -401,16 +311,16 @@ static void write_labels(struct text *text, const struct run *run, size_t count)
         size_t k = 0;
         while (k < label_count && !alike(labels[k], event)) k++;
         if (k == label_count && label_count < most_labels) {
-            comma(text, label_count);
+            json_comma(text, label_count);
             labels[label_count++] = event;
             text_add(text, "{");
-            text_member(text, "body", event_body(run->model, event));
-            text_member(text, "kind", fbd_event_kind_name(event->kind));
-            key(text, "name");
+            json_text_member(text, "body", event_body(run->model, event));
+            json_text_member(text, "kind", fbd_event_kind_name(event->kind));
+            json_key(text, "name");
             text_json_string(text, event_name(run->model, event));
             text_add(text, "}");
         }
-        comma(&of, i);
+        json_comma(&of, i);
         if (k < label_count)
             text_printf(&of, "%zu", k);
         else
@@ -430,14 +340,14 @@ static void write_events(struct text *text, const struct run *run)
     write_labels(text, run, count);
     text_add(text, "\"times\":[");
     for (size_t i = 0; i < count; i++) {
-        comma(text, i);
-        number(text, run->events[i].t);
+        json_comma(text, i);
+        json_number(text, run->events[i].t);
     }
     text_add(text, "],\"details\":[");
     for (size_t i = 0; i < count && i < most_details; i++) {
         char detail[event_detail_size];
         event_detail(run->model, &run->events[i], detail, sizeof detail);
-        comma(text, i);
+        json_comma(text, i);
         text_json_string(text, detail);
     }
     text_add(text, "]},\n");
@@ -450,16 +360,16 @@ static void write_head(struct text *text, fbd_result *result)
     const struct run *run = result->simulation->run;
     const struct fbd_model *model = run->model;
     fbd_stats stats = fbd_simulation_stats(result->simulation);
-    text_member(text, "title", model->scene->title);
-    text_member(text, "reason", run->reason);
-    number_member(text, "start", result->start->t);
-    number_member(text, "end", run->state->t);
+    json_text_member(text, "title", model->scene->title);
+    json_text_member(text, "reason", run->reason);
+    json_number_member(text, "start", result->start->t);
+    json_number_member(text, "end", run->state->t);
     text_printf(text, "\"units\":{\"length\":\"%s\",\"force\":\"%s\",\"moment\":\"%s\",\"energy\":\"%s\"},\n",
                 length_unit(model), force_unit(model), moment_unit(model), energy_unit(model));
     text_add(text, "\"stats\":{");
-    text_member(text, "method", stats.method);
-    number_member(text, "tolerance", stats.tolerance);
-    number_member(text, "seconds", stats.seconds);
+    json_text_member(text, "method", stats.method);
+    json_number_member(text, "tolerance", stats.tolerance);
+    json_number_member(text, "seconds", stats.seconds);
     text_printf(text, "\"steps\":%lu,\"rejected\":%lu,\"rhs\":%lu,\"jacobians\":%lu,\"stiffSteps\":%lu},\n",
                 stats.steps, stats.rejected, stats.rhs, stats.jacobians, stats.stiff_steps);
 }
@@ -475,13 +385,14 @@ bool page_data_write(struct text *text, fbd_result *result, struct record *recor
     write_numbers(text, &pack);
     text_add(text, "\"bodies\":[");
     for (size_t b = 0; b < record->model->body_count; b++) {
-        comma(text, b);
+        json_comma(text, b);
         write_body(text, record, (int)b);
     }
     text_add(text, "],\n");
-    write_links(text, record->model);
+    page_links_write(text, record);
+    page_ties_write(text, result, record);
     write_events(text, result->simulation->run);
-    columns_member(text, "energy", record->energy, 4);
+    json_columns_member(text, "energy", record->energy, 4);
     text_add(text, "\"version\":1}");
     pack_end(&pack);
     return !text->failed;

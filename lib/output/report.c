@@ -230,10 +230,14 @@ static void write_accuracy(const struct page *page, const fbd_stats *stats)
                  "  two runs of different accuracy part: a chaotic motion, a run that is too long, or a "
                  "tolerance that is too large\n");
     if (stats->accuracy == 0) return;
-    bool reached = fbd_result_accurate(page->result);
+    fbd_outcome outcome = fbd_result_outcome(page->result);
+    bool cut = outcome == FBD_FAILED || outcome == FBD_INTERRUPTED,
+         reached = fbd_result_accurate(page->result);
     text_printf(text, "  accuracy %g asked for: %s, with %lu run%s in %.3f ms in all\n", stats->accuracy,
-                reached ? "reached" : "NOT reached, this is the best", stats->runs,
-                stats->runs == 1 ? "" : "s", 1e3 * stats->seconds_spent);
+                reached ? "reached"
+                : cut   ? "NOT known, the run did not come to its end"
+                        : "NOT reached, this is the best",
+                stats->runs, stats->runs == 1 ? "" : "s", 1e3 * stats->seconds_spent);
 }
 
 static void write_cost(const struct page *page)

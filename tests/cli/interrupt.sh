@@ -110,4 +110,8 @@ run --terminal SIGINT "$FBD_RUN" --csv out.csv --json out.json --every 1e3 long.
 check 'a terminal shows progress' says 't = [^ ]* of 1e\+09 s \([0-9]* %\), [^ ]* s simulated per second, .* left' printed
 check 'Ctrl-C on it ends the run' says '^ended with -2$' printed
 check 'with whole files' same_time
+
+run --terminal SIGINT "$FBD_RUN" --accuracy 1e-3 --json out.json long.yaml
+check 'no accuracy is claimed for a run that was cut' says 'asked for: NOT known' printed
+check 'and none is called reached' sh -c '! grep -q "asked for: reached" printed'
 finish

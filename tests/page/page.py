@@ -181,6 +181,60 @@ def check_joined(browser, folder):
             page_is_quiet(browser, path)
 
 
+def check_couplings(browser, folder):
+    """What is drawn of a coupling is what changes in the picture when the page forgets it."""
+    unseen, loud = {}, {}
+    for model in sorted((MODELS / "couplings").glob("*.yaml")):
+        path = folder / f"{model.stem}.html"
+        run("--quiet", "--html", path, model)
+        browser.open(path)
+        browser.run("for (let i = 0; i <= 10; i++) fbd.seek(run.end * i / 10);")
+        if console := browser.log("browser"):
+            loud[model.stem] = console
+        changed = browser.run("""
+            for (const id of ['show-forces', 'show-names', 'show-trace']) document.getElementById(id).checked = false;
+            fbd.seek(run.end * 0.2);
+            const all = run.ties, picture = () => {
+              drawStill(); refresh(); return pen.getImageData(0, 0, canvas.width, canvas.height).data; };
+            const whole = picture();
+            return all.map((tie) => {
+              run.ties = all.filter((other) => other !== tie);
+              const without = picture();
+              run.ties = all;
+              return [tie.name, whole.reduce((sum, value, i) => sum + (value !== without[i]), 0)]; });""")
+        if not changed or any(pixels < 20 for _, pixels in changed):
+            unseen[model.stem] = changed
+        browser.log("browser")  # Chromium's advice for who reads pixels often
+    with claim("each coupling of the models is to be seen in its page"):
+        assert not unseen, unseen
+    with claim("and none of these pages has a word for the console"):
+        assert not loud, loud
+    with claim("a rope touches its pulley where it leaves it: Atwood's hangs straight down from both sides"):
+        browser.open(folder / "atwood.html")
+        ends = browser.run("fbd.seek(0.5); return run.ties.map((tie) => tie.reached);")
+        for got, want in zip(ends[0], (-0.1, 0)):
+            close(got, want, 1e-9)
+        assert abs(ends[1][0] - 0.1) < 1e-9, ends
+    with claim("a rope is drawn slack between the events that say so, and taut else"):
+        browser.open(folder / "rope_pendulum.html")
+        slack = browser.run("""const [loose, taut] = run.events.times;
+            return [0, loose / 2, loose + 1e-6, (loose + taut) / 2, taut - 1e-6, taut + 1e-6, run.end].map(
+              (t) => isSlack(run.ties[0], t, rowAt(t)));""")
+        assert slack == [False, False, True, True, True, False, False], slack
+
+
+def check_early_end(browser, folder):
+    model, path = MODELS / "hard/not_a_number_beyond.yaml", folder / "early.html"
+    outcome = json.loads(run("--json", "-", "--html", path, model, code=1))
+    browser.open(path)
+    with claim("the page of a run that failed says why, and plays what there is"):
+        assert outcome["reason"]
+        assert outcome["reason"] in browser.run("return document.getElementById('summary').textContent")
+        assert browser.run("fbd.seek(1e9); return fbd.player.t") == outcome["final"]["t"] > 0
+    with claim("quietly"):
+        page_is_quiet(browser, path)
+
+
 def check_all(browser, folder):
     """Every model has a page that plays, and a run of no length has one as well."""
     gallery = [(model, []) for model in sorted(MODELS.glob("*/*.yaml")) if model.parent.name != "hard"]
@@ -282,7 +336,8 @@ def main():
             browser.open("/dev/null")
             browser.requests()  # those of the browser's first page
             browser.log("browser")
-            for check in (check_incline, check_pendulum, check_joined, check_all, check_text_is_data, check_many, check_long):
+            for check in (check_incline, check_pendulum, check_joined, check_couplings, check_early_end, check_all,
+                          check_text_is_data, check_many, check_long):
                 check(browser, Path(name))
     except Missing as missing:
         skip(str(missing))

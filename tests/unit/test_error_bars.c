@@ -367,6 +367,32 @@ static void an_accuracy_below_rounding_is_refused_with_the_best(void **unused)
     trial_close(&trial);
 }
 
+static int stop_at_one(void *unused, const fbd_progress *progress)
+{
+    (void)unused;
+    return progress->t >= 1;
+}
+
+/* What was computed is shown, but nobody knows whether the whole run would have been as accurate as it was to
+ * be. */
+static void an_interrupted_run_has_not_reached_its_accuracy(void **unused)
+{
+    (void)unused;
+    struct trial trial = trial_open("vibration/damped_oscillator.yaml", NULL);
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    options.accuracy = 1e-3; /* that of the first run, if it came to its end */
+    const fbd_recording recording = {.progress = stop_at_one};
+    trial_start(&trial, &options);
+    fbd_result *result = fbd_simulation_run(trial.simulation, &recording);
+    assert_int_equal(fbd_result_outcome(result), FBD_INTERRUPTED);
+    assert_false(fbd_result_accurate(result));
+    char *report = fbd_result_report(result);
+    assert_non_null(strstr(report, "accuracy 0.001 asked for: NOT known"));
+    free(report);
+    fbd_result_free(result);
+    trial_close(&trial);
+}
+
 /* Only the last run is written. */
 static void the_rows_are_those_of_the_run_that_was_accurate(void **unused)
 {
@@ -447,6 +473,7 @@ int main(void)
         cmocka_unit_test(without_error_bars_there_are_none),
         cmocka_unit_test(an_accuracy_that_is_asked_for_is_delivered),
         cmocka_unit_test(an_accuracy_below_rounding_is_refused_with_the_best),
+        cmocka_unit_test(an_interrupted_run_has_not_reached_its_accuracy),
         cmocka_unit_test(the_rows_are_those_of_the_run_that_was_accurate),
         cmocka_unit_test(an_accuracy_excludes_what_it_chooses),
         cmocka_unit_test(an_option_stands_before_the_file),

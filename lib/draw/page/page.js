@@ -102,7 +102,7 @@ function listEvents() {
 function refresh(everything = true) {
   const before = performance.now();
   drawScene(player.t, { forces: element("show-forces").checked, names: element("show-names").checked,
-    velocity: element("show-velocity").checked, trace: element("show-trace").checked }, chosenBody());
+    velocity: element("show-velocity").checked, trace: element("show-trace").checked, follow: element("follow").checked }, chosenBody());
   placeCursors();
   element("scrub").value = player.t;
   element("clock").textContent = `${show(player.t)} s`;
@@ -197,6 +197,7 @@ function connect() {
   element("speed").addEventListener("change", () => setSpeed(Number(element("speed").value)));
   element("body").addEventListener("change", () => { makeCharts(chosenBodies()); refresh(); });
   for (const id of ["show-forces", "show-names", "show-velocity", "show-trace"]) element(id).addEventListener("change", () => refresh());
+  element("follow").addEventListener("change", () => { fit(); refresh(); });
   document.addEventListener("keydown", (event) => {
     const typing = event.target.tagName === "SELECT" || (event.target.tagName === "BUTTON" && event.key === " ");
     const sliding = event.target.id === "scrub" && event.key.startsWith("Arrow");
@@ -212,6 +213,7 @@ function connect() {
 fillChoices();
 measure();
 fit();
+element("follow").checked = bodiesAreSpecks();
 makeCharts(chosenBodies());
 listEvents();
 showCost();

@@ -72,9 +72,11 @@ function measure() {
     if (!Number.isFinite(x) || !Number.isFinite(y)) return;
     left = Math.min(left, x); right = Math.max(right, x); bottom = Math.min(bottom, y); top = Math.max(top, y);
   };
+  prepareTies();
   const step = run.bodies.length > 20 ? 8 : 1, forces = [], moments = [], speeds = [];
   for (let i = 0; i < survey.length; i += step) {
     const t = survey[i], row = rowAt(t);
+    for (const point of tiePoints((b) => frameAt(run.bodies[b], t, row))) take(...point);
     for (const body of run.bodies) {
       const frame = frameAt(body, t, row);
       take(frame.x, frame.y);
@@ -95,8 +97,44 @@ function measure() {
   Object.assign(view, { force: percentile(forces) || 1, moment: percentile(moments) || 1, speed: percentile(speeds) || 1 });
 }
 
+// The least distance of two parallel lines with bodies that have no size: their blocks pass each other.
+function slideGap() {
+  const lines = run.bodies.filter((body) => body.line && body.line.on < 0 && !isSized(body)).map((body) => body.line);
+  let gap = Infinity;
+  lines.forEach((a, i) => lines.slice(i + 1).forEach((b) => {
+    const away = Math.abs((b.through[0] - a.through[0]) * a.normal[0] + (b.through[1] - a.through[1]) * a.normal[1]);
+    const parallel = Math.abs(a.along[0] * b.along[1] - a.along[1] * b.along[0]) < 1e-9;
+    if (parallel && away > 1e-3 * (view.right - view.left)) gap = Math.min(gap, away);
+  }));
+  return gap;
+}
+
 function velocityAt(body, t, row) {
   return [valueAt(body.velocity[0], t, row), valueAt(body.velocity[1], t, row)];
+}
+
+// Half the size of a body around its centre of mass, 0 for one without a size.
+function bodyExtent(body) {
+  let most = 0;
+  for (const shape of body.shapes)
+    if (shape.corners || shape.radius)
+      for (const [x, y] of shapePoints(shape)) most = Math.max(most, Math.hypot(x - body.pin[0] - body.G[0], y - body.pin[1] - body.G[1]));
+  return most;
+}
+
+// Are the bodies so small on the way that they go that nobody would see them turn?
+function bodiesAreSpecks() {
+  const extents = run.bodies.map(bodyExtent);
+  return Math.min(...extents) > 0 && Math.max(...extents) * view.scale < 5;
+}
+
+// The eye goes with a body, near enough to see it.
+function follow(body, frame) {
+  const [x, y] = place(frame, ...body.G);
+  view.scale = Math.max(view.wholeScale, 0.09 * Math.min(view.width, view.height) / (bodyExtent(body) || Infinity));
+  view.x = view.width / 2 - view.scale * x;
+  view.y = view.height / 2 + view.scale * y;
+  drawStill();
 }
 
 function fit() {
@@ -107,11 +145,12 @@ function fit() {
   canvas.height = Math.round(view.height * ratio);
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   view.scale = Math.min(view.width / (view.right - view.left), view.height / (view.top - view.bottom));
+  view.wholeScale = view.scale;
   view.x = view.width / 2 - view.scale * (view.left + view.right) / 2;
   view.y = view.height / 2 + view.scale * (view.bottom + view.top) / 2;
-  view.block = 0.045 * Math.min(view.width, view.height);
+  view.block = Math.min(0.045 * Math.min(view.width, view.height), Math.max(7, 0.45 * view.scale * slideGap()));
   const style = getComputedStyle(document.documentElement);
-  for (const name of ["paper", "ink", "soft", "line", "body", "edge", "gravity", "reaction", "friction", "applied", "velocity", "trace"])
+  for (const name of ["paper", "ink", "soft", "line", "body", "edge", "gravity", "reaction", "friction", "applied", "velocity", "trace", "rope"])
     view.colour[name] = style.getPropertyValue("--" + name).trim();
   drawStill();
 }
@@ -126,6 +165,13 @@ function path(points, closed) {
   if (closed) pen.closePath();
 }
 
+function dot(x, y, radius, colour) {
+  pen.beginPath();
+  pen.arc(x, y, radius, 0, 2 * Math.PI);
+  pen.fillStyle = colour;
+  pen.fill();
+}
+
 function strokeWith(colour, width, dash) {
   pen.strokeStyle = colour;
   pen.lineWidth = width;
@@ -135,13 +181,15 @@ function strokeWith(colour, width, dash) {
 
 // ---- what does not move
 
+const hatchStep = 9;
+
 function hatch(from, to, nx, ny) {
   const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
   const ux = (to[0] - from[0]) / length, uy = (to[1] - from[1]) / length;
   path([from, to]);
   strokeWith(view.colour.soft, 1.5);
   pen.beginPath();
-  for (let d = 0; d < length; d += 9) {
+  for (let d = 0; d < length; d += hatchStep) {
     const x = from[0] + d * ux, y = from[1] + d * uy;
     pen.moveTo(x, y);
     pen.lineTo(x + 8 * (nx - 0.7 * ux), y + 8 * (ny - 0.7 * uy));
@@ -149,25 +197,38 @@ function hatch(from, to, nx, ny) {
   strokeWith(view.colour.line, 1);
 }
 
-// The surface under the body, or the line that it moves on, across the canvas.
-function drawLine(body) {
-  const { through, along, normal, surface, reach } = body.line;
-  const [x, y] = toScreen(through), far = view.width + view.height;
-  const ex = along[0], ey = -along[1], down = surface ? reach * view.scale || view.block * 0.7 : 0;
+// The ends, far outside of the canvas, of a line that lies so many pixels under the point `through`.
+function acrossCanvas(through, along, normal, down) {
+  const [x, y] = toScreen(through), far = view.width + view.height, ex = along[0], ey = -along[1];
   const bx = x - normal[0] * down, by = y + normal[1] * down;
   // from the foot of the canvas's middle, so that the ends are far outside wherever the line starts
   const k = (view.width / 2 - bx) * ex + (view.height / 2 - by) * ey;
-  const from = [bx + (k - far) * ex, by + (k - far) * ey], to = [bx + (k + far) * ex, by + (k + far) * ey];
+  const first = hatchStep * Math.floor((k - far) / hatchStep); // marks stay where they are when the eye moves
+  return [[bx + first * ex, by + first * ey], [bx + (k + far) * ex, by + (k + far) * ey]];
+}
+
+function drawSurface(through, along, normal, down) {
+  hatch(...acrossCanvas(through, along, normal, down), -normal[0], normal[1]);
+}
+
+// The surface under the body, or the line that it moves on.
+function drawLine(body) {
+  const { through, along, normal, surface, reach } = body.line;
   if (surface) {
-    hatch(from, to, -normal[0], normal[1]);
+    drawSurface(through, along, normal, wedgeReach(body) * view.scale || reach * view.scale || view.block * 0.7);
   } else {
-    path([from, to]);
+    path(acrossCanvas(through, along, normal, 0));
     strokeWith(view.colour.line, 1, [6, 4]);
   }
 }
 
 function drawAxis(body) {
-  const [x, y] = toScreen(body.axis), hangs = Math.hypot(...body.G) > 0 && body.G[1] <= 0.3 * Math.hypot(...body.G), d = hangs ? -1 : 1;
+  const hangs = Math.hypot(...body.G) > 0 && body.G[1] <= 0.3 * Math.hypot(...body.G);
+  drawBearing(...toScreen(body.axis), hangs ? -1 : 1);
+}
+
+// On ground below (d = 1) or above (-1).
+function drawBearing(x, y, d) {
   path([[x, y], [x - 9, y + 15 * d], [x + 9, y + 15 * d]], true);
   pen.fillStyle = view.colour.paper;
   pen.fill();
@@ -203,10 +264,7 @@ function drawLink(link, frames) {
     hatch([a[0] - wx, a[1] - wy], [a[0] + wx, a[1] + wy], -dx / length, -dy / length);
     return;
   }
-  pen.beginPath();
-  pen.arc(a[0], a[1], 3, 0, 2 * Math.PI);
-  pen.fillStyle = view.colour.soft;
-  pen.fill();
+  dot(a[0], a[1], 3, view.colour.soft);
 }
 
 function drawStill() {
@@ -225,6 +283,7 @@ function drawStill() {
     if (!drawn.has(same)) drawLine(body);
     drawn.add(same);
   }
+  drawStillTies();
   pen = moving;
 }
 
@@ -241,7 +300,7 @@ function drawShape(body, frame, shape) {
     pen.fill();
     strokeWith(view.colour.edge, 1.4);
     path([[x, y], at([shape.center[0] + shape.radius, shape.center[1]])]); // shows that it turns
-    if (!(shape.inner > 0) && body.motion !== "particle") strokeWith(view.colour.line, 1);
+    if (!(shape.inner > 0) && body.motion !== "particle") strokeWith(view.colour.soft, 1.4);
   } else if (shape.kind === "polygon") {
     path(shape.corners.map(at), true);
     pen.fill();
@@ -253,10 +312,7 @@ function drawShape(body, frame, shape) {
     strokeWith(view.colour.body, 4.4);
     pen.lineCap = "butt";
   } else {
-    pen.beginPath();
-    pen.arc(x, y, 5, 0, 2 * Math.PI);
-    pen.fillStyle = view.colour.edge;
-    pen.fill();
+    dot(x, y, 5, view.colour.edge);
   }
 }
 
@@ -270,6 +326,7 @@ function drawBlock(frame) {
 }
 
 function drawBody(body, frame) {
+  if (drawShapeless(body, frame)) return;
   if (body.joint && body.motion === "pivot") {
     const axis = toScreen([frame.x, frame.y]);
     for (const shape of body.shapes) {
@@ -277,8 +334,8 @@ function drawBody(body, frame) {
       strokeWith(view.colour.edge, 1.2);
     }
   }
-  const sized = body.shapes.some((shape) => shape.corners || shape.radius);
-  if (!sized && body.line) { drawBlock(frame); return; }
+  if (!isSized(body) && body.board) return;
+  if (!isSized(body) && body.line) { drawBlock(frame); return; }
   for (const hole of [false, true]) for (const shape of body.shapes) if (Boolean(shape.hole) === hole) drawShape(body, frame, shape);
 }
 
@@ -301,20 +358,25 @@ function arrowTo(from, dx, dy, colour) {
 
 function caption(text, x, y, ux, uy, colour) {
   pen.font = "13px Arial, Helvetica, sans-serif";
-  pen.textAlign = ux > 0.3 ? "left" : ux < -0.3 ? "right" : "center";
+  pen.textAlign = "left";
   pen.textBaseline = uy > 0.3 ? "top" : uy < -0.3 ? "bottom" : "middle";
   pen.lineWidth = 3;
   pen.setLineDash([]);
   pen.strokeStyle = view.colour.paper;
-  pen.strokeText(text, x + 5 * ux, y + 5 * uy);
+  // a text beside the canvas's edge is pushed in
+  const width = pen.measureText(text).width, left = x + 5 * ux - width * (ux > 0.3 ? 0 : ux < -0.3 ? 1 : 0.5);
+  const at = [Math.max(4, Math.min(left, view.width - width - 4)), Math.max(16, Math.min(y + 5 * uy, view.height - 16))];
+  pen.strokeText(text, ...at);
   pen.fillStyle = colour;
-  pen.fillText(text, x + 5 * ux, y + 5 * uy);
+  pen.fillText(text, ...at);
 }
 
 function arrowColour(arrow) {
-  if (arrow.reaction || arrow.name === "normal") return view.colour.reaction;
+  const what = arrow.name.split(".").pop(); // on the other body it is called body.normal
+  if (what.startsWith("friction")) return view.colour.friction;
+  if (arrow.reaction || what === "normal") return view.colour.reaction;
   if (arrow.name === "gravity") return view.colour.gravity;
-  return arrow.name.startsWith("friction") ? view.colour.friction : view.colour.applied;
+  return view.colour.applied;
 }
 
 function drawCouple(from, couple, colour, text) {
@@ -353,22 +415,21 @@ function drawTrace(body, t) {
   strokeWith(view.colour.trace, 1.2, [4, 3]);
 }
 
-// Draw everything at time t. shows: {forces, names, velocity, trace}; forces and names of `chosen` or, when null, all.
+// Draw everything at time t. shows: {forces, names, velocity, trace, follow}; forces and names of `chosen` or, when
+// null, all. The eye follows the chosen body, or the first one.
 function drawScene(t, shows, chosen) {
   const row = rowAt(t), frames = run.bodies.map((body) => frameAt(body, t, row));
+  if (shows.follow) follow(run.bodies[chosen || 0], frames[chosen || 0]);
   pen.drawImage(still, 0, 0, view.width, view.height);
   if (shows.trace) for (const body of run.bodies) drawTrace(body, t);
   for (const link of run.links) drawLink(link, frames);
+  drawTiesUnder(frames);
   run.bodies.forEach((body, i) => drawBody(body, frames[i]));
+  drawTiesOver(frames, t, row);
   run.bodies.forEach((body, i) => {
     if (body.motion !== "pivot") return;
     if (body.axis && Math.hypot(...body.G) === 0) drawAxis(body);
-    const [x, y] = toScreen([frames[i].x, frames[i].y]);
-    pen.beginPath();
-    pen.arc(x, y, 3.5, 0, 2 * Math.PI);
-    pen.fillStyle = view.colour.paper;
-    pen.fill();
-    strokeWith(view.colour.edge, 1.4);
+    drawPin(toScreen([frames[i].x, frames[i].y]));
   });
   run.bodies.forEach((body, i) => {
     if (chosen !== null && chosen !== i) return;

@@ -1,0 +1,282 @@
+"use strict";
+
+// Couplings that hold: pins, massless rods, ropes over pulleys, gears, racks, lines that circles roll on; and bodies
+// that the file gives no shape, drawn by the points where others take hold of them.
+
+function tieEnd(end, frameOf) {
+  return end.body < 0 ? end.point : place(frameOf(end.body), ...end.point);
+}
+
+function isSized(body) {
+  return body.shapes.some((shape) => shape.corners || shape.radius);
+}
+
+// A point of the world in a body's frame.
+function inFrame(frame, [x, y]) {
+  const dx = x - frame.x, dy = y - frame.y;
+  return [frame.c * dx + frame.s * dy, frame.c * dy - frame.s * dx];
+}
+
+// ---- once, from the motion of the whole run
+
+// Which stretch of the line the circle comes over, in the line's frame; the rack's line touches the circle.
+function prepareLine(tie) {
+  const [circle, line] = tie.ends, [ex, ey] = tie.e;
+  tie.n = [-ey * tie.side, ex * tie.side];
+  tie.span = [Infinity, -Infinity];
+  tie.lift = 0;
+  survey.forEach((t, i) => {
+    const row = rowAt(t), frameOf = (b) => frameAt(run.bodies[b], t, row), center = tieEnd(circle, frameOf);
+    const [x, y] = line.body < 0 ? center : inFrame(frameOf(line.body), center), dx = x - line.point[0], dy = y - line.point[1];
+    const along = dx * ex + dy * ey;
+    if (tie.kind === "rack" && i === 0) tie.lift = dx * tie.n[0] + dy * tie.n[1] - circle.radius;
+    tie.span = [Math.min(tie.span[0], along - circle.radius), Math.max(tie.span[1], along + circle.radius)];
+  });
+  if (line.body >= 0) run.bodies[line.body].board = true;
+}
+
+// Both wheels have teeth of one pitch, and mesh at the start.
+function prepareGear(tie) {
+  const row = rowAt(run.start), frameOf = (b) => frameAt(run.bodies[b], run.start, row);
+  const [a, b] = tie.ends.map((end) => tieEnd(end, frameOf)), centres = Math.atan2(b[1] - a[1], b[0] - a[0]);
+  const least = Math.min(...tie.ends.map((end) => Math.abs(end.radius)));
+  tie.ends.forEach((end, k) => {
+    const contact = k === 1 || tie.ends[1].radius < 0 ? centres + Math.PI : centres, frame = frameOf(end.body);
+    end.teeth = Math.round(12 * Math.abs(end.radius) / least);
+    end.phase = contact - Math.atan2(frame.s, frame.c) + (k === 1 ? Math.PI / end.teeth : 0);
+    if (end.radius > 0) run.bodies[end.body].wheel = end;
+  });
+}
+
+// Where the joints, couplings and springs of a body are, each place once.
+function jointsOf(index) {
+  const row = rowAt(run.start), frame = frameAt(run.bodies[index], run.start, row), found = [];
+  const add = (point) => {
+    if (!found.some((other) => Math.hypot(other[0] - point[0], other[1] - point[1]) < 1e-9)) found.push(point);
+  };
+  if (run.bodies[index].joint) add([0, 0]);
+  for (const body of run.bodies) {
+    const child = frameAt(body, run.start, row);
+    if (body.joint && body.parent === index) add(inFrame(frame, [child.x, child.y]));
+  }
+  for (const tie of run.ties) for (const end of tie.ends) if (end.body === index && end.radius === 0) add(end.point);
+  for (const link of run.links) {
+    if (link.body === index) add(link.point);
+    if (link.partner === index) add(link.anchor);
+  }
+  const middle = [0, 1].map((k) => found.reduce((sum, point) => sum + point[k], 0) / (found.length || 1));
+  return found.sort((p, q) => Math.atan2(p[1] - middle[1], p[0] - middle[0]) - Math.atan2(q[1] - middle[1], q[0] - middle[0]));
+}
+
+function prepareTies() {
+  prepareWedges();
+  for (const tie of run.ties) {
+    if (tie.kind === "roll" || tie.kind === "rack") prepareLine(tie);
+    if (tie.kind === "gear") prepareGear(tie);
+  }
+  run.bodies.forEach((body, index) => {
+    const shapeless = body.motion !== "slide" && body.motion !== "particle" && body.shapes.every((shape) => shape.kind === "unknown");
+    body.joints = shapeless ? jointsOf(index) : [];
+  });
+}
+
+// The ends of a rack or of a board that a circle rolls on, in the frame of the line.
+function lineEnds(tie) {
+  const [x, y] = tie.ends[1].point, [ex, ey] = tie.e, [nx, ny] = tie.n;
+  return tie.span.map((s) => [x + s * ex + tie.lift * nx, y + s * ey + tie.lift * ny]);
+}
+
+// A body without a shape that another one slides on: which stretch of the line it needs.
+function prepareWedges() {
+  for (const body of run.bodies) {
+    const under = body.line && run.bodies[body.line.on];
+    if (!under || isSized(under)) continue;
+    const { through, along, normal } = body.line, places = survey.map((t) => {
+      const row = rowAt(t), frame = frameAt(body, t, row), [x, y] = inFrame(frameAt(under, t, row), [frame.x, frame.y]);
+      return (x - through[0]) * along[0] + (y - through[1]) * along[1];
+    });
+    const low = Math.min(...places), high = Math.max(...places), pad = 0.15 * (high - low) || 0.1;
+    under.wedge = { from: [low - pad, high + pad], through, along, normal, reach: body.line.reach };
+  }
+}
+
+// Its corners in its frame: the line, under what slides there, and a base along the way of the wedge itself.
+function wedgeCorners(body) {
+  const { from, through, along, normal, reach } = body.wedge, down = reach || view.block * 0.7 / view.scale;
+  const top = from.map((s) => [0, 1].map((k) => through[k] + s * along[k] - down * normal[k]));
+  const rise = Math.abs(top[1][1] - top[0][1]), thick = Math.max(0, 0.2 * (from[1] - from[0]) - rise);
+  const base = Math.min(top[0][1], top[1][1]) - thick;
+  return [...top, [top[1][0], base], [top[0][0], base]];
+}
+
+// How far below the frame of the body its base is; 0 for a body that is no wedge.
+function wedgeReach(body) {
+  return body.wedge ? Math.max(0, -wedgeCorners(body)[2][1]) : 0;
+}
+
+// Points that the picture has to hold at some instant.
+function tiePoints(frameOf) {
+  const points = [];
+  for (const tie of run.ties) {
+    for (const end of tie.ends) {
+      const [x, y] = tieEnd(end, frameOf), r = Math.abs(end.radius);
+      if (tie.kind !== "roll" || end.body >= 0) points.push([x - r, y - r], [x + r, y + r]);
+    }
+    if (tie.span && tie.ends[1].body >= 0) points.push(...lineEnds(tie).map((p) => place(frameOf(tie.ends[1].body), ...p)));
+  }
+  run.bodies.forEach((body, i) => {
+    for (const p of body.joints) points.push(place(frameOf(i), ...p));
+    if (body.wedge) for (const p of wedgeCorners(body)) points.push(place(frameOf(i), ...p));
+  });
+  return points;
+}
+
+// ---- what does not move
+
+function drawStillTies() {
+  for (const tie of run.ties) {
+    if (tie.kind === "roll" && tie.ends[1].body < 0) drawSurface(tie.ends[1].point, tie.e, tie.n, 0);
+    tie.ends.forEach((end, k) => {
+      const [x, y] = toScreen(end.point), last = k === 0 || k + 1 === tie.ends.length;
+      if (end.body >= 0 || tie.kind === "roll") return;
+      if (tie.kind === "rope" && last) hatch([x - 16, y], [x + 16, y], 0, -1);
+      if (tie.kind === "rope") dot(x, y, 3.5, view.colour.soft);
+      else drawBearing(x, y, 1);
+    });
+  }
+}
+
+// ---- under the bodies
+
+function drawBoard(tie, frame) {
+  const [a, b] = lineEnds(tie).map((point) => toScreen(place(frame, ...point)));
+  const length = Math.hypot(b[0] - a[0], b[1] - a[1]) || 1, ux = (b[0] - a[0]) / length, uy = (b[1] - a[1]) / length;
+  const way = -tie.side, thick = Math.max(6, 0.25 * tie.ends[0].radius * view.scale);
+  const down = ([x, y], d) => [x + way * uy * d, y - way * ux * d];
+  drawPlate([a, b, down(b, thick), down(a, thick)]);
+  if (tie.kind !== "rack") return;
+  const pitch = 2 * Math.PI * tie.ends[0].radius * view.scale / 12;
+  pen.beginPath();
+  for (let s = pitch / 2; s < length; s += pitch) {
+    const p = [a[0] + s * ux, a[1] + s * uy], low = down(p, 4), high = down(p, -3);
+    pen.moveTo(...low);
+    pen.lineTo(...high);
+  }
+  strokeWith(view.colour.edge, 1.2);
+}
+
+function drawTiesUnder(frames) {
+  for (const tie of run.ties) if (tie.span && tie.ends[1].body >= 0) drawBoard(tie, frames[tie.ends[1].body]);
+}
+
+function drawPlate(points) {
+  path(points, true);
+  pen.fillStyle = view.colour.body;
+  pen.fill();
+  strokeWith(view.colour.edge, 1.4);
+}
+
+// A body without a shape: the wedge that another one slides on, the wheel that a gear makes of it, else a plate or a bar through its joints.
+function drawShapeless(body, frame) {
+  if (body.wedge) {
+    drawPlate(wedgeCorners(body).map((point) => toScreen(place(frame, ...point))));
+  } else if (body.wheel) {
+    const [x, y] = toScreen(place(frame, ...body.wheel.point)), r = body.wheel.radius * view.scale;
+    pen.beginPath();
+    pen.arc(x, y, r, 0, 2 * Math.PI);
+    pen.fillStyle = view.colour.body;
+    pen.fill();
+    path([[x, y], [x + r * frame.c, y - r * frame.s]]); // shows that it turns
+    strokeWith(view.colour.soft, 1.2);
+  } else if (body.joints.length > 1) {
+    path(body.joints.map((point) => toScreen(place(frame, ...point))), true);
+    pen.lineJoin = "round";
+    strokeWith(view.colour.edge, 8);
+    pen.fillStyle = view.colour.body;
+    pen.fill();
+    strokeWith(view.colour.body, 5.4);
+    pen.lineJoin = "miter";
+  }
+  return body.wedge || body.wheel || body.joints.length > 1;
+}
+
+// ---- over the bodies
+
+// The straight piece of a rope between two circles that it goes round counter-clockwise (s R > 0) or clockwise: with
+// d = C_2 - C_1 = L u + (s_2 R_2 - s_1 R_1) n and n = k x u it touches them at C - s R n.
+function straightPiece(from, to, sR1, sR2) {
+  const dx = to[0] - from[0], dy = to[1] - from[1], m = sR2 - sR1, square = dx * dx + dy * dy || 1;
+  const length = Math.sqrt(Math.max(square - m * m, 0));
+  const ux = (dx * length + dy * m) / square, uy = (dy * length - dx * m) / square;
+  return [[from[0] + sR1 * uy, from[1] - sR1 * ux], [to[0] + sR2 * uy, to[1] - sR2 * ux]];
+}
+
+// A rope that hangs loose between two points is as long as ever: near its taut length the sag is that of a flat
+// parabola, sqrt(3 c (L - c) / 8), and with both ends at one place nearly half the rope.
+function hangLoose([from, to], length) {
+  const chord = Math.hypot(to[0] - from[0], to[1] - from[1]);
+  const sag = Math.sqrt(3 / 16 * Math.max(length * length - chord * chord, 0));
+  const middle = toScreen([(from[0] + to[0]) / 2, (from[1] + to[1]) / 2 - 2 * sag]);
+  pen.beginPath();
+  pen.moveTo(...toScreen(from));
+  pen.quadraticCurveTo(...middle, ...toScreen(to));
+}
+
+// No tension, but for what seven digits of a sum leave of it.
+function isSlack(tie, t, row) {
+  return tie.force >= 0 && Math.hypot(valueAt(tie.force, t, row), valueAt(tie.force + 1, t, row)) < 1e-5 * view.force;
+}
+
+// One piece of a rope from pulley to pulley, and its way round the pulley where the piece before it ends.
+function drawRope(tie, before, frames, t, row) {
+  const places = tie.ends.map((end) => tieEnd(end, (b) => frames[b])), ways = tie.ends.map((end) => end.side * end.radius);
+  const slack = isSlack(tie, t, row), dash = slack ? [5, 4] : [], points = [];
+  for (let k = 0; k + 1 < places.length; k++) points.push(...straightPiece(places[k], places[k + 1], ways[k], ways[k + 1]));
+  if (slack && points.length === 2 && !ways[0] && !ways[1]) hangLoose(points, tie.length);
+  else path(points.map(toScreen));
+  strokeWith(view.colour.rope, 1.8, dash);
+  const first = tie.ends[0];
+  if (first.radius > 0 && before && before.name === tie.name) {
+    const angle = ([x, y]) => -Math.atan2(y - places[0][1], x - places[0][0]);
+    pen.beginPath();
+    pen.arc(...toScreen(places[0]), first.radius * view.scale, angle(before.reached), angle(points[0]), first.side > 0);
+    strokeWith(view.colour.rope, 1.8, dash);
+  }
+  tie.reached = points[points.length - 1];
+}
+
+// Pitch circles are drawn as on an engineer's sheet, dot and dash.
+function drawGear(tie, frames) {
+  for (const end of tie.ends) {
+    const frame = frames[end.body], [x, y] = toScreen(place(frame, ...end.point)), r = Math.abs(end.radius) * view.scale;
+    pen.beginPath();
+    pen.arc(x, y, r, 0, 2 * Math.PI);
+    strokeWith(view.colour.soft, 1.2, [9, 3, 2, 3]);
+    pen.beginPath();
+    for (let k = 0; k < end.teeth; k++) {
+      const angle = Math.atan2(frame.s, frame.c) + end.phase + 2 * Math.PI * k / end.teeth, c = Math.cos(angle), s = Math.sin(angle);
+      pen.moveTo(x + (r - 4) * c, y - (r - 4) * s);
+      pen.lineTo(x + (r + 3) * c, y - (r + 3) * s);
+    }
+    strokeWith(view.colour.edge, 1.2);
+  }
+}
+
+function drawPin([x, y]) {
+  dot(x, y, 3.5, view.colour.paper);
+  strokeWith(view.colour.edge, 1.4);
+}
+
+function drawTiesOver(frames, t, row) {
+  run.ties.forEach((tie, i) => {
+    const places = () => tie.ends.map((end) => toScreen(tieEnd(end, (b) => frames[b])));
+    if (tie.kind === "rope") drawRope(tie, run.ties[i - 1], frames, t, row);
+    if (tie.kind === "gear") drawGear(tie, frames);
+    if (tie.kind === "pin") drawPin(places()[0]);
+    if (tie.kind === "rod") {
+      path(places());
+      strokeWith(view.colour.edge, 2.4);
+      places().forEach(drawPin);
+    }
+  });
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Pieces of JSON for the page: a member is written with the comma after it.
+ */
+#ifndef FBD_DRAW_PAGE_JSON_H
+#define FBD_DRAW_PAGE_JSON_H
+
+#include "base/text.h"
+#include "base/vec.h"
+
+void json_key(struct text *text, const char *name);
+void json_number(struct text *text, double value); /* null when it is not finite */
+void json_vector(struct text *text, struct vec v);
+void json_text_member(struct text *text, const char *name, const char *value);
+void json_number_member(struct text *text, const char *name, double value);
+void json_vector_member(struct text *text, const char *name, struct vec v);
+
+/* "name":[first, first + 1, ...], */
+void json_columns_member(struct text *text, const char *name, int first, int count);
+
+/* The comma of a list before all but its first entry. */
+void json_comma(struct text *text, size_t index);
+
+#endif

@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What the page draws between bodies.
+ *
+ * - links: springs and dampers, {body, kind, point, partner, anchor}
+ * - ties: couplings that hold, {kind, name, ends, length, e, side, force}, a rope cut at its pulleys (tie.h)
+ *
+ * An end is {body, point, radius, side}; the body of the ground is -1. Points of a body are told from the
+ * origin of its frame in the page, which is the axis of a pivot.
+ */
+#include <string.h>
+
+#include "draw/page.h"
+#include "draw/page_json.h"
+#include "dynamics/constraint.h"
+
+/* ---- links */
+
+/* The other end: on the ground, on another body, or a wall that the file does not place. */
+static void write_other_end(struct text *text, const struct fbd_model *model, const struct model_load *load)
+{
+    text_printf(text, ",\"partner\":%d,\"anchor\":", load->linked ? load->partner : ground_body);
+    if (!load->linked)
+        text_add(text, "null");
+    else if (load->partner >= 0)
+        json_vector(text, vec_sub(load->anchor, model->bodies[load->partner].pin));
+    else
+        json_vector(text, load->anchor);
+}
+
+void page_links_write(struct text *text, const struct record *record)
+{
+    const struct fbd_model *model = record->model;
+    size_t written = 0;
+    text_add(text, "\"links\":[");
+    for (size_t i = 0; i < model->load_count; i++) {
+        const struct model_load *load = &model->loads[i];
+        const struct model_body *body = &model->bodies[load->body];
+        enum load_kind kind = load->source->kind;
+        if (kind != load_spring && kind != load_damper) continue;
+        bool to_a_wall = body->kind == motion_slide && body->parent == ground_body;
+        if (!load->linked && !to_a_wall) continue;
+        json_comma(text, written++);
+        text_printf(text, "{\"body\":%d,\"kind\":\"%s\",\"point\":", load->body,
+                    kind == load_damper ? "damper" : "spring");
+        json_vector(text, vec_sub(load->point, body->pin));
+        write_other_end(text, model, load);
+        text_add(text, "}");
+    }
+    text_add(text, "],\n");
+}
+
+/* ---- ties */
+
+static struct vec end_point(const struct fbd_model *model, const struct constraint *source, int k)
+{
+    const struct point *point = &source->point[k];
+    if (source->body[k] == ground_body) return point->where;
+    const struct model_body *body = &model->bodies[source->body[k]];
+    return vec_sub(point->kind == point_fixed ? point->where : body->inertia.G, body->pin);
+}
+
+static void write_end(struct text *text, const struct fbd_model *model, const struct tie *tie,
+                      const struct tie_state *state, int k)
+{
+    const struct constraint *source = &model->scene->constraints[tie->constraint];
+    int side = k == 0 ? state->side[0] : k + 1 == tie->end_count ? state->side[1] : 0;
+    json_comma(text, (size_t)k);
+    text_printf(text, "{\"body\":%d,", tie->end[k].body);
+    json_vector_member(text, "point", end_point(model, source, tie->place + k));
+    json_number_member(text, "radius", tie->end[k].radius);
+    text_printf(text, "\"side\":%d}", side);
+}
+
+/* The first of the two columns of its force, which says whether a rope pulls; -1 when no body has it. */
+static int force_column(const struct record *record, const struct tie *tie)
+{
+    for (int k = 0; k < tie->end_count; k++) {
+        if (tie->end[k].body == ground_body || !tie->end[k].name[0]) continue;
+        const struct record_of_body *body = &record->bodies[tie->end[k].body];
+        for (size_t i = 0; i < body->arrow_count; i++)
+            if (strcmp(body->arrows[i].name, tie->end[k].name[0]) == 0) return body->arrows[i].arrow;
+    }
+    return -1;
+}
+
+static void write_tie(struct text *text, const struct record *record, const struct tie *tie,
+                      const struct tie_state *state)
+{
+    static const char *const kinds[] = {"pin", "rod", "gear", "rope", "roll", "rack"};
+    const struct fbd_model *model = record->model;
+    text_add(text, "\n{");
+    json_text_member(text, "kind", kinds[tie->kind]);
+    json_text_member(text, "name", tie->name);
+    text_add(text, "\"ends\":[");
+    for (int k = 0; k < tie->end_count; k++) write_end(text, model, tie, state, k);
+    text_add(text, "],");
+    json_number_member(text, "length", state->zero);
+    json_vector_member(text, "e", vec_unit(model->scene->constraints[tie->constraint].along));
+    text_printf(text, "\"side\":%d,\"force\":%d}", state->side[0], force_column(record, tie));
+}
+
+void page_ties_write(struct text *text, const fbd_result *result, const struct record *record)
+{
+    const struct tree *tree = record->model->tree;
+    int count = tree ? tree->tie_count : 0;
+    text_add(text, "\"ties\":[");
+    for (int i = 0; i < count; i++) {
+        json_comma(text, (size_t)i);
+        write_tie(text, record, &tree->ties[i], &result->start->tree->ties[i]);
+    }
+    text_add(text, "],\n");
+}
