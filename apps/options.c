@@ -15,6 +15,7 @@ static const char help[] =
     "  --method NAME        integrate with this method (auto, dop853, rodas5p, rk8pd, msbdf, ...)\n"
     "  --tolerance NUMBER   relative error per step (default: the file's, else 1e-10)\n"
     "  --step TIME          steps of this fixed size, in seconds\n"
+    "  --no-structure       integrate all bodies together by the general method\n"
     "  --until TIME         end of the run, in seconds\n"
     "\n"
     "What is written (FILE may be - for standard output, which leaves the report out)\n"
@@ -43,6 +44,7 @@ enum {
     option_method,
     option_tolerance,
     option_step,
+    option_no_structure,
     option_until,
     option_csv,
     option_every,
@@ -65,6 +67,7 @@ static const struct option long_options[] = {
     {"method", required_argument, NULL, option_method},
     {"tolerance", required_argument, NULL, option_tolerance},
     {"step", required_argument, NULL, option_step},
+    {"no-structure", no_argument, NULL, option_no_structure},
     {"until", required_argument, NULL, option_until},
     {"csv", required_argument, NULL, option_csv},
     {"every", required_argument, NULL, option_every},
@@ -142,6 +145,7 @@ static bool take_option(int code, struct options *options)
     case option_method: options->run.method = optarg; return true;
     case option_tolerance: return read_number("tolerance", optarg, tiny, &options->run.tolerance);
     case option_step: return read_number("step", optarg, tiny, &options->run.step);
+    case option_no_structure: options->run.no_structure = true; return true;
     case option_until: return read_number("until", optarg, -1e300, &options->run.until);
     case option_every: return read_number("every", optarg, tiny, &options->every);
     case option_csv: options->csv = optarg; return true;

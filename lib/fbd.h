@@ -172,12 +172,13 @@ typedef struct fbd_options {
     double tolerance;   /* relative error per step; 0 for the file's, else 1e-10 */
     double step;        /* fixed step size, 0 for automatic or the file's */
     const char *method; /* NULL for the file's, else "auto" */
+    bool no_structure; /* integrate all bodies together by the general method, whatever the forces are like */
 } fbd_options;
 
 /* Options that leave everything to the file. */
 #define FBD_OPTIONS_DEFAULT                                                                                  \
     {                                                                                                        \
-        NAN, 0, 0, NULL                                                                                      \
+        NAN, 0, 0, NULL, false                                                                               \
     }
 
 typedef enum fbd_event_kind {
@@ -215,7 +216,11 @@ typedef struct fbd_stats {
     double tolerance;
     unsigned long stiff_steps; /* of these steps, how many the stiff method of "auto" has made */
     unsigned long steps, rejected, rhs, jacobians, events, event_samples;
-    double seconds; /* processor time of the run itself */
+    double seconds;  /* processor time of the run itself */
+    size_t groups;   /* independent groups of bodies, each integrated by itself */
+    size_t linear;   /* of these, how many are linear with constant coefficients and are propagated exactly */
+    size_t constant; /* how many have constant accelerations and follow exact parabolas */
+    size_t velocity_free; /* how many have forces free of velocity and took a Nystrom method */
 } fbd_stats;
 
 typedef struct fbd_simulation fbd_simulation;
@@ -226,7 +231,8 @@ FBD_API fbd_simulation *fbd_simulation_new(const fbd_model *model, const fbd_opt
                                            fbd_errors *errors);
 FBD_API void fbd_simulation_free(fbd_simulation *simulation);
 
-/* Advance by one accepted step, or to the next event. */
+/* Advance by one accepted step, or to the next event; with independent groups of bodies, by a step of the
+ * group that is furthest behind. */
 FBD_API fbd_outcome fbd_simulation_advance(fbd_simulation *simulation);
 
 /* The interval of the last step, and the state anywhere in it (dense output; modes are those of the step).

@@ -71,7 +71,7 @@ static void text_member(struct text *text, const char *name, const char *value, 
     if (!last) text_add(text, ", ");
 }
 
-static void write_events(struct text *text, const struct run *run)
+static void write_events(struct text *text, const struct ensemble *run)
 {
     text_add(text, "  \"events\": [");
     for (size_t i = 0; i < run->event_count; i++) {
@@ -196,6 +196,8 @@ static void write_stats(struct text *text, const fbd_simulation *simulation)
                 "\"steps\": %lu, \"rejected\": %lu, \"rhs\": %lu, \"jacobians\": %lu, \"events\": %lu, "
                 "\"stiff_steps\": %lu, ",
                 stats.steps, stats.rejected, stats.rhs, stats.jacobians, stats.events, stats.stiff_steps);
+    text_printf(text, "\"groups\": %zu, \"constant\": %zu, \"linear\": %zu, \"velocity_free\": %zu, ",
+                stats.groups, stats.constant, stats.linear, stats.velocity_free);
     member(text, "seconds", stats.seconds, false);
     text_add(text, "\"error_estimate\": null}\n");
 }
@@ -203,7 +205,8 @@ static void write_stats(struct text *text, const fbd_simulation *simulation)
 char *fbd_result_json(fbd_result *result)
 {
     fbd_simulation *simulation = result->simulation;
-    struct run *run = simulation->run;
+    struct ensemble *run = simulation->ensemble;
+    struct fbd_state *end = ensemble_state(run);
     const struct fbd_model *model = run->model;
     struct text text = {0};
     text_add(&text, "{\n  \"title\": ");
@@ -212,11 +215,11 @@ char *fbd_result_json(fbd_result *result)
                 model->scene->units == unit_si ? "SI" : "US", outcome_name(run->outcome));
     text_json_string(&text, run->reason);
     text_add(&text, ",\n");
-    state_ready(run->state);
-    write_final(&text, model, run->state);
+    state_ready(end);
+    write_final(&text, model, end);
     write_events(&text, run);
-    write_forces(&text, result, run->state);
-    write_balances(&text, result, run->state);
+    write_forces(&text, result, end);
+    write_balances(&text, result, end);
     write_energy(&text, result);
     write_stats(&text, simulation);
     text_add(&text, "}\n");

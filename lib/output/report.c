@@ -35,7 +35,7 @@ static void write_event(struct text *text, const struct fbd_model *model, const 
     text_printf(text, "%s\n", detail);
 }
 
-static void write_events(struct text *text, const struct run *run)
+static void write_events(struct text *text, const struct ensemble *run)
 {
     enum { most_switches = 8 };
     size_t count = run->event_count, shown = 0, switches = 0, hidden = 0;
@@ -170,10 +170,33 @@ static void write_energy(struct text *text, fbd_result *result)
                 energy.residual, unit);
 }
 
+/* "3 independent groups; constant accelerations in 1, ..."; nothing for one group without structure. */
+static void write_structure(struct text *text, const fbd_stats *stats)
+{
+    const struct {
+        size_t count;
+        const char *words;
+    } kinds[] = {{stats->constant, "exact parabolas"},
+                 {stats->linear, "exact propagation of linear equations"},
+                 {stats->velocity_free, "Nystrom method for forces free of velocity"}};
+    const char *before = "\n  ";
+    if (stats->groups > 1) {
+        text_printf(text, "\n  %zu independent groups of bodies", stats->groups);
+        before = "; ";
+    }
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        if (kinds[i].count == 0) continue;
+        text_printf(text, "%s%s", before, kinds[i].words);
+        if (stats->groups > 1) text_printf(text, " in %zu", kinds[i].count);
+        before = "; ";
+    }
+}
+
 static void write_cost(struct text *text, const fbd_simulation *simulation)
 {
     fbd_stats stats = fbd_simulation_stats(simulation);
     text_printf(text, "\nAccuracy and cost: %s at tolerance %g", stats.method, stats.tolerance);
+    write_structure(text, &stats);
     text_printf(text, "\n  %lu steps (%lu rejected), %lu right-hand sides", stats.steps, stats.rejected,
                 stats.rhs);
     if (stats.jacobians) text_printf(text, ", %lu Jacobians", stats.jacobians);
@@ -184,16 +207,17 @@ static void write_cost(struct text *text, const fbd_simulation *simulation)
 char *fbd_result_report(fbd_result *result)
 {
     fbd_simulation *simulation = result->simulation;
-    struct run *run = simulation->run;
+    struct ensemble *run = simulation->ensemble;
+    struct fbd_state *end = ensemble_state(run);
     const struct fbd_model *model = run->model;
     struct text text = {0};
     if (model->scene->title[0]) text_printf(&text, "%s\n\n", model->scene->title);
     equations_write(&text, result->start);
-    state_ready(run->state);
+    state_ready(end);
     write_events(&text, run);
     if (run->reason[0]) text_printf(&text, "\nThe run ended early: %s.\n", run->reason);
-    write_final(&text, model, run->state);
-    write_forces(&text, result, run->state);
+    write_final(&text, model, end);
+    write_forces(&text, result, end);
     write_energy(&text, result);
     write_cost(&text, simulation);
     if (text.failed) text_free(&text);

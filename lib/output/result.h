@@ -8,9 +8,9 @@
 #include "base/text.h"
 #include "output/ledger.h"
 
-/* The simulation of the public interface: a run and where its time went. */
+/* The simulation of the public interface: a run of the whole and where its time went. */
 struct fbd_simulation {
-    struct run *run;
+    struct ensemble *ensemble;
     double seconds;
     char **details; /* texts of events, made when they are asked for */
     size_t detail_count;
@@ -19,6 +19,7 @@ struct fbd_simulation {
 struct fbd_result {
     struct fbd_simulation *simulation;
     struct ledger ledger;
+    double ledger_seconds;   /* processor time of its integrals */
     struct fbd_state *start; /* the state at the start */
 };
 
