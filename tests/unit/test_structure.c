@@ -332,6 +332,71 @@ static void an_early_end_of_one_group_ends_all(void **unused)
     checks_end(&checks);
 }
 
+/* ---- groups of jointed bodies: everything that a group takes along is renumbered in it */
+
+static const char jointed[] = HEAD
+    "  lone:\n    mass: 1 kg\n    motion: particle\n    initial: {vy: 3 m/s}\n    forces: [gravity]\n"
+    "  rod1:\n    shape: rod\n    mass: 1 kg\n    from: [0, 0]\n    to: [0, -1 m]\n    motion: pivot\n"
+    "    initial: {theta: 50 deg}\n    forces: [gravity]\n"
+    "  block:\n    mass: 2 kg\n    motion: slide\n    initial: {v: 1 m/s}\n    forces:\n      - gravity\n"
+    "      - normal\n      - friction: 0.2\n"
+    "  rod2:\n    shape: rod\n    mass: 1 kg\n    from: [0, 0]\n    to: [0, -1 m]\n"
+    "    motion: {pivot: {on: rod1, at: right, point: left}}\n    forces: [gravity]\n"
+    "    moments: [{damper: {coefficient: 0.1 N*m*s/rad}}]\n"
+    "  tip:\n    mass: 0.1 kg\n    motion: {weld: {on: rod2, at: right}}\n    forces: [gravity]\n"
+    "  cart:\n    mass: 1 kg\n    motion: slide\n    forces:\n"
+    "      - applied: {value: \"-3[N/m]*(x - rider.G.x)\"}\n"
+    "  rider:\n    mass: 1 kg\n    motion: {slide: {through: [0, 1 m]}}\n    initial: {x: 0.5 m}\n"
+    "  upper:\n    mass: 1 kg\n    motion: {slide: {on: block}}\n    forces:\n      - gravity\n"
+    "      - normal\n      - friction: {static: 0.5, kinetic: 0.4}\n"
+    "couplings:\n  - damper: {name: dashpot, between: [rider.G, cart.G], coefficient: 0.3 N*s/m}\n"
+    "  - spring: {name: cord, between: [cart.G, rider.G], stiffness: 7 N/m, free_length: 0.9 m}\n"
+    "simulate:\n  until: 4 s\n  events:\n    - {name: low, when: rod2.right.y = -1.5}\n"
+    "    - {name: swap, when: rider.x = cart.x}\n";
+
+static void check_same_events(struct checks *checks, const struct trial *one, const struct trial *other)
+{
+    size_t events = fbd_simulation_events(other->simulation);
+    check_that(checks, "some events", events > 3);
+    if (!check_that(checks, "as many events", fbd_simulation_events(one->simulation) == events)) return;
+    for (size_t i = 0; i < events; i++) {
+        fbd_event a = fbd_simulation_event(one->simulation, i),
+                  b = fbd_simulation_event(other->simulation, i);
+        check_close(checks, "time of an event", a.t, b.t, 1e-8);
+        check_that(checks, "the same event",
+                   a.kind == b.kind && strcmp(a.name, b.name) == 0 && strcmp(a.body, b.body) == 0);
+    }
+}
+
+static void jointed_bodies_form_groups_that_agree_with_the_whole(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    fbd_options whole = FBD_OPTIONS_DEFAULT;
+    whole.no_structure = true;
+    struct trial apart = trial_parse(jointed), together = trial_parse(jointed);
+    trial_run(&apart, NULL);
+    trial_run(&together, &whole);
+    assert_int_equal(fbd_simulation_stats(apart.simulation).groups, 4);
+    check_same_events(&checks, &apart, &together);
+    for (size_t i = 0; i < fbd_model_coordinates(apart.model); i++) {
+        const char *name = fbd_model_coordinate(apart.model, i).rate_name;
+        double one, other;
+        assert_true(fbd_state_get(fbd_result_state(apart.result), name, &one));
+        assert_true(fbd_state_get(fbd_result_state(together.result), name, &other));
+        check_close(&checks, name, one, other, 1e-7); /* some hundred steps at 1e-10, speeds of 10 m/s */
+    }
+    fbd_energy one = fbd_result_energy(apart.result), other = fbd_result_energy(together.result);
+    check_close(&checks, "work", one.work, other.work, 1e-7);
+    check_close(&checks, "residual", one.residual, 0, 1e-7);
+    check_that(&checks, "some work", fabs(other.work) > 0.1);
+    check_close(&checks, "work of friction", fbd_result_work(apart.result, "upper", "friction"),
+                fbd_result_work(together.result, "upper", "friction"), 1e-8);
+    trial_close(&apart);
+    trial_close(&together);
+    checks_end(&checks);
+}
+
 /* ---- output */
 
 struct rows {
@@ -395,6 +460,7 @@ int main(void)
         cmocka_unit_test(a_group_moves_as_if_it_were_alone),
         cmocka_unit_test(step_by_step_and_in_one_go_are_the_same),
         cmocka_unit_test(an_early_end_of_one_group_ends_all),
+        cmocka_unit_test(jointed_bodies_form_groups_that_agree_with_the_whole),
         cmocka_unit_test(the_ledger_of_every_row_closes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
