@@ -93,7 +93,8 @@ static bool integrate(struct ledger *ledger, struct ensemble *ensemble, size_t g
     int panels = run_panels(of->run);
     double half = (to - from) / (2 * panels);
     for (int i = 0; i < 5 * panels; i++) {
-        double middle = from + half * (2 * (i / 5) + 1);
+        int panel = i / 5;
+        double middle = from + half * (2 * panel + 1);
         const struct fbd_state *state = ensemble_look_group(ensemble, group, middle + half * x[i % 5]);
         if (!state) return false;
         add_powers(ledger, of, state, half * w[i % 5], work);

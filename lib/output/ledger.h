@@ -36,9 +36,9 @@ void ledger_free(struct ledger *ledger);
 /* Is any work in this group integrated? A look into a step costs what dense output costs. */
 bool ledger_integrates(const struct ledger *ledger, const struct group *group);
 
-/* Account for the last step of a group; begin with it again. Of use if `any` only. */
-bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t group);
-void ledger_restart(struct ledger *ledger, struct ensemble *ensemble, size_t group);
+/* Account for the last step of group `index`; begin with it again. Of use if `any` only. */
+bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t index);
+void ledger_restart(struct ledger *ledger, struct ensemble *ensemble, size_t index);
 
 /* work[load_count]: the integrals up to the ensemble's time. */
 bool ledger_at(struct ledger *ledger, struct ensemble *ensemble, double *work);

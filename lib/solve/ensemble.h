@@ -88,8 +88,8 @@ bool ensemble_look(struct ensemble *ensemble, double t, struct fbd_state *state)
 /* The state at ensemble->t; stays valid until the ensemble moves on. */
 struct fbd_state *ensemble_state(struct ensemble *ensemble);
 
-/* A group at t as by ensemble_look, in its own coordinates: its probe, or NULL. */
-struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t group, double t);
+/* Group `index` at t as by ensemble_look, in its own coordinates: its probe, or NULL. */
+struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, double t);
 
 /* The body or load of the whole scene that is `index` in a group; -1 for -1. */
 int group_body(const struct group *group, int index);

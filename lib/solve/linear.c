@@ -27,7 +27,8 @@ struct linear {
 
 static void *linear_alloc(size_t dim)
 {
-    if (dim == 0 || dim > 2 * linear_most_pairs) return NULL;
+    const size_t most = 2 * (size_t)linear_most_pairs;
+    if (dim == 0 || dim > most) return NULL;
     size_t numbers = 4 * dim + terms * dim + matrices * dim * dim;
     struct linear *s = calloc(1, sizeof *s + numbers * sizeof(double));
     if (!s) return NULL;

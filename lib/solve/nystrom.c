@@ -34,7 +34,7 @@ enum { q_terms = nystrom_nodes + 2, v_terms = nystrom_nodes + 1 };
 static void *nystrom_alloc(size_t dim)
 {
     size_t n = dim / 2, numbers = n * (row + nystrom_nodes + q_terms + v_terms) + 4 * dim;
-    if (dim == 0 || dim % 2 != 0 || n > SIZE_MAX / sizeof(double) / (8 * row)) return NULL;
+    if (dim == 0 || dim % 2 != 0 || n > SIZE_MAX / sizeof(double) / (8 * (size_t)row)) return NULL;
     struct nystrom *s = calloc(1, sizeof *s + numbers * sizeof(double));
     if (!s) return NULL;
     s->n = n;

@@ -211,7 +211,7 @@ static fbd_model *many(int count, const char *tail)
                        "  p%d:\n    motion: {pivot: {at: [0, 0]}}\n    mass: 1 kg\n    center: [0, -1 m]\n"
                        "    initial: {theta: %.3f rad}\n    forces: [gravity]\n",
                        i, count == 1 ? 1 : 0.5 + 0.001 * i);
-    strcpy(end, tail);
+    sprintf(end, "%s", tail);
     fbd_model *model = read_model(text);
     free(text);
     return model;

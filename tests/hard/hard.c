@@ -25,8 +25,8 @@ bool hard_method_at(size_t index, struct hard_method *method)
     }
     const struct method *found = method_at(index - 2);
     if (!found) return false;
-    *method = (struct hard_method){found->name, reachable(found->order), found->order, found->implicit,
-                                   false};
+    *method =
+        (struct hard_method){found->name, reachable(found->order), found->order, found->implicit, false};
     return true;
 }
 
