@@ -195,7 +195,7 @@ static void set_watches(struct builder *builder)
     }
 }
 
-struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors)
+static struct fbd_model *compile(struct scene *scene, bool labels, fbd_errors *errors)
 {
     struct fbd_model *model = calloc(1, sizeof *model);
     if (!model) {
@@ -212,9 +212,9 @@ struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors)
     if (done && fbd_errors_failed(errors) == 0) {
         set_loads(&builder);
         set_couplings(&builder);
-        model->labels = labels_make(&model->arena, scene);
-        done = model->labels && set_absolutes(model) && tree_number(model) && tree_name_reactions(model) &&
-               plan_build(&builder) && classify_loads(&builder);
+        if (labels) model->labels = labels_make(&model->arena, scene);
+        done = (model->labels || !labels) && set_absolutes(model) && tree_number(model) &&
+               tree_name_reactions(model) && plan_build(&builder) && classify_loads(&builder);
         set_watches(&builder);
     }
     if (!done) diag_out_of_memory(errors);
@@ -223,6 +223,16 @@ struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors)
         return NULL;
     }
     return model;
+}
+
+struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors)
+{
+    return compile(scene, true, errors);
+}
+
+struct fbd_model *model_compile_group(struct scene *scene, fbd_errors *errors)
+{
+    return compile(scene, false, errors);
 }
 
 void model_free(struct fbd_model *model)

@@ -54,11 +54,16 @@ static bool make_stepper(struct run *run)
     bool *angle = calloc(n + 1, sizeof *angle);
     if (!angle) return false;
     for (size_t i = 0; i < n; i++) angle[i] = run->model->scene->coordinates[i].angle;
+    if (run->options.automatic && run->options.structure && run->options.step == 0) {
+        run->kind = structure_of(run->model);
+        run->options.method = structure_method(run->kind);
+    }
     struct stepper_options options = {.method = run->options.method,
                                       .layout = {.pairs = n, .angle = angle},
                                       .tolerance = run->options.tolerance,
                                       .h_fixed = run->options.step};
     bool automatic = run->options.automatic && 2 * n <= method_most_stiff_states;
+    automatic = automatic && !structure_is_exact(run->kind);
     run->stepper = switcher_alloc(&options, automatic ? method_find("rodas5p") : NULL);
     free(angle);
     return run->stepper != NULL;
@@ -105,7 +110,8 @@ static bool make_run(struct run *run)
     gsl_odeiv2_system system = {.jacobian = jacobian, .dimension = 2 * n};
     system.function = rates_call(run->rates, &system.params);
     counted_system_init(&run->system, &system);
-    return make_decided(&run->decided, plan) && make_stepper(run);
+    if (!make_decided(&run->decided, plan) || !make_stepper(run)) return false;
+    return run->kind != structure_linear || linear_pace_init(&run->pace, 2 * n);
 }
 
 static void start(struct run *run)
@@ -143,6 +149,7 @@ void run_free(struct run *run)
 {
     if (!run) return;
     switcher_free(run->stepper);
+    linear_pace_free(&run->pace);
     scan_free(&run->timed);
     scan_free(&run->moving);
     watchers_free(&run->watchers);
@@ -173,6 +180,8 @@ static bool restart(struct run *run)
         run_fail_step(run, stepper_bad_function);
         return false;
     }
+    if (run->kind == structure_constant) run->h = run->options.until - run->state->t;
+    if (run->kind == structure_linear) linear_pace_start(&run->pace, &run->system, run->state->t, run->y);
     run->restart = false;
     return true;
 }
@@ -182,7 +191,10 @@ static double next_time(struct run *run, bool *found)
 {
     const double stretch = 1.02; /* the stepper may lengthen a step by 1 % to end at its limit */
     double reach = fmin(run->options.until, run->state->t + stretch * run->h);
-    *found = scan_interval(&run->timed, run->state->t, reach) == 1;
+    int status = scan_interval(&run->timed, run->state->t, reach);
+    *found = status == 1;
+    /* Where functions of time change too fast for so long a step, it goes to where they have been seen. */
+    if (status == 2 && run->timed.clear > run->state->t) return run->timed.clear;
     return *found ? fmin(run->timed.t, run->options.until) : run->options.until;
 }
 
@@ -328,6 +340,31 @@ static bool heed_poles(struct run *run)
     return !reached;
 }
 
+/* An exact method has no error to choose its steps by; they are to show events. */
+static void set_linear_step(struct run *run)
+{
+    double resolved = run->moving.resolved;
+    const double other = 0.8;
+    double longest = (run->options.apart ? other : 1) * linear_pace_step(&run->pace, run->from);
+    run->h = fmin(longest, run->options.until - run->from);
+    if (resolved > 0) run->h = fmin(run->h, resolved);
+}
+
+/* A parabola is one step; this makes some of it, which round anew. */
+static double apart_step(const struct run *run)
+{
+    const double share = 0.3;
+    return fmin(run->h, share * run->options.until);
+}
+
+int run_panels(const struct run *run)
+{
+    enum { most = 100, nystrom = 2, general = 1 }; /* a step of the Nystrom method is that much longer */
+    if (run->kind != structure_linear) return run->kind == structure_velocity_free ? nystrom : general;
+    double rate = linear_pace_rate(&run->pace, run->from), span = run->state->t - run->from;
+    return (int)fmin(fmax(1, ceil(2 * span * rate)), most);
+}
+
 fbd_outcome run_advance(struct run *run)
 {
     if (run->outcome != FBD_GOING) return run->outcome;
@@ -335,6 +372,8 @@ fbd_outcome run_advance(struct run *run)
     state_copy(run->during, run->state);
     if (run->restart && !restart(run)) return run->outcome;
     if (run->crawl == 0) run->not_finite = switcher_counts(run->stepper).rejected[rejected_not_finite];
+    if (run->kind == structure_linear) set_linear_step(run);
+    if (run->kind == structure_constant && run->options.apart) run->h = apart_step(run);
     if (run->options.step == 0 && !heed_poles(run)) return run->outcome;
     bool timed;
     double limit = next_time(run, &timed), t = run->from;

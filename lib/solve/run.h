@@ -13,8 +13,10 @@
 #include "dynamics/diagram.h"
 #include "dynamics/modes.h"
 #include "dynamics/rates.h"
+#include "solve/linear.h"
 #include "solve/poles.h"
 #include "solve/scan.h"
+#include "solve/structure.h"
 #include "solve/switcher.h"
 #include "solve/watchers.h"
 
@@ -24,12 +26,15 @@ struct run_options {
     double step; /* fixed size, or 0 */
     const struct method *method;
     bool automatic; /* switch to the stiff method and back as the motion demands */
+    bool structure; /* use what the plan shows: see structure.h; with `automatic` it may choose the method */
+    bool apart;     /* where a method makes steps without error: other ones than a run without this makes */
 };
 
 struct run_event {
     double t;
     fbd_event_kind kind;
     int body, load, watch; /* -1 where it does not apply */
+    size_t group, order;   /* of an ensemble, and its place in the log of that group */
     double force, limit;   /* friction: the force after the event (that holds or slides) and the static limit;
                               contact: the normal force and its rounding */
 };
@@ -39,6 +44,7 @@ enum { reason_size = 400 };
 struct run {
     const struct fbd_model *model;
     struct run_options options;
+    enum structure kind;      /* in use: general unless options.structure and options.automatic */
     struct fbd_state *state;  /* at the end of the last step, modes for what follows */
     struct fbd_state *during; /* modes of the last step; its scratch serves samples within it */
     double from;              /* start of the last step; it ends at state->t */
@@ -53,6 +59,7 @@ struct run {
     struct scan timed, moving;
     struct poles poles;
     struct switcher *stepper;
+    struct linear_pace pace; /* of a linear system */
     struct counted_system system;
     struct rates *rates;    /* in the modes of `during` */
     double *y, *f, *sample; /* 2 n each; y: the end of the last step, before its events */
@@ -64,7 +71,8 @@ struct run {
     size_t event_count, event_room;
     double last_event; /* time of the last one; events that crowd at one instant are counted */
     int crowd;
-    double *anchor; /* 4 n: the state around which events have happened lately; the largest |y_i| so far */
+    double *anchor; /* 4 n: the state around which events have happened lately; the largest |y_i| before the
+                       last step */
     int around;     /* how many */
 };
 
@@ -81,6 +89,10 @@ bool run_look(struct run *run, double t, struct fbd_state *state);
 
 /* Only coordinates and rates there, 2 n, without evaluating anything but the dense output. */
 bool run_coordinates(struct run *run, double t, double *y);
+/* Into how many panels the last step is to be divided for Gauss's rule with five points, so that the error of
+ * an integral of powers is below that of the motion. For linear systems: half a radian or a fall by 1/sqrt(e)
+ * of the fastest mode each (4e-13, Abramowitz & Stegun 25.4.30). */
+int run_panels(const struct run *run);
 
 /* ---- for the files of the loop */
 
