@@ -50,6 +50,10 @@ format: $(BUILD)/.lint
 lint: $(BUILD)/.lint
 	.ci/lint $(BUILD)
 
+gallery: $(BUILD)/.tests
+	ninja -C $(BUILD)
+	docs/make-gallery $(BUILD)/apps/fbd-run
+
 install: all
 	meson install -C $(BUILD) --no-rebuild
 
@@ -74,5 +78,5 @@ $(BUILD)-sanitize/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run test sanitize valgrind bench effects error-bars check-format format lint install clean
+.PHONY: all run test sanitize valgrind bench effects error-bars gallery check-format format lint install clean
 .SECONDARY:

@@ -8,7 +8,8 @@
 #include <string.h>
 
 #include "options.h"
-#include "whole_file.h"
+#include "outputs.h"
+#include "run_progress.h"
 
 static enum exit_code no_memory(void)
 {
@@ -98,16 +99,45 @@ static enum exit_code place(const fbd_model *model, const struct options *option
 
 /* ---- instead of a run */
 
+/* Put a text of the library into a file, and free it. */
+static enum exit_code write_text(const char *path, char *text)
+{
+    struct whole_file file;
+    if (!text) return no_memory();
+    bool written = whole_file_open(&file, path);
+    if (written) {
+        whole_file_write(&file, text, strlen(text)); /* an error shows when the file is closed */
+        written = whole_file_close(&file, true);
+    }
+    free(text);
+    if (written) return exit_done;
+    fprintf(stderr, "fbd-run: cannot write `%s`: %s\n", path, strerror(errno));
+    return exit_failed;
+}
+
+/* The diagram of a state, when it is asked for. */
+static enum exit_code draw_state(const struct options *options, fbd_state *state, fbd_errors *errors)
+{
+    if (!options->svg) return exit_done;
+    char *svg = fbd_diagram_svg(state, &options->drawing, errors);
+    return svg ? write_text(options->svg, svg) : exit_usage;
+}
+
 static enum exit_code show_state(const fbd_model *model, const struct options *options, fbd_errors *errors)
 {
     fbd_state *state = fbd_state_new(model);
     if (!state) return no_memory();
     enum exit_code code = place(model, options, state, errors);
     if (code == exit_done && options->action == action_equations) {
-        code = print(fbd_equations_text(state), exit_done);
+        if (!options->svg || strcmp(options->svg, "-") != 0)
+            code = print(fbd_equations_text(state), exit_done);
+        if (code == exit_done) code = draw_state(options, state, errors);
     } else if (code == exit_done) {
         fbd_linearization *linear = fbd_linearize(state, errors);
-        code = linear ? print(fbd_linearization_text(linear), exit_done) : exit_failed;
+        code = linear ? exit_done : exit_failed;
+        bool drawn_only = options->svg && strcmp(options->svg, "-") == 0;
+        if (linear && !drawn_only) code = print(fbd_linearization_text(linear), exit_done);
+        if (code == exit_done && options->svg) code = write_text(options->svg, fbd_linearization_svg(linear));
         fbd_linearization_free(linear);
     }
     fbd_state_free(state);
@@ -123,6 +153,18 @@ static enum exit_code check_hand(const fbd_model *model, const struct options *o
 
 /* ---- a run */
 
+/* The diagram is that of a state of its own: at the start, or where --at leads. */
+static enum exit_code draw_diagram(const fbd_model *model, const struct options *options, fbd_errors *errors)
+{
+    if (!options->svg) return exit_done;
+    fbd_state *state = fbd_state_new(model);
+    if (!state) return no_memory();
+    enum exit_code code = place(model, options, state, errors);
+    if (code == exit_done) code = draw_state(options, state, errors);
+    fbd_state_free(state);
+    return code;
+}
+
 /* What is wrong with the options stands in the file when it has a place there. */
 static enum exit_code blame(fbd_errors *errors)
 {
@@ -130,75 +172,63 @@ static enum exit_code blame(fbd_errors *errors)
     return first && first->line > 0 ? exit_bad_model : exit_usage;
 }
 
-struct outputs {
-    struct whole_file csv, json;
-};
-
-static bool open_outputs(const struct options *options, struct outputs *outputs)
-{
-    const char *failed = NULL;
-    if (options->csv && !whole_file_open(&outputs->csv, options->csv)) failed = options->csv;
-    if (!failed && options->json && !whole_file_open(&outputs->json, options->json)) failed = options->json;
-    if (!failed) return true;
-    fprintf(stderr, "fbd-run: cannot write `%s`: %s\n", failed, strerror(errno));
-    whole_file_close(&outputs->csv, false);
-    return false;
-}
-
-static bool close_outputs(struct outputs *outputs, bool keep)
-{
-    struct whole_file *files[] = {&outputs->csv, &outputs->json};
-    bool done = true;
-    for (int i = 0; i < 2; i++) {
-        if (whole_file_close(files[i], keep)) continue;
-        fprintf(stderr, "fbd-run: cannot write `%s`: %s\n", files[i]->path, strerror(errno));
-        done = false;
-    }
-    return done;
-}
-
 /* The report needs the works; it goes to standard output unless data goes there. */
-static bool wants_report(const struct options *options, const struct outputs *outputs)
+static bool wants_report(struct outputs *outputs, const struct options *options)
 {
-    return !options->quiet && outputs->csv.stream != stdout && outputs->json.stream != stdout;
+    return !options->quiet && !outputs_on_stdout(outputs, options);
 }
 
-static enum exit_code write_result(const struct options *options, fbd_result *result, struct outputs *outputs)
+/* Carry the simulation to its end, or to where it is interrupted, and write what was asked for. */
+static enum exit_code carry_and_write(fbd_simulation *simulation, const struct options *options,
+                                      struct outputs *outputs, const struct interrupt *interrupt,
+                                      fbd_errors *errors)
 {
-    char *json = outputs->json.stream ? fbd_result_json(result) : NULL;
-    if (outputs->json.stream && !json) return no_memory();
-    if (json)
-        whole_file_write(&outputs->json, json, strlen(json)); /* an error shows when the file is closed */
-    free(json);
-    if (!wants_report(options, outputs)) return exit_done;
-    return print(fbd_result_report(result), exit_done);
+    struct run_progress progress;
+    fbd_recording recording = {.every = options->every,
+                               .ledger = options->ledger,
+                               .csv = options->csv ? whole_file_write : NULL,
+                               .csv_context = &outputs->files[output_csv],
+                               .motion_only = !options->json && !wants_report(outputs, options),
+                               .keep = options->html || options->plot || options->gnuplot,
+                               .progress = run_progress_watch,
+                               .progress_context = &progress};
+    run_progress_begin(&progress, interrupt, wants_report(outputs, options));
+    fbd_result *result = fbd_simulation_run(simulation, &recording);
+    run_progress_end(&progress);
+    bool refused = outputs->files[output_csv].stream &&
+                   ferror(outputs->files[output_csv].stream); /* said when it is closed */
+    enum exit_code code = result ? exit_done : refused ? exit_failed : no_memory();
+    if (result && !outputs_write(outputs, options, result, errors)) code = exit_failed;
+    if (code == exit_done && wants_report(outputs, options))
+        code = print(fbd_result_report(result), exit_done);
+    if (!outputs_close(outputs, result && code == exit_done)) code = exit_failed;
+    fbd_outcome outcome = result ? fbd_result_outcome(result) : FBD_FAILED;
+    if (outcome != FBD_FAILED && outcome != FBD_INTERRUPTED && code == exit_done)
+        code = accurate(result, simulation);
+    if (result && outcome != FBD_DONE && outcome != FBD_STOPPED) {
+        fprintf(stderr, "fbd-run: %s\n", fbd_simulation_reason(simulation));
+        code = exit_failed;
+    }
+    fbd_result_free(result);
+    return code;
 }
 
 static enum exit_code run(const fbd_model *model, const struct options *options, fbd_errors *errors)
 {
+    if (options->plot_of && !fbd_model_has_columns(model, options->plot_of, errors)) return exit_usage;
+    enum exit_code code = draw_diagram(model, options, errors);
+    if (code != exit_done) return code;
     fbd_simulation *simulation = fbd_simulation_new(model, &options->run, errors);
     if (!simulation) return blame(errors);
     struct outputs outputs = {0};
-    enum exit_code code = exit_failed;
-    if (open_outputs(options, &outputs)) {
-        fbd_recording recording = {.every = options->every,
-                                   .ledger = options->ledger,
-                                   .csv = options->csv ? whole_file_write : NULL,
-                                   .csv_context = &outputs.csv,
-                                   .motion_only = !outputs.json.stream && !wants_report(options, &outputs)};
-        fbd_result *result = fbd_simulation_run(simulation, &recording);
-        bool refused = outputs.csv.stream && ferror(outputs.csv.stream); /* said when it is closed */
-        code = result ? write_result(options, result, &outputs) : refused ? exit_failed : no_memory();
-        if (!close_outputs(&outputs, result != NULL)) code = exit_failed;
-        fbd_outcome outcome = result ? fbd_result_outcome(result) : FBD_FAILED;
-        if (outcome != FBD_FAILED && code == exit_done) code = accurate(result, simulation);
-        if (result && outcome != FBD_DONE && outcome != FBD_STOPPED) {
-            fprintf(stderr, "fbd-run: %s\n", fbd_simulation_reason(simulation));
-            code = exit_failed;
-        }
-        fbd_result_free(result);
-    }
+    struct interrupt interrupt;
+    interrupt_hold(&interrupt);
+    code = exit_failed;
+    if (outputs_open(&outputs, options))
+        code = carry_and_write(simulation, options, &outputs, &interrupt, errors);
     fbd_simulation_free(simulation);
+    fflush(stdout);
+    interrupt_release(&interrupt);
     return code;
 }
 

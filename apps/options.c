@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "options.h"
 
+#include "gnuplot.h"
+
 #include <errno.h>
 #include <getopt.h>
 #include <stdlib.h>
@@ -27,13 +29,21 @@ static const char help[] =
     "  --json FILE          final state, events, forces, energy and cost as one object\n"
     "  --error-bars         estimate the error of everything that is written, by a second run that goes "
     "along\n"
+    "  --html FILE          one page that plays the motion, with plots, equations and events\n"
+    "  --plot FILE          plots of coordinates and energies by gnuplot; FILE ends in .svg, .png or .pdf\n"
+    "  --plot-of NAME,...   of these columns of the CSV (block.v,block.friction)\n"
+    "  --gnuplot FILE       the script of the plots, with its data\n"
+    "  --svg FILE           the free-body diagram of every body, at the start or at the time of --at;\n"
+    "                       with --linearize the eigenvalues\n"
+    "  --body NAME          of this body alone\n"
+    "  --components         with the components of each force\n"
     "  --quiet              no report\n"
     "\n"
     "Instead of a run\n"
     "  --equations          the assembled equations, term by term\n"
     "  --linearize          equilibrium, A matrix, eigenvalues, frequencies, damping ratios\n"
-    "  --at TIME|NAME=VALUE for these two: at this time of the run, or with these coordinates (may be "
-    "repeated)\n"
+    "  --at TIME|NAME=VALUE for these two and for --svg: at this time of the run, or with these coordinates\n"
+    "                       (may be repeated)\n"
     "  --explain            what is simulated and what is not, what is conservative and why\n"
     "  --check-hand         hold the file's hand derivations against the assembly\n"
     "  --seed NUMBER        seed of the random states for that (default 1)\n"
@@ -41,7 +51,8 @@ static const char help[] =
     "  --help, --version\n"
     "\n"
     "Exit codes: 0 done, 1 the run failed or ended early, 2 usage, 3 the model file is wrong,\n"
-    "4 a hand derivation differs, 5 the accuracy asked for was not reached.\n";
+    "4 a hand derivation differs, 5 the accuracy asked for was not reached,\n"
+    "128 + signal: interrupted, with what was computed written.\n";
 
 enum {
     option_set = 256,
@@ -63,6 +74,13 @@ enum {
     option_explain,
     option_check_hand,
     option_seed,
+    option_svg,
+    option_html,
+    option_plot,
+    option_plot_of,
+    option_gnuplot,
+    option_body,
+    option_components,
     option_check,
     option_help,
     option_version,
@@ -88,6 +106,13 @@ static const struct option long_options[] = {
     {"explain", no_argument, NULL, option_explain},
     {"check-hand", no_argument, NULL, option_check_hand},
     {"seed", required_argument, NULL, option_seed},
+    {"svg", required_argument, NULL, option_svg},
+    {"html", required_argument, NULL, option_html},
+    {"plot", required_argument, NULL, option_plot},
+    {"plot-of", required_argument, NULL, option_plot_of},
+    {"gnuplot", required_argument, NULL, option_gnuplot},
+    {"body", required_argument, NULL, option_body},
+    {"components", no_argument, NULL, option_components},
     {"check", no_argument, NULL, option_check},
     {"help", no_argument, NULL, option_help},
     {"version", no_argument, NULL, option_version},
@@ -166,6 +191,19 @@ static bool take_option(int code, struct options *options)
         if (options->at_count == most_settings) return usage("too many --at", "");
         options->at[options->at_count++] = optarg;
         return true;
+    case option_svg: options->svg = optarg; return true;
+    case option_html:
+        if (!fbd_has_html())
+            return usage(
+                "this fbd was built without --html: it needs dygraphs (Debian: libjs-dygraphs) at build time",
+                "");
+        options->html = optarg;
+        return true;
+    case option_plot: options->plot = optarg; return true;
+    case option_plot_of: options->plot_of = optarg; return true;
+    case option_gnuplot: options->gnuplot = optarg; return true;
+    case option_body: options->drawing.body = optarg; return true;
+    case option_components: options->drawing.components = true; return true;
     case option_seed: return read_seed(optarg, &options->seed);
     case option_equations: return choose_action(options, action_equations);
     case option_linearize: return choose_action(options, action_linearize);
@@ -176,19 +214,53 @@ static bool take_option(int code, struct options *options)
     }
 }
 
+static bool plot_can_be_written(const char *file)
+{
+    const char *end = strrchr(file, '.');
+    if (!end || (strcmp(end, ".svg") != 0 && strcmp(end, ".png") != 0 && strcmp(end, ".pdf") != 0))
+        return usage("--plot wants a file whose name ends in .svg, .png or .pdf, not ", file);
+    if (!gnuplot_is_there())
+        return usage(
+            "--plot needs gnuplot, which is not installed (Debian: gnuplot-nox); --gnuplot FILE writes the "
+            "script for it",
+            "");
+    return true;
+}
+
+static bool places_differ(const struct options *options)
+{
+    const char *places[] = {options->csv,  options->json, options->svg,
+                            options->html, options->plot, options->gnuplot};
+    const size_t count = sizeof places / sizeof *places;
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < i; k++)
+            if (places[i] && places[k] && strcmp(places[i], places[k]) == 0)
+                return usage("two outputs cannot go to the same place: ", places[i]);
+    return true;
+}
+
 /* Options that would be passed over in silence are mistakes. */
 static bool options_agree(const struct options *options)
 {
     bool stands_still = options->action != action_run;
-    if (options->at_count && options->action != action_equations && options->action != action_linearize)
-        return usage("--at goes with --equations or --linearize", "");
-    if (stands_still && (options->csv || options->json || options->ledger || options->every > 0))
-        return usage("--csv, --json, --ledger and --every belong to a run", "");
+    bool looks = options->action == action_equations || options->action == action_linearize;
+    if (options->at_count && !looks && !options->svg)
+        return usage("--at goes with --svg, --equations or --linearize", "");
+    if (options->svg && stands_still && !looks)
+        return usage("--svg belongs to a run, --equations or --linearize", "");
+    if ((options->drawing.body || options->drawing.components) && !options->svg)
+        return usage("--body and --components go with --svg", "");
+    if (stands_still && (options->csv || options->json || options->html || options->plot ||
+                         options->gnuplot || options->ledger || options->every > 0))
+        return usage("--csv, --json, --html, --plot, --gnuplot, --ledger and --every belong to a run", "");
+    if (!places_differ(options)) return false;
+    if (options->plot_of && !options->plot && !options->gnuplot)
+        return usage("--plot-of goes with --plot or --gnuplot", "");
+    if (options->plot && !plot_can_be_written(options->plot)) return false;
+    if (!options->csv && options->ledger) return usage("--ledger goes with --csv", "");
+    if (!options->csv && !options->html && options->every > 0)
+        return usage("--every goes with --csv or --html", "");
     if (stands_still && options->run.error_bars) return usage("--error-bars belongs to a run", "");
-    if (options->csv && options->json && strcmp(options->csv, options->json) == 0)
-        return usage("--csv and --json cannot go to the same place: ", options->csv);
-    if (!options->csv && (options->ledger || options->every > 0))
-        return usage("--ledger and --every go with --csv", "");
     return true;
 }
 

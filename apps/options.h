@@ -36,7 +36,9 @@ struct options {
     fbd_options run;
     double every;
     bool ledger, quiet;
-    const char *csv, *json;
+    const char *csv, *json, *svg, *html;
+    const char *plot, *gnuplot, *plot_of;
+    fbd_drawing drawing;
     unsigned seed;
 };
 

@@ -190,6 +190,9 @@ typedef enum fbd_event_kind {
     FBD_EVENT_REVERSAL,     /* a slipping body stops and slips back at once */
     FBD_EVENT_CONTACT_LOST, /* a normal force reaches zero: the run ends, since the scene is no longer true */
     FBD_EVENT_USER,         /* an event of the file */
+    FBD_EVENT_ROPE_SLACK,   /* the tension of a rope reaches zero */
+    FBD_EVENT_ROPE_TAUT,    /* a slack rope reaches its length: what that takes from the motion is a plastic
+                               impact */
     FBD_EVENT_SWITCH,       /* an expression passes from one branch to another (step, abs, if, ...) */
 } fbd_event_kind;
 
@@ -213,6 +216,7 @@ typedef enum fbd_outcome {
     FBD_FAILED, /* step size underflow, a force that is not finite, forces that fight at their thresholds, ...
                  */
     FBD_OUT_OF_MEMORY,
+    FBD_INTERRUPTED, /* the progress function of the recording said stop */
 } fbd_outcome;
 
 typedef struct fbd_stats {
@@ -278,13 +282,28 @@ FBD_API const char *fbd_simulation_reason(const fbd_simulation *simulation);
 /* Takes a piece of text; non-zero stops the run. */
 typedef int fbd_write(void *context, const char *text, size_t length);
 
+/* How far a run is. */
+typedef struct fbd_progress {
+    double t, until; /* simulated time reached, end time [s] */
+    unsigned long steps;
+    size_t events;
+} fbd_progress;
+
+/* Is told after every step how far the run is; non-zero ends the run there, with FBD_INTERRUPTED and all
+ * outputs complete up to that time. It is called often and must be quick; it changes nothing in the
+ * trajectory. */
+typedef int fbd_watch(void *context, const fbd_progress *progress);
+
 typedef struct fbd_recording {
     double every;   /* output interval; 0 for the file's, else 1/500 of the run */
     bool ledger;    /* with a column for each force and its work, and for the energies */
     fbd_write *csv; /* where CSV goes, or NULL */
     void *csv_context;
     bool motion_only; /* the work of forces without a potential is not integrated: what would be asked of it
-                         is NAN. Nothing else changes; `ledger` wins. */
+                         is NAN. Nothing else changes; `ledger` and `keep` win. */
+    bool keep;        /* keep what fbd_result_html and fbd_result_gnuplot show (at most some 50 MB) */
+    fbd_watch *progress; /* or NULL */
+    void *progress_context;
 } fbd_recording;
 
 /* Energies of the scene, in its units of energy. work: what the forces without a potential have done since
@@ -330,6 +349,25 @@ FBD_API bool fbd_result_accurate(const fbd_result *result);
 FBD_API char *fbd_result_report(fbd_result *result);
 FBD_API char *fbd_result_json(fbd_result *result);
 
+/* Plots of a run as a script for gnuplot that carries its data. `columns`: names of the CSV's columns with
+ * ledger, without units, separated by commas ("block.v,block.friction"), one plot for each unit; NULL for
+ * coordinates and energies. `file` (may be NULL) chooses gnuplot's terminal by its ending, .svg, .png or
+ * .pdf; the script writes to gnuplot's standard output. NULL with a note in `errors`: `unknown-column`,
+ * `not-recorded`, or memory is out. */
+FBD_API char *fbd_result_gnuplot(fbd_result *result, const char *file, const char *columns,
+                                 fbd_errors *errors);
+
+/* Does the model have all these columns? False with notes in `errors`. */
+FBD_API bool fbd_model_has_columns(const fbd_model *model, const char *columns, fbd_errors *errors);
+
+/* Was the library built with the page (it needs a library for its plots)? */
+FBD_API bool fbd_has_html(void);
+
+/* One self-contained HTML page (UTF-8) that plays the run, with plots, equations and ledger at every time; at
+ * most some 5 MB however long the run is. NULL with a note in `errors`: `no-page` where the library was built
+ * without it, `not-recorded` for a run without `keep`, or memory is out. */
+FBD_API char *fbd_result_html(fbd_result *result, fbd_errors *errors);
+
 /* ---------------------------------------------------------------- looking at a model */
 
 /* The assembled equations, term by term, as text. To be freed with free(), as all texts below; NULL when
@@ -362,6 +400,9 @@ typedef struct fbd_mode {
 
 FBD_API fbd_mode fbd_linearization_mode(const fbd_linearization *linearization, size_t index);
 FBD_API char *fbd_linearization_text(const fbd_linearization *linearization);
+
+/* The eigenvalues in the complex plane, as an SVG document. */
+FBD_API char *fbd_linearization_svg(const fbd_linearization *linearization);
 
 /* Hold every `hand:` derivation of the model against the assembly at many random admissible states (and
  * parameters; the seed is printed). The number of equations that differ, or -1 when memory is out; *text says
@@ -595,6 +636,18 @@ FBD_API const fbd_effect *fbd_effects_get(const fbd_effects *effects, size_t ind
 FBD_API char *fbd_effects_text(const fbd_effects *effects);
 FBD_API char *fbd_effects_csv(const fbd_effects *effects);
 FBD_API char *fbd_effects_json(const fbd_effects *effects);
+
+/* ---------------------------------------------------------------- drawings */
+
+typedef struct fbd_drawing {
+    const char *body; /* this body alone; NULL for all */
+    bool components;  /* with the components of each force: along x and y, on a slide along and across it */
+} fbd_drawing;
+
+/* The free-body diagrams of a state as an SVG 1.1 document in millimetres, to be freed with free(). `drawing`
+ * may be NULL. Ids are `BODY` for a diagram, `BODY-FORCE` for an arrow (`BODY-FORCE-x`, `-y`, `-n` for
+ * components). NULL with a note in `errors` (`unknown-body`, or memory is out). */
+FBD_API char *fbd_diagram_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *errors);
 
 FBD_API const char *fbd_version(void);
 

@@ -84,9 +84,11 @@ fbd_result *record_accurately(fbd_simulation *simulation, const fbd_recording *r
     enum { most_attempts = 12 };
     struct attempt attempts[most_attempts];
     int count = 0;
-    bool written = recording && recording->csv;
+    bool written = recording && (recording->csv || recording->keep);
+    fbd_recording attempt = {.progress = recording ? recording->progress : NULL,
+                             .progress_context = recording ? recording->progress_context : NULL};
     for (;;) {
-        fbd_result *result = record(simulation, NULL);
+        fbd_result *result = record(simulation, &attempt);
         if (!result) return NULL;
         attempts[count++] = (struct attempt){simulation->ensemble->options.tolerance,
                                              companion_global(simulation->bars->companion)};
@@ -94,6 +96,7 @@ fbd_result *record_accurately(fbd_simulation *simulation, const fbd_recording *r
         double tolerance = next_tolerance(attempts, count, simulation->accuracy);
         bool enough = margin * last->estimate <= simulation->accuracy || at_the_floor(attempts, count) ||
                       count == most_attempts || simulation->ensemble->outcome == FBD_FAILED ||
+                      simulation->ensemble->outcome == FBD_INTERRUPTED ||
                       takes_too_long(simulation, tolerance);
         if (enough && best == last && !written) return result;
         fbd_result_free(result);

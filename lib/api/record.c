@@ -8,6 +8,8 @@
 #include <string.h>
 #include <time.h>
 
+#include "draw/record.h"
+
 /* ---- a run of a simulation */
 
 bool simulation_begin(fbd_simulation *simulation, const struct fbd_model *model,
@@ -38,53 +40,105 @@ static double processor_seconds(void)
                : 0;
 }
 
-/* The ledger looks at every step; its time is not that of the run. */
-static bool account(void *context, struct ensemble *ensemble, size_t group)
+/* ---- while it goes */
+
+struct going {
+    fbd_result *result;
+    const fbd_recording *recording; /* or NULL */
+    unsigned long steps;
+};
+
+/* Tell how far the run is, and end it when that is answered by a stop. */
+static void tell_progress(struct going *going)
 {
-    fbd_result *result = context;
-    if (!ledger_integrates(&result->ledger, &ensemble->groups[group])) return true;
+    const fbd_recording *recording = going->recording;
+    struct ensemble *ensemble = going->result->simulation->ensemble;
+    if (!recording || !recording->progress || ensemble->outcome != FBD_GOING) return;
+    fbd_progress progress = {.t = ensemble->t,
+                             .until = ensemble->options.until,
+                             .steps = going->steps,
+                             .events = ensemble->event_count};
+    if (recording->progress(recording->progress_context, &progress) != 0) ensemble_interrupt(ensemble);
+}
+
+/* The ledger looks at every step; its time is not that of the run. */
+static bool observe(void *context, struct ensemble *ensemble, size_t group)
+{
+    struct going *going = context;
+    fbd_result *result = going->result;
+    going->steps++;
+    tell_progress(going);
+    if (!result->ledger.any || !ledger_integrates(&result->ledger, &ensemble->groups[group])) return true;
     double before = processor_seconds(); /* a call of the system: not for every step of a thousand groups */
     bool done = ledger_step(&result->ledger, ensemble, group);
     result->ledger_seconds += processor_seconds() - before;
     return done;
 }
 
-static void account_again(void *context, struct ensemble *ensemble, size_t group)
+static void observe_again(void *context, struct ensemble *ensemble, size_t group)
 {
-    fbd_result *result = context;
-    ledger_restart(&result->ledger, ensemble, group);
+    struct going *going = context;
+    if (going->result->ledger.any) ledger_restart(&going->result->ledger, ensemble, group);
 }
 
-/* Carry the run on to the next time at which there is something to do. A row's time and a sample's that are
- * the same but for rounding are two: what is written does not depend on error bars. */
-static bool carry_on(fbd_result *result, struct csv *csv)
+/* The next time at which there is something to do other than a row: a sample of the errors, the end of a step
+ * for the record, or, since who watches wants to be asked, a thousandth of the run. */
+static double next_stop(const struct going *going)
 {
+    const double slice = 1e-3;
+    const struct bars *bars = going->result->simulation->bars;
+    struct ensemble *ensemble = going->result->simulation->ensemble;
+    double next = bars ? bars_next(bars) : HUGE_VAL;
+    if (going->result->record) next = fmin(next, ensemble_next_end(ensemble));
+    if (going->recording && going->recording->progress)
+        next =
+            fmin(next, fmax(ensemble->t + slice * ensemble->options.until, nextafter(ensemble->t, HUGE_VAL)));
+    return next;
+}
+
+/* Carry the run on to the next such time. A row's time and another that are the same but for rounding are
+ * two: what is written does not depend on error bars. */
+static bool carry_on(struct going *going, struct csv *csv)
+{
+    fbd_result *result = going->result;
     fbd_simulation *simulation = result->simulation;
     struct ensemble *ensemble = simulation->ensemble;
-    struct bars *bars = simulation->bars;
     size_t events = ensemble->event_count;
-    double before = processor_seconds(), by_ledger = result->ledger_seconds;
-    double next = csv ? csv_next(csv) : ensemble->options.until;
-    bool sample = bars && bars_next(bars) < next;
-    ensemble_go(ensemble, sample ? bars_next(bars) : next, csv && !sample ? csv->near : 0, csv != NULL);
+    double from = ensemble->t, before = processor_seconds(), by_ledger = result->ledger_seconds;
+    double row = csv ? csv_next(csv) : ensemble->options.until, stop = next_stop(going);
+    bool other = stop < row;
+    ensemble_go(ensemble, other ? stop : row, csv && !other ? csv->near : 0, csv || result->record);
     simulation->seconds += processor_seconds() - before - (result->ledger_seconds - by_ledger);
+    tell_progress(going);
     bool event = ensemble->event_count > events;
-    bool due = csv && (!sample || event || ensemble->outcome != FBD_GOING);
+    bool due = csv && (!other || event || ensemble->outcome != FBD_GOING);
     if (due && !csv_row(csv, ensemble, event)) return false;
-    return !bars || bars_step(bars, ensemble);
+    if (result->record && !record_step(result->record, ensemble, from, event)) return false;
+    return !simulation->bars || bars_step(simulation->bars, ensemble);
 }
 
-/* Without rows and error bars there is nothing to stop for before the end. */
-static bool carry(fbd_result *result, struct csv *csv)
+/* Without rows, error bars and the like there is nothing to stop for before the end. */
+static bool carry(fbd_result *result, const fbd_recording *recording, struct csv *csv)
 {
     fbd_simulation *simulation = result->simulation;
     struct ensemble *ensemble = simulation->ensemble;
     struct bars *bars = simulation->bars;
-    while (ensemble->outcome == FBD_GOING)
-        if (!carry_on(result, csv)) return false;
-    if (ensemble->outcome == FBD_OUT_OF_MEMORY) return false;
-    if (!ledger_at(&result->ledger, ensemble, result->ledger.work)) return false;
-    return !bars || (bars_finish(bars, ensemble) && simulation_match_events(simulation));
+    struct going going = {result, recording, 0};
+    if (result->ledger.any || (recording && recording->progress))
+        ensemble->observer = (struct observer){&going, observe, observe_again};
+    bool fine = true;
+    while (fine && ensemble->outcome == FBD_GOING) fine = carry_on(&going, csv);
+    fine = fine && ensemble->outcome != FBD_OUT_OF_MEMORY &&
+           ledger_at(&result->ledger, ensemble, result->ledger.work);
+    ensemble->observer = (struct observer){0};
+    return fine && (!bars || (bars_finish(bars, ensemble) && simulation_match_events(simulation)));
+}
+
+static bool begin_record(fbd_result *result, const fbd_recording *recording)
+{
+    result->record = calloc(1, sizeof *result->record);
+    return result->record &&
+           record_begin(result->record, result->simulation->ensemble, &result->ledger, recording->every);
 }
 
 static bool record_into(fbd_result *result, const fbd_recording *recording)
@@ -92,15 +146,15 @@ static bool record_into(fbd_result *result, const fbd_recording *recording)
     struct ensemble *ensemble = result->simulation->ensemble;
     struct bars *bars = result->simulation->bars;
     struct fbd_state *start = ensemble_state(ensemble);
-    bool works = !recording || recording->ledger || !recording->motion_only;
+    bool works = !recording || recording->ledger || recording->keep || !recording->motion_only;
     result->start = state_new(ensemble->model);
     if (!result->start || !ledger_init(&result->ledger, ensemble->model, start, works)) return false;
     if (bars && !works) bars->ledger.any = false;
     state_copy(result->start, start);
-    if (result->ledger.any) ensemble->observer = (struct observer){result, account, account_again};
-    if (!recording || !recording->csv) return carry(result, NULL);
+    if (recording && recording->keep && !begin_record(result, recording)) return false;
+    if (!recording || !recording->csv) return carry(result, recording, NULL);
     struct csv csv = {0};
-    bool done = csv_begin(&csv, ensemble, &result->ledger, bars, recording) && carry(result, &csv);
+    bool done = csv_begin(&csv, ensemble, &result->ledger, bars, recording) && carry(result, recording, &csv);
     csv_free(&csv);
     return done;
 }
@@ -113,7 +167,6 @@ fbd_result *record(fbd_simulation *simulation, const fbd_recording *recording)
     result->simulation = simulation;
     simulation->seconds = 0;
     bool done = record_into(result, recording);
-    simulation->ensemble->observer = (struct observer){0};
     simulation->runs++;
     simulation->seconds_spent += processor_seconds() - begin;
     if (done) return result;
@@ -131,6 +184,8 @@ fbd_result *fbd_simulation_run(fbd_simulation *simulation, const fbd_recording *
 void fbd_result_free(fbd_result *result)
 {
     if (!result) return;
+    if (result->record) record_free(result->record);
+    free(result->record);
     ledger_free(&result->ledger);
     state_free(result->start);
     free(result);

@@ -16,6 +16,15 @@ size_t extended_size(const struct fbd_model *model);
 /* The instant with its y extended, in at->extended. For jointed bodies the links are moved there. */
 struct instant instant_extend(const struct fbd_model *model, const struct instant *at);
 
+/* The same for the right-hand side, which copies nothing that it need not: extended into `room`, or as it is. */
+static inline const struct instant *instant_with_places(const struct fbd_model *model,
+                                                        const struct instant *at, struct instant *room)
+{
+    if (model->absolute_count == 0) return at;
+    *room = instant_extend(model, at);
+    return room;
+}
+
 /* A direction likewise, behind the instant's vector. `at` is extended. */
 struct direction direction_extend(const struct fbd_model *model, const struct instant *at,
                                   const struct direction *along);

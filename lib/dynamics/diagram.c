@@ -93,6 +93,7 @@ static void set_arrow(const struct fbd_model *model, const struct model_body *bo
     arrow->point = point.p;
     switch (source->kind) {
     case load_gravity: arrow->force = vec_scale(body->inertia.mass, model->scene->gravity); break;
+    case load_rope:
     case load_normal: break; /* a reaction: set from the sum of the others */
     case load_friction:
         arrow->force = vec_scale(friction_at(model, body->friction, at, slots).force, body->e);

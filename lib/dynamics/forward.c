@@ -80,6 +80,12 @@ static void add_kinetic_friction(const struct fbd_model *model, int pair, const 
     slots[friction->coordinate] -= at->slip[pair] * formula_value(&friction->mu_k, at) * press;
 }
 
+/* Does the pair stick, and is it a coordinate that it holds? (A rolling body is held by a row.) */
+static bool holds_coordinate(const struct plan *plan, const struct instant *at, int pair)
+{
+    return at->slip[pair] == stick && plan->frictions[pair].tie < 0;
+}
+
 void body_accelerations(const struct fbd_model *model, int b, const struct instant *at, double *slots,
                         double *a)
 {
@@ -98,13 +104,14 @@ void body_accelerations(const struct fbd_model *model, int b, const struct insta
 
 void accelerations(const struct fbd_model *model, const struct instant *given, double *slots, double *a)
 {
-    const struct instant extended = instant_extend(model, given), *at = &extended;
+    struct instant extended;
+    const struct instant *at = instant_with_places(model, given, &extended);
     for (int b = 0; b < (int)model->body_count; b++) body_accelerations(model, b, at, slots, a);
     if (!model->tree) return;
     tree_accelerations(model, at, slots, a);
     for (int pair = 0; pair < (int)model->plan.friction_count; pair++) {
         const struct friction *friction = &model->plan.frictions[pair];
-        if (friction->jointed && at->slip[pair] == stick)
+        if (friction->jointed && holds_coordinate(&model->plan, at, pair))
             friction_surface_speed(friction, at, &a[friction->coordinate]);
     }
 }
@@ -128,7 +135,7 @@ void accelerations_along(const struct fbd_model *model, const struct instant *gi
         offset_variations(&plan->offsets[i], at, plan->n, along, slots, slots_along, a_along);
     if (model->tree) take_tree_variations(model->tree, at->tree, a_along);
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        if (at->slip[pair] != stick) continue;
+        if (!holds_coordinate(plan, at, pair)) continue;
         const struct friction *friction = &plan->frictions[pair];
         double jerk = 0, d_a, d_b;
         if (friction->surface_speed.expr)
@@ -157,7 +164,7 @@ void state_rates(const struct fbd_model *model, const struct instant *at, double
     accelerations(model, at, slots, dydt + n);
     double acceleration;
     for (int pair = 0; pair < (int)plan->friction_count; pair++)
-        if (at->slip[pair] == stick)
+        if (holds_coordinate(plan, at, pair))
             dydt[plan->frictions[pair].coordinate] =
                 friction_surface_speed(&plan->frictions[pair], at, &acceleration);
 }
@@ -183,7 +190,7 @@ void state_jacobian(const struct fbd_model *model, const struct instant *at, dou
     memset(dfdt, 0, n * sizeof *dfdt);
     accelerations_along(model, at, &in_time, slots, slots_along, dfdt + n);
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        if (at->slip[pair] != stick) continue;
+        if (!holds_coordinate(plan, at, pair)) continue;
         size_t i = (size_t)plan->frictions[pair].coordinate;
         dfdy[i * size + n + i] = 0;
         friction_surface_speed(&plan->frictions[pair], at, &dfdt[i]);

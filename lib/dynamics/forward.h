@@ -10,15 +10,15 @@
 
 /* slots[plan.slots]: all that acts except dry friction, as force_slots says; the slots of jointed bodies
  * behind the n are those of their motion in the present modes. */
-void force_balance(const struct fbd_model *model, const struct instant *at, double *slots);
+void force_balance(const struct fbd_model *model, const struct instant *given, double *slots);
 
 /* The variation of force_balance along a direction, right after it. */
-void force_balance_along(const struct fbd_model *model, const struct instant *at,
-                         const struct direction *along, const double *slots, double *slots_along);
+void force_balance_along(const struct fbd_model *model, const struct instant *given,
+                         const struct direction *direction, const double *slots, double *slots_along);
 
 /* a[n] at an instant. On return slots[plan.slots] hold the generalized forces with kinetic friction included
  * (a sticking coordinate's slot has none) and the sums across slides. */
-void accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a);
+void accelerations(const struct fbd_model *model, const struct instant *given, double *slots, double *a);
 
 /* The same for body `b` alone, which is not jointed: its entries of slots and a. The instant is extended
  * already (absolute.h). */
@@ -27,8 +27,9 @@ void body_accelerations(const struct fbd_model *model, int b, const struct insta
 
 /* The variation of the accelerations along a direction. `slots` and `slots_along` (plan.slots each) are
  * scratch. */
-void accelerations_along(const struct fbd_model *model, const struct instant *at,
-                         const struct direction *along, double *slots, double *slots_along, double *a_along);
+void accelerations_along(const struct fbd_model *model, const struct instant *given,
+                         const struct direction *direction, double *slots, double *slots_along,
+                         double *a_along);
 
 /* dydt[2 n] for an integrator. A sticking coordinate moves with its surface. */
 void state_rates(const struct fbd_model *model, const struct instant *at, double *slots, double *dydt);

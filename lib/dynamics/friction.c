@@ -16,6 +16,7 @@ struct friction_values friction_at(const struct fbd_model *model, int pair, cons
 {
     const struct friction *friction = &model->plan.frictions[pair];
     struct friction_values values = {0};
+    if (friction->rope) return values;
     double press = 1; /* a bearing states its limits as moments */
     if (friction->normal_slot >= 0) {
         values.N = -slots[friction->normal_slot];
@@ -36,6 +37,7 @@ struct friction_values friction_along(const struct fbd_model *model, int pair, c
 {
     const struct friction *friction = &model->plan.frictions[pair];
     struct friction_values rate = {0};
+    if (friction->rope) return rate;
     double press = 1, d_press = 0, d_mu;
     if (friction->normal_slot >= 0) {
         rate.N = -slots_along[friction->normal_slot];

@@ -5,11 +5,12 @@
 #include <string.h>
 
 #include "dynamics/absolute.h"
-#include "dynamics/tree.h"
+#include "dynamics/constraint.h"
 
 double slip_velocity(const struct fbd_model *model, int pair, const struct instant *at)
 {
     const struct friction *friction = &model->plan.frictions[pair];
+    if (friction->tie >= 0) return tie_slip_velocity(model, at, friction->tie);
     double v = at->y[model->plan.n + friction->coordinate], acceleration;
     double s = friction_surface_speed(friction, at, &acceleration);
     return fabs(v - s) <= 4 * DBL_EPSILON * fabs(s) ? 0 : v - s;
@@ -21,7 +22,7 @@ void modes_hold(struct fbd_state *state)
     struct instant at = state_instant(state);
     double acceleration;
     for (int pair = 0; pair < (int)plan->friction_count; pair++)
-        if (state->slip[pair] == stick)
+        if (state->slip[pair] == stick && plan->frictions[pair].tie < 0)
             state->y[plan->n + plan->frictions[pair].coordinate] =
                 friction_surface_speed(&plan->frictions[pair], &at, &acceleration);
 }
@@ -68,6 +69,17 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
         if (plan->frictions[pair].two_sided && !(decided && decided->pulls[pair]))
             state->pull[pair] = slots[plan->frictions[pair].normal_slot] > 0 ? -1 : 1;
         if (decided && decided->slips[pair]) continue;
+        if (plan->frictions[pair].rope) {
+            struct rope_state rope = rope_at(model, &at, plan->frictions[pair].tie);
+            if (rope.touches) continue; /* with the others that rest */
+            enum slip next = rope.rate > 0 && rope.excess > -1e-9 ? stick : slip_plus;
+            if (state->slip[pair] == stick &&
+                fabs(rope.excess) <= 1e-6 * state->tree->ties[plan->frictions[pair].tie].zero)
+                next = stick; /* taut until its tension ends */
+            same = same && state->slip[pair] == (int)next;
+            state->slip[pair] = next;
+            continue;
+        }
         double v = slip_velocity(model, pair, &at);
         enum slip next = v > 0 ? slip_plus : slip_minus;
         if (v == 0 && plan->frictions[pair].jointed) continue; /* all of them together */
@@ -79,7 +91,7 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
         same = same && state->slip[pair] == (int)next;
         state->slip[pair] = next;
     }
-    if (model->tree && model->tree->watched_count > 0) same = tree_settle_slips(state, decided) && same;
+    if (model->tree && plan->friction_count > 0) same = tree_settle_slips(state, decided) && same;
     return same;
 }
 

@@ -2,10 +2,16 @@
 #include "dynamics/state.h"
 
 #include "dynamics/absolute.h"
-#include "dynamics/tree.h"
+#include "dynamics/project.h"
+#include "dynamics/tree_system.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+static size_t tie_bytes(const struct fbd_model *model)
+{
+    return (size_t)model->tree->tie_count * sizeof(struct tie_state);
+}
 
 static size_t scratch_size(const struct plan *plan)
 {
@@ -44,6 +50,8 @@ struct fbd_state *state_new(const struct fbd_model *model)
         state->y[n + i] = model->scene->coordinates[i].initial_rate;
     }
     for (size_t i = 0; i < plan->friction_count; i++) state->pull[i] = 1;
+    state_start_constraints(state);
+    if (model->assembles) state_project(state, true);
     return state;
 }
 
@@ -63,6 +71,7 @@ void state_copy(struct fbd_state *to, const struct fbd_state *from)
     memcpy(to->slots, from->slots, (size_t)plan->slots * sizeof *to->slots);
     memcpy(to->branch, from->branch, (size_t)plan->branches * sizeof *to->branch);
     memcpy(to->slip, from->slip, plan->friction_count * sizeof *to->slip);
+    if (to->tree) memcpy(to->tree->ties, from->tree->ties, tie_bytes(from->model));
     memcpy(to->pull, from->pull, plan->friction_count * sizeof *to->pull);
 }
 

@@ -7,26 +7,50 @@
 #include <string.h>
 
 #include "dynamics/friction.h"
+#include "dynamics/tree_system.h"
 
 /* ---- memory */
 
+/* The doubles behind the structures. */
+static size_t doubles_of(const struct fbd_model *model)
+{
+    const struct tree *tree = model->tree;
+    return 4 * tree->envelope_size + 6 * (size_t)tree_unknowns(tree) + 3 * (size_t)model->plan.n;
+}
+
 size_t tree_work_size(const struct fbd_model *model)
 {
-    size_t links = (size_t)model->tree->count, pairs = (size_t)model->tree->pair_count;
+    const struct tree *tree = model->tree;
+    size_t links = (size_t)tree->count, ints = (links + 1) / 2 * 2;
     size_t link = sizeof(struct tree_state) + sizeof(struct tree_rhs) + sizeof(struct tree_variation);
-    return links * link + (pairs * (pairs + 1) + 3 * (size_t)model->plan.n) * sizeof(double);
+    return links * link + (size_t)tree->row_count * sizeof(struct row) +
+           (size_t)tree->tie_count * sizeof(struct tie_state) + doubles_of(model) * sizeof(double) +
+           ints * sizeof(int);
 }
 
 void tree_work_init(struct tree_work *work, const struct fbd_model *model, void *memory)
 {
-    size_t links = (size_t)model->tree->count, pairs = (size_t)model->tree->pair_count;
+    const struct tree *tree = model->tree;
+    size_t links = (size_t)tree->count, unknowns = (size_t)tree_unknowns(tree), n = (size_t)model->plan.n;
     work->links = memory;
     work->x = (struct tree_rhs *)(work->links + links);
     work->variation = (struct tree_variation *)(work->x + links);
-    work->closure = (double *)(work->variation + links);
-    work->unit = work->closure + pairs * (pairs + 1);
-    work->a = work->unit + model->plan.n;
-    work->a_along = work->a + model->plan.n;
+    work->rows = (struct row *)(work->variation + links);
+    work->ties = (struct tie_state *)(work->rows + tree->row_count);
+    work->lower = (double *)(work->ties + tree->tie_count);
+    work->upper = work->lower + tree->envelope_size;
+    work->diagonal = work->upper + tree->envelope_size;
+    work->inverse = work->diagonal + unknowns;
+    work->z = work->inverse + unknowns;
+    work->whole = work->z + unknowns;
+    work->right = work->whole + 2 * tree->envelope_size + unknowns;
+    work->rest = work->right + unknowns;
+    work->unit = work->rest + unknowns;
+    work->a = work->unit + n;
+    work->a_along = work->a + n;
+    void *behind = work->a_along + n;
+    work->mark = behind;
+    work->damping = 1e-6;
     work->links[0].turn = work->links[0].e = (struct vec){1, 0};
 }
 
@@ -68,6 +92,21 @@ void tree_slots(const struct fbd_model *model, const struct instant *at, double 
         double F = link->kind == motion_pivot ? s->F.moment : vec_dot(s->e, s->F.force);
         slots[model->plan.frictions[link->pair].hold_slot] = slots[link->coordinate] - F;
     }
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (tie->kind != constraint_roll) continue;
+        slots[tie->normal_slot] = -work->rows[tie->first_row].lambda;
+        if (tie->pair >= 0)
+            slots[model->plan.frictions[tie->pair].hold_slot] = -work->rows[tie->first_row + 1].lambda;
+    }
+}
+
+void tree_add_unit(const struct tree *tree, const struct tree_work *work, double *a)
+{
+    for (int i = 1; i < tree->count; i++) {
+        int first = tree->links[i].coordinate, count = joint_freedom(tree->links[i].kind);
+        for (int k = first; k < first + count; k++) a[k] += work->unit[k];
+    }
 }
 
 /* ---- modes */
@@ -108,28 +147,45 @@ static void set_joint_forces(const struct fbd_model *model, const struct instant
     }
 }
 
+/* Add the forces of constraints and of slipping slides. */
+static void close_system(const struct fbd_model *model, const struct instant *at, double *a)
+{
+    const struct tree *tree = model->tree;
+    struct tree_work *work = at->tree;
+    constraints_evaluate(model, work, false);
+    for (int j = 0; j < tree->row_count; j++) work->z[j] = -work->rows[j].g.x2;
+    for (int k = 0; k < tree->pair_count; k++) {
+        int i = tree->pairs[k];
+        double N = vec_dot(tree_normal(tree, work, i), work->links[i].F.force);
+        work->z[tree->row_count + k] = -tree_slip_share(model, at, i) * N;
+    }
+    tree_system_factor(model, at);
+    tree_system_solve(model, at, work->z);
+    tree_take_multipliers(model, at);
+    tree_add_unit(tree, work, a);
+    add_result(tree, work);
+    constraints_evaluate(model, work, false); /* with the accelerations that they lead to */
+}
+
 void tree_accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a)
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
-    if (tree->watched_count > 0) lock(model, at);
-    tree_move(model, at);
-    tree_bias(tree, at, model->plan.n);
-    tree_load(tree, at);
-    set_joint_forces(model, at, slots);
-    tree_factor(tree, work);
-    tree_outward(tree, work, a);
-    work->complete = false;
-    if (tree->watched_count == 0) return;
-    int m = tree->pair_count;
-    for (int k = 0; k < m; k++)
-        work->closure[k * (m + 1) + m] =
-            -tree_slip_share(model, at, tree->pairs[k]) * tree_normal_in(tree, work, tree->pairs[k]);
-    tree_complete(model, work);
-    if (tree_slips(tree, at)) {
-        tree_add_frictions(model, at, a);
-        add_result(tree, work);
+    if (tree->pivots_only) {
+        tree_pivots(model, at, slots, a);
+    } else {
+        if (tree->watched_count > 0) lock(model, at);
+        tree_move(model, at);
+        tree_bias(tree, at, model->plan.n);
+        tree_load(tree, at);
+        set_joint_forces(model, at, slots);
+        tree_factor(tree, work);
+        tree_outward(tree, work, 1, tree->count, a);
     }
+    work->complete = false;
+    if (tree->watched_count + tree->tie_count == 0) return;
+    tree_complete(model, work);
+    if (tree->tie_count > 0 || tree_slips(tree, at)) close_system(model, at, a);
     for (int k = 0; k < tree->watched_count; k++) {
         const struct tree_state *s = &work->links[tree->watched[k]];
         if (s->locked) a[tree->links[tree->watched[k]].coordinate] = s->held;

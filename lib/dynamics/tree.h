@@ -59,14 +59,25 @@ struct tree_variation {
     double held;
 };
 
+struct row;
+struct tie_state;
+
 struct tree_work {
-    struct tree_state *links;         /* tree.count; links[0] is the ground */
-    struct tree_rhs *x;               /* tree.count */
-    struct tree_variation *variation; /* tree.count */
-    double *closure;     /* pair_count (pair_count + 1): the system of the slipping slides, see tree.c */
-    double *unit;        /* n: accelerations that are added */
-    double *a, *a_along; /* n: accelerations of the last force_balance, and their variation */
-    bool complete;       /* A and F of the links are final, see tree_complete */
+    struct tree_state *links;                       /* tree.count; links[0] is the ground */
+    struct tree_rhs *x;                             /* tree.count */
+    struct tree_variation *variation;               /* tree.count */
+    struct row *rows;                               /* row_count: constraints, see constraint.h */
+    struct tie_state *ties;                         /* tie_count: what they keep of the start */
+    double *lower, *upper, *diagonal, *inverse, *z; /* the system of tree_system.h */
+    double *whole;        /* the system before it was factored: lower, upper, diagonal */
+    double *right, *rest; /* unknowns */
+    int *mark;            /* count: which unknown a tree answers to */
+    double *unit;         /* n: accelerations that are added */
+    double *a, *a_along;  /* n: accelerations of the last force_balance, and their variation */
+    double least;         /* a diagonal of the system that counts */
+    double damping;       /* of a projection: slopes whose square is less than this share are left alone */
+    bool projecting;      /* the system is set up for a projection: no friction */
+    bool complete;        /* A and F of the links are final, see tree_complete */
 };
 
 /* Bytes that a workspace needs (a multiple of the size of a double), and laying it out. */
@@ -115,13 +126,13 @@ void tree_load_along(const struct tree *tree, const struct instant *at, const st
 /* The sweeps (tree_sweep.c). Inward, with the inertias: once for an instant. Then again and again for other
  * right-hand sides in work->x. Outward: accelerations of the joints to a[n]. */
 void tree_factor(const struct tree *tree, struct tree_work *work);
-void tree_inward(const struct tree *tree, struct tree_work *work);
-void tree_outward(const struct tree *tree, struct tree_work *work, double *a);
 
-/* Friction of the slides that slip (tree_friction.c): tau_k = -c_k N_k with N = N_0 + A tau. Given
- * work->closure[k (pair_count + 1) + pair_count] = what tau_k would be with N_0, leave in work->x the
- * right-hand side of the taus alone, solved, and add their accelerations to a[n]. */
-void tree_add_frictions(const struct fbd_model *model, const struct instant *at, double *a);
+/* Links from `from` up to `to` (not included), which are whole trees. */
+void tree_inward(const struct tree *tree, struct tree_work *work, int from, int to);
+void tree_outward(const struct tree *tree, struct tree_work *work, int from, int to, double *a);
+
+/* All of it at once for a tree of free pivots, tree->pivots_only (tree_pivots.c). */
+void tree_pivots(const struct fbd_model *model, const struct instant *at, const double *slots, double *a);
 
 /* Does any slide slip whose friction goes with its normal force? */
 bool tree_slips(const struct tree *tree, const struct instant *at);

@@ -8,7 +8,7 @@
  * there.
  */
 #include "dynamics/friction.h"
-#include "dynamics/tree.h"
+#include "dynamics/tree_system.h"
 
 static struct vec turning(double angle, struct vec a)
 {
@@ -127,14 +127,26 @@ void tree_accelerations_along(const struct fbd_model *model, const struct instan
     tree_load_along(tree, at, along);
     vary_arms(tree, work);
     vary_joint_forces(model, at, along, slots, slots_along);
-    tree_inward(tree, work);
-    tree_outward(tree, work, a_along);
-    if (tree->watched_count == 0) return;
+    if (tree->tie_count > 0) {
+        constraints_evaluate(model, work, true);
+        tree_apply_variations(model, at, along);
+    }
+    tree_inward(tree, work, 1, tree->count);
+    tree_outward(tree, work, 1, tree->count, a_along);
+    if (tree->watched_count + tree->tie_count == 0) return;
     add_slots(model, at, true, slots_along);
-    int m = tree->pair_count;
-    if (!tree_slips(tree, at)) return;
-    for (int k = 0; k < m; k++)
-        work->closure[k * (m + 1) + m] = friction_along_base(model, at, along, tree->pairs[k]);
-    tree_add_frictions(model, at, a_along);
+    if (tree->tie_count == 0 && !tree_slips(tree, at)) return;
+    for (int j = 0; j < tree->row_count; j++) work->z[j] = -(work->rows[j].g.d2 + tree_row_answer(work, j));
+    for (int k = 0; k < tree->pair_count; k++)
+        work->z[tree->row_count + k] = friction_along_base(model, at, along, tree->pairs[k]);
+    tree_system_solve(model, at, work->z);
+    tree_add_unit(tree, work, a_along);
     add_slots(model, at, false, slots_along);
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (tie->kind != constraint_roll) continue;
+        slots_along[tie->normal_slot] = -work->z[tie->first_row];
+        if (tie->pair >= 0)
+            slots_along[model->plan.frictions[tie->pair].hold_slot] = -work->z[tie->first_row + 1];
+    }
 }

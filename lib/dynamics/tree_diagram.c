@@ -6,9 +6,9 @@
  * of a pivot a force at its axis; of a slide a force across it and the couple that keeps it from turning; of
  * a weld, what the body needs beyond all else that acts on it.
  */
+#include "dynamics/constraint.h"
 #include "dynamics/diagram.h"
 #include "dynamics/laws.h"
-#include "dynamics/tree.h"
 
 static const struct tree_state *link_of(const struct model_body *body, const struct instant *at)
 {
@@ -82,6 +82,7 @@ static struct arrow load_arrow(const struct fbd_model *model, int index, const s
     struct arrow arrow = {.name = source->name, .load = index, .point = point.p};
     switch (source->kind) {
     case load_gravity: arrow.force = vec_scale(body->inertia.mass, model->scene->gravity); break;
+    case load_rope:
     case load_normal: break; /* a reaction: see below */
     case load_friction:
         arrow.force = vec_scale(friction_at(model, body->friction, at, slots).force, link_of(body, at)->e);
@@ -114,6 +115,47 @@ static struct arrow opposite(struct arrow arrow, const char *name)
     arrow.force = vec_scale(-1, arrow.force);
     arrow.couple = -arrow.couple;
     return arrow;
+}
+
+/* ---- constraints: the multipliers as forces */
+
+/* What the row does at end k of its tie. */
+static struct arrow row_arrow(const struct instant *at, const struct row *row, int k, const char *name)
+{
+    struct arrow arrow = {.name = name, .load = -1};
+    for (int i = 0; i < row->port_count; i++) {
+        const struct port *port = &row->ports[i];
+        if (port->end != k) continue;
+        arrow.point = vec_add(at->tree->links[port->link].p, port->arm);
+        arrow.force = vec_add(arrow.force, vec_scale(row->lambda, port->force));
+    }
+    return arrow;
+}
+
+/* What a tie does at its end k: one force, or for a rolling body those along and across its line. */
+static size_t fill_end(const struct tie *tie, int k, const struct instant *at, struct arrow *arrows)
+{
+    const struct row *rows = &at->tree->rows[tie->first_row];
+    arrows[0] = row_arrow(at, &rows[0], k, tie->end[k].name[0]);
+    if (tie->row_count == 1) return 1;
+    arrows[1] = row_arrow(at, &rows[1], k, tie->end[k].name[1]);
+    if (tie->kind == constraint_pin) {
+        arrows[0].force = vec_add(arrows[0].force, arrows[1].force);
+        return 1;
+    }
+    arrows[1].load = tie->load;
+    return 2;
+}
+
+/* All constraint forces on body b; returns their number. */
+static size_t fill_ties(const struct fbd_model *model, int b, const struct instant *at, struct arrow *arrows)
+{
+    const struct tree *tree = model->tree;
+    size_t count = 0;
+    for (int i = 0; i < tree->tie_count; i++)
+        for (int k = 0; k < tree->ties[i].end_count; k++)
+            if (tree->ties[i].end[k].body == b) count += fill_end(&tree->ties[i], k, at, arrows + count);
+    return count;
 }
 
 /* ---- reactions */
@@ -160,7 +202,7 @@ static void add_needs(const struct fbd_model *model, int b, const struct instant
         struct arrow arrow = load_arrow(model, i, at, slots);
         add_arrow(sum, &arrow, point);
     }
-    for (size_t i = model->listed_count; i < model->load_count; i++) {
+    for (size_t i = model->listed_count; i < model->coupled_count; i++) {
         const struct model_load *load = &model->loads[i];
         if (load->body != b && load->partner != b) continue;
         struct arrow arrow = load_arrow(model, (int)i, at, slots);
@@ -168,6 +210,9 @@ static void add_needs(const struct fbd_model *model, int b, const struct instant
         if (load->body != b) arrow = opposite(arrow, arrow.name);
         add_arrow(sum, &arrow, point);
     }
+    struct arrow ties[8 * most_constraint_ends];
+    size_t count = body->arrow_count <= 8 * most_constraint_ends ? fill_ties(model, b, at, ties) : 0;
+    for (size_t i = 0; i < count; i++) add_arrow(sum, &ties[i], point);
     for (int c = body->child; c >= 0; c = model->bodies[c].sibling) {
         const struct tree_state *s = link_of(&model->bodies[c], at);
         if (model->bodies[c].kind == motion_weld) continue;
@@ -265,7 +310,7 @@ size_t tree_diagram_fill(const struct fbd_model *model, int index, const struct 
         }
         count++;
     }
-    for (size_t i = model->listed_count; i < model->load_count; i++) {
+    for (size_t i = model->listed_count; i < model->coupled_count; i++) {
         const struct model_load *load = &model->loads[i];
         if (load->body != index && load->partner != index) continue;
         struct arrow arrow = load_arrow(model, (int)i, at, slots);
@@ -274,6 +319,7 @@ size_t tree_diagram_fill(const struct fbd_model *model, int index, const struct 
         arrow.point = other_end(model, load, at).p;
         arrows[count++] = opposite(arrow, arrow.name);
     }
+    if (model->tree->tie_count > 0) count += fill_ties(model, index, at, arrows + count);
     if (body->reaction) arrows[count++] = reaction_arrow(model, index, at, slots);
     for (int c = body->child; c >= 0; c = model->bodies[c].sibling)
         count += fill_child(model, c, at, slots, arrows + count);

@@ -11,13 +11,15 @@
 #include <float.h>
 #include <string.h>
 
+#include "dynamics/constraint.h"
 #include "dynamics/modes.h"
-#include "dynamics/tree.h"
 
 static bool is_open(const struct fbd_state *state, const struct decided *decided, int pair)
 {
     struct instant at = state_instant(state);
     if (!state->model->plan.frictions[pair].jointed || (decided && decided->slips[pair])) return false;
+    const struct friction *friction = &state->model->plan.frictions[pair];
+    if (friction->rope) return rope_at(state->model, &at, friction->tie).touches;
     return slip_velocity(state->model, pair, &at) == 0;
 }
 
@@ -42,9 +44,21 @@ static bool turns_back(const struct fbd_state *state, int pair)
     const struct friction *friction = &state->model->plan.frictions[pair];
     struct instant at = state_instant(state);
     double surface;
+    if (friction->rope) return rope_at(state->model, &at, friction->tie).acceleration > 0;
+    if (friction->tie >= 0)
+        return state->slip[pair] * tie_slip_acceleration(state->model, &at, friction->tie) < 0;
     friction_surface_speed(friction, &at, &surface);
     double a = state->a[friction->coordinate];
     return state->slip[pair] * (a - surface) < -8 * DBL_EPSILON * (fabs(a) + fabs(surface));
+}
+
+/* The size that tensions have: what zero is measured against. */
+static double largest_tension(const struct fbd_state *state)
+{
+    double most = 0;
+    for (int j = 0; j < state->model->tree->row_count; j++)
+        most = fmax(most, fabs(state->tree->rows[j].lambda));
+    return most;
 }
 
 /* One round: change the mode of one pair; false when none has to be changed. */
@@ -63,6 +77,14 @@ static bool change_one(struct fbd_state *state, const struct decided *decided, c
             if (!turns_back(state, pair)) continue;
             state->slip[pair] = stick;
             return true;
+        }
+        if (model->plan.frictions[pair].rope) {
+            double tension = rope_at(model, &at, model->plan.frictions[pair].tie).tension;
+            if (tension >= -1e-12 * largest_tension(state) || (which >= 0 && -tension <= worst)) continue;
+            which = pair;
+            next = slip_plus;
+            worst = -tension;
+            continue;
         }
         struct friction_values now = friction_at(model, pair, &at, slots);
         struct friction_values rate = friction_along(model, pair, &at, slots, &flow, slots_along);

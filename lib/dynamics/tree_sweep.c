@@ -96,9 +96,9 @@ void tree_factor(const struct tree *tree, struct tree_work *work)
     }
 }
 
-void tree_inward(const struct tree *tree, struct tree_work *work)
+void tree_inward(const struct tree *tree, struct tree_work *work, int from, int to)
 {
-    for (int i = tree->count - 1; i > 0; i--) {
+    for (int i = to - 1; i >= from; i--) {
         const struct tree_link *link = &tree->links[i];
         inward_link(link, &work->links[i], &work->x[i], &work->x[link->parent]);
     }
@@ -119,11 +119,11 @@ static void outward_free(const struct tree_link *link, const struct tree_state *
     x->A = (struct acceleration){alpha, own};
 }
 
-void tree_outward(const struct tree *tree, struct tree_work *work, double *a)
+void tree_outward(const struct tree *tree, struct tree_work *work, int from, int to, double *a)
 {
     struct tree_rhs *xs = work->x;
     xs[0].A = (struct acceleration){0, {0, 0}};
-    for (int i = 1; i < tree->count; i++) {
+    for (int i = from; i < to; i++) {
         const struct tree_link *link = &tree->links[i];
         const struct tree_state *s = &work->links[i];
         const struct tree_rhs *parent = &xs[link->parent];

@@ -61,6 +61,7 @@ static struct verdict judge(const struct model_body *body, const struct model_lo
     static const char dissipative[] = "not conservative: it depends on velocity";
     switch (load->source->kind) {
     case load_gravity: return (struct verdict){potential_gravity, "conservative: V = m g h"};
+    case load_rope: return (struct verdict){potential_none, "does no work, except when it snaps taut"};
     case load_normal: return (struct verdict){potential_workless, "does no work: it acts across the motion"};
     case load_spring:
         return (struct verdict){load->linked ? potential_link : potential_spring, linear_spring};

@@ -148,6 +148,26 @@ static void set_couplings(struct builder *builder)
     }
 }
 
+/* The force along the line of a rolling body, and a rope, by name: for events and their work. */
+static bool set_named_ties(struct builder *builder)
+{
+    struct fbd_model *model = builder->model;
+    size_t next = model->coupled_count;
+    for (size_t c = 0; c < model->scene->constraint_count; c++) {
+        const struct constraint *constraint = &model->scene->constraints[c];
+        if (!constraint_has_load(constraint)) continue;
+        struct load *source = ARENA_ARRAY(&model->arena, 1, struct load);
+        if (!source) return false;
+        bool rope = constraint->kind == constraint_rope;
+        source->kind = rope ? load_rope : constraint->mu_s.expr ? load_friction : load_normal;
+        source->name = rope ? constraint->name : arena_printf(&model->arena, "%s.friction", constraint->name);
+        source->at = constraint->at;
+        int end = constraint->body[0] >= 0 ? 0 : 1;
+        set_load(builder, &model->loads[next++], source, constraint->body[end]);
+    }
+    return true;
+}
+
 static bool set_absolutes(struct fbd_model *model)
 {
     const struct scene *scene = model->scene;
@@ -170,7 +190,10 @@ static bool allocate(struct fbd_model *model)
     enum { formulas_of_a_load = 8 }; /* value, angle, fx, fy, potential, mu_s, mu_k, surface_speed */
     model->body_count = scene->body_count;
     for (size_t b = 0; b < scene->body_count; b++) model->listed_count += scene->bodies[b].load_count;
-    model->load_count = model->listed_count + scene->coupling_count;
+    model->coupled_count = model->listed_count + scene->coupling_count;
+    model->load_count = model->coupled_count;
+    for (size_t c = 0; c < scene->constraint_count; c++)
+        model->load_count += constraint_has_load(&scene->constraints[c]);
     model->bodies = ARENA_ARRAY(&model->arena, model->body_count, struct model_body);
     model->loads = ARENA_ARRAY(&model->arena, model->load_count, struct model_load);
     size_t formulas = formulas_of_a_load * model->load_count + 2 * scene->event_count;
@@ -210,11 +233,13 @@ static struct fbd_model *compile(struct scene *scene, bool labels, fbd_errors *e
         if (scene->bodies[b].complete)
             set_body(&model->bodies[b], &scene->bodies[b], (int)scene->coordinate_count, errors);
     if (done && fbd_errors_failed(errors) == 0) {
+        for (size_t b = 0; b < scene->body_count; b++) model->assembles |= scene->bodies[b].assemble;
         set_loads(&builder);
         set_couplings(&builder);
         if (labels) model->labels = labels_make(&model->arena, scene);
-        done = (model->labels || !labels) && set_absolutes(model) && tree_number(model) &&
-               tree_name_reactions(model) && plan_build(&builder) && classify_loads(&builder);
+        done = (model->labels || !labels) && set_named_ties(&builder) && set_absolutes(model) &&
+               tree_number(model) && tree_name_reactions(model) && plan_build(&builder) &&
+               classify_loads(&builder);
         set_watches(&builder);
     }
     if (!done) diag_out_of_memory(errors);

@@ -66,6 +66,16 @@ static void copy_coupling(const struct copy *copy, const struct coupling *from)
         if (from->body[end] != ground_body) coupling->body[end] = copy->selection->local[from->body[end]];
 }
 
+static void copy_constraint(const struct copy *copy, const struct constraint *from)
+{
+    struct constraint *constraint = &copy->to->constraints[copy->to->constraint_count++];
+    *constraint = *from;
+    for (int end = 0; end < from->end_count; end++)
+        if (from->body[end] != ground_body) constraint->body[end] = copy->selection->local[from->body[end]];
+    renumber(copy, &constraint->mu_s.expr);
+    renumber(copy, &constraint->mu_k.expr);
+}
+
 static void copy_absolute(const struct copy *copy, const struct absolute *from)
 {
     struct absolute *absolute = &copy->to->absolutes[copy->to->absolute_count++];
@@ -80,13 +90,15 @@ static void prepare(const struct copy *copy)
     const struct selection *selection = copy->selection;
     size_t coordinates = 0;
     to->arena = (struct arena){0};
-    to->body_count = to->event_count = to->coordinate_count = to->coupling_count = to->absolute_count = 0;
+    to->body_count = to->event_count = to->coordinate_count = 0;
+    to->coupling_count = to->constraint_count = to->absolute_count = 0;
     for (size_t i = 0; i < selection->body_count; i++)
         coordinates += (size_t)copy->from->bodies[selection->bodies[i]].count;
     to->bodies = ARENA_ARRAY(&to->arena, selection->body_count, struct body);
     to->coordinates = ARENA_ARRAY(&to->arena, coordinates, struct coordinate);
     to->events = ARENA_ARRAY(&to->arena, selection->event_count, struct user_event);
     to->couplings = ARENA_ARRAY(&to->arena, selection->coupling_count, struct coupling);
+    to->constraints = ARENA_ARRAY(&to->arena, selection->constraint_count, struct constraint);
     to->absolutes = ARENA_ARRAY(&to->arena, selection->absolute_count, struct absolute);
 }
 
@@ -103,6 +115,8 @@ static struct scene *copy_scene(const struct scene *from, const struct selection
         copy_event(&copy, &from->events[selection->events[i]]);
     for (size_t i = 0; !to->arena.failed && i < selection->coupling_count; i++)
         copy_coupling(&copy, &from->couplings[selection->couplings[i]]);
+    for (size_t i = 0; !to->arena.failed && i < selection->constraint_count; i++)
+        copy_constraint(&copy, &from->constraints[selection->constraints[i]]);
     for (size_t i = 0; !to->arena.failed && i < selection->absolute_count; i++)
         copy_absolute(&copy, &from->absolutes[selection->absolutes[i]]);
     if (!to->arena.failed) return to;

@@ -84,6 +84,7 @@ struct fbd_model {
     size_t body_count;
     size_t load_count;   /* the loads that bodies list, then the couplings that are springs and dampers */
     size_t listed_count; /* the former */
+    size_t coupled_count; /* with the latter; behind them one for each rolling body: its friction */
     struct model_body *bodies;
     struct model_load *loads;
     const struct label *labels; /* of the coordinates */
@@ -91,6 +92,7 @@ struct fbd_model {
     struct model_absolute *absolutes;
     struct plan plan;
     struct tree *tree; /* the jointed bodies; NULL when there are none */
+    bool assembles;    /* some bodies find their place from their couplings at the start */
 };
 
 /* Compile a scene; the model takes the scene over, also when it fails. NULL with notes in `errors`: masses

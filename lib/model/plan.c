@@ -250,6 +250,7 @@ static void add_friction(struct builder *builder, struct model_body *body, int i
                                            : bearing ? body->I_O
                                                      : body->inertia.mass,
                                 .hold_slot = jointed ? plan->slots++ : body->first,
+                                .tie = -1,
                                 .jointed = jointed};
     for (int i = 0; i < body->load_count; i++) {
         const struct load *other = builder->model->loads[body->first_load + i].source;
@@ -275,6 +276,7 @@ static void add_load(struct builder *builder, struct model_body *body, int index
     case moment_applied: add_formula(builder, angle_coordinate(body), 1, &load->value); break;
     case moment_spring: add_moment_spring(builder, body, source); break;
     case moment_damper: add_moment_damper(builder, body, source); break;
+    case load_rope:
     case load_normal: break; /* the contact below, and the friction that needs it */
     case load_friction:
     case moment_friction: add_friction(builder, body, index); break;
@@ -328,7 +330,8 @@ static bool allocate(struct builder *builder)
     struct fbd_model *model = builder->model;
     struct plan *plan = &model->plan;
     struct arena *arena = &model->arena;
-    size_t loads = model->load_count, most_slots = model->scene->coordinate_count + 2 * model->body_count;
+    size_t loads = model->load_count, most_slots = model->scene->coordinate_count +
+                                                   2 * (model->body_count + model->scene->constraint_count);
     plan->n = (int)model->scene->coordinate_count;
     plan->slots = plan->n;
     plan->inverse_inertia = ARENA_ARRAY(arena, (size_t)plan->n, double);
@@ -340,8 +343,8 @@ static bool allocate(struct builder *builder)
     plan->links = ARENA_ARRAY(arena, loads, struct link_term);
     plan->drags = ARENA_ARRAY(arena, loads, struct drag_term);
     plan->forces = ARENA_ARRAY(arena, 2 * loads, struct force_term);
-    plan->frictions = ARENA_ARRAY(arena, loads, struct friction);
-    plan->contacts = ARENA_ARRAY(arena, model->body_count, struct contact);
+    plan->frictions = ARENA_ARRAY(arena, loads + 8 * model->scene->constraint_count, struct friction);
+    plan->contacts = ARENA_ARRAY(arena, model->body_count + model->scene->constraint_count, struct contact);
     plan->offsets = ARENA_ARRAY(arena, model->body_count, struct offset_body);
     plan->bodies = ARENA_ARRAY(arena, model->body_count, struct body_terms);
     plan->slot_constant = ARENA_ARRAY(arena, most_slots, bool);
@@ -400,6 +403,61 @@ static void mark_body_slots(struct fbd_model *model, int b)
     if (body->normal_slot >= 0) model->plan.slot_constant[body->normal_slot] = false;
 }
 
+/* A rolling body presses on its line, and its friction, when it has coefficients, sticks or slips. */
+static void plan_roll(struct builder *builder, struct tie *tie)
+{
+    struct plan *plan = &builder->model->plan;
+    const struct constraint *source = &builder->model->scene->constraints[tie->constraint];
+    int body = tie->end[0].body;
+    tie->normal_slot = plan->slots++;
+    plan->contacts[plan->contact_count++] = (struct contact){body, tie->load, tie->normal_slot};
+    if (!source->mu_s.expr) return;
+    tie->pair = (int)plan->friction_count;
+    plan->frictions[plan->friction_count++] =
+        (struct friction){.body = body,
+                          .load = tie->load,
+                          .normal_slot = tie->normal_slot,
+                          .mu_s = builder_formula(builder, &source->mu_s, body, tie->load),
+                          .mu_k = builder_formula(builder, &source->mu_k, body, tie->load),
+                          .surface_speed = formula_constant(0),
+                          .hold_slot = plan->slots++,
+                          .tie = (int)(tie - builder->model->tree->ties),
+                          .jointed = true};
+}
+
+/* A rope is taut or slack. */
+static void plan_rope(struct fbd_model *model, struct tie *tie)
+{
+    struct plan *plan = &model->plan;
+    int first = tie->end[0].body >= 0 ? 0 : 1;
+    tie->pair = (int)plan->friction_count;
+    plan->frictions[plan->friction_count++] = (struct friction){.body = tie->end[first].body,
+                                                                .load = tie->load,
+                                                                .normal_slot = -1,
+                                                                .hold_slot = 0,
+                                                                .tie = (int)(tie - model->tree->ties),
+                                                                .rope = true,
+                                                                .jointed = true};
+}
+
+static void plan_ties(struct builder *builder)
+{
+    struct fbd_model *model = builder->model;
+    int load = (int)model->coupled_count - 1, last = -1;
+    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
+        struct tie *tie = &model->tree->ties[i];
+        bool named = tie->kind == constraint_roll || tie->kind == constraint_rope;
+        if (!named) continue;
+        if (tie->constraint != last) load++; /* the pieces of a rope share one */
+        last = tie->constraint;
+        tie->load = load;
+        if (tie->kind == constraint_roll)
+            plan_roll(builder, tie);
+        else
+            plan_rope(model, tie);
+    }
+}
+
 bool plan_build(struct builder *builder)
 {
     struct fbd_model *model = builder->model;
@@ -408,11 +466,12 @@ bool plan_build(struct builder *builder)
     plan_normals(model);
     plan_inertias(model);
     for (size_t b = 0; b < model->body_count; b++) body_terms_add(builder, (int)b);
-    for (size_t i = model->listed_count; i < model->load_count; i++) tree_add_load(builder, (int)i);
+    for (size_t i = model->listed_count; i < model->coupled_count; i++) tree_add_load(builder, (int)i);
+    plan_ties(builder);
     pack(builder);
     for (size_t b = 0; b < model->body_count; b++)
         if (model->bodies[b].place.link > 0) mark_body_slots(model, (int)b);
-    if (model->tree) tree_finish(model);
+    if (model->tree && !tree_finish(model)) return false;
     body_terms_finish(builder);
     for (size_t i = 0; i < plan->link_count; i++) mark_body_slots(model, plan->links[i].body);
     for (size_t i = 0; i < plan->drag_count; i++) mark_body_slots(model, plan->drags[i].body);

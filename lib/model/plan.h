@@ -94,6 +94,8 @@ struct friction {
     bool moving;    /* the surface moves */
     double inertia; /* m or I_O; 0 when jointed */
     int hold_slot;  /* the force needed to hold is inertia times acceleration minus this slot */
+    int tie;        /* of a rolling body: index into tree.ties; else -1, and `coordinate` slips */
+    bool rope;      /* no friction: `stick` is taut, `slip_plus` is slack; see tie.h */
     bool jointed;   /* between jointed bodies: the tree finds N and what holds */
 };
 

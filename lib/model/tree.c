@@ -25,6 +25,10 @@ static void mark_jointed(const struct fbd_model *model, bool *jointed)
     for (size_t c = 0; c < scene->coupling_count; c++)
         for (int end = 0; end < 2; end++)
             if (scene->couplings[c].body[end] != ground_body) jointed[scene->couplings[c].body[end]] = true;
+    for (size_t c = 0; c < scene->constraint_count; c++)
+        for (int end = 0; end < scene->constraints[c].end_count; end++)
+            if (scene->constraints[c].body[end] != ground_body)
+                jointed[scene->constraints[c].body[end]] = true;
 }
 
 static bool find_family(struct fbd_model *model, struct family *family)
@@ -136,13 +140,17 @@ bool tree_number(struct fbd_model *model)
         }
         add_inertia(&tree->links[body->place.link], body);
     }
+    for (int i = 1; i < tree->count; i++) {
+        int parent = tree->links[i].parent;
+        tree->links[i].root = parent > 0 ? tree->links[parent].root : i;
+    }
     for (int i = tree->count - 1; i > 0; i--) {
         struct tree_link *link = &tree->links[i], *parent = &tree->links[link->parent];
         if (link->end == 0) link->end = i + 1;
         if (parent->end < link->end) parent->end = link->end;
     }
     model->tree = tree;
-    return true;
+    return ties_build(model);
 }
 
 /* ---- loads */
@@ -276,6 +284,7 @@ void tree_add_load(struct builder *builder, int index)
     case moment_applied: add_moment(builder, body, load); break;
     case moment_spring:
     case moment_damper: add_joint_spring(builder, body, source); break;
+    case load_rope:
     case load_normal:
     case load_friction:
     case moment_friction:
@@ -368,14 +377,14 @@ bool tree_name_reactions(struct fbd_model *model)
         body->sibling = model->bodies[body->parent].child;
         model->bodies[body->parent].child = b;
     }
-    for (size_t i = model->listed_count; i < model->load_count; i++) {
+    for (size_t i = model->listed_count; i < model->coupled_count; i++) {
         model->bodies[model->loads[i].body].arrow_count++;
         if (model->loads[i].partner >= 0) model->bodies[model->loads[i].partner].arrow_count++;
     }
     return !model->arena.failed;
 }
 
-void tree_finish(struct fbd_model *model)
+bool tree_finish(struct fbd_model *model)
 {
     struct tree *tree = model->tree;
     const struct plan *plan = &model->plan;
@@ -383,7 +392,7 @@ void tree_finish(struct fbd_model *model)
         tree->links[i].normal_slot = model->bodies[tree->links[i].body].normal_slot;
     for (int p = 0; p < (int)plan->friction_count; p++) {
         const struct friction *friction = &plan->frictions[p];
-        if (!friction->jointed) continue;
+        if (!friction->jointed || friction->tie >= 0) continue;
         int link = model->bodies[friction->body].place.link;
         tree->links[link].pair = p;
         if (friction->normal_slot >= 0) tree->pairs[tree->pair_count++] = link;
@@ -391,4 +400,11 @@ void tree_finish(struct fbd_model *model)
     for (int i = 1; i < tree->count; i++)
         if (tree->links[i].normal_slot >= 0 || tree->links[i].pair >= 0)
             tree->watched[tree->watched_count++] = i;
+    tree->loaded = tree->following_count + tree->force_count + tree->moment_count + tree->spring_count +
+                       tree->drag_count >
+                   0;
+    tree->pivots_only = tree->watched_count == 0;
+    for (int i = 1; i < tree->count; i++)
+        if (tree->links[i].kind != motion_pivot) tree->pivots_only = false;
+    return ties_envelope(model);
 }

@@ -14,6 +14,7 @@
 #define FBD_MODEL_TREE_H
 
 #include "model/plan.h"
+#include "model/tie.h"
 #include "scene/scene.h"
 
 /* Where the frame of a jointed body lies in its link: a point p of the body is shift + R(turn) p. */
@@ -36,6 +37,7 @@ struct tree_link {
     double sine, cosine; /* their moment about O: sine sin(angle) + cosine cos(angle) */
     int pair;            /* its dry friction: index into plan.frictions, or -1 */
     int normal_slot;     /* where minus its normal force goes, or -1 */
+    int root;            /* the first link of its tree */
     int end;             /* links from its own number up to this one (not included) move with it */
 };
 
@@ -82,12 +84,21 @@ struct tree {
     struct tree_moment *moments;
     struct tree_spring *springs;
     struct tree_drag *drags;
-    int pair_count;    /* links whose dry friction goes with a normal force */
-    int *pairs;        /* their numbers */
-    int watched_count; /* links whose joint has a normal force or dry friction */
-    int *watched;      /* their numbers */
-    int body_count;    /* jointed bodies */
-    int *bodies;       /* each after the one that it moves on */
+    bool loaded;              /* something of the lists above acts on links */
+    bool pivots_only;         /* every joint is a pivot, and none has dry friction */
+    int pair_count;           /* links whose dry friction goes with a normal force */
+    int *pairs;               /* their numbers */
+    int watched_count;        /* links whose joint has a normal force or dry friction */
+    int *watched;             /* their numbers */
+    int tie_count, row_count; /* see tie.h */
+    struct tie *ties;
+    /* of the unknowns of dynamics/tree_system.h, the rows and then the pairs: */
+    int *tie_of_row;    /* rows alone */
+    int *first, *reach; /* the first that one meets, and behind the last */
+    size_t *envelope;   /* where the entries from first[k] to k begin */
+    size_t envelope_size;
+    int body_count; /* jointed bodies */
+    int *bodies;    /* each after the one that it moves on */
 };
 
 struct builder;
@@ -101,10 +112,10 @@ bool tree_number(struct fbd_model *model);
 bool tree_name_reactions(struct fbd_model *model);
 
 /* Add a load of a jointed body to the lists of the tree and to those of the plan that act in joints. */
-void tree_add_load(struct builder *builder, int load);
+void tree_add_load(struct builder *builder, int index);
 
-/* The constants of the links, when all loads are in. */
-void tree_finish(struct fbd_model *model);
+/* The constants of the links, when all loads are in. False when memory is out. */
+bool tree_finish(struct fbd_model *model);
 
 static inline struct vec placement_point(const struct placement *place, struct vec point)
 {

@@ -189,7 +189,8 @@ static void ledger_values(struct csv *csv, const struct fbd_state *state)
 static bool put_line(struct csv *csv)
 {
     text_add(&csv->line, "\n");
-    if (csv->line.failed || csv->write(csv->context, csv->line.data, csv->line.length) != 0)
+    if (csv->line.failed ||
+        csv->recording->csv(csv->recording->csv_context, csv->line.data, csv->line.length) != 0)
         csv->failed = true;
     csv->line.length = 0;
     return !csv->failed;
@@ -226,8 +227,7 @@ bool csv_begin(struct csv *csv, struct ensemble *run, struct ledger *ledger, str
     *csv = (struct csv){.model = model,
                         .ledger = recording->ledger ? ledger : NULL,
                         .bars = bars,
-                        .write = recording->csv,
-                        .context = recording->csv_context,
+                        .recording = recording,
                         .start = start,
                         .until = until,
                         .every = every > 0 ? every : (until - start) / default_rows,

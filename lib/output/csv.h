@@ -9,10 +9,9 @@
 
 struct csv {
     const struct fbd_model *model;
-    struct ledger *ledger; /* NULL without force and energy columns */
-    struct bars *bars;     /* NULL without columns of errors */
-    fbd_write *write;
-    void *context;
+    struct ledger *ledger;          /* NULL without force and energy columns */
+    struct bars *bars;              /* NULL without columns of errors */
+    const fbd_recording *recording; /* where to write, and whom to ask */
     double start, every, until;
     double near; /* a regular row and an event that are no further apart share a row */
     double last; /* time of the row before */

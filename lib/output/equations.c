@@ -15,17 +15,18 @@ void state_ready(struct fbd_state *state)
         modes_settle(state, NULL);
 }
 
-/* The share of an arrow in equation `part` of a body. A planar body's moments are taken about its centre of
- * mass, which decouples its equations. */
-static double term_value(const struct model_body *body, const struct arrow *arrow, int part, struct vec G)
+double equation_term(const struct model_body *body, const struct arrow *arrow, int part, struct vec G)
 {
     return body->kind == motion_planar && part == 2 ? arrow_moment(arrow, G) : arrow->share[part];
 }
 
-static double acceleration_of(const struct model_body *body, const struct fbd_state *state, int part,
-                              struct vec a_G)
+double equation_acceleration(const struct model_body *body, const struct fbd_state *state, int part)
 {
-    if (body->kind == motion_planar && part < 2) return part == 0 ? a_G.x : a_G.y;
+    if (body->kind == motion_planar && part < 2) {
+        struct instant at = state_instant(state);
+        struct vec a_G = mass_center_acceleration(body, &at, state->a);
+        return part == 0 ? a_G.x : a_G.y;
+    }
     return state->a[body->first + part];
 }
 
@@ -37,8 +38,7 @@ static void fill_equation(struct fbd_equations *all, const struct fbd_state *sta
     const struct label *label = &model->labels[body->first + part];
     struct instant at = state_instant(state);
     struct pose pose = body_pose(body, &at);
-    struct vec G = point_motion(body, &pose, body->inertia.G).p,
-               a_G = mass_center_acceleration(body, &at, state->a);
+    struct vec G = point_motion(body, &pose, body->inertia.G).p;
     bool moment = body->kind == motion_pivot || part == 2;
     fbd_term *terms = ARENA_ARRAY(&all->arena, arrow_count, fbd_term);
     struct equation *equation = &all->equations[all->count++];
@@ -57,12 +57,12 @@ static void fill_equation(struct fbd_equations *all, const struct fbd_state *sta
         .inertia = body->kind == motion_pivot ? body->I_O
                    : moment                   ? body->inertia.I_G
                                               : body->inertia.mass,
-        .acceleration = acceleration_of(body, state, part, a_G),
+        .acceleration = equation_acceleration(body, state, part),
         .terms = terms,
     };
     for (size_t i = 0; terms && i < arrow_count; i++) {
         if (arrows[i].load < 0) continue; /* reactions of the guide do not act along the motion */
-        double value = term_value(body, &arrows[i], part, G);
+        double value = equation_term(body, &arrows[i], part, G);
         terms[public->term_count++] = (fbd_term){arrows[i].name, value};
         public->sum += value;
         if (model->loads[arrows[i].load].source->kind == load_normal)

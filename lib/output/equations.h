@@ -30,6 +30,13 @@ void equations_of_jointed(struct fbd_equations *all, const struct fbd_state *sta
 /* Settle the modes if the state was changed, and evaluate. */
 void state_ready(struct fbd_state *state);
 
+/* The share of an arrow in equation `part` of a body whose centre of mass is at G. A planar body's moments
+ * are taken about its centre of mass, which decouples its equations. */
+double equation_term(const struct model_body *body, const struct arrow *arrow, int part, struct vec G);
+
+/* The acceleration on the other side of that equation, at an evaluated state. */
+double equation_acceleration(const struct model_body *body, const struct fbd_state *state, int part);
+
 /* Write the equations, and what they belong to, as text. */
 void equations_write(struct text *text, struct fbd_state *state);
 

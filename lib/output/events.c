@@ -15,6 +15,8 @@ const char *fbd_event_kind_name(fbd_event_kind kind)
     case FBD_EVENT_REVERSAL: return "reversal";
     case FBD_EVENT_CONTACT_LOST: return "contact_lost";
     case FBD_EVENT_USER: return "user";
+    case FBD_EVENT_ROPE_SLACK: return "rope_slack";
+    case FBD_EVENT_ROPE_TAUT: return "rope_taut";
     case FBD_EVENT_SWITCH: return "switch";
     }
     return "";
@@ -58,6 +60,11 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
             snprintf(detail, size, "%s reaches zero", name);
         return;
     case FBD_EVENT_USER: snprintf(detail, size, "%s", name); return;
+    case FBD_EVENT_ROPE_SLACK: snprintf(detail, size, "%s goes slack", name); return;
+    case FBD_EVENT_ROPE_TAUT:
+        snprintf(detail, size, "%s snaps taut; the impact takes %.6g %s", name, event->force,
+                 energy_unit(model));
+        return;
     case FBD_EVENT_SWITCH:
         snprintf(detail, size, "%s passes to another branch", name[0] ? name : "an event");
         return;

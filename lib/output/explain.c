@@ -78,6 +78,7 @@ static const char *effect_name(enum load_kind kind)
     case moment_damper: return "damper (moment)";
     case moment_friction: return "bearing friction";
     case moment_potential: return "potential (moment)";
+    case load_rope: return "rope";
     }
     return "";
 }

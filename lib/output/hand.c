@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/diag.h"
+#include "dynamics/project.h"
 
 enum { parameter_draws = 12, states_of_a_draw = 24, tries_of_a_state = 8 };
 
@@ -53,8 +54,19 @@ static bool changed_model(const fbd_model *model, gsl_rng *rng, fbd_model **resu
     return done;
 }
 
+/* Where couplings close loops, most states do not fit: so the start moves by up to 0.3 rad or a tenth of a
+ * metre, with random rates, and the nearest state that fits is taken. */
+static void draw_closed(gsl_rng *rng, struct fbd_state *state, const double *start)
+{
+    const struct fbd_model *model = state->model;
+    if (!model->tree || model->tree->tie_count == 0) return;
+    for (size_t i = 0; i < model->scene->coordinate_count; i++)
+        state->y[i] = start[i] + between(rng, -1, 1) * (model->scene->coordinates[i].angle ? 0.3 : 0.1);
+    state_project(state, false);
+}
+
 /* Random coordinates and rates of the size of the initial ones, at least one unit; angles all around. */
-static void draw_state(gsl_rng *rng, struct fbd_state *state)
+static void draw_state(gsl_rng *rng, struct fbd_state *state, const double *start)
 {
     const struct scene *scene = state->model->scene;
     size_t n = scene->coordinate_count;
@@ -69,6 +81,7 @@ static void draw_state(gsl_rng *rng, struct fbd_state *state)
         state->y[n + i] = between(rng, -speed, speed);
     }
     state->settled = false;
+    draw_closed(rng, state, start);
 }
 
 static bool admissible(struct fbd_state *state)
@@ -206,6 +219,8 @@ static void take_sample(struct hand_check *check, const struct hand *hand, struc
     }
     sample.lack = scale * (sample.left - sample.right);
     sample.size = fabs(scale) * (fabs(sample.left) + fabs(sample.right)) + DBL_MIN;
+    for (size_t j = 0; jointed && j < hand->summand_count; j++)
+        sample.size += fabs(expr_eval(hand->summands[j].expr, state->t, y, NULL));
     for (int i = 0; !jointed && i < body->load_count; i++) {
         sample.terms[i] = arrows[i].share[part < 0 ? 0 : part];
         sample.size += fabs(sample.terms[i]);
@@ -229,11 +244,13 @@ static bool sample_model(struct hand_check *check, const fbd_model *model, gsl_r
 {
     const struct hand *hand = &model->scene->bodies[check->body].hands[check->index];
     struct fbd_state *state = state_new(model);
-    double *y = calloc(2 * (size_t)model->plan.n + hand_slots + model->absolute_count + 1, sizeof *y);
+    size_t n = (size_t)model->plan.n, extended = 2 * n + hand_slots + model->absolute_count;
+    double *y = calloc(extended + n + 1, sizeof *y), *start = y ? y + extended : NULL;
+    if (y && state) memcpy(start, state->y, n * sizeof *start);
     bool done = state && y;
     for (int i = 0; done && i < states_of_a_draw; i++)
         for (int k = 0; k < tries_of_a_state && check->count < most_samples; k++) {
-            draw_state(rng, state);
+            draw_state(rng, state, start);
             if (!admissible(state)) continue;
             take_sample(check, hand, state, y);
             break;

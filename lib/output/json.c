@@ -41,6 +41,7 @@ static const char *outcome_name(fbd_outcome outcome)
     case FBD_BROKEN: return "broken";
     case FBD_FAILED: return "failed";
     case FBD_OUT_OF_MEMORY: return "out of memory";
+    case FBD_INTERRUPTED: return "interrupted";
     }
     return "";
 }

@@ -105,11 +105,17 @@ static bool integrate(struct ledger *ledger, struct ensemble *ensemble, size_t g
 bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t index)
 {
     const struct group *group = &ensemble->groups[index];
-    for (size_t i = 0; i < group->model->load_count; i++) {
+    const struct fbd_model *model = group->model;
+    for (size_t i = 0; i < model->load_count; i++) {
         int load = group_load(ledger->model, group, (int)i);
         ledger->begin[load] = ledger->end[load];
     }
-    return integrate(ledger, ensemble, index, group->run->from, group->run->state->t, ledger->end);
+    const struct run *run = group->run;
+    if (!integrate(ledger, ensemble, index, run->from, run->state->t, ledger->end)) return false;
+    for (size_t i = model->coupled_count; i < model->load_count; i++)
+        if (model->loads[i].source->kind == load_rope)
+            ledger->end[group_load(ledger->model, group, (int)i)] = run->impact_work[i];
+    return true;
 }
 
 void ledger_restart(struct ledger *ledger, struct ensemble *ensemble, size_t index)
@@ -121,18 +127,23 @@ void ledger_restart(struct ledger *ledger, struct ensemble *ensemble, size_t ind
     }
 }
 
-bool ledger_at(struct ledger *ledger, struct ensemble *ensemble, double *work)
+bool ledger_within(struct ledger *ledger, struct ensemble *ensemble, double t, double *work)
 {
     for (size_t g = 0; ledger->any && g < ensemble->count; g++) {
         const struct group *group = &ensemble->groups[g];
-        bool at_end = ensemble->t == group->run->state->t;
+        bool at_end = t == group->run->state->t;
         for (size_t i = 0; i < group->model->load_count; i++) {
             int load = group_load(ledger->model, group, (int)i);
             work[load] = (at_end ? ledger->end : ledger->begin)[load];
         }
-        if (!at_end && !integrate(ledger, ensemble, g, group->run->from, ensemble->t, work)) return false;
+        if (!at_end && !integrate(ledger, ensemble, g, group->run->from, t, work)) return false;
     }
     return true;
+}
+
+bool ledger_at(struct ledger *ledger, struct ensemble *ensemble, double *work)
+{
+    return ledger_within(ledger, ensemble, ensemble->t, work);
 }
 
 double ledger_work(struct ledger *ledger, const struct fbd_state *state, size_t index, const double *work)

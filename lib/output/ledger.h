@@ -40,7 +40,8 @@ bool ledger_integrates(const struct ledger *ledger, const struct group *group);
 bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t index);
 void ledger_restart(struct ledger *ledger, struct ensemble *ensemble, size_t index);
 
-/* work[load_count]: the integrals up to the ensemble's time. */
+/* work[load_count]: the integrals up to a time in the last step of every group; up to the ensemble's time. */
+bool ledger_within(struct ledger *ledger, struct ensemble *ensemble, double t, double *work);
 bool ledger_at(struct ledger *ledger, struct ensemble *ensemble, double *work);
 
 /* Work of load `index` at a state, given the integrals up to there. */

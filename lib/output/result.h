@@ -28,6 +28,7 @@ struct fbd_result {
     struct ledger ledger;
     double ledger_seconds;   /* processor time of its integrals */
     struct fbd_state *start; /* the state at the start */
+    struct record *record;   /* for the page and for plots (draw/record.h), NULL without */
 };
 
 /* What happened, in a few words: "friction +4.81 N holds, limit 8.496 N". Writes at most `size` bytes. */

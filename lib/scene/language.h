@@ -149,6 +149,7 @@ struct motion_keys {
 /* In the order of the body's coordinates. */
 struct initial_keys {
     double q[most_coordinates_of_a_body], v[most_coordinates_of_a_body];
+    bool assemble;
 };
 
 /* Likewise. */
@@ -168,10 +169,15 @@ struct load_keys {
 enum { frame_world, frame_body };
 
 struct coupling_keys {
-    const char *name;
-    const struct node *between;
-    double stiffness, free_length, coefficient;
+    const char *name, *body, *on;
+    const struct node *between, *through, *radii;
+    double stiffness, free_length, coefficient, length, radius;
+    bool inside;
+    struct value mu_s, mu_k;
 };
+
+/* Kinds of couplings: those of loads, and beyond them those of constraints. */
+enum { coupling_constraint = 100 };
 
 struct hand_keys {
     const struct node *equation, *when;

@@ -168,12 +168,16 @@ const struct kinds motion_kinds = {"motion", FIELDS(motions)};
     FIELD_NUMBER(offsetof(struct initial_keys, v[index]), "omega", an_angular_velocity, 0,                   \
                  "angular velocity at t = 0")
 
-static const struct field slide_initial[] = {POSITION(0, "x"), SPEED(0, "v")};
-static const struct field pivot_initial[] = {ANGLE(0), ANGLE_RATE(0)};
+#define ASSEMBLE                                                                                             \
+    FIELD_FLAG(offsetof(struct initial_keys, assemble), "assemble",                                          \
+               "true: what is given is where to look; couplings decide")
+
+static const struct field slide_initial[] = {POSITION(0, "x"), SPEED(0, "v"), ASSEMBLE};
+static const struct field pivot_initial[] = {ANGLE(0), ANGLE_RATE(0), ASSEMBLE};
 static const struct field particle_initial[] = {POSITION(0, "x"), POSITION(1, "y"), SPEED(0, "vx"),
-                                                SPEED(1, "vy")};
-static const struct field planar_initial[] = {POSITION(0, "x"), POSITION(1, "y"), ANGLE(2),
-                                              SPEED(0, "vx"),   SPEED(1, "vy"),   ANGLE_RATE(2)};
+                                                SPEED(1, "vy"), ASSEMBLE};
+static const struct field planar_initial[] = {POSITION(0, "x"), POSITION(1, "y"), ANGLE(2), SPEED(0, "vx"),
+                                              SPEED(1, "vy"),   ANGLE_RATE(2),    ASSEMBLE};
 
 const struct group initial_groups[] = {
     [motion_slide] = {"`initial` of a slide", NULL, FIELDS(slide_initial), NULL, 0, "state at t = 0"},

@@ -4,19 +4,22 @@
 #define COUPLING(member) offsetof(struct coupling_keys, member)
 
 /* What every coupling has. */
-static const struct field common_fields[] = {
+static const struct field name_fields[] = {
     FIELD_NAME(COUPLING(name), "name", "its name in all output; default its kind"),
-    FIELD_NODE(COUPLING(between), "between", field_list, required, NULL,
-               "its two ends: body.point, ground.point or, for the centre of mass, a body"),
 };
-static const struct group common = {"a coupling", NULL, FIELDS(common_fields), NULL, 0, "between two ends"};
+static const struct group named = {"a coupling", NULL, FIELDS(name_fields), NULL, 0, "with a name"};
+
+#define BETWEEN_ROW                                                                                          \
+    FIELD_NODE(COUPLING(between), "between", field_list, required, NULL,                                     \
+               "its two ends: body.point, ground.point or, for the centre of mass, a body")
 
 #define COUPLING_GROUP(title, table, doc)                                                                    \
     {                                                                                                        \
-        title, NULL, FIELDS(table), &common, 0, doc                                                          \
+        title, NULL, FIELDS(table), &named, 0, doc                                                           \
     }
 
 static const struct field spring_fields[] = {
+    BETWEEN_ROW,
     FIELD_NUMBER(COUPLING(stiffness), "stiffness", a_stiffness, required | not_negative, "force per length"),
     FIELD_NUMBER(COUPLING(free_length), "free_length", a_length, not_negative,
                  "length without force; default 0"),
@@ -25,15 +28,66 @@ static const struct group spring_group =
     COUPLING_GROUP("a spring", spring_fields, "a linear spring between two points");
 
 static const struct field damper_fields[] = {
+    BETWEEN_ROW,
     FIELD_NUMBER(COUPLING(coefficient), "coefficient", a_damping, required | not_negative,
                  "force per velocity"),
 };
 static const struct group damper_group =
     COUPLING_GROUP("a damper", damper_fields, "a linear damper between two points");
 
+static const struct field pin_fields[] = {BETWEEN_ROW};
+static const struct group pin_group = COUPLING_GROUP("a pin", pin_fields, "holds two points together");
+
+static const struct field rod_fields[] = {
+    BETWEEN_ROW,
+    FIELD_NUMBER(COUPLING(length), "length", a_length, positive, "distance; default that at the start"),
+};
+static const struct group rod_group =
+    COUPLING_GROUP("a rod", rod_fields, "massless: keeps two points at their distance");
+
+static const struct field gear_fields[] = {
+    FIELD_NODE(COUPLING(between), "between", field_list, required, NULL, "two bodies that turn"),
+    FIELD_NODE(COUPLING(radii), "radii", field_list, 0, NULL,
+               "their pitch radii; default those of their shapes"),
+    FIELD_FLAG(COUPLING(inside), "inside", "true: the first turns inside the second, a ring"),
+};
+static const struct group gear_group =
+    COUPLING_GROUP("a gear", gear_fields, "two pitch circles that roll on each other without slip");
+
+static const struct field rope_fields[] = {
+    FIELD_NODE(COUPLING(through), "through", field_list, required, NULL,
+               "its way: ends and points as in `between`; a disc that turns is a pulley"),
+    FIELD_NUMBER(COUPLING(length), "length", a_length, positive, "its length; default taut at the start"),
+};
+static const struct group rope_group = COUPLING_GROUP("a rope", rope_fields, "inextensible and massless");
+
+static const struct field roll_fields[] = {
+    FIELD_NAME(COUPLING(body), "body", "the body that rolls"),
+    FIELD_NAME(COUPLING(on), "on", "the line that it rolls on: of the ground, or a body on a slide"),
+    FIELD_NUMBER(COUPLING(radius), "radius", a_length, positive, "its radius; default that of its shape"),
+    FIELD_VALUE(COUPLING(mu_s), "static", a_number, not_negative, "coefficient of static friction"),
+    FIELD_VALUE(COUPLING(mu_k), "kinetic", a_number, not_negative, "coefficient of kinetic friction"),
+};
+static const struct group roll_group =
+    COUPLING_GROUP("`roll`", roll_fields, "a round body on a line; without coefficients it never slips");
+
+static const struct field rack_fields[] = {
+    FIELD_NODE(COUPLING(between), "between", field_list, required, NULL,
+               "a body that turns, and one whose x axis is the rack"),
+    FIELD_NUMBER(COUPLING(radius), "radius", a_length, positive, "pitch radius; default that of its shape"),
+};
+static const struct group rack_group =
+    COUPLING_GROUP("a rack", rack_fields, "a pitch circle and a line that move along together");
+
 static const struct kind kinds[] = {
     {"spring", load_spring, &spring_group, ~0u, NULL},
     {"damper", load_damper, &damper_group, ~0u, NULL},
+    {"pin", coupling_constraint + constraint_pin, &pin_group, ~0u, NULL},
+    {"rod", coupling_constraint + constraint_rod, &rod_group, ~0u, NULL},
+    {"rope", coupling_constraint + constraint_rope, &rope_group, ~0u, NULL},
+    {"gear", coupling_constraint + constraint_gear, &gear_group, ~0u, NULL},
+    {"rack", coupling_constraint + constraint_rack, &rack_group, ~0u, NULL},
+    {"roll", coupling_constraint + constraint_roll, &roll_group, ~0u, NULL},
 };
 
 const struct kinds coupling_kinds = {"coupling", FIELDS(kinds)};

@@ -62,44 +62,225 @@ static bool read_between(struct reader *reader, const struct node *list, struct 
 
 /* ---- names */
 
+struct taken_name {
+    const char *name, *kind;
+    struct pos at;
+};
+
 /* Is one of the first `count` couplings called `name`? */
-static bool is_taken(const struct scene *scene, const char *name, size_t count)
+static bool is_taken(const struct taken_name *names, const char *name, size_t count)
 {
-    for (size_t i = 0; i < count; i++) {
-        const char *other = scene->couplings[i].load.name;
-        if (other && strcmp(other, name) == 0) return true;
-    }
+    for (size_t i = 0; i < count; i++)
+        if (names[i].name && strcmp(names[i].name, name) == 0) return true;
     return false;
 }
 
-static bool name_coupling(struct reader *reader, size_t index, const char *kind)
+/* Forces of joints have their names, and so have the loads of the bodies: a coupling cannot be called so. */
+static bool is_in_diagrams(const struct reader *reader, const char *name)
 {
-    struct scene *scene = reader->scene;
-    struct coupling *coupling = &scene->couplings[index];
-    bool given = coupling->load.name != NULL;
-    for (int number = 1; !coupling->load.name; number++) {
-        const char *name = number == 1 ? kind : arena_printf(reader->arena, "%s_%d", kind, number);
-        if (!name) return false;
-        if (!is_taken(scene, name, scene->coupling_count)) coupling->load.name = name;
+    static const char *const reactions[] = {"pin", "guide", "weld"};
+    for (size_t i = 0; i < sizeof reactions / sizeof *reactions; i++)
+        if (strcmp(name, reactions[i]) == 0) return true;
+    for (size_t b = 0; b < reader->scene->body_count; b++)
+        for (size_t i = 0; i < reader->scene->bodies[b].load_count; i++)
+            if (strcmp(reader->scene->bodies[b].loads[i].name, name) == 0) return true;
+    return false;
+}
+
+static bool check_given(struct reader *reader, const struct taken_name *names, size_t i)
+{
+    bool twice = is_taken(names, names[i].name, i);
+    if (!twice && !is_in_diagrams(reader, names[i].name)) return true;
+    diag_add(reader->errors, FBD_ERROR, "duplicate-name", names[i].at, "choose another name",
+             twice ? "two couplings are called `%s`" : "a force of a body is called `%s` already",
+             names[i].name);
+    return false;
+}
+
+static bool name_couplings(struct reader *reader, struct taken_name *names, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (names[i].name && !check_given(reader, names, i)) return false;
+    for (size_t i = 0; i < count; i++)
+        for (int number = 1; !names[i].name; number++) {
+            const char *name = names[i].kind;
+            if (number > 1) name = arena_printf(reader->arena, "%s_%d", names[i].kind, number);
+            if (!name) return false;
+            if (!is_taken(names, name, count) && !is_in_diagrams(reader, name)) names[i].name = name;
+        }
+    return true;
+}
+
+/* ---- constraints */
+
+static bool add_end(struct reader *reader, const struct node *node, struct constraint *constraint)
+{
+    int k = constraint->end_count++;
+    return read_end(reader, node, &constraint->body[k], &constraint->point[k]);
+}
+
+static bool refuse_count(struct reader *reader, const struct node *list, const char *what, const char *hint)
+{
+    diag_add(reader->errors, FBD_ERROR, "wrong-type", list->at, hint, "`%s` has %zu entries", what,
+             list->count);
+    return false;
+}
+
+/* All ends; at least one of them moves, and no two that follow each other are on the same body. */
+static bool add_ends(struct reader *reader, const struct node *list, const char *what, size_t least,
+                     size_t most, struct constraint *constraint)
+{
+    if (!list) return false; /* noted */
+    if (list->count < least || list->count > most)
+        return refuse_count(reader, list, what,
+                            least == most ? "write [a.P, b.Q]" : "between 2 and 8 places");
+    bool fine = true;
+    for (size_t i = 0; i < list->count; i++)
+        if (!add_end(reader, list->items[i], constraint)) fine = false;
+    for (int k = 1; fine && k < constraint->end_count; k++)
+        if (constraint->body[k] == constraint->body[k - 1] &&
+            (constraint->body[k] != ground_body || constraint->end_count == 2)) {
+            diag_add(reader->errors, FBD_ERROR, "same-body", list->at, "name points of two bodies",
+                     "both ends are on the same body: nothing would act");
+            fine = false;
+        }
+    return fine;
+}
+
+/* The circle of a body: the first of its parts that is round. */
+static const struct part *round_part(const struct body *body)
+{
+    for (size_t i = 0; i < body->part_count; i++)
+        if (body->parts[i].radius > 0 && body->parts[i].mass > 0) return &body->parts[i];
+    return NULL;
+}
+
+static bool turns(const struct body *body)
+{
+    return body->motion.kind == motion_pivot || body->motion.kind == motion_planar ||
+           body->motion.kind == motion_weld;
+}
+
+/* The circle at end k: its centre, and its radius if that is not given. */
+static bool set_circle(struct reader *reader, struct constraint *constraint, int k, double radius)
+{
+    const struct body *body = &reader->scene->bodies[constraint->body[k]];
+    const struct part *part = round_part(body);
+    constraint->radius[k] = radius > 0 ? radius : part ? part->radius : 0;
+    if (part) constraint->point[k] = (struct point){.kind = point_fixed, .where = part->center};
+    if (constraint->radius[k] > 0 && turns(body)) return true;
+    diag_add(reader->errors, FBD_ERROR, turns(body) ? "missing-key" : "not-here", constraint->at,
+             turns(body) ? "give the radius, or the body a round `shape`" : "use `pivot` or `planar`",
+             turns(body) ? "`%s` has no radius" : "`%s` does not turn", body->name);
+    return false;
+}
+
+static bool needs_body(struct reader *reader, const struct constraint *constraint, int k)
+{
+    if (constraint->body[k] != ground_body) return true;
+    diag_add(reader->errors, FBD_ERROR, "not-here", constraint->at, NULL,
+             "the ground cannot be an end of this coupling");
+    return false;
+}
+
+static bool read_gear(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
+{
+    double radii[2] = {0, 0};
+    if (!add_ends(reader, keys->between, "between", 2, 2, constraint)) return false;
+    if (!needs_body(reader, constraint, 0) || !needs_body(reader, constraint, 1)) return false;
+    if (keys->radii && keys->radii->count != 2)
+        return refuse_count(reader, keys->radii, "radii", "one for each of the two");
+    for (size_t k = 0; keys->radii && k < 2; k++)
+        if (!value_number(reader, keys->radii->items[k], "radii", a_length, positive, &radii[k]))
+            return false;
+    for (int k = 0; k < 2; k++)
+        if (!set_circle(reader, constraint, k, radii[k])) return false;
+    if (keys->inside) constraint->radius[1] = -constraint->radius[1];
+    return true;
+}
+
+static bool read_rack(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
+{
+    if (!add_ends(reader, keys->between, "between", 2, 2, constraint)) return false;
+    return needs_body(reader, constraint, 0) && needs_body(reader, constraint, 1) &&
+           set_circle(reader, constraint, 0, keys->radius);
+}
+
+/* A disc that turns is a pulley which the rope takes along; any other body is a place that it slips over. */
+static bool read_rope(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
+{
+    if (!add_ends(reader, keys->through, "through", 2, most_constraint_ends, constraint)) return false;
+    for (int k = 1; k + 1 < constraint->end_count; k++) {
+        if (constraint->body[k] == ground_body || constraint->point[k].kind != point_G) continue;
+        const struct body *body = &reader->scene->bodies[constraint->body[k]];
+        if (turns(body) && round_part(body) && !set_circle(reader, constraint, k, 0)) return false;
     }
-    if (!given || !is_taken(scene, coupling->load.name, index)) return true;
-    diag_add(reader->errors, FBD_ERROR, "duplicate-name", coupling->load.at, "choose another name",
-             "two couplings are called `%s`", coupling->load.name);
+    return true;
+}
+
+static const struct node *scalar_at(struct reader *reader, const struct node *map, const char *key)
+{
+    const struct pair *pair = node_find(map, key);
+    if (pair) return pair->value;
+    diag_add(reader->errors, FBD_ERROR, "missing-key", map->at, NULL, "`roll` needs `%s`", key);
+    return NULL;
+}
+
+/* `on`: a line of the ground, or a body, whose x axis through its origin is the line. */
+static bool read_roll(struct reader *reader, const struct node *map, const struct coupling_keys *keys,
+                      struct constraint *constraint)
+{
+    const struct node *body = scalar_at(reader, map, "body"), *on = scalar_at(reader, map, "on");
+    if (!body || !on || !body_name_read(reader, body, "body", &constraint->body[0])) return false;
+    constraint->end_count = 2;
+    constraint->body[1] = ground_body;
+    if (!needs_body(reader, constraint, 0) || !set_circle(reader, constraint, 0, keys->radius)) return false;
+    constraint->point[1] = (struct point){.kind = point_fixed, .at = on->at};
+    constraint->mu_s = keys->mu_s.expr ? keys->mu_s : keys->mu_k;
+    constraint->mu_k = keys->mu_k.expr ? keys->mu_k : keys->mu_s;
+    if (node_find(reader->bodies, on->text)) return body_name_read(reader, on, "on", &constraint->body[1]);
+    const struct ground_line *line = ground_line_find(reader, on);
+    if (!line) return false;
+    constraint->point[1].where = line->through;
+    constraint->along = line->along;
+    return true;
+}
+
+static bool read_constraint(struct reader *reader, const struct chosen *chosen,
+                            const struct coupling_keys *keys, struct constraint *constraint)
+{
+    constraint->kind = (enum constraint_kind)(chosen->kind->value - coupling_constraint);
+    constraint->at = chosen->at;
+    constraint->length = keys->length;
+    constraint->length_given = keys->length > 0;
+    switch (constraint->kind) {
+    case constraint_pin:
+    case constraint_rod: return add_ends(reader, keys->between, "between", 2, 2, constraint);
+    case constraint_gear: return read_gear(reader, keys, constraint);
+    case constraint_rope: return read_rope(reader, keys, constraint);
+    case constraint_rack: return read_rack(reader, keys, constraint);
+    case constraint_roll: return read_roll(reader, chosen->node, keys, constraint);
+    }
     return false;
 }
 
 /* ---- the list */
 
-static bool read_coupling(struct reader *reader, const struct node *node, struct coupling *coupling,
-                          const char **kind)
+static bool read_coupling(struct reader *reader, const struct node *node, struct taken_name *name)
 {
+    struct scene *scene = reader->scene;
+    struct names names = {.reader = reader, .place = place_event, .body = ground_body};
+    struct scope scope = names_scope(&names);
     struct chosen chosen;
     struct coupling_keys keys = {0};
     if (!kind_read(reader, &coupling_kinds, node, "couplings", &chosen)) return false;
-    bool fine = fields_read(reader, chosen.kind->group, chosen.node, chosen.at, &reader->constants, &keys);
-    *kind = chosen.kind->name;
+    bool fine = fields_read(reader, chosen.kind->group, chosen.node, chosen.at, &scope, &keys);
+    *name = (struct taken_name){keys.name, chosen.kind->name, chosen.at};
+    if (chosen.kind->value >= coupling_constraint)
+        return fine &&
+               read_constraint(reader, &chosen, &keys, &scene->constraints[scene->constraint_count++]);
+    struct coupling *coupling = &scene->couplings[scene->coupling_count++];
     coupling->load = (struct load){.kind = (enum load_kind)chosen.kind->value,
-                                   .name = keys.name,
                                    .at = chosen.at,
                                    .stiffness = keys.stiffness,
                                    .free_length = keys.free_length,
@@ -110,15 +291,19 @@ static bool read_coupling(struct reader *reader, const struct node *node, struct
 bool couplings_read(struct reader *reader, const struct node *list)
 {
     struct scene *scene = reader->scene;
-    size_t count = list ? list->count : 0;
+    size_t count = list ? list->count : 0, load = 0, constraint = 0;
     scene->couplings = ARENA_ARRAY(reader->arena, count, struct coupling);
-    const char **kinds = ARENA_ARRAY(reader->arena, count, const char *);
-    if (!scene->couplings || !kinds) return false;
+    scene->constraints = ARENA_ARRAY(reader->arena, count, struct constraint);
+    struct taken_name *names = ARENA_ARRAY(reader->arena, count, struct taken_name);
+    if (!scene->couplings || !scene->constraints || !names) return false;
     bool fine = true;
-    scene->coupling_count = count;
     for (size_t i = 0; i < count; i++)
-        if (!read_coupling(reader, list->items[i], &scene->couplings[i], &kinds[i])) fine = false;
-    for (size_t i = 0; fine && i < count; i++)
-        if (!name_coupling(reader, i, kinds[i])) fine = false;
-    return fine;
+        if (!read_coupling(reader, list->items[i], &names[i])) fine = false;
+    if (!fine || !name_couplings(reader, names, count)) return false;
+    for (size_t i = 0; i < count; i++) {
+        bool force = strcmp(names[i].kind, "spring") == 0 || strcmp(names[i].kind, "damper") == 0;
+        *(force ? &scene->couplings[load++].load.name : &scene->constraints[constraint++].name) =
+            names[i].name;
+    }
+    return true;
 }

@@ -75,13 +75,14 @@ bool body_motion_read(struct reader *reader, int index)
 bool body_initial_read(struct reader *reader, int index)
 {
     struct scene *scene = reader->scene;
-    const struct body *body = &scene->bodies[index];
+    struct body *body = &scene->bodies[index];
     const struct draft *draft = &reader->drafts[index];
     const struct pair *pair = node_find(draft->node, "initial");
-    struct initial_keys keys = {{0}, {0}};
+    struct initial_keys keys = {{0}, {0}, false};
     if (!draft->keys.initial || !draft->motion_known) return true;
     bool fine = fields_read(reader, &initial_groups[body->motion.kind], draft->keys.initial, pair->at,
                             &reader->constants, &keys);
+    body->assemble = keys.assemble;
     for (int i = 0; i < body->count; i++) {
         scene->coordinates[body->first + i].initial = keys.q[i];
         scene->coordinates[body->first + i].initial_rate = keys.v[i];

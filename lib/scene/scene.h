@@ -111,6 +111,7 @@ enum load_kind {
     moment_damper,
     moment_friction,
     moment_potential,
+    load_rope, /* not listed: a rope under `couplings`, see struct constraint */
 };
 
 /* One entry of `forces` or `moments`. Fields that a kind does not use are zero. */
@@ -165,6 +166,39 @@ struct coupling {
     struct point point[2];
 };
 
+/* What holds points or angles of bodies together: its force is whatever that takes. */
+enum constraint_kind {
+    constraint_pin,  /* two points are one */
+    constraint_rod,  /* two points keep their distance */
+    constraint_gear, /* two circles roll on each other without slip: radii, below zero for a ring inside */
+    constraint_rope, /* the way through all points, over discs and ground points, has one length */
+    constraint_roll, /* a circle on a line of the ground or of a body */
+    constraint_rack, /* a circle and a line move along together */
+};
+
+enum { most_constraint_ends = 8 };
+
+struct constraint {
+    enum constraint_kind kind;
+    const char *name;
+    struct pos at;
+    int end_count;
+    int body[most_constraint_ends]; /* ground_body for the ground */
+    struct point point[most_constraint_ends];
+    double radius[most_constraint_ends]; /* gear, roll, rack; rope: of the disc at this place, else 0 */
+    int side[most_constraint_ends];      /* rope: +1 when it goes counter-clockwise round the disc */
+    bool length_given;
+    double length;           /* rod, rope */
+    double along;            /* roll, rack: direction of the line in the frame of end 1 */
+    struct value mu_s, mu_k; /* roll: expr NULL for rolling without slip, whatever it takes */
+};
+
+/* Is its force known by name, as a load of the model: for events and its work? */
+static inline bool constraint_has_load(const struct constraint *constraint)
+{
+    return constraint->kind == constraint_roll || constraint->kind == constraint_rope;
+}
+
 /* A derivation by the user: an equation that must hold. */
 struct hand {
     const char *text;
@@ -191,6 +225,7 @@ enum hand_slot {
 struct body {
     const char *name;
     struct pos at;
+    bool assemble; /* its coordinates follow from its couplings at the start */
     bool complete; /* false when errors in it were reported: later checks leave it alone */
     struct motion motion;
     int first, count; /* its coordinates */
@@ -264,11 +299,12 @@ struct scene {
     enum unit_system units;
     struct vec gravity; /* acceleration, straight down by default */
     double datum;       /* height y at which the potential energy of gravity is zero */
-    size_t parameter_count, body_count, event_count, coupling_count;
+    size_t parameter_count, body_count, event_count, coupling_count, constraint_count;
     struct parameter *parameters;
     struct body *bodies;
     struct user_event *events;
     struct coupling *couplings;
+    struct constraint *constraints;
     struct simulate simulate;
     size_t coordinate_count, absolute_count;
     struct coordinate *coordinates;

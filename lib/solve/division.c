@@ -53,7 +53,21 @@ static void join_load(const struct scene *scene, int *parent, const struct load 
         join_read(scene, parent, values[k]->expr, body);
 }
 
-/* group_of_event, group_of_coupling and group_of_absolute hold a body of each on return. */
+/* Join all bodies of a constraint and those that its coefficients of friction read; returns one of them. */
+static int join_constraint(const struct scene *scene, int *parent, const struct constraint *constraint)
+{
+    int body = 0;
+    for (int end = 0; end < constraint->end_count; end++)
+        if (constraint->body[end] != ground_body) body = constraint->body[end];
+    for (int end = 0; end < constraint->end_count; end++)
+        if (constraint->body[end] != ground_body) join(parent, body, constraint->body[end]);
+    join_read(scene, parent, constraint->mu_s.expr, body);
+    join_read(scene, parent, constraint->mu_k.expr, body);
+    return body;
+}
+
+/* group_of_event, group_of_coupling, group_of_constraint and group_of_absolute hold a body of each on return.
+ */
 static void join_all(const struct scene *scene, int *parent, struct division *division)
 {
     for (size_t b = 0; b < scene->body_count; b++) parent[b] = (int)b;
@@ -75,6 +89,8 @@ static void join_all(const struct scene *scene, int *parent, struct division *di
         division->group_of_coupling[i] = body[0] != ground_body ? body[0] : body[1];
         if (body[0] != ground_body && body[1] != ground_body) join(parent, body[0], body[1]);
     }
+    for (size_t i = 0; i < scene->constraint_count; i++)
+        division->group_of_constraint[i] = join_constraint(scene, parent, &scene->constraints[i]);
     for (size_t i = 0; i < scene->absolute_count; i++)
         division->group_of_absolute[i] = scene->absolutes[i].body;
 }
@@ -94,6 +110,8 @@ static size_t number_groups(const struct scene *scene, int *parent, struct divis
         division->group_of_event[i] = division->group_of_body[division->group_of_event[i]];
     for (size_t i = 0; i < scene->coupling_count; i++)
         division->group_of_coupling[i] = division->group_of_body[division->group_of_coupling[i]];
+    for (size_t i = 0; i < scene->constraint_count; i++)
+        division->group_of_constraint[i] = division->group_of_body[division->group_of_constraint[i]];
     for (size_t i = 0; i < scene->absolute_count; i++)
         division->group_of_absolute[i] = division->group_of_body[division->group_of_absolute[i]];
     return count;
@@ -120,6 +138,11 @@ static struct list events_of(struct selection *selection)
 static struct list couplings_of(struct selection *selection)
 {
     return (struct list){&selection->couplings, &selection->coupling_count};
+}
+
+static struct list constraints_of(struct selection *selection)
+{
+    return (struct list){&selection->constraints, &selection->constraint_count};
 }
 
 static struct list absolutes_of(struct selection *selection)
@@ -168,15 +191,16 @@ static void renumber(const struct scene *scene, struct selection *selection, int
 static bool allocate(struct division *division, const struct scene *scene, int **sorted)
 {
     size_t bodies = scene->body_count, events = scene->event_count, couplings = scene->coupling_count,
-           absolutes = scene->absolute_count;
+           constraints = scene->constraint_count, absolutes = scene->absolute_count;
     size_t slots = 1 + 2 * scene->coordinate_count + hand_slots + absolutes;
-    size_t things = bodies + events + couplings + absolutes;
+    size_t things = bodies + events + couplings + constraints + absolutes;
     division->memory = calloc(3 * bodies + slots + 2 * things, sizeof *division->memory);
     if (!division->memory) return false;
     division->group_of_body = division->memory;
     division->group_of_event = division->group_of_body + bodies;
     division->group_of_coupling = division->group_of_event + events;
-    division->group_of_absolute = division->group_of_coupling + couplings;
+    division->group_of_constraint = division->group_of_coupling + couplings;
+    division->group_of_absolute = division->group_of_constraint + constraints;
     *sorted = division->memory + things;
     return true;
 }
@@ -189,8 +213,10 @@ bool division_make(struct division *division, const struct fbd_model *model)
     *division = (struct division){0};
     if (!allocate(division, scene, &sorted)) return false;
     int *sorted_events = sorted + bodies, *sorted_couplings = sorted_events + events,
-        *sorted_absolutes = sorted_couplings + couplings, *parent = sorted_absolutes + scene->absolute_count,
-        *local = parent + bodies, *next = local + bodies, *moved = next + bodies;
+        *sorted_constraints = sorted_couplings + couplings,
+        *sorted_absolutes = sorted_constraints + scene->constraint_count,
+        *parent = sorted_absolutes + scene->absolute_count, *local = parent + bodies, *next = local + bodies,
+        *moved = next + bodies;
     join_all(scene, parent, division);
     division->count = number_groups(scene, parent, division);
     division->selections = calloc(division->count + 1, sizeof *division->selections);
@@ -198,6 +224,8 @@ bool division_make(struct division *division, const struct fbd_model *model)
     sort_by_group(division, division->group_of_body, bodies, sorted, next, bodies_of);
     sort_by_group(division, division->group_of_event, events, sorted_events, next, events_of);
     sort_by_group(division, division->group_of_coupling, couplings, sorted_couplings, next, couplings_of);
+    sort_by_group(division, division->group_of_constraint, scene->constraint_count, sorted_constraints, next,
+                  constraints_of);
     sort_by_group(division, division->group_of_absolute, scene->absolute_count, sorted_absolutes, next,
                   absolutes_of);
     for (size_t p = 0; p < division->count; p++) renumber(scene, &division->selections[p], moved, local);

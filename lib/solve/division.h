@@ -16,7 +16,7 @@
 struct division {
     size_t count;                 /* groups, in the order of their first bodies */
     struct selection *selections; /* count */
-    int *group_of_body, *group_of_event, *group_of_coupling, *group_of_absolute;
+    int *group_of_body, *group_of_event, *group_of_coupling, *group_of_constraint, *group_of_absolute;
     int *memory;
 };
 

@@ -133,10 +133,26 @@ int group_body(const struct group *group, int index)
     return index < 0 || !group->selection ? index : group->selection->bodies[index];
 }
 
+/* The load of the whole for the named tie `index` of a group: they follow the order of the constraints that
+ * have one. */
+static int named_tie(const struct fbd_model *whole, const struct group *group, size_t index)
+{
+    const struct constraint *parts = group->model->scene->constraints, *all = whole->scene->constraints;
+    size_t c = 0;
+    for (;; c++) {
+        if (!constraint_has_load(&parts[c])) continue;
+        if (index-- == 0) break;
+    }
+    int load = (int)whole->coupled_count;
+    for (int i = 0; i < group->selection->constraints[c]; i++) load += constraint_has_load(&all[i]);
+    return load;
+}
+
 int group_load(const struct fbd_model *whole, const struct group *group, int index)
 {
     if (index < 0 || !group->selection) return index;
-    size_t listed = group->model->listed_count;
+    size_t listed = group->model->listed_count, coupled = group->model->coupled_count;
+    if ((size_t)index >= coupled) return named_tie(whole, group, (size_t)index - coupled);
     if ((size_t)index >= listed)
         return (int)whole->listed_count + group->selection->couplings[(size_t)index - listed];
     int body = group->model->loads[index].body;
@@ -189,6 +205,8 @@ void ensemble_release(struct ensemble *ensemble, size_t count)
 }
 
 /* ---- looking */
+
+typedef bool look_at_run(struct run *run, double t, struct fbd_state *state);
 
 static bool look_run(struct run *run, double t, struct fbd_state *state)
 {
@@ -272,17 +290,27 @@ void ensemble_pass_on(const struct ensemble *ensemble, size_t index, struct fbd_
     scatter_modes(group, run->state, state);
 }
 
-bool ensemble_look(struct ensemble *ensemble, double t, struct fbd_state *state)
+static bool look(struct ensemble *ensemble, double t, look_at_run *look_at, struct fbd_state *state)
 {
-    if (ensemble->count == 1) return look_run(ensemble->groups[0].run, t, state);
+    if (ensemble->count == 1) return look_at(ensemble->groups[0].run, t, state);
     for (size_t p = 0; p < ensemble->count; p++) {
-        if (!ensemble_look_group(ensemble, p, t)) return false;
+        if (!look_at(ensemble->groups[p].run, t, ensemble->groups[p].probe)) return false;
         scatter(ensemble->model, &ensemble->groups[p], state);
     }
     state->t = t;
     state->settled = true;
     state_evaluate(state);
     return true;
+}
+
+bool ensemble_look(struct ensemble *ensemble, double t, struct fbd_state *state)
+{
+    return look(ensemble, t, look_run, state);
+}
+
+bool ensemble_look_before(struct ensemble *ensemble, double t, struct fbd_state *state)
+{
+    return look(ensemble, t, run_look, state);
 }
 
 struct fbd_state *ensemble_state(struct ensemble *ensemble)

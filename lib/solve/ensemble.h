@@ -60,9 +60,12 @@ struct ensemble {
     size_t queued;
     bool lazy;      /* moved by ensemble_go: quiet groups are not queued */
     bool started;   /* the queue is there */
+    bool cut;       /* it has been asked to end */
+    bool stepping;  /* a group is making a step */
     double from, t; /* see above; with ensemble_go from == t */
     fbd_outcome outcome;
     const char *reason; /* "" while all is well */
+    char cut_reason[60];
     struct observer observer;
 
     struct run_event *events; /* up to t, of all groups in the order of time, indices of the whole scene */
@@ -81,9 +84,18 @@ void ensemble_free(struct ensemble *ensemble);
 fbd_outcome ensemble_advance(struct ensemble *ensemble);
 fbd_outcome ensemble_go(struct ensemble *ensemble, double target, double near, bool pause);
 
+/* End it, as interrupted: now, or from an observer, as soon as all groups can be seen at one time. */
+void ensemble_interrupt(struct ensemble *ensemble);
+
+/* With ensemble_go: a target that is at most the end of a step of any group, and above ensemble->t. */
+double ensemble_next_end(const struct ensemble *ensemble);
+
 /* The evaluated state at t, from <= t <= ensemble->t, with the modes of the steps around it, and those after
  * an event at its very time. False when it cannot be had. */
 bool ensemble_look(struct ensemble *ensemble, double t, struct fbd_state *state);
+
+/* The same, but at the very time of an event with the modes before it. */
+bool ensemble_look_before(struct ensemble *ensemble, double t, struct fbd_state *state);
 
 /* Only coordinates and rates there, 2 n, without evaluating anything but the dense output. */
 bool ensemble_coordinates(struct ensemble *ensemble, double t, double *y);

@@ -7,6 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dynamics/constraint.h"
+#include "dynamics/energy.h"
+#include "dynamics/project.h"
+#include "dynamics/tree.h"
 #include "solve/run.h"
 
 /* ---- the log */
@@ -59,8 +63,40 @@ static void stop_slipping(struct run *run, int pair)
     const struct friction *friction = &run->model->plan.frictions[pair];
     struct instant at = state_instant(run->state);
     double acceleration;
+    if (friction->tie >= 0) {
+        run->state->slip[pair] = stick;
+        state_project_velocity(run->state, false);
+        return;
+    }
     run->state->y[run->model->plan.n + friction->coordinate] =
         friction_surface_speed(friction, &at, &acceleration);
+}
+
+static double kinetic(struct fbd_state *state)
+{
+    struct instant at = state_instant(state);
+    double sum = 0;
+    tree_move(state->model, &at);
+    for (size_t b = 0; b < state->model->body_count; b++)
+        sum += kinetic_energy(&state->model->bodies[b], &at);
+    return sum;
+}
+
+/* A tension that ends is left to settling. A rope that becomes taut takes at once the velocities that would
+ * lengthen it: a plastic impact, with the impulses that every other coupling needs for it. */
+static void rope_event(struct run *run, int pair)
+{
+    if (run->state->slip[pair] == stick) {
+        run->state->slip[pair] = slip_plus;
+        run->decided.slips[pair] = true;
+        return;
+    }
+    double before = kinetic(run->state);
+    run->state->slip[pair] = stick;
+    state_project_velocity(run->state, false);
+    run->snap_pair = pair;
+    run->snap_work = kinetic(run->state) - before;
+    run->impact_work[run->model->plan.frictions[pair].load] += run->snap_work;
 }
 
 /* `touched`: the function is exactly zero and may go either way; otherwise it has passed to the other side.
@@ -95,12 +131,25 @@ static void happen(struct run *run, const struct watcher *watcher, bool crossing
         run->state->pull[index] = -run->state->pull[index];
         run->decided.pulls[index] = true;
         break;
+    case watch_rope: rope_event(run, index); break;
     case watch_contact: break; /* run_check_contacts */
     case watch_user: user_event(run, index, false); break;
     }
 }
 
 /* ---- after the modes have settled */
+
+static void note_rope(struct run *run, int pair, int before, int after)
+{
+    const struct friction *friction = &run->model->plan.frictions[pair];
+    if (before == stick && after != stick)
+        note(run, FBD_EVENT_ROPE_SLACK, friction->body, friction->load, -1);
+    bool snapped = run->snap_pair == pair;
+    run->snap_pair = -1;
+    if (!snapped && (before == stick || after != stick)) return;
+    struct run_event *event = note(run, FBD_EVENT_ROPE_TAUT, friction->body, friction->load, -1);
+    if (event) event->force = snapped ? -run->snap_work : 0;
+}
 
 /* What each pair has done is read off its modes before and after, whichever event was the cause. */
 static void note_frictions(struct run *run, const bool *moving)
@@ -112,8 +161,16 @@ static void note_frictions(struct run *run, const bool *moving)
         for (size_t i = 0; moving && i < set->count; i++)
             stopped |=
                 moving[i] && set->watchers[i].kind == watch_slip_stop && set->watchers[i].index == pair;
+        if (run->model->plan.frictions[pair].rope) {
+            note_rope(run, pair, before, after);
+            continue;
+        }
         if (before == stick && after != stick) note_friction(run, FBD_EVENT_BREAKAWAY, pair);
-        if (before != stick && after == stick) note_friction(run, FBD_EVENT_STICK, pair);
+        if (before != stick && after == stick) {
+            int tie = run->model->plan.frictions[pair].tie;
+            if (tie >= 0) tie_rezero(run->model, run->state->tree, tie);
+            note_friction(run, FBD_EVENT_STICK, pair);
+        }
         if (stopped && after != stick && after != before) note_friction(run, FBD_EVENT_REVERSAL, pair);
     }
 }

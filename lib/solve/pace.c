@@ -2,6 +2,7 @@
  *
  * The pace of an ensemble: whose turn it is, and how far the common time has come.
  */
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "solve/ensemble.h"
@@ -50,10 +51,12 @@ static void start(struct ensemble *ensemble, bool lazy)
 static void step(struct ensemble *ensemble, size_t p)
 {
     struct run *run = ensemble->groups[p].run;
+    ensemble->stepping = true;
     run_advance(run);
     const struct observer *observer = &ensemble->observer;
     if (observer->step && run->state->t > run->from && !observer->step(observer->context, ensemble, p))
         ensemble_fail(ensemble, FBD_OUT_OF_MEMORY, "out of memory");
+    ensemble->stepping = false;
     if (run->outcome == FBD_OUT_OF_MEMORY) ensemble_fail(ensemble, run->outcome, run->reason);
 }
 
@@ -132,12 +135,13 @@ static double go_queued(struct ensemble *ensemble, double target, double near, b
     double stop = HUGE_VAL;
     for (size_t i = 0; i < ensemble->queued; i++)
         stop = fmin(stop, stop_of(ensemble, ensemble->queue[i], pause));
-    while (ensemble->queued > 0 && ensemble->outcome == FBD_GOING) {
+    while (ensemble->queued > 0 && ensemble->outcome == FBD_GOING && !ensemble->cut) {
         size_t p = ensemble->queue[0];
         if (end_of(ensemble, p) >= fmin(target, stop) || ended_early(ensemble->groups[p].run)) break;
         step_top(ensemble);
         stop = fmin(stop, stop_of(ensemble, p, pause));
     }
+    if (ensemble->cut && ensemble->queued > 0) stop = fmin(stop, end_of(ensemble, ensemble->queue[0]));
     return stop <= target + near ? stop : target;
 }
 
@@ -147,8 +151,10 @@ static double go_quiet(struct ensemble *ensemble, double target)
     for (size_t p = 0; p < ensemble->count && ensemble->outcome == FBD_GOING; p++) {
         const struct group *group = &ensemble->groups[p];
         if (!group->quiet) continue;
-        while (group->run->outcome == FBD_GOING && end_of(ensemble, p) < target) step(ensemble, p);
-        if (ended_early(group->run)) target = fmin(target, end_of(ensemble, p));
+        bool alone = ensemble->count == 1; /* several are carried on to one time */
+        while (group->run->outcome == FBD_GOING && end_of(ensemble, p) < target && !(alone && ensemble->cut))
+            step(ensemble, p);
+        if (ended_early(group->run) || alone) target = fmin(target, end_of(ensemble, p));
     }
     return target;
 }
@@ -166,6 +172,26 @@ static void rewind_group(struct ensemble *ensemble, size_t p, double t)
     while (group->run->outcome == FBD_GOING && end_of(ensemble, p) < t) step(ensemble, p);
 }
 
+static void end_cut(struct ensemble *ensemble)
+{
+    snprintf(ensemble->cut_reason, sizeof ensemble->cut_reason, "interrupted at t = %.9g", ensemble->t);
+    ensemble_fail(ensemble, FBD_INTERRUPTED, ensemble->cut_reason);
+}
+
+void ensemble_interrupt(struct ensemble *ensemble)
+{
+    ensemble->cut = true;
+    if (!ensemble->stepping) end_cut(ensemble);
+}
+
+double ensemble_next_end(const struct ensemble *ensemble)
+{
+    double first = HUGE_VAL;
+    for (size_t p = 0; p < ensemble->count; p++) first = fmin(first, end_of(ensemble, p));
+    /* One that is at t has to step before its end is known. */
+    return first > ensemble->t ? first : nextafter(ensemble->t, HUGE_VAL);
+}
+
 fbd_outcome ensemble_go(struct ensemble *ensemble, double target, double near, bool pause)
 {
     if (ensemble->outcome != FBD_GOING) return ensemble->outcome;
@@ -181,5 +207,6 @@ fbd_outcome ensemble_go(struct ensemble *ensemble, double target, double near, b
     }
     ensemble->from = t;
     arrive(ensemble, t, ensemble->count);
+    if (ensemble->cut && ensemble->outcome == FBD_GOING) end_cut(ensemble);
     return ensemble->outcome;
 }

@@ -105,7 +105,9 @@ static bool make_run(struct run *run)
     run->values = calloc(2 * run->moving.count + 1, sizeof *run->values);
     run->anchor = calloc(4 * n + 1, sizeof *run->anchor);
     run->arrows = calloc(diagram_most_arrows(run->model), sizeof *run->arrows);
-    if (!run->values || !run->anchor || !run->arrows) return false;
+    run->impact_work = calloc(run->model->load_count + 1, sizeof *run->impact_work);
+    run->snap_pair = -1;
+    if (!run->values || !run->anchor || !run->arrows || !run->impact_work) return false;
     run->rates = rates_new(run->during, rates_by_rows);
     if (!run->rates) return false;
     gsl_odeiv2_system system = {.jacobian = jacobian, .dimension = 2 * n};
@@ -119,6 +121,8 @@ static void start(struct run *run)
 {
     run->restart = true;
     run->from = run->state->t;
+    if (modes_settle(run->state, NULL)) run_close_start(run); /* what slips is not closed */
+    if (run->outcome != FBD_GOING) return;
     if (!modes_settle(run->state, NULL)) {
         run_fail(
             run, FBD_FAILED,
@@ -164,6 +168,7 @@ void run_free(struct run *run)
     free(run->values);
     free(run->anchor);
     free(run->arrows);
+    free(run->impact_work);
     free(run);
 }
 
@@ -330,6 +335,7 @@ static void accept(struct run *run, double t)
     memset(run->watchers.fired, 0, run->model->plan.watch_count * sizeof *run->watchers.fired);
     memcpy(run->state->y, run->y, 2 * n * sizeof *run->y);
     modes_hold(run->state);
+    run_close_step(run);
     memcpy(run->y, run->state->y, 2 * n * sizeof *run->y);
 }
 
@@ -410,6 +416,8 @@ fbd_outcome run_advance(struct run *run)
             run_fail_step(run, stepper_underflow);
         return run->outcome;
     }
+    if (run->outcome != FBD_GOING) return run->outcome;
+    if (run->projected) counted_system_rhs(&run->system, t, run->y, run->f);
     timed = timed && t == limit;
     bool at_end = t >= run->options.until;
     if (moving || timed)

@@ -50,6 +50,12 @@ struct run {
     double from;              /* start of the last step; it ends at state->t */
     double h;                 /* step size proposed */
     bool restart;             /* the stepper has to start anew */
+    int snap_pair;            /* the rope that has just snapped taut, or -1 */
+    double snap_work;         /* what that has taken (below zero) */
+    double *impact_work;      /* per load: the same, summed up */
+    double drift;             /* the most that a step left the constraints by, before it was projected back */
+    double left;              /* and after that */
+    bool projected;
     int crawl;                /* steps in a row of a few roundings of the time */
     unsigned long not_finite; /* rejections for that reason before the last step */
     fbd_outcome outcome;
@@ -99,6 +105,10 @@ int run_panels(const struct run *run);
 /* Apply what has happened at run->state: `timed` and `moving` flag the functions of each set that have
  * crossed; NULL for none. Settles the modes. */
 void run_apply(struct run *run, const bool *timed, const bool *moving);
+
+/* Refuse a start that couplings do not allow (closing.c); bring the end of a step back onto them. */
+void run_close_start(struct run *run);
+void run_close_step(struct run *run);
 
 /* User events whose function is exactly zero at run->state (a body came to rest there, or the run ends there)
  * happen now; within its band (watchers.h) a zero counts at an event only, which may be what stopped the

@@ -69,6 +69,7 @@ static bool depends_on_velocity(const struct fbd_model *model, const struct load
     case moment_damper: return true;
     case load_gravity:
     case load_normal:
+    case load_rope:
     case load_spring:
     case moment_spring: return false;
     case load_friction:
@@ -93,9 +94,11 @@ static bool has_centrifugal_term(const struct model_body *body)
     return body->kind == motion_planar && (body->arm.x != 0 || body->arm.y != 0);
 }
 
-/* Does a body move on another one? Then there are Coriolis forces, and a mass matrix that varies. */
+/* Does a body move on another one, or is it tied to one or to the ground? Then there are Coriolis forces, and
+ * a mass matrix that varies. */
 static bool has_joints(const struct fbd_model *model)
 {
+    if (model->scene->constraint_count > 0) return true;
     for (size_t b = 0; b < model->body_count; b++)
         if (model->bodies[b].parent != ground_body) return true;
     return false;
@@ -207,6 +210,7 @@ static enum expr_degree degree_of_load(const struct fbd_model *model, const stru
     case load_drag: return degree_of_drag(body, load);
     case moment_spring:
     case moment_damper: return expr_affine;
+    case load_rope:
     case load_potential:
     case moment_potential: break;
     }

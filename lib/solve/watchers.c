@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "dynamics/absolute.h"
+#include "dynamics/constraint.h"
 
 /* ---- which functions a plan needs */
 
@@ -30,7 +31,7 @@ static void add_kinks(struct watchers *watchers, const struct plan *plan)
 
 static bool always_the_same(const struct plan *plan, const struct friction *friction)
 {
-    return plan->slot_constant[friction->coordinate] && !friction->surface_speed.expr &&
+    return friction->tie < 0 && plan->slot_constant[friction->coordinate] && !friction->surface_speed.expr &&
            !friction->mu_s.expr && !friction->mu_k.expr &&
            (friction->normal_slot < 0 || plan->slot_constant[friction->normal_slot]);
 }
@@ -39,6 +40,10 @@ static void add_frictions(struct watchers *watchers, const struct plan *plan)
 {
     for (size_t i = 0; i < plan->friction_count; i++) {
         const struct friction *friction = &plan->frictions[i];
+        if (friction->rope) {
+            add(&watchers->moving, (struct watcher){watch_rope, (int)i, 0, 0, true});
+            continue;
+        }
         bool moving_surface = friction->surface_speed.expr != NULL;
         add(&watchers->moving, (struct watcher){watch_slip_stop, (int)i, 0, 0, moving_surface});
         if (!always_the_same(plan, friction))
@@ -116,6 +121,20 @@ static double user_value(const struct watch *watch, const struct view *view, dou
     return left - right;
 }
 
+/* Taut: the tension. Slack: what is left of its length. */
+static double rope_value(const struct watcher *watcher, const struct view *view, double *rate)
+{
+    const struct fbd_model *model = view->state->model;
+    int tie = model->plan.frictions[watcher->index].tie;
+    struct rope_state rope = rope_at(model, &view->at, tie);
+    if (view->at.slip[watcher->index] != stick) {
+        *rate = -rope.rate;
+        return -rope.excess;
+    }
+    *rate = -view->state->tree->z[model->tree->ties[tie].first_row];
+    return rope.tension;
+}
+
 static double friction_value(const struct watcher *watcher, const struct view *view, double *rate)
 {
     const struct fbd_model *model = view->state->model;
@@ -124,6 +143,10 @@ static double friction_value(const struct watcher *watcher, const struct view *v
     *rate = 0;
     if (watcher->kind == watch_slip_stop) {
         if (slip == stick) return HUGE_VAL;
+        if (friction->tie >= 0) {
+            *rate = slip * tie_slip_acceleration(model, &view->at, friction->tie);
+            return slip * tie_slip_velocity(model, &view->at, friction->tie);
+        }
         double acceleration, speed = friction_surface_speed(friction, &view->at, &acceleration);
         int index = model->plan.n + friction->coordinate;
         *rate = slip * (view->flow.dy[index] - acceleration);
@@ -201,6 +224,7 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
             rates[i] *= armed;
             break;
         }
+        case watch_rope: values[i] = rope_value(watcher, &view, &rates[i]); break;
         case watch_slip_stop:
         case watch_stick_limit:
         case watch_normal_turns: values[i] = friction_value(watcher, &view, &rates[i]); break;

@@ -24,6 +24,7 @@ enum watcher_kind {
     watch_normal_turns, /* the normal force of a two-sided guide with friction changes its side; index: pair
                          */
     watch_contact,      /* a normal force reaches zero; index: contact */
+    watch_rope,         /* a taut rope goes slack, a slack one becomes taut; index: pair */
     watch_user,         /* a user event; index: watch */
 };
 

@@ -115,7 +115,8 @@ static const char *status_of(fbd_outcome outcome)
     case FBD_BROKEN: return "broken";
     case FBD_GOING:
     case FBD_FAILED:
-    case FBD_OUT_OF_MEMORY: break;
+    case FBD_OUT_OF_MEMORY:
+    case FBD_INTERRUPTED: break;
     }
     return "failed";
 }

@@ -14,11 +14,13 @@ static double some(struct random_numbers *numbers)
     return random_between(numbers, -1, 1);
 }
 
-static void write_motion(FILE *out, struct random_numbers *numbers, int parent, const char **kind)
+static void write_motion(FILE *out, struct random_numbers *numbers, const struct random_tree *tree,
+                         int parent, const char **kind)
 {
     static const char *const roots[] = {"pivot", "slide", "planar", "pivot"};
     static const char *const joints[] = {"pivot", "slide", "weld", "pivot", "particle", "slide", "planar"};
     *kind = parent < 0 ? roots[pick(numbers, 4)] : joints[pick(numbers, 7)];
+    if (tree->pivots) *kind = "pivot";
     fprintf(out, "    motion: {%s: {", *kind);
     if (parent >= 0) fprintf(out, "on: b%d, ", parent);
     double x = some(numbers), y = some(numbers);
@@ -66,7 +68,7 @@ static void write_body(FILE *out, struct random_numbers *numbers, const struct r
     fprintf(out, "  b%d:\n    mass: %g\n    center: [%g, %g]\n    inertia: %g\n", b,
             random_between(numbers, 0.5, 2), some(numbers), some(numbers), random_between(numbers, 0.1, 1));
     fprintf(out, "    points: {P: [%g, %g]}\n", some(numbers), some(numbers));
-    write_motion(out, numbers, parent, &kind);
+    write_motion(out, numbers, tree, parent, &kind);
     write_forces(out, numbers, tree, kind);
     write_moments(out, numbers, tree, kind);
 }
@@ -85,6 +87,16 @@ char *random_tree_text(struct random_numbers *numbers, const struct random_tree 
                 pick(numbers, b));
     if (!tree->conservative && tree->bodies > 1)
         fprintf(out, "  - damper: {between: [b1.P, b0.P], coefficient: 0.5}\n");
+    for (int k = 0; k < tree->loops; k++) {
+        int b = 1 + pick(numbers, tree->bodies - 1);
+        if (k % 3 == 0)
+            fprintf(out, "  - rod: {between: [b%d.P, ground.A%d]}\n", b, k);
+        else if (k % 3 == 1)
+            fprintf(out, "  - rod: {between: [b%d.P, b%d]}\n", b, pick(numbers, b));
+        else
+            fprintf(out, "  - rope: {through: [b%d, ground.A%d, b%d.P]}\n", b, k, pick(numbers, b));
+    }
+    fprintf(out, "ground: {points: {A0: [3, 1], A1: [-2, 2.5], A2: [0.3, 4]}}\n");
     fprintf(out, "simulate: {until: 0.5 s, tolerance: 1e-11}\n");
     fclose(out);
     return text;

@@ -13,6 +13,8 @@ struct random_tree {
     int bodies;
     bool conservative; /* gravity and springs alone */
     bool friction;     /* two-sided guides with dry friction, and dry bearings */
+    int loops;         /* rods and ropes that close loops */
+    bool pivots;       /* every joint is a pivot */
 };
 
 /* The text of a tree; release it with free(). */

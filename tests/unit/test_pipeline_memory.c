@@ -39,6 +39,22 @@ static const char text[] = "fbd: 1\n"
                            "    moments: [{damper: {coefficient: 0.1 N*m*s/rad}}]\n"
                            "simulate: {until: 0.4 s, events: [{when: 'block.x = 0.05[m]'}]}\n";
 
+static const char joined[] =
+    "fbd: 1\n"
+    "bodies:\n"
+    "  arm:\n"
+    "    shape: rod\n"
+    "    mass: 1 kg\n"
+    "    length: 1 m\n"
+    "    motion: {pivot: {point: left}}\n"
+    "    forces: [gravity]\n"
+    "  tip: {mass: 1 kg, motion: {weld: {on: arm, at: right}}, forces: [gravity]}\n"
+    "  bob: {mass: 1 kg, motion: particle, initial: {x: 1, y: -1}, forces: [gravity]}\n"
+    "couplings:\n"
+    "  - rope: {through: [bob, arm.right]}\n"
+    "  - spring: {between: [bob, arm], stiffness: 1}\n"
+    "simulate: {until: 0.1 s, events: [{when: 'arm.right.y < -0.01[m]'}]}\n";
+
 /* A call under test: true when everything in it worked. */
 typedef bool call(void);
 
@@ -48,11 +64,11 @@ static int swallow(void *context, const char *bytes, size_t length)
     return 0;
 }
 
-static fbd_model *load(fbd_errors **errors)
+static fbd_model *load(const char *scene, fbd_errors **errors)
 {
     *errors = fbd_errors_new();
     if (!*errors) return NULL;
-    fbd_model *model = fbd_model_parse(text, strlen(text), "scene", NULL, 0, *errors);
+    fbd_model *model = fbd_model_parse(scene, strlen(scene), "scene", NULL, 0, *errors);
     if (!model) fbd_errors_free(*errors);
     return model;
 }
@@ -64,16 +80,18 @@ static bool some(char *string)
     return there;
 }
 
-static bool run_and_write_with(fbd_options options)
+static bool run_and_write_with(const char *scene, fbd_options options)
 {
     fbd_errors *errors;
-    fbd_model *model = load(&errors);
+    fbd_model *model = load(scene, &errors);
     if (!model) return false;
     fbd_simulation *simulation = fbd_simulation_new(model, &options, errors);
-    fbd_recording recording = {.ledger = true, .csv = swallow};
+    fbd_recording recording = {.ledger = true, .csv = swallow, .keep = true};
     fbd_result *result = simulation ? fbd_simulation_run(simulation, &recording) : NULL;
     bool done = result && fbd_result_outcome(result) == FBD_DONE;
     done = done && some(fbd_result_report(result)) && some(fbd_result_json(result));
+    done = done && (!fbd_has_html() || some(fbd_result_html(result, errors)));
+    done = done && some(fbd_result_gnuplot(result, "a.svg", NULL, errors));
     fbd_result_free(result);
     fbd_simulation_free(simulation);
     fbd_model_free(model);
@@ -83,32 +101,39 @@ static bool run_and_write_with(fbd_options options)
 
 static bool run_and_write(void)
 {
-    return run_and_write_with((fbd_options)FBD_OPTIONS_DEFAULT);
+    return run_and_write_with(text, (fbd_options)FBD_OPTIONS_DEFAULT);
+}
+
+static bool run_and_write_joined(void)
+{
+    return run_and_write_with(joined, (fbd_options)FBD_OPTIONS_DEFAULT);
 }
 
 static bool run_with_error_bars(void)
 {
     fbd_options options = FBD_OPTIONS_DEFAULT;
     options.error_bars = true;
-    return run_and_write_with(options);
+    return run_and_write_with(text, options);
 }
 
 static bool run_accurately(void)
 {
     fbd_options options = FBD_OPTIONS_DEFAULT;
     options.accuracy = 1e-9;
-    return run_and_write_with(options);
+    return run_and_write_with(text, options);
 }
 
 static bool look_closer(void)
 {
     fbd_errors *errors;
-    fbd_model *model = load(&errors);
+    fbd_model *model = load(text, &errors);
     if (!model) return false;
     fbd_options options = FBD_OPTIONS_DEFAULT;
     char *verdict = NULL;
     fbd_state *state = fbd_state_new(model);
     bool done = state && some(fbd_equations_text(state)) && some(fbd_explain(model, &options));
+    done = done && some(fbd_diagram_svg(state, NULL, errors));
+    done = done && fbd_model_has_columns(model, "arm.omega,block.friction", errors);
     done = done && fbd_check_hand(model, 1, &verdict) == 0;
     free(verdict);
     fbd_state_free(state);
@@ -127,7 +152,7 @@ static bool linearize(void)
     fbd_model *model = fbd_model_parse(pendulum, strlen(pendulum), "scene", NULL, 0, errors);
     fbd_state *state = model ? fbd_state_new(model) : NULL;
     fbd_linearization *linear = state ? fbd_linearize(state, errors) : NULL;
-    bool done = linear && some(fbd_linearization_text(linear));
+    bool done = linear && some(fbd_linearization_text(linear)) && some(fbd_linearization_svg(linear));
     fbd_linearization_free(linear);
     fbd_state_free(state);
     fbd_model_free(model);
@@ -164,6 +189,12 @@ static void error_bars_without_memory_fail_and_leak_nothing(void **unused)
     fail_each(run_accurately);
 }
 
+static void a_run_of_joined_bodies_without_memory_fails_and_leaks_nothing(void **unused)
+{
+    (void)unused;
+    fail_each(run_and_write_joined);
+}
+
 static void looking_without_memory_fails_and_leaks_nothing(void **unused)
 {
     (void)unused;
@@ -188,6 +219,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_run_without_memory_fails_and_leaks_nothing),
         cmocka_unit_test(error_bars_without_memory_fail_and_leak_nothing),
+        cmocka_unit_test(a_run_of_joined_bodies_without_memory_fails_and_leaks_nothing),
         cmocka_unit_test(looking_without_memory_fails_and_leaks_nothing),
         cmocka_unit_test(linearisation_without_memory_fails_and_leaks_nothing),
     };

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "gnuplot.h"
+
+#include <errno.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+bool gnuplot_is_there(void)
+{
+    const char *path = getenv("PATH");
+    char place[4096];
+    for (const char *folder = path ? path : ""; *folder;) {
+        size_t length = strcspn(folder, ":");
+        int size = snprintf(place, sizeof place, "%.*s/gnuplot", (int)length, folder);
+        if (size > 0 && (size_t)size < sizeof place && access(place, X_OK) == 0) return true;
+        folder += length + (folder[length] == ':');
+    }
+    return false;
+}
+
+/* The script as an unnamed file, at its start. */
+static FILE *script_file(const char *script)
+{
+    FILE *file = tmpfile();
+    if (!file) return NULL;
+    bool written = fwrite(script, 1, strlen(script), file) == strlen(script) && fflush(file) == 0;
+    if (written && fseek(file, 0, SEEK_SET) == 0) return file;
+    fclose(file);
+    return NULL;
+}
+
+bool gnuplot_run(const char *script, int output)
+{
+    FILE *input = script_file(script);
+    if (!input) {
+        fprintf(stderr, "fbd-run: cannot write the script of the plot: %s\n", strerror(errno));
+        return false;
+    }
+    char name[] = "gnuplot", all[] = "-";
+    char *const arguments[] = {name, all, NULL};
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, fileno(input), STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+    pid_t child;
+    int failed = posix_spawnp(&child, name, &actions, NULL, arguments, environ), status = 1;
+    posix_spawn_file_actions_destroy(&actions);
+    if (failed)
+        fprintf(stderr, "fbd-run: cannot start gnuplot: %s\n", strerror(failed));
+    else
+        while (waitpid(child, &status, 0) < 0 && errno == EINTR) errno = 0;
+    fclose(input);
+    bool done = !failed && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    if (!done && !failed) fputs("fbd-run: gnuplot failed\n", stderr);
+    return done;
+}

@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "outputs.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "gnuplot.h"
+
+bool outputs_close(struct outputs *outputs, bool keep)
+{
+    bool done = true;
+    for (int i = 0; i < output_count; i++) {
+        struct whole_file *file = &outputs->files[i];
+        if (whole_file_close(file, keep)) continue;
+        fprintf(stderr, "fbd-run: cannot write `%s`: %s\n", file->path, strerror(errno));
+        done = false;
+    }
+    return done;
+}
+
+bool outputs_open(struct outputs *outputs, const struct options *options)
+{
+    const char *const paths[output_count] = {
+        [output_csv] = options->csv,   [output_json] = options->json,       [output_html] = options->html,
+        [output_plot] = options->plot, [output_gnuplot] = options->gnuplot,
+    };
+    for (int i = 0; i < output_count; i++) {
+        if (!paths[i] || whole_file_open(&outputs->files[i], paths[i])) continue;
+        fprintf(stderr, "fbd-run: cannot write `%s`: %s\n", paths[i], strerror(errno));
+        outputs->files[i] = (struct whole_file){0};
+        outputs_close(outputs, false);
+        return false;
+    }
+    return true;
+}
+
+bool outputs_on_stdout(struct outputs *outputs, const struct options *options)
+{
+    for (int i = 0; i < output_count; i++)
+        if (outputs->files[i].stream == stdout) return true;
+    return options->svg && strcmp(options->svg, "-") == 0;
+}
+
+/* Put a text of the library into an open file, if it is open, and free it; false when there is no text. An
+ * error of writing shows when the file is closed. */
+static bool put_text(struct whole_file *file, char *text)
+{
+    if (text) whole_file_write(file, text, strlen(text));
+    free(text);
+    return text != NULL;
+}
+
+static bool write_plot(struct outputs *outputs, const struct options *options, fbd_result *result,
+                       fbd_errors *errors)
+{
+    char *script = fbd_result_gnuplot(result, options->plot, options->plot_of, errors);
+    bool done = script && gnuplot_run(script, fileno(outputs->files[output_plot].stream));
+    free(script);
+    return done;
+}
+
+bool outputs_write(struct outputs *outputs, const struct options *options, fbd_result *result,
+                   fbd_errors *errors)
+{
+    if (outputs->files[output_json].stream &&
+        !put_text(&outputs->files[output_json], fbd_result_json(result))) {
+        fputs("fbd-run: out of memory\n", stderr);
+        return false;
+    }
+    if (outputs->files[output_html].stream &&
+        !put_text(&outputs->files[output_html], fbd_result_html(result, errors)))
+        return false;
+    if (outputs->files[output_gnuplot].stream &&
+        !put_text(&outputs->files[output_gnuplot],
+                  fbd_result_gnuplot(result, options->plot, options->plot_of, errors)))
+        return false;
+    return !outputs->files[output_plot].stream || write_plot(outputs, options, result, errors);
+}

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Run progress: one line on the terminal, never in a pipe or a file, and the place where a run
+ * hears of Ctrl-C.
+ */
+#ifndef FBD_APPS_RUN_PROGRESS_H
+#define FBD_APPS_RUN_PROGRESS_H
+
+#include "fbd.h"
+#include "interrupt.h"
+
+struct run_progress {
+    const struct interrupt *interrupt;
+    bool visible;         /* standard error is a terminal and nothing else is written to it */
+    bool drawn;           /* there is a line to take away */
+    double start, next;   /* wall clock [s] */
+    unsigned long visits; /* steps since the clock was looked at */
+};
+
+/* `visible` false: only listen for the interruption. */
+void run_progress_begin(struct run_progress *progress, const struct interrupt *interrupt, bool visible);
+
+/* An fbd_watch: `context` is a struct run_progress. */
+int run_progress_watch(void *context, const fbd_progress *now);
+
+/* Take the line away. */
+void run_progress_end(struct run_progress *progress);
+
+#endif

@@ -1,0 +1,291 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Forces as arrows of a length to scale, moments as arcs.
+ *
+ * Arrows that would lie on one another on the same line of action are set side by side: the labels say what
+ * acts where.
+ */
+#include <float.h>
+#include <string.h>
+
+#include "draw/panel.h"
+#include "output/result.h"
+
+static const double pi = 3.141592653589793, side_step = 2.4, head_length = 3, head_width = 2.2;
+static const double first_radius = 10, next_radius = 3.6, least_sweep = 0.7;
+
+/* A force this near to an axis, as a share of its size, is its own component. */
+static const double least_component = 0.02;
+
+/* ---- what is there */
+
+static const char *kind_of(const struct fbd_model *model, const struct arrow *arrow)
+{
+    if (arrow->load < 0) return "reaction";
+    switch (model->loads[arrow->load].source->kind) {
+    case load_gravity: return "gravity";
+    case load_normal:
+    case load_rope: return "reaction";
+    case load_friction:
+    case moment_friction: return "friction";
+    case load_applied:
+    case moment_applied: return "applied";
+    case load_spring:
+    case moment_spring: return "spring";
+    case load_damper:
+    case moment_damper:
+    case load_drag: return "damper";
+    case load_potential:
+    case moment_potential: return "potential";
+    }
+    return "applied";
+}
+
+/* Less than the rounding of the largest is nothing. */
+static bool is_nothing(double value, double largest)
+{
+    return !(fabs(value) > 64 * DBL_EPSILON * largest);
+}
+
+struct arrow_scale panel_largest(const struct panel *panel)
+{
+    struct arrow_scale most = {0, 0};
+    for (size_t i = 0; i < panel->arrow_count; i++) {
+        double force = vec_norm(panel->arrows[i].force), moment = fabs(panel->arrows[i].couple);
+        if (isfinite(force)) most.force = fmax(most.force, force);
+        if (isfinite(moment)) most.moment = fmax(most.moment, moment);
+    }
+    return most;
+}
+
+/* Where the arrow starts: on a slide, the forces of the surface act where the body touches it. */
+static struct vec tail_of(const struct panel *panel, const struct arrow *arrow)
+{
+    struct vec point = arrow->point;
+    if (panel->body->kind == motion_slide) {
+        const struct model_load *load = arrow->load >= 0 ? &panel->model->loads[arrow->load] : NULL;
+        bool own = load && &panel->model->bodies[load->body] == panel->body;
+        if (own && (load->source->kind == load_normal || load->source->kind == load_friction))
+            point = panel->base;
+    }
+    return panel_point(panel, point);
+}
+
+/* ---- forces */
+
+/* Do two arrows lie on one line and on one another? */
+static bool lie_together(const struct panel_arrow *a, const struct panel_arrow *b)
+{
+    if (b->radius > 0) return false;
+    struct vec d = vec_sub(a->head, a->tail), e = vec_sub(b->head, b->tail);
+    double length = vec_norm(d);
+    const double parallel = 0.05, near = 1.6, touch = 0.6;
+    if (length == 0 || fabs(vec_cross(d, e)) > parallel * length * vec_norm(e)) return false;
+    struct vec unit = vec_scale(1 / length, d), tail = vec_sub(b->tail, a->tail);
+    if (fabs(vec_cross(unit, tail)) > near) return false;
+    double from = vec_dot(unit, tail), to = from + vec_dot(unit, e);
+    return fmin(length, fmax(from, to)) - fmax(0, fmin(from, to)) > touch;
+}
+
+static void step_aside(const struct panel *panel, struct panel_arrow *arrow)
+{
+    enum { most_steps = 8 };
+    struct vec d = vec_sub(arrow->head, arrow->tail), tail = arrow->tail, head = arrow->head;
+    struct vec across = vec_scale(side_step / vec_norm(d), vec_perp(d));
+    for (int step = 0; step <= most_steps; step++) {
+        int aside = (step + 1) / 2 * (step % 2 ? 1 : -1); /* 0, 1, -1, 2, -2, ... */
+        arrow->tail = vec_add(tail, vec_scale(aside, across));
+        arrow->head = vec_add(head, vec_scale(aside, across));
+        bool free = true;
+        for (size_t i = 0; i < panel->drawn_count; i++) free &= !lie_together(arrow, &panel->drawn[i]);
+        if (free) return;
+    }
+}
+
+static const char *label_of(struct panel *panel, const struct panel_arrow *arrow, const char *name,
+                            const char *unit)
+{
+    return arena_printf(panel->arena, "%s %.4g %s", name, arrow->value, unit);
+}
+
+static void avoid_arrow(struct panel *panel, const struct panel_arrow *arrow)
+{
+    labelling_avoid(&panel->labels, arrow->tail, arrow->head, 12);
+    struct vec d = vec_sub(arrow->head, arrow->tail);
+    double length = vec_norm(d);
+    struct vec back = vec_sub(arrow->head, vec_scale(head_length / length, d)),
+               side = vec_scale(head_width / 2 / length, vec_perp(d));
+    labelling_avoid(&panel->labels, vec_add(back, side), vec_sub(back, side), 12);
+}
+
+static void draw_force(struct panel *panel, const struct arrow *source, struct vec force, const char *name,
+                       const char *suffix)
+{
+    double size = vec_norm(force), length = 10 * size / panel->scale.force;
+    struct panel_arrow *arrow = &panel->drawn[panel->drawn_count];
+    *arrow = (struct panel_arrow){.source = source,
+                                  .kind = kind_of(panel->model, source),
+                                  .suffix = suffix,
+                                  .component = suffix[0] != '\0',
+                                  .small = length < shortest_arrow,
+                                  .value = size,
+                                  .tail = tail_of(panel, source)};
+    struct vec unit = panel_direction(vec_scale(1 / size, force));
+    arrow->head = vec_add(arrow->tail, vec_scale(fmax(length, shortest_arrow), unit));
+    step_aside(panel, arrow);
+    const char *text = label_of(panel, arrow, name, force_unit(panel->model));
+    arrow->label = labelling_add(&panel->labels, text, label_size, arrow->head, unit, 1.2);
+    avoid_arrow(panel, arrow);
+    box_take(&panel->extent, arrow->tail);
+    box_take(&panel->extent, arrow->head);
+    panel->drawn_count++;
+}
+
+/* Along the axes of the world; on a slide along and across it, where that is more than a copy of the arrow.
+ */
+static void draw_components(struct panel *panel, const struct arrow *source, double largest)
+{
+    bool slide = panel->body->kind == motion_slide;
+    struct vec x = slide ? panel->body->e : (struct vec){1, 0},
+               y = slide ? panel->body->n : (struct vec){0, 1};
+    double along = vec_dot(source->force, x), across = vec_dot(source->force, y);
+    double size = vec_norm(source->force);
+    if (is_nothing(size, largest) || fmin(fabs(along), fabs(across)) < least_component * size) return;
+    const char *names[] = {arena_printf(panel->arena, "%s_x", source->name),
+                           arena_printf(panel->arena, slide ? "%s_n" : "%s_y", source->name)};
+    if (!names[0] || !names[1]) return;
+    draw_force(panel, source, vec_scale(along, x), names[0], "-x");
+    draw_force(panel, source, vec_scale(across, y), names[1], slide ? "-n" : "-y");
+}
+
+/* ---- moments */
+
+static struct vec arc_point(const struct panel_arrow *arrow, double share)
+{
+    double angle = arrow->start + share * arrow->sweep;
+    return vec_add(arrow->tail,
+                   vec_scale(arrow->radius, panel_direction((struct vec){cos(angle), sin(angle)})));
+}
+
+static void draw_moment(struct panel *panel, const struct arrow *source, int index, const char *suffix)
+{
+    struct vec axis = panel->body->kind == motion_pivot
+                          ? panel->pose.origin
+                          : point_motion(panel->body, &panel->pose, panel->body->inertia.G).p;
+    double sweep = pi / 2 * source->couple / panel->scale.moment;
+    struct panel_arrow *arrow = &panel->drawn[panel->drawn_count];
+    *arrow = (struct panel_arrow){.source = source,
+                                  .kind = kind_of(panel->model, source),
+                                  .suffix = suffix,
+                                  .small = fabs(sweep) < least_sweep,
+                                  .value = fabs(source->couple), /* the arc shows its sense */
+                                  .tail = panel_point(panel, axis),
+                                  .radius = first_radius + next_radius * index,
+                                  .start = 0.35 + 1.1 * index};
+    arrow->sweep = arrow->small ? copysign(least_sweep, sweep) : sweep;
+    const char *text = label_of(panel, arrow, source->name, printed_unit(moment_unit(panel->model)));
+    struct vec tip = arc_point(arrow, 1);
+    struct vec out = vec_scale(1 / arrow->radius, vec_sub(tip, arrow->tail));
+    arrow->label = labelling_add(&panel->labels, text, label_size, tip, out, 1.8);
+    enum { pieces = 12 };
+    for (int i = 0; i < pieces; i++) {
+        struct vec from = arc_point(arrow, (double)i / pieces), to = arc_point(arrow, (i + 1.0) / pieces);
+        labelling_avoid(&panel->labels, from, to, 12);
+        box_take(&panel->extent, from);
+        box_take(&panel->extent, to);
+    }
+    panel->drawn_count++;
+}
+
+void panel_arrows(struct panel *panel)
+{
+    enum { most_pieces = 4 }; /* a force, a moment, two components */
+    struct arrow_scale most = panel_largest(panel);
+    panel->drawn = ARENA_ARRAY(panel->arena, most_pieces * panel->arrow_count + 1, struct panel_arrow);
+    if (!panel->drawn) return;
+    int moments = 0;
+    for (size_t i = 0; i < panel->arrow_count; i++) {
+        const struct arrow *source = &panel->arrows[i];
+        bool force = isfinite(vec_norm(source->force)) && !is_nothing(vec_norm(source->force), most.force);
+        if (force) draw_force(panel, source, source->force, source->name, "");
+        if (force && panel->components) draw_components(panel, source, most.force);
+        if (isfinite(source->couple) && !is_nothing(source->couple, most.moment))
+            draw_moment(panel, source, moments++, force ? "-moment" : "");
+    }
+}
+
+/* ---- writing */
+
+static void write_head(struct text *text, struct vec tip, struct vec direction)
+{
+    struct vec back = vec_sub(tip, vec_scale(head_length, direction)),
+               side = vec_scale(head_width / 2, vec_perp(direction));
+    struct vec corners[] = {tip, vec_add(back, side), vec_sub(back, side)};
+    svg_polygon(text, "head", corners, 3);
+}
+
+static void write_force(struct text *text, const struct panel_arrow *arrow)
+{
+    struct vec d = vec_sub(arrow->head, arrow->tail);
+    struct vec unit = vec_scale(1 / vec_norm(d), d);
+    svg_line(text, "shaft", arrow->tail, vec_sub(arrow->head, vec_scale(head_length * 0.8, unit)));
+    write_head(text, arrow->head, unit);
+}
+
+static void write_moment(struct text *text, const struct panel_arrow *arrow)
+{
+    double bow = head_length * 0.8 / arrow->radius; /* of the head, as an angle */
+    double shaft = 1 - bow / fabs(arrow->sweep);
+    text_add(text, "<path class=\"shaft\" d=\"M");
+    svg_point(text, arc_point(arrow, 0));
+    text_printf(text, " A%.2f %.2f 0 %d %d ", arrow->radius, arrow->radius, shaft * fabs(arrow->sweep) > pi,
+                arrow->sweep < 0);
+    svg_point(text, arc_point(arrow, shaft));
+    text_add(text, "\"/>\n");
+    /* the head lies along the chord of the arc that it covers */
+    struct vec tip = arc_point(arrow, 1), chord = vec_sub(tip, arc_point(arrow, shaft));
+    write_head(text, tip, vec_scale(1 / vec_norm(chord), chord));
+}
+
+static void write_title(const struct panel *panel, const struct panel_arrow *arrow, struct text *text)
+{
+    const struct arrow *source = arrow->source;
+    text_printf(text, "<title>%s on %s: ", source->name, panel->body->name);
+    if (arrow->radius > 0) {
+        text_number(text, source->couple, 9);
+        text_printf(text, " %s</title>\n", moment_unit(panel->model));
+        return;
+    }
+    text_add(text, "(");
+    text_number(text, source->force.x, 9);
+    text_add(text, ", ");
+    text_number(text, source->force.y, 9);
+    text_printf(text, ") %s, ", force_unit(panel->model));
+    text_number(text, vec_norm(source->force), 9);
+    text_printf(text, " %s at ", force_unit(panel->model));
+    text_number(text, atan2(source->force.y, source->force.x) * 180 / pi, 6);
+    text_add(text, "° from x; acts at (");
+    text_number(text, source->point.x, 9);
+    text_add(text, ", ");
+    text_number(text, source->point.y, 9);
+    text_printf(text, ") %s</title>\n", length_unit(panel->model));
+}
+
+void panel_write_arrows(const struct panel *panel, struct text *text)
+{
+    for (size_t i = 0; i < panel->drawn_count; i++) {
+        const struct panel_arrow *arrow = &panel->drawn[i];
+        const struct label_place *label = &panel->labels.labels[arrow->label];
+        text_printf(text, "<g class=\"arrow %s%s%s\" id=\"%s-%s%s\">\n", arrow->kind,
+                    arrow->component ? " component" : "", arrow->small ? " small" : "", panel->body->name,
+                    arrow->source->name, arrow->suffix);
+        write_title(panel, arrow, text);
+        if (arrow->radius > 0)
+            write_moment(text, arrow);
+        else
+            write_force(text, arrow);
+        if (label->leader) svg_line(text, "leader", label->anchor, labelling_leader(label));
+        svg_text(text, "label", label->center, label_size, label->text);
+        text_add(text, "</g>\n");
+    }
+}

@@ -1,0 +1,312 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The free-body diagrams of a state as an SVG document: a panel for each body, side by side within the width
+ * of an A4 page, each with its heading, its scales and what is zero.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "draw/panel.h"
+#include "output/equations.h"
+#include "output/result.h"
+
+static const double page_width = 186, margin = 5, gap = 8, heading_height = 13, line_height = 4.2;
+
+/* Scales are one for all panels unless a body would then be drawn with arrows this many times too short. */
+static const double most_unequal = 2;
+
+double round_up(double value)
+{
+    if (!(value > 0)) return 1;
+    double power = pow(10, floor(log10(value)));
+    static const double steps[] = {1, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10};
+    for (int i = 0; i < 10; i++)
+        if (steps[i] * power >= value * (1 - 1e-9)) return steps[i] * power;
+    return 10 * power;
+}
+
+const char *printed_unit(const char *unit)
+{
+    if (strcmp(unit, "N*m") == 0) return "N·m";
+    return strcmp(unit, "lbf*ft") == 0 ? "lbf·ft" : unit;
+}
+
+struct sheet {
+    struct arena arena;
+    struct fbd_state *state;
+    struct panel *panels;
+    size_t count;
+    struct text text;
+    struct text *notes; /* per panel: lines under it, separated by line ends */
+};
+
+/* ---- panels */
+
+static bool start_panel(struct sheet *sheet, struct panel *panel, size_t body, bool components)
+{
+    struct fbd_state *state = sheet->state;
+    const struct fbd_model *model = state->model;
+    *panel = (struct panel){.arena = &sheet->arena,
+                            .model = model,
+                            .body = &model->bodies[body],
+                            .at = state_instant(state),
+                            .components = components,
+                            .labels = {.arena = &sheet->arena},
+                            .extent = box_nothing};
+    panel->pose = body_pose(panel->body, &panel->at);
+    panel->arrows = ARENA_ARRAY(&sheet->arena, diagram_arrows(model, (int)body), struct arrow);
+    if (!panel->arrows) return false;
+    panel->arrow_count = diagram_fill(model, (int)body, &panel->at, state->a, state->slots, panel->arrows);
+    return true;
+}
+
+static void set_scales(struct sheet *sheet)
+{
+    struct arrow_scale all = {0, 0};
+    for (size_t i = 0; i < sheet->count; i++) {
+        struct arrow_scale most = panel_largest(&sheet->panels[i]);
+        all.force = fmax(all.force, most.force);
+        all.moment = fmax(all.moment, most.moment);
+    }
+    for (size_t i = 0; i < sheet->count; i++) {
+        struct panel *panel = &sheet->panels[i];
+        struct arrow_scale own = panel_largest(panel);
+        double force = own.force * most_unequal < all.force ? own.force : all.force,
+               moment = own.moment * most_unequal < all.moment ? own.moment : all.moment;
+        panel->scale.force = round_up(10 * force / longest_arrow);
+        panel->scale.moment = round_up(moment / 3.4); /* up to 306 degrees */
+    }
+}
+
+/* ---- what is written under a panel */
+
+static void note_scales(const struct panel *panel, struct text *notes)
+{
+    struct arrow_scale most = panel_largest(panel);
+    if (most.force > 0)
+        text_printf(notes, "forces: 10 mm = %g %s\n", panel->scale.force, force_unit(panel->model));
+    if (most.moment > 0)
+        text_printf(notes, "moments: 90° of arc = %g %s\n", panel->scale.moment,
+                    printed_unit(moment_unit(panel->model)));
+    if (panel->sized)
+        text_printf(notes, "lengths: 10 mm = %g %s\n", 10 / panel->millimetres, length_unit(panel->model));
+    bool small = false;
+    for (size_t i = 0; i < panel->drawn_count; i++) small |= panel->drawn[i].small;
+    if (small) text_add(notes, "dashed: too small for the scale\n");
+}
+
+static void note_zeros(const struct panel *panel, struct text *notes)
+{
+    const char *before = "zero here: ";
+    for (size_t i = 0; i < panel->arrow_count; i++) {
+        bool drawn = false;
+        for (size_t k = 0; k < panel->drawn_count; k++) drawn |= panel->drawn[k].source == &panel->arrows[i];
+        if (drawn) continue;
+        text_printf(notes, "%s%s", before, panel->arrows[i].name);
+        before = ", ";
+    }
+    if (before[0] == ',') text_add(notes, "\n");
+}
+
+static void write_heading(const struct panel *panel, struct text *text, struct vec at)
+{
+    const struct model_body *body = panel->body;
+    const char *mass = panel->model->scene->units == unit_si ? "kg" : "slug";
+    struct text line = {0};
+    text_printf(&line, "m = %.4g %s", body->inertia.mass, mass);
+    bool turns = body->kind == motion_pivot || body->kind == motion_planar;
+    if (turns)
+        text_printf(&line, ", %s = %.4g %s", body->kind == motion_pivot ? "I_O" : "I_G",
+                    body->kind == motion_pivot ? body->I_O : body->inertia.I_G,
+                    panel->model->scene->units == unit_si ? "kg·m²" : "slug·ft²");
+    svg_text_at(text, "heading", at, body->name);
+    if (line.failed)
+        text->failed = true;
+    else
+        svg_text_at(text, "note", (struct vec){at.x, at.y + 5}, line.data);
+    text_free(&line);
+}
+
+/* Labels of the fixtures are those that no arrow owns. */
+static void write_notes(const struct panel *panel, struct text *text)
+{
+    for (size_t i = 0; i < panel->labels.label_count; i++) {
+        bool owned = false;
+        for (size_t k = 0; k < panel->drawn_count; k++) owned |= panel->drawn[k].label == i;
+        if (owned) continue;
+        const struct label_place *label = &panel->labels.labels[i];
+        if (label->leader) svg_line(text, "leader", label->anchor, labelling_leader(label));
+        svg_text(text, "label axis-label", label->center, label_size, label->text);
+    }
+}
+
+static void draw_panel(struct panel *panel)
+{
+    panel_set_scale(panel);
+    bool in_front = panel_fixtures_in_front(panel);
+    if (!in_front) panel_fixtures(panel);
+    panel_body(panel);
+    if (in_front) panel_fixtures(panel);
+    panel_arrows(panel);
+    labelling_solve(&panel->labels);
+    for (size_t i = 0; i < panel->labels.label_count; i++) {
+        struct box box = labelling_box(&panel->labels.labels[i]);
+        box_join(&panel->extent, &box);
+    }
+}
+
+/* ---- layout */
+
+static size_t count_lines(const struct text *text)
+{
+    size_t lines = 0;
+    for (const char *c = text->data; c && *c; c++) lines += *c == '\n';
+    return lines;
+}
+
+static double widest_line(const struct text *notes)
+{
+    double widest = 0;
+    char line[400];
+    for (const char *c = notes->data; c && *c;) {
+        size_t length = strcspn(c, "\n");
+        snprintf(line, sizeof line, "%.*s", (int)length, c);
+        widest = fmax(widest, svg_text_width(line, note_size));
+        c += length + (c[length] == '\n');
+    }
+    return widest;
+}
+
+static struct vec panel_size(const struct panel *panel, const struct text *notes)
+{
+    double wide = panel->extent.high.x - panel->extent.low.x,
+           high = panel->extent.high.y - panel->extent.low.y;
+    wide = fmax(wide, fmax(widest_line(notes), svg_text_width(panel->body->name, 5)));
+    return (struct vec){fmax(wide, 50), high + heading_height + line_height * (double)count_lines(notes) + 3};
+}
+
+static void write_panel(const struct panel *panel, struct text *notes, struct vec corner, struct text *text)
+{
+    text_printf(text, "<g class=\"diagram\" id=\"%s\">\n", panel->body->name);
+    write_heading(panel, text, (struct vec){corner.x, corner.y + 4});
+    struct vec shift = {corner.x - panel->extent.low.x, corner.y + heading_height - panel->extent.low.y};
+    text_add(text, "<g transform=\"translate(");
+    svg_point(text, shift);
+    text_add(text, ")\">\n");
+    if (panel->under.data) text_add(text, panel->under.data);
+    panel_write_arrows(panel, text);
+    write_notes(panel, text);
+    text_add(text, "</g>\n");
+    double y = corner.y + heading_height + panel->extent.high.y - panel->extent.low.y + 5;
+    for (char *c = notes->data; c && *c;) {
+        size_t length = strcspn(c, "\n");
+        bool more = c[length] == '\n';
+        c[length] = '\0';
+        svg_text_at(text, "note", (struct vec){corner.x, y}, c);
+        y += line_height;
+        c += length + more;
+    }
+    text_add(text, "</g>\n");
+}
+
+/* Put the panels in rows; returns the size of the document. With `text` they are written as well. */
+static struct vec lay_out(struct sheet *sheet, double top, struct text *text)
+{
+    struct vec at = {margin, top};
+    double row = 0, right = 0;
+    for (size_t i = 0; i < sheet->count; i++) {
+        struct vec size = panel_size(&sheet->panels[i], &sheet->notes[i]);
+        if (at.x > margin && at.x + size.x > page_width - margin) {
+            at = (struct vec){margin, at.y + row + gap};
+            row = 0;
+        }
+        right = fmax(right, at.x + size.x);
+        if (text) write_panel(&sheet->panels[i], &sheet->notes[i], at, text);
+        at.x += size.x + gap;
+        row = fmax(row, size.y);
+    }
+    return (struct vec){right + margin, at.y + row + margin};
+}
+
+static void write_sheet(struct sheet *sheet)
+{
+    const struct fbd_model *model = sheet->state->model;
+    struct text *text = &sheet->text;
+    const char *title = model->scene->title[0] ? model->scene->title : "Free-body diagram";
+    double top = margin + 14;
+    struct vec size = lay_out(sheet, top, NULL);
+    char time[64], description[200];
+    snprintf(time, sizeof time, "Free-body diagram at t = %.6g s", sheet->state->t);
+    snprintf(description, sizeof description,
+             "%s: each force as an arrow at the point where it acts, each moment as an arc", time);
+    size.x = fmax(size.x, 2 * margin + fmax(svg_text_width(title, 4.8), svg_text_width(time, note_size)));
+    svg_begin(text, size, title, description);
+    svg_text_at(text, "heading", (struct vec){margin, margin + 4}, title);
+    svg_text_at(text, "note", (struct vec){margin, margin + 9}, time);
+    lay_out(sheet, top, text);
+    text_add(text, "</svg>\n");
+}
+
+/* ---- the whole */
+
+static bool make_panels(struct sheet *sheet, const fbd_drawing *drawing)
+{
+    const struct fbd_model *model = sheet->state->model;
+    sheet->panels = ARENA_ARRAY(&sheet->arena, model->body_count, struct panel);
+    sheet->notes = ARENA_ARRAY(&sheet->arena, model->body_count, struct text);
+    if (!sheet->panels || !sheet->notes) return false;
+    for (size_t b = 0; b < model->body_count; b++) {
+        if (drawing->body && strcmp(model->bodies[b].name, drawing->body) != 0) continue;
+        if (!start_panel(sheet, &sheet->panels[sheet->count], b, drawing->components)) return false;
+        sheet->count++;
+    }
+    set_scales(sheet);
+    for (size_t i = 0; i < sheet->count; i++) {
+        struct panel *panel = &sheet->panels[i];
+        draw_panel(panel);
+        note_scales(panel, &sheet->notes[i]);
+        note_zeros(panel, &sheet->notes[i]);
+    }
+    return !sheet->arena.failed;
+}
+
+static bool body_is_there(const struct fbd_model *model, const char *name, fbd_errors *errors)
+{
+    const char **names = calloc(model->body_count + 1, sizeof *names);
+    bool found = false;
+    for (size_t b = 0; b < model->body_count; b++) {
+        found |= strcmp(model->bodies[b].name, name) == 0;
+        if (names) names[b] = model->bodies[b].name;
+    }
+    if (!found && names)
+        diag_add(errors, FBD_ERROR, "unknown-body", (struct pos){0, 0},
+                 diag_nearest(errors, name, names, model->body_count), "there is no body `%s`", name);
+    else if (!found)
+        diag_out_of_memory(errors);
+    free(names);
+    return found;
+}
+
+char *fbd_diagram_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *errors)
+{
+    static const fbd_drawing plain = {NULL, false};
+    struct sheet sheet = {.state = state};
+    if (!drawing) drawing = &plain;
+    errors->file = state->model->scene->file;
+    if (drawing->body && !body_is_there(state->model, drawing->body, errors)) return NULL;
+    state_ready(state);
+    bool done = make_panels(&sheet, drawing);
+    if (done) write_sheet(&sheet);
+    for (size_t i = 0; i < sheet.count; i++) {
+        if (sheet.panels[i].under.failed || sheet.notes[i].failed) sheet.text.failed = true;
+        text_free(&sheet.panels[i].under);
+        text_free(&sheet.notes[i]);
+    }
+    arena_free(&sheet.arena);
+    if (!done || sheet.text.failed) {
+        text_free(&sheet.text);
+        diag_out_of_memory(errors);
+        return NULL;
+    }
+    return sheet.text.data;
+}

@@ -1,0 +1,361 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What a body is drawn with: its outline and centre of mass, the surface or the axis that it moves on, and
+ * the coordinate that says where it is.
+ */
+#include <string.h>
+
+#include "draw/panel.h"
+#include "output/result.h"
+
+static const double pi = 3.141592653589793, body_size = 54, surface_half = 34, hatch_step = 2.4;
+
+/* Drawn for a body on a slide whose file gives it no size: half width and half height on paper. */
+static const double block_half_width = 9, block_half_height = 6.5, dot_radius = 1.6;
+
+struct vec panel_point(const struct panel *panel, struct vec world)
+{
+    return vec_scale(panel->millimetres, panel_direction(vec_sub(world, panel->middle)));
+}
+
+void panel_line(struct panel *panel, const char *css, struct vec from, struct vec to, double cost)
+{
+    svg_line(&panel->under, css, from, to);
+    box_take(&panel->extent, from);
+    box_take(&panel->extent, to);
+    if (cost > 0) labelling_avoid(&panel->labels, from, to, cost);
+}
+
+void panel_note(struct panel *panel, const char *string, struct vec anchor, struct vec toward)
+{
+    labelling_add(&panel->labels, string, label_size, anchor, toward, 1);
+}
+
+/* ---- scale */
+
+static struct vec world_of(const struct panel *panel, struct vec point)
+{
+    return point_motion(panel->body, &panel->pose, point).p;
+}
+
+/* Direction of +x of a slide in the world, and the one that its surface pushes to: a surface that is another
+ * body turns with it. */
+static struct vec along_of(const struct panel *panel)
+{
+    return panel->pose.rotation;
+}
+
+static struct vec normal_of(const struct panel *panel)
+{
+    const struct model_body *body = panel->body;
+    double side = vec_dot(body->n, vec_perp(body->e)) > 0 ? 1 : -1;
+    return vec_scale(side, vec_perp(panel->pose.rotation));
+}
+
+static bool on_ground(const struct panel *panel)
+{
+    return panel->body->parent == ground_body;
+}
+
+/* The reach of the body from its centre of mass down to its surface, on paper and in the scene. */
+static void set_base(struct panel *panel)
+{
+    const struct model_body *body = panel->body;
+    struct vec G = body->inertia.G, down = vec_scale(-1, normal_of(panel));
+    struct vec in_body = {vec_dot(down, panel->pose.rotation), vec_dot(down, vec_perp(panel->pose.rotation))};
+    double reach =
+        panel->sized ? outline_reach(body->source, G, in_body) : block_half_height / panel->millimetres;
+    panel->base = vec_add(world_of(panel, G), vec_scale(reach, down));
+}
+
+void panel_set_scale(struct panel *panel)
+{
+    const struct model_body *body = panel->body;
+    struct vec low, high, G = body->inertia.G;
+    panel->sized = outline_size(body->source, &low, &high);
+    if (!panel->sized) low = high = G;
+    low = (struct vec){fmin(low.x, G.x), fmin(low.y, G.y)};
+    high = (struct vec){fmax(high.x, G.x), fmax(high.y, G.y)};
+    if (body->kind == motion_pivot) {
+        low = (struct vec){fmin(low.x, body->pin.x), fmin(low.y, body->pin.y)};
+        high = (struct vec){fmax(high.x, body->pin.x), fmax(high.y, body->pin.y)};
+    }
+    double size = vec_norm(vec_sub(high, low));
+    panel->middle = world_of(panel, vec_scale(0.5, vec_add(low, high)));
+    panel->millimetres = size > 0 ? 10 / round_up(10 * size / body_size) : 1;
+    panel->sized = panel->sized || size > 0;
+    if (body->kind == motion_slide) set_base(panel);
+}
+
+/* ---- the body */
+
+static void draw_part(struct panel *panel, const struct outline_part *part)
+{
+    struct text *text = &panel->under;
+    struct vec center = panel_point(panel, world_of(panel, part->center)), corners[4];
+    const char *css = part->hole ? "hole" : "body";
+    switch (part->kind) {
+    case outline_dot: svg_circle(text, "mass", center, dot_radius); break;
+    case outline_circle:
+        svg_circle(text, css, center, part->radius * panel->millimetres);
+        if (part->inner > 0) svg_circle(text, "hole", center, part->inner * panel->millimetres);
+        break;
+    case outline_bar:
+        for (int i = 0; i < 2; i++) corners[i] = panel_point(panel, world_of(panel, part->corner[i]));
+        svg_line(text, "bar", corners[0], corners[1]);
+        svg_line(text, "bar-inside", corners[0], corners[1]);
+        labelling_avoid(&panel->labels, corners[0], corners[1], 3);
+        break;
+    case outline_polygon:
+        for (int i = 0; i < 4; i++) corners[i] = panel_point(panel, world_of(panel, part->corner[i]));
+        svg_polygon(text, css, corners, 4);
+        for (int i = 0; i < 4; i++) labelling_avoid(&panel->labels, corners[i], corners[(i + 1) % 4], 9);
+        break;
+    case outline_unknown: break;
+    }
+}
+
+static void take_part(struct panel *panel, const struct outline_part *part)
+{
+    double reach = part->kind == outline_circle ? part->radius * panel->millimetres : dot_radius;
+    struct vec center = panel_point(panel, world_of(panel, part->center));
+    box_take(&panel->extent, (struct vec){center.x - reach, center.y - reach});
+    box_take(&panel->extent, (struct vec){center.x + reach, center.y + reach});
+    for (int i = 0; i < (part->kind == outline_polygon ? 4 : part->kind == outline_bar ? 2 : 0); i++)
+        box_take(&panel->extent, panel_point(panel, world_of(panel, part->corner[i])));
+    if (part->kind != outline_circle) return;
+    enum { sides = 16 };
+    for (int i = 0; i < sides; i++) {
+        struct vec from = vec_unit(2 * pi * i / sides), to = vec_unit(2 * pi * (i + 1) / sides);
+        labelling_avoid(&panel->labels, vec_add(center, vec_scale(reach, from)),
+                        vec_add(center, vec_scale(reach, to)), 5);
+    }
+}
+
+/* A body without a size: a block on a slide, a blob of no particular shape elsewhere. */
+static void draw_sizeless(struct panel *panel)
+{
+    const struct model_body *body = panel->body;
+    struct vec G = panel_point(panel, world_of(panel, body->inertia.G));
+    if (body->kind != motion_slide) {
+        svg_circle(&panel->under, body->kind == motion_particle ? "mass" : "body", G,
+                   body->kind == motion_particle ? dot_radius : 8);
+        return;
+    }
+    struct vec along = vec_scale(block_half_width, panel_direction(along_of(panel))),
+               up = vec_scale(block_half_height, panel_direction(normal_of(panel)));
+    struct vec corners[] = {vec_add(G, vec_add(along, up)), vec_add(G, vec_sub(up, along)),
+                            vec_sub(G, vec_add(along, up)), vec_add(G, vec_sub(along, up))};
+    svg_polygon(&panel->under, "body", corners, 4);
+    for (int i = 0; i < 4; i++) {
+        labelling_avoid(&panel->labels, corners[i], corners[(i + 1) % 4], 9);
+        box_take(&panel->extent, corners[i]);
+    }
+}
+
+/* The mark of a centre of mass: a circle of four quarters. */
+static void draw_center(struct panel *panel)
+{
+    const double r = 1.5;
+    struct vec G = panel_point(panel, world_of(panel, panel->body->inertia.G));
+    svg_circle(&panel->under, "center", G, r);
+    text_add(&panel->under, "<path class=\"center-dark\" d=\"M");
+    svg_point(&panel->under, G);
+    text_printf(&panel->under,
+                " v%.2f a%.2f %.2f 0 0 1 %.2f %.2f z m0,0 v%.2f a%.2f %.2f 0 0 1 %.2f %.2f z\"/>\n", -r, r, r,
+                r, r, r, r, r, -r, -r);
+    labelling_avoid(&panel->labels, (struct vec){G.x - r, G.y}, (struct vec){G.x + r, G.y}, 20);
+    panel_note(panel, "G", G, (struct vec){-0.8, -0.6});
+}
+
+void panel_body(struct panel *panel)
+{
+    const struct body *source = panel->body->source;
+    text_printf(&panel->under, "<g class=\"outline\" id=\"%s-outline\">\n", panel->body->name);
+    if (panel->body->kind == motion_pivot) { /* whatever holds its parts on the axis */
+        struct vec axis = panel_point(panel, panel->pose.origin);
+        for (size_t i = 0; i < source->part_count; i++)
+            panel_line(panel, "thread", axis,
+                       panel_point(panel, world_of(panel, outline_of_part(&source->parts[i]).center)), 2);
+    }
+    struct vec low, high;
+    if (!outline_size(source, &low, &high) && panel->body->kind != motion_pivot) draw_sizeless(panel);
+    for (int holes = 0; holes < 2; holes++)
+        for (size_t i = 0; i < source->part_count; i++) {
+            struct outline_part part = outline_of_part(&source->parts[i]);
+            if (part.hole != (holes == 1)) continue;
+            bool plain_dot = part.kind == outline_dot && !panel->sized;
+            if (!plain_dot) draw_part(panel, &part);
+            take_part(panel, &part);
+        }
+    draw_center(panel);
+    text_add(&panel->under, "</g>\n");
+}
+
+/* ---- the ground under it */
+
+/* A line with hatching on the side `into`. */
+static void hatched_line(struct panel *panel, struct vec from, struct vec to, struct vec into)
+{
+    struct vec d = vec_sub(to, from);
+    double length = vec_norm(d);
+    struct vec unit = vec_scale(1 / length, d);
+    panel_line(panel, "ground", from, to, 6);
+    text_add(&panel->under, "<path class=\"hatch\" d=\"");
+    int count = (int)(length / hatch_step);
+    for (int i = 0; i <= count; i++) {
+        struct vec start = vec_add(from, vec_scale(i * hatch_step, unit));
+        struct vec end = vec_add(start, vec_scale(hatch_step, vec_sub(into, vec_scale(0.8, unit))));
+        text_add(&panel->under, i ? " M" : "M");
+        svg_point(&panel->under, start);
+        text_add(&panel->under, " L");
+        svg_point(&panel->under, end);
+        box_take(&panel->extent, end);
+    }
+    text_add(&panel->under, "\"/>\n");
+    struct vec deep = vec_scale(hatch_step * 0.6, into);
+    labelling_avoid(&panel->labels, vec_add(from, deep), vec_add(to, deep), 2);
+}
+
+static void axis_arrow(struct panel *panel, struct vec from, struct vec to, const char *name)
+{
+    struct vec d = vec_sub(to, from), unit = vec_scale(1 / vec_norm(d), d);
+    struct vec back = vec_sub(to, vec_scale(2, unit)), side = vec_scale(0.8, vec_perp(unit));
+    struct vec head[] = {to, vec_add(back, side), vec_sub(back, side)};
+    panel_line(panel, "axis", from, back, 4);
+    svg_polygon(&panel->under, "axis-head", head, 3);
+    box_take(&panel->extent, to);
+    panel_note(panel, name, to, unit);
+}
+
+/* An arc around `center` from angle a by `sweep`, both as in the world, with a head at its end. */
+static void angle_arc(struct panel *panel, struct vec center, double radius, double a, double sweep,
+                      const char *name)
+{
+    double end = a + sweep, bow = fmin(fabs(sweep), 1.8 / radius);
+    double shaft = end - copysign(bow, sweep);
+    struct vec from = vec_add(center, vec_scale(radius, panel_direction(vec_unit(a)))),
+               to = vec_add(center, vec_scale(radius, panel_direction(vec_unit(shaft)))),
+               tip = vec_add(center, vec_scale(radius, panel_direction(vec_unit(end))));
+    text_add(&panel->under, "<path class=\"axis\" d=\"M");
+    svg_point(&panel->under, from);
+    text_printf(&panel->under, " A%.2f %.2f 0 %d %d ", radius, radius, fabs(sweep) - bow > pi, sweep < 0);
+    svg_point(&panel->under, to);
+    text_add(&panel->under, "\"/>\n");
+    struct vec chord = vec_sub(tip, to);
+    double length = vec_norm(chord);
+    if (length > 0.3) {
+        struct vec side = vec_scale(0.7 / length, vec_perp(chord));
+        struct vec head[] = {tip, vec_add(to, side), vec_sub(to, side)};
+        svg_polygon(&panel->under, "axis-head", head, 3);
+    }
+    enum { pieces = 8 };
+    struct vec last = from;
+    for (int i = 1; i <= pieces; i++) {
+        struct vec next =
+            vec_add(center, vec_scale(radius, panel_direction(vec_unit(a + sweep * i / pieces))));
+        labelling_avoid(&panel->labels, last, next, 8);
+        box_take(&panel->extent, next);
+        last = next;
+    }
+    struct vec out = panel_direction(vec_unit(a + sweep / 2));
+    panel_note(panel, name, vec_add(center, vec_scale(radius, out)), out);
+}
+
+static void draw_slide(struct panel *panel)
+{
+    const struct model_body *body = panel->body;
+    struct vec e = panel_direction(along_of(panel)), into = panel_direction(vec_scale(-1, normal_of(panel))),
+               base = panel_point(panel, panel->base);
+    bool surface = false, guide = false;
+    for (size_t i = 0; i < body->source->load_count; i++) {
+        surface |= body->source->loads[i].kind == load_normal;
+        guide |= body->source->loads[i].kind == load_normal && body->source->loads[i].two_sided;
+    }
+    struct vec half = vec_scale(surface_half, e);
+    if (surface) hatched_line(panel, vec_sub(base, half), vec_add(base, half), into);
+    if (guide) {
+        struct vec G = panel_point(panel, world_of(panel, body->inertia.G));
+        struct vec over = vec_sub(vec_scale(2, G), base);
+        hatched_line(panel, vec_add(over, half), vec_sub(over, half), vec_scale(-1, into));
+    }
+    struct vec far = vec_add(base, vec_scale(surface_half + 9, e));
+    if (!surface) {
+        struct vec G = panel_point(panel, world_of(panel, body->inertia.G));
+        panel_line(panel, "reference", vec_sub(G, half), vec_add(G, half), 2);
+        far = vec_add(G, vec_scale(surface_half + 9, e));
+    }
+    axis_arrow(panel, vec_sub(far, vec_scale(9, e)), far, "x");
+    double along = atan2(along_of(panel).y, along_of(panel).x);
+    if (fabs(remainder(along, pi / 2)) < 1e-9) return;
+    /* The angle from the horizontal, at the low end of the line. */
+    struct vec foot = vec_sub(far, vec_scale(2 * surface_half + 9, e));
+    double turn = along;
+    panel_line(panel, "reference", foot, vec_add(foot, (struct vec){18, 0}), 3);
+    const char *text = arena_printf(panel->arena, "%.4g°", turn * 180 / pi);
+    if (text) angle_arc(panel, foot, 13, 0, turn, text);
+}
+
+/* The angle that a body has turned, from `zero` in the world. */
+static void draw_angle(struct panel *panel, struct vec center, double zero, double length)
+{
+    const struct model_body *body = panel->body;
+    double theta = panel->at.y[body_angle_coordinate(body)], turn = remainder(theta, 2 * pi);
+    struct vec end = vec_add(center, vec_scale(length, panel_direction(vec_unit(zero))));
+    panel_line(panel, "reference", center, end, 5);
+    const char *text = arena_printf(panel->arena, "θ = %.4g°", theta * 180 / pi);
+    if (!text) return;
+    if (fabs(turn) < 0.03)
+        panel_note(panel, text, end, panel_direction(vec_unit(zero)));
+    else
+        angle_arc(panel, center, body->kind == motion_planar ? length - 3 : fmin(length - 2, 17), zero, turn,
+                  text);
+}
+
+/* A bearing: a triangle on hatched ground, on the side away from the body. */
+static void draw_pivot(struct panel *panel)
+{
+    const struct model_body *body = panel->body;
+    struct vec axis = panel_point(panel, panel->pose.origin);
+    struct vec G = vec_sub(panel_point(panel, world_of(panel, body->inertia.G)), axis);
+    bool hangs = vec_norm(G) > 1;
+    struct vec d = {0, hangs && G.y > -0.3 * vec_norm(G) ? -1 : 1};
+    if (on_ground(panel)) {
+        struct vec foot = vec_add(axis, vec_scale(6, d)), side = {3.6, 0}, wide = {7, 0};
+        struct vec corners[] = {axis, vec_add(foot, side), vec_sub(foot, side)};
+        svg_polygon(&panel->under, "support", corners, 3);
+        hatched_line(panel, vec_sub(foot, wide), vec_add(foot, wide), d);
+    }
+    /* theta counts from where the body's frame lies along the one that it moves on */
+    double parent = body_angle(body, &panel->at) - panel->at.y[body->first];
+    double zero = parent + (hangs ? atan2(body->arm.y, body->arm.x) : 0);
+    draw_angle(panel, axis, zero, hangs ? fmin(fmax(0.7 * vec_norm(G), 14), 26) : 20);
+}
+
+static void draw_axis_of_body(struct panel *panel, struct vec center, double length)
+{
+    struct vec x = panel_direction(panel->pose.rotation);
+    panel_line(panel, "reference", center, vec_add(center, vec_scale(length, x)), 5);
+}
+
+/* A body that turns about its own middle would hide the bearing behind it. */
+bool panel_fixtures_in_front(const struct panel *panel)
+{
+    return panel->body->kind == motion_pivot && panel->body->L * panel->millimetres < 1;
+}
+
+void panel_fixtures(struct panel *panel)
+{
+    const struct model_body *body = panel->body;
+    text_printf(&panel->under, "<g class=\"fixtures\" id=\"%s-fixtures\">\n", body->name);
+    if (body->kind == motion_slide) draw_slide(panel);
+    if (body->kind == motion_pivot) draw_pivot(panel);
+    if (body->kind == motion_planar) {
+        struct vec G = panel_point(panel, world_of(panel, body->inertia.G));
+        double theta = panel->at.y[body_angle_coordinate(body)];
+        double reach = outline_reach(body->source, body->inertia.G, (struct vec){1, 0}) * panel->millimetres;
+        draw_axis_of_body(panel, G, reach + 12);
+        draw_angle(panel, G, body_angle(body, &panel->at) - theta, reach + 12);
+    }
+    text_add(&panel->under, "</g>\n");
+}

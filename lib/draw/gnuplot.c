@@ -1,0 +1,272 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * A run as a script for gnuplot that carries its data: one plot below the other for each unit, the events as
+ * lines.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/diag.h"
+#include "draw/record.h"
+#include "dynamics/modes.h"
+
+enum { digits = 10, most_events = 200, plot_width = 900, plot_height = 300 };
+
+/* Gnuplot takes quadratic time to read data within a script. */
+enum { most_rows = 4000 };
+
+/* What is plotted: columns of the record, those of one unit together. */
+struct choice {
+    const struct record *record;
+    int *columns;
+    size_t count;
+};
+
+/* ---- names of columns */
+
+static bool is_shown(const struct record_column *column)
+{
+    return column->kind != record_pose && column->kind != record_term && column->kind != record_arrow;
+}
+
+static int find_column(const struct record *record, const char *name, size_t length)
+{
+    for (size_t c = 0; c < record->column_count; c++)
+        if (is_shown(&record->columns[c]) && strlen(record->columns[c].name) == length &&
+            memcmp(record->columns[c].name, name, length) == 0)
+            return (int)c;
+    return -1;
+}
+
+static void unknown_column(const struct record *record, const char *name, size_t length, fbd_errors *errors)
+{
+    const char **names = calloc(record->column_count, sizeof *names);
+    const char *wrong = diag_hint(errors, "%.*s", (int)length, name);
+    size_t count = 0;
+    for (size_t c = 0; names && c < record->column_count; c++)
+        if (is_shown(&record->columns[c])) names[count++] = record->columns[c].name;
+    if (names && wrong)
+        diag_add(errors, FBD_ERROR, "unknown-column", (struct pos){0, 0},
+                 diag_nearest(errors, wrong, names, count), "there is no column `%s`", wrong);
+    else
+        diag_out_of_memory(errors);
+    free(names);
+}
+
+/* The columns of a list "block.v,block.friction"; false with a note for each that does not exist. */
+static bool choose_named(struct choice *choice, const char *list, fbd_errors *errors)
+{
+    bool found = true;
+    for (const char *name = list; *name;) {
+        size_t length = strcspn(name, ",");
+        int column = find_column(choice->record, name, length);
+        if (column < 0) {
+            unknown_column(choice->record, name, length, errors);
+            found = false;
+        } else if (choice->count < choice->record->column_count) {
+            choice->columns[choice->count++] = column;
+        }
+        name += length + (name[length] == ',');
+    }
+    return found;
+}
+
+static void choose_usual(struct choice *choice)
+{
+    const struct record *record = choice->record;
+    for (size_t c = 0; c < record->column_count; c++) {
+        enum record_kind kind = record->columns[c].kind;
+        bool residual = (int)c == record->energy + 3;
+        if (kind == record_coordinate || (kind == record_energy && !residual))
+            choice->columns[choice->count++] = (int)c;
+    }
+}
+
+bool fbd_model_has_columns(const fbd_model *model, const char *columns, fbd_errors *errors)
+{
+    struct record record = {.model = model};
+    struct choice choice = {.record = &record};
+    errors->file = model->scene->file;
+    record.probe = state_new(model);
+    record.arrows = calloc(diagram_most_arrows(model), sizeof *record.arrows);
+    bool done = record.probe && record.arrows && modes_settle(record.probe, NULL), found = false;
+    if (done) state_evaluate(record.probe);
+    done = done && record_define(&record, record.probe);
+    if (done) choice.columns = calloc(record.column_count, sizeof *choice.columns);
+    if (choice.columns)
+        found = choose_named(&choice, columns, errors);
+    else
+        diag_out_of_memory(errors);
+    free(choice.columns);
+    record_free(&record);
+    return found;
+}
+
+/* ---- the script */
+
+/* Between single quotes gnuplot takes everything as it is, and '' for one quote. */
+static void quote(struct text *text, const char *string)
+{
+    text_add(text, "'");
+    for (const char *c = string; *c; c++) {
+        if (*c == '\'') text_add(text, "'");
+        text_add_bytes(text, *c == '\n' ? " " : c, 1);
+    }
+    text_add(text, "'");
+}
+
+static bool ends_with(const char *string, const char *end)
+{
+    size_t length = strlen(string), tail = strlen(end);
+    return length >= tail && strcmp(string + length - tail, end) == 0;
+}
+
+static void write_terminal(struct text *text, const char *file, size_t plots)
+{
+    size_t height = plots * plot_height + 40;
+    if (ends_with(file, ".svg"))
+        text_printf(text, "set terminal svg size %d,%zu dynamic font 'Arial,13' background 'white'\n",
+                    plot_width, height);
+    else if (ends_with(file, ".pdf"))
+        text_printf(text, "set terminal pdfcairo size 18cm,%gcm font 'Arial,9'\n",
+                    18.0 * (double)height / plot_width);
+    else if (ends_with(file, ".png"))
+        text_printf(text, "set terminal pngcairo size %d,%zu font 'Arial,11'\n", plot_width, height);
+}
+
+static bool is_thinned(const struct record *record)
+{
+    return record_is_thinned(record) || record->count > most_rows;
+}
+
+static void write_row(struct text *text, const struct choice *choice, size_t row)
+{
+    const struct record *record = choice->record;
+    text_number(text, record->times[row], 17);
+    for (size_t k = 0; k < choice->count; k++) {
+        text_add(text, " ");
+        text_number(text, record->rows[row * record->column_count + (size_t)choice->columns[k]], digits);
+    }
+    text_add(text, "\n");
+}
+
+static void write_data(struct text *text, const struct choice *choice)
+{
+    const struct record *record = choice->record;
+    text_add(text, "$data << END\n");
+    size_t step = 1 + record->count / most_rows;
+    for (size_t row = 0; row < record->count; row++)
+        if (row % step == 0 || record->kept[row]) write_row(text, choice, row);
+    text_add(text, "END\n");
+    if (!is_thinned(record)) return;
+    text_add(text, "# least and greatest value of each column in pieces of the run\n$envelope << END\n");
+    for (size_t k = 0; k < record->bucket_count; k++) {
+        const float *cells = record->envelope + 2 * k * record->column_count;
+        const float *first = cells + 2 * (size_t)choice->columns[0];
+        if (!(first[0] <= first[1])) continue; /* nothing was seen there */
+        text_number(text, ((double)k + 0.5) * record->bucket, digits);
+        for (size_t i = 0; i < choice->count; i++) {
+            for (int end = 0; end < 2; end++) {
+                text_add(text, " ");
+                text_number(text, (double)cells[2 * (size_t)choice->columns[i] + (size_t)end], digits);
+            }
+        }
+        text_add(text, "\n");
+    }
+    text_add(text, "END\n");
+}
+
+static void write_events(struct text *text, const struct ensemble *run)
+{
+    for (size_t i = 0; i < run->event_count && run->event_count <= most_events; i++) {
+        text_add(text, "set arrow from first ");
+        text_number(text, run->events[i].t, digits);
+        text_add(text, ", graph 0 to first ");
+        text_number(text, run->events[i].t, digits);
+        text_add(text, ", graph 1 nohead back linecolor 'gray' dashtype 2\n");
+    }
+}
+
+static const char *unit_of(const struct choice *choice, size_t index)
+{
+    return choice->record->columns[choice->columns[index]].unit;
+}
+
+/* Is this the first column of its unit? */
+static bool begins_plot(const struct choice *choice, size_t index)
+{
+    for (size_t k = 0; k < index; k++)
+        if (strcmp(unit_of(choice, k), unit_of(choice, index)) == 0) return false;
+    return true;
+}
+
+static void write_plot(struct text *text, const struct choice *choice, size_t first)
+{
+    bool thinned = is_thinned(choice->record);
+    text_printf(text, "set ylabel '[%s]' noenhanced\n", unit_of(choice, first));
+    const char *before = "plot ";
+    for (size_t k = first, style = 1; k < choice->count; k++) {
+        if (strcmp(unit_of(choice, k), unit_of(choice, first)) != 0) continue;
+        text_add(text, before);
+        if (thinned)
+            text_printf(text,
+                        "$envelope using 1:%zu:%zu with filledcurves fillstyle solid 0.3 noborder "
+                        "linecolor %zu notitle, ",
+                        2 * k + 2, 2 * k + 3, style);
+        text_printf(text, "$data using 1:%zu with lines linecolor %zu title ", k + 2, style++);
+        quote(text, choice->record->columns[choice->columns[k]].name);
+        text_add(text, " noenhanced");
+        before = ", \\\n     ";
+    }
+    text_add(text, "\n");
+}
+
+static void write_script(struct text *text, const struct choice *choice, const struct ensemble *run,
+                         const char *file)
+{
+    size_t plots = 0;
+    for (size_t k = 0; k < choice->count; k++) plots += begins_plot(choice, k);
+    text_add(text, "# A script for gnuplot, written by fbd\n");
+    if (file) write_terminal(text, file, plots);
+    write_data(text, choice);
+    text_printf(text, "set multiplot layout %zu,1 title ", plots);
+    quote(text, run->model->scene->title);
+    text_add(text, " noenhanced\nset grid\nset key outside right top\nset xlabel 't [s]'\nset lmargin 12\n");
+    text_add(text, "set rmargin 24\nset xrange [");
+    text_number(text, choice->record->times[0], digits);
+    text_add(text, ":");
+    text_number(text, choice->record->times[choice->record->count - 1], digits);
+    text_add(text, "]\n");
+    write_events(text, run);
+    for (size_t k = 0; k < choice->count; k++)
+        if (begins_plot(choice, k)) write_plot(text, choice, k);
+    text_add(text, "unset multiplot\n");
+}
+
+char *fbd_result_gnuplot(fbd_result *result, const char *file, const char *columns, fbd_errors *errors)
+{
+    const struct ensemble *run = result->simulation->ensemble;
+    struct choice choice = {.record = result->record};
+    struct text text = {0};
+    errors->file = run->model->scene->file;
+    if (!result->record) {
+        diag_add(errors, FBD_ERROR, "not-recorded", (struct pos){0, 0}, "set `keep` in fbd_recording",
+                 "the run was not recorded");
+        return NULL;
+    }
+    choice.columns = calloc(result->record->column_count, sizeof *choice.columns);
+    if (!choice.columns) {
+        diag_out_of_memory(errors);
+        return NULL;
+    }
+    bool found = true;
+    if (columns)
+        found = choose_named(&choice, columns, errors);
+    else
+        choose_usual(&choice);
+    if (found) write_script(&text, &choice, run, file);
+    free(choice.columns);
+    if (found && text.failed) diag_out_of_memory(errors);
+    if (text.failed) text_free(&text);
+    return text.data;
+}

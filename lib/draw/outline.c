@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "draw/outline.h"
+
+static void set_bar(struct outline_part *outline, struct vec along, double length)
+{
+    struct vec half = vec_scale(length / 2, along);
+    outline->kind = outline_bar;
+    outline->corner[0] = vec_sub(outline->center, half);
+    outline->corner[1] = vec_add(outline->center, half);
+}
+
+static void set_rectangle(struct outline_part *outline, struct vec along, double length, double width)
+{
+    struct vec half = vec_scale(length / 2, along), across = vec_scale(width / 2, vec_perp(along));
+    if (!(length > 0) || !(width > 0)) {
+        if (length > 0 || width > 0)
+            set_bar(outline, length > 0 ? along : vec_perp(along), fmax(length, width));
+        return;
+    }
+    outline->kind = outline_polygon;
+    outline->corner[0] = vec_add(outline->center, vec_add(half, across));
+    outline->corner[1] = vec_add(outline->center, vec_sub(across, half));
+    outline->corner[2] = vec_sub(outline->center, vec_add(half, across));
+    outline->corner[3] = vec_add(outline->center, vec_sub(half, across));
+}
+
+static void set_circle(struct outline_part *outline, double radius, double inner)
+{
+    outline->kind = radius > 0 ? outline_circle : outline_dot;
+    outline->radius = radius;
+    outline->inner = inner;
+}
+
+/* Shapes of symmetry about x are circles when x faces the plane; from the side they are rectangles. The
+ * sides of a prism are those of the two axes that lie in the plane. */
+struct outline_part outline_of_part(const struct part *part)
+{
+    struct outline_part outline = {.kind = outline_dot, .hole = part->mass < 0, .center = part->center};
+    struct vec along = vec_unit(part->angle);
+    bool faces = part->axis == 'x';
+    switch (part->shape) {
+    case shape_point: break;
+    case shape_rod:
+        if (!faces) set_bar(&outline, along, part->length);
+        break;
+    case shape_sphere: set_circle(&outline, part->radius, 0); break;
+    case shape_cylinder:
+    case shape_hollow_cylinder:
+        if (faces)
+            set_circle(&outline, part->radius, part->inner_radius);
+        else
+            set_rectangle(&outline, along, part->length, 2 * part->radius);
+        break;
+    case shape_ring:
+        if (faces)
+            set_circle(&outline, part->radius, 0.94 * part->radius); /* thin, but to be seen */
+        else
+            set_bar(&outline, vec_perp(along), 2 * part->radius);
+        break;
+    case shape_prism:
+        set_rectangle(&outline, along, part->side[faces ? 1 : 0], part->side[part->axis == 'z' ? 1 : 2]);
+        break;
+    case shape_given: outline.kind = outline_unknown; break;
+    }
+    return outline;
+}
+
+static double reach_of(const struct outline_part *part, struct vec center, struct vec along)
+{
+    double middle = vec_dot(vec_sub(part->center, center), along), most = middle;
+    if (part->kind == outline_circle) return middle + part->radius;
+    int corners = part->kind == outline_polygon ? 4 : part->kind == outline_bar ? 2 : 0;
+    for (int i = 0; i < corners; i++) most = fmax(most, vec_dot(vec_sub(part->corner[i], center), along));
+    return most;
+}
+
+double outline_reach(const struct body *body, struct vec center, struct vec along)
+{
+    double most = 0;
+    for (size_t i = 0; i < body->part_count; i++) {
+        struct outline_part part = outline_of_part(&body->parts[i]);
+        if (!part.hole) most = fmax(most, reach_of(&part, center, along));
+    }
+    return most;
+}
+
+bool outline_size(const struct body *body, struct vec *low, struct vec *high)
+{
+    const struct vec right = {1, 0}, up = {0, 1}, left = {-1, 0}, down = {0, -1}, zero = {0, 0};
+    *low = (struct vec){HUGE_VAL, HUGE_VAL};
+    *high = (struct vec){-HUGE_VAL, -HUGE_VAL};
+    for (size_t i = 0; i < body->part_count; i++) {
+        struct outline_part part = outline_of_part(&body->parts[i]);
+        if (part.hole) continue;
+        *low = (struct vec){fmin(low->x, -reach_of(&part, zero, left)),
+                            fmin(low->y, -reach_of(&part, zero, down))};
+        *high = (struct vec){fmax(high->x, reach_of(&part, zero, right)),
+                             fmax(high->y, reach_of(&part, zero, up))};
+    }
+    return high->x > low->x || high->y > low->y;
+}

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Outline: what a body looks like, from its parts, in its own frame and in the scene's lengths.
+ */
+#ifndef FBD_DRAW_OUTLINE_H
+#define FBD_DRAW_OUTLINE_H
+
+#include "model/model.h"
+
+enum outline_kind {
+    outline_dot,     /* too small to have a size: a point mass, a rod seen from its end */
+    outline_bar,     /* slender: from corner[0] to corner[1] */
+    outline_circle,  /* center, radius; inner > 0 for a ring or tube */
+    outline_polygon, /* four corners */
+    outline_unknown, /* the file gives its moment of inertia and no shape */
+};
+
+struct outline_part {
+    enum outline_kind kind;
+    bool hole; /* of negative mass: cut out of the others */
+    struct vec center;
+    double radius, inner;
+    struct vec corner[4];
+};
+
+/* How the part looks in the plane. */
+struct outline_part outline_of_part(const struct part *part);
+
+/* The farthest that the body reaches from `center` in the direction `along` (a unit vector), all in the body
+ * frame; 0 when nothing of it has a size. */
+double outline_reach(const struct body *body, struct vec center, struct vec along);
+
+/* The corners of the smallest upright rectangle, in the body frame, that holds the body's parts. False when
+ * it has no size. */
+bool outline_size(const struct body *body, struct vec *low, struct vec *high);
+
+#endif

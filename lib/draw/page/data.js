@@ -1,0 +1,115 @@
+"use strict";
+
+// The run as columns of numbers over rows, and their values between the rows.
+
+const run = JSON.parse(document.getElementById("data").textContent);
+
+function decode(base64) {
+  const text = atob(base64);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
+  return bytes.buffer;
+}
+
+const doubles = new Float64Array(decode(run.doubles));
+const floats = new Float32Array(decode(run.floats));
+const envelope = new Float32Array(decode(run.envelope));
+const times = doubles.subarray(0, run.rows);
+
+run.columns.forEach((column, index) => {
+  column.index = index;
+  if (column.d !== undefined) column.data = doubles.subarray((column.d + 1) * run.rows, (column.d + 2) * run.rows);
+  if (column.f !== undefined) column.data = floats.subarray(column.f * run.rows, (column.f + 1) * run.rows);
+  if (column.c === null) column.c = NaN;
+});
+
+// A column whose rate of change is another one is interpolated with it.
+run.bodies.forEach((body) => {
+  body.coordinates.forEach((c, k) => { run.columns[c].slope = body.rates[k]; });
+  if (body.sloped) body.rates.forEach((c, k) => { run.columns[c].slope = body.accelerations[k]; });
+});
+
+// The number of column `index` in a row.
+function cell(index, row) {
+  const column = run.columns[index];
+  if (column.data) return column.data[row];
+  return column.of === undefined ? column.c : column.a + column.b * cell(column.of, row);
+}
+
+// The last row at or before t: of the two rows of an event the one after it.
+function rowAt(t) {
+  let low = 0, high = run.rows - 1;
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (times[middle] <= t) low = middle; else high = middle - 1;
+  }
+  return low;
+}
+
+function hermite(index, slope, row, t) {
+  const h = times[row + 1] - times[row], u = (t - times[row]) / h;
+  const a = cell(index, row), b = cell(index, row + 1), p = h * cell(slope, row), q = h * cell(slope, row + 1);
+  return a + u * (p + u * (3 * (b - a) - 2 * p - q + u * (2 * (a - b) + p + q)));
+}
+
+// The cubic through four rows, or fewer where an event is near; rows that nearly coincide say nothing of slopes.
+function cubic(index, row, t) {
+  const rows = [row, row + 1], h = times[row + 1] - times[row];
+  if (row > 0 && times[row] - times[row - 1] > 0.2 * h) rows.push(row - 1);
+  if (row + 2 < run.rows && times[row + 2] - times[row + 1] > 0.2 * h) rows.push(row + 2);
+  let sum = 0;
+  for (const i of rows) {
+    let weight = 1;
+    for (const k of rows) if (k !== i) weight *= (t - times[k]) / (times[i] - times[k]);
+    sum += weight * cell(index, i);
+  }
+  return sum;
+}
+
+// The value of a column at time t; `row` is rowAt(t).
+function valueAt(index, t, row) {
+  const column = run.columns[index];
+  if (column.of !== undefined) return column.a + column.b * valueAt(column.of, t, row);
+  if (!column.data) return column.c;
+  if (t <= times[row] || row + 1 >= run.rows) return column.data[row];
+  return column.slope === undefined ? cubic(index, row, t) : hermite(index, column.slope, row, t);
+}
+
+// The least and greatest value of a column in [from, to]: of the rows, and of what was thinned out.
+function extremes(index, from, to, firstRow, lastRow) {
+  const column = run.columns[index];
+  if (column.of !== undefined) {
+    const [low, high] = extremes(column.of, from, to, firstRow, lastRow);
+    const a = column.a + column.b * low, b = column.a + column.b * high;
+    return a < b ? [a, b] : [b, a];
+  }
+  if (!column.data) return [column.c, column.c];
+  let low = Infinity, high = -Infinity;
+  for (let i = firstRow; i <= lastRow; i++) {
+    const value = column.data[i];
+    if (value < low) low = value;
+    if (value > high) high = value;
+  }
+  if (!run.thinned) return [low, high];
+  const slot = column.d === undefined ? run.doubleColumns + column.f : column.d;
+  const all = run.doubleColumns + run.floatColumns;
+  // each piece of the envelope counts where it begins
+  for (let k = Math.ceil(from / run.bucket); k < run.buckets && k * run.bucket < to; k++) {
+    const at = 2 * (k * all + slot);
+    if (envelope[at] < low) low = envelope[at];
+    if (envelope[at + 1] > high) high = envelope[at + 1];
+  }
+  return [low, high];
+}
+
+// A number for people: six digits.
+function show(value) {
+  if (!Number.isFinite(value)) return "–";
+  const size = Math.abs(value);
+  if (size !== 0 && (size < 1e-4 || size >= 1e6)) return value.toExponential(5);
+  return String(Number(value.toPrecision(6)));
+}
+
+function unit(text) {
+  return text.replace(/\*/g, "·");
+}

@@ -1,0 +1,225 @@
+"use strict";
+
+// The page: time, controls, tables. `fbd` is for whoever drives the page by a script.
+
+const element = (id) => document.getElementById(id);
+const player = { t: run.start, playing: false, speed: 1, last: 0, written: 0, frames: 0, drawing: 0 };
+const eventTimes = run.events.times;
+const speeds = [0.001, 0.01, 0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10, 100, 1000, 1e4, 1e5, 1e6];
+const allBodies = -1, fewBodies = 4;
+
+function now() {
+  return player.t;
+}
+
+function eventLabel(i) {
+  return run.events.labels[run.events.of[i]] || { body: "", kind: "event", name: "" };
+}
+
+function chosenBody() {
+  const value = Number(element("body").value);
+  return value === allBodies ? null : value;
+}
+
+function chosenBodies() {
+  const chosen = chosenBody();
+  return chosen === null ? run.bodies : [run.bodies[chosen]];
+}
+
+// ---- tables
+
+function addRow(table, cells, css) {
+  const row = table.insertRow();
+  if (css) row.className = css;
+  for (const [text, number] of cells) {
+    const td = row.insertCell();
+    td.textContent = text;
+    if (number) td.className = "number";
+  }
+  return row;
+}
+
+// One equation: the terms, their sum, the inertia and the acceleration.
+function showEquation(equation, t, row) {
+  const table = document.createElement("table"), units = unit(equation.unit);
+  table.createCaption().textContent = `${equation.name}: ${equation.inertia} ${equation.accelerationName} = sum`;
+  let sum = 0, largest = 0;
+  for (const [term, column] of equation.terms) {
+    const value = valueAt(column, t, row);
+    sum += value;
+    largest = Math.max(largest, Math.abs(value));
+    addRow(table, [[term], [show(value), true], [units]]);
+  }
+  if (Math.abs(sum) < 5e-7 * largest) sum = 0; // the terms are known to seven digits
+  addRow(table, [["sum"], [show(sum), true], [units]], "sum");
+  addRow(table, [[equation.inertia], [show(equation.value), true], [unit(equation.inertiaUnit)]]);
+  const acceleration = valueAt(equation.acceleration, t, row);
+  addRow(table, [[equation.accelerationName], [show(acceleration), true], [unit(equation.accelerationUnit)]]);
+  return table;
+}
+
+function showTables(t) {
+  const row = rowAt(t), energy = unit(run.units.energy), clock = `t = ${show(t)} s`;
+  element("equations-time").textContent = clock;
+  element("ledger-time").textContent = clock;
+  const equations = chosenBodies().reduce((list, body) => list.concat(body.equations.map((e) => showEquation(e, t, row))), []);
+  element("equations").replaceChildren(...equations);
+  const ledger = element("ledger");
+  ledger.textContent = "";
+  for (const column of run.energy) addRow(ledger, [[run.columns[column].n.replace(".", ": ")], [show(valueAt(column, t, row)), true], [energy]]);
+  for (const body of chosenBodies())
+    for (const arrow of body.arrows)
+      if (arrow.work >= 0) addRow(ledger, [[`work of ${body.name}.${arrow.name}`], [show(valueAt(arrow.work, t, row)), true], [energy]]);
+}
+
+function showCost() {
+  const s = run.stats, table = element("cost");
+  const rows = [["method", s.method], ["tolerance of a step", show(s.tolerance)], ["steps", String(s.steps)], ["rejected", String(s.rejected)],
+    ["right-hand sides", String(s.rhs)], ["Jacobians", String(s.jacobians)], ["steps by the stiff method", String(s.stiffSteps)],
+    ["processor time of the run", `${show(s.seconds)} s`], ["events", String(run.events.count)],
+    ["rows in this page", `${run.rows}${run.thinned ? ", thinned; extremes are kept in the plots" : ""}`]];
+  for (const [label, value] of rows) addRow(table, [[label], [value, true]]);
+}
+
+function listEvents() {
+  const most = 1000, list = element("events");
+  if (run.events.count === 0) list.textContent = "none";
+  eventTimes.slice(0, most).forEach((t, i) => {
+    const label = eventLabel(i), button = document.createElement("button");
+    button.type = "button";
+    button.dataset.index = i;
+    const detail = run.events.details[i] || label.name;
+    button.textContent = `t = ${show(t)} s  ${label.body} ${label.kind}: ${detail}`;
+    button.addEventListener("click", () => seek(t));
+    list.append(button);
+  });
+  if (run.events.count > most) list.append(`and ${run.events.count - most} more`);
+}
+
+// ---- time
+
+// Redraw at the present time; the texts not at every frame of a motion.
+function refresh(everything = true) {
+  const before = performance.now();
+  drawScene(player.t, { forces: element("show-forces").checked, names: element("show-names").checked,
+    velocity: element("show-velocity").checked, trace: element("show-trace").checked }, chosenBody());
+  placeCursors();
+  element("scrub").value = player.t;
+  element("clock").textContent = `${show(player.t)} s`;
+  if (everything || before - player.written > 66) {
+    showValues(plotWindow.hover === null ? player.t : plotWindow.hover);
+    showTables(plotWindow.hover === null ? player.t : plotWindow.hover);
+    player.written = before;
+  }
+  player.frames++;
+  player.drawing += performance.now() - before;
+}
+
+function seek(t) {
+  player.t = Math.min(Math.max(t, run.start), run.end);
+  refresh();
+}
+
+function setPlaying(playing) {
+  player.playing = playing && run.end > run.start;
+  element("play").textContent = player.playing ? "❚❚" : "▶";
+  if (!player.playing) { refresh(); return; }
+  if (player.t >= run.end) player.t = run.start;
+  player.last = performance.now();
+  requestAnimationFrame(advance);
+}
+
+function advance(clock) {
+  if (!player.playing) return;
+  player.t += Math.max(0, clock - player.last) / 1000 * player.speed;
+  player.last = Math.max(clock, player.last);
+  if (player.t >= run.end) {
+    player.t = run.end;
+    setPlaying(false);
+    return;
+  }
+  refresh(false);
+  requestAnimationFrame(advance);
+}
+
+function setSpeed(speed) {
+  player.speed = speed;
+  element("speed").value = String(speed);
+}
+
+function changeSpeed(by) {
+  const i = speeds.indexOf(player.speed) + by;
+  if (i >= 0 && i < speeds.length) setSpeed(speeds[i]);
+}
+
+function seekEvent(direction) {
+  const small = 1e-12 * Math.max(Math.abs(run.end), 1);
+  const ahead = eventTimes.filter((t) => (t - player.t) * direction > small);
+  if (ahead.length) seek(direction > 0 ? ahead[0] : ahead[ahead.length - 1]);
+}
+
+const keys = {
+  " ": () => setPlaying(!player.playing),
+  ArrowLeft: () => seek(player.t - (run.end - run.start) / 200),
+  ArrowRight: () => seek(player.t + (run.end - run.start) / 200),
+  Home: () => seek(run.start),
+  End: () => seek(run.end),
+  "+": () => changeSpeed(1),
+  "-": () => changeSpeed(-1),
+  n: () => seekEvent(1),
+  p: () => seekEvent(-1),
+};
+
+function seekHash() {
+  const match = /^#t=([-+0-9.eE]+)$/.exec(location.hash);
+  if (match && Number.isFinite(Number(match[1]))) seek(Number(match[1]));
+}
+
+// ---- the start
+
+function fillChoices() {
+  element("title").textContent = run.title || "fbd";
+  element("summary").textContent = `t = ${show(run.start)} s to ${show(run.end)} s, ${run.bodies.length} ${run.bodies.length === 1 ? "body" : "bodies"}` +
+    (run.reason ? `. The run ended early: ${run.reason}` : "");
+  element("body").add(new Option("all", String(allBodies)));
+  run.bodies.forEach((body, i) => element("body").add(new Option(body.name, String(i))));
+  if (run.bodies.length > fewBodies) element("body").value = "0";
+  element("which").hidden = run.bodies.length === 1;
+  element("show-trace").checked = run.bodies.length < fewBodies;
+  for (const speed of speeds) element("speed").add(new Option(speed === 1 ? "real time" : `${speed} ×`, String(speed)));
+  Object.assign(element("scrub"), { min: run.start, max: run.end, value: run.start });
+  setSpeed(1);
+}
+
+function connect() {
+  element("play").addEventListener("click", () => setPlaying(!player.playing));
+  element("scrub").addEventListener("input", () => seek(Number(element("scrub").value)));
+  element("speed").addEventListener("change", () => setSpeed(Number(element("speed").value)));
+  element("body").addEventListener("change", () => { makeCharts(chosenBodies()); refresh(); });
+  for (const id of ["show-forces", "show-names", "show-velocity", "show-trace"]) element(id).addEventListener("change", () => refresh());
+  document.addEventListener("keydown", (event) => {
+    const typing = event.target.tagName === "SELECT" || (event.target.tagName === "BUTTON" && event.key === " ");
+    const sliding = event.target.id === "scrub" && event.key.startsWith("Arrow");
+    if (typing || sliding || event.ctrlKey || event.metaKey || event.altKey || !keys[event.key]) return;
+    event.preventDefault();
+    keys[event.key]();
+  });
+  addEventListener("resize", () => { fit(); refresh(); });
+  addEventListener("hashchange", seekHash);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { fit(); refresh(); });
+}
+
+fillChoices();
+measure();
+fit();
+makeCharts(chosenBodies());
+listEvents();
+showCost();
+connect();
+seek(run.start);
+seekHash();
+
+window.fbd = {
+  seek, setPlaying, setSpeed, zoom: setWindow, player, run,
+  value: (columnName, t) => valueAt(run.columns.findIndex((column) => column.n === columnName), t, rowAt(t)),
+};

@@ -1,0 +1,488 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What the page knows of a run, as one JSON object:
+ *
+ *     title, units, outcome, reason, stats    as in the JSON of the run
+ *     rows, thinned, bucket, buckets          of the data
+ *     columns    [{n: name, u: unit, c: constant} | {.., of, a, b: a + b column[of]} | {.., d | f: number of
+ * data}] doubles, floats, envelope               base 64, see pack.h; `doubles` begins with the times bodies
+ * [{name, motion, frame: [3 columns], shapes, G, axis | line, arrows, equations}] links      springs and
+ * dampers that have another end energy     [4 columns] events     {kinds, labels, times (base 64), of (index
+ * into labels), details}
+ *
+ * Names and titles are data, never markup: the script puts them into the page as text.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "draw/outline.h"
+#include "draw/pack.h"
+#include "draw/page.h"
+
+enum {
+    digits = 17,
+    most_bytes = 3600 * 1024,
+    most_listed_events = 60000,
+    bytes_of_event = 26,
+    most_details = 2000
+};
+
+/* ---- JSON */
+
+static void key(struct text *text, const char *name)
+{
+    text_json_string(text, name);
+    text_add(text, ":");
+}
+
+static void number(struct text *text, double value)
+{
+    if (isfinite(value))
+        text_number(text, value, digits);
+    else
+        text_add(text, "null");
+}
+
+static void vector(struct text *text, struct vec v)
+{
+    text_add(text, "[");
+    number(text, v.x);
+    text_add(text, ",");
+    number(text, v.y);
+    text_add(text, "]");
+}
+
+static void text_member(struct text *text, const char *name, const char *value)
+{
+    key(text, name);
+    text_json_string(text, value);
+    text_add(text, ",");
+}
+
+static void number_member(struct text *text, const char *name, double value)
+{
+    key(text, name);
+    number(text, value);
+    text_add(text, ",");
+}
+
+/* The comma of a list before all but its first entry. */
+static void comma(struct text *text, size_t index)
+{
+    if (index) text_add(text, ",");
+}
+
+/* "name":[first, first + 1, ...], */
+static void columns_member(struct text *text, const char *name, int first, int count)
+{
+    key(text, name);
+    text_add(text, "[");
+    for (int i = 0; i < count; i++) text_printf(text, i ? ",%d" : "%d", first + i);
+    text_add(text, "],");
+}
+
+/* ---- columns */
+
+static void write_columns(struct text *text, const struct pack *pack)
+{
+    const struct record *record = pack->record;
+    text_add(text, "\"columns\":[");
+    for (size_t c = 0; c < record->column_count; c++) {
+        const struct packed_column *packed = &pack->columns[c];
+        comma(text, c);
+        text_add(text, "\n{");
+        text_member(text, "n", record->columns[c].name);
+        text_member(text, "u", record->columns[c].unit);
+        switch (packed->kind) {
+        case packed_constant:
+            key(text, "c");
+            number(text, packed->offset);
+            break;
+        case packed_affine:
+            number_member(text, "a", packed->offset);
+            number_member(text, "b", packed->factor);
+            text_printf(text, "\"of\":%d", packed->of);
+            break;
+        case packed_double: text_printf(text, "\"d\":%zu", packed->slot); break;
+        case packed_float: text_printf(text, "\"f\":%zu", packed->slot); break;
+        }
+        text_add(text, "}");
+    }
+    text_add(text, "],\n");
+}
+
+static void write_numbers(struct text *text, const struct pack *pack)
+{
+    const struct record *record = pack->record;
+    text_printf(text,
+                "\"rows\":%zu,\"thinned\":%s,\"buckets\":%zu,\"doubleColumns\":%zu,\"floatColumns\":%zu,",
+                record->count, record_is_thinned(record) ? "true" : "false", record->bucket_count,
+                pack->doubles, pack->floats);
+    number_member(text, "bucket", record->bucket);
+    text_add(text, "\n\"doubles\":\"");
+    pack_write_doubles(pack, text);
+    text_add(text, "\",\n\"floats\":\"");
+    pack_write_floats(pack, text);
+    text_add(text, "\",\n\"envelope\":\"");
+    pack_write_envelope(pack, text);
+    text_add(text, "\",\n");
+}
+
+/* ---- bodies */
+
+static void write_shape(struct text *text, const struct outline_part *part)
+{
+    static const char *const kinds[] = {"dot", "bar", "circle", "polygon", "unknown"};
+    text_add(text, "{");
+    text_member(text, "kind", kinds[part->kind]);
+    if (part->hole) text_add(text, "\"hole\":true,");
+    if (part->kind == outline_circle) {
+        number_member(text, "radius", part->radius);
+        number_member(text, "inner", part->inner);
+    }
+    int corners = part->kind == outline_polygon ? 4 : part->kind == outline_bar ? 2 : 0;
+    if (corners > 0) {
+        text_add(text, "\"corners\":[");
+        for (int i = 0; i < corners; i++) {
+            comma(text, (size_t)i);
+            vector(text, part->corner[i]);
+        }
+        text_add(text, "],");
+    }
+    key(text, "center");
+    vector(text, part->center);
+    text_add(text, "}");
+}
+
+static void write_arrow(struct text *text, const struct record_of_arrow *arrow)
+{
+    text_add(text, "\n{");
+    text_member(text, "name", arrow->name);
+    columns_member(text, "arrow", arrow->arrow, 5);
+    columns_member(text, "force", arrow->force, arrow->force_count);
+    text_printf(text, "\"reaction\":%s,\"work\":%d}", arrow->load < 0 ? "true" : "false", arrow->work);
+}
+
+/* One equation: inertia * acceleration = sum of terms. */
+struct row {
+    const char *body, *coordinate, *inertia, *inertia_unit, *acceleration, *acceleration_unit, *unit;
+    double value;
+    int column; /* of the acceleration */
+};
+
+static void begin_equation(struct text *text, const struct row *row)
+{
+    struct text name = {0};
+    text_printf(&name, row->body ? "%s.%s" : "%s%s", row->body ? row->body : "", row->coordinate);
+    text_add(text, "\n{");
+    text_member(text, "name", name.data ? name.data : "");
+    text->failed |= name.failed;
+    text_free(&name);
+    text_member(text, "inertia", row->inertia);
+    number_member(text, "value", row->value);
+    text_member(text, "inertiaUnit", row->inertia_unit);
+    text_member(text, "accelerationName", row->acceleration);
+    text_member(text, "accelerationUnit", row->acceleration_unit);
+    text_member(text, "unit", row->unit);
+    text_printf(text, "\"acceleration\":%d,\"terms\":[", row->column);
+}
+
+static void write_term(struct text *text, const char *name, int column, bool *first)
+{
+    if (!*first) text_add(text, ",");
+    *first = false;
+    text_add(text, "[");
+    text_json_string(text, name);
+    text_printf(text, ",%d]", column);
+}
+
+/* The equation of a coordinate. */
+static void write_coordinate_equation(struct text *text, const struct record *record, int b, int k)
+{
+    const struct fbd_model *model = record->model;
+    const struct model_body *body = &model->bodies[b];
+    const struct record_of_body *columns = &record->bodies[b];
+    const struct label *label = &model->labels[body->first + k];
+    bool pivot = body->kind == motion_pivot, jointed = columns->newton >= 0;
+    struct row row = {.coordinate = label->name,
+                      .inertia = pivot    ? "I_O"
+                                 : k == 2 ? "I_G"
+                                          : "m",
+                      .inertia_unit = label->inertia_unit,
+                      .acceleration = !jointed ? label->acceleration_name
+                                      : pivot  ? "alpha"
+                                               : "a_x",
+                      .acceleration_unit = label->acceleration_unit,
+                      .unit = label->force_unit,
+                      .value = pivot    ? body->I_O
+                               : k == 2 ? body->inertia.I_G
+                                        : body->inertia.mass,
+                      .column = !jointed ? columns->acceleration + k : columns->newton + (pivot ? 2 : 3)};
+    begin_equation(text, &row);
+    bool first = true;
+    for (size_t i = 0; i < columns->arrow_count; i++) {
+        const struct record_of_arrow *arrow = &columns->arrows[i];
+        if (arrow->term >= 0 && arrow->name != body->reaction)
+            write_term(text, arrow->name, arrow->term + k, &first);
+    }
+    if (columns->moving_axis >= 0) write_term(text, "moving axis", columns->moving_axis, &first);
+    text_add(text, "]}");
+}
+
+/* Newton's and Euler's equations of a jointed body, reactions and all. */
+static void write_newton_equations(struct text *text, const struct record *record, int b)
+{
+    const struct fbd_model *model = record->model;
+    const struct model_body *body = &model->bodies[b];
+    const struct record_of_body *columns = &record->bodies[b];
+    static const char *const names[] = {"G.x", "G.y", "G.angle"}, *const accelerations[] = {"a_Gx", "a_Gy",
+                                                                                            "alpha"};
+    bool si = model->scene->units == unit_si;
+    for (int part = 0; part < 3; part++) {
+        bool turns = part == 2;
+        struct row row = {.body = body->name,
+                          .coordinate = names[part],
+                          .inertia = turns ? "I_G" : "m",
+                          .inertia_unit = turns ? (si ? "kg*m^2" : "slug*ft^2")
+                                          : si  ? "kg"
+                                                : "slug",
+                          .acceleration = accelerations[part],
+                          .acceleration_unit = turns ? "rad/s^2"
+                                               : si  ? "m/s^2"
+                                                     : "ft/s^2",
+                          .unit = turns ? moment_unit(model) : force_unit(model),
+                          .value = turns ? body->inertia.I_G : body->inertia.mass,
+                          .column = columns->newton + part};
+        if (part > 0 || body->count == 1) text_add(text, ",");
+        begin_equation(text, &row);
+        bool first = true;
+        for (size_t i = 0; i < columns->arrow_count; i++)
+            write_term(text, columns->arrows[i].name, columns->arrows[i].force + part, &first);
+        text_add(text, "]}");
+    }
+}
+
+static void write_equations(struct text *text, const struct record *record, int b)
+{
+    const struct model_body *body = &record->model->bodies[b];
+    bool jointed = record->bodies[b].newton >= 0;
+    text_add(text, "\"equations\":[");
+    for (int k = 0; k < body->count && (!jointed || body->count == 1); k++) {
+        comma(text, (size_t)k);
+        write_coordinate_equation(text, record, b, k);
+    }
+    if (jointed) write_newton_equations(text, record, b);
+    text_add(text, "],");
+}
+
+static void write_guide(struct text *text, const struct model_body *body)
+{
+    if (body->kind == motion_pivot && body->parent == ground_body) {
+        key(text, "axis");
+        vector(text, body->origin);
+        text_add(text, ",");
+    }
+    if (body->kind == motion_pivot || body->kind == motion_weld) text_add(text, "\"joint\":true,");
+    if (body->kind != motion_slide) return;
+    bool surface = false;
+    for (size_t i = 0; i < body->source->load_count; i++)
+        surface |= body->source->loads[i].kind == load_normal;
+    struct vec down = vec_scale(-1, body->n),
+               in_body = {vec_dot(down, body->e), vec_dot(down, vec_perp(body->e))};
+    text_add(text, "\"line\":{\"through\":");
+    vector(text, body->origin);
+    text_add(text, ",\"along\":");
+    vector(text, body->e);
+    text_add(text, ",\"normal\":");
+    vector(text, body->n);
+    text_printf(text, ",\"on\":%d", body->parent);
+    text_printf(text, ",\"surface\":%s,\"reach\":", surface ? "true" : "false");
+    number(text, outline_reach(body->source, body->inertia.G, in_body));
+    text_add(text, "},");
+}
+
+static void write_body(struct text *text, const struct record *record, int b)
+{
+    static const char *const motions[] = {"slide", "pivot", "particle", "planar", "weld"};
+    const struct model_body *body = &record->model->bodies[b];
+    const struct record_of_body *columns = &record->bodies[b];
+    text_add(text, "\n{");
+    text_member(text, "name", body->name);
+    text_member(text, "motion", motions[body->kind]);
+    columns_member(text, "frame", columns->pose, 3);
+    columns_member(text, "velocity", columns->pose + 3, 2);
+    /* the accelerations of a planar body that is not jointed are those of its centre of mass */
+    bool offset = body->kind == motion_planar && columns->newton < 0 && body->L > 0;
+    text_printf(text, "\"sloped\":%s,", offset ? "false" : "true");
+    columns_member(text, "coordinates", columns->coordinate, body->count);
+    columns_member(text, "rates", columns->rate, body->count);
+    columns_member(text, "accelerations", columns->acceleration, body->count);
+    write_guide(text, body);
+    write_equations(text, record, b);
+    text_add(text, "\"shapes\":[");
+    for (size_t i = 0; i < body->source->part_count; i++) {
+        struct outline_part part = outline_of_part(&body->source->parts[i]);
+        comma(text, i);
+        write_shape(text, &part);
+    }
+    text_add(text, "],\"arrows\":[");
+    for (size_t i = 0; i < columns->arrow_count; i++) {
+        comma(text, i);
+        write_arrow(text, &columns->arrows[i]);
+    }
+    /* the frame of a pivot sits on the axis: its points are told from there */
+    text_add(text, "],\"pin\":");
+    vector(text, body->pin);
+    text_add(text, ",\"G\":");
+    vector(text, vec_sub(body->inertia.G, body->pin));
+    text_add(text, "}");
+}
+
+/* The other end: on the ground, on another body (from its frame's origin), or a wall that the file does not
+ * place. */
+static void write_other_end(struct text *text, const struct fbd_model *model, const struct model_load *load)
+{
+    text_printf(text, ",\"partner\":%d,\"anchor\":", load->linked ? load->partner : ground_body);
+    if (!load->linked)
+        text_add(text, "null");
+    else if (load->partner >= 0)
+        vector(text, vec_sub(load->anchor, model->bodies[load->partner].pin));
+    else
+        vector(text, load->anchor);
+}
+
+static void write_links(struct text *text, const struct fbd_model *model)
+{
+    size_t written = 0;
+    text_add(text, "\"links\":[");
+    for (size_t i = 0; i < model->load_count; i++) {
+        const struct model_load *load = &model->loads[i];
+        const struct model_body *body = &model->bodies[load->body];
+        enum load_kind kind = load->source->kind;
+        if (kind != load_spring && kind != load_damper) continue;
+        bool to_a_wall = body->kind == motion_slide && body->parent == ground_body;
+        if (!load->linked && !to_a_wall) continue;
+        comma(text, written++);
+        text_printf(text, "{\"body\":%d,\"kind\":\"%s\",\"point\":", load->body,
+                    kind == load_damper ? "damper" : "spring");
+        vector(text, vec_sub(load->point, body->pin));
+        write_other_end(text, model, load);
+        text_add(text, "}");
+    }
+    text_add(text, "],\n");
+}
+
+/* ---- events */
+
+/* Events are few kinds of few bodies: each distinct one is written once. The label of event i is the first
+ * event like it. */
+static bool alike(const struct run_event *a, const struct run_event *b)
+{
+    return a->kind == b->kind && a->body == b->body && a->load == b->load && a->watch == b->watch;
+}
+
+/* Beyond that many the page has only their number; the JSON of the run has all. */
+static size_t listed_events(const struct ensemble *run)
+{
+    size_t count = run->event_count;
+    if (count > most_listed_events) count = most_listed_events;
+    return count;
+}
+
+static void write_labels(struct text *text, const struct ensemble *run, size_t count)
+{
+    enum { most_labels = 4096 };
+    const struct run_event *labels[most_labels];
+    size_t label_count = 0;
+    struct text of = {0};
+    text_add(text, "\"labels\":[");
+    for (size_t i = 0; i < count; i++) {
+        const struct run_event *event = &run->events[i];
+        size_t k = 0;
+        while (k < label_count && !alike(labels[k], event)) k++;
+        if (k == label_count && label_count < most_labels) {
+            comma(text, label_count);
+            labels[label_count++] = event;
+            text_add(text, "{");
+            text_member(text, "body", event_body(run->model, event));
+            text_member(text, "kind", fbd_event_kind_name(event->kind));
+            key(text, "name");
+            text_json_string(text, event_name(run->model, event));
+            text_add(text, "}");
+        }
+        comma(&of, i);
+        if (k < label_count)
+            text_printf(&of, "%zu", k);
+        else
+            text_add(&of, "null");
+    }
+    text_add(text, "],\"of\":[");
+    if (of.data) text_add(text, of.data);
+    text_add(text, "],");
+    text->failed |= of.failed;
+    text_free(&of);
+}
+
+static void write_events(struct text *text, const struct ensemble *run)
+{
+    size_t count = listed_events(run);
+    text_printf(text, "\"events\":{\"count\":%zu,", run->event_count);
+    write_labels(text, run, count);
+    text_add(text, "\"times\":[");
+    for (size_t i = 0; i < count; i++) {
+        comma(text, i);
+        number(text, run->events[i].t);
+    }
+    text_add(text, "],\"details\":[");
+    for (size_t i = 0; i < count && i < most_details; i++) {
+        char detail[event_detail_size];
+        event_detail(run->model, &run->events[i], detail, sizeof detail);
+        comma(text, i);
+        text_json_string(text, detail);
+    }
+    text_add(text, "]},\n");
+}
+
+/* ---- the whole */
+
+static void write_head(struct text *text, fbd_result *result)
+{
+    const struct ensemble *run = result->simulation->ensemble;
+    const struct fbd_model *model = run->model;
+    fbd_stats stats = fbd_simulation_stats(result->simulation);
+    text_member(text, "title", model->scene->title);
+    text_member(text, "reason", run->reason);
+    number_member(text, "start", result->start->t);
+    number_member(text, "end", run->t);
+    text_printf(text, "\"units\":{\"length\":\"%s\",\"force\":\"%s\",\"moment\":\"%s\",\"energy\":\"%s\"},\n",
+                length_unit(model), force_unit(model), moment_unit(model), energy_unit(model));
+    text_add(text, "\"stats\":{");
+    text_member(text, "method", stats.method);
+    number_member(text, "tolerance", stats.tolerance);
+    number_member(text, "seconds", stats.seconds);
+    text_printf(text, "\"steps\":%lu,\"rejected\":%lu,\"rhs\":%lu,\"jacobians\":%lu,\"stiffSteps\":%lu},\n",
+                stats.steps, stats.rejected, stats.rhs, stats.jacobians, stats.stiff_steps);
+}
+
+bool page_data_write(struct text *text, fbd_result *result, struct record *record)
+{
+    struct pack pack;
+    size_t bytes = most_bytes - bytes_of_event * listed_events(result->simulation->ensemble);
+    if (!pack_begin(&pack, record, bytes)) return false;
+    text_add(text, "{");
+    write_head(text, result);
+    write_columns(text, &pack);
+    write_numbers(text, &pack);
+    text_add(text, "\"bodies\":[");
+    for (size_t b = 0; b < record->model->body_count; b++) {
+        comma(text, b);
+        write_body(text, record, (int)b);
+    }
+    text_add(text, "],\n");
+    write_links(text, record->model);
+    write_events(text, result->simulation->ensemble);
+    columns_member(text, "energy", record->energy, 4);
+    text_add(text, "\"version\":1}");
+    pack_end(&pack);
+    return !text->failed;
+}

@@ -1,0 +1,271 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "draw/record.h"
+
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Numbers kept in rows (8 bytes each), and in the envelope (4 bytes). */
+enum { most_numbers = 4 * 1024 * 1024, least_rows = 256, least_buckets = 16, most_buckets = 2048 };
+
+/* Regular rows of a run: enough to play it smoothly when its steps are long. */
+enum { many_coordinates = 8, regular_rows = 2000, default_intervals = 500 };
+
+/* ---- rows */
+
+static bool make_room(struct record *record)
+{
+    size_t columns = record->column_count, most = most_numbers / columns;
+    record->room = most < least_rows ? least_rows : most;
+    record->stride = 1;
+    record->times = malloc(record->room * sizeof *record->times);
+    record->rows = malloc(record->room * columns * sizeof *record->rows);
+    record->kept = malloc(record->room * sizeof *record->kept);
+    record->values = calloc(columns, sizeof *record->values);
+    size_t cells = most_numbers / 2 / columns;
+    record->bucket_count = most_buckets; /* a power of two: pieces are joined two by two */
+    while (record->bucket_count > cells && record->bucket_count > least_buckets) record->bucket_count /= 2;
+    record->envelope = malloc(2 * record->bucket_count * columns * sizeof *record->envelope);
+    if (!record->times || !record->rows || !record->kept || !record->values || !record->envelope)
+        return false;
+    for (size_t i = 0; i < 2 * record->bucket_count * columns; i++)
+        record->envelope[i] = i % 2 ? -HUGE_VALF : HUGE_VALF;
+    return true;
+}
+
+/* Keep every second row of those that may go. */
+static void halve(struct record *record)
+{
+    size_t columns = record->column_count, to = 0, turn = 0;
+    bool all = record->kept_count > record->room / 2; /* so many events: they are thinned like the rest */
+    record->kept_count = 0;
+    for (size_t i = 0; i < record->count; i++) {
+        bool stays = i == 0 || i + 1 == record->count || (record->kept[i] && !all) || turn++ % 2 == 0;
+        if (!stays) continue;
+        record->times[to] = record->times[i];
+        record->kept[to] = record->kept[i] && !all;
+        record->kept_count += record->kept[to];
+        if (to != i)
+            memcpy(record->rows + to * columns, record->rows + i * columns, columns * sizeof *record->rows);
+        to++;
+    }
+    record->count = to;
+    record->stride *= 2;
+}
+
+static void store(struct record *record, double t, bool keep)
+{
+    if (record->count == record->room) halve(record);
+    size_t i = record->count++;
+    record->times[i] = t;
+    record->kept[i] = keep;
+    record->kept_count += keep;
+    memcpy(record->rows + i * record->column_count, record->values,
+           record->column_count * sizeof *record->values);
+}
+
+/* ---- envelope */
+
+static void join_buckets(struct record *record)
+{
+    size_t cells = 2 * record->column_count, half = record->bucket_count / 2;
+    for (size_t k = 0; k < half; k++)
+        for (size_t i = 0; i < cells; i++) {
+            float a = record->envelope[2 * k * cells + i], b = record->envelope[(2 * k + 1) * cells + i];
+            record->envelope[k * cells + i] = i % 2 ? fmaxf(a, b) : fminf(a, b);
+        }
+    for (size_t i = half * cells; i < 2 * half * cells; i++)
+        record->envelope[i] = i % 2 ? -HUGE_VALF : HUGE_VALF;
+    record->bucket *= 2;
+}
+
+static void widen_envelope(struct record *record, double t)
+{
+    if (!(record->bucket > 0)) return;
+    while (t > record->bucket * (double)record->bucket_count) join_buckets(record);
+    size_t k = (size_t)(t / record->bucket), columns = record->column_count;
+    if (k >= record->bucket_count) k = record->bucket_count - 1;
+    float *cell = record->envelope + 2 * k * columns;
+    for (size_t c = 0; c < columns; c++) {
+        double value = record->values[c];
+        struct record_column *column = &record->columns[c];
+        if (value < cell[2 * c]) cell[2 * c] = (float)value;
+        if (value > cell[2 * c + 1]) cell[2 * c + 1] = (float)value;
+        if (value < column->least) column->least = value;
+        if (value > column->greatest) column->greatest = value;
+    }
+}
+
+/* The row of a state; the integrals of work up to there are in record->work. */
+static void take(struct record *record, struct fbd_state *state, bool keep)
+{
+    bool stored = keep || record->seen++ % record->stride == 0;
+    record_fill(record, state, stored || !record->costly);
+    widen_envelope(record, state->t);
+    if (stored) store(record, state->t, keep);
+}
+
+/* ---- a run */
+
+/* Regular rows divide the interval of the CSV, so that all of its rows are among them. */
+static double choose_interval(const struct ensemble *run, double every)
+{
+    double length = run->options.until - run->t;
+    if (!(every > 0)) every = run->model->scene->simulate.every;
+    if (!(every > 0)) every = length / default_intervals;
+    double count = length / every;
+    if (count > regular_rows) return every * ceil(count / regular_rows);
+    return count > 0 ? every / ceil(regular_rows / fmax(count, 1)) : 0;
+}
+
+static void remember_start(struct record *record, const struct fbd_state *state)
+{
+    size_t n = (size_t)record->model->plan.n;
+    memcpy(record->turning, state->y + n, n * sizeof *record->turning);
+    memcpy(record->turning + n, state->a, n * sizeof *record->turning);
+}
+
+bool record_begin(struct record *record, struct ensemble *run, struct ledger *ledger, double every)
+{
+    const struct fbd_model *model = run->model;
+    struct fbd_state *start = ensemble_state(run);
+    size_t loads = model->load_count, n = (size_t)model->plan.n;
+    *record = (struct record){.model = model, .ledger = ledger, .next = 1};
+    record->probe = state_new(model);
+    record->arrows = calloc(diagram_most_arrows(model), sizeof *record->arrows);
+    record->work = calloc(loads + 1, sizeof *record->work);
+    record->turning = calloc(2 * n + 1, sizeof *record->turning);
+    if (!record->probe || !record->arrows || !record->work || !record->turning) return false;
+    for (size_t i = 0; i < loads; i++)
+        record->costly |= model->loads[i].potential_kind == potential_quadrature;
+    if (!record_define(record, start) || !make_room(record)) return false;
+    record->every = choose_interval(run, every);
+    /* The envelope starts with pieces far too small and joins them as the run goes on: it may end early. */
+    double length = run->options.until - run->t;
+    record->bucket = length / (double)record->bucket_count / 1024;
+    take(record, start, true);
+    remember_start(record, start);
+    return true;
+}
+
+/* A row of record->probe, a state at t within the last step. */
+static bool take_probe(struct record *record, struct ensemble *run, double t, bool keep)
+{
+    if (!ledger_within(record->ledger, run, t, record->work)) return false;
+    take(record, record->probe, keep);
+    return true;
+}
+
+/* What the envelope has to know of an instant that is no row. */
+static bool look_at(struct record *record, struct ensemble *run, double t)
+{
+    if (!ensemble_look(run, t, record->probe)) return false;
+    record_fill(record, record->probe, false);
+    widen_envelope(record, t);
+    return true;
+}
+
+/* Where the cubic with values a, b and slopes p, q (times the interval) at 0 and 1, of different signs, is
+ * zero: by bisection, to 1/4096, which leaves the extreme itself to the square of that. */
+static double cubic_root(double a, double b, double p, double q)
+{
+    double low = 0, high = 1;
+    for (int i = 0; i < 12; i++) {
+        double u = (low + high) / 2;
+        double value = a + u * (p + u * (3 * (b - a) - 2 * p - q + u * (2 * (a - b) + p + q)));
+        if (value * a > 0)
+            low = u;
+        else
+            high = u;
+    }
+    return (low + high) / 2;
+}
+
+/* The first instant after t of the step where a rate or an acceleration changes its sign, by its values at
+ * the ends; for a rate with the accelerations as its slopes. */
+static double next_turning(const struct record *record, const struct fbd_state *end, double from, double t)
+{
+    size_t n = (size_t)record->model->plan.n;
+    const double *rate = record->turning, *acceleration = record->turning + n;
+    double first = HUGE_VAL, h = end->t - from;
+    for (size_t i = 0; i < 2 * n; i++) {
+        double a = i < n ? rate[i] : acceleration[i - n], b = i < n ? end->y[n + i] : end->a[i - n];
+        if (!(a * b < 0)) continue;
+        double u = i < n ? cubic_root(a, b, h * acceleration[i], h * end->a[i]) : a / (a - b);
+        double when = from + h * u;
+        if (when > t && when < first && when < end->t) first = when;
+    }
+    return first;
+}
+
+/* Rows at regular times and turning points before the end of the step, in order. */
+static bool take_inside(struct record *record, struct ensemble *run, double from)
+{
+    const struct fbd_state *state = ensemble_state(run);
+    const int most_turnings = record->model->plan.n > many_coordinates ? 1 : 4;
+    double end = run->t, near = 1e-9 * record->every, t = from;
+    for (int turnings = 0;;) {
+        double regular = record->every > 0 ? (double)record->next * record->every : HUGE_VAL;
+        if (regular >= end - near) regular = HUGE_VAL;
+        double turning = turnings < most_turnings ? next_turning(record, state, from, t) : HUGE_VAL;
+        t = fmin(regular, turning);
+        if (t >= end) return true;
+        if (t == turning) turnings++;
+        if (t == turning && t != regular) {
+            if (!look_at(record, run, t)) return false;
+            continue;
+        }
+        record->next++;
+        if (!ensemble_look(run, t, record->probe) || !take_probe(record, run, t, false)) return false;
+    }
+}
+
+bool record_step(struct record *record, struct ensemble *run, double from, bool event)
+{
+    double end = run->t, near = 1e-9 * record->every;
+    bool last = run->outcome != FBD_GOING;
+    if (!(end > from) && !event && !last) return true;
+    if (!take_inside(record, run, from)) return false;
+    if (record->every > 0 && fabs((double)record->next * record->every - end) <= near) record->next++;
+    if (event && (!ensemble_look_before(run, end, record->probe) || !take_probe(record, run, end, true)))
+        return false;
+    if (!ledger_at(record->ledger, run, record->work)) return false;
+    take(record, ensemble_state(run), event || last);
+    remember_start(record, ensemble_state(run));
+    return true;
+}
+
+/* ---- afterwards */
+
+void record_thin(struct record *record, size_t rows, size_t buckets)
+{
+    while (record->count > rows && record->count > least_rows) {
+        size_t before = record->count;
+        halve(record);
+        if (record->count == before) return;
+    }
+    while (record->bucket_count > buckets && record->bucket_count > least_buckets) {
+        join_buckets(record);
+        record->bucket_count /= 2;
+    }
+}
+
+bool record_is_thinned(const struct record *record)
+{
+    return record->stride > 1;
+}
+
+void record_free(struct record *record)
+{
+    free(record->times);
+    free(record->rows);
+    free(record->kept);
+    free(record->envelope);
+    free(record->values);
+    free(record->turning);
+    free(record->work);
+    free(record->arrows);
+    state_free(record->probe);
+    arena_free(&record->arena);
+    *record = (struct record){0};
+}

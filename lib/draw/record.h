@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Record: a run as a table of numbers for the page and for plots, within a bounded memory.
+ *
+ * Rows are taken at regular times (every one of which the CSV has is among them), at the ends of steps, and
+ * twice at each event: before and after. When there are too many, every second one goes, events and ends
+ * excepted. What is lost then is kept in the envelope: the least and the greatest value of each column in
+ * each of some thousand pieces of the run, looked for at the rows and where a coordinate or a rate turns
+ * back. Between its rows the motion is smooth, so that cubic interpolation is enough.
+ *
+ * A run without a record does nothing of all this.
+ */
+#ifndef FBD_DRAW_RECORD_H
+#define FBD_DRAW_RECORD_H
+
+#include "output/result.h"
+
+enum record_kind {
+    record_coordinate,
+    record_rate,
+    record_acceleration,
+    record_pose,  /* of a body's frame: x, y, angle */
+    record_force, /* as in the CSV */
+    record_term,  /* of an equation */
+    record_arrow, /* fx, fy; point in the body frame; couple */
+    record_work,
+    record_energy, /* kinetic, potential, work, residual */
+};
+
+struct record_column {
+    const char *name, *unit;
+    enum record_kind kind;
+    int body; /* or -1 */
+    bool is_constant;
+    double least, greatest;
+};
+
+/* Where the columns of an arrow begin. */
+struct record_of_arrow {
+    const char *name;
+    int load;               /* -1 for a reaction */
+    int arrow;              /* five columns: fx, fy, point in the body frame, couple */
+    int force, force_count; /* as in the CSV; of a jointed body x, y and the moment about G */
+    int term;               /* in the equations of the coordinates, or -1 */
+    int work;               /* or -1: it is counted with the body that lists it */
+};
+
+struct record_of_body {
+    int coordinate, rate, acceleration; /* first column of each */
+    int pose;                           /* three columns, then two: the velocity of G */
+    int newton;                         /* jointed: a_Gx, a_Gy, alpha, a_x of a slide; else -1 */
+    int moving_axis;                    /* jointed pivot on a body: the term of its axis; else -1 */
+    size_t arrow_count;
+    struct record_of_arrow *arrows;
+};
+
+struct record {
+    const struct fbd_model *model;
+    struct arena arena;
+    struct record_column *columns;
+    size_t column_count;
+    struct record_of_body *bodies;
+    int energy; /* first of four columns */
+
+    double *times, *rows; /* row by row, column_count each */
+    bool *kept;           /* rows that are never thinned: start, end, events */
+    size_t count, room, kept_count;
+    unsigned long seen;   /* rows that were taken so far */
+    unsigned long stride; /* of them every so many is stored */
+
+    double bucket; /* width of a piece of the envelope [s] */
+    size_t bucket_count;
+    float *envelope; /* pieces x columns x (least, greatest) */
+
+    double every; /* interval of the regular rows */
+    long next;    /* index of the next regular row */
+    struct ledger *ledger;
+    struct fbd_state *probe;
+    struct arrow *arrows;
+    double *work;    /* integrals up to the row */
+    double *values;  /* of one row */
+    double *turning; /* rates and accelerations at the start of the step */
+    bool costly;     /* a potential energy is a quadrature: only for rows that are stored */
+    bool failed;     /* memory ran out */
+};
+
+/* Set up for a run and take the row of its start. False when memory is out. */
+bool record_begin(struct record *record, struct ensemble *run, struct ledger *ledger, double every);
+
+/* The rows of (from, run->t], which lies in the last step of every group: see ensemble_next_end. `event`:
+ * some have happened at run->t. */
+bool record_step(struct record *record, struct ensemble *run, double from, bool event);
+
+/* Drop rows and join pieces of the envelope until no more than these are left. */
+void record_thin(struct record *record, size_t rows, size_t buckets);
+
+/* Has any row been dropped? */
+bool record_is_thinned(const struct record *record);
+
+void record_free(struct record *record);
+
+/* For record.c: define the columns, as a state has them, and fill `values` from a state, whose work integrals
+ * are record->work; without `energies` those are NAN. */
+bool record_define(struct record *record, struct fbd_state *start);
+void record_fill(struct record *record, struct fbd_state *state, bool energies);
+
+#endif

@@ -1,0 +1,206 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "draw/svg.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+const struct box box_nothing = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
+
+void box_take(struct box *box, struct vec point)
+{
+    box->low = (struct vec){fmin(box->low.x, point.x), fmin(box->low.y, point.y)};
+    box->high = (struct vec){fmax(box->high.x, point.x), fmax(box->high.y, point.y)};
+}
+
+void box_join(struct box *box, const struct box *other)
+{
+    if (other->low.x > other->high.x) return;
+    box_take(box, other->low);
+    box_take(box, other->high);
+}
+
+void svg_escape(struct text *text, const char *string)
+{
+    for (const char *c = string; *c; c++) {
+        switch (*c) {
+        case '&': text_add(text, "&amp;"); break;
+        case '<': text_add(text, "&lt;"); break;
+        case '>': text_add(text, "&gt;"); break;
+        case '"': text_add(text, "&quot;"); break;
+        default:
+            if ((unsigned char)*c >= ' ' || *c == '\t') text_add_bytes(text, c, 1);
+        }
+    }
+}
+
+void svg_number(struct text *text, double value)
+{
+    char digits[40];
+    double rounded = round(value * 1000) / 1000;
+    snprintf(digits, sizeof digits, "%.3f", rounded == 0 ? 0.0 : rounded);
+    char *end = digits + strlen(digits);
+    while (end[-1] == '0') end--;
+    if (end[-1] == '.') end--;
+    text_add_bytes(text, digits, (size_t)(end - digits));
+}
+
+void svg_point(struct text *text, struct vec point)
+{
+    svg_number(text, point.x);
+    text_add(text, ",");
+    svg_number(text, point.y);
+}
+
+static void attribute(struct text *text, const char *name, double value)
+{
+    text_printf(text, " %s=\"", name);
+    svg_number(text, value);
+    text_add(text, "\"");
+}
+
+void svg_line(struct text *text, const char *css, struct vec from, struct vec to)
+{
+    text_printf(text, "<line class=\"%s\"", css);
+    attribute(text, "x1", from.x);
+    attribute(text, "y1", from.y);
+    attribute(text, "x2", to.x);
+    attribute(text, "y2", to.y);
+    text_add(text, "/>\n");
+}
+
+void svg_circle(struct text *text, const char *css, struct vec center, double radius)
+{
+    text_printf(text, "<circle class=\"%s\"", css);
+    attribute(text, "cx", center.x);
+    attribute(text, "cy", center.y);
+    attribute(text, "r", radius);
+    text_add(text, "/>\n");
+}
+
+void svg_polygon(struct text *text, const char *css, const struct vec *corners, size_t count)
+{
+    text_printf(text, "<polygon class=\"%s\" points=\"", css);
+    for (size_t i = 0; i < count; i++) {
+        if (i) text_add(text, " ");
+        svg_point(text, corners[i]);
+    }
+    text_add(text, "\"/>\n");
+}
+
+void svg_text(struct text *text, const char *css, struct vec center, double size, const char *string)
+{
+    text_printf(text, "<text class=\"%s middle\"", css);
+    attribute(text, "x", center.x);
+    attribute(text, "y", center.y + 0.35 * size);
+    text_add(text, ">");
+    svg_escape(text, string);
+    text_add(text, "</text>\n");
+}
+
+void svg_text_at(struct text *text, const char *css, struct vec start, const char *string)
+{
+    text_printf(text, "<text class=\"%s\"", css);
+    attribute(text, "x", start.x);
+    attribute(text, "y", start.y);
+    text_add(text, ">");
+    svg_escape(text, string);
+    text_add(text, "</text>\n");
+}
+
+double svg_text_width(const char *string, double size)
+{
+    /* Advance widths of Helvetica, ' ' to '~', in thousandths of the font size (Adobe's font metrics). */
+    static const short widths[] = {
+        278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333,  278, 278, 556, 556, 556,
+        556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667,
+        611, 778, 722, 278, 500, 667, 556, 833, 722, 778, 667, 778, 722, 667,  611, 722, 667, 944, 667,
+        667, 611, 278, 278, 278, 469, 556, 333, 556, 556, 500, 556, 556, 278,  556, 556, 222, 222, 500,
+        222, 833, 556, 556, 556, 556, 333, 500, 278, 556, 500, 722, 500, 500,  500, 334, 260, 334, 584,
+    };
+    const short other = 600;        /* Greek letters and signs */
+    const double substitute = 1.12; /* DejaVu Sans is that much wider */
+    long sum = 0;
+    for (const unsigned char *c = (const unsigned char *)string; *c; c++) {
+        if (*c >= ' ' && *c <= '~')
+            sum += widths[*c - ' '];
+        else if ((*c & 0xC0) != 0x80) /* the first byte of a character */
+            sum += other;
+    }
+    return substitute * size * (double)sum / 1000;
+}
+
+/* Dark only on a screen: paper is white. */
+static const char style[] =
+    "text{font-family:Arial,Helvetica,'Liberation Sans','Nimbus Sans',sans-serif;font-size:3.4px;fill:#111}\n"
+    ".middle{text-anchor:middle}\n"
+    ".heading{font-size:4.6px;font-weight:bold}\n"
+    ".note{font-size:2.9px;fill:#555}\n"
+    ".paper{fill:#fff}\n"
+    ".body{fill:#dfe6ee;stroke:#222;stroke-width:.45;stroke-linejoin:round}\n"
+    ".hole{fill:#fff;stroke:#222;stroke-width:.35}\n"
+    ".mass{fill:#222;stroke:#222;stroke-width:.3}\n"
+    ".bar{fill:none;stroke:#222;stroke-width:2.6;stroke-linecap:round}\n"
+    ".bar-inside{fill:none;stroke:#dfe6ee;stroke-width:1.7;stroke-linecap:round}\n"
+    ".thread{stroke:#222;stroke-width:.35}\n"
+    ".ground{stroke:#777;stroke-width:.5}\n"
+    ".hatch{fill:none;stroke:#aaa;stroke-width:.25}\n"
+    ".support{fill:#fff;stroke:#777;stroke-width:.4}\n"
+    ".axis{fill:none;stroke:#777;stroke-width:.3}\n"
+    ".axis-head{fill:#777}\n"
+    ".reference{fill:none;stroke:#999;stroke-width:.3;stroke-dasharray:1.6 .9}\n"
+    ".leader{stroke:#999;stroke-width:.2}\n"
+    ".axis-label{fill:#555;font-style:italic}\n"
+    ".center{fill:#fff;stroke:#111;stroke-width:.3}\n"
+    ".center-dark{fill:#111}\n"
+    ".shaft{fill:none;stroke-width:.7}\n"
+    ".small .shaft{stroke-dasharray:1.2 .7}\n"
+    ".component .shaft{stroke-width:.4;stroke-dasharray:1.6 .9}\n"
+    ".head{stroke:none}\n"
+    ".gravity .shaft{stroke:#2b7a2b}.gravity .head,.gravity text{fill:#2b7a2b}\n"
+    ".reaction .shaft{stroke:#b3261e}.reaction .head,.reaction text{fill:#b3261e}\n"
+    ".friction .shaft{stroke:#a85a00}.friction .head,.friction text{fill:#a85a00}\n"
+    ".applied .shaft{stroke:#1656b8}.applied .head,.applied text{fill:#1656b8}\n"
+    ".spring .shaft{stroke:#7a3aa8}.spring .head,.spring text{fill:#7a3aa8}\n"
+    ".damper .shaft{stroke:#0f7078}.damper .head,.damper text{fill:#0f7078}\n"
+    ".potential .shaft{stroke:#8a2a6a}.potential .head,.potential text{fill:#8a2a6a}\n"
+    ".stable{fill:#1656b8}.unstable{fill:#b3261e}.neutral{fill:#555}\n"
+    "@media screen and (prefers-color-scheme:dark){\n"
+    "text{fill:#e8e8e8}.note,.axis-label{fill:#a8adb5}.paper,.hole,.support,.center{fill:#14171c}\n"
+    ".body{fill:#2c3644;stroke:#ccd}.hole,.mass,.bar,.thread{stroke:#ccd}.mass{fill:#ccd}.bar-inside{stroke:#"
+    "2c3644}\n"
+    ".ground,.support,.axis{stroke:#99a}.hatch{stroke:#667}.axis-head{fill:#99a}.reference,.leader{stroke:#"
+    "889}\n"
+    ".center{stroke:#e8e8e8}.center-dark{fill:#e8e8e8}\n"
+    ".gravity .shaft{stroke:#6fce6f}.gravity .head,.gravity text{fill:#6fce6f}\n"
+    ".reaction .shaft{stroke:#ff8a80}.reaction .head,.reaction text{fill:#ff8a80}\n"
+    ".friction .shaft{stroke:#ffb35c}.friction .head,.friction text{fill:#ffb35c}\n"
+    ".applied .shaft{stroke:#7db4ff}.applied .head,.applied text{fill:#7db4ff}\n"
+    ".spring .shaft{stroke:#d09bff}.spring .head,.spring text{fill:#d09bff}\n"
+    ".damper .shaft{stroke:#5ed0da}.damper .head,.damper text{fill:#5ed0da}\n"
+    ".potential .shaft{stroke:#f08ccc}.potential .head,.potential text{fill:#f08ccc}\n"
+    ".stable{fill:#7db4ff}.unstable{fill:#ff8a80}.neutral{fill:#a8adb5}\n"
+    "}\n";
+
+void svg_begin(struct text *text, struct vec size, const char *title, const char *description)
+{
+    text_add(text, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                   "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"");
+    svg_number(text, size.x);
+    text_add(text, "mm\" height=\"");
+    svg_number(text, size.y);
+    text_add(text, "mm\" viewBox=\"0 0 ");
+    svg_number(text, size.x);
+    text_add(text, " ");
+    svg_number(text, size.y);
+    text_add(text, "\">\n<title>");
+    svg_escape(text, title);
+    text_add(text, "</title>\n<desc>");
+    svg_escape(text, description);
+    text_add(text, "</desc>\n<style type=\"text/css\">\n");
+    text_add(text, style);
+    text_add(text, "</style>\n<rect class=\"paper\" x=\"0\" y=\"0\"");
+    attribute(text, "width", size.x);
+    attribute(text, "height", size.y);
+    text_add(text, "/>\n");
+}

@@ -1,0 +1,335 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dynamics/constraint.h"
+
+#include <float.h>
+
+/* ---- points, angles and directions of links as jets */
+
+struct view {
+    const struct tree_work *work;
+    bool varied;
+};
+
+static const struct tree_variation still = {0};
+
+static const struct tree_variation *variation_of(const struct view *view, int link)
+{
+    return view->varied ? &view->work->variation[link] : &still;
+}
+
+static struct jet_vec jets(struct vec p, struct vec v, struct vec a, struct vec dp, struct vec dv,
+                           struct vec da)
+{
+    return (struct jet_vec){{p.x, v.x, a.x, dp.x, dv.x, da.x}, {p.y, v.y, a.y, dp.y, dv.y, da.y}};
+}
+
+/* A vector that turns with a link: r' = omega k x r, r'' = alpha k x r - omega^2 r. */
+static struct jet_vec turning(const struct view *view, int link, struct vec own)
+{
+    const struct tree_state *s = &view->work->links[link];
+    const struct tree_variation *d = variation_of(view, link);
+    struct vec r = vec_turn(s->turn, own), k_r = vec_perp(r), dr = vec_scale(d->angle, k_r),
+               k_dr = vec_perp(dr);
+    double w2 = s->omega * s->omega;
+    struct vec v = vec_scale(s->omega, k_r), a = vec_sub(vec_scale(s->A.alpha, k_r), vec_scale(w2, r));
+    struct vec dv = vec_add(vec_scale(d->omega, k_r), vec_scale(s->omega, k_dr));
+    struct vec da = vec_add(vec_scale(d->A.alpha, k_r), vec_scale(s->A.alpha, k_dr));
+    da = vec_sub(da, vec_add(vec_scale(2 * s->omega * d->omega, r), vec_scale(w2, dr)));
+    return jets(r, v, a, dr, dv, da);
+}
+
+static struct jet_vec origin_of(const struct view *view, int link)
+{
+    const struct tree_state *s = &view->work->links[link];
+    const struct tree_variation *d = variation_of(view, link);
+    return jets(s->p, s->v, s->A.a, d->p, d->v, d->A.a);
+}
+
+static struct jet_vec point_of(const struct view *view, const struct tie_end *end)
+{
+    struct jet_vec O = origin_of(view, end->link), r = turning(view, end->link, end->point);
+    return (struct jet_vec){jet_add(O.x, r.x), jet_add(O.y, r.y)};
+}
+
+static struct jet angle_of(const struct view *view, int link)
+{
+    const struct tree_state *s = &view->work->links[link];
+    const struct tree_variation *d = variation_of(view, link);
+    return (struct jet){s->angle, s->omega, s->A.alpha, d->angle, d->omega, d->A.alpha};
+}
+
+/* ---- ports */
+
+/* A unit multiplier means the force f at Q on the link of end k of the tie. */
+static void add_port(const struct view *view, struct row *row, const struct tie *tie, int k, struct jet_vec Q,
+                     struct jet_vec f)
+{
+    int link = tie->end[k].link;
+    struct jet_vec arm = jet_vec_sub(Q, origin_of(view, link));
+    row->ports[row->port_count++] =
+        (struct port){link, k, jet_value(arm), jet_value(f), jet_variation(arm), jet_variation(f)};
+}
+
+static struct jet_vec negative(struct jet_vec a)
+{
+    return (struct jet_vec){jet_scale(-1, a.x), jet_scale(-1, a.y)};
+}
+
+static void start_row(struct row *row, struct jet g)
+{
+    row->g = g;
+    row->port_count = 0;
+}
+
+/* ---- kinds */
+
+static void pin(const struct view *view, const struct tie *tie, struct row *rows)
+{
+    struct jet_vec A = point_of(view, &tie->end[0]), B = point_of(view, &tie->end[1]), d = jet_vec_sub(A, B);
+    struct jet_vec unit[2] = {{jet_constant(1), jet_constant(0)}, {jet_constant(0), jet_constant(1)}};
+    for (int k = 0; k < 2; k++) {
+        start_row(&rows[k], k == 0 ? d.x : d.y);
+        add_port(view, &rows[k], tie, 0, A, unit[k]);
+        add_port(view, &rows[k], tie, 1, B, negative(unit[k]));
+    }
+}
+
+static void rod(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                struct row *row)
+{
+    struct jet_vec A = point_of(view, &tie->end[0]), B = point_of(view, &tie->end[1]), d = jet_vec_sub(A, B);
+    struct jet length = jet_norm(d);
+    struct jet_vec u = jet_vec_times(jet_inverse(length), d);
+    start_row(row, jet_sub(length, jet_constant(state->zero)));
+    add_port(view, row, tie, 0, A, u);
+    add_port(view, row, tie, 1, B, negative(u));
+}
+
+/* The difference from the nearest multiple of `period`: the line of centres may have gone round. */
+static struct jet nearest(struct jet g, double period)
+{
+    if (period != 0) g.x -= period * round(g.x / period);
+    return g;
+}
+
+static void gear(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                 struct row *row)
+{
+    double r1 = tie->end[0].radius, r2 = tie->end[1].radius, sign = r1 + r2 < 0 ? -1 : 1;
+    struct jet_vec C1 = point_of(view, &tie->end[0]), C2 = point_of(view, &tie->end[1]),
+                   d = jet_vec_sub(C2, C1);
+    if (sign < 0) d = negative(d);
+    struct jet_vec u = jet_vec_times(jet_inverse(jet_norm(d)), d), t = jet_perp(u);
+    struct jet phi = jet_angle(d);
+    struct jet g = jet_add(jet_scale(r1, jet_sub(angle_of(view, tie->end[0].link), phi)),
+                           jet_scale(r2, jet_sub(angle_of(view, tie->end[1].link), phi)));
+    const double turn = 6.283185307179586;
+    start_row(row, nearest(jet_sub(g, jet_constant(state->zero)), turn * (r1 + r2)));
+    struct jet_vec Q1 = jet_vec_sub(C1, jet_vec_times(jet_constant(-r1), u));
+    struct jet_vec Q2 = jet_vec_sub(C2, jet_vec_times(jet_constant(r2), u));
+    add_port(view, row, tie, 0, Q1, t);
+    add_port(view, row, tie, 1, Q2, negative(t));
+}
+
+/* The row along the line, and with `normal` the row across it before that. */
+static void line(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                 struct row *normal, struct row *along)
+{
+    const struct tie_end *circle = &tie->end[0], *base = &tie->end[1];
+    struct jet_vec C = point_of(view, circle), d = jet_vec_sub(C, point_of(view, base));
+    struct jet_vec e = turning(view, base->link, tie->e);
+    double s = state->side[0], R = circle->radius;
+    struct jet_vec n = jet_vec_times(jet_constant(s), jet_perp(e));
+    struct jet_vec Q = jet_vec_sub(C, jet_vec_times(jet_constant(R), n));
+    struct jet turned = jet_sub(angle_of(view, circle->link), angle_of(view, base->link));
+    struct jet g = jet_add(jet_dot(e, d), jet_scale(s * R, turned));
+    start_row(along, jet_sub(g, jet_constant(state->zero)));
+    add_port(view, along, tie, 0, Q, e);
+    add_port(view, along, tie, 1, Q, negative(e));
+    if (!normal) return;
+    start_row(normal, jet_sub(jet_dot(n, d), jet_constant(R)));
+    add_port(view, normal, tie, 0, Q, n);
+    add_port(view, normal, tie, 1, Q, negative(n));
+}
+
+/* ---- ropes: a straight piece from a circle (or point) to the next, see the derivation
+ *
+ * Leaving a circle of radius R round which it runs with side s, a piece of direction u starts at C - s R k x
+ * u. With d = C_2 - C_1 and rho = s_2 R_2 - s_1 R_1 this gives d = t u + rho k x u, so that its length is t =
+ * sqrt(d^2 - rho^2), and u is d turned by -atan(rho / t). */
+
+struct piece {
+    struct jet t;
+    struct jet_vec u, Q1, Q2;
+};
+
+static struct piece piece_between(struct jet_vec C1, double sR1, struct jet_vec C2, double sR2)
+{
+    double rho = sR2 - sR1;
+    struct jet_vec d = jet_vec_sub(C2, C1);
+    struct jet d2 = jet_dot(d, d);
+    struct piece piece = {.t = jet_sqrt(jet_sub(d2, jet_constant(rho * rho)))};
+    struct jet scale = jet_inverse(d2);
+    piece.u.x = jet_mul(scale, jet_add(jet_mul(d.x, piece.t), jet_scale(rho, d.y)));
+    piece.u.y = jet_mul(scale, jet_sub(jet_mul(d.y, piece.t), jet_scale(rho, d.x)));
+    struct jet_vec across = jet_perp(piece.u);
+    piece.Q1 = jet_vec_sub(C1, jet_vec_times(jet_constant(sR1), across));
+    piece.Q2 = jet_vec_sub(C2, jet_vec_times(jet_constant(sR2), across));
+    return piece;
+}
+
+/* The angle of u, counted from psi. */
+static struct jet angle_from(double psi, struct jet_vec u)
+{
+    double c = cos(psi), s = sin(psi);
+    struct jet_vec turned = {jet_add(jet_scale(c, u.x), jet_scale(s, u.y)),
+                             jet_sub(jet_scale(c, u.y), jet_scale(s, u.x))};
+    return jet_angle(turned);
+}
+
+static void rope(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                 struct row *row)
+{
+    int last = tie->end_count - 1;
+    struct jet length = jet_constant(-state->zero);
+    start_row(row, length);
+    for (int k = 0; k < last; k++) {
+        const struct tie_end *from = &tie->end[k], *to = &tie->end[k + 1];
+        double sR1 = k == 0 ? state->side[0] * from->radius : 0;
+        double sR2 = k + 1 == last ? state->side[1] * to->radius : 0;
+        struct piece piece = piece_between(point_of(view, from), sR1, point_of(view, to), sR2);
+        length = jet_add(length, piece.t);
+        if (sR1 != 0) {
+            struct jet round = jet_sub(angle_from(state->psi[0], piece.u), angle_of(view, from->link));
+            length = jet_add(length, jet_scale(sR1, round));
+        }
+        if (sR2 != 0) {
+            struct jet round = jet_sub(angle_of(view, to->link), angle_from(state->psi[1], piece.u));
+            length = jet_add(length, jet_scale(sR2, round));
+        }
+        add_port(view, row, tie, k, piece.Q1, negative(piece.u));
+        add_port(view, row, tie, k + 1, piece.Q2, piece.u);
+    }
+    row->g = length;
+}
+
+/* ---- all of them */
+
+static void evaluate(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                     struct row *rows)
+{
+    switch (tie->kind) {
+    case constraint_pin: pin(view, tie, rows); break;
+    case constraint_rod: rod(view, tie, state, rows); break;
+    case constraint_gear: gear(view, tie, state, rows); break;
+    case constraint_rope: rope(view, tie, state, rows); break;
+    case constraint_roll: line(view, tie, state, &rows[0], &rows[1]); break;
+    case constraint_rack: line(view, tie, state, NULL, &rows[0]); break;
+    }
+}
+
+void constraints_evaluate(const struct fbd_model *model, struct tree_work *work, bool varied)
+{
+    const struct tree *tree = model->tree;
+    struct view view = {work, varied};
+    for (int i = 0; i < tree->tie_count; i++)
+        evaluate(&view, &tree->ties[i], &work->ties[i], &work->rows[tree->ties[i].first_row]);
+}
+
+/* ---- the start */
+
+/* Which way a rope runs round the pulley at place k of its way: as it turns there. */
+static int side_at(const struct fbd_model *model, const struct view *view, const struct tie *tie, int k)
+{
+    const struct constraint *source = &model->scene->constraints[tie->constraint];
+    struct vec place[3];
+    for (int i = 0; i < 3; i++) {
+        struct tie_end end = tie_end_of(model, tie->constraint, k - 1 + i);
+        place[i] = jet_value(point_of(view, &end));
+    }
+    if (source->radius[k] == 0) return 0;
+    return vec_cross(vec_sub(place[1], place[0]), vec_sub(place[2], place[1])) > 0 ? 1 : -1;
+}
+
+static void start_rope(const struct fbd_model *model, const struct view *view, const struct tie *tie,
+                       struct tie_state *state)
+{
+    int last = tie->end_count - 1;
+    state->side[0] = tie->end[0].radius > 0 ? side_at(model, view, tie, tie->place) : 0;
+    state->side[1] = tie->end[last].radius > 0 ? side_at(model, view, tie, tie->place + last) : 0;
+    for (int end = 0; end < 2; end++) {
+        int k = end == 0 ? 0 : last - 1;
+        double sR1 = k == 0 ? state->side[0] * tie->end[0].radius : 0;
+        double sR2 = k + 1 == last ? state->side[1] * tie->end[last].radius : 0;
+        struct piece piece =
+            piece_between(point_of(view, &tie->end[k]), sR1, point_of(view, &tie->end[k + 1]), sR2);
+        state->psi[end] = atan2(piece.u.y.x, piece.u.x.x);
+    }
+}
+
+void constraints_start(const struct fbd_model *model, const struct instant *at)
+{
+    const struct tree *tree = model->tree;
+    struct tree_work *work = at->tree;
+    struct view view = {work, false};
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        struct tie_state *state = &work->ties[i];
+        struct row *rows = &work->rows[tie->first_row];
+        *state = (struct tie_state){.side = {1, 1}};
+        if (tie->kind == constraint_roll || tie->kind == constraint_rack) {
+            struct jet_vec d = jet_vec_sub(point_of(&view, &tie->end[0]), point_of(&view, &tie->end[1]));
+            struct jet_vec e = turning(&view, tie->end[1].link, tie->e);
+            if (vec_cross(jet_value(e), jet_value(d)) < 0) state->side[0] = -1;
+        }
+        if (tie->kind == constraint_rope) start_rope(model, &view, tie, state);
+        if (tie->kind == constraint_pin) continue;
+        evaluate(&view, tie, state, rows);
+        state->zero = tie->length_given ? tie->length : rows[tie->row_count - 1].g.x;
+    }
+}
+
+/* ---- rolling bodies */
+
+static const struct row *row_along(const struct fbd_model *model, const struct tree_work *work, int tie)
+{
+    return &work->rows[model->tree->ties[tie].first_row + 1];
+}
+
+double tie_slip_velocity(const struct fbd_model *model, const struct instant *at, int tie)
+{
+    const struct tie_end *circle = &model->tree->ties[tie].end[0];
+    const struct tree_state *s = &at->tree->links[circle->link];
+    double v = row_along(model, at->tree, tie)->g.x1;
+    double size = vec_norm(s->v) + fabs(s->omega) * (circle->radius + vec_norm(circle->point));
+    return fabs(v) <= 64 * DBL_EPSILON * size ? 0 : v;
+}
+
+double tie_slip_acceleration(const struct fbd_model *model, const struct instant *at, int tie)
+{
+    return row_along(model, at->tree, tie)->g.x2;
+}
+
+void tie_rezero(const struct fbd_model *model, struct tree_work *work, int tie)
+{
+    work->ties[tie].zero += row_along(model, work, tie)->g.x;
+}
+
+/* ---- ropes */
+
+struct rope_state rope_at(const struct fbd_model *model, const struct instant *at, int tie)
+{
+    const struct tie *rope = &model->tree->ties[tie];
+    const struct row *row = &at->tree->rows[rope->first_row];
+    struct rope_state state = {row->g.x, row->g.x1, row->g.x2, -row->lambda, false};
+    double length = 0, speed = 0;
+    for (int k = 0; k < rope->end_count; k++) {
+        const struct tree_state *s = &at->tree->links[rope->end[k].link];
+        length = fmax(length, vec_norm(s->p) + rope->end[k].radius);
+        speed = fmax(speed,
+                     vec_norm(s->v) + fabs(s->omega) * (rope->end[k].radius + vec_norm(rope->end[k].point)));
+    }
+    state.touches = fabs(state.excess) <= 1e-9 * (length + fabs(at->tree->ties[tie].zero)) &&
+                    fabs(state.rate) <= 1e-10 * speed;
+    return state;
+}

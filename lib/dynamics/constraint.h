@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Constraints at an instant: for each row g(q) = 0 its value, rate and acceleration along the motion, and the
+ * forces that a multiplier of one means for the links.
+ *
+ *   pin    g = (p_A - p_B) . x, then . y
+ *   rod    g = |p_A - p_B| - L
+ *   gear   g = r_1 (theta_1 - phi) + r_2 (theta_2 - phi), phi the angle of the line of centres; r_2 < 0 for a
+ *          ring round the first
+ *   rope   g = sum of the straight pieces + s_1 R_1 (psi_1 - theta_1) + s_2 R_2 (theta_2 - psi_2) - L, with
+ * psi the angle of the piece that leaves or reaches a pulley, s = +1 when it runs counter-clockwise there
+ *   roll   g = n . (C - P) - R, and the rack's row
+ *   rack   g = e . (C - P) + s R (theta_C - theta_P), n = s k x e pointing to the side of the circle
+ *
+ * The rates are J v, the forces J^T: every row's ports do the work lambda g'.
+ */
+#ifndef FBD_DYNAMICS_CONSTRAINT_H
+#define FBD_DYNAMICS_CONSTRAINT_H
+
+#include "dynamics/jet.h"
+#include "dynamics/tree.h"
+
+/* The force of a unit multiplier on one link, at `arm` from its O, and its variation. */
+struct port {
+    int link, end; /* number of the end in its tie */
+    struct vec arm, force;
+    struct vec d_arm, d_force;
+};
+
+struct row {
+    struct jet g;
+    int port_count;
+    struct port ports[2 * most_constraint_ends];
+    double lambda;  /* the multiplier, when solved */
+    bool redundant; /* it says nothing that the rows before it do not say */
+};
+
+/* What a tie keeps of the start: zero of its rows, side of the line or of the way round the pulleys, and the
+ * angle that others are counted from. */
+struct tie_state {
+    double zero;
+    int side[2];
+    double psi[2];
+};
+
+/* Set what the ties keep, from where the links are. */
+void constraints_start(const struct fbd_model *model, const struct instant *at);
+
+/* The velocity of a rolling body's point of contact against its line, and its acceleration; after
+ * accelerations() at the instant. A velocity within rounding of zero is zero. */
+double tie_slip_velocity(const struct fbd_model *model, const struct instant *at, int tie);
+double tie_slip_acceleration(const struct fbd_model *model, const struct instant *at, int tie);
+
+/* A rope: how it is, after accelerations() at the instant. */
+struct rope_state {
+    double excess, rate, acceleration; /* of its way over its length, and how that changes */
+    double tension;
+    bool touches; /* just taut to rounding, in length and rate */
+};
+struct rope_state rope_at(const struct fbd_model *model, const struct instant *at, int tie);
+
+/* A rolling body that has slipped rolls on from where it is. */
+void tie_rezero(const struct fbd_model *model, struct tree_work *work, int tie);
+
+/* Evaluate all rows where the links are, with A their accelerations. With `varied`, along the variation of
+ * the links as well. */
+void constraints_evaluate(const struct fbd_model *model, struct tree_work *work, bool varied);
+
+#endif

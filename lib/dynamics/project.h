@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Projection onto the constraints: positions so that g = 0, then velocities so that g' = 0, with the smallest
+ * change in the sense of the mass matrix (Hairer and Wanner, Solving Ordinary Differential Equations II,
+ * section VII.2).
+ */
+#ifndef FBD_DYNAMICS_PROJECT_H
+#define FBD_DYNAMICS_PROJECT_H
+
+#include "dynamics/state.h"
+
+struct misfit {
+    double position, velocity; /* the largest |g| and |g'|; angles and lengths alike */
+    int row, velocity_row;     /* where; -1 without rows */
+};
+
+/* How far the state is from its constraints. */
+struct misfit state_misfit(struct fbd_state *state);
+
+/* What the state keeps of its start: lengths that are not given, how gears mesh. */
+void state_start_constraints(struct fbd_state *state);
+
+/* Project. With `assemble` only the coordinates of bodies that the scene marks so move, else all. False when
+ * that does not converge: the best state that was found stays. */
+bool state_project(struct fbd_state *state, bool assemble);
+
+/* Bring the end of a step back, which is off by its error: where rows have a slope. Near a singular position
+ * they have hardly any, and making them fit would throw the state about by more than it is off. */
+void state_return(struct fbd_state *state);
+
+/* The state's velocities alone. */
+bool state_project_velocity(struct fbd_state *state, bool assemble);
+
+#endif

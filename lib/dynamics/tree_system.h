@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The linear system that closes a tree: multipliers of its constraints, and friction of its slides that slip.
+ */
+#ifndef FBD_DYNAMICS_TREE_SYSTEM_H
+#define FBD_DYNAMICS_TREE_SYSTEM_H
+
+#include "dynamics/constraint.h"
+
+int tree_unknowns(const struct tree *tree);
+
+/* Set up and factor the system from the rows' ports and the factored tree. Overwrites work->x. */
+void tree_system_factor(const struct fbd_model *model, const struct instant *at);
+
+/* Solve for the right-hand side z, which becomes the unknowns; leaves in work->x the right-hand side of their
+ * forces alone, solved, and in work->unit the accelerations of the joints. */
+void tree_system_solve(const struct fbd_model *model, const struct instant *at, double *z);
+
+/* Add work->unit to the entries of a that belong to joints. */
+void tree_add_unit(const struct tree *tree, const struct tree_work *work, double *a);
+
+/* J a of row j for the accelerations work->x.A. */
+double tree_row_answer(const struct tree_work *work, int j);
+
+/* Subtract the variations of the constraint forces, at fixed multipliers, from p of the links. */
+void tree_apply_variations(const struct fbd_model *model, const struct instant *at,
+                           const struct direction *along);
+
+/* Does unknown k take part in the modes of the instant? */
+bool tree_takes_part(const struct tree *tree, const struct instant *at, int k);
+
+/* After tree_system_solve of work->z: the multipliers of the rows. */
+void tree_take_multipliers(const struct fbd_model *model, const struct instant *at);
+
+#endif

@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "model/tie.h"
+
+#include "model/model.h"
+
+struct tie_end tie_end_of(const struct fbd_model *model, int index, int k)
+{
+    const struct constraint *source = &model->scene->constraints[index];
+    struct tie_end end = {.body = source->body[k], .radius = source->radius[k], .side = source->side[k]};
+    const struct point *point = &source->point[k];
+    end.point = point->where;
+    if (end.body == ground_body) return end;
+    const struct model_body *body = &model->bodies[end.body];
+    struct vec own = point->kind == point_fixed ? point->where : body->inertia.G;
+    end.link = body->place.link;
+    end.point = placement_point(&body->place, own);
+    return end;
+}
+
+static void add_roots(const struct tree *tree, struct tie *tie)
+{
+    for (int k = 0; k < tie->end_count; k++) {
+        int root = tree->links[tie->end[k].link].root;
+        bool known = root == 0;
+        for (int i = 0; i < tie->root_count; i++) known |= tie->root[i] == root;
+        if (!known) tie->root[tie->root_count++] = root;
+    }
+}
+
+static struct tie *add_tie(struct fbd_model *model, int index, int from, int to)
+{
+    struct tree *tree = model->tree;
+    const struct constraint *source = &model->scene->constraints[index];
+    struct tie *tie = &tree->ties[tree->tie_count++];
+    bool double_row = source->kind == constraint_pin || source->kind == constraint_roll;
+    *tie = (struct tie){.kind = source->kind,
+                        .constraint = index,
+                        .name = source->name,
+                        .first_row = tree->row_count,
+                        .row_count = double_row ? 2 : 1,
+                        .length_given = source->length_given,
+                        .length = source->length,
+                        .place = from,
+                        .pair = -1};
+    tree->row_count += tie->row_count;
+    for (int k = from; k <= to; k++) tie->end[tie->end_count++] = tie_end_of(model, index, k);
+    add_roots(tree, tie);
+    return tie;
+}
+
+/* A rope is cut at the pulleys that it takes along; each piece is a tie. */
+static void add_rope(struct fbd_model *model, int index)
+{
+    const struct constraint *source = &model->scene->constraints[index];
+    int from = 0;
+    for (int k = 1; k < source->end_count; k++) {
+        bool held = k + 1 == source->end_count || source->radius[k] > 0;
+        if (!held) continue;
+        struct tie *tie = add_tie(model, index, from, k);
+        /* A length in the file is that of the whole rope; pieces keep theirs of the start. */
+        if (from > 0 || k + 1 < source->end_count) tie->length_given = false;
+        from = k;
+    }
+}
+
+static void set_line(const struct fbd_model *model, const struct constraint *source, struct tie *tie)
+{
+    struct vec e = vec_unit(source->along);
+    tie->turn = source->along;
+    tie->e = e;
+    if (source->body[1] == ground_body) return;
+    const struct placement *place = &model->bodies[source->body[1]].place;
+    tie->e = vec_turn(place->turn, e);
+    tie->turn += place->angle;
+}
+
+/* A rope's forces on a pulley are named after what hangs on the other side; all others after the coupling. */
+static void name_end(struct fbd_model *model, struct tie *tie, int k)
+{
+    struct arena *arena = &model->arena;
+    struct tie_end *end = &tie->end[k];
+    if (end->body == ground_body) return;
+    model->bodies[end->body].arrow_count += tie->kind == constraint_roll ? 2 : 1;
+    end->name[0] = tie->name;
+    if (tie->kind == constraint_roll) {
+        end->name[0] = arena_printf(arena, "%s.normal", tie->name);
+        end->name[1] = arena_printf(arena, "%s.friction", tie->name);
+    } else if (tie->kind == constraint_rope && end->radius > 0) {
+        int neighbour = tie->end[k == 0 ? 1 : k - 1].body;
+        end->name[0] = arena_printf(arena, "%s.%s", tie->name,
+                                    neighbour == ground_body ? "ground" : model->bodies[neighbour].name);
+    }
+}
+
+bool ties_build(struct fbd_model *model)
+{
+    const struct scene *scene = model->scene;
+    struct tree *tree = model->tree;
+    if (scene->constraint_count == 0) return true;
+    size_t most = 0;
+    for (size_t c = 0; c < scene->constraint_count; c++) most += (size_t)scene->constraints[c].end_count;
+    tree->ties = ARENA_ARRAY(&model->arena, most, struct tie);
+    if (!tree->ties) return false;
+    for (size_t c = 0; c < scene->constraint_count; c++) {
+        const struct constraint *source = &scene->constraints[c];
+        if (source->kind == constraint_rope)
+            add_rope(model, (int)c);
+        else
+            set_line(model, source, add_tie(model, (int)c, 0, source->end_count - 1));
+    }
+    for (int i = 0; i < tree->tie_count; i++)
+        for (int k = 0; k < tree->ties[i].end_count; k++) name_end(model, &tree->ties[i], k);
+    return !model->arena.failed;
+}
+
+/* The unknowns of tree_system.h and who meets whom: rows of ties, then frictions of slides. Two meet when
+ * they join a common tree. */
+static void roots_of(const struct tree *tree, int k, const int **roots, int *count)
+{
+    if (k >= tree->row_count) {
+        *roots = &tree->links[tree->pairs[k - tree->row_count]].root;
+        *count = 1;
+        return;
+    }
+    const struct tie *tie = &tree->ties[tree->tie_of_row[k]];
+    *roots = tie->root;
+    *count = tie->root_count;
+}
+
+bool ties_envelope(struct fbd_model *model)
+{
+    struct tree *tree = model->tree;
+    struct arena *arena = &model->arena;
+    int m = tree->row_count + tree->pair_count, count;
+    const int *roots;
+    tree->tie_of_row = ARENA_ARRAY(arena, (size_t)tree->row_count, int);
+    tree->first = ARENA_ARRAY(arena, (size_t)m, int);
+    tree->reach = ARENA_ARRAY(arena, (size_t)m, int);
+    tree->envelope = ARENA_ARRAY(arena, (size_t)m, size_t);
+    int *lowest = ARENA_ARRAY(arena, (size_t)tree->count, int), *highest;
+    highest = ARENA_ARRAY(arena, (size_t)tree->count, int);
+    if (arena->failed) return false;
+    for (int i = 0; i < tree->tie_count; i++)
+        for (int k = 0; k < tree->ties[i].row_count; k++) tree->tie_of_row[tree->ties[i].first_row + k] = i;
+    for (int i = 0; i < tree->count; i++) lowest[i] = m;
+    for (int k = 0; k < m; k++) {
+        roots_of(tree, k, &roots, &count);
+        for (int i = 0; i < count; i++) {
+            if (lowest[roots[i]] > k) lowest[roots[i]] = k;
+            highest[roots[i]] = k;
+        }
+    }
+    for (int k = 0; k < m; k++) {
+        roots_of(tree, k, &roots, &count);
+        tree->first[k] = k;
+        tree->reach[k] = k + 1;
+        for (int i = 0; i < count; i++) {
+            if (lowest[roots[i]] < tree->first[k]) tree->first[k] = lowest[roots[i]];
+            if (highest[roots[i]] >= tree->reach[k]) tree->reach[k] = highest[roots[i]] + 1;
+        }
+        tree->envelope[k] = tree->envelope_size;
+        tree->envelope_size += (size_t)(k - tree->first[k]);
+    }
+    return true;
+}

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Ties: the constraints of a scene as rows of equations between links, g(q) = 0.
+ *
+ * A tie has one or two rows. A pin has its two components; a rope has a tie for each piece between places
+ * that hold it (its ends and the pulleys that it takes along); a rolling body has one row that keeps it on
+ * its line and one that keeps it from slipping. The force of a row is its multiplier times the gradient of g.
+ */
+#ifndef FBD_MODEL_TIE_H
+#define FBD_MODEL_TIE_H
+
+#include "expr/expr.h"
+#include "scene/scene.h"
+
+struct tie_end {
+    int body, link; /* body: -1, and link: 0 for the ground */
+    struct vec point;
+    double radius;       /* of the circle there, else 0 */
+    int side;            /* rope: +1 when it runs counter-clockwise round the circle */
+    const char *name[2]; /* of its force in the diagram of the body; roll: across and along the line */
+};
+
+struct tie {
+    enum constraint_kind kind;
+    int constraint; /* index into scene.constraints */
+    const char *name;
+    int first_row, row_count;
+    int place; /* rope: where the piece starts on its way */
+    int end_count;
+    struct tie_end end[most_constraint_ends];
+    struct vec e;      /* roll, rack: the line in the frame of the link of end 1 */
+    double turn;       /* roll, rack: the angle of the line there */
+    bool length_given; /* rod, rope */
+    double length;
+    int normal_slot; /* roll: where minus its normal force goes */
+    int load;        /* roll, rope: its entry in the model's loads */
+    int pair;        /* roll: its dry friction; rope: its mode; index into plan.frictions, or -1 */
+    int root[most_constraint_ends], root_count; /* first links of the trees that it joins */
+};
+
+struct fbd_model;
+
+/* Place `k` of constraint `index` of the scene. */
+struct tie_end tie_end_of(const struct fbd_model *model, int index, int k);
+
+/* Compile the constraints of the scene; places of the bodies are known. False when memory is out. */
+bool ties_build(struct fbd_model *model);
+
+/* Which unknowns of the system meet; the tree is finished by then. False when memory is out. */
+bool ties_envelope(struct fbd_model *model);
+
+#endif

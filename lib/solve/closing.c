@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Couplings that close loops: a start that does not fit is refused, and every step ends on the constraints.
+ */
+#include <string.h>
+
+#include "base/text.h"
+#include "dynamics/project.h"
+#include "dynamics/tree_system.h"
+#include "solve/run.h"
+
+static bool has_ties(const struct run *run)
+{
+    return run->model->tree && run->model->tree->tie_count > 0;
+}
+
+static const char *tie_name(const struct run *run, int row)
+{
+    const struct tree *tree = run->model->tree;
+    return tree->ties[tree->tie_of_row[row]].name;
+}
+
+/* "rod.theta = -0.7, ...": what has to change. */
+static void list_changes(struct text *text, const struct fbd_state *from, const struct fbd_state *to)
+{
+    enum { most_listed = 6 };
+    const struct fbd_model *model = from->model;
+    int n = model->plan.n, listed = 0;
+    for (int i = 0; i < 2 * n; i++) {
+        double size = fmax(1, fabs(from->y[i]));
+        if (fabs(to->y[i] - from->y[i]) <= 1e-9 * size) continue;
+        if (listed++ >= most_listed) continue;
+        const struct label *label = &model->labels[i % n];
+        text_printf(text, "%s%s = ", listed > 1 ? ", " : "", i < n ? label->name : label->rate_name);
+        text_number(text, to->y[i], 9);
+    }
+    if (listed > most_listed) text_add(text, ", ...");
+}
+
+static void refuse(struct run *run, const struct misfit *misfit, bool by_velocity)
+{
+    struct text text = {0};
+    state_copy(run->during, run->state);
+    bool closed = state_project(run->during, false);
+    list_changes(&text, run->state, run->during);
+    int row = by_velocity ? misfit->velocity_row : misfit->row;
+    run_fail(run, FBD_FAILED, "the start does not fit: `%s` is off by %.3g%s. %s%s%s", tie_name(run, row),
+             by_velocity ? misfit->velocity : misfit->position, by_velocity ? " in velocity" : "",
+             closed ? "Nearest is " : "No state near it fits", closed && !text.failed ? text.data : "",
+             closed ? "; or let bodies find their place, `initial: {assemble: true}`" : "");
+    text_free(&text);
+}
+
+void run_close_start(struct run *run)
+{
+    if (!has_ties(run)) return;
+    struct misfit misfit = state_misfit(run->state);
+    double reach = 0, speed = 0;
+    for (int i = 1; i < run->model->tree->count; i++) {
+        const struct tree_state *s = &run->state->tree->links[i];
+        reach = fmax(reach, fmax(vec_norm(s->p), vec_norm(s->d)));
+        speed = fmax(speed, fmax(vec_norm(s->v), fabs(s->omega)));
+    }
+    /* Six digits in a file are meant to fit. */
+    const double digits = 2e-6;
+    bool position = !(misfit.position <= digits * reach), velocity = !(misfit.velocity <= digits * speed);
+    if (position || velocity)
+        refuse(run, &misfit, !position);
+    else
+        state_project(run->state, false);
+}
+
+void run_close_step(struct run *run)
+{
+    if (!has_ties(run)) return;
+    struct misfit misfit = state_misfit(run->state);
+    run->drift = fmax(run->drift, misfit.position);
+    run->projected = true;
+    state_return(run->state);
+    struct misfit left = state_misfit(run->state);
+    double reach = 0;
+    for (int i = 1; i < run->model->tree->count; i++)
+        reach = fmax(reach, vec_norm(run->state->tree->links[i].p));
+    run->left = fmax(run->left, left.position);
+    if (left.position <= 1e3 * fmax(run->options.tolerance, 1e-12) * reach) return;
+    run_fail(run, FBD_FAILED,
+             "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the mechanism is "
+             "at the end "
+             "of its reach, or the tolerance is too large",
+             run->state->t, tie_name(run, misfit.row >= 0 ? misfit.row : 0), misfit.position);
+}

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The program under test, and what it writes."""
+import csv
+import json
+import os
+import subprocess
+from pathlib import Path
+
+SOURCE = Path(os.environ["FBD_SOURCE_ROOT"])
+MODELS = SOURCE / "models"
+RUN = os.environ["FBD_RUN"]
+
+
+def run(*arguments, code=0):
+    done = subprocess.run([RUN, *map(str, arguments)], stdin=subprocess.DEVNULL, capture_output=True, check=False)
+    assert code is None or done.returncode == code, f"exit code {done.returncode}: {done.stderr.decode()}"
+    return done.stdout.decode()
+
+
+def table(*arguments):
+    """The CSV with its ledger: a list of {name without unit: value}."""
+    rows = csv.reader(run("--csv", "-", "--ledger", *arguments).splitlines())
+    names = [name.split(" [")[0] for name in next(rows)]
+    return [dict(zip(names, map(float, row))) for row in rows]
+
+
+def result(*arguments):
+    return json.loads(run("--json", "-", *arguments))

@@ -1,0 +1,293 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The page of --html in a headless Chromium: it plays, scrubs and goes to events, shows the numbers of the CSV, asks
+the network for nothing, and takes what the model says as data."""
+import json
+import os
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(os.environ["FBD_SOURCE_ROOT"]) / "tests/tools"))
+from browser import Browser, Missing  # noqa: E402
+from claims import claim, close, finish, skip  # noqa: E402
+from fbd import MODELS, result, run, table  # noqa: E402
+
+SEVEN_DIGITS = 1.2e-7  # the page keeps numbers that are read as floats
+SIX_DIGITS = 6e-6      # and shows six digits
+INCLINE = MODELS / "kinetics/incline.yaml"
+PENDULUM = MODELS / "rotation/compound_pendulum.yaml"
+SPECIAL = """fbd: 1
+title: "</script><script>alert(1)</script> & <b>bold</b> 'q' \\u2028"
+bodies:
+  constructor:
+    mass: 2 kg
+    motion: slide
+    initial: {v: 1 m/s}
+    forces: [gravity, normal, friction: {static: 0.2, kinetic: 0.1}]
+simulate: {until: 1 s}
+"""
+
+
+def wait_for(browser, condition, seconds=20):
+    """A condition of the page that comes true by and by."""
+    end = time.monotonic() + seconds
+    while not browser.run(f"return {condition}"):
+        assert time.monotonic() < end, f"never: {condition}"
+        time.sleep(0.02)
+
+
+def page_is_quiet(browser, path):
+    """No message on the console, no address asked for but those of the test's own files."""
+    console = browser.log("browser")
+    assert console == [], console
+    foreign = [address for address in browser.requests()
+               if not address.startswith(path.parent.as_uri()) and not address.startswith(("data:", "chrome:"))]
+    assert foreign == [], foreign
+
+
+def numbers_agree(browser, model, names, rows):
+    for row in rows:
+        shown = browser.run("const [names, t] = arguments; return names.map((name) => fbd.value(name, t));", names, row["t"])
+        for name, value in zip(names, shown):
+            size = max(abs(other[name]) for other in rows)
+            assert abs(value - row[name]) <= SEVEN_DIGITS * size + 1e-300, (name, row["t"], value, row[name])
+
+
+def check_incline(browser, folder):
+    path = folder / "incline.html"
+    run("--quiet", "--html", path, INCLINE)
+    rows = table(INCLINE)
+    browser.open(path)
+    with claim("the title of the page is that of the model"):
+        assert browser.run("return document.title") == "Block on an incline with dry friction"
+    with claim("every column of the CSV has its numbers in the page, at every row of the CSV"):
+        names = [name for name in rows[0] if name != "t"]
+        numbers_agree(browser, INCLINE, names, [row for row in rows if row["t"] != rows[0]["t"]][::20])
+    with claim("both sides of an event are there: friction jumps"):
+        t = next(e["t"] for e in result(INCLINE)["events"])
+        before, after = browser.run(
+            "const t = arguments[0]; return [fbd.value('block.friction', t - 1e-9), fbd.value('block.friction', t)];", t)
+        close(before, -8.495709211125343, 1e-5)
+        close(after, 4.81, 1e-6)
+    with claim("playing moves the time on at the speed of real time, and pausing stops it"):
+        browser.run("fbd.seek(0); document.getElementById('play').click();")
+        wait_for(browser, "fbd.player.t > 0.2")
+        browser.run("document.getElementById('play').click();")
+        t = browser.run("return fbd.player.t")
+        time.sleep(0.1)
+        assert browser.run("return fbd.player.t") == t and not browser.run("return fbd.player.playing")
+    with claim("the end of the run ends the play"):
+        browser.run("fbd.seek(2.9); fbd.setPlaying(true);")
+        wait_for(browser, "!fbd.player.playing")
+        assert browser.run("return fbd.player.t") == 3
+    with claim("the slider scrubs"):
+        browser.run("""const slider = document.getElementById('scrub'); slider.value = 1.25;
+                       slider.dispatchEvent(new Event('input'));""")
+        close(browser.run("return fbd.player.t"), 1.25, 1e-12)
+    with claim("an event of the list is gone to by a click"):
+        browser.run("document.querySelector('#events button').click()")
+        close(browser.run("return fbd.player.t"), 0.45093424971163, 1e-12)
+    with claim("keys play, step and go to events"):
+        browser.run("fbd.seek(0); document.getElementById('scene').focus();")
+        browser.press("n")
+        close(browser.run("return fbd.player.t"), 0.45093424971163, 1e-12)
+        browser.press("\ue014")  # right
+        close(browser.run("return fbd.player.t"), 0.45093424971163 + 3 / 200, 1e-12)
+        browser.press(" ")
+        assert browser.run("return fbd.player.playing")
+        browser.press(" ")
+        assert not browser.run("return fbd.player.playing")
+    with claim("the equation is that of --equations at this time, term by term"):
+        browser.run("fbd.seek(0.2)")
+        cells = browser.run("""return [...document.querySelectorAll('#equations tr')].map((row) =>
+                               [row.cells[0].textContent, Number(row.cells[1].textContent)]);""")
+        want = {"gravity": -9.81, "normal": 0, "friction": -8.495709211, "push": 5, "sum": -13.30570921, "m": 2,
+                "v_dot": -6.652854606}
+        assert [name for name, _ in cells] == list(want)
+        for name, value in cells:
+            close(value, want[name], SIX_DIGITS * 14)
+    with claim("a click into a plot moves the cursor there"):
+        box = browser.run("""const plot = document.querySelector('.plot'); plot.scrollIntoView();
+                             const r = plot.getBoundingClientRect(); return [r.left, r.top, r.width, r.height];""")
+        browser.click(box[0] + box[2] / 2, box[1] + box[3] / 2)
+        t = browser.run("return fbd.player.t")
+        assert 1.2 < t < 1.9, t
+    with claim("zooming in one plot zooms all"):
+        browser.run("fbd.zoom(0.4, 0.5)")
+        ranges = browser.run("return charts.map((chart) => chart.graph.xAxisRange())")
+        assert len(ranges) >= 4 and all(r == [0.4, 0.5] for r in ranges), ranges
+        browser.run("fbd.zoom(0, 3)")
+    with claim("an address with a time opens there"):
+        browser.open(path, "#t=0.75")
+        wait_for(browser, "fbd.player.t === 0.75")
+    with claim("the incline's page is quiet and asks for nothing"):
+        page_is_quiet(browser, path)
+
+
+def check_pendulum(browser, folder):
+    path = folder / "pendulum.html"
+    run("--quiet", "--html", path, PENDULUM)
+    browser.open(path)
+    with claim("between the rows numbers are interpolated to six digits"):
+        exact = {row["t"]: row for row in table("--every", "0.00731", PENDULUM)}
+        names = ["pendulum.theta", "pendulum.omega", "pendulum.pin.x", "pendulum.gravity", "energy.kinetic"]
+        for t in list(exact)[1::97]:
+            shown = browser.run("const [n, t] = arguments; return n.map((name) => fbd.value(name, t));", names, t)
+            for name, value in zip(names, shown):
+                close(value, exact[t][name], 1e-6 * max(abs(row[name]) for row in exact.values()))
+    with claim("bearing, rod, bob and the trace of the bob are drawn where they are"):
+        # The bob's edge and the rod are darker than paper; nothing is drawn far from them and from the trace.
+        found = browser.run("""
+            fbd.seek(0); for (const id of ['show-forces', 'show-names']) document.getElementById(id).checked = false;
+            fbd.seek(fbd.run.events.times[1]);
+            const t = fbd.player.t, theta = fbd.value('pendulum.theta', t), at = (r, a) => toScreen([r * Math.sin(a), -r * Math.cos(a)]);
+            const all = pen.getImageData(0, 0, canvas.width, canvas.height);
+            const ink = (r, a) => { const [x, y] = at(r, a).map((v) => Math.round(v * view.ratio)); let least = 255;
+              for (let i = x - 4; i <= x + 4; i++) for (let k = y - 4; k <= y + 4; k++)
+                least = Math.min(least, all.data[4 * (k * all.width + i)]);
+              return least; };
+            return [ink(0, 0), ink(0.5, theta), ink(1.06 + 0.06, theta), ink(1.06, 0.7), ink(0.5, theta + 1.2), theta];""")
+        axis, rod, bob, trace, nothing, theta = found
+        assert axis < 128 and rod < 128 and bob < 128 and trace < 220 and nothing == 255, found
+    with claim("the events of the file are in the list"):
+        assert browser.run("return document.querySelectorAll('#events button').length") == len(result(PENDULUM)["events"])
+    with claim("the pendulum's page is quiet and asks for nothing"):
+        page_is_quiet(browser, path)
+
+
+def check_joined(browser, folder):
+    for name in ("double_pendulum", "block_on_wedge", "elastic_pendulum"):
+        model, path = MODELS / f"trees/{name}.yaml", folder / f"{name}.html"
+        run("--quiet", "--html", path, model)
+        browser.open(path)
+        rows = table(model)
+        with claim(f"{name}: every column of the CSV has its numbers in the page"):
+            numbers_agree(browser, model, [column for column in rows[0] if column != "t"], rows[::50])
+        with claim(f"{name}: in every equation the terms add up to inertia times acceleration, at every time"):
+            worst = browser.run("""let worst = 0;
+                for (let i = 0; i <= 40; i++) {
+                  const t = run.end * i / 40, row = rowAt(t);
+                  for (const body of run.bodies) for (const e of body.equations) {
+                    const values = e.terms.map(([, column]) => valueAt(column, t, row));
+                    const product = e.value * valueAt(e.acceleration, t, row);
+                    const size = Math.max(...values.map(Math.abs), Math.abs(product));
+                    if (size > 0) worst = Math.max(worst, Math.abs(values.reduce((a, b) => a + b, 0) - product) / size);
+                  }
+                } return worst;""")
+            assert worst < 1e-5, worst  # seven digits of each term, and cubics between the rows
+        with claim(f"{name}: the page is quiet and asks for nothing"):
+            page_is_quiet(browser, path)
+
+
+def check_all(browser, folder):
+    """Every model has a page that plays, and a run of no length has one as well."""
+    gallery = [(model, []) for model in sorted(MODELS.glob("*/*.yaml")) if model.parent.name != "hard"]
+    wrong = {}
+    for model, options in [*gallery, (INCLINE, ["--until", "0"]), (INCLINE, ["--until", "1e9"])]:
+        path = folder / f"{model.stem}.html"
+        run("--quiet", "--html", path, *options, model)
+        browser.open(path)
+        plots, strange = browser.run("""fbd.seek(run.end * 0.3); fbd.setPlaying(true);
+            await new Promise((done) => setTimeout(done, 40)); fbd.setPlaying(false);
+            return [charts.length, charts.filter((c) => !c.graph.yAxisRange().every(Number.isFinite)).length];""")
+        console = browser.log("browser")
+        if not plots or strange or console:
+            wrong[model.stem] = (plots, strange, console)
+    with claim(f"the pages of {len(gallery)} models play and plot, without a word on the console"):
+        assert not wrong, wrong
+
+
+def check_text_is_data(browser, folder):
+    model, path = folder / "special.yaml", folder / "special.html"
+    model.write_text(SPECIAL, encoding="utf-8")
+    run("--quiet", "--html", path, "--svg", folder / "special.svg", model)
+    browser.open(path)
+    title = "</script><script>alert(1)</script> & <b>bold</b> 'q' \u2028"
+    with claim("markup in a title stays text"):
+        assert browser.run("return document.getElementById('title').textContent") == title
+        assert browser.run("return document.querySelectorAll('#title *').length") == 0
+        assert browser.run("return document.title").startswith("</script><script>alert(1)")
+    with claim("and nothing of it runs"):
+        page_is_quiet(browser, path)
+    with claim("so it does in the diagram"):
+        browser.open(folder / "special.svg")
+        assert browser.run("return document.querySelectorAll('script, b').length") == 0
+        assert "<script>alert(1)" in browser.run("return document.querySelector('text').textContent")
+
+
+def check_many(browser, folder):
+    lines = ["fbd: 1", "title: Many", "bodies:"]
+    for i in range(200):
+        lines.append(f"  b{i}: {{shape: rod, mass: 1 kg, length: 0.5 m, motion: {{pivot: {{at: [{i % 20}, {i // 20}], "
+                     f"point: left}}}}, initial: {{theta: {i} deg}}, forces: [gravity]}}")
+    model, path = folder / "many.yaml", folder / "many.html"
+    model.write_text("\n".join(lines + ["simulate: {until: 10 s}"]), encoding="utf-8")
+    run("--quiet", "--html", path, model)
+    with claim("the page of 200 bodies is below 5 MB"):
+        assert path.stat().st_size < 5e6, path.stat().st_size
+    browser.open(path)
+    with claim("it plays"):
+        browser.run("fbd.player.frames = 0; fbd.player.drawing = 0; fbd.setPlaying(true);")
+        wait_for(browser, "fbd.player.frames > 30")
+        spent = browser.run("fbd.setPlaying(false); return fbd.player.drawing / fbd.player.frames;")
+        print(f"# 200 bodies: {spent:.2f} ms of drawing a frame (60 frames a second leave 16.7)")
+    with claim("the page of 200 bodies is quiet"):
+        page_is_quiet(browser, path)
+
+
+def check_long(browser, folder):
+    """Over a million steps, with a short pulse that only one row in a thousand could show."""
+    model, path = folder / "long.yaml", folder / "long.html"
+    model.write_text("""fbd: 1
+bodies:
+  pendulum:
+    shape: rod
+    mass: 1 kg
+    length: 1 m
+    motion: {pivot: {at: [0, 0], point: left}}
+    forces: [gravity]
+    moments:
+      - applied: {name: pulse, value: "if(t > 20000[s] and t < 20000.01[s], 5[N*m], 0[N*m])"}
+simulate:
+  until: 60000 s
+  events: [{name: never_lost, when: "t = 12345.678[s]"}]
+""", encoding="utf-8")
+    steps = json.loads(run("--json", "-", "--html", path, model))["stats"]["steps"]
+    with claim(f"a run of {steps} steps (at least a million) makes a page below 5 MB"):
+        assert steps > 1e6 and path.stat().st_size < 5e6, (steps, path.stat().st_size)
+    browser.open(path)
+    with claim("the plot of the whole run still has the pulse's height"):
+        most = browser.run("""const c = fbd.run.columns.findIndex((column) => column.n === 'pendulum.pulse');
+            return Math.max(...chartRows([c], fbd.run.start, fbd.run.end).map((row) => row[1]));""")
+        close(most, 5, 1e-6)
+    with claim("and the events are all there"):
+        times = browser.run("return fbd.run.events.times")
+        for t in (12345.678, 20000, 20000.01):
+            assert any(abs(t - other) < 1e-6 for other in times), t
+    with claim("the extremes of the angle over the run are kept to four digits"):
+        # released from rest, horizontal: it swings from 0 to -180 degrees
+        low, high = browser.run("""const c = fbd.run.columns.findIndex((column) => column.n === 'pendulum.theta');
+            const rows = chartRows([c], 0, 19000).map((row) => row[1]); return [Math.min(...rows), Math.max(...rows)];""")
+        close(low, -3.141592653589793, 3e-4)
+        close(high, 0, 3e-4)
+    with claim("the long page is quiet"):
+        page_is_quiet(browser, path)
+
+
+def main():
+    try:
+        with Browser() as browser, tempfile.TemporaryDirectory() as name:
+            browser.open("/dev/null")
+            browser.requests()  # those of the browser's first page
+            browser.log("browser")
+            for check in (check_incline, check_pendulum, check_joined, check_all, check_text_is_data, check_many, check_long):
+                check(browser, Path(name))
+    except Missing as missing:
+        skip(str(missing))
+    finish()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Our own script of the page, read by machine: node for its syntax, eslint for the rest; each where it is installed."""
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+from claims import claim, finish
+from fbd import SOURCE
+
+PAGE = SOURCE / "lib/draw/page"
+PARTS = ["data.js", "scene.js", "charts.js", "page.js"]
+RULES = {
+    "root": True,
+    "env": {"browser": True, "es6": True},
+    "parserOptions": {"ecmaVersion": 2020, "sourceType": "script"},
+    "extends": "eslint:recommended",
+    "globals": {"Dygraph": "readonly"},
+    "rules": {"eqeqeq": "error", "no-var": "error", "prefer-const": "error", "no-eval": "error",
+              "no-implied-eval": "error", "max-len": ["error", {"code": 160}], "max-lines-per-function": ["error", 60],
+              "no-unused-vars": "error", "no-shadow": "error", "semi": "error"},
+}
+
+
+# Debian's eslint finds its modules where Debian's node looks; another node has to be told.
+ENVIRONMENT = {**os.environ, "NODE_PATH": "/usr/share/nodejs:/usr/lib/nodejs"}
+
+
+def checked(command, folder):
+    done = subprocess.run(command, capture_output=True, check=False, env=ENVIRONMENT, cwd=folder)
+    assert done.returncode == 0, (done.stdout + done.stderr).decode()
+
+
+def main():
+    source = "\n".join((PAGE / part).read_text(encoding="utf-8").replace('"use strict";\n', "") for part in PARTS)
+    with claim("text of the model never becomes markup"):
+        for word in ("innerHTML", "outerHTML", "insertAdjacentHTML", "document.write", "eval("):
+            assert word not in source, word
+    with claim("the page asks for nothing: no address of the network in it"):
+        for part in [*PARTS, "page.html", "page.css"]:
+            text = (PAGE / part).read_text(encoding="utf-8")
+            assert "http://" not in text and "https://" not in text and "fetch(" not in text, part
+    with claim("the script is small"):
+        assert len(source.encode()) < 40000, len(source)
+    with tempfile.TemporaryDirectory() as name:
+        script, rules = Path(name) / "page.js", Path(name) / "rules.json"
+        script.write_text('"use strict";\n' + source, encoding="utf-8")
+        rules.write_text(json.dumps(RULES), encoding="utf-8")
+        if shutil.which("node"):
+            with claim("node has nothing to say about it"):
+                checked(["node", "--check", script.name], name)
+        if shutil.which("eslint"):
+            with claim("nor has eslint"):
+                checked(["eslint", "--no-eslintrc", "--format", "unix", "--config", rules.name, script.name], name)
+    finish()
+
+
+if __name__ == "__main__":
+    main()

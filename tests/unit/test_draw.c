@@ -1,0 +1,293 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Drawings: labels that never overlap, outlines of every shape, the record of a run and how it is thinned and
+ * packed, and runs that are interrupted.
+ */
+#include <float.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "draw/labelling.h"
+#include "draw/outline.h"
+#include "draw/pack.h"
+#include "random_numbers.h"
+#include "scenes.h"
+
+static const double pi = 3.141592653589793;
+
+/* ---- labels */
+
+static bool overlap(struct box a, struct box b)
+{
+    return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
+}
+
+static void labels_of_random_crowds_never_overlap(void **unused)
+{
+    (void)unused;
+    struct random_numbers random = {20261121};
+    for (int crowd = 0; crowd < 40; crowd++) {
+        struct arena arena = {0};
+        struct labelling labelling = {.arena = &arena};
+        const int count = 5 + crowd;
+        for (int i = 0; i < count; i++) {
+            struct vec anchor = {random_between(&random, -15, 15), random_between(&random, -15, 15)};
+            struct vec toward = i % 3 ? vec_unit(random_between(&random, -pi, pi)) : (struct vec){0, 0};
+            labelling_add(&labelling, i % 2 ? "gravity 19.62 N" : "p 3 N", 3.4, anchor, toward, 1);
+            labelling_avoid(&labelling, (struct vec){0, 0}, anchor, 12);
+        }
+        assert_true(labelling_solve(&labelling));
+        for (size_t i = 0; i < labelling.label_count; i++)
+            for (size_t k = 0; k < i; k++)
+                if (overlap(labelling_box(&labelling.labels[i]), labelling_box(&labelling.labels[k])))
+                    fail_msg("crowd %d: label %zu lies on label %zu", crowd, i, k);
+        arena_free(&arena);
+    }
+}
+
+/* ---- outlines */
+
+struct seen {
+    struct part part;
+    double width, height; /* of what is seen, at angle 0 */
+};
+
+static void outlines_have_the_sizes_of_their_shapes(void **unused)
+{
+    (void)unused;
+    const double sides[3] = {4, 3, 2};
+    struct seen seen[] = {
+        {{.shape = shape_rod, .axis = 'z', .mass = 1, .length = 2}, 2, 0},
+        {{.shape = shape_rod, .axis = 'x', .mass = 1, .length = 2}, 0, 0}, /* from its end */
+        {{.shape = shape_sphere, .axis = 'z', .mass = 1, .radius = 0.5}, 1, 1},
+        {{.shape = shape_cylinder, .axis = 'x', .mass = 1, .radius = 0.5, .length = 3}, 1, 1},
+        {{.shape = shape_cylinder, .axis = 'y', .mass = 1, .radius = 0.5, .length = 3}, 3, 1},
+        {{.shape = shape_hollow_cylinder, .axis = 'x', .mass = 1, .radius = 2, .inner_radius = 1}, 4, 4},
+        {{.shape = shape_ring, .axis = 'x', .mass = 1, .radius = 2}, 4, 4},
+        {{.shape = shape_ring, .axis = 'z', .mass = 1, .radius = 2}, 0, 4}, /* from its edge */
+        {{.shape = shape_prism, .axis = 'z', .mass = 1}, 4, 3},
+        {{.shape = shape_prism, .axis = 'y', .mass = 1}, 4, 2},
+        {{.shape = shape_prism, .axis = 'x', .mass = 1}, 3, 2},
+        {{.shape = shape_point, .mass = 1}, 0, 0},
+    };
+    const double rounding = 4 * DBL_EPSILON * 4;
+    for (size_t i = 0; i < sizeof seen / sizeof *seen; i++) {
+        memcpy(seen[i].part.side, sides, sizeof sides);
+        seen[i].part.center = (struct vec){0.25, -0.5};
+        struct body body = {.part_count = 1, .parts = &seen[i].part};
+        struct vec low, high;
+        bool sized = outline_size(&body, &low, &high);
+        assert_int_equal(sized, seen[i].width + seen[i].height > 0);
+        assert_true(fabs(high.x - low.x - seen[i].width) <= rounding);
+        assert_true(fabs(high.y - low.y - seen[i].height) <= rounding);
+        double reach = outline_reach(&body, seen[i].part.center, (struct vec){0, -1});
+        assert_true(fabs(reach - seen[i].height / 2) <= rounding);
+    }
+}
+
+/* ---- records */
+
+struct recorded {
+    fbd_model *model;
+    fbd_errors *errors;
+    fbd_simulation *simulation;
+    fbd_result *result;
+};
+
+static struct recorded record_run(const char *text, double until)
+{
+    struct recorded run = {.model = model_from(text), .errors = fbd_errors_new()};
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    fbd_recording recording = {.keep = true};
+    options.until = until;
+    run.simulation = fbd_simulation_new(run.model, &options, run.errors);
+    assert_non_null(run.simulation);
+    run.result = fbd_simulation_run(run.simulation, &recording);
+    assert_non_null(run.result);
+    return run;
+}
+
+static void end_run(struct recorded *run)
+{
+    fbd_result_free(run->result);
+    fbd_simulation_free(run->simulation);
+    fbd_errors_free(run->errors);
+    fbd_model_free(run->model);
+}
+
+static int column_named(const struct record *record, const char *name)
+{
+    for (size_t c = 0; c < record->column_count; c++)
+        if (strcmp(record->columns[c].name, name) == 0) return (int)c;
+    fail_msg("no column is called %s", name);
+    return -1;
+}
+
+static const char pendulum[] = "fbd: 1\n"
+                               "bodies:\n"
+                               "  arm:\n"
+                               "    shape: rod\n"
+                               "    mass: 1 kg\n"
+                               "    length: 1 m\n"
+                               "    motion: {pivot: {at: [0, 0], point: left}}\n"
+                               "    forces: [gravity]\n"
+                               "simulate: {until: 10 s, events: [{name: mark, when: 't = 77.7[s]'}]}\n";
+
+static void a_thinned_record_keeps_events_and_extremes(void **unused)
+{
+    (void)unused;
+    /* from rest, horizontal: theta swings between 0 and -pi; some 19 steps of each 1.9 s period */
+    struct recorded run = record_run(pendulum, 20000);
+    struct record *record = run.result->record;
+    record_thin(record, 1000, 256);
+    assert_true(record_is_thinned(record));
+    assert_true(record->count <= 1000 && record->bucket_count <= 256);
+    size_t at_event = 0;
+    for (size_t i = 0; i < record->count; i++) at_event += fabs(record->times[i] - 77.7) < 1e-9;
+    assert_int_equal(at_event, 2);
+    assert_true(record->times[0] == 0 && record->times[record->count - 1] == 20000);
+    /* Every piece but the last, which may be empty, has seen whole periods. */
+    int theta = column_named(record, "arm.theta");
+    size_t pieces = (size_t)(20000 / record->bucket);
+    assert_true(pieces >= 64);
+    for (size_t k = 0; k < pieces; k++) {
+        const float *cell = record->envelope + 2 * (k * record->column_count + (size_t)theta);
+        /* the turning point is found to 1/4096 of a step of about 0.1 s, with alpha = 14.7 rad/s^2, and its
+         * place on a cubic is a guess: 1e-4 rad covers both */
+        assert_true(fabs((double)cell[0] + pi) < 1e-4 && fabs((double)cell[1]) < 1e-4);
+    }
+    end_run(&run);
+}
+
+/* The value that the page makes of a packed column. */
+static double unpacked(const struct packed_column *packed, const double *row, size_t c)
+{
+    if (packed->kind == packed_constant) return packed->offset;
+    return packed->kind == packed_affine ? packed->offset + packed->factor * row[packed->of] : row[c];
+}
+
+static void check_column(const struct pack *pack, size_t c, const char *scene)
+{
+    const struct record *record = pack->record;
+    const struct record_column *column = &record->columns[c];
+    /* 1e-13 of the larger of the two terms of the packed value, of which the first may be 1e6 times its
+     * change */
+    double size = fmax(fabs(column->least), fabs(column->greatest)), allowed = 1e-7 * size;
+    for (size_t i = 0; i < record->count; i++) {
+        const double *row = record->rows + i * record->column_count;
+        double value = unpacked(&pack->columns[c], row, c);
+        if (!(fabs(value - row[c]) <= allowed || isnan(row[c])))
+            fail_msg("%s: %s in row %zu: %.17g instead of %.17g", scene, column->name, i, value, row[c]);
+    }
+}
+
+static void packing_loses_nothing(void **unused)
+{
+    (void)unused;
+    for (size_t s = 0; s < all_scenes_count; s++) {
+        struct recorded run = record_run(all_scenes[s].text, 0.5);
+        struct pack pack;
+        assert_true(pack_begin(&pack, run.result->record, 1000000));
+        for (size_t c = 0; c < run.result->record->column_count; c++)
+            check_column(&pack, c, all_scenes[s].name);
+        pack_end(&pack);
+        end_run(&run);
+    }
+}
+
+static void what_was_not_recorded_cannot_be_shown(void **unused)
+{
+    (void)unused;
+    fbd_model *model = model_from(pendulum);
+    fbd_errors *errors = fbd_errors_new();
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    fbd_simulation *simulation = fbd_simulation_new(model, &options, errors);
+    fbd_result *result = fbd_simulation_run(simulation, NULL);
+    assert_null(fbd_result_gnuplot(result, NULL, NULL, errors));
+    assert_string_equal(fbd_errors_get(errors, 0)->id, "not-recorded");
+    assert_null(fbd_result_html(result, errors));
+    assert_int_equal(fbd_errors_failed(errors), 2);
+    assert_true(fbd_model_has_columns(model, "arm.theta,arm.pin.x,energy.work", errors));
+    assert_false(fbd_model_has_columns(model, "arm.theta,arm.phi", errors));
+    fbd_result_free(result);
+    fbd_simulation_free(simulation);
+    fbd_errors_free(errors);
+    fbd_model_free(model);
+}
+
+/* ---- interruptions */
+
+struct stop {
+    double at;
+    double seen; /* the last time that was told */
+    char last_row[400];
+};
+
+static int stop_there(void *context, const fbd_progress *progress)
+{
+    struct stop *stop = context;
+    stop->seen = progress->t;
+    return progress->t >= stop->at;
+}
+
+static int keep_row(void *context, const char *text, size_t length)
+{
+    struct stop *stop = context;
+    snprintf(stop->last_row, sizeof stop->last_row, "%.*s", (int)length, text);
+    return 0;
+}
+
+static void an_interrupted_run_ends_where_it_was_told_to(void **unused)
+{
+    (void)unused;
+    /* a body at rest, whose one step has a row every millisecond */
+    static const char rest[] =
+        "fbd: 1\n"
+        "bodies:\n"
+        "  b: {mass: 1 kg, motion: slide, forces: [gravity, normal, friction: {static: 1, "
+        "kinetic: 1}]}\n"
+        "simulate: {until: 10 s, events: [{name: late, when: 't = 10[s]'}]}\n";
+    fbd_model *model = model_from(rest);
+    fbd_errors *errors = fbd_errors_new();
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    fbd_simulation *simulation = fbd_simulation_new(model, &options, errors);
+    struct stop stop = {.at = 4.2};
+    fbd_recording recording = {.every = 0.001,
+                               .csv = keep_row,
+                               .csv_context = &stop,
+                               .progress = stop_there,
+                               .progress_context = &stop};
+    fbd_result *result = fbd_simulation_run(simulation, &recording);
+    assert_non_null(result);
+    assert_int_equal(fbd_result_outcome(result), FBD_INTERRUPTED);
+    double t = 0;
+    assert_true(fbd_state_get(fbd_result_state(result), "t", &t));
+    assert_true(t == stop.seen && t >= 4.2 && t < 4.2011);
+    assert_true(strtod(stop.last_row, NULL) == t);
+    assert_non_null(strstr(fbd_simulation_reason(simulation), "interrupted at t = 4.2"));
+    assert_int_equal(fbd_simulation_events(simulation), 0); /* that of t = 10 s has not happened */
+    fbd_result_free(result);
+    fbd_simulation_free(simulation);
+    fbd_errors_free(errors);
+    fbd_model_free(model);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(labels_of_random_crowds_never_overlap),
+        cmocka_unit_test(outlines_have_the_sizes_of_their_shapes),
+        cmocka_unit_test(a_thinned_record_keeps_events_and_extremes),
+        cmocka_unit_test(packing_loses_nothing),
+        cmocka_unit_test(what_was_not_recorded_cannot_be_shown),
+        cmocka_unit_test(an_interrupted_run_ends_where_it_was_told_to),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
