@@ -19,6 +19,7 @@ static const char help[] =
     "  --accuracy NUMBER    global error allowed, relative to the size of the motion, instead of a "
     "tolerance\n"
     "  --step TIME          steps of this fixed size, in seconds\n"
+    "  --no-structure       integrate all bodies together by the general method\n"
     "  --until TIME         end of the run, in seconds\n"
     "\n"
     "What is written (FILE may be - for standard output, which leaves the report out)\n"
@@ -59,6 +60,7 @@ enum {
     option_tolerance,
     option_accuracy,
     option_step,
+    option_no_structure,
     option_until,
     option_csv,
     option_every,
@@ -90,6 +92,7 @@ static const struct option long_options[] = {
     {"tolerance", required_argument, NULL, option_tolerance},
     {"accuracy", required_argument, NULL, option_accuracy},
     {"step", required_argument, NULL, option_step},
+    {"no-structure", no_argument, NULL, option_no_structure},
     {"until", required_argument, NULL, option_until},
     {"csv", required_argument, NULL, option_csv},
     {"every", required_argument, NULL, option_every},
@@ -176,6 +179,7 @@ static bool take_option(int code, struct options *options)
     case option_tolerance: return read_number("tolerance", optarg, tiny, &options->run.tolerance);
     case option_accuracy: return read_number("accuracy", optarg, tiny, &options->run.accuracy);
     case option_step: return read_number("step", optarg, tiny, &options->run.step);
+    case option_no_structure: options->run.no_structure = true; return true;
     case option_until: return read_number("until", optarg, -1e300, &options->run.until);
     case option_every: return read_number("every", optarg, tiny, &options->every);
     case option_csv: options->csv = optarg; return true;

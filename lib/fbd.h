@@ -175,12 +175,13 @@ typedef struct fbd_options {
     bool error_bars;    /* estimate the global errors by a more accurate run that goes along (see below) */
     double accuracy; /* global accuracy to be delivered by fbd_simulation_run, above 0 and at most 0.1; 0 for
                         the file's, if any. Brings error bars, and excludes `tolerance` and `step` */
+    bool no_structure; /* integrate all bodies together by the general method, whatever the forces are like */
 } fbd_options;
 
 /* Options that leave everything to the file. */
 #define FBD_OPTIONS_DEFAULT                                                                                  \
     {                                                                                                        \
-        NAN, 0, 0, NULL, false, 0                                                                            \
+        NAN, 0, 0, NULL, false, 0, false                                                                     \
     }
 
 typedef enum fbd_event_kind {
@@ -234,6 +235,11 @@ typedef struct fbd_stats {
     double accuracy;                              /* that was asked for, or 0 */
     unsigned long runs;                           /* made to reach it */
     double seconds_spent; /* processor time of all of them, with ledgers, output and companions */
+
+    size_t groups;   /* independent groups of bodies, each integrated by itself */
+    size_t linear;   /* of these, how many are linear with constant coefficients and are propagated exactly */
+    size_t constant; /* how many have constant accelerations and follow exact parabolas */
+    size_t velocity_free; /* how many have forces free of velocity and took a Nystrom method */
 } fbd_stats;
 
 typedef struct fbd_simulation fbd_simulation;
@@ -244,8 +250,9 @@ FBD_API fbd_simulation *fbd_simulation_new(const fbd_model *model, const fbd_opt
                                            fbd_errors *errors);
 FBD_API void fbd_simulation_free(fbd_simulation *simulation);
 
-/* Advance by one accepted step, or to the next event. With options.accuracy this is a run at the tolerance of
- * a first guess: only fbd_simulation_run makes sure. */
+/* Advance by one accepted step, or to the next event; with independent groups of bodies, by a step of the
+ * group that is furthest behind. With options.accuracy this is a run at the tolerance of a first guess: only
+ * fbd_simulation_run makes sure. */
 FBD_API fbd_outcome fbd_simulation_advance(fbd_simulation *simulation);
 
 /* The interval of the last step, and the state anywhere in it (dense output; modes are those of the step).

@@ -61,18 +61,19 @@ static const struct attempt *best_of(const struct attempt *attempts, int count)
 }
 
 /* A method of low order may need more steps than anyone would wait for. Steps are as tolerance^(-1/k). */
-static bool takes_too_long(const struct run *run, double tolerance)
+static bool takes_too_long(const fbd_simulation *simulation, double tolerance)
 {
     const double most = 3e7;
-    const int k = run->options.method->estimate_order > 0 ? run->options.method->estimate_order : 6;
-    double steps = (double)switcher_counts(run->stepper).accepted;
-    return steps * pow(run->options.tolerance / tolerance, 1.0 / k) > most;
+    const struct run_options *options = &simulation->ensemble->options;
+    const int k = options->method->estimate_order > 0 ? options->method->estimate_order : 6;
+    double steps = (double)fbd_simulation_stats(simulation).steps;
+    return steps * pow(options->tolerance / tolerance, 1.0 / k) > most;
 }
 
 static bool begin_again(fbd_simulation *simulation, double tolerance)
 {
-    const struct fbd_model *model = simulation->run->model;
-    struct run_options options = simulation->run->options;
+    const struct fbd_model *model = simulation->ensemble->model;
+    struct run_options options = simulation->ensemble->options;
     options.tolerance = tolerance;
     simulation_end(simulation);
     return simulation_begin(simulation, model, &options);
@@ -89,15 +90,15 @@ fbd_result *record_accurately(fbd_simulation *simulation, const fbd_recording *r
     for (;;) {
         fbd_result *result = record(simulation, &attempt);
         if (!result) return NULL;
-        attempts[count++] = (struct attempt){simulation->run->options.tolerance,
+        attempts[count++] = (struct attempt){simulation->ensemble->options.tolerance,
                                              companion_global(simulation->bars->companion)};
         const struct attempt *last = &attempts[count - 1], *best = best_of(attempts, count);
         double tolerance = next_tolerance(attempts, count, simulation->accuracy);
         bool enough = margin * last->estimate <= simulation->accuracy || at_the_floor(attempts, count) ||
-                      count == most_attempts || simulation->run->outcome == FBD_FAILED ||
-                      simulation->run->outcome == FBD_INTERRUPTED ||
-                      takes_too_long(simulation->run, tolerance);
-        bool stop = simulation->run->outcome == FBD_INTERRUPTED; /* no other run comes any farther */
+                      count == most_attempts || simulation->ensemble->outcome == FBD_FAILED ||
+                      simulation->ensemble->outcome == FBD_INTERRUPTED ||
+                      takes_too_long(simulation, tolerance);
+        bool stop = simulation->ensemble->outcome == FBD_INTERRUPTED; /* no other run comes any farther */
         if (enough && (best == last || stop) && !written) return result;
         if (stop) best = last;
         fbd_result_free(result);

@@ -9,23 +9,23 @@
 
 bool simulation_match_events(fbd_simulation *simulation)
 {
-    struct run *main = simulation->run;
+    struct ensemble *main = simulation->ensemble;
     const struct companion *companion = simulation->bars->companion;
     bool fresh = simulation->event_errors && simulation->main_events == main->event_count &&
-                 simulation->other_events == companion->run->event_count;
+                 simulation->other_events == companion->ensemble->event_count;
     if (fresh) return true;
     double *errors = realloc(simulation->event_errors, (main->event_count + 1) * sizeof *errors);
     if (!errors) return false;
     companion_event_errors(companion, main, errors);
     simulation->event_errors = errors;
     simulation->main_events = main->event_count;
-    simulation->other_events = companion->run->event_count;
+    simulation->other_events = companion->ensemble->event_count;
     return true;
 }
 
 double simulation_event_error(fbd_simulation *simulation, size_t index)
 {
-    struct run *main = simulation->run;
+    struct ensemble *main = simulation->ensemble;
     if (!simulation->bars || index >= main->event_count) return NAN;
     bool fine = main->outcome == FBD_GOING || bars_catch_up(simulation->bars, main);
     return fine && simulation_match_events(simulation) ? simulation->event_errors[index] : NAN;
@@ -33,17 +33,14 @@ double simulation_event_error(fbd_simulation *simulation, size_t index)
 
 bool fbd_simulation_errors(fbd_simulation *simulation, double t, double *errors)
 {
-    struct run *run = simulation->run;
+    struct ensemble *run = simulation->ensemble;
     struct bars *bars = simulation->bars;
     size_t n = (size_t)run->model->plan.n;
-    struct fbd_state *state = bars && t >= run->from && t <= run->state->t ? state_new(run->model) : NULL;
+    struct fbd_state *state = bars && t >= run->from && t <= run->t ? state_new(run->model) : NULL;
     if (!state) return false;
-    bool end = t == run->state->t, fine = true;
-    if (end)
-        state_copy(state, run->state);
-    else
-        fine = run_look(run, t, state);
-    if (fine && !bars_looked(bars, t)) fine = bars_look(bars, run, t, end && run->restart, false);
+    bool event = t == run->t && run->event_count > 0 && run->events[run->event_count - 1].t == t;
+    bool fine = ensemble_look(run, t, state);
+    if (fine && !bars_looked(bars, t)) fine = bars_look(bars, run, t, event, false);
     for (size_t i = 0; fine && i < 2 * n; i++) errors[i] = bars_component(bars, state, i);
     state_free(state);
     return fine;
@@ -54,7 +51,7 @@ bool fbd_simulation_errors(fbd_simulation *simulation, double t, double *errors)
 double fbd_result_error(fbd_result *result, const char *name)
 {
     const struct fbd_model *model = result->ledger.model;
-    const struct fbd_state *state = result->simulation->run->state;
+    const struct fbd_state *state = fbd_result_state(result);
     const struct bars *bars = result->simulation->bars;
     size_t n = (size_t)model->plan.n;
     for (size_t i = 0; bars && i < n; i++) {
@@ -86,7 +83,7 @@ size_t fbd_result_force_errors(fbd_result *result, size_t body, fbd_arrow *arrow
 {
     struct bars *bars = result->simulation->bars;
     if (!bars) return 0;
-    size_t count = fbd_diagram(result->simulation->run->state, body, arrows, room);
+    size_t count = fbd_diagram(fbd_result_state(result), body, arrows, room);
     fbd_arrow *others = calloc(room + 1, sizeof *others);
     if (!others) return 0;
     fbd_diagram(bars->state, body, others, room);
@@ -106,7 +103,7 @@ size_t fbd_result_force_errors(fbd_result *result, size_t body, fbd_arrow *arrow
 bool fbd_result_accurate(const fbd_result *result)
 {
     const fbd_simulation *simulation = result->simulation;
-    fbd_outcome outcome = simulation->run->outcome;
+    fbd_outcome outcome = simulation->ensemble->outcome;
     if (simulation->accuracy == 0) return true;
     if (outcome == FBD_FAILED || outcome == FBD_INTERRUPTED || outcome == FBD_OUT_OF_MEMORY) return false;
     return companion_global(simulation->bars->companion) <= simulation->accuracy;

@@ -15,18 +15,18 @@
 bool simulation_begin(fbd_simulation *simulation, const struct fbd_model *model,
                       const struct run_options *options)
 {
-    simulation->run = run_new(model, options);
-    return simulation->run && (!simulation->bars || bars_init(simulation->bars, model, options));
+    simulation->ensemble = ensemble_new(model, options);
+    return simulation->ensemble && (!simulation->bars || bars_init(simulation->bars, model, options));
 }
 
 void simulation_end(fbd_simulation *simulation)
 {
-    run_free(simulation->run);
+    ensemble_free(simulation->ensemble);
     if (simulation->bars) bars_free(simulation->bars);
     for (size_t i = 0; i < simulation->detail_count; i++) free(simulation->details[i]);
     free(simulation->details);
     free(simulation->event_errors);
-    simulation->run = NULL;
+    simulation->ensemble = NULL;
     simulation->details = NULL;
     simulation->detail_count = 0;
     simulation->event_errors = NULL;
@@ -40,54 +40,121 @@ static double processor_seconds(void)
                : 0;
 }
 
+/* ---- while it goes */
+
+struct going {
+    fbd_result *result;
+    const fbd_recording *recording; /* or NULL */
+    unsigned long steps;
+};
+
 /* Tell how far the run is, and end it when that is answered by a stop. */
-static void tell_progress(struct run *run, const fbd_recording *recording)
+static void tell_progress(struct going *going)
 {
-    fbd_progress progress = run_progress(run, run->state->t);
-    if (recording->progress(recording->progress_context, &progress) != 0)
-        run_cut(run, run->state->t, run->event_count);
+    const fbd_recording *recording = going->recording;
+    struct ensemble *ensemble = going->result->simulation->ensemble;
+    if (!recording || !recording->progress || ensemble->outcome != FBD_GOING) return;
+    fbd_progress progress = {.t = ensemble->t,
+                             .until = ensemble->options.until,
+                             .steps = going->steps,
+                             .events = ensemble->event_count};
+    if (recording->progress(recording->progress_context, &progress) != 0) ensemble_interrupt(ensemble);
 }
 
+/* The ledger looks at every step; its time is not that of the run. */
+static bool observe(void *context, struct ensemble *ensemble, size_t group)
+{
+    struct going *going = context;
+    fbd_result *result = going->result;
+    going->steps++;
+    tell_progress(going);
+    if (!result->ledger.any || !ledger_integrates(&result->ledger, &ensemble->groups[group])) return true;
+    double before = processor_seconds(); /* a call of the system: not for every step of a thousand groups */
+    bool done = ledger_step(&result->ledger, ensemble, group);
+    result->ledger_seconds += processor_seconds() - before;
+    return done;
+}
+
+static void observe_again(void *context, struct ensemble *ensemble, size_t group)
+{
+    struct going *going = context;
+    if (going->result->ledger.any) ledger_restart(&going->result->ledger, ensemble, group);
+}
+
+/* The next time at which there is something to do other than a row: a sample of the errors, the end of a step
+ * for the record, or, since who watches wants to be asked, a thousandth of the run. */
+static double next_stop(const struct going *going)
+{
+    const double slice = 1e-3;
+    const struct bars *bars = going->result->simulation->bars;
+    struct ensemble *ensemble = going->result->simulation->ensemble;
+    double next = bars ? bars_next(bars) : HUGE_VAL;
+    if (going->result->record) next = fmin(next, ensemble_next_end(ensemble));
+    if (going->recording && going->recording->progress)
+        next =
+            fmin(next, fmax(ensemble->t + slice * ensemble->options.until, nextafter(ensemble->t, HUGE_VAL)));
+    return next;
+}
+
+/* Carry the run on to the next such time. A row's time and another that are the same but for rounding are
+ * two: what is written does not depend on error bars. */
+static bool carry_on(struct going *going, struct csv *csv)
+{
+    fbd_result *result = going->result;
+    fbd_simulation *simulation = result->simulation;
+    struct ensemble *ensemble = simulation->ensemble;
+    size_t events = ensemble->event_count;
+    double from = ensemble->t, before = processor_seconds(), by_ledger = result->ledger_seconds;
+    double row = csv ? csv_next(csv) : ensemble->options.until, stop = next_stop(going);
+    bool other = stop < row;
+    ensemble_go(ensemble, other ? stop : row, csv && !other ? csv->near : 0, csv || result->record);
+    simulation->seconds += processor_seconds() - before - (result->ledger_seconds - by_ledger);
+    tell_progress(going);
+    bool event = ensemble->event_count > events;
+    bool due = csv && (!other || event || ensemble->outcome != FBD_GOING);
+    if (due && !csv_row(csv, ensemble, event)) return false;
+    if (result->record && !record_step(result->record, ensemble, from, event)) return false;
+    return !simulation->bars || bars_step(simulation->bars, ensemble);
+}
+
+/* Without rows, error bars and the like there is nothing to stop for before the end. */
 static bool carry(fbd_result *result, const fbd_recording *recording, struct csv *csv)
 {
-    struct run *run = result->simulation->run;
-    struct bars *bars = result->simulation->bars;
-    while (run->outcome == FBD_GOING) {
-        size_t events = run->event_count;
-        double before = processor_seconds();
-        run_advance(run);
-        result->simulation->seconds += processor_seconds() - before;
-        if (!(run->state->t > run->from) && run->outcome != FBD_GOING) break; /* no step was made */
-        if (recording && recording->progress && run->outcome == FBD_GOING) tell_progress(run, recording);
-        if (csv && !csv_step(csv, run, events)) return false;
-        if (!ledger_step(&result->ledger, run)) return false;
-        if (result->record && !record_step(result->record, run, events)) return false;
-        if (bars && !bars_step(bars, run)) return false;
-    }
-    if (run->outcome == FBD_OUT_OF_MEMORY) return false;
-    return !bars || (bars_finish(bars, run) && simulation_match_events(result->simulation));
+    fbd_simulation *simulation = result->simulation;
+    struct ensemble *ensemble = simulation->ensemble;
+    struct bars *bars = simulation->bars;
+    struct going going = {result, recording, 0};
+    if (result->ledger.any || (recording && recording->progress))
+        ensemble->observer = (struct observer){&going, observe, observe_again};
+    bool fine = true;
+    while (fine && ensemble->outcome == FBD_GOING) fine = carry_on(&going, csv);
+    fine = fine && ensemble->outcome != FBD_OUT_OF_MEMORY &&
+           ledger_at(&result->ledger, ensemble, result->ledger.work);
+    ensemble->observer = (struct observer){0};
+    return fine && (!bars || (bars_finish(bars, ensemble) && simulation_match_events(simulation)));
 }
 
 static bool begin_record(fbd_result *result, const fbd_recording *recording)
 {
     result->record = calloc(1, sizeof *result->record);
     return result->record &&
-           record_begin(result->record, result->simulation->run, &result->ledger, recording->every);
+           record_begin(result->record, result->simulation->ensemble, &result->ledger, recording->every);
 }
 
 static bool record_into(fbd_result *result, const fbd_recording *recording)
 {
-    struct run *run = result->simulation->run;
+    struct ensemble *ensemble = result->simulation->ensemble;
     struct bars *bars = result->simulation->bars;
+    struct fbd_state *start = ensemble_state(ensemble);
     bool works = !recording || recording->ledger || recording->keep || !recording->motion_only;
-    result->start = state_new(run->model);
-    if (!result->start || !ledger_init(&result->ledger, run->model, run->state, works)) return false;
+    result->start = state_new(ensemble->model);
+    if (!result->start || !ledger_init(&result->ledger, ensemble->model, start, works)) return false;
     if (bars && !works) bars->ledger.any = false;
-    state_copy(result->start, run->state);
+    state_copy(result->start, start);
     if (recording && recording->keep && !begin_record(result, recording)) return false;
     if (!recording || !recording->csv) return carry(result, recording, NULL);
     struct csv csv = {0};
-    bool done = csv_begin(&csv, run, &result->ledger, bars, recording) && carry(result, recording, &csv);
+    bool done = csv_begin(&csv, ensemble, &result->ledger, bars, recording) && carry(result, recording, &csv);
     csv_free(&csv);
     return done;
 }
@@ -109,7 +176,7 @@ fbd_result *record(fbd_simulation *simulation, const fbd_recording *recording)
 
 fbd_result *fbd_simulation_run(fbd_simulation *simulation, const fbd_recording *recording)
 {
-    if (simulation->run->state->t > 0) return NULL; /* the ledger has to see every step */
+    if (simulation->ensemble->started) return NULL; /* the ledger has to see every step */
     return simulation->accuracy > 0 ? record_accurately(simulation, recording)
                                     : record(simulation, recording);
 }
@@ -126,17 +193,17 @@ void fbd_result_free(fbd_result *result)
 
 fbd_outcome fbd_result_outcome(const fbd_result *result)
 {
-    return result->simulation->run->outcome;
+    return result->simulation->ensemble->outcome;
 }
 
 fbd_state *fbd_result_state(fbd_result *result)
 {
-    return result->simulation->run->state;
+    return ensemble_state(result->simulation->ensemble);
 }
 
 fbd_energy fbd_result_energy(fbd_result *result)
 {
-    return ledger_energy(&result->ledger, result->simulation->run->state, result->ledger.work);
+    return ledger_energy(&result->ledger, fbd_result_state(result), result->ledger.work);
 }
 
 double fbd_result_work(fbd_result *result, const char *body, const char *load)
@@ -145,6 +212,6 @@ double fbd_result_work(fbd_result *result, const char *body, const char *load)
     for (size_t i = 0; i < model->load_count; i++)
         if (strcmp(model->loads[i].source->name, load) == 0 &&
             strcmp(model->bodies[model->loads[i].body].name, body) == 0)
-            return ledger_work(&result->ledger, result->simulation->run->state, i, result->ledger.work);
+            return ledger_work(&result->ledger, fbd_result_state(result), i, result->ledger.work);
     return NAN;
 }

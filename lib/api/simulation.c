@@ -66,38 +66,35 @@ void fbd_simulation_free(fbd_simulation *simulation)
 
 fbd_outcome fbd_simulation_advance(fbd_simulation *simulation)
 {
-    struct run *run = simulation->run;
-    if (!bars_catch_up(simulation->bars, run)) run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
-    run_advance(run);
+    struct ensemble *ensemble = simulation->ensemble;
+    if (!bars_catch_up(simulation->bars, ensemble))
+        ensemble_fail(ensemble, FBD_OUT_OF_MEMORY, "out of memory");
+    ensemble_advance(ensemble);
     if (simulation->bars) simulation->bars->behind = true;
-    return run->outcome;
+    return ensemble->outcome;
 }
 
 void fbd_simulation_interval(const fbd_simulation *simulation, double *from, double *to)
 {
-    *from = simulation->run->from;
-    *to = simulation->run->state->t;
+    *from = simulation->ensemble->from;
+    *to = simulation->ensemble->t;
 }
 
 bool fbd_simulation_state(fbd_simulation *simulation, double t, fbd_state *state)
 {
-    struct run *run = simulation->run;
-    if (t == run->state->t) {
-        state_copy(state, run->state);
-        return true;
-    }
-    return t >= run->from && t < run->state->t && run_look(run, t, state);
+    struct ensemble *ensemble = simulation->ensemble;
+    return t >= ensemble->from && t <= ensemble->t && ensemble_look(ensemble, t, state);
 }
 
 size_t fbd_simulation_events(const fbd_simulation *simulation)
 {
-    return simulation->run->event_count;
+    return simulation->ensemble->event_count;
 }
 
 /* Texts of events are made the first time that they are asked for; NULL when memory is out. */
 static const char *detail_of(fbd_simulation *simulation, size_t index)
 {
-    const struct run *run = simulation->run;
+    const struct ensemble *run = simulation->ensemble;
     if (index >= simulation->detail_count) {
         char **details = realloc(simulation->details, run->event_count * sizeof *details);
         if (!details) return "";
@@ -115,7 +112,7 @@ static const char *detail_of(fbd_simulation *simulation, size_t index)
 
 fbd_event fbd_simulation_event(fbd_simulation *simulation, size_t index)
 {
-    const struct run *run = simulation->run;
+    const struct ensemble *run = simulation->ensemble;
     if (index >= run->event_count)
         return (fbd_event){.t = NAN, .body = "", .name = "", .detail = "", .t_error = NAN};
     const struct run_event *event = &run->events[index];
@@ -127,35 +124,48 @@ fbd_event fbd_simulation_event(fbd_simulation *simulation, size_t index)
                        .t_error = simulation_event_error(simulation, index)};
 }
 
+static void add_stats(fbd_stats *stats, const struct run *run)
+{
+    const struct stepper_counts counts = switcher_counts(run->stepper);
+    stats->stiff_steps += switcher_stiff_steps(run->stepper);
+    stats->steps += counts.accepted;
+    stats->rhs += run->system.rhs;
+    stats->jacobians += run->system.jacobians;
+    stats->event_samples += (unsigned long)(run->timed.samples + run->moving.samples);
+    for (int kind = 0; kind < rejection_kinds; kind++) stats->rejected += counts.rejected[kind];
+    stats->linear += run->kind == structure_linear;
+    stats->constant += run->kind == structure_constant;
+    stats->velocity_free += run->kind == structure_velocity_free;
+}
+
 fbd_stats fbd_simulation_stats(const fbd_simulation *simulation)
 {
-    struct run *run = simulation->run;
-    const struct stepper_counts counts = switcher_counts(run->stepper);
-    fbd_stats stats = {.method = options_method(&run->options),
-                       .stiff_steps = switcher_stiff_steps(run->stepper),
-                       .tolerance = run->options.tolerance,
-                       .steps = counts.accepted,
-                       .rhs = run->system.rhs,
-                       .jacobians = run->system.jacobians,
-                       .events = run->event_count,
-                       .event_samples = (unsigned long)(run->timed.samples + run->moving.samples),
+    struct ensemble *ensemble = simulation->ensemble;
+    const struct run_options *options = &ensemble->options;
+    fbd_stats stats = {.method = options_method(options),
+                       .tolerance = options->tolerance,
+                       .events = ensemble->event_count,
                        .seconds = simulation->seconds,
+                       .groups = ensemble->count,
                        .error_estimate = NAN,
                        .accuracy = simulation->accuracy,
                        .runs = simulation->runs,
                        .seconds_spent = simulation->seconds_spent};
+    for (size_t i = 0; i < ensemble->count; i++) add_stats(&stats, ensemble->groups[i].run);
     if (simulation->bars) {
         const struct companion *companion = simulation->bars->companion;
-        if (run->outcome != FBD_GOING) bars_catch_up(simulation->bars, run);
+        if (ensemble->outcome != FBD_GOING) bars_catch_up(simulation->bars, ensemble);
         stats.error_estimate = companion_global(companion);
-        stats.companion_steps = switcher_counts(companion->run->stepper).accepted;
-        stats.companion_rhs = companion->run->system.rhs;
+        fbd_stats other = {0};
+        for (size_t i = 0; i < companion->ensemble->count; i++)
+            add_stats(&other, companion->ensemble->groups[i].run);
+        stats.companion_steps = other.steps;
+        stats.companion_rhs = other.rhs;
     }
-    for (int kind = 0; kind < rejection_kinds; kind++) stats.rejected += counts.rejected[kind];
     return stats;
 }
 
 const char *fbd_simulation_reason(const fbd_simulation *simulation)
 {
-    return simulation->run->reason;
+    return simulation->ensemble->reason;
 }

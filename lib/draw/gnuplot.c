@@ -176,7 +176,7 @@ static void write_data(struct text *text, const struct choice *choice)
     text_add(text, "END\n");
 }
 
-static void write_events(struct text *text, const struct run *run)
+static void write_events(struct text *text, const struct ensemble *run)
 {
     for (size_t i = 0; i < run->event_count && run->event_count <= most_events; i++) {
         text_add(text, "set arrow from first ");
@@ -221,7 +221,7 @@ static void write_plot(struct text *text, const struct choice *choice, size_t fi
     text_add(text, "\n");
 }
 
-static void write_script(struct text *text, const struct choice *choice, const struct run *run,
+static void write_script(struct text *text, const struct choice *choice, const struct ensemble *run,
                          const char *file)
 {
     size_t plots = 0;
@@ -245,7 +245,7 @@ static void write_script(struct text *text, const struct choice *choice, const s
 
 char *fbd_result_gnuplot(fbd_result *result, const char *file, const char *columns, fbd_errors *errors)
 {
-    const struct run *run = result->simulation->run;
+    const struct ensemble *run = result->simulation->ensemble;
     struct choice choice = {.record = result->record};
     struct text text = {0};
     errors->file = run->model->scene->file;

@@ -58,7 +58,7 @@ bool fbd_has_html(void)
 
 char *fbd_result_html(fbd_result *result, fbd_errors *errors)
 {
-    const struct fbd_model *model = result->simulation->run->model;
+    const struct fbd_model *model = result->simulation->ensemble->model;
     const struct page_asset *template = find_asset("page.html", strlen("page.html"));
     errors->file = model->scene->file;
     if (!template) {

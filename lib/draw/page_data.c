@@ -292,14 +292,14 @@ static bool alike(const struct run_event *a, const struct run_event *b)
 }
 
 /* Beyond that many the page has only their number; the JSON of the run has all. */
-static size_t listed_events(const struct run *run)
+static size_t listed_events(const struct ensemble *run)
 {
     size_t count = run->event_count;
     if (count > most_listed_events) count = most_listed_events;
     return count;
 }
 
-static void write_labels(struct text *text, const struct run *run, size_t count)
+static void write_labels(struct text *text, const struct ensemble *run, size_t count)
 {
     enum { most_labels = 4096 };
     const struct run_event *labels[most_labels];
@@ -333,7 +333,7 @@ static void write_labels(struct text *text, const struct run *run, size_t count)
     text_free(&of);
 }
 
-static void write_events(struct text *text, const struct run *run)
+static void write_events(struct text *text, const struct ensemble *run)
 {
     size_t count = listed_events(run);
     text_printf(text, "\"events\":{\"count\":%zu,", run->event_count);
@@ -357,13 +357,13 @@ static void write_events(struct text *text, const struct run *run)
 
 static void write_head(struct text *text, fbd_result *result)
 {
-    const struct run *run = result->simulation->run;
+    const struct ensemble *run = result->simulation->ensemble;
     const struct fbd_model *model = run->model;
     fbd_stats stats = fbd_simulation_stats(result->simulation);
     json_text_member(text, "title", model->scene->title);
     json_text_member(text, "reason", run->reason);
     json_number_member(text, "start", result->start->t);
-    json_number_member(text, "end", run->state->t);
+    json_number_member(text, "end", run->t);
     text_printf(text, "\"units\":{\"length\":\"%s\",\"force\":\"%s\",\"moment\":\"%s\",\"energy\":\"%s\"},\n",
                 length_unit(model), force_unit(model), moment_unit(model), energy_unit(model));
     text_add(text, "\"stats\":{");
@@ -377,7 +377,7 @@ static void write_head(struct text *text, fbd_result *result)
 bool page_data_write(struct text *text, fbd_result *result, struct record *record)
 {
     struct pack pack;
-    size_t bytes = most_bytes - bytes_of_event * listed_events(result->simulation->run);
+    size_t bytes = most_bytes - bytes_of_event * listed_events(result->simulation->ensemble);
     if (!pack_begin(&pack, record, bytes)) return false;
     text_add(text, "{");
     write_head(text, result);
@@ -391,7 +391,7 @@ bool page_data_write(struct text *text, fbd_result *result, struct record *recor
     text_add(text, "],\n");
     page_links_write(text, record);
     page_ties_write(text, result, record);
-    write_events(text, result->simulation->run);
+    write_events(text, result->simulation->ensemble);
     json_columns_member(text, "energy", record->energy, 4);
     text_add(text, "\"version\":1}");
     pack_end(&pack);

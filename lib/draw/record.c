@@ -108,9 +108,9 @@ static void take(struct record *record, struct fbd_state *state, bool keep)
 /* ---- a run */
 
 /* Regular rows divide the interval of the CSV, so that all of its rows are among them. */
-static double choose_interval(const struct run *run, double every)
+static double choose_interval(const struct ensemble *run, double every)
 {
-    double length = run->options.until - run->state->t;
+    double length = run->options.until - run->t;
     if (!(every > 0)) every = run->model->scene->simulate.every;
     if (!(every > 0)) every = length / default_intervals;
     double count = length / every;
@@ -118,45 +118,48 @@ static double choose_interval(const struct run *run, double every)
     return count > 0 ? every / ceil(regular_rows / fmax(count, 1)) : 0;
 }
 
-bool record_begin(struct record *record, const struct run *run, struct ledger *ledger, double every)
+static void remember_start(struct record *record, const struct fbd_state *state)
+{
+    size_t n = (size_t)record->model->plan.n;
+    memcpy(record->turning, state->y + n, n * sizeof *record->turning);
+    memcpy(record->turning + n, state->a, n * sizeof *record->turning);
+}
+
+bool record_begin(struct record *record, struct ensemble *run, struct ledger *ledger, double every)
 {
     const struct fbd_model *model = run->model;
+    struct fbd_state *start = ensemble_state(run);
     size_t loads = model->load_count, n = (size_t)model->plan.n;
     *record = (struct record){.model = model, .ledger = ledger, .next = 1};
     record->probe = state_new(model);
     record->arrows = calloc(diagram_most_arrows(model), sizeof *record->arrows);
-    record->work = calloc(2 * loads + 1, sizeof *record->work);
+    record->work = calloc(loads + 1, sizeof *record->work);
     record->turning = calloc(2 * n + 1, sizeof *record->turning);
     if (!record->probe || !record->arrows || !record->work || !record->turning) return false;
-    record->work_before = record->work + loads;
     for (size_t i = 0; i < loads; i++)
         record->costly |= model->loads[i].potential_kind == potential_quadrature;
-    if (!record_define(record, run->state) || !make_room(record)) return false;
+    if (!record_define(record, start) || !make_room(record)) return false;
     record->every = choose_interval(run, every);
     /* The envelope starts with pieces far too small and joins them as the run goes on: it may end early. */
-    double length = run->options.until - run->state->t;
+    double length = run->options.until - run->t;
     record->bucket = length / (double)record->bucket_count / 1024;
-    take(record, run->state, true);
-    memcpy(record->turning, run->state->y + n, n * sizeof *record->turning);
-    memcpy(record->turning + n, run->state->a, n * sizeof *record->turning);
+    take(record, start, true);
+    remember_start(record, start);
     return true;
 }
 
-/* A row at t within the last step. */
-static bool take_within(struct record *record, struct run *run, double t, bool keep)
+/* A row of record->probe, a state at t within the last step. */
+static bool take_probe(struct record *record, struct ensemble *run, double t, bool keep)
 {
-    size_t size = record->model->load_count * sizeof *record->work;
-    if (!run_look(run, t, record->probe)) return false;
-    memcpy(record->work, record->work_before, size);
-    if (!ledger_integrate(record->ledger, run, run->from, t, record->work)) return false;
+    if (!ledger_within(record->ledger, run, t, record->work)) return false;
     take(record, record->probe, keep);
     return true;
 }
 
 /* What the envelope has to know of an instant that is no row. */
-static bool look_at(struct record *record, struct run *run, double t)
+static bool look_at(struct record *record, struct ensemble *run, double t)
 {
-    if (!run_look(run, t, record->probe)) return false;
+    if (!ensemble_look(run, t, record->probe)) return false;
     record_fill(record, record->probe, false);
     widen_envelope(record, t);
     return true;
@@ -180,31 +183,31 @@ static double cubic_root(double a, double b, double p, double q)
 
 /* The first instant after t of the step where a rate or an acceleration changes its sign, by its values at
  * the ends; for a rate with the accelerations as its slopes. */
-static double next_turning(const struct record *record, const struct run *run, double t)
+static double next_turning(const struct record *record, const struct fbd_state *end, double from, double t)
 {
     size_t n = (size_t)record->model->plan.n;
-    const struct fbd_state *end = run->state;
     const double *rate = record->turning, *acceleration = record->turning + n;
-    double first = HUGE_VAL, h = end->t - run->from;
+    double first = HUGE_VAL, h = end->t - from;
     for (size_t i = 0; i < 2 * n; i++) {
         double a = i < n ? rate[i] : acceleration[i - n], b = i < n ? end->y[n + i] : end->a[i - n];
         if (!(a * b < 0)) continue;
         double u = i < n ? cubic_root(a, b, h * acceleration[i], h * end->a[i]) : a / (a - b);
-        double when = run->from + h * u;
+        double when = from + h * u;
         if (when > t && when < first && when < end->t) first = when;
     }
     return first;
 }
 
 /* Rows at regular times and turning points before the end of the step, in order. */
-static bool take_inside(struct record *record, struct run *run)
+static bool take_inside(struct record *record, struct ensemble *run, double from)
 {
+    const struct fbd_state *state = ensemble_state(run);
     const int most_turnings = record->model->plan.n > many_coordinates ? 1 : 4;
-    double end = run->state->t, near = 1e-9 * record->every, t = run->from;
+    double end = run->t, near = 1e-9 * record->every, t = from;
     for (int turnings = 0;;) {
         double regular = record->every > 0 ? (double)record->next * record->every : HUGE_VAL;
         if (regular >= end - near) regular = HUGE_VAL;
-        double turning = turnings < most_turnings ? next_turning(record, run, t) : HUGE_VAL;
+        double turning = turnings < most_turnings ? next_turning(record, state, from, t) : HUGE_VAL;
         t = fmin(regular, turning);
         if (t >= end) return true;
         if (t == turning) turnings++;
@@ -213,28 +216,22 @@ static bool take_inside(struct record *record, struct run *run)
             continue;
         }
         record->next++;
-        if (!take_within(record, run, t, false)) return false;
+        if (!ensemble_look(run, t, record->probe) || !take_probe(record, run, t, false)) return false;
     }
 }
 
-static void remember_start(struct record *record, const struct run *run)
+bool record_step(struct record *record, struct ensemble *run, double from, bool event)
 {
-    size_t n = (size_t)record->model->plan.n, loads = record->model->load_count;
-    memcpy(record->work_before, record->ledger->work, loads * sizeof *record->work);
-    memcpy(record->turning, run->state->y + n, n * sizeof *record->turning);
-    memcpy(record->turning + n, run->state->a, n * sizeof *record->turning);
-}
-
-bool record_step(struct record *record, struct run *run, size_t events)
-{
-    double end = run->state->t, near = 1e-9 * record->every;
-    bool event = run->event_count > events, last = run->outcome != FBD_GOING;
-    if (!take_inside(record, run)) return false;
+    double end = run->t, near = 1e-9 * record->every;
+    bool last = run->outcome != FBD_GOING;
+    if (!(end > from) && !event && !last) return true;
+    if (!take_inside(record, run, from)) return false;
     if (record->every > 0 && fabs((double)record->next * record->every - end) <= near) record->next++;
-    if (event && !take_within(record, run, end, true)) return false; /* just before it */
-    memcpy(record->work, record->ledger->work, record->model->load_count * sizeof *record->work);
-    take(record, run->state, event || last);
-    remember_start(record, run);
+    if (event && (!ensemble_look_before(run, end, record->probe) || !take_probe(record, run, end, true)))
+        return false;
+    if (!ledger_at(record->ledger, run, record->work)) return false;
+    take(record, ensemble_state(run), event || last);
+    remember_start(record, ensemble_state(run));
     return true;
 }
 

@@ -77,19 +77,19 @@ struct record {
     struct ledger *ledger;
     struct fbd_state *probe;
     struct arrow *arrows;
-    double *work, *work_before; /* integrals up to the row, and at the start of the step */
-    double *values;             /* of one row */
-    double *turning;            /* rates and accelerations at the start of the step */
-    bool costly;                /* a potential energy is a quadrature: only for rows that are stored */
-    bool failed;                /* memory ran out */
+    double *work;    /* integrals up to the row */
+    double *values;  /* of one row */
+    double *turning; /* rates and accelerations at the start of the step */
+    bool costly;     /* a potential energy is a quadrature: only for rows that are stored */
+    bool failed;     /* memory ran out */
 };
 
 /* Set up for a run and take the row of its start. False when memory is out. */
-bool record_begin(struct record *record, const struct run *run, struct ledger *ledger, double every);
+bool record_begin(struct record *record, struct ensemble *run, struct ledger *ledger, double every);
 
-/* The rows of the last step; to be called after ledger_step. `events`: how many there were before the step.
- */
-bool record_step(struct record *record, struct run *run, size_t events);
+/* The rows of (from, run->t], which lies in the last step of every group: see ensemble_next_end. `event`:
+ * some have happened at run->t. */
+bool record_step(struct record *record, struct ensemble *run, double from, bool event);
 
 /* Drop rows and join pieces of the envelope until no more than these are left. */
 void record_thin(struct record *record, size_t rows, size_t buckets);

@@ -43,3 +43,15 @@ bool expr_switch_is_time(const struct expr *expr, size_t index)
 {
     return expr->switch_at[index].time;
 }
+
+const struct expr *expr_renumbered(struct arena *arena, const struct expr *expr, const int *moved)
+{
+    if (expr->variables == 0) return expr;
+    struct expr *copy = ARENA_NEW(arena, struct expr);
+    int *slots = ARENA_ARRAY(arena, expr->variables, int);
+    if (!copy || !slots) return NULL;
+    *copy = *expr;
+    for (size_t i = 0; i < expr->variables; i++) slots[i] = moved[expr->slots[i]];
+    copy->slots = slots;
+    return copy;
+}

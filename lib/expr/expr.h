@@ -134,6 +134,19 @@ bool expr_uses_time(const struct expr *expr);
 /* The slots k >= 1 that it depends on, ascending, without t; returns their number. */
 size_t expr_variables(const struct expr *expr, const int **slots);
 
+/* How an expression varies between events, that is while its switches keep their branches. */
+enum expr_degree {
+    expr_constant_between, /* not at all */
+    expr_affine,           /* c + sum c_k y_k with constant c, without t */
+    expr_nonlinear,        /* in any other way, or not known to be simpler */
+};
+
+enum expr_degree expr_degree(const struct expr *expr);
+
+/* The same expression over another vector: slot k becomes moved[k], which keeps the order of its slots.
+ * Shares all else with `expr`. NULL when memory is out. */
+const struct expr *expr_renumbered(struct arena *arena, const struct expr *expr, const int *moved);
+
 /* ---- evaluating; y is the caller's vector, slot k is y[k - 1]; `branch` are this program's branches or NULL
  */
 

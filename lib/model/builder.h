@@ -38,6 +38,9 @@ void plan_ties(struct builder *builder);
 void body_terms_add(struct builder *builder, int b);
 void body_terms_finish(struct builder *builder);
 
+/* As model_compile, without labels. */
+struct fbd_model *model_compile_group(struct scene *scene, fbd_errors *errors);
+
 /* Fill the plan from the bodies and loads of the model. False when memory is out. */
 bool plan_build(struct builder *builder);
 

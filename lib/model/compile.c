@@ -150,11 +150,6 @@ static void set_couplings(struct builder *builder)
     }
 }
 
-static bool constraint_has_load(const struct constraint *constraint)
-{
-    return constraint->kind == constraint_roll || constraint->kind == constraint_rope;
-}
-
 /* The force along the line of a rolling body, and a rope, by name: for events and their work. */
 static bool set_named_ties(struct builder *builder)
 {
@@ -247,7 +242,7 @@ static void set_watches(struct builder *builder)
     }
 }
 
-struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors)
+static struct fbd_model *compile(struct scene *scene, bool labels, fbd_errors *errors)
 {
     struct fbd_model *model = calloc(1, sizeof *model);
     if (!model) {
@@ -265,10 +260,10 @@ struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors)
         for (size_t b = 0; b < scene->body_count; b++) model->assembles |= scene->bodies[b].assemble;
         set_loads(&builder);
         set_couplings(&builder);
-        model->labels = labels_make(&model->arena, scene);
-        done = model->labels && set_named_ties(&builder) && set_drives(&builder) && set_absolutes(model) &&
-               tree_number(model) && tree_name_reactions(model) && plan_build(&builder) &&
-               classify_loads(&builder);
+        if (labels) model->labels = labels_make(&model->arena, scene);
+        done = (model->labels || !labels) && set_named_ties(&builder) && set_drives(&builder) &&
+               set_absolutes(model) && tree_number(model) && tree_name_reactions(model) &&
+               plan_build(&builder) && classify_loads(&builder);
         set_watches(&builder);
     }
     if (!done) diag_out_of_memory(errors);
@@ -277,6 +272,16 @@ struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors)
         return NULL;
     }
     return model;
+}
+
+struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors)
+{
+    return compile(scene, true, errors);
+}
+
+struct fbd_model *model_compile_group(struct scene *scene, fbd_errors *errors)
+{
+    return compile(scene, false, errors);
 }
 
 void model_free(struct fbd_model *model)

@@ -5,20 +5,32 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The companion's ledger looks at its steps. */
+static bool account(void *context, struct ensemble *ensemble, size_t group)
+{
+    struct bars *bars = context;
+    return !bars->ledger.any || ledger_step(&bars->ledger, ensemble, group);
+}
+
+static void account_again(void *context, struct ensemble *ensemble, size_t group)
+{
+    struct bars *bars = context;
+    ledger_restart(&bars->ledger, ensemble, group);
+}
+
 bool bars_init(struct bars *bars, const struct fbd_model *model, const struct run_options *options)
 {
-    size_t loads = model->load_count;
     *bars = (struct bars){.companion = companion_new(model, options)};
-    bars->before = calloc(2 * loads + 1, sizeof *bars->before);
+    bars->work = calloc(model->load_count + 1, sizeof *bars->work);
     bars->arrows = calloc(diagram_most_arrows(model), sizeof *bars->arrows);
     bars->state = state_new(model);
-    bool made = bars->companion && bars->before && bars->arrows && bars->state &&
-                ledger_init(&bars->ledger, model, bars->companion->run->state, true);
+    bool made = bars->companion && bars->work && bars->arrows && bars->state &&
+                ledger_init(&bars->ledger, model, ensemble_state(bars->companion->ensemble), true);
     if (!made) {
         bars_free(bars);
         return false;
     }
-    bars->work = bars->before + loads;
+    bars->companion->ensemble->observer = (struct observer){bars, account, account_again};
     return true;
 }
 
@@ -26,7 +38,7 @@ void bars_free(struct bars *bars)
 {
     companion_free(bars->companion);
     if (bars->ledger.model) ledger_free(&bars->ledger);
-    free(bars->before);
+    free(bars->work);
     free(bars->arrows);
     state_free(bars->state);
     *bars = (struct bars){0};
@@ -34,40 +46,30 @@ void bars_free(struct bars *bars)
 
 /* ---- going along */
 
-static bool advance(struct bars *bars)
+double bars_next(const struct bars *bars)
 {
-    struct run *own = bars->companion->run;
-    memcpy(bars->before, bars->ledger.work, bars->ledger.model->load_count * sizeof *bars->before);
-    run_advance(own);
-    if (own->outcome == FBD_OUT_OF_MEMORY) return false;
-    return own->outcome == FBD_FAILED || ledger_step(&bars->ledger, own);
+    return bars->companion->next;
 }
 
 /* The companion goes forward only: what is to be sampled up to t is sampled on the way. */
-static bool advance_to(struct bars *bars, struct run *main, double t)
+static bool sample_until(struct bars *bars, struct ensemble *main, double t)
 {
     struct companion *companion = bars->companion;
-    for (;;) {
-        double sample = companion_next(companion, main, fmax(bars->sampled, main->from));
-        double next = fmin(sample, t);
-        while (companion_behind(companion, next))
-            if (!advance(bars)) return false;
-        if (!(sample <= t)) return true;
+    while (companion->next <= t) {
+        double sample = companion->next;
+        if (!companion_go(companion, sample)) return false;
         companion_sample(companion, main, sample);
-        bars->sampled = sample;
     }
+    return true;
 }
 
-bool bars_look(struct bars *bars, struct run *main, double t, bool after_event, bool works)
+bool bars_look(struct bars *bars, struct ensemble *main, double t, bool after_event, bool works)
 {
-    struct run *own = bars->companion->run;
-    if (!advance_to(bars, main, t)) return false;
-    bars->known = companion_look(bars->companion, main, t, after_event, bars->state);
-    if (!works || !bars->known || !bars->ledger.any) return true;
-    size_t loads = bars->ledger.model->load_count;
-    bool within = t < own->state->t;
-    memcpy(bars->work, within ? bars->before : bars->ledger.work, loads * sizeof *bars->work);
-    return !within || ledger_integrate(&bars->ledger, own, own->from, t, bars->work);
+    struct companion *companion = bars->companion;
+    if (!sample_until(bars, main, t) || !companion_go(companion, t)) return false;
+    bars->known = companion_look(companion, main, t, after_event, bars->state);
+    bool there = works && bars->known && bars->ledger.any;
+    return !there || ledger_at(&bars->ledger, companion->ensemble, bars->work);
 }
 
 bool bars_looked(const struct bars *bars, double t)
@@ -75,36 +77,30 @@ bool bars_looked(const struct bars *bars, double t)
     return bars->known && bars->state->t == t;
 }
 
-static bool at_event(const struct run *run)
+static bool at_event(const struct ensemble *run)
 {
-    return run->event_count > 0 && run->events[run->event_count - 1].t == run->state->t;
+    return run->event_count > 0 && run->events[run->event_count - 1].t == run->t;
 }
 
-bool bars_step(struct bars *bars, struct run *main)
+bool bars_step(struct bars *bars, struct ensemble *main)
 {
-    companion_note(bars->companion, main);
-    double end = main->state->t;
-    bool due = companion_next(bars->companion, main, fmax(bars->sampled, main->from)) <= end;
-    return !due || advance_to(bars, main, end);
+    return sample_until(bars, main, main->t);
 }
 
-bool bars_catch_up(struct bars *bars, struct run *main)
+bool bars_catch_up(struct bars *bars, struct ensemble *main)
 {
     if (!bars || !bars->behind) return true;
     bars->behind = false;
     return bars_step(bars, main) && (main->outcome == FBD_GOING || bars_finish(bars, main));
 }
 
-bool bars_finish(struct bars *bars, struct run *main)
+bool bars_finish(struct bars *bars, struct ensemble *main)
 {
-    const double most = 1.1; /* later than this its event is another one */
-    struct run *own = bars->companion->run;
-    if (!bars_look(bars, main, main->state->t, at_event(main), true)) return false;
-    if (!bars->known) companion_lose(bars->companion, main->state->t);
-    double limit = most * main->state->t;
-    while (own->outcome == FBD_GOING && own->event_count < main->event_count && own->state->t < limit)
-        if (!advance(bars)) return false;
-    return true;
+    struct companion *companion = bars->companion;
+    if (!bars_look(bars, main, main->t, at_event(main), true)) return false;
+    companion_sample(companion, main, main->t);
+    if (!bars->known) companion_lose(companion, main->t);
+    return companion_come_to_events(companion, main);
 }
 
 /* ---- what the errors are */

@@ -14,12 +14,11 @@
 
 struct bars {
     struct companion *companion;
-    struct ledger ledger;  /* of the companion */
-    double *before, *work; /* per load: integrals at the start of its last step, and at the time looked at */
-    struct arrow *arrows;  /* of one body of the companion */
+    struct ledger ledger;    /* of the companion */
+    double *work;            /* per load: integrals at the time looked at */
+    struct arrow *arrows;    /* of one body of the companion */
     struct fbd_state *state; /* the companion at the time looked at */
     bool known;              /* ... which is there */
-    double sampled;          /* time of the last sample of the errors */
     bool behind;             /* the last step of the first run has not been looked at: see bars_catch_up */
 };
 
@@ -27,23 +26,28 @@ struct bars {
 bool bars_init(struct bars *bars, const struct fbd_model *model, const struct run_options *options);
 void bars_free(struct bars *bars);
 
-/* Take samples of the errors in the last step of `main` when they are due. False when memory is out. */
-bool bars_step(struct bars *bars, struct run *main);
+/* The time of the next sample of the errors, at which `main` is to stop; HUGE_VAL when there is none. */
+double bars_next(const struct bars *bars);
+
+/* Take the samples of the errors that are due in the last step of `main`, or where it is. False when memory
+ * is out. */
+bool bars_step(struct bars *bars, struct ensemble *main);
 
 /* For who advances a run by hand and may look into its last step: leave bars_step undone, set `behind`, and
  * call this before the next step and at the end. `bars` may be NULL. */
-bool bars_catch_up(struct bars *bars, struct run *main);
+bool bars_catch_up(struct bars *bars, struct ensemble *main);
 
-/* Take the companion to the time t of the last step of `main`; `after_event` as in companion_look, `works`:
- * the integrals are wanted too. False when memory is out; bars->known says whether there is an estimate. */
-bool bars_look(struct bars *bars, struct run *main, double t, bool after_event, bool works);
+/* Take the companion to the time t where `main` is, or in its last step; `after_event` as in companion_look,
+ * `works`: the integrals are wanted too. False when memory is out; bars->known says whether there is an
+ * estimate. */
+bool bars_look(struct bars *bars, struct ensemble *main, double t, bool after_event, bool works);
 
 /* Has that been done for t, and found something? */
 bool bars_looked(const struct bars *bars, double t);
 
 /* After `main` has ended: look at its end, works included, and let the companion come to its own last event.
  * What has been looked at stays. */
-bool bars_finish(struct bars *bars, struct run *main);
+bool bars_finish(struct bars *bars, struct ensemble *main);
 
 /* Estimated errors at the time looked at; INFINITY when unknown. Of component i (n coordinates, n rates) of
  * `main`: */

@@ -205,6 +205,7 @@ static void component(struct csv *csv, const struct fbd_state *state, int i)
 static bool row(struct csv *csv, const struct fbd_state *state)
 {
     const struct fbd_model *model = csv->model;
+    csv->last = state->t;
     text_number(&csv->line, state->t, digits);
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
@@ -215,25 +216,13 @@ static bool row(struct csv *csv, const struct fbd_state *state)
     return put_line(csv);
 }
 
-/* A row inside the last step: the integrals up to there start from those at the step's beginning. */
-static bool row_within(struct csv *csv, struct run *run, double t)
-{
-    if (!run_look(run, t, csv->probe)) return false;
-    if (csv->ledger) {
-        memcpy(csv->work, csv->ledger->work, csv->model->load_count * sizeof *csv->work);
-        if (!ledger_integrate(csv->ledger, run, run->from, t, csv->work)) return false;
-    }
-    if (csv->bars && !bars_look(csv->bars, run, t, false, csv->ledger)) return false;
-    return row(csv, csv->probe);
-}
-
 /* ---- the file */
 
-bool csv_begin(struct csv *csv, struct run *run, struct ledger *ledger, struct bars *bars,
+bool csv_begin(struct csv *csv, struct ensemble *run, struct ledger *ledger, struct bars *bars,
                const fbd_recording *recording)
 {
     const struct fbd_model *model = run->model;
-    double start = run->state->t, until = run->options.until;
+    double start = run->t, until = run->options.until;
     double every = recording->every > 0 ? recording->every : model->scene->simulate.every;
     *csv = (struct csv){.model = model,
                         .ledger = recording->ledger ? ledger : NULL,
@@ -243,53 +232,35 @@ bool csv_begin(struct csv *csv, struct run *run, struct ledger *ledger, struct b
                         .until = until,
                         .every = every > 0 ? every : (until - start) / default_rows,
                         .next = 1};
-    csv->probe = state_new(model);
+    csv->near = 1e-9 * csv->every;
     csv->arrows = calloc(diagram_most_arrows(model), sizeof *csv->arrows);
     csv->work = calloc(model->load_count + 1, sizeof *csv->work);
-    if (!csv->probe || !csv->arrows || !csv->work) return false;
-    headers(csv, run->state);
+    if (!csv->arrows || !csv->work) return false;
+    struct fbd_state *state = ensemble_state(run);
+    headers(csv, state);
     if (bars && !bars_look(bars, run, start, false, csv->ledger)) return false;
-    return put_line(csv) && row(csv, run->state);
+    return put_line(csv) && row(csv, state);
 }
 
-static bool told_to_stop(const struct csv *csv, const struct run *run, double t)
+double csv_next(const struct csv *csv)
 {
-    const fbd_recording *recording = csv->recording;
-    if (!recording->progress) return false;
-    fbd_progress progress = run_progress(run, t);
-    return recording->progress(recording->progress_context, &progress) != 0;
+    return csv->every > 0 ? fmin(csv->start + (double)csv->next * csv->every, csv->until) : csv->until;
 }
 
-bool csv_step(struct csv *csv, struct run *run, size_t events)
+bool csv_row(struct csv *csv, struct ensemble *ensemble, bool event)
 {
-    double end = run->state->t, t;
-    /* A regular row at the very end, or the last row, belongs to the end; a row within rounding of it is not
-     * written twice. */
-    const double near = 1e-9 * csv->every;
-    while (csv->every > 0 && (t = csv->start + (double)csv->next * csv->every) < end - near) {
-        if (!row_within(csv, run, t)) return false;
-        csv->next++;
-        if (told_to_stop(csv, run, t)) {
-            run_cut(run, t, events);
-            return true;
-        }
-    }
-    bool regular = csv->every > 0 && fabs(csv->start + (double)csv->next * csv->every - end) <= near;
+    bool regular = csv->every > 0 && ensemble->t >= csv->start + (double)csv->next * csv->every - csv->near;
     if (regular) csv->next++;
-    bool last = run->outcome != FBD_GOING, event = run->event_count > events;
+    bool last = ensemble->outcome != FBD_GOING && ensemble->t > csv->last;
     if (!regular && !event && !last) return true;
-    if (csv->ledger) {
-        memcpy(csv->work, csv->ledger->work, csv->model->load_count * sizeof *csv->work);
-        if (!ledger_integrate(csv->ledger, run, run->from, end, csv->work)) return false;
-    }
-    if (csv->bars && !bars_look(csv->bars, run, end, event, csv->ledger)) return false;
-    return row(csv, run->state);
+    if (csv->ledger && !ledger_at(csv->ledger, ensemble, csv->work)) return false;
+    if (csv->bars && !bars_look(csv->bars, ensemble, ensemble->t, event, csv->ledger)) return false;
+    return row(csv, ensemble_state(ensemble));
 }
 
 void csv_free(struct csv *csv)
 {
     text_free(&csv->line);
-    state_free(csv->probe);
     free(csv->arrows);
     free(csv->work);
 }

@@ -13,9 +13,10 @@ struct csv {
     struct bars *bars;              /* NULL without columns of errors */
     const fbd_recording *recording; /* where to write, and whom to ask */
     double start, every, until;
-    long next; /* index of the next regular row: t = start + next * every */
+    double near; /* a regular row and an event that are no further apart share a row */
+    double last; /* time of the row before */
+    long next;   /* index of the next regular row: t = start + next * every */
     struct text line;
-    struct fbd_state *probe;
     struct arrow *arrows;
     double *work; /* integrals up to the row */
     bool failed;  /* memory or the writer */
@@ -23,13 +24,16 @@ struct csv {
 
 /* Write the header and the row of the start, where the run is; `bars` may be NULL. False when memory is out
  * or the writer refused. */
-bool csv_begin(struct csv *csv, struct run *run, struct ledger *ledger, struct bars *bars,
+bool csv_begin(struct csv *csv, struct ensemble *run, struct ledger *ledger, struct bars *bars,
                const fbd_recording *recording);
 
-/* Rows within the last step of the run; to be called before ledger_step. A row is added at its end when the
- * step has added to the first `events` events. A step of a body at rest may have millions of rows: the
- * recording's progress function is asked between them as well, and may end the run at one of them. */
-bool csv_step(struct csv *csv, struct run *run, size_t events);
+/* The time up to which no row is due, but for events. */
+double csv_next(const struct csv *csv);
+
+/* The row at the ensemble's time, if one is due there: by the output interval, by an event, or as the last
+ * one.
+ */
+bool csv_row(struct csv *csv, struct ensemble *ensemble, bool event);
 
 void csv_free(struct csv *csv);
 

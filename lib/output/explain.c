@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "dynamics/modes.h"
+#include "output/explain_structure.h"
 #include "solve/method.h"
 
 enum { most_names = 4, most_bodies = 20 };
@@ -214,6 +215,7 @@ char *fbd_explain(const fbd_model *model, const fbd_options *options)
         write_effects(&text, model);
         write_absent(&text, model);
         explain_plan(&text, model, rates);
+        if (!explain_structure(&text, model, options)) text.failed = true;
         write_method(&text, model, options);
     }
     rates_free(rates);

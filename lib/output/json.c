@@ -68,8 +68,8 @@ static void write_final(struct text *text, const struct fbd_model *model, const 
 /* As `final`, without the time. */
 static void write_final_errors(struct text *text, const fbd_simulation *simulation)
 {
-    const struct fbd_model *model = simulation->run->model;
-    const struct fbd_state *state = simulation->run->state;
+    const struct fbd_model *model = simulation->ensemble->model;
+    const struct fbd_state *state = ensemble_state(simulation->ensemble);
     if (!simulation->bars) return;
     text_add(text, "  \"final_error\": {");
     for (size_t b = 0; b < model->body_count; b++) {
@@ -99,7 +99,7 @@ static void text_member(struct text *text, const char *name, const char *value, 
 
 static void write_events(struct text *text, const fbd_simulation *simulation)
 {
-    const struct run *run = simulation->run;
+    const struct ensemble *run = simulation->ensemble;
     text_add(text, "  \"events\": [");
     for (size_t i = 0; i < run->event_count; i++) {
         const struct run_event *event = &run->events[i];
@@ -257,6 +257,8 @@ static void write_stats(struct text *text, const fbd_simulation *simulation)
                 "\"steps\": %lu, \"rejected\": %lu, \"rhs\": %lu, \"jacobians\": %lu, \"events\": %lu, "
                 "\"stiff_steps\": %lu, ",
                 stats.steps, stats.rejected, stats.rhs, stats.jacobians, stats.events, stats.stiff_steps);
+    text_printf(text, "\"groups\": %zu, \"constant\": %zu, \"linear\": %zu, \"velocity_free\": %zu, ",
+                stats.groups, stats.constant, stats.linear, stats.velocity_free);
     member(text, "seconds", stats.seconds, false);
     member(text, "error_estimate", stats.error_estimate, true);
     if (simulation->bars) {
@@ -274,7 +276,8 @@ static void write_stats(struct text *text, const fbd_simulation *simulation)
 char *fbd_result_json(fbd_result *result)
 {
     fbd_simulation *simulation = result->simulation;
-    struct run *run = simulation->run;
+    struct ensemble *run = simulation->ensemble;
+    struct fbd_state *end = ensemble_state(run);
     const struct fbd_model *model = run->model;
     struct text text = {0};
     text_add(&text, "{\n  \"title\": ");
@@ -283,12 +286,12 @@ char *fbd_result_json(fbd_result *result)
                 model->scene->units == unit_si ? "SI" : "US", outcome_name(run->outcome));
     text_json_string(&text, run->reason);
     text_add(&text, ",\n");
-    state_ready(run->state);
-    write_final(&text, model, run->state);
+    state_ready(end);
+    write_final(&text, model, end);
     write_final_errors(&text, simulation);
     write_events(&text, simulation);
-    write_forces(&text, result, run->state);
-    write_balances(&text, result, run->state);
+    write_forces(&text, result, end);
+    write_balances(&text, result, end);
     write_energy(&text, result);
     write_stats(&text, simulation);
     text_add(&text, "}\n");

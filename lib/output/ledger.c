@@ -17,15 +17,16 @@ bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fb
     size_t loads = model->load_count;
     *ledger = (struct ledger){.model = model};
     ledger->integrated = calloc(loads + 1, sizeof *ledger->integrated);
-    ledger->work = calloc(2 * loads + 1, sizeof *ledger->work);
+    ledger->work = calloc(4 * loads + 1, sizeof *ledger->work);
     ledger->arrows = calloc(diagram_most_arrows(model), sizeof *ledger->arrows);
     ledger->scratch = calloc(2 * (size_t)model->plan.n + 1, sizeof *ledger->scratch);
-    ledger->probe = state_new(model);
-    if (!ledger->integrated || !ledger->work || !ledger->arrows || !ledger->scratch || !ledger->probe) {
+    if (!ledger->integrated || !ledger->work || !ledger->arrows || !ledger->scratch) {
         ledger_free(ledger);
         return false;
     }
     ledger->initial_potential = ledger->work + loads;
+    ledger->begin = ledger->initial_potential + loads;
+    ledger->end = ledger->begin + loads;
     struct instant at = state_instant(start);
     ledger->initial_kinetic = kinetic(model, &at);
     for (size_t i = 0; i < loads; i++) {
@@ -45,30 +46,40 @@ void ledger_free(struct ledger *ledger)
     free(ledger->work);
     free(ledger->arrows);
     free(ledger->scratch);
-    state_free(ledger->probe);
     *ledger = (struct ledger){0};
 }
 
-/* Add weight * power of every integrated load at the probe. */
-static void add_powers(struct ledger *ledger, double weight, double *work)
+/* Add weight * power of every integrated load of a group in a state of it. */
+static void add_powers(struct ledger *ledger, const struct group *group, const struct fbd_state *state,
+                       double weight, double *work)
 {
-    const struct fbd_model *model = ledger->model;
-    struct instant at = state_instant(ledger->probe);
+    const struct fbd_model *model = group->model;
+    struct instant at = state_instant(state);
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
         bool wanted = body->place.link > 0;
-        for (int i = 0; i < body->load_count; i++) wanted |= ledger->integrated[body->first_load + i];
+        for (int i = 0; i < body->load_count; i++)
+            wanted |= ledger->integrated[group_load(ledger->model, group, body->first_load + i)];
         if (!wanted) continue;
-        size_t count =
-            diagram_fill(model, (int)b, &at, ledger->probe->a, ledger->probe->slots, ledger->arrows);
+        size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, ledger->arrows);
         for (size_t i = 0; i < count; i++) {
-            int load = ledger->arrows[i].load; /* what acts between two bodies: its power on both */
+            int load = group_load(ledger->model, group, ledger->arrows[i].load);
+            /* What acts between two bodies: its power on both. */
             if (load >= 0 && ledger->integrated[load]) work[load] += weight * ledger->arrows[i].power;
         }
     }
 }
 
-bool ledger_integrate(struct ledger *ledger, struct run *run, double from, double to, double *work)
+bool ledger_integrates(const struct ledger *ledger, const struct group *group)
+{
+    for (size_t i = 0; i < group->model->load_count; i++)
+        if (ledger->integrated[group_load(ledger->model, group, (int)i)]) return true;
+    return false;
+}
+
+/* Add the integral of power over [from, to] of a group's last step. */
+static bool integrate(struct ledger *ledger, struct ensemble *ensemble, size_t group, double from, double to,
+                      double *work)
 {
     /* Gauss-Legendre, five points on [-1, 1]: x = 0, sqrt(5 -+ 2 sqrt(10/7)) / 3 (Abramowitz & Stegun,
      * table 25.4). */
@@ -77,21 +88,62 @@ bool ledger_integrate(struct ledger *ledger, struct run *run, double from, doubl
     static const double w[] = {0.236926885056189087514264040720, 0.478628670499366468041291514836,
                                0.568888888888888888888888888889, 0.478628670499366468041291514836,
                                0.236926885056189087514264040720};
-    double middle = (from + to) / 2, half = (to - from) / 2;
-    if (!ledger->any || !(half > 0)) return true;
-    for (int k = 0; k < 5; k++) {
-        if (!run_look(run, middle + half * x[k], ledger->probe)) return false;
-        add_powers(ledger, half * w[k], work);
+    const struct group *of = &ensemble->groups[group];
+    if (!(to > from) || !ledger_integrates(ledger, of)) return true;
+    int panels = run_panels(of->run);
+    double half = (to - from) / (2 * panels);
+    for (int i = 0; i < 5 * panels; i++) {
+        int panel = i / 5;
+        double middle = from + half * (2 * panel + 1);
+        const struct fbd_state *state = ensemble_look_group(ensemble, group, middle + half * x[i % 5]);
+        if (!state) return false;
+        add_powers(ledger, of, state, half * w[i % 5], work);
     }
     return true;
 }
 
-bool ledger_step(struct ledger *ledger, struct run *run)
+bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t index)
 {
-    if (!ledger_integrate(ledger, run, run->from, run->state->t, ledger->work)) return false;
-    for (size_t i = ledger->model->coupled_count; i < ledger->model->load_count; i++)
-        if (ledger->model->loads[i].source->kind == load_rope) ledger->work[i] = run->impact_work[i];
+    const struct group *group = &ensemble->groups[index];
+    const struct fbd_model *model = group->model;
+    for (size_t i = 0; i < model->load_count; i++) {
+        int load = group_load(ledger->model, group, (int)i);
+        ledger->begin[load] = ledger->end[load];
+    }
+    const struct run *run = group->run;
+    if (!integrate(ledger, ensemble, index, run->from, run->state->t, ledger->end)) return false;
+    for (size_t i = model->coupled_count; i < model->load_count; i++)
+        if (model->loads[i].source->kind == load_rope)
+            ledger->end[group_load(ledger->model, group, (int)i)] = run->impact_work[i];
     return true;
+}
+
+void ledger_restart(struct ledger *ledger, struct ensemble *ensemble, size_t index)
+{
+    const struct group *group = &ensemble->groups[index];
+    for (size_t i = 0; i < group->model->load_count; i++) {
+        int load = group_load(ledger->model, group, (int)i);
+        ledger->begin[load] = ledger->end[load] = 0;
+    }
+}
+
+bool ledger_within(struct ledger *ledger, struct ensemble *ensemble, double t, double *work)
+{
+    for (size_t g = 0; ledger->any && g < ensemble->count; g++) {
+        const struct group *group = &ensemble->groups[g];
+        bool at_end = t == group->run->state->t;
+        for (size_t i = 0; i < group->model->load_count; i++) {
+            int load = group_load(ledger->model, group, (int)i);
+            work[load] = (at_end ? ledger->end : ledger->begin)[load];
+        }
+        if (!at_end && !integrate(ledger, ensemble, g, group->run->from, t, work)) return false;
+    }
+    return true;
+}
+
+bool ledger_at(struct ledger *ledger, struct ensemble *ensemble, double *work)
+{
+    return ledger_within(ledger, ensemble, ensemble->t, work);
 }
 
 double ledger_work(struct ledger *ledger, const struct fbd_state *state, size_t index, const double *work)

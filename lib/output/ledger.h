@@ -14,16 +14,16 @@
 #define FBD_OUTPUT_LEDGER_H
 
 #include "dynamics/diagram.h"
-#include "solve/run.h"
+#include "solve/ensemble.h"
 
 struct ledger {
     const struct fbd_model *model;
     bool *integrated;          /* per load: its work is integrated */
     bool any;                  /* one of them is, and it was asked for */
-    double *work;              /* per load, integrated, up to the end of the last step */
+    double *begin, *end;       /* per load, integrated, up to the begin and end of its group's last step */
+    double *work;              /* per load, integrated, up to the end of the run */
     double *initial_potential; /* per load */
     double initial_kinetic, initial_sum;
-    struct fbd_state *probe; /* for looking into a step */
     struct arrow *arrows;
     double *scratch; /* 2 n */
 };
@@ -33,11 +33,16 @@ struct ledger {
 bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fbd_state *start, bool works);
 void ledger_free(struct ledger *ledger);
 
-/* Add the integral of power over [from, to] of the run's last step to work[load_count]. */
-bool ledger_integrate(struct ledger *ledger, struct run *run, double from, double to, double *work);
+/* Is any work in this group integrated? A look into a step costs what dense output costs. */
+bool ledger_integrates(const struct ledger *ledger, const struct group *group);
 
-/* Account for the whole of the last step. */
-bool ledger_step(struct ledger *ledger, struct run *run);
+/* Account for the last step of group `index`; begin with it again. Of use if `any` only. */
+bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t index);
+void ledger_restart(struct ledger *ledger, struct ensemble *ensemble, size_t index);
+
+/* work[load_count]: the integrals up to a time in the last step of every group; up to the ensemble's time. */
+bool ledger_within(struct ledger *ledger, struct ensemble *ensemble, double t, double *work);
+bool ledger_at(struct ledger *ledger, struct ensemble *ensemble, double *work);
 
 /* Work of load `index` at a state, given the integrals up to there. */
 double ledger_work(struct ledger *ledger, const struct fbd_state *state, size_t index, const double *work);

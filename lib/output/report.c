@@ -38,8 +38,8 @@ static void write_event(const struct page *page, size_t index)
 {
     struct text *text = page->text;
     const fbd_simulation *simulation = page->result->simulation;
-    const struct fbd_model *model = simulation->run->model;
-    const struct run_event *event = &simulation->run->events[index];
+    const struct fbd_model *model = simulation->ensemble->model;
+    const struct run_event *event = &simulation->ensemble->events[index];
     char detail[event_detail_size];
     const char *body = event_body(model, event);
     event_detail(model, event, detail, sizeof detail);
@@ -59,7 +59,7 @@ static void write_event(const struct page *page, size_t index)
 static void write_events(const struct page *page)
 {
     struct text *text = page->text;
-    const struct run *run = page->result->simulation->run;
+    const struct ensemble *run = page->result->simulation->ensemble;
     enum { most_switches = 8 };
     size_t count = run->event_count, shown = 0, switches = 0, hidden = 0;
     text_add(text, count ? "\nEvents\n" : "\nEvents: none\n");
@@ -99,7 +99,7 @@ static void write_friction(struct text *text, struct fbd_state *state, const str
 static void write_final(const struct page *page)
 {
     struct text *text = page->text;
-    struct fbd_state *state = page->result->simulation->run->state;
+    struct fbd_state *state = fbd_result_state(page->result);
     const struct fbd_model *model = state->model;
     text_add(text, "\nFinal state at t = ");
     text_number(text, state->t, digits);
@@ -173,7 +173,7 @@ static void write_forces(const struct page *page)
 {
     struct text *text = page->text;
     struct ledger *ledger = &page->result->ledger;
-    const struct fbd_state *state = page->result->simulation->run->state;
+    const struct fbd_state *state = fbd_result_state(page->result);
     const struct fbd_model *model = ledger->model;
     struct instant at = state_instant(state);
     text_add(text, "\nForces at the end, in the world's x and y, and their work since the start\n");
@@ -213,6 +213,28 @@ static void write_energy(const struct page *page)
                 energy.residual, energy_unit(page->result->ledger.model));
 }
 
+/* "3 independent groups; constant accelerations in 1, ..."; nothing for one group without structure. */
+static void write_structure(struct text *text, const fbd_stats *stats)
+{
+    const struct {
+        size_t count;
+        const char *words;
+    } kinds[] = {{stats->constant, "exact parabolas"},
+                 {stats->linear, "exact propagation of linear equations"},
+                 {stats->velocity_free, "Nystrom method for forces free of velocity"}};
+    const char *before = "\n  ";
+    if (stats->groups > 1) {
+        text_printf(text, "\n  %zu independent groups of bodies", stats->groups);
+        before = "; ";
+    }
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        if (kinds[i].count == 0) continue;
+        text_printf(text, "%s%s", before, kinds[i].words);
+        if (stats->groups > 1) text_printf(text, " in %zu", kinds[i].count);
+        before = "; ";
+    }
+}
+
 /* What the error bars say of the whole run, what they cost, and what was asked for. */
 static void write_accuracy(const struct page *page, const fbd_stats *stats)
 {
@@ -245,6 +267,7 @@ static void write_cost(const struct page *page)
     struct text *text = page->text;
     fbd_stats stats = fbd_simulation_stats(page->result->simulation);
     text_printf(text, "\nAccuracy and cost: %s at tolerance %g", stats.method, stats.tolerance);
+    write_structure(text, &stats);
     text_printf(text, "\n  %lu steps (%lu rejected), %lu right-hand sides", stats.steps, stats.rejected,
                 stats.rhs);
     if (stats.jacobians) text_printf(text, ", %lu Jacobians", stats.jacobians);
@@ -280,13 +303,14 @@ static void write_assembled(struct text *text, const struct fbd_model *model, co
 char *fbd_result_report(fbd_result *result)
 {
     fbd_simulation *simulation = result->simulation;
-    struct run *run = simulation->run;
+    struct ensemble *run = simulation->ensemble;
+    struct fbd_state *end = ensemble_state(run);
     const struct fbd_model *model = run->model;
     struct text text = {0};
     if (model->scene->title[0]) text_printf(&text, "%s\n\n", model->scene->title);
     write_assembled(&text, model, result->start);
     equations_write(&text, result->start);
-    state_ready(run->state);
+    state_ready(end);
     const struct page page = {&text, result, simulation->bars};
     write_events(&page);
     if (run->reason[0]) text_printf(&text, "\nThe run ended early: %s.\n", run->reason);

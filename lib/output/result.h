@@ -9,9 +9,9 @@
 #include "output/bars.h"
 #include "output/ledger.h"
 
-/* The simulation of the public interface: a run, its error bars, and where its time went. */
+/* The simulation of the public interface: a run of the whole, its error bars, and where its time went. */
 struct fbd_simulation {
-    struct run *run;
+    struct ensemble *ensemble;
     struct bars *bars; /* NULL without error bars */
     double seconds;
     double accuracy;                  /* asked for, 0 when it is not */
@@ -26,6 +26,7 @@ struct fbd_simulation {
 struct fbd_result {
     struct fbd_simulation *simulation;
     struct ledger ledger;
+    double ledger_seconds;   /* processor time of its integrals */
     struct fbd_state *start; /* the state at the start */
     struct record *record;   /* for the page and for plots (draw/record.h), NULL without */
 };

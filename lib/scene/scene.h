@@ -195,6 +195,12 @@ struct constraint {
     struct value mu_s, mu_k; /* roll: expr NULL for rolling without slip, whatever it takes */
 };
 
+/* Is its force known by name, as a load of the model: for events and its work? */
+static inline bool constraint_has_load(const struct constraint *constraint)
+{
+    return constraint->kind == constraint_roll || constraint->kind == constraint_rope;
+}
+
 /* A derivation by the user: an equation that must hold. */
 struct hand {
     const char *text;

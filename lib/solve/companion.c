@@ -23,6 +23,12 @@ static double tolerance_for(const struct run_options *options)
     return fmin(fmax(share * options->tolerance, least), most);
 }
 
+static double sample_interval(const struct companion *companion)
+{
+    enum { samples = 200 };
+    return companion->ensemble->options.until / samples;
+}
+
 struct companion *companion_new(const struct fbd_model *model, const struct run_options *options)
 {
     struct companion *companion = calloc(1, sizeof *companion);
@@ -30,27 +36,31 @@ struct companion *companion_new(const struct fbd_model *model, const struct run_
     struct run_options own = {.until = options->until,
                               .tolerance = tolerance_for(options),
                               .method = method_at(0),
-                              .automatic = true};
+                              .automatic = true,
+                              .structure = options->structure,
+                              .apart = true};
     if (!companion) return NULL;
     companion->model = model;
-    companion->run = run_new(model, &own);
+    companion->ensemble = ensemble_new(model, &own);
     companion->probe = state_new(model);
     companion->scale = calloc(8 * n + 1, sizeof *companion->scale);
     companion->unknown_from = HUGE_VAL;
-    if (!companion->run || !companion->scale || !companion->probe) {
+    if (!companion->ensemble || !companion->scale || !companion->probe) {
         companion_free(companion);
         return NULL;
     }
     companion->worst = companion->scale + 2 * n;
     companion->y = companion->scale + 4 * n;
-    for (size_t i = 0; i < 2 * n; i++) companion->scale[i] = fabs(companion->run->state->y[i]);
+    companion->next = options->until > 0 ? sample_interval(companion) : HUGE_VAL;
+    const double *start = ensemble_state(companion->ensemble)->y;
+    for (size_t i = 0; i < 2 * n; i++) companion->scale[i] = fabs(start[i]);
     return companion;
 }
 
 void companion_free(struct companion *companion)
 {
     if (!companion) return;
-    run_free(companion->run);
+    ensemble_free(companion->ensemble);
     state_free(companion->probe);
     free(companion->scale);
     free(companion);
@@ -58,21 +68,22 @@ void companion_free(struct companion *companion)
 
 /* ---- going along */
 
-bool companion_behind(const struct companion *companion, double t)
+bool companion_go(struct companion *companion, double t)
 {
-    return companion->run->outcome == FBD_GOING && companion->run->state->t < t;
+    struct ensemble *own = companion->ensemble;
+    if (own->t < t) ensemble_go(own, t, 0, false);
+    return own->outcome != FBD_OUT_OF_MEMORY;
 }
 
 /* It ended before t: an event has stopped it that comes a little later in the first run. Go on as it was
  * going there, q + v s + a s^2 / 2. */
-static bool go_beyond(const struct run *own, double t, struct fbd_state *state)
+static bool go_beyond(struct ensemble *own, double t, struct fbd_state *state)
 {
     const double most = 0.1; /* of the time so far */
     size_t n = (size_t)own->model->plan.n;
-    double end = own->state->t, s = t - end;
+    double s = t - own->t;
     if (own->outcome == FBD_FAILED || own->outcome == FBD_OUT_OF_MEMORY || !(s <= most * t)) return false;
-    state_copy(state, own->state);
-    state_evaluate(state);
+    if (!ensemble_look(own, own->t, state)) return false;
     for (size_t i = 0; i < n; i++) {
         state->y[i] += s * (state->y[n + i] + s / 2 * state->a[i]);
         state->y[n + i] += s * state->a[i];
@@ -90,74 +101,92 @@ static size_t events_until(const struct run *run, double t)
     return count;
 }
 
-static void carry_over(const struct run *main, struct fbd_state *state)
+static void carry_over(const struct companion *companion, const struct ensemble *main, double t,
+                       struct fbd_state *state)
 {
-    const struct plan *plan = &main->model->plan;
-    for (size_t i = 0; i < 2 * (size_t)plan->n; i++) state->y[i] += main->state->y[i] - main->y[i];
-    memcpy(state->branch, main->state->branch, (size_t)plan->branches * sizeof *state->branch);
-    memcpy(state->slip, main->state->slip, plan->friction_count * sizeof *state->slip);
-    memcpy(state->pull, main->state->pull, plan->friction_count * sizeof *state->pull);
-    state_evaluate(state);
+    bool carried = false;
+    for (size_t p = 0; p < main->count; p++) {
+        const struct run *run = main->groups[p].run, *own = companion->ensemble->groups[p].run;
+        bool event = run->state->t == t && run->event_count > 0 && run->events[run->event_count - 1].t == t;
+        if (!event || events_until(own, t) >= run->event_count) continue;
+        ensemble_pass_on(main, p, state);
+        carried = true;
+    }
+    if (carried) state_evaluate(state);
 }
 
-bool companion_look(struct companion *companion, const struct run *main, double t, bool after_event,
+bool companion_look(struct companion *companion, const struct ensemble *main, double t, bool after_event,
                     struct fbd_state *state)
 {
-    struct run *own = companion->run;
-    bool there = own->state->t == t && own->outcome != FBD_FAILED;
-    if (there) {
-        state_copy(state, own->state);
-        state_evaluate(state);
-    } else if (own->state->t < t) {
-        if (!go_beyond(own, t, state)) return false;
-    } else if (!(t >= own->from) || !run_look(own, t, state)) {
-        return false;
-    }
-    if (after_event && events_until(own, t) < main->event_count) carry_over(main, state);
+    struct ensemble *own = companion->ensemble;
+    bool there = own->t >= t && (own->t > t || own->outcome != FBD_FAILED);
+    if (!(there ? ensemble_look(own, t, state) : go_beyond(own, t, state))) return false;
+    if (after_event) carry_over(companion, main, t, state);
     return true;
 }
 
 /* ---- what is kept of the errors */
 
-void companion_note(struct companion *companion, const struct run *main)
+/* The size of the motion up to t. */
+static void note_sizes(struct companion *companion, const struct ensemble *main, const double *y)
 {
     size_t n = (size_t)companion->model->plan.n;
-    for (size_t i = 0; i < 2 * n; i++)
-        companion->scale[i] = fmax(companion->scale[i], fabs(main->state->y[i]));
+    for (size_t i = 0; i < 2 * n; i++) companion->scale[i] = fmax(companion->scale[i], fabs(y[i]));
+    for (size_t p = 0; p < main->count; p++) {
+        const struct group *group = &main->groups[p];
+        size_t own = (size_t)group->model->plan.n;
+        const double *most = group->run->anchor + 2 * own;
+        for (size_t i = 0; i < 2 * own; i++) {
+            double *scale = &companion->scale[group_component(companion->model, group, i)];
+            *scale = fmax(*scale, most[i]);
+        }
+    }
 }
 
-double companion_next(const struct companion *companion, const struct run *main, double t)
+/* How many multiples lie between two samples. Methods that redo a step for each look into it are not asked
+ * for many in a step. */
+static long stride(const struct companion *companion, const struct ensemble *main)
 {
-    enum { samples = 200, most = 4 };
-    double every = companion->run->options.until / samples, end = main->state->t, stride = 1;
-    /* Methods that redo a step for each look into it. */
-    if (main->options.method->implicit) stride = fmax(1, ceil((end - main->from) / (most * every)));
-    double next = every * stride * (floor(t / (every * stride)) + 1);
-    if (next > t && next < end) return next;
-    return t < end && main->outcome != FBD_GOING ? end : HUGE_VAL;
+    enum { most = 4 };
+    double every = sample_interval(companion), shortest = main->options.until;
+    if (!main->options.method->implicit) return 1;
+    for (size_t p = 0; p < main->count; p++) {
+        const struct run *run = main->groups[p].run;
+        if (run->state->t > run->from) shortest = fmin(shortest, run->state->t - run->from);
+    }
+    return (long)fmax(1, ceil(shortest / (most * every)));
+}
+
+static void plan_next(struct companion *companion, const struct ensemble *main, double t)
+{
+    double every = sample_interval(companion);
+    if (t != companion->next) return;
+    companion->samples += stride(companion, main);
+    companion->next = every * (double)(companion->samples + 1);
+    if (companion->next > main->options.until) companion->next = HUGE_VAL;
 }
 
 /* Measured on motions without any other error (parabolas, sticking bodies), whose true errors are 1/2 to 8
  * eps of their size. */
-double companion_floor(const struct companion *companion, size_t i)
+static double floor_of(double size)
 {
-    return 3 * DBL_EPSILON * companion->scale[i];
+    return 3 * DBL_EPSILON * size;
 }
 
 double companion_error(const struct companion *companion, size_t i, double main, double other)
 {
     bool exact = main == 0 && other == 0; /* at rest, or sticking: known to be so */
-    return exact ? 0 : fabs(main - other) + companion_floor(companion, i);
+    return exact ? 0 : fabs(main - other) + floor_of(fmax(companion->scale[i], fabs(main)));
 }
 
 /* The companion's coordinates at t; false when there are none. At the end of the first run they are those of
  * companion_look, since it may have ended by an event. */
-static bool coordinates(struct companion *companion, const struct run *main, double t, double *y)
+static bool coordinates(struct companion *companion, const struct ensemble *main, double t, double *y)
 {
-    struct run *own = companion->run;
-    if (t != main->state->t && own->state->t > t) return t >= own->from && run_coordinates(own, t, y);
+    struct ensemble *own = companion->ensemble;
+    bool event = main->t == t && main->event_count > 0 && main->events[main->event_count - 1].t == t;
+    if (!event && own->t >= t && own->outcome != FBD_FAILED) return ensemble_coordinates(own, t, y);
     struct fbd_state *state = companion->probe;
-    bool event = main->event_count > 0 && main->events[main->event_count - 1].t == t;
     if (!companion_look(companion, main, t, event, state)) return false;
     memcpy(y, state->y, 2 * (size_t)companion->model->plan.n * sizeof *y);
     return true;
@@ -168,18 +197,20 @@ void companion_lose(struct companion *companion, double t)
     companion->unknown_from = fmin(companion->unknown_from, t);
 }
 
-void companion_sample(struct companion *companion, struct run *main, double t)
+void companion_sample(struct companion *companion, struct ensemble *main, double t)
 {
     size_t n = (size_t)companion->model->plan.n;
     double *mine = companion->y, *other = mine + 2 * n;
-    if (!run_coordinates(main, t, mine) || !coordinates(companion, main, t, other)) {
-        companion_lose(companion, t);
-        return;
+    if (ensemble_coordinates(main, t, mine)) {
+        note_sizes(companion, main, mine);
+        bool known = coordinates(companion, main, t, other);
+        if (!known) companion_lose(companion, t);
+        for (size_t i = 0; known && i < 2 * n; i++) {
+            double error = fabs(mine[i] - other[i]);
+            companion->worst[i] = fmax(companion->worst[i], isfinite(error) ? error : HUGE_VAL);
+        }
     }
-    for (size_t i = 0; i < 2 * n; i++) {
-        double error = fabs(mine[i] - other[i]);
-        companion->worst[i] = fmax(companion->worst[i], isfinite(error) ? error : HUGE_VAL);
-    }
+    plan_next(companion, main, t);
 }
 
 /* Sizes below which a component is not asked to be accurate for itself: a thousandth of its fellows of the
@@ -191,7 +222,7 @@ static double size_of(const struct companion *companion, size_t i)
     const struct scene *scene = companion->model->scene;
     size_t n = (size_t)companion->model->plan.n, q = i % n;
     const double *scale = companion->scale, *kind = scale + (i - q);
-    double size = scale[i], duration = companion->run->options.until;
+    double size = scale[i], duration = companion->ensemble->options.until;
     for (size_t k = 0; k < n; k++)
         if (scene->coordinates[k].body == scene->coordinates[q].body &&
             scene->coordinates[k].angle == scene->coordinates[q].angle)
@@ -205,7 +236,7 @@ double companion_global(const struct companion *companion)
     double worst = 0;
     if (companion->unknown_from < HUGE_VAL) return HUGE_VAL;
     for (size_t i = 0; i < 2 * n; i++) {
-        double size = size_of(companion, i), error = companion->worst[i] + companion_floor(companion, i);
+        double size = size_of(companion, i), error = companion->worst[i] + floor_of(companion->scale[i]);
         if (error > 0) worst = fmax(worst, error / size);
     }
     return worst;
@@ -213,13 +244,32 @@ double companion_global(const struct companion *companion)
 
 /* ---- events */
 
+/* Has a group of the first run had more events than the companion's? */
+static bool lacks_events(const struct ensemble *own, const struct ensemble *main)
+{
+    for (size_t p = 0; p < main->count; p++)
+        if (events_until(own->groups[p].run, own->t) < events_until(main->groups[p].run, main->t))
+            return true;
+    return false;
+}
+
+bool companion_come_to_events(struct companion *companion, const struct ensemble *main)
+{
+    const double most = 1.1; /* later than this its event is another one */
+    struct ensemble *own = companion->ensemble;
+    double limit = most * main->t;
+    while (own->outcome == FBD_GOING && own->t < limit && lacks_events(own, main))
+        ensemble_go(own, limit, 0, true);
+    return own->outcome != FBD_OUT_OF_MEMORY;
+}
+
 static bool alike(const struct run_event *a, const struct run_event *b)
 {
     return a->kind == b->kind && a->body == b->body && a->load == b->load && a->watch == b->watch;
 }
 
 /* The first event of `run` like this one, from `index` on; event_count when there is none. */
-static size_t next_alike(const struct run *run, const struct run_event *event, size_t index)
+static size_t next_alike(const struct ensemble *run, const struct run_event *event, size_t index)
 {
     while (index < run->event_count && !alike(&run->events[index], event)) index++;
     return index;
@@ -230,13 +280,13 @@ static size_t next_alike(const struct run *run, const struct run_event *event, s
 static double error_at_the_end(const struct companion *companion, double t)
 {
     const double near = 1e-9;
-    double until = companion->run->options.until;
+    double until = companion->ensemble->options.until;
     return until - t <= near * until ? until - t + 4 * DBL_EPSILON * until : HUGE_VAL;
 }
 
-void companion_event_errors(const struct companion *companion, const struct run *main, double *errors)
+void companion_event_errors(const struct companion *companion, const struct ensemble *main, double *errors)
 {
-    const struct run *own = companion->run;
+    const struct ensemble *own = companion->ensemble;
     for (size_t i = 0; i < main->event_count; i++) errors[i] = NAN;
     for (size_t first = 0; first < main->event_count; first++) {
         if (!isnan(errors[first])) continue;

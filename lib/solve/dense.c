@@ -40,6 +40,9 @@
 #include <string.h>
 
 #include "solve/dop853.h"
+#include "solve/linear.h"
+#include "solve/nystrom.h"
+#include "solve/parabola.h"
 
 /* Coefficients of a pair, in the order of the derivation, and of another component. */
 struct pair {
@@ -53,6 +56,20 @@ struct single {
     double x, dx, s1, s2, b0, b1;
 };
 
+/* Steppers with a dense output of their own. */
+struct own {
+    const gsl_odeiv2_step_type *const *type;
+    int (*prepare)(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys);
+    void (*eval)(const gsl_odeiv2_step *step, double theta, double *y);
+};
+
+static const struct own owns[] = {
+    {&step_dop853, dop853_dense_prepare, dop853_dense_eval},
+    {&step_nystrom, nystrom_dense_prepare, nystrom_dense_eval},
+    {&step_linear, linear_dense_prepare, linear_dense_eval},
+    {&step_parabola, parabola_dense_prepare, parabola_dense_eval},
+};
+
 struct dense {
     size_t pairs, extra;
     int level;
@@ -61,7 +78,8 @@ struct dense {
     const double *y0, *f0, *y1, *f1;
     const double *error; /* see dense_set_errors; or NULL */
     const gsl_odeiv2_system *sys;
-    gsl_odeiv2_step *own; /* a stepper with its own dense output, or NULL */
+    const struct own *own; /* the stepper's own dense output, or NULL */
+    gsl_odeiv2_step *step;
     struct pair *pair;
     struct single *single;
     double *y, *minus, *plus; /* an inner state; slopes at -sigma, and at sigma or in the middle */
@@ -116,7 +134,10 @@ void dense_set(struct dense *d, int order, double t0, const double *y0, const do
     d->y1 = y1;
     d->f1 = f1;
     d->sys = sys;
-    d->own = step && step->type == step_dop853 ? step : NULL;
+    d->step = step;
+    d->own = NULL;
+    for (size_t i = 0; step && i < sizeof owns / sizeof *owns; i++)
+        if (*owns[i].type == step->type) d->own = &owns[i];
 }
 
 /* Level 0 of a pair. P_0 is dropped where it is no larger than the errors of q make it: in a very
@@ -257,7 +278,7 @@ static int prepare(struct dense *d)
 {
     int code;
     if (d->own) {
-        code = dop853_dense_prepare(d->own, d->sys);
+        code = d->own->prepare(d->step, d->sys);
     } else {
         from_ends(d);
         code = refine(d);
@@ -279,7 +300,7 @@ int dense_eval(struct dense *d, double t, double *y)
     }
     double theta = (t - d->t0) / d->h;
     if (d->own)
-        dop853_dense_eval(d->own, theta, y);
+        d->own->eval(d->step, theta, y);
     else
         eval_all(d, theta, y);
     return GSL_SUCCESS;

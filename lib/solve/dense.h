@@ -45,9 +45,9 @@ struct dense *dense_alloc(const struct layout *layout);
 void dense_free(struct dense *dense);
 
 /* Stand for the step from (t0, y0) with slopes f0 to (t1, y1) with slopes f1, t1 != t0, made by a method of
- * order `order`. `step` is the stepper that made it, used if it has a dense output of its own (dop853), or
- * NULL. Nothing is computed or copied: all arguments have to stay as they are until the next dense_set.
- */
+ * order `order`. `step` is the stepper that made it, used if it has a dense output of its own (dop853 and the
+ * methods of structure.h), or NULL. Nothing is computed or copied: all arguments have to stay as they are
+ * until the next dense_set. */
 void dense_set(struct dense *dense, int order, double t0, const double *y0, const double *f0, double t1,
                const double *y1, const double *f1, const gsl_odeiv2_system *sys, gsl_odeiv2_step *step);
 

@@ -40,7 +40,8 @@ bool options_choose(const struct fbd_model *model, const fbd_options *given, str
     errors->file = model->scene->file ? diag_hint(errors, "%s", model->scene->file) : NULL;
     const char *name = given->method ? given->method : file->method;
     *chosen = (struct run_options){.method = choose_method(model, given, errors),
-                                   .automatic = !name || strcmp(name, automatic) == 0};
+                                   .automatic = !name || strcmp(name, automatic) == 0,
+                                   .structure = !given->no_structure};
     chosen->until = !isnan(given->until) ? given->until
                     : file->until.expr   ? expr_value(file->until.expr)
                                          : NAN;

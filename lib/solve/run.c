@@ -3,6 +3,7 @@
 
 #include <float.h>
 #include <gsl/gsl_errno.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -54,11 +55,16 @@ static bool make_stepper(struct run *run)
     bool *angle = calloc(n + 1, sizeof *angle);
     if (!angle) return false;
     for (size_t i = 0; i < n; i++) angle[i] = run->model->scene->coordinates[i].angle;
+    if (run->options.automatic && run->options.structure && run->options.step == 0) {
+        run->kind = structure_of(run->model);
+        run->options.method = structure_method(run->kind);
+    }
     struct stepper_options options = {.method = run->options.method,
                                       .layout = {.pairs = n, .angle = angle},
                                       .tolerance = run->options.tolerance,
                                       .h_fixed = run->options.step};
     bool automatic = run->options.automatic && 2 * n <= method_most_stiff_states;
+    automatic = automatic && !structure_is_exact(run->kind);
     run->stepper = switcher_alloc(&options, automatic ? method_find("rodas5p") : NULL);
     free(angle);
     return run->stepper != NULL;
@@ -107,7 +113,8 @@ static bool make_run(struct run *run)
     gsl_odeiv2_system system = {.jacobian = jacobian, .dimension = 2 * n};
     system.function = rates_call(run->rates, &system.params);
     counted_system_init(&run->system, &system);
-    return make_decided(&run->decided, plan) && make_stepper(run);
+    if (!make_decided(&run->decided, plan) || !make_stepper(run)) return false;
+    return run->kind != structure_linear || linear_pace_init(&run->pace, 2 * n);
 }
 
 static void start(struct run *run)
@@ -147,6 +154,7 @@ void run_free(struct run *run)
 {
     if (!run) return;
     switcher_free(run->stepper);
+    linear_pace_free(&run->pace);
     scan_free(&run->timed);
     scan_free(&run->moving);
     watchers_free(&run->watchers);
@@ -178,6 +186,8 @@ static bool restart(struct run *run)
         run_fail_step(run, stepper_bad_function);
         return false;
     }
+    if (run->kind == structure_constant) run->h = run->options.until - run->state->t;
+    if (run->kind == structure_linear) linear_pace_start(&run->pace, &run->system, run->state->t, run->y);
     run->restart = false;
     return true;
 }
@@ -187,7 +197,10 @@ static double next_time(struct run *run, bool *found)
 {
     const double stretch = 1.02; /* the stepper may lengthen a step by 1 % to end at its limit */
     double reach = fmin(run->options.until, run->state->t + stretch * run->h);
-    *found = scan_interval(&run->timed, run->state->t, reach) == 1;
+    int status = scan_interval(&run->timed, run->state->t, reach);
+    *found = status == 1;
+    /* Where functions of time change too fast for so long a step, it goes to where they have been seen. */
+    if (status == 2 && run->timed.clear > run->state->t) return run->timed.clear;
     return *found ? fmin(run->timed.t, run->options.until) : run->options.until;
 }
 
@@ -269,6 +282,19 @@ static int stay_before_poles(struct run *run, double *t)
     return cut_step(run, cut);
 }
 
+/* Where steps have no error, two runs of the same motion find the same number for the time of an event, and
+ * share its rounding. One that is to be apart takes a neighbour, up or down by a fixed hash (perturbed last
+ * bits: Vignes, Math. Comput. Simul. 35 (1993) 233). */
+static int step_aside(struct run *run, double end, double *t)
+{
+    if (!run->options.apart || !structure_is_exact(run->kind)) return 1;
+    bool up = ((uint32_t)run->event_count * UINT32_C(2654435769)) >> 31;
+    double other = nextafter(*t, up ? HUGE_VAL : 0);
+    if (!(other > run->from && other < end)) return 1;
+    *t = other;
+    return cut_step(run, other) < 0 ? -1 : 1;
+}
+
 /* Look for the first event in (from, t]; on return *t is its time, with y and f there. 1 found, 0 none, -1
  * failed. Where the event functions change so fast that the scan gives up, the step is cut to what it has
  * seen; one that is noise (it gives up at the very start) is not looked at more closely. */
@@ -292,7 +318,7 @@ static int find_event(struct run *run, double *t)
         if (!polish(run, end, &when)) return -1;
         if (goes_down(run, when, end) || is_down_at_end(run, when, end)) {
             *t = when;
-            return 1;
+            return step_aside(run, end, t);
         }
         if (cut_step(run, end) < 0) return -1;
         start = fmax(when, run->moving.t);
@@ -334,6 +360,31 @@ static bool heed_poles(struct run *run)
     return !reached;
 }
 
+/* An exact method has no error to choose its steps by; they are to show events. */
+static void set_linear_step(struct run *run)
+{
+    double resolved = run->moving.resolved;
+    const double other = 0.8;
+    double longest = (run->options.apart ? other : 1) * linear_pace_step(&run->pace, run->from);
+    run->h = fmin(longest, run->options.until - run->from);
+    if (resolved > 0) run->h = fmin(run->h, resolved);
+}
+
+/* A parabola is one step; this makes some of it, which round anew. */
+static double apart_step(const struct run *run)
+{
+    const double share = 0.3;
+    return fmin(run->h, share * run->options.until);
+}
+
+int run_panels(const struct run *run)
+{
+    enum { most = 100, nystrom = 2, general = 1 }; /* a step of the Nystrom method is that much longer */
+    if (run->kind != structure_linear) return run->kind == structure_velocity_free ? nystrom : general;
+    double rate = linear_pace_rate(&run->pace, run->from), span = run->state->t - run->from;
+    return (int)fmin(fmax(1, ceil(2 * span * rate)), most);
+}
+
 fbd_outcome run_advance(struct run *run)
 {
     if (run->outcome != FBD_GOING) return run->outcome;
@@ -341,6 +392,8 @@ fbd_outcome run_advance(struct run *run)
     state_copy(run->during, run->state);
     if (run->restart && !restart(run)) return run->outcome;
     if (run->crawl == 0) run->not_finite = switcher_counts(run->stepper).rejected[rejected_not_finite];
+    if (run->kind == structure_linear) set_linear_step(run);
+    if (run->kind == structure_constant && run->options.apart) run->h = apart_step(run);
     if (run->options.step == 0 && !heed_poles(run)) return run->outcome;
     bool timed;
     double limit = next_time(run, &timed), t = run->from;
@@ -392,23 +445,4 @@ bool run_look(struct run *run, double t, struct fbd_state *state)
     modes_hold(state);
     state_evaluate(state);
     return true;
-}
-
-fbd_progress run_progress(const struct run *run, double t)
-{
-    return (fbd_progress){.t = t,
-                          .until = run->options.until,
-                          .steps = switcher_counts(run->stepper).accepted,
-                          .events = run->event_count};
-}
-
-void run_cut(struct run *run, double t, size_t events)
-{
-    if (t < run->state->t) {
-        if (!run_look(run, t, run->state)) return;
-        run->event_count = events;
-        run->outcome = FBD_GOING; /* what ended it comes later than t */
-        run->reason[0] = '\0';
-    }
-    run_fail(run, FBD_INTERRUPTED, "interrupted at t = %.9g", run->state->t);
 }

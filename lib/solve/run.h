@@ -13,8 +13,10 @@
 #include "dynamics/diagram.h"
 #include "dynamics/modes.h"
 #include "dynamics/rates.h"
+#include "solve/linear.h"
 #include "solve/poles.h"
 #include "solve/scan.h"
+#include "solve/structure.h"
 #include "solve/switcher.h"
 #include "solve/watchers.h"
 
@@ -24,12 +26,15 @@ struct run_options {
     double step; /* fixed size, or 0 */
     const struct method *method;
     bool automatic; /* switch to the stiff method and back as the motion demands */
+    bool structure; /* use what the plan shows: see structure.h; with `automatic` it may choose the method */
+    bool apart;     /* where a method makes steps without error: other ones than a run without this makes */
 };
 
 struct run_event {
     double t;
     fbd_event_kind kind;
     int body, load, watch; /* -1 where it does not apply */
+    size_t group, order;   /* of an ensemble, and its place in the log of that group */
     double force, limit;   /* friction: the force after the event (that holds or slides) and the static limit;
                               contact: the normal force and its rounding */
 };
@@ -39,6 +44,7 @@ enum { reason_size = 400 };
 struct run {
     const struct fbd_model *model;
     struct run_options options;
+    enum structure kind;      /* in use: general unless options.structure and options.automatic */
     struct fbd_state *state;  /* at the end of the last step, modes for what follows */
     struct fbd_state *during; /* modes of the last step; its scratch serves samples within it */
     double from;              /* start of the last step; it ends at state->t */
@@ -48,7 +54,7 @@ struct run {
     double snap_work;         /* what that has taken (below zero) */
     double *impact_work;      /* per load: the same, summed up */
     double drift;             /* the most that a step left the constraints by, before it was projected back */
-    double liveliest;            /* the most kinetic energy of jointed bodies so far */
+    double liveliest;         /* the most kinetic energy of jointed bodies so far */
     double left;              /* and after that */
     bool projected;
     int crawl;                /* steps in a row of a few roundings of the time */
@@ -60,6 +66,7 @@ struct run {
     struct scan timed, moving;
     struct poles poles;
     struct switcher *stepper;
+    struct linear_pace pace; /* of a linear system */
     struct counted_system system;
     struct rates *rates;    /* in the modes of `during` */
     double *y, *f, *sample; /* 2 n each; y: the end of the last step, before its events */
@@ -71,7 +78,8 @@ struct run {
     size_t event_count, event_room;
     double last_event; /* time of the last one; events that crowd at one instant are counted */
     int crowd;
-    double *anchor; /* 4 n: the state around which events have happened lately; the largest |y_i| so far */
+    double *anchor; /* 4 n: the state around which events have happened lately; the largest |y_i| before the
+                       last step */
     int around;     /* how many */
 };
 
@@ -88,13 +96,10 @@ bool run_look(struct run *run, double t, struct fbd_state *state);
 
 /* Only coordinates and rates there, 2 n, without evaluating anything but the dense output. */
 bool run_coordinates(struct run *run, double t, double *y);
-
-/* How far the run is, looked at from t. */
-fbd_progress run_progress(const struct run *run, double t);
-
-/* End the run at t in (from, state->t] of the last step, as interrupted: that moment becomes the last state,
- * and the events after the first `events` are forgotten. */
-void run_cut(struct run *run, double t, size_t events);
+/* Into how many panels the last step is to be divided for Gauss's rule with five points, so that the error of
+ * an integral of powers is below that of the motion. For linear systems: half a radian or a fall by 1/sqrt(e)
+ * of the fastest mode each (4e-13, Abramowitz & Stegun 25.4.30). */
+int run_panels(const struct run *run);
 
 /* ---- for the files of the loop */
 

@@ -192,13 +192,18 @@ static void exchange(struct scan_point *x, struct scan_point *y)
     *y = spare;
 }
 
+static double roundings(const struct scan_point *a, const struct scan_point *b)
+{
+    return 2 * DBL_EPSILON * fmax(fabs(a->t), fabs(b->t));
+}
+
 /* Shrink [a, b] to two roundings. The cubics converge to the zero fast but from one side, so once an estimate
  * stops moving the other side is fetched by steps that grow from a rounding; every third step is a bisection,
  * so that nothing is slow. `m` is a spare point. */
 static int locate(struct scan *scan, struct scan_point *a, struct scan_point *b, struct scan_point *m)
 {
-    double unit = 2 * DBL_EPSILON * fmax(fabs(a->t), fabs(b->t)), reach = unit;
-    for (int step = 1; b->t - a->t > unit; step++) {
+    double reach = roundings(a, b); /* b may be far away at first, and its roundings large */
+    for (int step = 1; b->t - a->t > roundings(a, b); step++) {
         double t = first_estimate(scan, a, b), width = b->t - a->t;
         if (step % 4 == 0)
             t = a->t + width / 2;

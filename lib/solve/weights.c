@@ -97,6 +97,17 @@ double weights_ratio(const gsl_odeiv2_control *control, double h, const double *
     return probe == 0 ? ratio : INFINITY;
 }
 
+/* ratio^(1/k). Square roots are rounded correctly everywhere, pow is not: the methods that `auto` chooses
+ * give the same steps with every mathematics library. They are faster, too. */
+static double root_of(double ratio, int k)
+{
+    double eighth = k == 8 || k == 11 ? sqrt(sqrt(sqrt(ratio))) : 0;
+    if (k == 8) return eighth;
+    double sixteenth = sqrt(eighth);
+    if (k == 11) return sixteenth * sqrt(sixteenth); /* 3/32 for 1/11 */
+    return pow(ratio, 1.0 / k);
+}
+
 double weights_factor(const gsl_odeiv2_control *control, double ratio, unsigned order)
 {
     const struct weights *w = control->state;
@@ -104,10 +115,7 @@ double weights_factor(const gsl_odeiv2_control *control, double ratio, unsigned 
     if (!(ratio < INFINITY)) return 0.1;
     if (ratio == 0) return law->grow;
     int k = law->estimate_order > 0 ? law->estimate_order : (int)order + 1;
-    /* Square roots are rounded correctly everywhere, pow is not: the default method gives the same steps
-     * with every mathematics library. They are faster, too. */
-    double root = k == 8 ? sqrt(sqrt(sqrt(ratio))) : pow(ratio, 1.0 / k);
-    double factor = law->safety / root;
+    double factor = law->safety / root_of(ratio, k);
     if (ratio > 1) return larger(factor, law->shrink);
     return factor < law->keep_below ? 1 : smaller(factor, law->grow);
 }
@@ -260,7 +268,7 @@ struct step_law step_law_for(int estimate_order)
 {
     struct step_law law = {.safety = 0.9, .shrink = 0.2, .grow = 5, .keep_below = 0};
     law.estimate_order = estimate_order;
-    if (estimate_order == 8) {
+    if (estimate_order == 8 || estimate_order == 11) {
         law.safety = 0.7;
         law.shrink = 0.333;
         law.grow = 6;

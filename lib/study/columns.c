@@ -270,7 +270,7 @@ static void put_number(struct text *text, double value)
     if (!isnan(value)) text_number(text, value, digits);
 }
 
-static void put_event(const struct column *column, const struct run *run, struct text *text)
+static void put_event(const struct column *column, const struct ensemble *run, struct text *text)
 {
     size_t count = 0;
     double first = NAN;
@@ -284,26 +284,45 @@ static void put_event(const struct column *column, const struct run *run, struct
         put_number(text, first);
 }
 
+static unsigned long steps_of(const struct run *run)
+{
+    return switcher_counts(run->stepper).accepted;
+}
+
+static unsigned long rhs_of(const struct run *run)
+{
+    return run->system.rhs;
+}
+
+/* The sum over the groups. */
+static void put_total(const struct ensemble *run, unsigned long (*count)(const struct run *),
+                      struct text *text)
+{
+    unsigned long sum = 0;
+    for (size_t i = 0; i < run->count; i++) sum += count(run->groups[i].run);
+    text_printf(text, "%lu", sum);
+}
+
 static void put(const struct column *column, const struct observed *o, struct text *text)
 {
-    const struct run *run = o->run;
+    struct ensemble *run = o->run;
     switch (column->kind) {
-    case column_t: put_number(text, run->state->t); return;
-    case column_final: put_number(text, run->state->y[column->index]); return;
+    case column_t: put_number(text, run->t); return;
+    case column_final: put_number(text, ensemble_state(run)->y[column->index]); return;
     case column_extreme: put_number(text, o->extremes[column->index].value); return;
     case column_time:
     case column_count: put_event(column, run, text); return;
     case column_energy: {
-        fbd_energy e = ledger_energy(o->ledger, run->state, o->ledger->work);
+        fbd_energy e = ledger_energy(o->ledger, ensemble_state(run), o->ledger->work);
         const double values[] = {e.kinetic, e.potential, e.work, e.residual};
         put_number(text, values[column->index]);
         return;
     }
     case column_work:
-        put_number(text, ledger_work(o->ledger, run->state, (size_t)column->index, o->ledger->work));
+        put_number(text, ledger_work(o->ledger, ensemble_state(run), (size_t)column->index, o->ledger->work));
         return;
-    case column_steps: text_printf(text, "%lu", switcher_counts(run->stepper).accepted); return;
-    case column_rhs: text_printf(text, "%lu", run->system.rhs); return;
+    case column_steps: put_total(run, steps_of, text); return;
+    case column_rhs: put_total(run, rhs_of, text); return;
     }
 }
 

@@ -53,7 +53,7 @@ bool columns_read(struct columns *columns, struct arena *arena, const struct fbd
 
 /* What was seen of a run. */
 struct observed {
-    struct run *run;
+    struct ensemble *run;
     struct ledger *ledger;          /* NULL when it is not wanted */
     const struct extreme *extremes; /* as in columns */
 };

@@ -10,7 +10,7 @@ void extremes_start(struct extreme *extremes, size_t count, const struct fbd_sta
 
 /* What is looked at: the greatest value of sign * y[index]. */
 struct look {
-    struct run *run;
+    struct ensemble *run;
     struct fbd_state *probe;
     const struct extreme *extreme;
     bool failed;
@@ -18,7 +18,7 @@ struct look {
 
 static double value_at(struct look *look, double t)
 {
-    if (!run_look(look->run, t, look->probe)) look->failed = true;
+    if (!ensemble_look(look->run, t, look->probe)) look->failed = true;
     return look->extreme->sign * look->probe->y[look->extreme->index];
 }
 
@@ -48,10 +48,10 @@ static double golden_section(struct look *look, double a, double b)
 
 enum { parts = 8 };
 
-static bool one(struct extreme *extreme, struct run *run, struct fbd_state *probe, const double *samples)
+static bool one(struct extreme *extreme, struct ensemble *run, struct fbd_state *probe, const double *samples)
 {
     struct look look = {run, probe, extreme, false};
-    double from = run->from, width = (run->state->t - from) / parts, best = extreme->sign * extreme->value;
+    double from = run->from, width = (run->t - from) / parts, best = extreme->sign * extreme->value;
     int at = 0;
     for (int k = 1; k <= parts; k++)
         if (samples[k] > samples[at]) at = k;
@@ -64,9 +64,9 @@ static bool one(struct extreme *extreme, struct run *run, struct fbd_state *prob
     return !look.failed;
 }
 
-bool extremes_step(struct extreme *extremes, size_t count, struct run *run, struct fbd_state *probe)
+bool extremes_step(struct extreme *extremes, size_t count, struct ensemble *run, struct fbd_state *probe)
 {
-    double from = run->from, to = run->state->t;
+    double from = run->from, to = run->t;
     if (!(to > from)) return true;
     for (size_t i = 0; i < count; i++) {
         struct look look = {run, probe, &extremes[i], false};

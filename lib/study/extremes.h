@@ -10,7 +10,7 @@
 #ifndef FBD_STUDY_EXTREMES_H
 #define FBD_STUDY_EXTREMES_H
 
-#include "solve/run.h"
+#include "solve/ensemble.h"
 
 struct extreme {
     int index; /* in y */
@@ -23,6 +23,6 @@ void extremes_start(struct extreme *extremes, size_t count, const struct fbd_sta
 
 /* Account for the last step of a run. `probe` is a state of the same model, for looking. False when the dense
  * output has no value. */
-bool extremes_step(struct extreme *extremes, size_t count, struct run *run, struct fbd_state *probe);
+bool extremes_step(struct extreme *extremes, size_t count, struct ensemble *run, struct fbd_state *probe);
 
 #endif

@@ -123,22 +123,34 @@ static const char *status_of(fbd_outcome outcome)
 
 /* ---- the run */
 
+static bool account(void *context, struct ensemble *run, size_t group)
+{
+    return ledger_step(context, run, group);
+}
+
+static void account_again(void *context, struct ensemble *run, size_t group)
+{
+    ledger_restart(context, run, group);
+}
+
 /* Carry the run to its end, looking where a column asks for it. False when it was stopped or memory is out.
  */
-static bool carry(struct row_maker *maker, struct run *run, struct ledger *ledger, struct fbd_state *probe)
+static bool carry(struct row_maker *maker, struct ensemble *run, struct ledger *ledger,
+                  struct fbd_state *probe)
 {
     size_t extremes = maker->sweep->columns.extreme_count;
+    if (ledger) run->observer = (struct observer){ledger, account, account_again};
     while (run->outcome == FBD_GOING) {
         if (maker->stop && maker->stop(maker->stop_context)) return false;
-        run_advance(run);
-        if (!(run->state->t > run->from)) continue; /* no step was made */
-        if (ledger && !ledger_step(ledger, run)) run->outcome = FBD_OUT_OF_MEMORY;
+        ensemble_advance(run);
+        if (!(run->t > run->from)) continue; /* no step was made */
         if (probe && !extremes_step(maker->extremes, extremes, run, probe)) run->outcome = FBD_FAILED;
     }
+    if (ledger && !ledger_at(ledger, run, ledger->work)) run->outcome = FBD_FAILED;
     return true;
 }
 
-static enum row_end put_run(struct row_maker *maker, struct run *run, struct ledger *ledger,
+static enum row_end put_run(struct row_maker *maker, struct ensemble *run, struct ledger *ledger,
                             struct fbd_state *probe, struct text *text)
 {
     const struct columns *columns = &maker->sweep->columns;
@@ -161,13 +173,13 @@ static enum row_end simulate(struct row_maker *maker, const struct fbd_model *mo
         put_wrong(maker, errors, text);
         return row_failed;
     }
-    struct run *run = run_new(model, &options);
+    struct ensemble *run = ensemble_new(model, &options);
     bool ready = run != NULL;
-    if (ready && columns->ledger) ready = ledger_init(&ledger, model, run->state, true);
+    if (ready && columns->ledger) ready = ledger_init(&ledger, model, ensemble_state(run), true);
     if (ready && columns->extreme_count) {
         probe = state_new(model);
         ready = probe != NULL;
-        extremes_start(maker->extremes, columns->extreme_count, run->state);
+        extremes_start(maker->extremes, columns->extreme_count, ensemble_state(run));
     }
     enum row_end end = row_failed;
     if (ready)
@@ -176,7 +188,7 @@ static enum row_end simulate(struct row_maker *maker, const struct fbd_model *mo
         put_wrong(maker, errors, text);
     if (columns->ledger) ledger_free(&ledger);
     state_free(probe);
-    run_free(run);
+    ensemble_free(run);
     return end;
 }
 

@@ -19,13 +19,14 @@ static double reachable(int order)
 
 bool hard_method_at(size_t index, struct hard_method *method)
 {
-    if (index == 0) {
-        *method = (struct hard_method){NULL, 1e-10, 8, false};
+    if (index < 2) {
+        *method = (struct hard_method){NULL, 1e-10, 8, false, index == 1};
         return true;
     }
-    const struct method *found = method_at(index - 1);
+    const struct method *found = method_at(index - 2);
     if (!found) return false;
-    *method = (struct hard_method){found->name, reachable(found->order), found->order, found->implicit};
+    *method =
+        (struct hard_method){found->name, reachable(found->order), found->order, found->implicit, false};
     return true;
 }
 
@@ -38,6 +39,7 @@ void hard_start(struct trial *trial, const struct hard_method *method, double un
     if (method) {
         options.method = method->name;
         options.tolerance = method->tolerance;
+        options.no_structure = method->no_structure;
     }
     trial_start(trial, &options);
 }

@@ -15,10 +15,12 @@ struct hard_method {
     double tolerance; /* one that a method of its order reaches in a sensible number of steps */
     int order;
     bool implicit;
+    bool no_structure;
 };
 
-/* Number 0 is what the library does by itself, the others are the methods that it has by name; false beyond
- * the last. So a method that is added to the library takes part in every case. */
+/* Number 0 is what the library does by itself, number 1 the same without structure, the others are the
+ * methods that it has by name; false beyond the last. So a method that is added to the library takes part in
+ * every case. */
 bool hard_method_at(size_t index, struct hard_method *method);
 
 /* ---- runs */

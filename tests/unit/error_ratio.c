@@ -58,15 +58,15 @@ static bool track_make(struct track *track, const fbd_model *model)
 /* Advance to the end, reading what lies on the grid. */
 static bool take_motion(struct track *track, fbd_simulation *simulation, double until, unsigned long limit)
 {
-    const struct run *run = simulation->run;
+    const struct ensemble *run = simulation->ensemble;
     fbd_state *state = fbd_state_new(run->model);
     int k = 0;
     bool fine = state != NULL, bars = simulation->bars;
     while (fine && fbd_simulation_advance(simulation) <= FBD_BROKEN) {
         double from, to;
         fbd_simulation_interval(simulation, &from, &to);
-        for (size_t i = 0; i < 2 * track->n; i++)
-            track->largest[i] = fmax(track->largest[i], fabs(run->state->y[i]));
+        const double *y = ensemble_state(simulation->ensemble)->y;
+        for (size_t i = 0; i < 2 * track->n; i++) track->largest[i] = fmax(track->largest[i], fabs(y[i]));
         for (; fine && k <= grid && until * k / grid <= to; k++) {
             double t = until * k / grid;
             size_t row = (size_t)k * 2 * track->n;
@@ -75,11 +75,11 @@ static bool take_motion(struct track *track, fbd_simulation *simulation, double 
             memcpy(track->y + row, state->y, 2 * track->n * sizeof(double));
         }
         if (run->outcome != FBD_GOING) break;
-        fine = fine && run->system.rhs < limit;
+        fine = fine && fbd_simulation_stats(simulation).rhs < limit;
     }
     fbd_state_free(state);
     track->outcome = run->outcome;
-    track->end = run->state->t;
+    track->end = run->t;
     return fine && run->outcome >= FBD_DONE && run->outcome <= FBD_BROKEN;
 }
 
@@ -121,7 +121,7 @@ static bool track_run(struct track *track, const fbd_model *model, const fbd_opt
     fbd_errors *errors = fbd_errors_new();
     for (int pass = 0; pass < 2 && fine; pass++) {
         fbd_simulation *simulation = fbd_simulation_new(model, options, errors);
-        double until = simulation ? simulation->run->options.until : 0;
+        double until = simulation ? simulation->ensemble->options.until : 0;
         fine = simulation && (pass == 0 ? take_motion(track, simulation, until, limit)
                                         : take_ledger(track, model, simulation));
         fbd_simulation_free(simulation);

@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "model/group.h"
+
+#include <stdlib.h>
+
+#include "model/builder.h"
+
+/* What is copied. */
+struct copy {
+    const struct scene *from;
+    struct scene *to;
+    const struct selection *selection;
+};
+
+static void renumber(const struct copy *copy, const struct expr **expr)
+{
+    if (*expr && !(*expr = expr_renumbered(&copy->to->arena, *expr, copy->selection->moved)))
+        copy->to->arena.failed = true;
+}
+
+static void copy_loads(const struct copy *copy, struct body *body)
+{
+    const struct load *from = body->loads;
+    body->loads = ARENA_ARRAY(&copy->to->arena, body->load_count, struct load);
+    if (!body->loads) return;
+    for (size_t i = 0; i < body->load_count; i++) {
+        struct load *load = &body->loads[i];
+        *load = from[i];
+        struct value *values[] = {&load->value, &load->angle,         &load->fx,       &load->fy, &load->mu_s,
+                                  &load->mu_k,  &load->surface_speed, &load->potential};
+        for (size_t k = 0; k < sizeof values / sizeof *values; k++) renumber(copy, &values[k]->expr);
+    }
+}
+
+static void copy_body(const struct copy *copy, const struct body *from)
+{
+    struct scene *to = copy->to;
+    struct body *body = &to->bodies[to->body_count];
+    *body = *from;
+    body->hand_count = 0;
+    body->hands = NULL;
+    body->first = (int)to->coordinate_count;
+    if (body->motion.parent != ground_body) body->motion.parent = copy->selection->local[body->motion.parent];
+    for (int k = 0; k < body->count; k++) {
+        struct coordinate *coordinate = &to->coordinates[to->coordinate_count++];
+        *coordinate = copy->from->coordinates[from->first + k];
+        coordinate->body = (int)to->body_count;
+    }
+    to->body_count++;
+    copy_loads(copy, body);
+}
+
+static void copy_event(const struct copy *copy, const struct user_event *from)
+{
+    struct user_event *event = &copy->to->events[copy->to->event_count++];
+    *event = *from;
+    renumber(copy, &event->left);
+    renumber(copy, &event->right);
+}
+
+static void copy_coupling(const struct copy *copy, const struct coupling *from)
+{
+    struct coupling *coupling = &copy->to->couplings[copy->to->coupling_count++];
+    *coupling = *from;
+    for (int end = 0; end < 2; end++)
+        if (from->body[end] != ground_body) coupling->body[end] = copy->selection->local[from->body[end]];
+}
+
+static void copy_constraint(const struct copy *copy, const struct constraint *from)
+{
+    struct constraint *constraint = &copy->to->constraints[copy->to->constraint_count++];
+    *constraint = *from;
+    for (int end = 0; end < from->end_count; end++)
+        if (from->body[end] != ground_body) constraint->body[end] = copy->selection->local[from->body[end]];
+    renumber(copy, &constraint->mu_s.expr);
+    renumber(copy, &constraint->mu_k.expr);
+}
+
+static void copy_absolute(const struct copy *copy, const struct absolute *from)
+{
+    struct absolute *absolute = &copy->to->absolutes[copy->to->absolute_count++];
+    *absolute = *from;
+    absolute->body = copy->selection->local[from->body];
+}
+
+/* Room for what is copied. */
+static void prepare(const struct copy *copy)
+{
+    struct scene *to = copy->to;
+    const struct selection *selection = copy->selection;
+    size_t coordinates = 0;
+    to->arena = (struct arena){0};
+    to->body_count = to->event_count = to->coordinate_count = 0;
+    to->coupling_count = to->constraint_count = to->absolute_count = 0;
+    for (size_t i = 0; i < selection->body_count; i++)
+        coordinates += (size_t)copy->from->bodies[selection->bodies[i]].count;
+    to->bodies = ARENA_ARRAY(&to->arena, selection->body_count, struct body);
+    to->coordinates = ARENA_ARRAY(&to->arena, coordinates, struct coordinate);
+    to->events = ARENA_ARRAY(&to->arena, selection->event_count, struct user_event);
+    to->couplings = ARENA_ARRAY(&to->arena, selection->coupling_count, struct coupling);
+    to->constraints = ARENA_ARRAY(&to->arena, selection->constraint_count, struct constraint);
+    to->absolutes = ARENA_ARRAY(&to->arena, selection->absolute_count, struct absolute);
+}
+
+static struct scene *copy_scene(const struct scene *from, const struct selection *selection)
+{
+    struct scene *to = calloc(1, sizeof *to);
+    if (!to) return NULL;
+    *to = *from;
+    struct copy copy = {from, to, selection};
+    prepare(&copy);
+    for (size_t i = 0; !to->arena.failed && i < selection->body_count; i++)
+        copy_body(&copy, &from->bodies[selection->bodies[i]]);
+    for (size_t i = 0; !to->arena.failed && i < selection->event_count; i++)
+        copy_event(&copy, &from->events[selection->events[i]]);
+    for (size_t i = 0; !to->arena.failed && i < selection->coupling_count; i++)
+        copy_coupling(&copy, &from->couplings[selection->couplings[i]]);
+    for (size_t i = 0; !to->arena.failed && i < selection->constraint_count; i++)
+        copy_constraint(&copy, &from->constraints[selection->constraints[i]]);
+    for (size_t i = 0; !to->arena.failed && i < selection->absolute_count; i++)
+        copy_absolute(&copy, &from->absolutes[selection->absolutes[i]]);
+    if (!to->arena.failed) return to;
+    scene_free(to);
+    return NULL;
+}
+
+struct fbd_model *model_group(const struct fbd_model *whole, const struct selection *selection)
+{
+    fbd_errors *errors = fbd_errors_new();
+    struct scene *scene = errors ? copy_scene(whole->scene, selection) : NULL;
+    struct fbd_model *model = scene ? model_compile_group(scene, errors) : NULL;
+    fbd_errors_free(errors);
+    return model;
+}

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Group: the model of some of a scene's bodies, as if the file had listed nothing else.
+ *
+ * It is compiled from the same scene by the same code, with the coordinates renumbered, so a group knows
+ * nothing of being one: its plan, its state and its right-hand side are those of a smaller scene.
+ */
+#ifndef FBD_MODEL_GROUP_H
+#define FBD_MODEL_GROUP_H
+
+#include "model/model.h"
+
+/* What of a scene a group consists of, as indices in their order; and for all of the scene, how things are
+ * renumbered in the group that they belong to: slot s of expressions is moved[s], body b is local[b]. */
+struct selection {
+    const int *bodies, *events, *couplings, *constraints, *absolutes;
+    size_t body_count, event_count, coupling_count, constraint_count, absolute_count;
+    const int *moved, *local;
+};
+
+/* The model of a group whose expressions refer to its own bodies only. It refers to `whole`, which must
+ * outlive it, has no labels and no hand derivations, and is freed with model_free. NULL when memory is out.
+ */
+struct fbd_model *model_group(const struct fbd_model *whole, const struct selection *selection);
+
+#endif

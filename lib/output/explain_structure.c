@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "output/explain_structure.h"
+
+#include <string.h>
+
+#include "solve/division.h"
+#include "solve/structure.h"
+
+enum { most_listed = 12 };
+
+static const char *words_for(enum structure structure)
+{
+    switch (structure) {
+    case structure_velocity_free:
+        return "no force depends on a velocity: Nystrom pair of order 12(10), half the steps of the general "
+               "method or less";
+    case structure_linear:
+        return "linear equations with constant coefficients between events: propagated exactly";
+    case structure_constant: return "constant accelerations between events: exact parabolas, one step each";
+    case structure_general:
+    case structure_kinds: break;
+    }
+    return "nothing in particular: the general method";
+}
+
+/* The structure of group `index`; structure_kinds when memory is out. */
+static enum structure structure_of_group(const struct fbd_model *model, const struct division *division,
+                                         size_t index)
+{
+    if (division->count <= 1) return structure_of(model);
+    struct fbd_model *group = model_group(model, &division->selections[index]);
+    enum structure structure = group ? structure_of(group) : structure_kinds;
+    model_free(group);
+    return structure;
+}
+
+static void write_names(struct text *text, const struct fbd_model *model, const struct selection *selection)
+{
+    text_add(text, "  ");
+    for (size_t i = 0; i < selection->body_count && i < most_listed; i++)
+        text_printf(text, "%s%s", i ? ", " : "", model->bodies[selection->bodies[i]].name);
+    if (selection->body_count > most_listed)
+        text_printf(text, " and %zu more", selection->body_count - most_listed);
+}
+
+static bool write_groups(struct text *text, const struct fbd_model *model, const struct division *division,
+                         bool automatic)
+{
+    size_t counts[structure_kinds] = {0};
+    for (size_t g = 0; g < division->count; g++) {
+        enum structure structure = automatic ? structure_of_group(model, division, g) : structure_general;
+        if (structure == structure_kinds) return false;
+        counts[structure]++;
+        if (g >= most_listed) continue;
+        write_names(text, model, &division->selections[g]);
+        text_printf(text, ": %s\n", automatic ? words_for(structure) : "the method asked for");
+    }
+    if (division->count <= most_listed) return true;
+    text_printf(text, "  and %zu more; of all groups:\n", division->count - most_listed);
+    for (int k = 0; k < structure_kinds; k++)
+        if (counts[k] > 0) text_printf(text, "  %6zu  %s\n", counts[k], words_for((enum structure)k));
+    return true;
+}
+
+/* Accelerations are quotients unless the three equations of a body in the plane are coupled, or bodies are
+ * jointed. */
+static bool is_diagonal(const struct fbd_model *model)
+{
+    if (model->tree) return false;
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
+        if (body->kind == motion_planar && (body->arm.x != 0 || body->arm.y != 0)) return false;
+    }
+    return true;
+}
+
+bool explain_structure(struct text *text, const struct fbd_model *model, const fbd_options *options)
+{
+    const char *method = options->method ? options->method : model->scene->simulate.method;
+    double step = options->step != 0 ? options->step : model->scene->simulate.step;
+    text_add(text, "\nStructure in use\n");
+    if (is_diagonal(model)) text_add(text, "  diagonal mass matrix: each acceleration is a quotient\n");
+    if (options->no_structure) {
+        text_add(text, "  no more than that, as asked for: all bodies together by one method\n");
+        return true;
+    }
+    struct division division;
+    bool done = division_make(&division, model);
+    if (done) {
+        if (division.count > 1)
+            text_printf(text,
+                        "  %zu independent groups of bodies, each integrated by itself at its own pace\n",
+                        division.count);
+        bool automatic = (!method || strcmp(method, "auto") == 0) && step == 0;
+        done = write_groups(text, model, &division, automatic);
+    }
+    division_free(&division);
+    return done;
+}

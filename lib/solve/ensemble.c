@@ -1,0 +1,321 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solve/ensemble.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- making and freeing */
+
+bool ensemble_make_run(struct ensemble *ensemble, struct group *group)
+{
+    group->run = run_new(group->model, &ensemble->options);
+    return group->run != NULL;
+}
+
+static bool make_group(struct ensemble *ensemble, struct group *group)
+{
+    if (group->selection) group->model = group->owned = model_group(ensemble->model, group->selection);
+    if (!group->model || !ensemble_make_run(ensemble, group)) return false;
+    group->probe = state_new(group->model);
+    const struct run *run = group->run;
+    group->quiet = run->watchers.timed.count + run->watchers.moving.count == 0;
+    return group->probe != NULL;
+}
+
+/* Where the branches and friction pairs of the groups stand in the whole plan. Both plans list them body by
+ * body in the same order, switches of loads first and those of user events last. */
+static bool make_maps(struct ensemble *ensemble)
+{
+    const struct plan *plan = &ensemble->model->plan;
+    const struct division *division = &ensemble->division;
+    ensemble->maps =
+        calloc((size_t)plan->branches + plan->friction_count + 2 * ensemble->count + 1, sizeof(int));
+    if (!ensemble->maps) return false;
+    int *next = ensemble->maps, *branches = next + (size_t)plan->branches + plan->friction_count,
+        *pairs = branches + ensemble->count;
+    for (size_t p = 0; p < ensemble->count; p++) {
+        struct group *group = &ensemble->groups[p];
+        group->branch = next;
+        group->pairs = next += group->model->plan.branches;
+        next += group->model->plan.friction_count;
+    }
+    size_t watch = 0;
+    for (size_t i = 0; i < plan->kink_count; i++) {
+        const struct kink *kink = &plan->kinks[i];
+        int p = kink->body >= 0 ? division->group_of_body[kink->body] : 0;
+        if (kink->body < 0) { /* of a user event: the one whose formula begins with this branch */
+            int first = kink->formula.branch;
+            while (plan->watches[watch].left.branch != first && plan->watches[watch].right.branch != first)
+                watch++;
+            p = division->group_of_event[watch];
+        }
+        for (size_t k = 0; k < kink->count; k++)
+            ensemble->groups[p].branch[branches[p]++] = kink->formula.branch + (int)k;
+    }
+    for (size_t i = 0; i < plan->friction_count; i++) {
+        int p = division->group_of_body[plan->frictions[i].body];
+        ensemble->groups[p].pairs[pairs[p]++] = (int)i;
+    }
+    return true;
+}
+
+static bool make_groups(struct ensemble *ensemble)
+{
+    ensemble->count = 1;
+    if (ensemble->options.structure) {
+        if (!division_make(&ensemble->division, ensemble->model)) return false;
+        if (ensemble->division.count > 1) ensemble->count = ensemble->division.count;
+    }
+    ensemble->groups = calloc(ensemble->count, sizeof *ensemble->groups);
+    ensemble->queue = calloc(2 * ensemble->count, sizeof *ensemble->queue);
+    if (!ensemble->groups || !ensemble->queue) return false;
+    ensemble->due = ensemble->queue + ensemble->count;
+    bool divided = ensemble->count > 1;
+    for (size_t p = 0; p < ensemble->count; p++) {
+        struct group *group = &ensemble->groups[p];
+        group->model = ensemble->model;
+        if (divided) group->selection = &ensemble->division.selections[p];
+        if (!make_group(ensemble, group)) return false;
+    }
+    return !divided || make_maps(ensemble);
+}
+
+struct ensemble *ensemble_new(const struct fbd_model *model, const struct run_options *options)
+{
+    struct ensemble *ensemble = calloc(1, sizeof *ensemble);
+    if (!ensemble) return NULL;
+    ensemble->model = model;
+    ensemble->options = *options;
+    ensemble->reason = "";
+    ensemble->state = state_new(model);
+    if (!ensemble->state || !make_groups(ensemble)) {
+        ensemble_free(ensemble);
+        return NULL;
+    }
+    for (size_t p = 0; p < ensemble->count; p++) {
+        const struct run *run = ensemble->groups[p].run;
+        ensemble->due[p] = p;
+        if (run->outcome != FBD_GOING) ensemble_fail(ensemble, run->outcome, run->reason);
+    }
+    ensemble_release(ensemble, ensemble->count);
+    return ensemble;
+}
+
+void ensemble_free(struct ensemble *ensemble)
+{
+    if (!ensemble) return;
+    for (size_t p = 0; ensemble->groups && p < ensemble->count; p++) {
+        run_free(ensemble->groups[p].run);
+        state_free(ensemble->groups[p].probe);
+        model_free(ensemble->groups[p].owned);
+    }
+    state_free(ensemble->state);
+    division_free(&ensemble->division);
+    free(ensemble->groups);
+    free(ensemble->maps);
+    free(ensemble->queue);
+    free(ensemble->events);
+    free(ensemble);
+}
+
+/* The first early end is the one that counts. */
+void ensemble_fail(struct ensemble *ensemble, fbd_outcome outcome, const char *reason)
+{
+    if (ensemble->outcome != FBD_GOING && ensemble->outcome != FBD_DONE) return;
+    ensemble->outcome = outcome;
+    ensemble->reason = reason;
+}
+
+/* ---- the log of events */
+
+int group_body(const struct group *group, int index)
+{
+    return index < 0 || !group->selection ? index : group->selection->bodies[index];
+}
+
+/* The load of the whole for the named tie `index` of a group: they follow the order of the constraints that
+ * have one. */
+static int named_tie(const struct fbd_model *whole, const struct group *group, size_t index)
+{
+    const struct constraint *parts = group->model->scene->constraints, *all = whole->scene->constraints;
+    size_t c = 0;
+    for (;; c++) {
+        if (!constraint_has_load(&parts[c])) continue;
+        if (index-- == 0) break;
+    }
+    int load = (int)whole->coupled_count;
+    for (int i = 0; i < group->selection->constraints[c]; i++) load += constraint_has_load(&all[i]);
+    return load;
+}
+
+int group_load(const struct fbd_model *whole, const struct group *group, int index)
+{
+    if (index < 0 || !group->selection) return index;
+    size_t listed = group->model->listed_count, coupled = group->model->coupled_count;
+    if ((size_t)index >= coupled) return named_tie(whole, group, (size_t)index - coupled);
+    if ((size_t)index >= listed)
+        return (int)whole->listed_count + group->selection->couplings[(size_t)index - listed];
+    int body = group->model->loads[index].body;
+    return whole->bodies[group_body(group, body)].first_load + index - group->model->bodies[body].first_load;
+}
+
+static bool add_event(struct ensemble *ensemble, const struct run_event *event)
+{
+    if (ensemble->event_count == ensemble->event_room) {
+        size_t room = ensemble->event_room ? 2 * ensemble->event_room : 16;
+        struct run_event *events = realloc(ensemble->events, room * sizeof *events);
+        if (!events) return false;
+        ensemble->events = events;
+        ensemble->event_room = room;
+    }
+    ensemble->events[ensemble->event_count++] = *event;
+    return true;
+}
+
+static int by_time(const void *a, const void *b)
+{
+    const struct run_event *first = a, *second = b;
+    if (first->t != second->t) return first->t < second->t ? -1 : 1;
+    if (first->group != second->group) return first->group < second->group ? -1 : 1;
+    return first->order < second->order ? -1 : 1;
+}
+
+void ensemble_release(struct ensemble *ensemble, size_t count)
+{
+    size_t before = ensemble->event_count;
+    for (size_t i = 0; i < count; i++) {
+        struct group *group = &ensemble->groups[ensemble->due[i]];
+        const struct run *run = group->run;
+        for (; group->released < run->event_count && run->events[group->released].t <= ensemble->t;
+             group->released++) {
+            struct run_event event = run->events[group->released];
+            event.body = group_body(group, event.body);
+            event.load = group_load(ensemble->model, group, event.load);
+            if (event.watch >= 0 && group->selection) event.watch = group->selection->events[event.watch];
+            event.group = ensemble->due[i];
+            event.order = group->released;
+            if (!add_event(ensemble, &event)) {
+                ensemble_fail(ensemble, FBD_OUT_OF_MEMORY, "out of memory");
+                return;
+            }
+        }
+    }
+    if (count > 1 && ensemble->event_count > before)
+        qsort(ensemble->events + before, ensemble->event_count - before, sizeof *ensemble->events, by_time);
+}
+
+/* ---- looking */
+
+typedef bool look_at_run(struct run *run, double t, struct fbd_state *state);
+
+static bool look_run(struct run *run, double t, struct fbd_state *state)
+{
+    if (t != run->state->t) return t >= run->from && t < run->state->t && run_look(run, t, state);
+    state_copy(state, run->state);
+    state_evaluate(state);
+    return true;
+}
+
+struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, double t)
+{
+    struct group *group = &ensemble->groups[index];
+    return look_run(group->run, t, group->probe) ? group->probe : NULL;
+}
+
+/* Put coordinates and rates of a group in their places among those of the whole. */
+static void scatter_coordinates(const struct fbd_model *whole, const struct group *group, double *y)
+{
+    const double *part = group->probe->y;
+    for (size_t b = 0; b < group->model->body_count; b++) {
+        const struct model_body *from = &group->model->bodies[b];
+        const struct model_body *to = &whole->bodies[group_body(group, (int)b)];
+        for (int k = 0; k < from->count; k++) {
+            y[to->first + k] = part[from->first + k];
+            y[to->first_rate + k] = part[from->first_rate + k];
+        }
+    }
+}
+
+static void scatter_modes(const struct group *group, const struct fbd_state *part, struct fbd_state *state)
+{
+    const struct plan *plan = &group->model->plan;
+    bool whole = !group->selection;
+    for (int i = 0; i < plan->branches; i++) state->branch[whole ? i : group->branch[i]] = part->branch[i];
+    for (size_t i = 0; i < plan->friction_count; i++) {
+        size_t pair = whole ? i : (size_t)group->pairs[i];
+        state->slip[pair] = part->slip[i];
+        state->pull[pair] = part->pull[i];
+    }
+}
+
+/* Put the state of a group in its place in that of the whole. */
+static void scatter(const struct fbd_model *whole, const struct group *group, struct fbd_state *state)
+{
+    scatter_coordinates(whole, group, state->y);
+    scatter_modes(group, group->probe, state);
+}
+
+static bool run_covers(const struct run *run, double t)
+{
+    return t == run->state->t || (t >= run->from && t < run->state->t);
+}
+
+bool ensemble_coordinates(struct ensemble *ensemble, double t, double *y)
+{
+    for (size_t p = 0; p < ensemble->count; p++) {
+        struct group *group = &ensemble->groups[p];
+        double *part = ensemble->count == 1 ? y : group->probe->y;
+        if (!run_covers(group->run, t) || !run_coordinates(group->run, t, part)) return false;
+        if (ensemble->count > 1) scatter_coordinates(ensemble->model, group, y);
+    }
+    return true;
+}
+
+size_t group_component(const struct fbd_model *whole, const struct group *group, size_t i)
+{
+    size_t n = (size_t)group->model->plan.n, q = i % n;
+    if (!group->selection) return i;
+    int b = group->model->scene->coordinates[q].body;
+    const struct model_body *from = &group->model->bodies[b];
+    const struct model_body *to = &whole->bodies[group_body(group, b)];
+    return (size_t)(i < n ? to->first : to->first_rate) + q - (size_t)from->first;
+}
+
+void ensemble_pass_on(const struct ensemble *ensemble, size_t index, struct fbd_state *state)
+{
+    const struct group *group = &ensemble->groups[index];
+    const struct run *run = group->run;
+    for (size_t i = 0; i < 2 * (size_t)group->model->plan.n; i++)
+        state->y[group_component(ensemble->model, group, i)] += run->state->y[i] - run->y[i];
+    scatter_modes(group, run->state, state);
+}
+
+static bool look(struct ensemble *ensemble, double t, look_at_run *look_at, struct fbd_state *state)
+{
+    if (ensemble->count == 1) return look_at(ensemble->groups[0].run, t, state);
+    for (size_t p = 0; p < ensemble->count; p++) {
+        if (!look_at(ensemble->groups[p].run, t, ensemble->groups[p].probe)) return false;
+        scatter(ensemble->model, &ensemble->groups[p], state);
+    }
+    state->t = t;
+    state->settled = true;
+    state_evaluate(state);
+    return true;
+}
+
+bool ensemble_look(struct ensemble *ensemble, double t, struct fbd_state *state)
+{
+    return look(ensemble, t, look_run, state);
+}
+
+bool ensemble_look_before(struct ensemble *ensemble, double t, struct fbd_state *state)
+{
+    return look(ensemble, t, run_look, state);
+}
+
+struct fbd_state *ensemble_state(struct ensemble *ensemble)
+{
+    if (!ensemble->current) ensemble_look(ensemble, ensemble->t, ensemble->state);
+    ensemble->current = true;
+    return ensemble->state;
+}
