@@ -82,8 +82,8 @@ struct fbd_model {
     char *source;        /* the file's text, owned: hand derivations are checked under changed parameters */
     size_t source_length;
     size_t body_count;
-    size_t load_count;   /* the loads that bodies list, then the couplings that are springs and dampers */
-    size_t listed_count; /* the former */
+    size_t load_count;    /* the loads that bodies list, then the couplings that are springs and dampers */
+    size_t listed_count;  /* the former */
     size_t coupled_count; /* with the latter; behind them one for each rolling body: its friction */
     struct model_body *bodies;
     struct model_load *loads;
