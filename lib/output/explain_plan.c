@@ -130,11 +130,11 @@ static void write_events(struct text *text, const struct plan *plan)
 
 static void write_structure(struct text *text, const struct plan *plan, const struct tree *tree)
 {
-    text_add(text, "\nStructure recognised\n");
+    text_add(text, "\nStructure\n");
     if (tree)
         text_add(text, "  jointed bodies form a tree: accelerations by a recursion over it\n");
     else if (plan->offset_count == 0)
-        text_add(text, "  the mass matrix is diagonal: every acceleration is a sum over an inertia\n");
+        text_add(text, "  diagonal mass matrix: each acceleration is a sum of forces over an inertia\n");
     else
         text_printf(text, "  the mass matrix has %zu block%s of three, else it is diagonal\n",
                     plan->offset_count, plan->offset_count == 1 ? "" : "s");

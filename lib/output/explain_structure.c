@@ -62,24 +62,10 @@ static bool write_groups(struct text *text, const struct fbd_model *model, const
     return true;
 }
 
-/* Accelerations are quotients unless the three equations of a body in the plane are coupled, or bodies are
- * jointed. */
-static bool is_diagonal(const struct fbd_model *model)
-{
-    if (model->tree) return false;
-    for (size_t b = 0; b < model->body_count; b++) {
-        const struct model_body *body = &model->bodies[b];
-        if (body->kind == motion_planar && (body->arm.x != 0 || body->arm.y != 0)) return false;
-    }
-    return true;
-}
-
 bool explain_structure(struct text *text, const struct fbd_model *model, const fbd_options *options)
 {
     const char *method = options->method ? options->method : model->scene->simulate.method;
     double step = options->step != 0 ? options->step : model->scene->simulate.step;
-    text_add(text, "\nStructure in use\n");
-    if (is_diagonal(model)) text_add(text, "  diagonal mass matrix: each acceleration is a quotient\n");
     if (options->no_structure) {
         text_add(text, "  no more than that, as asked for: all bodies together by one method\n");
         return true;

@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "model/model.h"
 
-/* Write the section. False when memory is out. */
+/* Write the rest of the section that explain_plan ends with. False when memory is out. */
 bool explain_structure(struct text *text, const struct fbd_model *model, const fbd_options *options);
 
 #endif

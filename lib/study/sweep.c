@@ -171,6 +171,16 @@ static bool prepare(struct fbd_sweep *sweep, fbd_errors *errors)
     return sweep->base != NULL;
 }
 
+/* Every row is one run: an accuracy, which takes several, is not looked for. */
+static void warn_of_accuracy(const struct fbd_sweep *sweep, fbd_errors *errors)
+{
+    const fbd_options *options = &sweep->options;
+    if (!(sweep->base->scene->simulate.accuracy > 0) || options->tolerance != 0 || options->step != 0) return;
+    diag_add(errors, FBD_WARNING, "accuracy-not-used", (struct pos){0, 0},
+             "say which tolerance by --tolerance; fbd-run --accuracy tells the one that is needed",
+             "the `accuracy` of the file is not used by a sweep");
+}
+
 static bool build(struct fbd_sweep *sweep, const char *name, const fbd_sweep_plan *plan, fbd_errors *errors)
 {
     struct run_options chosen;
@@ -182,6 +192,7 @@ static bool build(struct fbd_sweep *sweep, const char *name, const fbd_sweep_pla
         return false;
     if (!check_members(sweep, errors) || !prepare(sweep, errors)) return false;
     if (!options_choose(sweep->base, &sweep->options, &chosen, errors)) return false;
+    warn_of_accuracy(sweep, errors);
     if (!columns_read(&sweep->columns, &sweep->arena, sweep->base, plan->outputs, plan->output_count, errors))
         return false;
     bool first = try_values(sweep, 0, errors);
