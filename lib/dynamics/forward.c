@@ -106,8 +106,13 @@ void accelerations(const struct fbd_model *model, const struct instant *given, d
 {
     struct instant extended;
     const struct instant *at = instant_with_places(model, given, &extended);
-    for (int b = 0; b < (int)model->body_count; b++) body_accelerations(model, b, at, slots, a);
-    if (!model->tree) return;
+    const struct tree *tree = model->tree;
+    if (!tree) {
+        for (int b = 0; b < (int)model->body_count; b++) body_accelerations(model, b, at, slots, a);
+        return;
+    }
+    memset(slots, 0, (size_t)model->plan.slots * sizeof *slots);
+    for (int k = 0; k < tree->acting_count; k++) body_accelerations(model, tree->acting[k], at, slots, a);
     tree_accelerations(model, at, slots, a);
     for (int pair = 0; pair < (int)model->plan.friction_count; pair++) {
         const struct friction *friction = &model->plan.frictions[pair];

@@ -147,6 +147,23 @@ static bool needs_both(const struct plan *plan, const struct model_body *body, c
            (terms->at_points && (body->kind == motion_pivot || body->kind == motion_planar));
 }
 
+/* Has the body a term in the lists of the plan? */
+static bool has_terms(const struct body_terms *terms)
+{
+    return terms->affine.count + terms->sine.count + terms->square.count + terms->formulas.count +
+               terms->potentials.count + terms->links.count + terms->drags.count + terms->forces.count +
+               terms->across.count >
+           0;
+}
+
+static void list_acting(struct fbd_model *model)
+{
+    struct tree *tree = model->tree;
+    for (int b = 0; b < (int)model->body_count; b++)
+        if (model->bodies[b].place.link == 0 || has_terms(&model->plan.bodies[b]))
+            tree->acting[tree->acting_count++] = b;
+}
+
 void body_terms_finish(struct builder *builder)
 {
     struct fbd_model *model = builder->model;
@@ -165,4 +182,5 @@ void body_terms_finish(struct builder *builder)
         terms->turns = needs_both(plan, body, terms);
         if (terms->offset >= 0) terms->depends |= depends_place | depends_rate; /* omega^2 r */
     }
+    if (model->tree) list_acting(model);
 }

@@ -126,6 +126,7 @@ bool tree_number(struct fbd_model *model)
     tree->bodies = ARENA_ARRAY(&model->arena, count, int);
     tree->links = ARENA_ARRAY(&model->arena, count + 1, struct tree_link);
     tree->pairs = ARENA_ARRAY(&model->arena, count, int);
+    tree->acting = ARENA_ARRAY(&model->arena, model->body_count, int);
     tree->watched = ARENA_ARRAY(&model->arena, count, int);
     if (model->arena.failed) return false;
     order_bodies(model, tree, &family);

@@ -84,6 +84,8 @@ struct tree {
     struct tree_moment *moments;
     struct tree_spring *springs;
     struct tree_drag *drags;
+    int acting_count;         /* bodies whose own terms count: not jointed, or with forces in the joint */
+    int *acting;              /* their numbers */
     bool loaded;              /* something of the lists above acts on links */
     bool pivots_only;         /* every joint is a pivot, and none has dry friction */
     int pair_count;           /* links whose dry friction goes with a normal force */
