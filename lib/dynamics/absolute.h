@@ -16,7 +16,8 @@ size_t extended_size(const struct fbd_model *model);
 /* The instant with its y extended, in at->extended. For jointed bodies the links are moved there. */
 struct instant instant_extend(const struct fbd_model *model, const struct instant *at);
 
-/* The same for the right-hand side, which copies nothing that it need not: extended into `room`, or as it is. */
+/* The same for the right-hand side, which copies nothing that it need not: extended into `room`, or as it is.
+ */
 static inline const struct instant *instant_with_places(const struct fbd_model *model,
                                                         const struct instant *at, struct instant *room)
 {

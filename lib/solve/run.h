@@ -48,7 +48,7 @@ struct run {
     double snap_work;         /* what that has taken (below zero) */
     double *impact_work;      /* per load: the same, summed up */
     double drift;             /* the most that a step left the constraints by, before it was projected back */
-    double liveliest;            /* the most kinetic energy of jointed bodies so far */
+    double liveliest;         /* the most kinetic energy of jointed bodies so far */
     double left;              /* and after that */
     bool projected;
     int crawl;                /* steps in a row of a few roundings of the time */
