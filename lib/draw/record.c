@@ -224,7 +224,8 @@ bool record_step(struct record *record, struct ensemble *run, double from, bool 
 {
     double end = run->t, near = 1e-9 * record->every;
     bool last = run->outcome != FBD_GOING;
-    if (!(end > from) && !event && !last) return true;
+    /* A window of nothing but roundings is no row of its own. */
+    if (!(end - from > near) && !event && !last) return true;
     if (!take_inside(record, run, from)) return false;
     if (record->every > 0 && fabs((double)record->next * record->every - end) <= near) record->next++;
     if (event && (!ensemble_look_before(run, end, record->probe) || !take_probe(record, run, end, true)))

@@ -52,11 +52,18 @@ function hermite(index, slope, row, t) {
   return a + u * (p + u * (3 * (b - a) - 2 * p - q + u * (2 * (a - b) + p + q)));
 }
 
+// The next row from `row` on, forward or back, that is at least `gap` away; -1 beyond an event or the run's ends.
+function rowBeyond(row, step, gap) {
+  for (let i = row + step; i >= 0 && i < run.rows && times[i] !== times[i - step]; i += step) {
+    if (Math.abs(times[i] - times[row]) > gap) return i;
+  }
+  return -1;
+}
+
 // The cubic through four rows, or fewer where an event is near; rows that nearly coincide say nothing of slopes.
 function cubic(index, row, t) {
-  const rows = [row, row + 1], h = times[row + 1] - times[row];
-  if (row > 0 && times[row] - times[row - 1] > 0.2 * h) rows.push(row - 1);
-  if (row + 2 < run.rows && times[row + 2] - times[row + 1] > 0.2 * h) rows.push(row + 2);
+  const gap = 0.2 * (times[row + 1] - times[row]);
+  const rows = [row, row + 1, rowBeyond(row, -1, gap), rowBeyond(row + 1, 1, gap)].filter((i) => i >= 0);
   let sum = 0;
   for (const i of rows) {
     let weight = 1;
