@@ -14,6 +14,7 @@ void run_fail(struct run *run, fbd_outcome outcome, const char *format, ...)
     run->outcome = outcome;
     va_list args;
     va_start(args, format);
+    /* NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): it is, a line above */
     vsnprintf(run->reason, sizeof run->reason, format, args);
     va_end(args);
 }
