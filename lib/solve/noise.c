@@ -2,16 +2,53 @@
 #include <float.h>
 #include <string.h>
 
+#include "dynamics/tree.h"
 #include "solve/run.h"
+
+/* How much the links above a link, and itself, have turned in all: an angle in the world is their sum, and
+ * has its rounding. */
+static double turned(const struct run *run, int link)
+{
+    double sum = 0;
+    for (const struct tree *tree = run->model->tree; link > 0; link = tree->links[link].parent) {
+        const struct model_body *body = &run->model->bodies[tree->links[link].body];
+        bool turns = body->kind == motion_pivot || body->kind == motion_planar;
+        if (turns) sum += fabs(run->state->y[body->first + body->count - 1]);
+    }
+    return sum;
+}
+
+/* The size of what has been added up for the share of an arrow in each coordinate of a jointed body. A moment
+ * is small where the force points at O, and still has the rounding of its products, and of the angle. */
+static void add_jointed(const struct model_body *body, const struct tree_state *link, double angle,
+                        const struct arrow *arrow, double *gross)
+{
+    struct vec f = arrow->force, arm = vec_sub(arrow->point, link->p);
+    double size = vec_norm(f), moment = fabs(arm.x * f.y) + fabs(arm.y * f.x) + fabs(arrow->couple);
+    moment += angle * size * vec_norm(arm);
+    double along = fabs(link->e.x * f.x) + fabs(link->e.y * f.y) + angle * size;
+    double across = fabs(link->e.x * f.y) + fabs(link->e.y * f.x) + angle * size;
+    const double gross_planar[] = {along, across, moment};
+    if (body->kind == motion_pivot)
+        gross[0] += moment;
+    else
+        for (int k = 0; k < body->count; k++) gross[k] += gross_planar[k];
+}
 
 /* The sum of the sizes of what acts along each coordinate of a body. */
 static void gross_forces(struct run *run, int b, const struct instant *at, double *gross)
 {
     const struct model_body *body = &run->model->bodies[b];
     size_t count = diagram_fill(run->model, b, at, run->state->a, run->state->slots, run->arrows);
+    int link = body->place.link;
+    double angle = turned(run, link);
     for (int k = 0; k < body->count; k++) gross[k] = 0;
-    for (size_t i = 0; i < count; i++)
-        for (int k = 0; k < body->count; k++) gross[k] += fabs(run->arrows[i].share[k]);
+    for (size_t i = 0; i < count; i++) {
+        if (link > 0)
+            add_jointed(body, &at->tree->links[link], angle, &run->arrows[i], gross);
+        else
+            for (int k = 0; k < body->count; k++) gross[k] += fabs(run->arrows[i].share[k]);
+    }
 }
 
 /* How fast the accelerations change along the motion: what an error of the time does to them. `along` has n
@@ -39,22 +76,39 @@ static void set_floors(struct run *run, int i)
     if (v == 0) switcher_set_floor(run->stepper, rate, a * tau);
 }
 
-void run_set_noise(struct run *run)
+/* Measured with chains of 16 to 128 rods, error estimates of dop853 are up to 4 roundings of the gross forces
+ * of the worst rod, seldom 10. */
+static void set_noise(struct run *run)
 {
     const struct plan *plan = &run->model->plan;
-    struct instant at = state_instant(run->state);
-    double *along = run->f; /* is overwritten by the restart that follows */
-    changes(run, &at, along);
+    struct instant here = state_instant(run->state);
+    const struct instant *at = &here;
+    changes(run, at, run->along);
     for (size_t b = 0; b < run->model->body_count; b++) {
         const struct model_body *body = &run->model->bodies[b];
-        double gross[most_coordinates_of_a_body];
-        gross_forces(run, (int)b, &at, gross);
+        double gross[most_coordinates_of_a_body], roundings = body->place.link > 0 ? 16 : 2;
+        gross_forces(run, (int)b, at, gross);
         for (int k = 0; k < body->count; k++) {
             int i = body->first + k;
-            double of_time = fabs(at.t * along[i]), of_sum = 2 * gross[k] * plan->inverse_inertia[i];
+            double of_time = fabs(at->t * run->along[i]),
+                   of_sum = roundings * gross[k] * plan->inverse_inertia[i];
             double noise = DBL_EPSILON * (of_sum + of_time);
             switcher_set_noise(run->stepper, (size_t)i, isfinite(noise) ? noise : 0);
-            set_floors(run, i);
         }
     }
+}
+
+void run_set_noise(struct run *run)
+{
+    set_noise(run);
+    for (int i = 0; i < run->model->plan.n; i++) set_floors(run, i);
+    run->since_noise = 0;
+}
+
+void run_renew_noise(struct run *run)
+{
+    const unsigned long steps = 64; /* costs a hundredth of them */
+    if (!run->model->tree || ++run->since_noise < steps) return;
+    set_noise(run);
+    run->since_noise = 0;
 }

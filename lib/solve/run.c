@@ -97,11 +97,12 @@ static bool make_run(struct run *run)
     size_t n = (size_t)plan->n;
     run->state = state_new(run->model);
     run->during = state_new(run->model);
-    run->y = calloc(6 * n + 1, sizeof *run->y);
+    run->y = calloc(7 * n + 1, sizeof *run->y);
     if (!run->state || !run->during || !run->y || !make_scans(run)) return false;
     if (!poles_init(&run->poles, run->model)) return false;
     run->f = run->y + 2 * n;
     run->sample = run->f + 2 * n;
+    run->along = run->sample + 2 * n;
     run->values = calloc(2 * run->moving.count + 1, sizeof *run->values);
     run->anchor = calloc(4 * n + 1, sizeof *run->anchor);
     run->arrows = calloc(diagram_most_arrows(run->model), sizeof *run->arrows);
@@ -422,8 +423,10 @@ fbd_outcome run_advance(struct run *run)
     bool at_end = t >= run->options.until;
     if (moving || timed)
         run_apply(run, timed ? run->timed.crossed : NULL, moving ? run->moving.crossed : NULL);
-    else
+    else {
         state_evaluate(run->state);
+        run_renew_noise(run);
+    }
     if (at_end) run_apply_touched(run, false);
     if (run->outcome == FBD_GOING && at_end) run->outcome = FBD_DONE;
     if (run->outcome == FBD_GOING) watchers_arm(&run->watchers, run->state);

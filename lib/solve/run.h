@@ -68,9 +68,11 @@ struct run {
     struct switcher *stepper;
     struct linear_pace pace; /* of a linear system */
     struct counted_system system;
-    struct rates *rates;    /* in the modes of `during` */
-    double *y, *f, *sample; /* 2 n each; y: the end of the last step, before its events */
-    double *values;         /* moving event functions and their rates */
+    struct rates *rates;       /* in the modes of `during` */
+    double *y, *f, *sample;    /* 2 n each; y: the end of the last step, before its events */
+    double *along;             /* n: how the accelerations change along the motion, when the noise was set */
+    unsigned long since_noise; /* steps */
+    double *values;            /* moving event functions and their rates */
     struct decided decided;
     struct arrow *arrows; /* of one body */
 
@@ -123,6 +125,10 @@ void run_check_contacts(struct run *run);
  * at run->state are known: to rounding of the forces that are summed up, and of the time at which they are
  * taken. */
 void run_set_noise(struct run *run);
+
+/* After a step without an event: from time to time how well the accelerations are known now, as the forces in
+ * joints change with the motion. */
+void run_renew_noise(struct run *run);
 
 /* End the run with a reason. */
 void run_fail_step(struct run *run, enum stepper_status status);

@@ -66,12 +66,16 @@ static inline double level(const struct weights *w, double scale, double y, doub
 /* What rounding of q_i, and of the acceleration, hides in v_i within a step. */
 static inline double hidden_in_v(const struct weights *w, size_t i, double h, double q)
 {
-    return larger(DBL_EPSILON * smaller(fabs(q), w->cap[i]) / fabs(h), w->noise[i] * fabs(h));
+    return larger(DBL_EPSILON * smaller(fabs(q), w->cap[i]) / fabs(h), 4 * w->noise[i] * fabs(h));
 }
 
-static inline double raised(double ratio, double error, double error_level)
+/* An error that rounding of the accelerations explains, `noise`, says nothing of the step size. Counted by a
+ * level that goes with h as it does, it would have the step shrink for ever: the law wants ratios below
+ * safety^k. Beyond, errors count up to a level of four times the noise, so that a step that has grown out of
+ * the noise is not rejected at once. */
+static inline double raised(double ratio, double error, double error_level, double noise)
 {
-    return error != 0 ? larger(ratio, fabs(error) / error_level) : ratio;
+    return fabs(error) > noise ? larger(ratio, fabs(error) / error_level) : ratio;
 }
 
 double weights_ratio(const gsl_odeiv2_control *control, double h, const double *y, const double *yerr,
@@ -83,15 +87,17 @@ double weights_ratio(const gsl_odeiv2_control *control, double h, const double *
     for (size_t i = 0; i < n; i++) {
         double q = y[i], v = y[n + i], a = f[n + i];
         double q_motion = motion_of_q(h, v, a), v_motion = motion_of(h, a);
+        double noise_v = w->noise[i] * fabs(h), noise_q = noise_v * fabs(h);
+        ratio = raised(ratio, yerr[i], level(w, scale_of_q(w, i, q, q_motion), q, q_motion, 4 * noise_q),
+                       noise_q);
         ratio =
-            raised(ratio, yerr[i], level(w, scale_of_q(w, i, q, q_motion), q, q_motion, w->noise[i] * h * h));
-        ratio = raised(ratio, yerr[n + i],
-                       level(w, scale_of(w, n + i, v, v_motion), v, v_motion, hidden_in_v(w, i, h, q)));
+            raised(ratio, yerr[n + i],
+                   level(w, scale_of(w, n + i, v, v_motion), v, v_motion, hidden_in_v(w, i, h, q)), noise_v);
         probe += 0 * (q + v + a + yerr[i] + yerr[n + i]);
     }
     for (size_t i = 2 * n; i < w->size; i++) {
         double motion = motion_of(h, f[i]);
-        ratio = raised(ratio, yerr[i], level(w, scale_of(w, i, y[i], motion), y[i], motion, 0));
+        ratio = raised(ratio, yerr[i], level(w, scale_of(w, i, y[i], motion), y[i], motion, 0), 0);
         probe += 0 * (y[i] + f[i] + yerr[i]);
     }
     return probe == 0 ? ratio : INFINITY;
