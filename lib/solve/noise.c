@@ -28,21 +28,18 @@ static void add_jointed(const struct model_body *body, const struct tree_state *
     moment += angle * size * vec_norm(arm);
     double along = fabs(link->e.x * f.x) + fabs(link->e.y * f.y) + angle * size;
     double across = fabs(link->e.x * f.y) + fabs(link->e.y * f.x) + angle * size;
-    const double gross_planar[] = {along, across, moment};
-    if (body->kind == motion_pivot)
-        gross[0] += moment;
-    else
-        for (int k = 0; k < body->count; k++) gross[k] += gross_planar[k];
+    if (body->count > 0) gross[0] += body->kind == motion_pivot ? moment : along;
+    if (body->count > 1) gross[1] += across;
+    if (body->count > 2) gross[2] += moment;
 }
 
-/* The sum of the sizes of what acts along each coordinate of a body. */
-static void gross_forces(struct run *run, int b, const struct instant *at, double *gross)
+/* Add the sizes of what acts along each coordinate of a body. */
+static void add_gross_forces(struct run *run, int b, const struct instant *at, double *gross)
 {
     const struct model_body *body = &run->model->bodies[b];
     size_t count = diagram_fill(run->model, b, at, run->state->a, run->state->slots, run->arrows);
     int link = body->place.link;
     double angle = turned(run, link);
-    for (int k = 0; k < body->count; k++) gross[k] = 0;
     for (size_t i = 0; i < count; i++) {
         if (link > 0)
             add_jointed(body, &at->tree->links[link], angle, &run->arrows[i], gross);
@@ -86,8 +83,8 @@ static void set_noise(struct run *run)
     changes(run, at, run->along);
     for (size_t b = 0; b < run->model->body_count; b++) {
         const struct model_body *body = &run->model->bodies[b];
-        double gross[most_coordinates_of_a_body], roundings = body->place.link > 0 ? 16 : 2;
-        gross_forces(run, (int)b, at, gross);
+        double gross[most_coordinates_of_a_body] = {0}, roundings = body->place.link > 0 ? 16 : 2;
+        add_gross_forces(run, (int)b, at, gross);
         for (int k = 0; k < body->count; k++) {
             int i = body->first + k;
             double of_time = fabs(at->t * run->along[i]),
