@@ -9,13 +9,14 @@
 
 #include "solve/stiffness.h"
 
-enum { terms = 18, matrices = 6 };
+enum { terms = 26, matrices = 6 };
 
-static const double series_reach = 1 + 1e-9; /* of h rho: a step of 1 / rho may be rounded up */
+static const double series_reach = 2 + 1e-9; /* of h rho: a step of 2 / rho may be rounded up */
 
 struct linear {
     size_t dim;
     bool has_matrix, stepped, has_terms;
+    int used; /* terms of the series */
     double rho, h;
     double kept;                             /* the step size that `phi` belongs to, 0 for none */
     double *y0, *f0, *work;                  /* dim, dim, 2 dim */
@@ -56,7 +57,6 @@ static int linear_reset(void *state, size_t dim)
     struct linear *s = state;
     (void)dim;
     s->has_matrix = s->stepped = false;
-    s->kept = 0;
     return GSL_SUCCESS;
 }
 
@@ -76,6 +76,12 @@ static int linear_set_driver(void *state, const gsl_odeiv2_driver *driver)
 
 static void apply_matrix(size_t dim, const double *matrix, const double *x, double *result)
 {
+    if (dim == 2) { /* one body on a line or a pivot, the most frequent scene */
+        double first = matrix[0] * x[0] + matrix[1] * x[1];
+        result[1] = matrix[2] * x[0] + matrix[3] * x[1];
+        result[0] = first;
+        return;
+    }
     for (size_t i = 0; i < dim; i++) {
         double sum = 0;
         for (size_t j = 0; j < dim; j++) sum += matrix[i * dim + j] * x[j];
@@ -129,15 +135,23 @@ static void set_phi(struct linear *s, double h)
 
 /* ---- steps */
 
-/* The terms of the series for the present step. */
+/* The terms of the series for the present step, as many as count: the norm of the weights says nothing of
+ * what is no longer there after dim - 1 products. */
 static void set_terms(struct linear *s)
 {
-    double *term = s->term;
+    const double least = 4e-18;
+    double *term = s->term, bound = 1;
     for (size_t i = 0; i < s->dim; i++) term[i] = s->h * s->f0[i];
-    for (int k = 1; k < terms; k++, term += s->dim) {
-        double factor = s->h / (k + 1);
+    for (s->used = 1; s->used < terms; s->used++, term += s->dim) {
+        double factor = s->h / (s->used + 1), size = 0;
+        bound *= factor * s->rho;
+        if (bound < least && (size_t)s->used >= s->dim) break;
         apply_matrix(s->dim, s->A, term, term + s->dim);
-        for (size_t i = 0; i < s->dim; i++) term[s->dim + i] *= factor;
+        for (size_t i = 0; i < s->dim; i++) {
+            term[s->dim + i] *= factor;
+            size += fabs(term[s->dim + i]);
+        }
+        if (size == 0) break;
     }
     s->has_terms = true;
 }
@@ -146,7 +160,7 @@ static void sum_terms(const struct linear *s, double theta, double *y)
 {
     for (size_t i = 0; i < s->dim; i++) {
         double sum = 0;
-        for (int k = terms - 1; k >= 0; k--) sum = theta * (s->term[(size_t)k * s->dim + i] + sum);
+        for (int k = s->used - 1; k >= 0; k--) sum = theta * (s->term[(size_t)k * s->dim + i] + sum);
         y[i] = s->y0[i] + sum;
     }
 }
@@ -162,6 +176,17 @@ static void leap(struct linear *s, double h, double *y)
     apply_matrix(dim, s->exponential, s->f0, s->work);
     double rest = h - s->kept;
     for (size_t i = 0; i < dim; i++) y[i] = s->y0[i] + (y[i] + rest * s->work[i]);
+}
+
+void linear_set_matrix(gsl_odeiv2_step *step, const double *A, double rho)
+{
+    struct linear *s = step->state;
+    size_t size = s->dim * s->dim * sizeof *A;
+    s->has_matrix = true;
+    if (rho == s->rho && memcmp(A, s->A, size) == 0) return; /* as before the reset, with its Phi */
+    memcpy(s->A, A, size);
+    s->rho = rho;
+    s->kept = 0;
 }
 
 static int set_matrix(struct linear *s, double t, const double *y, const gsl_odeiv2_system *sys)

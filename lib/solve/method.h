@@ -23,6 +23,7 @@ struct method {
     bool needs_driver; /* asks a driver for its control's error level */
     double stable;     /* it is stable for h lambda in [-stable, 0]; 0: dop853, which finds
                           out by itself, and implicit ones */
+    bool exact; /* no error: a part of a step is what its dense output says, and no first step is too long */
 };
 
 /* Method number `index` in the order of preference; NULL beyond the last one. Number 0 is the default. */

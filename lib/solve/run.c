@@ -179,7 +179,7 @@ void run_free(struct run *run)
 static bool restart(struct run *run)
 {
     memcpy(run->y, run->state->y, 2 * (size_t)run->model->plan.n * sizeof *run->y);
-    run_set_noise(run);
+    if (!structure_is_exact(run->kind)) run_set_noise(run);
     bind_rates(run);
     int status = switcher_reset(run->stepper, &run->system, run->state->t, run->y, run->f, run->options.until,
                                 &run->h);
@@ -188,7 +188,13 @@ static bool restart(struct run *run)
         return false;
     }
     if (run->kind == structure_constant) run->h = run->options.until - run->state->t;
-    if (run->kind == structure_linear) linear_pace_start(&run->pace, &run->system, run->state->t, run->y);
+    if (run->kind == structure_linear) {
+        linear_pace_start(&run->pace, &run->system, run->state->t, run->y);
+        const struct linear_modes *modes = run->pace.now;
+        if (modes && isfinite(modes->rho)) switcher_set_linear(run->stepper, modes->A, modes->rho);
+    }
+    scan_forget(&run->timed);
+    scan_forget(&run->moving);
     run->restart = false;
     return true;
 }
@@ -430,6 +436,7 @@ fbd_outcome run_advance(struct run *run)
     if (at_end) run_apply_touched(run, false);
     if (run->outcome == FBD_GOING && at_end) run->outcome = FBD_DONE;
     if (run->outcome == FBD_GOING) watchers_arm(&run->watchers, run->state);
+    if (run->projected || run->model->plan.watch_count > 0) scan_forget(&run->moving);
     return run->outcome;
 }
 

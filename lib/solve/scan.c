@@ -17,7 +17,7 @@ struct scan_point {
 bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *context)
 {
     enum { points = most_depth + 4, arrays = 3 };
-    *scan = (struct scan){.count = count, .sample = sample, .context = context};
+    *scan = (struct scan){.count = count, .sample = sample, .context = context, .known = NAN};
     scan->points = calloc(points, sizeof *scan->points);
     scan->memory = calloc(count * points * arrays + 1, sizeof *scan->memory);
     scan->rough = calloc(2 * count + 1, sizeof *scan->rough);
@@ -197,15 +197,20 @@ static double roundings(const struct scan_point *a, const struct scan_point *b)
     return 2 * DBL_EPSILON * fmax(fabs(a->t), fabs(b->t));
 }
 
-/* Shrink [a, b] to two roundings. The cubics converge to the zero fast but from one side, so once an estimate
- * stops moving the other side is fetched by steps that grow from a rounding; every third step is a bisection,
- * so that nothing is slow. `m` is a spare point. */
+/* Shrink [a, b] until b is within two roundings of the zero, by its cubic at least. The cubics converge to
+ * the zero fast but from one side, so once an estimate stops moving the other side is fetched by steps that
+ * grow from a rounding; where four steps together gain less than an eighth, one is a bisection, so that
+ * nothing is slow. `m` is a spare point. */
 static int locate(struct scan *scan, struct scan_point *a, struct scan_point *b, struct scan_point *m)
 {
-    double reach = roundings(a, b); /* b may be far away at first, and its roundings large */
+    double reach = roundings(a, b),
+           before = b->t - a->t; /* b may be far away at first, its roundings large */
     for (int step = 1; b->t - a->t > roundings(a, b); step++) {
         double t = first_estimate(scan, a, b), width = b->t - a->t;
-        if (step % 4 == 0)
+        if (b->t - t <= roundings(a, b)) break;
+        bool slow = step % 4 == 0 && width > before / 8;
+        if (step % 4 == 0) before = width;
+        if (slow)
             t = a->t + width / 2;
         else if (t - a->t < reach)
             t = a->t + fmin(reach, width / 2), reach *= 8;
@@ -243,6 +248,28 @@ static int look(struct scan *scan, struct scan_point *a, struct scan_point *b, i
     return status ? status : look(scan, m, b, depth + 1);
 }
 
+/* The sample at the start of an interval, which may be the one at the end of the last. */
+static int take_first_sample(struct scan *scan, double from)
+{
+    struct scan_point *a = &scan->points[0], *b = &scan->points[1];
+    if (from != scan->known) return take_sample(scan, a, from);
+    exchange(a, b);
+    return 0;
+}
+
+void scan_forget(struct scan *scan)
+{
+    scan->known = NAN;
+}
+
+/* The sampler may say something else at a start than at an end of a function that is below zero. */
+static bool none_negative(const struct scan *scan, const struct scan_point *point)
+{
+    for (size_t i = 0; i < scan->count; i++)
+        if (!(point->values[i] >= 0)) return false;
+    return true;
+}
+
 int scan_interval(struct scan *scan, double from, double to)
 {
     struct scan_point *a = &scan->points[0], *b = &scan->points[1], *m = &scan->points[2];
@@ -250,7 +277,8 @@ int scan_interval(struct scan *scan, double from, double to)
     scan->clear = from;
     scan->most = scan->samples + most_samples;
     if (scan->count == 0) return 0;
-    int status = take_sample(scan, a, from);
+    int status = take_first_sample(scan, from);
+    scan->known = NAN;
     if (!status) status = take_sample(scan, b, to);
     /* Not the middle: a periodic function would fool it most easily there. */
     if (!status) status = take_sample(scan, m, from + 0.4690 * (to - from));
@@ -259,5 +287,7 @@ int scan_interval(struct scan *scan, double from, double to)
     double off = set_doubts(scan, a, m, b);
     if (off > 0.1) scan->resolved = (off > 2 ? 0.5 : 2) * (to - from);
     status = look(scan, a, m, 0);
-    return status ? status : look(scan, m, b, 0);
+    if (!status) status = look(scan, m, b, 0);
+    if (!status && none_negative(scan, b)) scan->known = to;
+    return status;
 }

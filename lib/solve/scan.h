@@ -32,6 +32,7 @@ struct scan {
     double clear; /* result: no function becomes negative up to here (meant for a return of 2) */
     long samples; /* counted */
     long most;    /* samples that may be counted before the scan gives up */
+    double known; /* the end of the last interval, where the functions are known; NAN: they are not */
     struct scan_point *points; /* pool for the recursion */
     double *memory;
 };
@@ -45,5 +46,8 @@ void scan_free(struct scan *scan);
  * Functions that start at or below zero are looked at once they have been seen positive, except those that
  * are still negative at the end. */
 int scan_interval(struct scan *scan, double from, double to);
+
+/* The functions are others now: an interval that begins where the last one ended is sampled there again. */
+void scan_forget(struct scan *scan);
 
 #endif

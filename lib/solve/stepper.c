@@ -12,6 +12,7 @@
 #include "solve/dop853.h"
 #include "solve/first_step.h"
 #include "solve/history.h"
+#include "solve/linear.h"
 #include "solve/rodas5p.h"
 #include "solve/stiffness.h"
 #include "solve/weights.h"
@@ -89,7 +90,7 @@ struct stepper *stepper_alloc(const struct stepper_options *options)
     s->driver = (gsl_odeiv2_driver){.c = s->control};
     s->dense = dense_alloc(&options->layout);
     s->step = step_alloc(method, s->n, &s->driver);
-    bool redo = !method->multistep, history = method->multistep && method->implicit;
+    bool redo = !method->multistep && !method->exact, history = method->multistep && method->implicit;
     if (redo) s->redo = step_alloc(method, s->n, &s->driver);
     if (history) s->history = history_alloc(s->n);
     bool guarded = method->stable > 0 && s->n <= most_guarded;
@@ -131,8 +132,8 @@ int stepper_reset(struct stepper *s, struct counted_system *system, double t, co
         history_clear(s->history);
         history_add(s->history, t, y);
     }
-    if (s->h_fixed > 0) {
-        *h = s->h_fixed;
+    if (s->h_fixed > 0 || s->method->exact) {
+        *h = s->h_fixed > 0 ? s->h_fixed : fmin(room, s->h_max);
         return GSL_SUCCESS;
     }
     int first_order = s->method->multistep ? 1 : s->method->order;
@@ -369,6 +370,11 @@ double stepper_attempt(struct stepper *s, struct counted_system *system, double 
     gsl_odeiv2_step_reset(s->redo);
     int code = gsl_odeiv2_step_apply(s->redo, t, h, y1, s->yerr, f, f1, &system->gsl);
     return code == GSL_SUCCESS ? weights_ratio(s->control, h, y1, s->yerr, f1) : INFINITY;
+}
+
+void stepper_set_linear(struct stepper *s, const double *A, double rho)
+{
+    if (s->step->type == step_linear) linear_set_matrix(s->step, A, rho);
 }
 
 const double *stepper_jacobian(const struct stepper *s)

@@ -89,6 +89,9 @@ int stepper_partial(struct stepper *stepper, double t, double *y, double *f);
 double stepper_attempt(struct stepper *stepper, struct counted_system *system, double t, const double *y,
                        const double *f, double h);
 
+/* linear_set_matrix for a stepper of that method; nothing for others. */
+void stepper_set_linear(struct stepper *stepper, const double *A, double rho);
+
 /* The Jacobian at the start of the last step, row by row, where rodas5p made it; else NULL. */
 const double *stepper_jacobian(const struct stepper *stepper);
 

@@ -19,14 +19,15 @@ static const struct method parabola_method = {.name = "parabola",
                                               .description = "the exact motion under constant accelerations",
                                               .type = &step_parabola,
                                               .order = 8,
-                                              .estimate_order = 8};
+                                              .estimate_order = 8,
+                                              .exact = true};
 
 static const struct method linear_method = {.name = "linear",
                                             .description = "the exact motion of linear equations",
                                             .type = &step_linear,
                                             .order = 8,
                                             .estimate_order = 8,
-                                            .implicit = false};
+                                            .exact = true};
 
 const struct method *structure_method(enum structure structure)
 {

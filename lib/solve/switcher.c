@@ -137,6 +137,11 @@ unsigned long switcher_stiff_steps(const struct switcher *s)
     return s->steppers[1] ? stepper_get_counts(s->steppers[1])->accepted : 0;
 }
 
+void switcher_set_linear(struct switcher *s, const double *A, double rho)
+{
+    stepper_set_linear(s->steppers[0], A, rho);
+}
+
 void switcher_set_noise(struct switcher *s, size_t pair, double noise)
 {
     for (int k = 0; k < 2; k++)

@@ -32,6 +32,9 @@ struct stepper_counts switcher_counts(const struct switcher *switcher);
 /* Steps that the stiff method has made. */
 unsigned long switcher_stiff_steps(const struct switcher *switcher);
 
+/* linear_set_matrix where that is the method. */
+void switcher_set_linear(struct switcher *switcher, const double *A, double rho);
+
 /* See weights_set_floor, where a floor that is not positive and finite changes nothing, and
  * weights_set_noise; for both methods. */
 void switcher_set_floor(struct switcher *switcher, size_t component, double floor);

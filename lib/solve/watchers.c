@@ -111,7 +111,18 @@ struct view {
     struct instant at;
     struct direction flow;
     const double *slots, *slots_along; /* without friction */
+    int friction;                      /* the pair that `now` and `along` belong to, -1 for none */
+    struct friction_values now, along;
 };
+
+static void look_at_friction(struct view *view, int pair)
+{
+    const struct fbd_model *model = view->state->model;
+    if (view->friction == pair) return;
+    view->friction = pair;
+    view->now = friction_at(model, pair, &view->at, view->slots);
+    view->along = friction_along(model, pair, &view->at, view->slots, &view->flow, view->slots_along);
+}
 
 static double user_value(const struct watch *watch, const struct view *view, double *rate)
 {
@@ -136,7 +147,7 @@ static double rope_value(const struct watcher *watcher, const struct view *view,
     return rope.tension;
 }
 
-static double friction_value(const struct watcher *watcher, const struct view *view, double *rate)
+static double friction_value(const struct watcher *watcher, struct view *view, double *rate)
 {
     const struct fbd_model *model = view->state->model;
     const struct friction *friction = &model->plan.frictions[watcher->index];
@@ -154,18 +165,17 @@ static double friction_value(const struct watcher *watcher, const struct view *v
         return slip * (view->at.y[index] - speed);
     }
     if (watcher->kind == watch_stick_limit && slip != stick) return HUGE_VAL;
-    struct friction_values now = friction_at(model, watcher->index, &view->at, view->slots);
-    struct friction_values d =
-        friction_along(model, watcher->index, &view->at, view->slots, &view->flow, view->slots_along);
+    look_at_friction(view, watcher->index);
+    const struct friction_values *now = &view->now, *d = &view->along;
     if (watcher->kind == watch_normal_turns) {
-        *rate = view->at.pull[watcher->index] * d.N;
-        return view->at.pull[watcher->index] * now.N;
+        *rate = view->at.pull[watcher->index] * d->N;
+        return view->at.pull[watcher->index] * now->N;
     }
     int side = watcher->end == 0 ? 1 : -1;
-    bool kinetic = now.limit_kinetic > now.limit_static; /* as in friction_decide */
-    *rate = (kinetic ? d.limit_kinetic : d.limit_static) - side * d.hold;
+    bool kinetic = now->limit_kinetic > now->limit_static; /* as in friction_decide */
+    *rate = (kinetic ? d->limit_kinetic : d->limit_static) - side * d->hold;
     /* A force that only just touches its limit does not break away by a rounding. */
-    return (kinetic ? now.limit_kinetic : now.limit_static) - side * now.hold + friction_rounding(&now);
+    return (kinetic ? now->limit_kinetic : now->limit_static) - side * now->hold + friction_rounding(now);
 }
 
 static void kink_margins(const struct watchers *watchers, const struct kink *kink, const struct view *view)
@@ -175,8 +185,31 @@ static void kink_margins(const struct watchers *watchers, const struct kink *kin
                  formula_branches(&kink->formula, &view->at), margins, rates);
 }
 
-/* The rates of change at (t, y) in the present modes, and the forces without friction and how they vary. */
-static void set_flow(struct view *view)
+/* Does the function ask for more than the state and its rates of change, in the present modes? */
+static bool asks_forces(const struct watcher *watcher, const struct fbd_state *state)
+{
+    switch (watcher->kind) {
+    case watch_kink:
+    case watch_user:
+    case watch_slip_stop: return false;
+    case watch_stick_limit: return state->slip[watcher->index] == stick;
+    case watch_contact:
+    case watch_rope:
+    case watch_normal_turns: break;
+    }
+    return true;
+}
+
+static bool any_asks_forces(const struct watcher_set *set, const struct fbd_state *state)
+{
+    for (size_t i = 0; i < set->count; i++)
+        if (asks_forces(&set->watchers[i], state)) return true;
+    return false;
+}
+
+/* The rates of change at (t, y) in the present modes; when asked for, also the forces without friction and
+ * how they vary. */
+static void set_flow(struct view *view, bool forces)
 {
     struct fbd_state *state = view->state;
     const struct plan *plan = &state->model->plan;
@@ -185,6 +218,7 @@ static void set_flow(struct view *view)
     view->flow = (struct direction){1, dy};
     view->at = instant_extend(state->model, &view->at);
     view->flow = direction_extend(state->model, &view->at, &view->flow);
+    if (!forces) return;
     force_balance(state->model, &view->at, slots);
     force_balance_along(state->model, &view->at, &view->flow, slots, slots_along);
     view->slots = slots;
@@ -197,12 +231,13 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
     const struct plan *plan = &state->model->plan;
     struct view view = {.state = state,
                         .at = {t, y, state->branch, state->slip, state->pull, state->tree, state->extended},
-                        .flow = {1, NULL}};
-    if (set != &watchers->timed) set_flow(&view);
+                        .flow = {1, NULL},
+                        .friction = -1};
+    if (set != &watchers->timed) set_flow(&view, any_asks_forces(set, state));
     int last_kink = -1;
     for (size_t i = 0; i < set->count; i++) {
         const struct watcher *watcher = &set->watchers[i];
-        assert(view.slots || watcher->kind == watch_kink); /* a function of t alone needs no flow */
+        assert(view.slots || !asks_forces(watcher, state));
         switch (watcher->kind) {
         case watch_kink: {
             const struct kink *kink = &plan->kinks[watcher->index];
@@ -239,7 +274,7 @@ void watchers_arm(struct watchers *watchers, struct fbd_state *state)
     const struct plan *plan = &state->model->plan;
     if (plan->watch_count == 0) return;
     struct view view = {.state = state, .at = state_instant(state)};
-    set_flow(&view);
+    set_flow(&view, false);
     for (size_t i = 0; i < plan->watch_count; i++) {
         double rate, value = user_value(&plan->watches[i], &view, &rate), size = fabs(value);
         if (size > watchers->most[i] && size < HUGE_VAL) watchers->most[i] = size;
