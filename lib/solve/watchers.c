@@ -237,6 +237,7 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
     int last_kink = -1;
     for (size_t i = 0; i < set->count; i++) {
         const struct watcher *watcher = &set->watchers[i];
+        assert(view.flow.dy || watcher->kind == watch_kink); /* a function of t alone needs no flow */
         assert(view.slots || !asks_forces(watcher, state));
         switch (watcher->kind) {
         case watch_kink: {

@@ -136,8 +136,8 @@ static void equilibrium_is_kept_to_the_last_bit(void **state)
     gsl_odeiv2_step_free(step);
 }
 
-/* The oscillation at 10 rad/s lets steps of two radians pass; once it has died out (40 / 0.5 = 80 s) the steps
- * follow the age of the rest. */
+/* The oscillation at 10 rad/s lets steps of two radians pass; once it has died out (40 / 0.5 = 80 s) the
+ * steps follow the age of the rest. */
 static void the_pace_follows_what_is_still_there(void **state)
 {
     (void)state;
