@@ -216,8 +216,10 @@ static void set_flow(struct view *view, bool forces)
     double *slots = state->scratch, *slots_along = slots + plan->slots, *dy = slots_along + plan->slots;
     state_rates(state->model, &view->at, slots, dy);
     view->flow = (struct direction){1, dy};
-    view->at = instant_extend(state->model, &view->at);
-    view->flow = direction_extend(state->model, &view->at, &view->flow);
+    if (state->model->absolute_count > 0) {
+        view->at = instant_extend(state->model, &view->at);
+        view->flow = direction_extend(state->model, &view->at, &view->flow);
+    }
     if (!forces) return;
     force_balance(state->model, &view->at, slots);
     force_balance_along(state->model, &view->at, &view->flow, slots, slots_along);
