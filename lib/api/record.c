@@ -96,6 +96,19 @@ static double next_stop(const struct going *going)
     return next;
 }
 
+/* Go to t (see ensemble_go), and count the time of the steps. Where there is none to be made the clock, which
+ * is a call of the system, would take longer. */
+static void go(struct going *going, double t, double near, bool pause)
+{
+    fbd_result *result = going->result;
+    fbd_simulation *simulation = result->simulation;
+    struct ensemble *ensemble = simulation->ensemble;
+    bool timed = !ensemble_has_reached(ensemble, t);
+    double before = timed ? processor_seconds() : 0, by_ledger = result->ledger_seconds;
+    ensemble_go(ensemble, t, near, pause);
+    if (timed) simulation->seconds += processor_seconds() - before - (result->ledger_seconds - by_ledger);
+}
+
 /* Carry the run on to the next such time. A row's time and another that are the same but for rounding are
  * two: what is written does not depend on error bars. */
 static bool carry_on(struct going *going, struct csv *csv)
@@ -104,11 +117,10 @@ static bool carry_on(struct going *going, struct csv *csv)
     fbd_simulation *simulation = result->simulation;
     struct ensemble *ensemble = simulation->ensemble;
     size_t events = ensemble->event_count;
-    double from = ensemble->t, before = processor_seconds(), by_ledger = result->ledger_seconds;
+    double from = ensemble->t;
     double row = csv ? csv_next(csv) : ensemble->options.until, stop = next_stop(going);
     bool other = stop < row;
-    ensemble_go(ensemble, other ? stop : row, csv && !other ? csv->near : 0, csv || result->record);
-    simulation->seconds += processor_seconds() - before - (result->ledger_seconds - by_ledger);
+    go(going, other ? stop : row, csv && !other ? csv->near : 0, csv || result->record);
     tell_progress(going);
     bool event = ensemble->event_count > events;
     bool due = csv && (!other || event || ensemble->outcome != FBD_GOING);

@@ -143,18 +143,21 @@ static void note_sizes(struct companion *companion, const struct ensemble *main,
     }
 }
 
-/* How many multiples lie between two samples. Methods that redo a step for each look into it are not asked
- * for many in a step. */
+/* How many multiples lie between two samples: four in a step at most. A method may have to redo a step for
+ * each look into it, and a run of a few long steps would do little else; with one in a step, the largest
+ * error was low by more than a third in one of ten runs. Inside the steps of an exact method there is nothing
+ * that is not at their ends. */
 static long stride(const struct companion *companion, const struct ensemble *main)
 {
     enum { most = 4 };
-    double every = sample_interval(companion), shortest = main->options.until;
-    if (!main->options.method->implicit) return 1;
+    double every = sample_interval(companion), shortest = HUGE_VAL;
     for (size_t p = 0; p < main->count; p++) {
         const struct run *run = main->groups[p].run;
-        if (run->state->t > run->from) shortest = fmin(shortest, run->state->t - run->from);
+        bool looked_into = run->state->t > run->from && !structure_is_exact(run->kind);
+        if (looked_into) shortest = fmin(shortest, run->state->t - run->from);
     }
-    return (long)fmax(1, ceil(shortest / (most * every)));
+    double longest = main->options.until / every;
+    return (long)fmax(1, ceil(fmin(shortest / (most * every), longest)));
 }
 
 static void plan_next(struct companion *companion, const struct ensemble *main, double t)

@@ -90,6 +90,9 @@ void ensemble_interrupt(struct ensemble *ensemble);
 /* With ensemble_go: a target that is at most the end of a step of any group, and above ensemble->t. */
 double ensemble_next_end(const struct ensemble *ensemble);
 
+/* Have all groups made a step that reaches t? */
+bool ensemble_has_reached(const struct ensemble *ensemble, double t);
+
 /* The evaluated state at t, from <= t <= ensemble->t, with the modes of the steps around it, and those after
  * an event at its very time. False when it cannot be had. */
 bool ensemble_look(struct ensemble *ensemble, double t, struct fbd_state *state);

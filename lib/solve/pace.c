@@ -192,6 +192,13 @@ double ensemble_next_end(const struct ensemble *ensemble)
     return first > ensemble->t ? first : nextafter(ensemble->t, HUGE_VAL);
 }
 
+bool ensemble_has_reached(const struct ensemble *ensemble, double t)
+{
+    for (size_t p = 0; p < ensemble->count; p++)
+        if (end_of(ensemble, p) < t) return false;
+    return true;
+}
+
 fbd_outcome ensemble_go(struct ensemble *ensemble, double target, double near, bool pause)
 {
     if (ensemble->outcome != FBD_GOING) return ensemble->outcome;
