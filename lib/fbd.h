@@ -38,7 +38,8 @@ typedef struct fbd_error {
     int context_line, context_column; /* what was being read there, 0 when that adds nothing */
 } fbd_error;
 
-/* A list of them, owned by the caller. One list serves one thread. */
+/* A list of them, owned by the caller; it may be used again for further calls. One list serves one thread.
+ * Every function that takes a list also takes NULL, when nobody wants to know what is wrong. */
 typedef struct fbd_errors fbd_errors;
 
 /* An empty list, or NULL when memory is out. */

@@ -63,11 +63,11 @@ static struct symbol no_name(void *context, const char *name, struct pos at)
     return (struct symbol){.kind = symbol_unknown};
 }
 
-bool fbd_state_set_text(fbd_state *state, const char *name, const char *text, fbd_errors *errors)
+static bool set_text(fbd_state *state, const char *name, const char *text, fbd_errors *errors)
 {
     const fbd_model *model = state->model;
     int n = (int)model->scene->coordinate_count, index = index_of(model, name);
-    errors->file = model->scene->file;
+    diag_in_file(errors, model->scene->file);
     if (index < 0) {
         diag_add(errors, FBD_ERROR, "unknown-coordinate", (struct pos){0, 0},
                  n > 0 ? diag_hint(errors, "as `%s`", model->labels[0].name) : NULL,
@@ -88,6 +88,14 @@ bool fbd_state_set_text(fbd_state *state, const char *name, const char *text, fb
     }
     arena_free(&arena);
     return expr != NULL;
+}
+
+bool fbd_state_set_text(fbd_state *state, const char *name, const char *text, fbd_errors *list)
+{
+    struct diag_call call;
+    bool set = set_text(state, name, text, diag_begin(&call, list));
+    diag_end(&call);
+    return set;
 }
 
 bool fbd_state_get(const fbd_state *state, const char *name, double *value)

@@ -250,10 +250,10 @@ static void warn_degenerate(double before, double after, fbd_errors *errors)
              "the forces have (nearly) no slope at the equilibrium: its frequencies say nothing");
 }
 
-fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *errors)
+static fbd_linearization *linearize(fbd_state *state, fbd_errors *errors)
 {
     const struct fbd_model *model = state->model;
-    errors->file = model->scene->file;
+    diag_in_file(errors, model->scene->file);
     if (refuse_closed(state, errors) || refuse_sticking(state, errors)) return NULL;
     fbd_linearization *linear = linearization_new(model);
     int found = -1;
@@ -280,6 +280,14 @@ fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *errors)
         diag_out_of_memory(errors);
     fbd_linearization_free(linear);
     return NULL;
+}
+
+fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_linearization *linear = linearize(state, diag_begin(&call, list));
+    diag_end(&call);
+    return linear;
 }
 
 void fbd_linearization_free(fbd_linearization *linearization)

@@ -37,7 +37,7 @@ bool options_choose(const struct fbd_model *model, const fbd_options *given, str
 {
     const struct simulate *file = &model->scene->simulate;
     size_t before = fbd_errors_failed(errors);
-    errors->file = model->scene->file ? diag_hint(errors, "%s", model->scene->file) : NULL;
+    diag_in_file(errors, model->scene->file);
     const char *name = given->method ? given->method : file->method;
     *chosen = (struct run_options){.method = choose_method(model, given, errors),
                                    .automatic = !name || strcmp(name, automatic) == 0,

@@ -47,7 +47,7 @@ bool quantities_choose(const fbd_model *model, const fbd_cost_options *options, 
                        bool **chosen, fbd_errors *errors)
 {
     *chosen = NULL;
-    errors->file = model->scene->file;
+    diag_in_file(errors, model->scene->file);
     if (!options->quantities) return true;
     *chosen = ARENA_ARRAY(arena, 2 * fbd_model_coordinates(model) + 1, bool);
     if (!*chosen) {
@@ -126,7 +126,7 @@ static bool study(struct fbd_cost *cost, const fbd_cost_options *options)
     return true;
 }
 
-fbd_cost *fbd_cost_new(const fbd_model *model, const fbd_cost_options *options, fbd_errors *errors)
+static fbd_cost *cost_new(const fbd_model *model, const fbd_cost_options *options, fbd_errors *errors)
 {
     struct fbd_cost *cost = calloc(1, sizeof *cost);
     if (!cost) {
@@ -137,10 +137,20 @@ fbd_cost *fbd_cost_new(const fbd_model *model, const fbd_cost_options *options, 
     cost->budget = options->budget > 0 ? options->budget : default_budget;
     cost->progress = (struct progress){options->progress, options->progress_context};
     cost->errors = errors;
-    if (study(cost, options)) return cost;
+    bool done = study(cost, options);
+    cost->errors = NULL; /* the list is that of this call */
+    if (done) return cost;
     if (fbd_errors_failed(errors) == 0) diag_out_of_memory(errors);
     fbd_cost_free(cost);
     return NULL;
+}
+
+fbd_cost *fbd_cost_new(const fbd_model *model, const fbd_cost_options *options, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_cost *cost = cost_new(model, options, diag_begin(&call, list));
+    diag_end(&call);
+    return cost;
 }
 
 void fbd_cost_free(fbd_cost *cost)

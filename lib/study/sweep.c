@@ -233,23 +233,26 @@ void sweep_free(struct fbd_sweep *sweep)
 
 /* ---- the public face */
 
-fbd_sweep *fbd_sweep_read(const char *path, const fbd_sweep_plan *plan, fbd_errors *errors)
+fbd_sweep *fbd_sweep_read(const char *path, const fbd_sweep_plan *plan, fbd_errors *list)
 {
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
     size_t length;
     char *text = file_text(path, &length, errors);
-    return text ? sweep_make(text, length, file_name(path), plan, errors) : NULL;
+    fbd_sweep *sweep = text ? sweep_make(text, length, file_name(path), plan, errors) : NULL;
+    diag_end(&call);
+    return sweep;
 }
 
 fbd_sweep *fbd_sweep_parse(const char *text, size_t length, const char *name, const fbd_sweep_plan *plan,
-                           fbd_errors *errors)
+                           fbd_errors *list)
 {
-    char *copy = malloc(length + 1);
-    if (!copy) {
-        diag_out_of_memory(errors);
-        return NULL;
-    }
-    memcpy(copy, text, length);
-    return sweep_make(copy, length, name, plan, errors);
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    char *copy = file_copy(text, length, errors);
+    fbd_sweep *sweep = copy ? sweep_make(copy, length, name, plan, errors) : NULL;
+    diag_end(&call);
+    return sweep;
 }
 
 void fbd_sweep_free(fbd_sweep *sweep)
