@@ -25,6 +25,7 @@ static const char help[] =
     "  --set NAME=VALUE     give a parameter of the file another value (may be repeated)\n"
     "  --method NAME, --tolerance NUMBER, --step TIME, --until TIME\n"
     "                       as for fbd-run\n"
+    "  --no-structure       integrate all bodies together by the general method\n"
     "  --jobs NUMBER        threads (default: one for each processor; under mpirun one for each rank)\n"
     "\n"
     "What is written\n"
@@ -52,6 +53,7 @@ enum {
     option_method,
     option_tolerance,
     option_step,
+    option_no_structure,
     option_until,
     option_jobs,
     option_output,
@@ -70,6 +72,7 @@ static const struct option long_options[] = {
     {"method", required_argument, NULL, option_method},
     {"tolerance", required_argument, NULL, option_tolerance},
     {"step", required_argument, NULL, option_step},
+    {"no-structure", no_argument, NULL, option_no_structure},
     {"until", required_argument, NULL, option_until},
     {"jobs", required_argument, NULL, option_jobs},
     {"output", required_argument, NULL, option_output},
@@ -156,6 +159,7 @@ static bool take_option(int code, struct sweep_options *options)
     case option_method: plan->run.method = optarg; return true;
     case option_tolerance: return read_number(options, "tolerance", optarg, tiny, &plan->run.tolerance);
     case option_step: return read_number(options, "step", optarg, tiny, &plan->run.step);
+    case option_no_structure: plan->run.no_structure = true; return true;
     case option_until: return read_number(options, "until", optarg, -1e300, &plan->run.until);
     case option_jobs: return take_jobs(options);
     case option_csv: options->csv = optarg; return true;

@@ -437,7 +437,7 @@ typedef struct fbd_sweep_plan {
     size_t setting_count;
     const char *const *outputs;
     size_t output_count;
-    fbd_options run;
+    fbd_options run; /* without error bars and accuracy: a row is one run */
 } fbd_sweep_plan;
 
 /* Read a model file ("-" is standard input) or a text, for a sweep. NULL with notes in `errors`: those of a

@@ -20,9 +20,7 @@ static const struct method *choose_method(const struct fbd_model *model, const f
     size_t count = 0;
     for (; count < sizeof names / sizeof *names && method_at(count); count++)
         names[count] = method_at(count)->name;
-    bool from_file = !given->method;
-    diag_add(errors, FBD_ERROR, "unknown-method",
-             from_file ? model->scene->simulate.method_at : (struct pos){0, 0},
+    diag_add(errors, FBD_ERROR, "unknown-method", (struct pos){0, 0},
              diag_nearest(errors, name, names, count), "there is no method `%s`", name);
     return NULL;
 }

@@ -133,7 +133,7 @@ static void set_key(struct fbd_sweep *sweep, const fbd_sweep_plan *plan)
     text_number(key, plan->run.step, 17);
     text_add(key, ", until ");
     text_number(key, plan->run.until, 17);
-    text_add(key, "\n");
+    text_add(key, plan->run.no_structure ? ", no structure\n" : "\n");
 }
 
 /* ---- making and freeing */
@@ -171,7 +171,17 @@ static bool prepare(struct fbd_sweep *sweep, fbd_errors *errors)
     return sweep->base != NULL;
 }
 
-/* Every row is one run: an accuracy, which takes several, is not looked for. */
+/* Every row is one run: no second one estimates its error, and an accuracy, which takes several, is not
+ * looked for. */
+static bool refuse_errors(const fbd_options *options, fbd_errors *errors)
+{
+    if (!options->error_bars && options->accuracy == 0) return false;
+    diag_add(errors, FBD_ERROR, "bad-option", (struct pos){0, 0}, "give a tolerance",
+             "a sweep has neither error bars nor an accuracy");
+    return true;
+}
+
+/* The same of an accuracy that the file asks for, which does not keep it from being swept. */
 static void warn_of_accuracy(const struct fbd_sweep *sweep, fbd_errors *errors)
 {
     const fbd_options *options = &sweep->options;
@@ -192,6 +202,7 @@ static bool build(struct fbd_sweep *sweep, const char *name, const fbd_sweep_pla
         return false;
     if (!check_members(sweep, errors) || !prepare(sweep, errors)) return false;
     if (!options_choose(sweep->base, &sweep->options, &chosen, errors)) return false;
+    if (refuse_errors(&sweep->options, errors)) return false;
     warn_of_accuracy(sweep, errors);
     if (!columns_read(&sweep->columns, &sweep->arena, sweep->base, plan->outputs, plan->output_count, errors))
         return false;

@@ -72,6 +72,21 @@ check '--until, --method and --tolerance are those of fbd-run' \
     exits 0 run --until 1 --method rkf45 --tolerance 1e-6 --vary mu_k=0.1 "$incline"
 check '(until)' says '^1,0.1,1,' out
 
+# A block that slides with constant acceleration takes one exact step for each piece; the general method takes more.
+steps() { # steps OPTION...: what a run of the incline takes
+    "$sweep" "$@" --vary mu_k=0.3 --output steps "$incline" | sed -n 's/^1,0.3,\([0-9]*\),.*/\1/p'
+}
+more_steps() {
+    [ "$(steps --no-structure)" -gt "$(steps)" ]
+}
+check '--no-structure takes the general method' more_steps
+
+sed 's/^simulate: *{until: \([^,}]*\).*/simulate: {until: \1, accuracy: 1e-9}/' "$incline" >accurate.yaml
+check 'an accuracy in the file keeps nobody from sweeping' exits 0 run --vary mu_k=0.3 accurate.yaml
+check 'but is said not to be used' says 'warning: the `accuracy` of the file is not used by a sweep \[accuracy-not-used\]' err
+check 'unless a tolerance is given' exits 0 run --vary mu_k=0.3 --tolerance 1e-9 accurate.yaml
+check '(nothing is said)' empty err
+
 terminal() { # terminal COMMAND ARGUMENT...: what it shows on a terminal
     python3 -c 'import pty, sys
 pty.spawn(sys.argv[1:])' "$@" </dev/null >out
@@ -145,6 +160,7 @@ check 'a table that is not whole is not overwritten' exits 2 slow --csv table.cs
 check 'another sweep does not go on with it' \
     exits 2 run --vary mu_k=0.1:0.5:1000 --csv table.csv --resume "$incline"
 check 'and says what differs' says 'there `vary mu_k=0.1:0.6:1000`, here `vary mu_k=0.1:0.5:1000`' err
+check 'nor does one without structure' exits 2 slow --no-structure --csv table.csv --resume
 sed 's/mass: 2 kg/mass: 3 kg/' "$incline" >other.yaml
 # shellcheck disable=SC2086
 check 'nor does another model' exits 2 "$sweep" $slowly --csv table.csv --resume other.yaml
