@@ -385,8 +385,10 @@ FBD_API char *fbd_explain(const fbd_model *model, const fbd_options *options);
 typedef struct fbd_linearization fbd_linearization;
 
 /* Find the equilibrium near `state` (GSL's hybrid Newton method on the accelerations, rates zero), take the
- * exact Jacobian and its eigenvalues. NULL with a note in `errors` when there is none near (`no-equilibrium`)
- * or friction holds a body (`sticks`). `state` is moved to the equilibrium. */
+ * exact Jacobian and its eigenvalues. NULL with a note in `errors` when there is none near
+ * (`no-equilibrium`), friction holds a body (`sticks`), or coordinates are not independent
+ * (`not-independent`). Forces whose slope dies out at the equilibrium are noted (`degenerate-equilibrium`, a
+ * warning); their rows of A are zero. `state` is moved to the equilibrium. */
 FBD_API fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *errors);
 FBD_API void fbd_linearization_free(fbd_linearization *linearization);
 
