@@ -24,7 +24,8 @@ static enum exit_code print(char *text, enum exit_code code)
     fputs(text, stdout);
     free(text);
     if (fflush(stdout) == 0) return code;
-    fprintf(stderr, "fbd-run: cannot write to standard output: %s\n", strerror(errno));
+    if (!interrupt_by_pipe())
+        fprintf(stderr, "fbd-run: cannot write to standard output: %s\n", strerror(errno));
     return exit_failed;
 }
 
@@ -102,17 +103,11 @@ static enum exit_code place(const fbd_model *model, const struct options *option
 /* Put a text of the library into a file, and free it. */
 static enum exit_code write_text(const char *path, char *text)
 {
-    struct whole_file file;
     if (!text) return no_memory();
-    bool written = whole_file_open(&file, path);
-    if (written) {
-        whole_file_write(&file, text, strlen(text)); /* an error shows when the file is closed */
-        written = whole_file_close(&file, true);
-    }
+    bool written = whole_file_put(path, text);
+    if (!written) fprintf(stderr, "fbd-run: cannot write `%s`: %s\n", path, strerror(errno));
     free(text);
-    if (written) return exit_done;
-    fprintf(stderr, "fbd-run: cannot write `%s`: %s\n", path, strerror(errno));
-    return exit_failed;
+    return written ? exit_done : exit_failed;
 }
 
 /* The diagram of a state, when it is asked for. */
@@ -183,25 +178,26 @@ static enum exit_code carry_and_write(fbd_simulation *simulation, const struct o
                                       struct outputs *outputs, const struct interrupt *interrupt,
                                       fbd_errors *errors)
 {
+    bool report = wants_report(outputs, options);
     struct run_progress progress;
     fbd_recording recording = {.every = options->every,
                                .ledger = options->ledger,
                                .csv = options->csv ? whole_file_write : NULL,
                                .csv_context = &outputs->files[output_csv],
-                               .motion_only = !options->json && !wants_report(outputs, options),
+                               .motion_only = !options->json && !report,
                                .keep = options->html || options->plot || options->gnuplot,
                                .progress = run_progress_watch,
                                .progress_context = &progress};
-    run_progress_begin(&progress, interrupt, wants_report(outputs, options));
+    run_progress_begin(&progress, interrupt, report);
     fbd_result *result = fbd_simulation_run(simulation, &recording);
     run_progress_end(&progress);
     bool refused = outputs->files[output_csv].stream &&
                    ferror(outputs->files[output_csv].stream); /* said when it is closed */
     enum exit_code code = result ? exit_done : refused ? exit_failed : no_memory();
     if (result && !outputs_write(outputs, options, result, errors)) code = exit_failed;
-    if (code == exit_done && wants_report(outputs, options))
-        code = print(fbd_result_report(result), exit_done);
-    if (!outputs_close(outputs, result && code == exit_done)) code = exit_failed;
+    bool closed = outputs_close(outputs, result && code == exit_done);
+    if (code == exit_done && report) code = print(fbd_result_report(result), exit_done);
+    if (!closed) code = exit_failed;
     fbd_outcome outcome = result ? fbd_result_outcome(result) : FBD_FAILED;
     if (outcome != FBD_FAILED && outcome != FBD_INTERRUPTED && code == exit_done)
         code = accurate(result, simulation);
