@@ -29,12 +29,15 @@ static enum exit_code print(char *text, enum exit_code code)
     return exit_failed;
 }
 
-/* Say so when the accuracy that was asked for has not been reached. */
-static enum exit_code accurate(const fbd_result *result, const fbd_simulation *simulation)
+/* Say so when the accuracy that was asked for has not been reached; `interrupt` may be NULL. */
+static enum exit_code accurate(const fbd_result *result, const fbd_simulation *simulation,
+                               const struct interrupt *interrupt)
 {
     if (fbd_result_accurate(result)) return exit_done;
     fbd_stats stats = fbd_simulation_stats(simulation);
-    fprintf(stderr, "fbd-run: the accuracy %g was not reached: ", stats.accuracy);
+    bool interrupted = interrupt && interrupt_asked(interrupt);
+    fprintf(stderr, "fbd-run: %sthe accuracy %g was not reached: ", interrupted ? "interrupted; " : "",
+            stats.accuracy);
     if (isfinite(stats.error_estimate))
         fprintf(stderr, "%.2g is the best of %lu runs, at tolerance %g\n", stats.error_estimate, stats.runs,
                 stats.tolerance);
@@ -69,7 +72,7 @@ static enum exit_code run_until(const fbd_model *model, const struct options *op
     fbd_simulation_interval(simulation, &from, &to);
     enum exit_code code = result ? exit_failed : no_memory();
     if (result && to == t)
-        code = !fbd_simulation_state(simulation, t, state) ? exit_failed : accurate(result, simulation);
+        code = !fbd_simulation_state(simulation, t, state) ? exit_failed : accurate(result, simulation, NULL);
     else if (result)
         fprintf(stderr, "fbd-run: the run ends before t = %g: %s\n", t, fbd_simulation_reason(simulation));
     fbd_result_free(result);
@@ -200,7 +203,7 @@ static enum exit_code carry_and_write(fbd_simulation *simulation, const struct o
     if (!closed) code = exit_failed;
     fbd_outcome outcome = result ? fbd_result_outcome(result) : FBD_FAILED;
     if (outcome != FBD_FAILED && outcome != FBD_INTERRUPTED && code == exit_done)
-        code = accurate(result, simulation);
+        code = accurate(result, simulation, interrupt);
     if (result && outcome != FBD_DONE && outcome != FBD_STOPPED) {
         fprintf(stderr, "fbd-run: %s\n", fbd_simulation_reason(simulation));
         code = exit_failed;

@@ -29,6 +29,8 @@ int run_progress_watch(void *context, const fbd_progress *now)
     if (now->steps > first_steps && ++progress->visits < steps_between_looks) return 0;
     progress->visits = 0;
     if (interrupt_asked(progress->interrupt)) return 1;
+    if (now->t < progress->t) terminal_line_restart(&progress->line);
+    progress->t = now->t;
     if (terminal_line_due(&progress->line, &elapsed)) draw(progress, now, elapsed);
     return 0;
 }

@@ -14,6 +14,7 @@ struct run_progress {
     const struct interrupt *interrupt;
     struct terminal_line line;
     unsigned long visits; /* steps since the clock was looked at */
+    double t;             /* when it was [s]; back at the start it is another run, of a search */
 };
 
 /* `visible` false: only listen for the interruption. */

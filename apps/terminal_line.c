@@ -31,6 +31,11 @@ void terminal_line_begin(struct terminal_line *line, bool visible)
                                    .next = now + first_after};
 }
 
+void terminal_line_restart(struct terminal_line *line)
+{
+    if (line->visible) line->start = wall_clock();
+}
+
 bool terminal_line_due(struct terminal_line *line, double *elapsed)
 {
     if (!line->visible) return false;

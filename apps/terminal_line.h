@@ -18,6 +18,9 @@ struct terminal_line {
 /* `visible` false: nothing is ever drawn. */
 void terminal_line_begin(struct terminal_line *line, bool visible);
 
+/* What is shown begins anew. */
+void terminal_line_restart(struct terminal_line *line);
+
 /* Is it time to draw? *elapsed is then the time since the beginning [s]. */
 bool terminal_line_due(struct terminal_line *line, double *elapsed);
 

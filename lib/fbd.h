@@ -319,8 +319,9 @@ typedef struct fbd_result fbd_result;
 
 /* Carry a simulation from its start to its end. With options.accuracy the run is repeated with smaller
  * tolerances until the estimated global error (fbd_stats.error_estimate) is at most that, or until rounding
- * keeps it from getting better: then the best one stands, and fbd_result_accurate is false. Only the last run
- * is recorded. NULL when memory is out or the simulation has been
+ * keeps it from getting better: then the best one stands, and fbd_result_accurate is false. So it is when the
+ * progress function ends the search: the best run that came to its end stands, or the first one as far as it
+ * came. Only that run is recorded. NULL when memory is out, the writer refuses, or the simulation has been
  * advanced already (the ledger has to see every step). The simulation must outlive the result. */
 FBD_API fbd_result *fbd_simulation_run(fbd_simulation *simulation, const fbd_recording *recording);
 FBD_API void fbd_result_free(fbd_result *result);

@@ -105,6 +105,8 @@ bool fbd_result_accurate(const fbd_result *result)
     const fbd_simulation *simulation = result->simulation;
     fbd_outcome outcome = simulation->ensemble->outcome;
     if (simulation->accuracy == 0) return true;
-    if (outcome == FBD_FAILED || outcome == FBD_INTERRUPTED || outcome == FBD_OUT_OF_MEMORY) return false;
+    if (simulation->cut || outcome == FBD_FAILED || outcome == FBD_INTERRUPTED ||
+        outcome == FBD_OUT_OF_MEMORY)
+        return false;
     return companion_global(simulation->bars->companion) <= simulation->accuracy;
 }
