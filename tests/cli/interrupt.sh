@@ -4,8 +4,7 @@
 # A run that is interrupted (Ctrl-C, SIGTERM) leaves whole files of what was computed, and no others; progress goes
 # to a terminal only.
 set -u
-. "$FBD_SOURCE_ROOT/tests/tools/tap.sh"
-cd "$scratch" || exit 1
+. "$FBD_SOURCE_ROOT/tests/cli/program.sh"
 
 # Runs for hours, if one lets it: a pendulum, and a body at rest whose one step has 1e9 rows.
 cat >long.yaml <<'END'
@@ -72,11 +71,6 @@ sys.stdout.write(printed.decode())
 print("ended with", status)
 END
 
-says() { # says PATTERN FILE
-    grep -aE -- "$1" "$2" && return 0
-    cat "$2"
-    return 1
-}
 nothing_left_behind() {
     left=$(ls | grep -E '\.(csv|json)\.')
     [ -z "$left" ] || {

@@ -3,21 +3,8 @@
 #
 # Plots by gnuplot: only when asked for and found, of the columns that are named; and where drawings go.
 set -u
-. "$FBD_SOURCE_ROOT/tests/tools/tap.sh"
+. "$FBD_SOURCE_ROOT/tests/cli/program.sh"
 incline=$FBD_SOURCE_ROOT/models/kinetics/incline.yaml
-cd "$scratch" || exit 1
-
-says() { # says PATTERN FILE
-    grep -aE -- "$1" "$2" && return 0
-    cat "$2"
-    return 1
-}
-run() {
-    "$FBD_RUN" "$@" >out 2>err
-}
-is_absent() {
-    [ ! -e "$1" ]
-}
 
 # ---- the script
 check 'the script of the plots is written' exits 0 run --quiet --gnuplot plot.gp "$incline"
