@@ -206,7 +206,7 @@ typedef struct fbd_event {
     double t_error; /* estimated error of t: NAN without error bars, INFINITY when it is not known */
 } fbd_event;
 
-/* "breakaway", "stick", "reversal", "contact_lost", "user", "switch" */
+/* "breakaway", "stick", "reversal", "contact_lost", "user", "rope_slack", "rope_taut", "switch" */
 FBD_API const char *fbd_event_kind_name(fbd_event_kind kind);
 
 typedef enum fbd_outcome {
@@ -517,9 +517,6 @@ FBD_API int fbd_sweep_claim(fbd_sweep_crew *crew, size_t jobs, fbd_sweep_share *
 /* The rows of a claimed share; fewer than it has stop the sweep after them. */
 FBD_API void fbd_sweep_deliver(fbd_sweep_crew *crew, const fbd_sweep_share *share, const char *rows,
                                size_t length, const fbd_sweep_counts *counts);
-
-/* True when all rows are written or no more will be. */
-FBD_API bool fbd_sweep_over(fbd_sweep_crew *crew);
 
 FBD_API fbd_sweep_end fbd_sweep_finish(fbd_sweep_crew *crew, fbd_sweep_counts *counts);
 

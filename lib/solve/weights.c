@@ -158,13 +158,6 @@ void weights_update(gsl_odeiv2_control *control, const double *y, const double *
     for (size_t i = 0; i < w->pairs; i++) w->acceleration[i] = fabs(f[w->pairs + i]);
 }
 
-void weights_forget(gsl_odeiv2_control *control)
-{
-    struct weights *w = control->state;
-    memcpy(w->scale, w->floor, w->size * sizeof(double));
-    for (size_t i = 0; i < w->pairs; i++) w->acceleration[i] = 0;
-}
-
 void weights_set_floor(gsl_odeiv2_control *control, size_t i, double floor)
 {
     struct weights *w = control->state;

@@ -213,8 +213,10 @@ static bool build(struct fbd_sweep *sweep, const char *name, const fbd_sweep_pla
     return !sweep->header.failed && !sweep->key.failed;
 }
 
-struct fbd_sweep *sweep_make(char *text, size_t length, const char *name, const fbd_sweep_plan *plan,
-                             fbd_errors *errors)
+/* Make a sweep; `text` is taken over. NULL with notes in `errors`: those of a wrong file, `bad-vary`,
+ * `unknown-output`, `unknown-parameter`, `varied-twice`, and those of options_choose. */
+static struct fbd_sweep *sweep_make(char *text, size_t length, const char *name, const fbd_sweep_plan *plan,
+                                    fbd_errors *errors)
 {
     struct fbd_sweep *sweep = calloc(1, sizeof *sweep);
     if (!sweep) {
@@ -226,20 +228,8 @@ struct fbd_sweep *sweep_make(char *text, size_t length, const char *name, const 
     sweep->source_length = length;
     if (build(sweep, name, plan, errors)) return sweep;
     if (fbd_errors_failed(errors) == 0) diag_out_of_memory(errors);
-    sweep_free(sweep);
+    fbd_sweep_free(sweep);
     return NULL;
-}
-
-void sweep_free(struct fbd_sweep *sweep)
-{
-    if (!sweep) return;
-    model_free(sweep->base);
-    document_close(&sweep->document);
-    text_free(&sweep->header);
-    text_free(&sweep->key);
-    arena_free(&sweep->arena);
-    free(sweep->source);
-    free(sweep);
 }
 
 /* ---- the public face */
@@ -268,7 +258,14 @@ fbd_sweep *fbd_sweep_parse(const char *text, size_t length, const char *name, co
 
 void fbd_sweep_free(fbd_sweep *sweep)
 {
-    sweep_free(sweep);
+    if (!sweep) return;
+    model_free(sweep->base);
+    document_close(&sweep->document);
+    text_free(&sweep->header);
+    text_free(&sweep->key);
+    arena_free(&sweep->arena);
+    free(sweep->source);
+    free(sweep);
 }
 
 size_t fbd_sweep_runs(const fbd_sweep *sweep)

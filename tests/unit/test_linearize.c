@@ -93,6 +93,9 @@ static void a_start_far_away_finds_the_true_equilibrium(void **unused)
     assert_true(fbd_state_get(looked.state, "b.x", &x));
     assert_true(fabs(x) < 1e-15); /* half an ulp of exp(x) near 1, doubled */
     assert_text_has(looked.linear, "w0 = 1 rad/s", true);
+    assert_int_equal(fbd_linearization_size(looked.linear), 2);
+    const double *A = fbd_linearization_matrix(looked.linear);
+    assert_true(A[0] == 0 && A[1] == 1 && fabs(A[2] + 1) < 1e-15 && A[3] == 0);
     end_look(&looked);
 }
 
