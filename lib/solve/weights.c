@@ -6,7 +6,6 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
 
 struct weights {
     size_t pairs, size; /* of the layout: number of q, number of all components */

@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/diag.h"
 #include "model/variant.h"
@@ -30,14 +29,12 @@ static bool choose_quantity(const fbd_model *model, const char *name, bool *chos
     enum { most_names = 40 };
     size_t size = 2 * fbd_model_coordinates(model), count = 0;
     const char *names[most_names];
-    for (size_t i = 0; i < size; i++) {
-        const char *known = quantity_name_of(model, i), *dot = strchr(known, '.');
-        bool plain = fbd_model_bodies(model) == 1 && dot && strcmp(dot + 1, name) == 0;
-        if (count < most_names) names[count++] = known;
-        if (!plain && strcmp(known, name) != 0) continue;
-        chosen[i] = true;
+    int index = model_find_component(model, name, true);
+    if (index >= 0) {
+        chosen[index] = true;
         return true;
     }
+    for (; count < size && count < most_names; count++) names[count] = quantity_name_of(model, count);
     diag_add(errors, FBD_ERROR, "unknown-quantity", (struct pos){0, 0},
              diag_nearest(errors, name, names, count), "the scene has no coordinate or rate `%s`", name);
     return false;
