@@ -302,7 +302,8 @@ typedef struct fbd_recording {
     void *csv_context;
     bool motion_only; /* the work of forces without a potential is not integrated: what would be asked of it
                          is NAN. Nothing else changes; `ledger` and `keep` win. */
-    bool keep;        /* keep what fbd_result_html and fbd_result_gnuplot show (at most some 50 MB) */
+    bool keep;        /* keep what fbd_result_html and fbd_result_gnuplot show: some 50 MB at most, or 256
+                         rows where a row has more than 16 000 numbers */
     fbd_watch *progress; /* or NULL */
     void *progress_context;
 } fbd_recording;

@@ -57,7 +57,7 @@ static void unknown_column(const struct record *record, const char *name, size_t
 static bool choose_named(struct choice *choice, const char *list, fbd_errors *errors)
 {
     bool found = true;
-    for (const char *name = list; *name;) {
+    for (const char *name = list;; name++) {
         size_t length = strcspn(name, ",");
         int column = find_column(choice->record, name, length);
         if (column < 0) {
@@ -66,9 +66,9 @@ static bool choose_named(struct choice *choice, const char *list, fbd_errors *er
         } else if (choice->count < choice->record->column_count) {
             choice->columns[choice->count++] = column;
         }
-        name += length + (name[length] == ',');
+        name += length;
+        if (!*name) return found;
     }
-    return found;
 }
 
 static void choose_usual(struct choice *choice)

@@ -15,6 +15,8 @@ check 'one plot for each unit' sh -c '[ "$(grep -c "^plot " out)" -eq 2 ]'
 check 'an unknown column is 2' exits 2 run --gnuplot other.gp --plot-of block.w "$incline"
 check 'and the nearest one is named' says 'did you mean `block\.[vx]`' err
 check 'and nothing is written' is_absent other.gp
+check 'a list with an empty name is 2' exits 2 run --gnuplot other.gp --plot-of block.v, "$incline"
+check 'and so is one with nothing else' exits 2 run --gnuplot other.gp --plot-of '' "$incline"
 printf "fbd: 1\ntitle: \"it's 'quoted'\"\nbodies:\n  b: {mass: 1, motion: slide}\nsimulate: {until: 1}\n" >quoted.yaml
 check 'quotes in a title' exits 0 run --quiet --gnuplot quoted.gp quoted.yaml
 check 'are doubled' says "title 'it''s ''quoted'''" quoted.gp
