@@ -79,10 +79,12 @@ FBD_API void fbd_model_free(fbd_model *model);
 FBD_API const char *fbd_model_title(const fbd_model *model);
 
 FBD_API size_t fbd_model_bodies(const fbd_model *model);
+
+/* NULL past the last body. */
 FBD_API const char *fbd_model_body_name(const fbd_model *model, size_t body);
 
 /* What a body weighs and how it turns, in the model's units; I_O and L are 0 but for a pivot (about its axis;
- * distance from the axis O to the centre of mass G). */
+ * distance from the axis O to the centre of mass G). All are NAN past the last body. */
 typedef struct fbd_inertia {
     double mass, I_G, I_O, L;
     double G[2]; /* centre of mass in the body frame */
@@ -91,7 +93,7 @@ typedef struct fbd_inertia {
 FBD_API fbd_inertia fbd_model_inertia(const fbd_model *model, size_t body);
 
 /* A coordinate of the scene: q and its rate v. Names are qualified ("block.x", "block.v"); they live as long
- * as the model. */
+ * as the model, and are NULL past the last coordinate. */
 typedef struct fbd_coordinate {
     const char *name, *unit, *rate_name, *rate_unit;
     size_t body;
@@ -163,7 +165,8 @@ typedef struct fbd_arrow {
     double power;
 } fbd_arrow;
 
-/* Fill at most `room` arrows of a body, reactions included; returns how many there are. */
+/* Fill at most `room` arrows of a body, reactions included; returns how many there are, 0 past the last body.
+ */
 FBD_API size_t fbd_diagram(fbd_state *state, size_t body, fbd_arrow *arrows, size_t room);
 
 /* ---------------------------------------------------------------- simulation */
@@ -399,7 +402,7 @@ FBD_API size_t fbd_linearization_size(const fbd_linearization *linearization);
 FBD_API const double *fbd_linearization_matrix(const fbd_linearization *linearization);
 
 /* One eigenvalue lambda of A. Frequency |lambda| [rad/s] and damping ratio -Re/|lambda| (NAN for lambda = 0).
- */
+ * All are NAN past the last one. */
 typedef struct fbd_mode {
     double re, im, frequency, damping_ratio;
 } fbd_mode;
@@ -600,6 +603,7 @@ FBD_API void fbd_cost_free(fbd_cost *cost);
 
 FBD_API fbd_cost_reference fbd_cost_get_reference(const fbd_cost *cost);
 FBD_API size_t fbd_cost_series_count(const fbd_cost *cost);
+/* Past the last one: without a name and points. */
 FBD_API fbd_cost_series fbd_cost_get_series(const fbd_cost *cost, size_t index);
 FBD_API size_t fbd_cost_points(const fbd_cost *cost);
 FBD_API const fbd_cost_point *fbd_cost_get_point(const fbd_cost *cost, size_t index);

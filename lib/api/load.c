@@ -71,11 +71,12 @@ size_t fbd_model_bodies(const fbd_model *model)
 
 const char *fbd_model_body_name(const fbd_model *model, size_t body)
 {
-    return model->bodies[body].name;
+    return body < model->body_count ? model->bodies[body].name : NULL;
 }
 
 fbd_inertia fbd_model_inertia(const fbd_model *model, size_t body)
 {
+    if (body >= model->body_count) return (fbd_inertia){NAN, NAN, NAN, NAN, {NAN, NAN}};
     const struct model_body *b = &model->bodies[body];
     bool pivot = b->kind == motion_pivot;
     return (fbd_inertia){.mass = b->inertia.mass,
@@ -92,6 +93,7 @@ size_t fbd_model_coordinates(const fbd_model *model)
 
 fbd_coordinate fbd_model_coordinate(const fbd_model *model, size_t index)
 {
+    if (index >= model->scene->coordinate_count) return (fbd_coordinate){.body = model->body_count};
     const struct label *label = &model->labels[index];
     return (fbd_coordinate){.name = label->name,
                             .unit = label->unit,

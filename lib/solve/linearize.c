@@ -343,5 +343,5 @@ const double *fbd_linearization_matrix(const fbd_linearization *linearization)
 
 fbd_mode fbd_linearization_mode(const fbd_linearization *linearization, size_t index)
 {
-    return linearization->modes[index];
+    return index < linearization->size ? linearization->modes[index] : (fbd_mode){NAN, NAN, NAN, NAN};
 }

@@ -183,7 +183,7 @@ size_t fbd_cost_series_count(const fbd_cost *cost)
 
 fbd_cost_series fbd_cost_get_series(const fbd_cost *cost, size_t index)
 {
-    return cost->series[index];
+    return index < cost->series_count ? cost->series[index] : (fbd_cost_series){.order = NAN};
 }
 
 size_t fbd_cost_points(const fbd_cost *cost)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * Lists of errors: no call of the public interface needs one, and none minds what an earlier call has left in
- * it.
+ * it. And numbers past the end of what they count.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -158,6 +158,59 @@ static void notes_outlive_what_they_are_about(void **unused)
     fbd_errors_free(errors);
 }
 
+/* ---- past the end */
+
+static void what_is_past_the_end_is_nothing(void **unused)
+{
+    (void)unused;
+    const size_t past = 1, far_past = SIZE_MAX;
+    fbd_model *model = model_from(right);
+    fbd_state *state = fbd_state_new(model);
+    fbd_arrow arrow;
+    assert_null(fbd_model_body_name(model, past));
+    assert_true(isnan(fbd_model_inertia(model, past).mass));
+    assert_null(fbd_model_coordinate(model, past).name);
+    assert_int_equal(fbd_model_coordinate(model, far_past).body, fbd_model_bodies(model));
+    assert_int_equal(fbd_diagram(state, past, &arrow, 1), 0);
+    fbd_linearization *linear = fbd_linearize(state, NULL);
+    assert_true(isnan(fbd_linearization_mode(linear, 2).frequency));
+    fbd_linearization_free(linear);
+    fbd_equations *equations = fbd_assemble(state);
+    assert_null(fbd_equations_get(equations, past));
+    fbd_equations_free(equations);
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    options.error_bars = true;
+    fbd_simulation *simulation = fbd_simulation_new(model, &options, NULL);
+    fbd_result *result = fbd_simulation_run(simulation, NULL);
+    assert_true(isnan(fbd_simulation_event(simulation, 0).t));
+    assert_int_equal(fbd_result_force_errors(result, past, &arrow, 1), 0);
+    assert_true(isnan(fbd_result_work(result, "cart", "rope")) && isnan(fbd_result_error(result, "cart.y")));
+    fbd_result_free(result);
+    fbd_simulation_free(simulation);
+    fbd_state_free(state);
+    fbd_model_free(model);
+}
+
+static void a_study_has_nothing_past_its_end(void **unused)
+{
+    (void)unused;
+    const char *method = "rkf45";
+    fbd_model *model = model_from(right);
+    fbd_cost_options options = FBD_COST_OPTIONS_DEFAULT;
+    options.budget = 0.1;
+    options.methods = &method;
+    options.method_count = 1;
+    fbd_cost *cost = fbd_cost_new(model, &options, NULL);
+    assert_int_equal(fbd_cost_series_count(cost), 1);
+    assert_int_equal(fbd_cost_get_series(cost, 1).count, 0);
+    assert_null(fbd_cost_get_point(cost, fbd_cost_points(cost)));
+    fbd_cost_free(cost);
+    fbd_effects *effects = fbd_effects_new(model, &options, NULL);
+    assert_null(fbd_effects_get(effects, fbd_effects_count(effects)));
+    fbd_effects_free(effects);
+    fbd_model_free(model);
+}
+
 int main(void)
 {
     gsl_set_error_handler_off();
@@ -168,6 +221,8 @@ int main(void)
         cmocka_unit_test(a_list_that_is_not_there_is_empty),
         cmocka_unit_test(errors_of_an_earlier_call_do_not_count_in_the_next),
         cmocka_unit_test(notes_outlive_what_they_are_about),
+        cmocka_unit_test(what_is_past_the_end_is_nothing),
+        cmocka_unit_test(a_study_has_nothing_past_its_end),
     };
     return cmocka_run_group_tests_name("errors", tests, NULL, NULL);
 }
