@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cost_options.h"
 
-#include <errno.h>
-#include <getopt.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const char help[] =
@@ -34,7 +31,7 @@ static const char help[] =
     "file is wrong, 4 the exact solution that the file gives is not that of the scene.\n";
 
 enum {
-    option_set = 256,
+    option_set = option_first,
     option_until,
     option_methods,
     option_fixed_steps,
@@ -45,8 +42,6 @@ enum {
     option_json,
     option_svg,
     option_quiet,
-    option_help,
-    option_version,
 };
 
 static const struct option long_options[] = {
@@ -61,36 +56,14 @@ static const struct option long_options[] = {
     {"json", required_argument, NULL, option_json},
     {"svg", required_argument, NULL, option_svg},
     {"quiet", no_argument, NULL, option_quiet},
-    {"help", no_argument, NULL, option_help},
-    {"version", no_argument, NULL, option_version},
-    {NULL, 0, NULL, 0},
+    COMMAND_LINE_END,
 };
+
+static const struct command_line line = {"fbd-cost", help, long_options, false};
 
 static bool usage(const char *message, const char *what)
 {
-    fprintf(stderr, "fbd-cost: %s%s\nTry `fbd-cost --help`.\n", message, what);
-    return false;
-}
-
-static bool read_positive(const char *name, const char *text, double *value)
-{
-    char *end;
-    errno = 0;
-    *value = strtod(text, &end);
-    if (end != text && !*end && errno != ERANGE && *value > 0 && *value <= 1e300) return true;
-    fprintf(stderr, "fbd-cost: --%s wants a number above 0, not `%s`\nTry `fbd-cost --help`.\n", name, text);
-    return false;
-}
-
-/* NAME=VALUE; the argument is cut in two. */
-static bool read_setting(struct cost_options *options, char *text)
-{
-    char *equals = strchr(text, '=');
-    if (!equals || equals == text || !equals[1]) return usage("--set wants NAME=VALUE, not ", text);
-    if (options->setting_count == most_settings) return usage("too many --set", "");
-    *equals = '\0';
-    options->settings[options->setting_count++] = (fbd_setting){text, equals + 1};
-    return true;
+    return command_line_usage(&line, message, what);
 }
 
 /* A,B,...; the argument is cut in pieces. */
@@ -106,13 +79,20 @@ static bool read_list(const char *option, char *text, const char **names, size_t
     return true;
 }
 
-static bool take_option(int code, struct cost_options *options)
+static bool take_positive(const char *name, double *value)
 {
+    return command_line_number(&line, name, optarg, 1e-300, value);
+}
+
+static bool take_option(const struct command_line *unused, int option, void *context)
+{
+    struct cost_options *options = context;
     fbd_cost_options *study = &options->study;
-    switch (code) {
-    case option_set: return read_setting(options, optarg);
-    case option_until: return read_positive("until", optarg, &study->until);
-    case option_budget: return read_positive("budget", optarg, &study->budget);
+    (void)unused;
+    switch (option) {
+    case option_set: return command_line_setting(&line, optarg, options->settings, &options->setting_count);
+    case option_until: return take_positive("until", &study->until);
+    case option_budget: return take_positive("budget", &study->budget);
     case option_methods:
         study->methods = options->methods;
         return read_list("--methods", optarg, options->methods, &study->method_count);
@@ -149,23 +129,6 @@ static bool options_agree(const struct cost_options *options)
 bool cost_options_read(int argc, char **argv, struct cost_options *options, enum exit_code *code)
 {
     *options = (struct cost_options){.study = FBD_COST_OPTIONS_DEFAULT};
-    *code = exit_usage;
-    opterr = 0;
-    for (int option; (option = getopt_long(argc, argv, "", long_options, NULL)) != -1;) {
-        if (option == option_help || option == option_version) {
-            *code = exit_done;
-            if (option == option_help)
-                fputs(help, stdout);
-            else
-                printf("fbd-cost %s\n", fbd_version());
-            return false;
-        }
-        if (option == '?' && optind > 0)
-            return usage("unknown option, or one without its value: ", argv[optind - 1]);
-        if (!take_option(option, options)) return false;
-    }
-    if (optind + 1 != argc)
-        return usage(optind == argc ? "no model file given" : "more than one model file given", "");
-    options->model = argv[optind];
-    return options_agree(options);
+    return command_line_read(&line, argc, argv, take_option, options, &options->model, code) &&
+           options_agree(options);
 }

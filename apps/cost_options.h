@@ -5,7 +5,7 @@
 #ifndef FBD_APPS_COST_OPTIONS_H
 #define FBD_APPS_COST_OPTIONS_H
 
-#include "options.h"
+#include "command_line.h"
 
 enum { most_names = 64 };
 

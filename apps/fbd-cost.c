@@ -6,9 +6,9 @@
 #include <gsl/gsl_errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "cost_options.h"
+#include "terminal_line.h"
 #include "whole_file.h"
 
 static enum exit_code no_memory(void)
@@ -21,16 +21,9 @@ static enum exit_code no_memory(void)
 
 static void show_progress(void *context, const char *what, double share)
 {
-    int *shown = context, percent = (int)(100 * share);
-    if (percent == *shown) return;
-    *shown = percent;
-    fprintf(stderr, "\r%-12s %3d %%", what, percent);
-    fflush(stderr);
-}
-
-static void end_progress(const struct cost_options *options)
-{
-    if (options->study.progress) fputs("\r                  \r", stderr);
+    struct terminal_line *line = context;
+    double elapsed;
+    if (terminal_line_due(line, &elapsed)) terminal_line_draw(line, "%-12s %3.0f %%", what, 100 * share);
 }
 
 /* ---- what is written */
@@ -40,18 +33,13 @@ struct output {
     char *(*make)(const void *study);
 };
 
-/* Whole or not at all. */
 static enum exit_code write_file(const char *path, char *text)
 {
-    struct whole_file file = {0};
     if (!text) return no_memory();
-    bool open = whole_file_open(&file, path);
-    bool written = open && whole_file_write(&file, text, strlen(text)) == 0;
-    if (open && !whole_file_close(&file, written)) written = false;
+    bool written = whole_file_put(path, text);
+    if (!written) fprintf(stderr, "fbd-cost: cannot write `%s`: %s\n", path, strerror(errno));
     free(text);
-    if (written) return exit_done;
-    fprintf(stderr, "fbd-cost: cannot write `%s`: %s\n", path, strerror(errno));
-    return exit_failed;
+    return written ? exit_done : exit_failed;
 }
 
 static enum exit_code write_all(const struct cost_options *options, const struct output *outputs,
@@ -130,7 +118,7 @@ static enum exit_code study_cost(const fbd_model *model, const struct cost_optio
                                  fbd_errors *errors)
 {
     fbd_cost *cost = fbd_cost_new(model, &options->study, errors);
-    end_progress(options);
+    terminal_line_end(options->study.progress_context);
     if (!cost) return blame(errors);
     const struct output outputs[] = {{options->csv, cost_csv},
                                      {options->json, cost_json},
@@ -146,7 +134,7 @@ static enum exit_code study_effects(const fbd_model *model, const struct cost_op
                                     fbd_errors *errors)
 {
     fbd_effects *effects = fbd_effects_new(model, &options->study, errors);
-    end_progress(options);
+    terminal_line_end(options->study.progress_context);
     if (!effects) return blame(errors);
     const struct output outputs[] = {{options->csv, effects_csv}, {options->json, effects_json}};
     enum exit_code code = write_all(options, outputs, 2, effects_text, effects);
@@ -173,13 +161,12 @@ int main(int argc, char **argv)
 {
     struct cost_options options;
     enum exit_code code;
-    int shown = -1;
+    struct terminal_line line;
     gsl_set_error_handler_off(); /* every status is looked at instead */
     if (cost_options_read(argc, argv, &options, &code)) {
-        if (isatty(STDERR_FILENO)) {
-            options.study.progress = show_progress;
-            options.study.progress_context = &shown;
-        }
+        terminal_line_begin(&line, true);
+        options.study.progress = show_progress;
+        options.study.progress_context = &line;
         code = read_and_study(&options);
     }
     return (int)code;

@@ -24,16 +24,20 @@ static enum exit_code print(char *text, enum exit_code code)
     fputs(text, stdout);
     free(text);
     if (fflush(stdout) == 0) return code;
-    fprintf(stderr, "fbd-run: cannot write to standard output: %s\n", strerror(errno));
+    if (!interrupt_by_pipe())
+        fprintf(stderr, "fbd-run: cannot write to standard output: %s\n", strerror(errno));
     return exit_failed;
 }
 
-/* Say so when the accuracy that was asked for has not been reached. */
-static enum exit_code accurate(const fbd_result *result, const fbd_simulation *simulation)
+/* Say so when the accuracy that was asked for has not been reached; `interrupt` may be NULL. */
+static enum exit_code accurate(const fbd_result *result, const fbd_simulation *simulation,
+                               const struct interrupt *interrupt)
 {
     if (fbd_result_accurate(result)) return exit_done;
     fbd_stats stats = fbd_simulation_stats(simulation);
-    fprintf(stderr, "fbd-run: the accuracy %g was not reached: ", stats.accuracy);
+    bool interrupted = interrupt && interrupt_asked(interrupt);
+    fprintf(stderr, "fbd-run: %sthe accuracy %g was not reached: ", interrupted ? "interrupted; " : "",
+            stats.accuracy);
     if (isfinite(stats.error_estimate))
         fprintf(stderr, "%.2g is the best of %lu runs, at tolerance %g\n", stats.error_estimate, stats.runs,
                 stats.tolerance);
@@ -68,7 +72,7 @@ static enum exit_code run_until(const fbd_model *model, const struct options *op
     fbd_simulation_interval(simulation, &from, &to);
     enum exit_code code = result ? exit_failed : no_memory();
     if (result && to == t)
-        code = !fbd_simulation_state(simulation, t, state) ? exit_failed : accurate(result, simulation);
+        code = !fbd_simulation_state(simulation, t, state) ? exit_failed : accurate(result, simulation, NULL);
     else if (result)
         fprintf(stderr, "fbd-run: the run ends before t = %g: %s\n", t, fbd_simulation_reason(simulation));
     fbd_result_free(result);
@@ -102,17 +106,11 @@ static enum exit_code place(const fbd_model *model, const struct options *option
 /* Put a text of the library into a file, and free it. */
 static enum exit_code write_text(const char *path, char *text)
 {
-    struct whole_file file;
     if (!text) return no_memory();
-    bool written = whole_file_open(&file, path);
-    if (written) {
-        whole_file_write(&file, text, strlen(text)); /* an error shows when the file is closed */
-        written = whole_file_close(&file, true);
-    }
+    bool written = whole_file_put(path, text);
+    if (!written) fprintf(stderr, "fbd-run: cannot write `%s`: %s\n", path, strerror(errno));
     free(text);
-    if (written) return exit_done;
-    fprintf(stderr, "fbd-run: cannot write `%s`: %s\n", path, strerror(errno));
-    return exit_failed;
+    return written ? exit_done : exit_failed;
 }
 
 /* The diagram of a state, when it is asked for. */
@@ -183,28 +181,29 @@ static enum exit_code carry_and_write(fbd_simulation *simulation, const struct o
                                       struct outputs *outputs, const struct interrupt *interrupt,
                                       fbd_errors *errors)
 {
+    bool report = wants_report(outputs, options);
     struct run_progress progress;
     fbd_recording recording = {.every = options->every,
                                .ledger = options->ledger,
                                .csv = options->csv ? whole_file_write : NULL,
                                .csv_context = &outputs->files[output_csv],
-                               .motion_only = !options->json && !wants_report(outputs, options),
+                               .motion_only = !options->json && !report,
                                .keep = options->html || options->plot || options->gnuplot,
                                .progress = run_progress_watch,
                                .progress_context = &progress};
-    run_progress_begin(&progress, interrupt, wants_report(outputs, options));
+    run_progress_begin(&progress, interrupt, report);
     fbd_result *result = fbd_simulation_run(simulation, &recording);
     run_progress_end(&progress);
     bool refused = outputs->files[output_csv].stream &&
                    ferror(outputs->files[output_csv].stream); /* said when it is closed */
     enum exit_code code = result ? exit_done : refused ? exit_failed : no_memory();
     if (result && !outputs_write(outputs, options, result, errors)) code = exit_failed;
-    if (code == exit_done && wants_report(outputs, options))
-        code = print(fbd_result_report(result), exit_done);
-    if (!outputs_close(outputs, result && code == exit_done)) code = exit_failed;
+    bool closed = outputs_close(outputs, result && code == exit_done);
+    if (code == exit_done && report) code = print(fbd_result_report(result), exit_done);
+    if (!closed) code = exit_failed;
     fbd_outcome outcome = result ? fbd_result_outcome(result) : FBD_FAILED;
     if (outcome != FBD_FAILED && outcome != FBD_INTERRUPTED && code == exit_done)
-        code = accurate(result, simulation);
+        code = accurate(result, simulation, interrupt);
     if (result && outcome != FBD_DONE && outcome != FBD_STOPPED) {
         fprintf(stderr, "fbd-run: %s\n", fbd_simulation_reason(simulation));
         code = exit_failed;

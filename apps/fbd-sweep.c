@@ -10,9 +10,9 @@
 #include <string.h>
 
 #include "partial_file.h"
-#include "progress.h"
 #include "ranks.h"
 #include "sweep_options.h"
+#include "sweep_progress.h"
 
 /* ---- signals: what is being computed is given up, what has been computed is kept */
 
@@ -47,7 +47,7 @@ static bool stops(void *context)
 static int no_memory(void)
 {
     fputs("fbd-sweep: out of memory\n", stderr);
-    return sweep_failed;
+    return exit_failed;
 }
 
 static void summarise(const struct sweep_options *options, size_t runs, size_t rows, size_t failed)
@@ -66,7 +66,7 @@ static void summarise(const struct sweep_options *options, size_t runs, size_t r
 static int fill(const struct ranks *ranks, const fbd_sweep *sweep, const struct sweep_options *options,
                 struct partial_file *file)
 {
-    struct progress progress;
+    struct sweep_progress progress;
     fbd_sweep_counts counts = {0};
     size_t runs = fbd_sweep_runs(sweep);
     const fbd_sweep_work work = {.first = file->rows,
@@ -74,24 +74,24 @@ static int fill(const struct ranks *ranks, const fbd_sweep *sweep, const struct 
                                  .jobs = options->jobs,
                                  .write = partial_file_write,
                                  .write_context = file,
-                                 .progress = progress_show,
+                                 .progress = sweep_progress_show,
                                  .progress_context = &progress,
                                  .stop = stops};
-    progress_start(&progress, file->rows, runs, options->quiet);
+    sweep_progress_begin(&progress, file->rows, runs, !options->quiet);
     fbd_sweep_end end = ranks_lead(ranks, sweep, &work, &counts);
-    progress_end(&progress);
+    sweep_progress_end(&progress);
     size_t rows = file->rows + counts.written, failed = file->failed + counts.failed;
     int reason = errno;
     bool closed = partial_file_close(file, rows == runs);
     if (end == FBD_SWEEP_REFUSED || !closed) {
         fprintf(stderr, "fbd-sweep: cannot write `%s`: %s\n", options->csv ? options->csv : "-",
                 strerror(closed ? reason : errno));
-        return sweep_failed;
+        return exit_failed;
     }
     if (end == FBD_SWEEP_OUT_OF_MEMORY) return no_memory();
     summarise(options, runs, rows, failed);
     if (rows < runs) return 128 + atomic_load(&caught);
-    return failed ? sweep_failed : sweep_done;
+    return failed ? exit_failed : exit_done;
 }
 
 /* ---- ranks */
@@ -102,8 +102,8 @@ static int blame(fbd_errors *errors)
     const fbd_error *note;
     for (size_t i = 0; (note = fbd_errors_get(errors, i)) != NULL; i++)
         if (note->severity == FBD_ERROR && (note->line > 0 || strcmp(note->id, "cannot-read") == 0))
-            return sweep_bad_model;
-    return sweep_usage;
+            return exit_bad_model;
+    return exit_usage;
 }
 
 static int follow(const struct sweep_options *options)
@@ -111,16 +111,15 @@ static int follow(const struct sweep_options *options)
     char *text = NULL;
     size_t length = 0;
     const fbd_sweep_work work = {.jobs = options->jobs, .stop = stops};
-    if (!ranks_take(&text, &length)) return sweep_failed;
-    if (!text) return sweep_done; /* the leader has said why, and its code counts */
+    if (!ranks_take(&text, &length)) return exit_failed;
+    if (!text) return exit_done; /* the leader has said why, and its code counts */
     fbd_errors *errors = fbd_errors_new();
     fbd_sweep *sweep = errors ? fbd_sweep_parse(text, length, options->model, &options->plan, errors) : NULL;
-    bool ready = sweep != NULL;
-    if (ready) ranks_follow(sweep, &work);
+    ranks_follow(sweep, &work);
     fbd_sweep_free(sweep);
     fbd_errors_free(errors);
     free(text);
-    return ready ? sweep_done : sweep_failed;
+    return exit_done;
 }
 
 static int sweep_and_write(const struct ranks *ranks, const fbd_sweep *sweep,
@@ -137,7 +136,7 @@ static int sweep_and_write(const struct ranks *ranks, const fbd_sweep *sweep,
     if (!why) return no_memory();
     fprintf(stderr, "fbd-sweep: %s\n", why);
     free(why);
-    return opening == partial_refused ? sweep_usage : sweep_failed;
+    return opening == partial_refused ? exit_usage : exit_failed;
 }
 
 static int lead(const struct ranks *ranks, const struct sweep_options *options)
@@ -145,7 +144,7 @@ static int lead(const struct ranks *ranks, const struct sweep_options *options)
     fbd_errors *errors = fbd_errors_new();
     if (!errors) return no_memory();
     fbd_sweep *sweep = fbd_sweep_read(options->model, &options->plan, errors);
-    int code = sweep ? sweep_done : blame(errors);
+    int code = sweep ? exit_done : blame(errors);
     fbd_errors_print(errors, stderr);
     fbd_errors_free(errors);
     if (sweep)
@@ -159,18 +158,17 @@ static int lead(const struct ranks *ranks, const struct sweep_options *options)
 int main(int argc, char **argv)
 {
     struct ranks ranks;
-    struct sweep_options options = {0};
-    enum sweep_exit said;
+    struct sweep_options options;
+    enum exit_code said;
     gsl_set_error_handler_off(); /* every status is looked at instead */
-    if (!ranks_start(&ranks)) return sweep_failed;
-    options.silent = ranks.rank > 0;
-    int code = sweep_done;
-    if (sweep_options_read(argc, argv, &options, &said)) {
+    if (!ranks_start(&ranks)) return exit_failed;
+    int code = exit_done;
+    if (sweep_options_read(argc, argv, ranks.rank > 0, &options, &said)) {
         if (ranks.count > 1 && options.jobs == 0) options.jobs = 1; /* mpirun starts one rank a processor */
         watch_signals();
         code = ranks.rank == 0 ? lead(&ranks, &options) : follow(&options);
     } else {
-        code = ranks.rank == 0 ? (int)said : sweep_done;
+        code = ranks.rank == 0 ? (int)said : exit_done;
     }
     ranks_end(&ranks);
     return code;

@@ -3,7 +3,7 @@
 
 #include <stddef.h>
 
-static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
+static const int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE};
 
 enum { signal_count = sizeof signals / sizeof *signals };
 
@@ -34,4 +34,10 @@ bool interrupt_asked(const struct interrupt *interrupt)
 void interrupt_release(const struct interrupt *interrupt)
 {
     sigprocmask(SIG_SETMASK, &interrupt->before, NULL);
+}
+
+bool interrupt_by_pipe(void)
+{
+    sigset_t pending;
+    return sigpending(&pending) == 0 && sigismember(&pending, SIGPIPE) == 1;
 }

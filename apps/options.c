@@ -1,12 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "options.h"
 
-#include "gnuplot.h"
-
-#include <errno.h>
-#include <getopt.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include "gnuplot.h"
 
 static const char help[] =
     "Usage: fbd-run [options] MODEL.yaml\n"
@@ -55,7 +52,7 @@ static const char help[] =
     "128 + signal: interrupted, with what was computed written.\n";
 
 enum {
-    option_set = 256,
+    option_set = option_first,
     option_method,
     option_tolerance,
     option_accuracy,
@@ -82,8 +79,6 @@ enum {
     option_body,
     option_components,
     option_check,
-    option_help,
-    option_version,
 };
 
 static const struct option long_options[] = {
@@ -114,51 +109,14 @@ static const struct option long_options[] = {
     {"body", required_argument, NULL, option_body},
     {"components", no_argument, NULL, option_components},
     {"check", no_argument, NULL, option_check},
-    {"help", no_argument, NULL, option_help},
-    {"version", no_argument, NULL, option_version},
-    {NULL, 0, NULL, 0},
+    COMMAND_LINE_END,
 };
+
+static const struct command_line line = {"fbd-run", help, long_options, false};
 
 static bool usage(const char *message, const char *what)
 {
-    fprintf(stderr, "fbd-run: %s%s\nTry `fbd-run --help`.\n", message, what);
-    return false;
-}
-
-/* A number of the command line, as in C; the program runs in the C locale. */
-static bool read_number(const char *name, const char *text, double least, double *value)
-{
-    char *end;
-    errno = 0;
-    *value = strtod(text, &end);
-    if (end == text || *end || errno == ERANGE || !(*value >= least) || *value > 1e300) {
-        fprintf(stderr, "fbd-run: --%s wants a number%s, not `%s`\nTry `fbd-run --help`.\n", name,
-                least > 0 ? " above 0" : "", text);
-        return false;
-    }
-    return true;
-}
-
-static bool read_seed(const char *text, unsigned *seed)
-{
-    char *end;
-    errno = 0;
-    unsigned long value = strtoul(text, &end, 10);
-    if (end == text || *end || errno || text[0] == '-' || value > 0xFFFFFFFFUL)
-        return usage("--seed wants a whole number, not ", text);
-    *seed = (unsigned)value;
-    return true;
-}
-
-/* NAME=VALUE; the argument is cut in two. */
-static bool read_setting(struct options *options, char *text)
-{
-    char *equals = strchr(text, '=');
-    if (!equals || equals == text || !equals[1]) return usage("--set wants NAME=VALUE, not ", text);
-    if (options->setting_count == most_settings) return usage("too many --set", "");
-    *equals = '\0';
-    options->settings[options->setting_count++] = (fbd_setting){text, equals + 1};
-    return true;
+    return command_line_usage(&line, message, what);
 }
 
 static bool choose_action(struct options *options, enum action action)
@@ -170,18 +128,34 @@ static bool choose_action(struct options *options, enum action action)
     return true;
 }
 
-static bool take_option(int code, struct options *options)
+static bool take_seed(unsigned *seed)
+{
+    unsigned long value;
+    if (!command_line_whole(&line, "--seed wants a whole number, not ", optarg, 0, 0xFFFFFFFFUL, &value))
+        return false;
+    *seed = (unsigned)value;
+    return true;
+}
+
+static bool take_number(const char *name, double least, double *value)
+{
+    return command_line_number(&line, name, optarg, least, value);
+}
+
+static bool take_option(const struct command_line *unused, int option, void *context)
 {
     const double tiny = 1e-300; /* above 0 */
-    switch (code) {
-    case option_set: return read_setting(options, optarg);
+    struct options *options = context;
+    (void)unused;
+    switch (option) {
+    case option_set: return command_line_setting(&line, optarg, options->settings, &options->setting_count);
     case option_method: options->run.method = optarg; return true;
-    case option_tolerance: return read_number("tolerance", optarg, tiny, &options->run.tolerance);
-    case option_accuracy: return read_number("accuracy", optarg, tiny, &options->run.accuracy);
-    case option_step: return read_number("step", optarg, tiny, &options->run.step);
+    case option_tolerance: return take_number("tolerance", tiny, &options->run.tolerance);
+    case option_accuracy: return take_number("accuracy", tiny, &options->run.accuracy);
+    case option_step: return take_number("step", tiny, &options->run.step);
     case option_no_structure: options->run.no_structure = true; return true;
-    case option_until: return read_number("until", optarg, -1e300, &options->run.until);
-    case option_every: return read_number("every", optarg, tiny, &options->every);
+    case option_until: return take_number("until", -1e300, &options->run.until);
+    case option_every: return take_number("every", tiny, &options->every);
     case option_csv: options->csv = optarg; return true;
     case option_json: options->json = optarg; return true;
     case option_ledger: options->ledger = true; return true;
@@ -204,7 +178,7 @@ static bool take_option(int code, struct options *options)
     case option_gnuplot: options->gnuplot = optarg; return true;
     case option_body: options->drawing.body = optarg; return true;
     case option_components: options->drawing.components = true; return true;
-    case option_seed: return read_seed(optarg, &options->seed);
+    case option_seed: return take_seed(&options->seed);
     case option_equations: return choose_action(options, action_equations);
     case option_linearize: return choose_action(options, action_linearize);
     case option_explain: return choose_action(options, action_explain);
@@ -267,23 +241,6 @@ static bool options_agree(const struct options *options)
 bool options_read(int argc, char **argv, struct options *options, enum exit_code *code)
 {
     *options = (struct options){.run = FBD_OPTIONS_DEFAULT, .seed = 1};
-    *code = exit_usage;
-    opterr = 0;
-    for (int option; (option = getopt_long(argc, argv, "", long_options, NULL)) != -1;) {
-        if (option == option_help || option == option_version) {
-            *code = exit_done;
-            if (option == option_help)
-                fputs(help, stdout);
-            else
-                printf("fbd-run %s\n", fbd_version());
-            return false;
-        }
-        if (option == '?' && optind > 0)
-            return usage("unknown option, or one without its value: ", argv[optind - 1]);
-        if (!take_option(option, options)) return false;
-    }
-    if (optind + 1 != argc)
-        return usage(optind == argc ? "no model file given" : "more than one model file given", "");
-    options->model = argv[optind];
-    return options_agree(options);
+    return command_line_read(&line, argc, argv, take_option, options, &options->model, code) &&
+           options_agree(options);
 }

@@ -5,19 +5,7 @@
 #ifndef FBD_APPS_OPTIONS_H
 #define FBD_APPS_OPTIONS_H
 
-#include "fbd.h"
-
-enum { most_settings = 200 };
-
-/* Exit codes: a contract with scripts. */
-enum exit_code {
-    exit_done = 0,
-    exit_failed = 1,       /* the run failed or ended early with a broken assumption */
-    exit_usage = 2,        /* the command line is wrong */
-    exit_bad_model = 3,    /* the model file is wrong */
-    exit_hand_differs = 4, /* a hand derivation differs */
-    exit_inaccurate = 5,   /* the accuracy asked for was not reached */
-};
+#include "command_line.h"
 
 struct options {
     const char *model;

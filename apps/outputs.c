@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "gnuplot.h"
+#include "interrupt.h"
 
 bool outputs_close(struct outputs *outputs, bool keep)
 {
@@ -13,7 +14,8 @@ bool outputs_close(struct outputs *outputs, bool keep)
     for (int i = 0; i < output_count; i++) {
         struct whole_file *file = &outputs->files[i];
         if (whole_file_close(file, keep)) continue;
-        fprintf(stderr, "fbd-run: cannot write `%s`: %s\n", file->path, strerror(errno));
+        if (!interrupt_by_pipe())
+            fprintf(stderr, "fbd-run: cannot write `%s`: %s\n", file->path, strerror(errno));
         done = false;
     }
     return done;

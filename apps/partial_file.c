@@ -144,13 +144,7 @@ static bool lock(const struct partial_file *file, struct obstacle *why)
 
 static bool write_key(const struct partial_file *file, const char *key, struct obstacle *why)
 {
-    struct whole_file beside;
-    bool fine = whole_file_open(&beside, file->key);
-    if (fine) {
-        whole_file_write(&beside, key, strlen(key)); /* an error shows when it is closed */
-        fine = whole_file_close(&beside, true);
-    }
-    return fine || cannot(why, "write", file->key);
+    return whole_file_put(file->key, key) || cannot(why, "write", file->key);
 }
 
 static bool refuse_rest(const struct partial_file *file, struct obstacle *why)

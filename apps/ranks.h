@@ -25,7 +25,8 @@ bool ranks_take(char **text, size_t *length);
 fbd_sweep_end ranks_lead(const struct ranks *ranks, const fbd_sweep *sweep, const fbd_sweep_work *work,
                          fbd_sweep_counts *counts);
 
-/* What the others do until no share is left: `work` gives them jobs and stop. */
+/* What the others do until no share is left: `work` gives them jobs and stop. One that has no sweep (NULL),
+ * since memory is out, ends all. */
 void ranks_follow(const fbd_sweep *sweep, const fbd_sweep_work *work);
 
 #endif

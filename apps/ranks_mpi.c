@@ -274,7 +274,7 @@ void ranks_follow(const fbd_sweep *sweep, const fbd_sweep_work *work)
     enum { usual_room = 65536 };
     const struct report question = {.jobs = work->jobs};
     struct parcel parcel = {.data = malloc(usual_room), .room = usual_room};
-    if (!parcel.data) give_up();
+    if (!sweep || !parcel.data) give_up();
     for (int i = 0; i < questions; i++)
         MPI_Send(&question, sizeof question, MPI_BYTE, 0, tag_ask, MPI_COMM_WORLD);
     for (int dismissed = 0; dismissed < questions;) {

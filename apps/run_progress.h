@@ -8,13 +8,13 @@
 
 #include "fbd.h"
 #include "interrupt.h"
+#include "terminal_line.h"
 
 struct run_progress {
     const struct interrupt *interrupt;
-    bool visible;         /* standard error is a terminal and nothing else is written to it */
-    bool drawn;           /* there is a line to take away */
-    double start, next;   /* wall clock [s] */
+    struct terminal_line line;
     unsigned long visits; /* steps since the clock was looked at */
+    double t;             /* when it was [s]; back at the start it is another run, of a search */
 };
 
 /* `visible` false: only listen for the interruption. */

@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sweep_options.h"
 
-#include <errno.h>
-#include <getopt.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const char help[] =
@@ -25,6 +22,7 @@ static const char help[] =
     "  --set NAME=VALUE     give a parameter of the file another value (may be repeated)\n"
     "  --method NAME, --tolerance NUMBER, --step TIME, --until TIME\n"
     "                       as for fbd-run\n"
+    "  --no-structure       integrate all bodies together by the general method\n"
     "  --jobs NUMBER        threads (default: one for each processor; under mpirun one for each rank)\n"
     "\n"
     "What is written\n"
@@ -45,21 +43,20 @@ static const char help[] =
     "wrong; ended by a signal: 128 and its number, and what has been computed is kept.\n";
 
 enum {
-    option_vary = 256,
+    option_vary = option_first,
     option_zip,
     option_seed,
     option_set,
     option_method,
     option_tolerance,
     option_step,
+    option_no_structure,
     option_until,
     option_jobs,
     option_output,
     option_csv,
     option_resume,
     option_quiet,
-    option_help,
-    option_version,
 };
 
 static const struct option long_options[] = {
@@ -70,139 +67,78 @@ static const struct option long_options[] = {
     {"method", required_argument, NULL, option_method},
     {"tolerance", required_argument, NULL, option_tolerance},
     {"step", required_argument, NULL, option_step},
+    {"no-structure", no_argument, NULL, option_no_structure},
     {"until", required_argument, NULL, option_until},
     {"jobs", required_argument, NULL, option_jobs},
     {"output", required_argument, NULL, option_output},
     {"csv", required_argument, NULL, option_csv},
     {"resume", no_argument, NULL, option_resume},
     {"quiet", no_argument, NULL, option_quiet},
-    {"help", no_argument, NULL, option_help},
-    {"version", no_argument, NULL, option_version},
-    {NULL, 0, NULL, 0},
+    COMMAND_LINE_END,
 };
 
-static bool usage(const struct sweep_options *options, const char *message, const char *what)
+static bool take_text(const struct command_line *line, const char **texts, size_t *count, const char *name)
 {
-    if (!options->silent) fprintf(stderr, "fbd-sweep: %s%s\nTry `fbd-sweep --help`.\n", message, what);
-    return false;
-}
-
-/* A number of the command line, as in C; the program runs in the C locale. */
-static bool read_number(const struct sweep_options *options, const char *name, const char *text, double least,
-                        double *value)
-{
-    char *end;
-    errno = 0;
-    *value = strtod(text, &end);
-    if (end != text && !*end && errno != ERANGE && *value >= least && *value <= 1e300) return true;
-    if (!options->silent)
-        fprintf(stderr, "fbd-sweep: --%s wants a number%s, not `%s`\nTry `fbd-sweep --help`.\n", name,
-                least > 0 ? " above 0" : "", text);
-    return false;
-}
-
-static bool read_whole(const struct sweep_options *options, const char *message, const char *text,
-                       unsigned long least, unsigned long most, unsigned long *value)
-{
-    char *end;
-    errno = 0;
-    *value = strtoul(text, &end, 10);
-    bool digits = text[0] >= '0' && text[0] <= '9';
-    if (digits && !*end && !errno && *value >= least && *value <= most) return true;
-    return usage(options, message, text);
-}
-
-/* NAME=VALUE; the argument is cut in two. */
-static bool read_setting(struct sweep_options *options, char *text)
-{
-    char *equals = strchr(text, '=');
-    if (!equals || equals == text || !equals[1]) return usage(options, "--set wants NAME=VALUE, not ", text);
-    if (options->plan.setting_count == most_texts) return usage(options, "too many --set", "");
-    *equals = '\0';
-    options->settings[options->plan.setting_count++] = (fbd_setting){text, equals + 1};
-    return true;
-}
-
-static bool take_text(const struct sweep_options *options, const char **texts, size_t *count,
-                      const char *name)
-{
-    if (*count == most_texts) return usage(options, "too many --", name);
+    if (*count == most_texts) return command_line_usage(line, "too many --", name);
     texts[(*count)++] = optarg;
     return true;
 }
 
-static bool take_jobs(struct sweep_options *options)
+static bool take_jobs(const struct command_line *line, size_t *jobs)
 {
     enum { most_jobs = 1024 };
-    unsigned long jobs;
-    if (!read_whole(options, "--jobs wants a number of threads from 1 to 1024, not ", optarg, 1, most_jobs,
-                    &jobs))
+    unsigned long value;
+    if (!command_line_whole(line, "--jobs wants a number of threads from 1 to 1024, not ", optarg, 1,
+                            most_jobs, &value))
         return false;
-    options->jobs = jobs;
+    *jobs = value;
     return true;
 }
 
-static bool take_option(int code, struct sweep_options *options)
+static bool take_option(const struct command_line *line, int option, void *context)
 {
     const double tiny = 1e-300; /* above 0 */
+    struct sweep_options *options = context;
     fbd_sweep_plan *plan = &options->plan;
-    switch (code) {
-    case option_vary: return take_text(options, options->vary, &plan->vary_count, "vary");
-    case option_output: return take_text(options, options->outputs, &plan->output_count, "output");
+    switch (option) {
+    case option_vary: return take_text(line, options->vary, &plan->vary_count, "vary");
+    case option_output: return take_text(line, options->outputs, &plan->output_count, "output");
     case option_zip: plan->zip = true; return true;
     case option_seed:
-        return read_whole(options, "--seed wants a whole number, not ", optarg, 0, ~0UL, &plan->seed);
-    case option_set: return read_setting(options, optarg);
+        return command_line_whole(line, "--seed wants a whole number, not ", optarg, 0, ~0UL, &plan->seed);
+    case option_set: return command_line_setting(line, optarg, options->settings, &plan->setting_count);
     case option_method: plan->run.method = optarg; return true;
-    case option_tolerance: return read_number(options, "tolerance", optarg, tiny, &plan->run.tolerance);
-    case option_step: return read_number(options, "step", optarg, tiny, &plan->run.step);
-    case option_until: return read_number(options, "until", optarg, -1e300, &plan->run.until);
-    case option_jobs: return take_jobs(options);
+    case option_tolerance: return command_line_number(line, "tolerance", optarg, tiny, &plan->run.tolerance);
+    case option_step: return command_line_number(line, "step", optarg, tiny, &plan->run.step);
+    case option_no_structure: plan->run.no_structure = true; return true;
+    case option_until: return command_line_number(line, "until", optarg, -1e300, &plan->run.until);
+    case option_jobs: return take_jobs(line, &options->jobs);
     case option_csv: options->csv = optarg; return true;
     case option_resume: options->resume = true; return true;
     case option_quiet: options->quiet = true; return true;
-    default: return usage(options, "unknown option, or an option without its value", "");
+    default: return command_line_usage(line, "unknown option, or an option without its value", "");
     }
 }
 
-static bool options_agree(struct sweep_options *options)
+static bool options_agree(const struct command_line *line, struct sweep_options *options)
 {
     if (options->csv && strcmp(options->csv, "-") == 0) options->csv = NULL;
     if (options->plan.vary_count == 0)
-        return usage(options, "nothing varies: give --vary NAME=VALUES (or use fbd-run for one run)", "");
+        return command_line_usage(line,
+                                  "nothing varies: give --vary NAME=VALUES (or use fbd-run for one run)", "");
     if (options->resume && !options->csv)
-        return usage(options, "--resume goes with --csv FILE: it goes on with FILE.part", "");
+        return command_line_usage(line, "--resume goes with --csv FILE: it goes on with FILE.part", "");
     return true;
 }
 
-static bool say(const struct sweep_options *options, enum sweep_exit *code, int option)
+bool sweep_options_read(int argc, char **argv, bool silent, struct sweep_options *options,
+                        enum exit_code *code)
 {
-    *code = sweep_done;
-    if (options->silent) return false;
-    if (option == option_help)
-        fputs(help, stdout);
-    else
-        printf("fbd-sweep %s\n", fbd_version());
-    return false;
-}
-
-bool sweep_options_read(int argc, char **argv, struct sweep_options *options, enum sweep_exit *code)
-{
-    *options =
-        (struct sweep_options){.silent = options->silent, .plan = {.run = FBD_OPTIONS_DEFAULT, .seed = 1}};
+    const struct command_line line = {"fbd-sweep", help, long_options, silent};
+    *options = (struct sweep_options){.plan = {.run = FBD_OPTIONS_DEFAULT, .seed = 1}};
     options->plan.settings = options->settings;
     options->plan.vary = options->vary;
     options->plan.outputs = options->outputs;
-    *code = sweep_usage;
-    opterr = 0;
-    for (int option; (option = getopt_long(argc, argv, "", long_options, NULL)) != -1;) {
-        if (option == option_help || option == option_version) return say(options, code, option);
-        if (option == '?' && optind > 0)
-            return usage(options, "unknown option, or one without its value: ", argv[optind - 1]);
-        if (!take_option(option, options)) return false;
-    }
-    if (optind + 1 != argc)
-        return usage(options, optind == argc ? "no model file given" : "more than one model file given", "");
-    options->model = argv[optind];
-    return options_agree(options);
+    return command_line_read(&line, argc, argv, take_option, options, &options->model, code) &&
+           options_agree(&line, options);
 }

@@ -7,6 +7,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "interrupt.h"
+
 /* mkstemp makes files that only their owner can read; the result should be as open as any new file. */
 static void set_usual_mode(int descriptor)
 {
@@ -71,6 +73,23 @@ bool whole_file_close(struct whole_file *file, bool keep)
     if (!written || !keep) unlink(file->temporary);
     free(file->temporary);
     file->temporary = NULL;
+    errno = reason;
+    return written;
+}
+
+bool whole_file_put(const char *path, const char *text)
+{
+    struct whole_file file;
+    struct interrupt interrupt;
+    bool beside = strcmp(path, "-") != 0 && !is_special(path); /* a pipe may keep us waiting for ever */
+    if (beside) interrupt_hold(&interrupt);
+    bool written = whole_file_open(&file, path);
+    if (written) {
+        whole_file_write(&file, text, strlen(text)); /* an error shows when the file is closed */
+        written = whole_file_close(&file, true);
+    }
+    int reason = errno;
+    if (beside) interrupt_release(&interrupt);
     errno = reason;
     return written;
 }

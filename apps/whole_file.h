@@ -26,4 +26,8 @@ int whole_file_write(void *context, const char *text, size_t length);
  * is left behind then either. */
 bool whole_file_close(struct whole_file *file, bool keep);
 
+/* All of it at once: a file with this text. False with errno set. A signal that ends the process comes before
+ * or after it. */
+bool whole_file_put(const char *path, const char *text);
+
 #endif

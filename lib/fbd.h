@@ -38,7 +38,8 @@ typedef struct fbd_error {
     int context_line, context_column; /* what was being read there, 0 when that adds nothing */
 } fbd_error;
 
-/* A list of them, owned by the caller. One list serves one thread. */
+/* A list of them, owned by the caller; it may be used again for further calls. One list serves one thread.
+ * Every function that takes a list also takes NULL, when nobody wants to know what is wrong. */
 typedef struct fbd_errors fbd_errors;
 
 /* An empty list, or NULL when memory is out. */
@@ -78,10 +79,12 @@ FBD_API void fbd_model_free(fbd_model *model);
 FBD_API const char *fbd_model_title(const fbd_model *model);
 
 FBD_API size_t fbd_model_bodies(const fbd_model *model);
+
+/* NULL past the last body. */
 FBD_API const char *fbd_model_body_name(const fbd_model *model, size_t body);
 
 /* What a body weighs and how it turns, in the model's units; I_O and L are 0 but for a pivot (about its axis;
- * distance from the axis O to the centre of mass G). */
+ * distance from the axis O to the centre of mass G). All are NAN past the last body. */
 typedef struct fbd_inertia {
     double mass, I_G, I_O, L;
     double G[2]; /* centre of mass in the body frame */
@@ -90,7 +93,7 @@ typedef struct fbd_inertia {
 FBD_API fbd_inertia fbd_model_inertia(const fbd_model *model, size_t body);
 
 /* A coordinate of the scene: q and its rate v. Names are qualified ("block.x", "block.v"); they live as long
- * as the model. */
+ * as the model, and are NULL past the last coordinate. */
 typedef struct fbd_coordinate {
     const char *name, *unit, *rate_name, *rate_unit;
     size_t body;
@@ -162,7 +165,8 @@ typedef struct fbd_arrow {
     double power;
 } fbd_arrow;
 
-/* Fill at most `room` arrows of a body, reactions included; returns how many there are. */
+/* Fill at most `room` arrows of a body, reactions included; returns how many there are, 0 past the last body.
+ */
 FBD_API size_t fbd_diagram(fbd_state *state, size_t body, fbd_arrow *arrows, size_t room);
 
 /* ---------------------------------------------------------------- simulation */
@@ -205,7 +209,7 @@ typedef struct fbd_event {
     double t_error; /* estimated error of t: NAN without error bars, INFINITY when it is not known */
 } fbd_event;
 
-/* "breakaway", "stick", "reversal", "contact_lost", "user", "switch" */
+/* "breakaway", "stick", "reversal", "contact_lost", "user", "rope_slack", "rope_taut", "switch" */
 FBD_API const char *fbd_event_kind_name(fbd_event_kind kind);
 
 typedef enum fbd_outcome {
@@ -301,7 +305,8 @@ typedef struct fbd_recording {
     void *csv_context;
     bool motion_only; /* the work of forces without a potential is not integrated: what would be asked of it
                          is NAN. Nothing else changes; `ledger` and `keep` win. */
-    bool keep;        /* keep what fbd_result_html and fbd_result_gnuplot show (at most some 50 MB) */
+    bool keep;        /* keep what fbd_result_html and fbd_result_gnuplot show: some 50 MB at most, or 256
+                         rows where a row has more than 16 000 numbers */
     fbd_watch *progress; /* or NULL */
     void *progress_context;
 } fbd_recording;
@@ -318,8 +323,9 @@ typedef struct fbd_result fbd_result;
 
 /* Carry a simulation from its start to its end. With options.accuracy the run is repeated with smaller
  * tolerances until the estimated global error (fbd_stats.error_estimate) is at most that, or until rounding
- * keeps it from getting better: then the best one stands, and fbd_result_accurate is false. Only the last run
- * is recorded. NULL when memory is out or the simulation has been
+ * keeps it from getting better: then the best one stands, and fbd_result_accurate is false. So it is when the
+ * progress function ends the search: the best run that came to its end stands, or the first one as far as it
+ * came. Only that run is recorded. NULL when memory is out, the writer refuses, or the simulation has been
  * advanced already (the ledger has to see every step). The simulation must outlive the result. */
 FBD_API fbd_result *fbd_simulation_run(fbd_simulation *simulation, const fbd_recording *recording);
 FBD_API void fbd_result_free(fbd_result *result);
@@ -384,8 +390,10 @@ FBD_API char *fbd_explain(const fbd_model *model, const fbd_options *options);
 typedef struct fbd_linearization fbd_linearization;
 
 /* Find the equilibrium near `state` (GSL's hybrid Newton method on the accelerations, rates zero), take the
- * exact Jacobian and its eigenvalues. NULL with a note in `errors` when there is none near (`no-equilibrium`)
- * or friction holds a body (`sticks`). `state` is moved to the equilibrium. */
+ * exact Jacobian and its eigenvalues. NULL with a note in `errors` when there is none near
+ * (`no-equilibrium`), friction holds a body (`sticks`), or coordinates are not independent
+ * (`not-independent`). Forces whose slope dies out at the equilibrium are noted (`degenerate-equilibrium`, a
+ * warning); their rows of A are zero. `state` is moved to the equilibrium. */
 FBD_API fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *errors);
 FBD_API void fbd_linearization_free(fbd_linearization *linearization);
 
@@ -394,7 +402,7 @@ FBD_API size_t fbd_linearization_size(const fbd_linearization *linearization);
 FBD_API const double *fbd_linearization_matrix(const fbd_linearization *linearization);
 
 /* One eigenvalue lambda of A. Frequency |lambda| [rad/s] and damping ratio -Re/|lambda| (NAN for lambda = 0).
- */
+ * All are NAN past the last one. */
 typedef struct fbd_mode {
     double re, im, frequency, damping_ratio;
 } fbd_mode;
@@ -436,7 +444,7 @@ typedef struct fbd_sweep_plan {
     size_t setting_count;
     const char *const *outputs;
     size_t output_count;
-    fbd_options run;
+    fbd_options run; /* without error bars and accuracy: a row is one run */
 } fbd_sweep_plan;
 
 /* Read a model file ("-" is standard input) or a text, for a sweep. NULL with notes in `errors`: those of a
@@ -513,9 +521,6 @@ FBD_API int fbd_sweep_claim(fbd_sweep_crew *crew, size_t jobs, fbd_sweep_share *
 /* The rows of a claimed share; fewer than it has stop the sweep after them. */
 FBD_API void fbd_sweep_deliver(fbd_sweep_crew *crew, const fbd_sweep_share *share, const char *rows,
                                size_t length, const fbd_sweep_counts *counts);
-
-/* True when all rows are written or no more will be. */
-FBD_API bool fbd_sweep_over(fbd_sweep_crew *crew);
 
 FBD_API fbd_sweep_end fbd_sweep_finish(fbd_sweep_crew *crew, fbd_sweep_counts *counts);
 
@@ -598,6 +603,7 @@ FBD_API void fbd_cost_free(fbd_cost *cost);
 
 FBD_API fbd_cost_reference fbd_cost_get_reference(const fbd_cost *cost);
 FBD_API size_t fbd_cost_series_count(const fbd_cost *cost);
+/* Past the last one: without a name and points. */
 FBD_API fbd_cost_series fbd_cost_get_series(const fbd_cost *cost, size_t index);
 FBD_API size_t fbd_cost_points(const fbd_cost *cost);
 FBD_API const fbd_cost_point *fbd_cost_get_point(const fbd_cost *cost, size_t index);

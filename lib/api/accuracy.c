@@ -5,8 +5,12 @@
  * The global error follows the tolerance by a power, error = c tolerance^p, with p near 1 where rounding has
  * no say. Two runs tell p; the next tolerance is the one for which that law promises half of what is asked
  * for.
+ *
+ * The best run that has come to its end is kept, with its rows, while others are tried: so none is made
+ * twice, and a search that is interrupted has something to show.
  */
 #include <math.h>
+#include <stdlib.h>
 
 #include "api/record.h"
 
@@ -51,13 +55,10 @@ static bool at_the_floor(const struct attempt *attempts, int count)
 
 /* Of runs that are all as far off as the motion is large (chaos) none is better than the one with the
  * smallest tolerance, the last. */
-static const struct attempt *best_of(const struct attempt *attempts, int count)
+static bool is_better(double estimate, double before)
 {
     const double all = 0.1;
-    const struct attempt *best = attempts;
-    for (int i = 1; i < count; i++)
-        if (fmin(attempts[i].estimate, all) <= fmin(best->estimate, all)) best = &attempts[i];
-    return best;
+    return fmin(estimate, all) <= fmin(before, all);
 }
 
 /* A method of low order may need more steps than anyone would wait for. Steps are as tolerance^(-1/k). */
@@ -70,40 +71,183 @@ static bool takes_too_long(const fbd_simulation *simulation, double tolerance)
     return steps * pow(options->tolerance / tolerance, 1.0 / k) > most;
 }
 
-static bool begin_again(fbd_simulation *simulation, double tolerance)
+/* ---- rows that wait for the search to end */
+
+enum { most_rows = 64 << 20 }; /* bytes; a run that has more is made once more at the end */
+
+struct rows {
+    struct text text;
+    bool lost; /* there were too many */
+};
+
+static int keep_rows(void *context, const char *rows, size_t length)
 {
-    const struct fbd_model *model = simulation->ensemble->model;
-    struct run_options options = simulation->ensemble->options;
-    options.tolerance = tolerance;
+    struct rows *kept = context;
+    if (kept->lost) return 0;
+    kept->lost = kept->text.length + length > most_rows;
+    if (kept->lost)
+        text_free(&kept->text);
+    else
+        text_add_bytes(&kept->text, rows, length);
+    return kept->text.failed;
+}
+
+static void drop_rows(struct rows *rows)
+{
+    text_free(&rows->text);
+    *rows = (struct rows){0};
+}
+
+/* ---- the search */
+
+struct search {
+    fbd_simulation *simulation;
+    struct run_options options;
+    fbd_recording recording; /* of a run of which nobody knows yet whether it will do */
+    struct rows rows;        /* its rows */
+    struct attempt attempts[12];
+    int count;
+    fbd_result *best; /* NULL before the first; its run is in the simulation or aside */
+    double best_estimate;
+    struct rows best_rows;
+    struct fbd_simulation aside; /* its ensemble is NULL when nothing is there */
+};
+
+enum { most_attempts = sizeof((struct search *)0)->attempts / sizeof(struct attempt) };
+
+static void drop_aside(struct search *search)
+{
+    simulation_end(&search->aside);
+    free(search->aside.bars);
+    search->aside = (struct fbd_simulation){0};
+}
+
+static void drop_best(struct search *search)
+{
+    fbd_result_free(search->best);
+    search->best = NULL;
+    drop_rows(&search->best_rows);
+    drop_aside(search);
+}
+
+/* Leave the simulation without a run; the one that it has is kept if it is the best. False when memory is
+ * out.
+ */
+static bool make_room(struct search *search)
+{
+    fbd_simulation *simulation = search->simulation;
+    if (search->aside.ensemble) {
+        simulation_end(simulation);
+        return true;
+    }
+    struct bars *bars = calloc(1, sizeof *bars);
+    if (!bars) return false;
+    search->aside = *simulation;
+    *simulation = (struct fbd_simulation){.bars = bars,
+                                          .accuracy = search->aside.accuracy,
+                                          .runs = search->aside.runs,
+                                          .seconds_spent = search->aside.seconds_spent};
+    return true;
+}
+
+/* Let the simulation have the run of the best attempt. */
+static void bring_back(struct search *search)
+{
+    fbd_simulation *simulation = search->simulation;
+    if (!search->aside.ensemble) return;
+    search->aside.runs = simulation->runs;
+    search->aside.seconds_spent = simulation->seconds_spent;
     simulation_end(simulation);
-    return simulation_begin(simulation, model, &options);
+    free(simulation->bars);
+    *simulation = search->aside;
+    search->aside = (struct fbd_simulation){0};
+}
+
+static bool begin_attempt(struct search *search, double tolerance)
+{
+    const struct fbd_model *model = search->simulation->ensemble->model;
+    search->options.tolerance = tolerance;
+    return make_room(search) && simulation_begin(search->simulation, model, &search->options);
+}
+
+/* Make a run of the simulation, which is at its start. False when memory is out. */
+static bool attempt(struct search *search)
+{
+    fbd_simulation *simulation = search->simulation;
+    drop_rows(&search->rows);
+    fbd_result *result = record(simulation, &search->recording);
+    if (!result) return false;
+    double estimate = companion_global(simulation->bars->companion);
+    search->attempts[search->count++] = (struct attempt){search->options.tolerance, estimate};
+    bool whole = simulation->ensemble->outcome != FBD_INTERRUPTED;
+    if (search->best && !(whole && is_better(estimate, search->best_estimate))) {
+        fbd_result_free(result);
+        return true;
+    }
+    drop_best(search);
+    search->best = result;
+    search->best_estimate = estimate;
+    search->best_rows = search->rows;
+    search->rows = (struct rows){0};
+    return true;
+}
+
+static bool is_enough(const struct search *search, double next)
+{
+    const fbd_simulation *simulation = search->simulation;
+    fbd_outcome outcome = simulation->ensemble->outcome;
+    const struct attempt *last = &search->attempts[search->count - 1];
+    return margin * last->estimate <= simulation->accuracy || at_the_floor(search->attempts, search->count) ||
+           search->count == most_attempts || outcome == FBD_FAILED || outcome == FBD_INTERRUPTED ||
+           takes_too_long(simulation, next);
+}
+
+/* Try until it is enough. False when memory is out. */
+static bool seek(struct search *search)
+{
+    for (;;) {
+        if (!attempt(search)) return false;
+        double next = next_tolerance(search->attempts, search->count, search->simulation->accuracy);
+        if (is_enough(search, next)) return true;
+        if (!begin_attempt(search, next)) return false;
+    }
+}
+
+/* Hand the rows over, or make those that were too many to be kept. */
+static fbd_result *deliver(struct search *search, const fbd_recording *recording)
+{
+    fbd_simulation *simulation = search->simulation;
+    fbd_result *result = search->best;
+    const struct text *rows = &search->best_rows.text;
+    search->best = NULL;
+    if (!recording || !recording->csv) return result;
+    if (!search->best_rows.lost && recording->csv(recording->csv_context, rows->data, rows->length) == 0)
+        return result;
+    bool again = search->best_rows.lost;
+    fbd_result_free(result);
+    if (!again) return NULL;
+    const struct fbd_model *model = simulation->ensemble->model;
+    search->options.tolerance = simulation->ensemble->options.tolerance;
+    simulation_end(simulation);
+    return simulation_begin(simulation, model, &search->options) ? record(simulation, recording) : NULL;
 }
 
 fbd_result *record_accurately(fbd_simulation *simulation, const fbd_recording *recording)
 {
-    enum { most_attempts = 12 };
-    struct attempt attempts[most_attempts];
-    int count = 0;
-    bool written = recording && (recording->csv || recording->keep);
-    fbd_recording attempt = {.progress = recording ? recording->progress : NULL,
-                             .progress_context = recording ? recording->progress_context : NULL};
-    for (;;) {
-        fbd_result *result = record(simulation, &attempt);
-        if (!result) return NULL;
-        attempts[count++] = (struct attempt){simulation->ensemble->options.tolerance,
-                                             companion_global(simulation->bars->companion)};
-        const struct attempt *last = &attempts[count - 1], *best = best_of(attempts, count);
-        double tolerance = next_tolerance(attempts, count, simulation->accuracy);
-        bool enough = margin * last->estimate <= simulation->accuracy || at_the_floor(attempts, count) ||
-                      count == most_attempts || simulation->ensemble->outcome == FBD_FAILED ||
-                      simulation->ensemble->outcome == FBD_INTERRUPTED ||
-                      takes_too_long(simulation, tolerance);
-        bool stop = simulation->ensemble->outcome == FBD_INTERRUPTED; /* no other run comes any farther */
-        if (enough && (best == last || stop) && !written) return result;
-        if (stop) best = last;
-        fbd_result_free(result);
-        if (enough) tolerance = best->tolerance;
-        if (!begin_again(simulation, tolerance)) return NULL;
-        if (enough) return record(simulation, recording);
+    struct search search = {.simulation = simulation, .options = simulation->ensemble->options};
+    if (recording) search.recording = *recording;
+    if (search.recording.csv) {
+        search.recording.csv = keep_rows;
+        search.recording.csv_context = &search.rows;
     }
+    fbd_result *result = NULL;
+    if (seek(&search)) {
+        bool cut = simulation->ensemble->outcome == FBD_INTERRUPTED;
+        bring_back(&search);
+        simulation->cut = cut && simulation->ensemble->outcome != FBD_INTERRUPTED;
+        result = deliver(&search, recording);
+    }
+    drop_best(&search);
+    drop_rows(&search.rows);
+    return result;
 }

@@ -3,7 +3,6 @@
  * Public interface: error bars.
  */
 #include <stdlib.h>
-#include <string.h>
 
 #include "api/record.h"
 
@@ -50,15 +49,9 @@ bool fbd_simulation_errors(fbd_simulation *simulation, double t, double *errors)
 
 double fbd_result_error(fbd_result *result, const char *name)
 {
-    const struct fbd_model *model = result->ledger.model;
-    const struct fbd_state *state = fbd_result_state(result);
     const struct bars *bars = result->simulation->bars;
-    size_t n = (size_t)model->plan.n;
-    for (size_t i = 0; bars && i < n; i++) {
-        if (strcmp(model->labels[i].name, name) == 0) return bars_component(bars, state, i);
-        if (strcmp(model->labels[i].rate_name, name) == 0) return bars_component(bars, state, n + i);
-    }
-    return NAN;
+    int index = model_find_component(result->ledger.model, name, false);
+    return bars && index >= 0 ? bars_component(bars, fbd_result_state(result), (size_t)index) : NAN;
 }
 
 fbd_energy fbd_result_energy_error(fbd_result *result)
@@ -70,13 +63,9 @@ fbd_energy fbd_result_energy_error(fbd_result *result)
 
 double fbd_result_work_error(fbd_result *result, const char *body, const char *load)
 {
-    const struct fbd_model *model = result->ledger.model;
-    double work = fbd_result_work(result, body, load);
-    for (size_t i = 0; result->simulation->bars && i < model->load_count; i++)
-        if (strcmp(model->loads[i].source->name, load) == 0 &&
-            strcmp(model->bodies[model->loads[i].body].name, body) == 0)
-            return bars_work(result->simulation->bars, i, work);
-    return NAN;
+    struct bars *bars = result->simulation->bars;
+    int index = model_find_load(result->ledger.model, body, load);
+    return bars && index >= 0 ? bars_work(bars, (size_t)index, fbd_result_work(result, body, load)) : NAN;
 }
 
 size_t fbd_result_force_errors(fbd_result *result, size_t body, fbd_arrow *arrows, size_t room)
@@ -105,6 +94,8 @@ bool fbd_result_accurate(const fbd_result *result)
     const fbd_simulation *simulation = result->simulation;
     fbd_outcome outcome = simulation->ensemble->outcome;
     if (simulation->accuracy == 0) return true;
-    if (outcome == FBD_FAILED || outcome == FBD_INTERRUPTED || outcome == FBD_OUT_OF_MEMORY) return false;
+    if (simulation->cut || outcome == FBD_FAILED || outcome == FBD_INTERRUPTED ||
+        outcome == FBD_OUT_OF_MEMORY)
+        return false;
     return companion_global(simulation->bars->companion) <= simulation->accuracy;
 }

@@ -3,7 +3,6 @@
  * Public interface: models from files and texts, and what they contain.
  */
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/file.h"
 #include "model/model.h"
@@ -33,23 +32,26 @@ static fbd_model *compile(char *text, size_t length, const char *name, const fbd
 }
 
 fbd_model *fbd_model_parse(const char *text, size_t length, const char *name, const fbd_setting *settings,
-                           size_t setting_count, fbd_errors *errors)
+                           size_t setting_count, fbd_errors *list)
 {
-    char *copy = malloc(length + 1);
-    if (!copy) {
-        diag_out_of_memory(errors);
-        return NULL;
-    }
-    memcpy(copy, text, length);
-    return compile(copy, length, name, settings, setting_count, errors);
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    char *copy = file_copy(text, length, errors);
+    fbd_model *model = copy ? compile(copy, length, name, settings, setting_count, errors) : NULL;
+    diag_end(&call);
+    return model;
 }
 
 fbd_model *fbd_model_read(const char *path, const fbd_setting *settings, size_t setting_count,
-                          fbd_errors *errors)
+                          fbd_errors *list)
 {
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
     size_t length;
     char *text = file_text(path, &length, errors);
-    return text ? compile(text, length, file_name(path), settings, setting_count, errors) : NULL;
+    fbd_model *model = text ? compile(text, length, file_name(path), settings, setting_count, errors) : NULL;
+    diag_end(&call);
+    return model;
 }
 
 void fbd_model_free(fbd_model *model)
@@ -69,11 +71,12 @@ size_t fbd_model_bodies(const fbd_model *model)
 
 const char *fbd_model_body_name(const fbd_model *model, size_t body)
 {
-    return model->bodies[body].name;
+    return body < model->body_count ? model->bodies[body].name : NULL;
 }
 
 fbd_inertia fbd_model_inertia(const fbd_model *model, size_t body)
 {
+    if (body >= model->body_count) return (fbd_inertia){NAN, NAN, NAN, NAN, {NAN, NAN}};
     const struct model_body *b = &model->bodies[body];
     bool pivot = b->kind == motion_pivot;
     return (fbd_inertia){.mass = b->inertia.mass,
@@ -90,6 +93,7 @@ size_t fbd_model_coordinates(const fbd_model *model)
 
 fbd_coordinate fbd_model_coordinate(const fbd_model *model, size_t index)
 {
+    if (index >= model->scene->coordinate_count) return (fbd_coordinate){.body = model->body_count};
     const struct label *label = &model->labels[index];
     return (fbd_coordinate){.name = label->name,
                             .unit = label->unit,

@@ -5,7 +5,6 @@
 #include "api/record.h"
 
 #include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 #include "draw/record.h"
@@ -220,10 +219,7 @@ fbd_energy fbd_result_energy(fbd_result *result)
 
 double fbd_result_work(fbd_result *result, const char *body, const char *load)
 {
-    const struct fbd_model *model = result->ledger.model;
-    for (size_t i = 0; i < model->load_count; i++)
-        if (strcmp(model->loads[i].source->name, load) == 0 &&
-            strcmp(model->bodies[model->loads[i].body].name, body) == 0)
-            return ledger_work(&result->ledger, fbd_result_state(result), i, result->ledger.work);
-    return NAN;
+    int index = model_find_load(result->ledger.model, body, load);
+    if (index < 0) return NAN;
+    return ledger_work(&result->ledger, fbd_result_state(result), (size_t)index, result->ledger.work);
 }

@@ -31,8 +31,8 @@ double simulation_event_error(fbd_simulation *simulation, size_t index);
 /* The tolerance to begin with. */
 double accuracy_first_guess(double accuracy);
 
-/* Runs with ever smaller tolerances until the estimate is within simulation->accuracy; the last one is
- * recorded. NULL as record. */
+/* Runs with ever smaller tolerances until the estimate is within simulation->accuracy; the best one stands.
+ * NULL as record. */
 fbd_result *record_accurately(fbd_simulation *simulation, const fbd_recording *recording);
 
 #endif

@@ -34,7 +34,7 @@ static bool choose_accuracy(const fbd_model *model, const fbd_options *options, 
     return fbd_errors_failed(errors) == before;
 }
 
-fbd_simulation *fbd_simulation_new(const fbd_model *model, const fbd_options *options, fbd_errors *errors)
+static fbd_simulation *simulation_new(const fbd_model *model, const fbd_options *options, fbd_errors *errors)
 {
     struct run_options chosen;
     double accuracy;
@@ -52,6 +52,14 @@ fbd_simulation *fbd_simulation_new(const fbd_model *model, const fbd_options *op
     fbd_simulation_free(simulation);
     diag_out_of_memory(errors);
     return NULL;
+}
+
+fbd_simulation *fbd_simulation_new(const fbd_model *model, const fbd_options *options, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_simulation *simulation = simulation_new(model, options, diag_begin(&call, list));
+    diag_end(&call);
+    return simulation;
 }
 
 void fbd_simulation_free(fbd_simulation *simulation)

@@ -22,13 +22,8 @@ void fbd_state_free(fbd_state *state)
 /* Where a named quantity is kept, or NULL. */
 static double *find(const fbd_state *state, const char *name)
 {
-    const fbd_model *model = state->model;
-    size_t n = model->scene->coordinate_count;
-    for (size_t i = 0; i < n; i++) {
-        if (strcmp(model->labels[i].name, name) == 0) return &state->y[i];
-        if (strcmp(model->labels[i].rate_name, name) == 0) return &state->y[n + i];
-    }
-    return NULL;
+    int index = model_find_component(state->model, name, false);
+    return index >= 0 ? &state->y[index] : NULL;
 }
 
 bool fbd_state_set(fbd_state *state, const char *name, double value)
@@ -40,21 +35,6 @@ bool fbd_state_set(fbd_state *state, const char *name, double value)
     return true;
 }
 
-/* The coordinate or rate with this name, qualified or, in a scene of one body, plain; -1 when there is none.
- */
-static int index_of(const fbd_model *model, const char *name)
-{
-    int n = (int)model->scene->coordinate_count;
-    for (int i = 0; i < n; i++) {
-        const struct coordinate *c = &model->scene->coordinates[i];
-        bool plain = model->body_count == 1;
-        if (strcmp(model->labels[i].name, name) == 0 || (plain && strcmp(c->name, name) == 0)) return i;
-        if (strcmp(model->labels[i].rate_name, name) == 0 || (plain && strcmp(c->rate_name, name) == 0))
-            return n + i;
-    }
-    return -1;
-}
-
 static struct symbol no_name(void *context, const char *name, struct pos at)
 {
     (void)context;
@@ -63,11 +43,11 @@ static struct symbol no_name(void *context, const char *name, struct pos at)
     return (struct symbol){.kind = symbol_unknown};
 }
 
-bool fbd_state_set_text(fbd_state *state, const char *name, const char *text, fbd_errors *errors)
+static bool set_text(fbd_state *state, const char *name, const char *text, fbd_errors *errors)
 {
     const fbd_model *model = state->model;
-    int n = (int)model->scene->coordinate_count, index = index_of(model, name);
-    errors->file = model->scene->file;
+    int n = model->plan.n, index = model_find_component(model, name, true);
+    diag_in_file(errors, model->scene->file);
     if (index < 0) {
         diag_add(errors, FBD_ERROR, "unknown-coordinate", (struct pos){0, 0},
                  n > 0 ? diag_hint(errors, "as `%s`", model->labels[0].name) : NULL,
@@ -88,6 +68,14 @@ bool fbd_state_set_text(fbd_state *state, const char *name, const char *text, fb
     }
     arena_free(&arena);
     return expr != NULL;
+}
+
+bool fbd_state_set_text(fbd_state *state, const char *name, const char *text, fbd_errors *list)
+{
+    struct diag_call call;
+    bool set = set_text(state, name, text, diag_begin(&call, list));
+    diag_end(&call);
+    return set;
 }
 
 bool fbd_state_get(const fbd_state *state, const char *name, double *value)

@@ -24,12 +24,12 @@ void fbd_errors_free(fbd_errors *errors)
 
 size_t fbd_errors_count(const fbd_errors *errors)
 {
-    return errors->count;
+    return errors ? errors->count : 0;
 }
 
 size_t fbd_errors_failed(const fbd_errors *errors)
 {
-    return errors->errors + (errors->out_of_memory ? 1 : 0);
+    return errors ? errors->errors + (errors->out_of_memory ? 1 : 0) : 0;
 }
 
 static char *format_text(struct arena *arena, const char *format, va_list args)
@@ -106,6 +106,35 @@ const char *diag_hint(fbd_errors *errors, const char *format, ...)
     char *text = format_text(&errors->arena, format, args);
     va_end(args);
     return text;
+}
+
+void diag_in_file(fbd_errors *errors, const char *file)
+{
+    errors->file = file ? diag_hint(errors, "%s", file) : NULL;
+}
+
+fbd_errors *diag_begin(struct diag_call *call, fbd_errors *errors)
+{
+    *call = (struct diag_call){.own.limit = most_notes, .errors = errors};
+    if (!errors) return &call->own;
+    call->earlier = errors->errors;
+    call->earlier_out_of_memory = errors->out_of_memory;
+    call->file = errors->file;
+    errors->errors = 0;
+    errors->out_of_memory = false;
+    errors->file = NULL;
+    return errors;
+}
+
+void diag_end(struct diag_call *call)
+{
+    fbd_errors *errors = call->errors;
+    arena_free(&call->own.arena);
+    free(call->own.sorted);
+    if (!errors) return;
+    errors->errors += call->earlier;
+    errors->out_of_memory |= call->earlier_out_of_memory;
+    errors->file = call->file;
 }
 
 /* ---- the nearest name */
@@ -206,6 +235,7 @@ const fbd_error *fbd_errors_get(fbd_errors *errors, size_t index)
     static const fbd_error no_memory = {.severity = FBD_ERROR,
                                         .id = "out-of-memory",
                                         .message = "out of memory"};
+    if (!errors) return NULL;
     if (index < errors->count && (errors->sorted || sort_notes(errors))) return errors->sorted[index];
     return errors->out_of_memory && index == errors->count ? &no_memory : NULL;
 }
@@ -223,6 +253,6 @@ void fbd_errors_print(fbd_errors *errors, FILE *stream)
                     e->context_column);
         if (e->hint) fprintf(stream, "    hint: %s\n", e->hint);
     }
-    if (errors->errors > errors->limit)
+    if (errors && errors->errors > errors->limit)
         fprintf(stream, "... and %zu more errors\n", errors->errors - errors->limit);
 }

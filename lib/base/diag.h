@@ -44,4 +44,21 @@ const char *diag_nearest(fbd_errors *errors, const char *wrong, const char *cons
 
 void diag_out_of_memory(fbd_errors *errors);
 
+/* Notes that are added now are of this file (NULL: of none). The name is copied: notes outlive a model. */
+void diag_in_file(fbd_errors *errors, const char *file);
+
+/* A call of the public interface. Within it fbd_errors_failed counts the errors of this call alone, so that a
+ * list with earlier ones can be used again; and a caller who gives no list gets none. */
+struct diag_call {
+    fbd_errors own;     /* takes the place of a list that was not given */
+    fbd_errors *errors; /* the list that was given, or NULL */
+    size_t earlier;     /* errors that were in it */
+    bool earlier_out_of_memory;
+    const char *file;
+};
+
+/* The list for this call; it is to be ended by diag_end. Calls may be nested. */
+fbd_errors *diag_begin(struct diag_call *call, fbd_errors *errors);
+void diag_end(struct diag_call *call);
+
 #endif

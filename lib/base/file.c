@@ -11,7 +11,7 @@ enum { largest_file = 64 * 1024 * 1024 };
 
 static void cannot_read(fbd_errors *errors, const char *path, const char *why)
 {
-    errors->file = diag_hint(errors, "%s", path);
+    diag_in_file(errors, path);
     diag_add(errors, FBD_ERROR, "cannot-read", (struct pos){0, 0}, NULL, "cannot read the file: %s", why);
 }
 
@@ -57,6 +57,16 @@ char *file_text(const char *path, size_t *length, fbd_errors *errors)
     if (!standard) fclose(stream);
     if (!text) cannot_read(errors, path, why);
     return text;
+}
+
+char *file_copy(const char *text, size_t length, fbd_errors *errors)
+{
+    char *copy = malloc(length + 1);
+    if (copy)
+        memcpy(copy, text, length);
+    else
+        diag_out_of_memory(errors);
+    return copy;
 }
 
 const char *file_name(const char *path)

@@ -10,6 +10,9 @@
 /* The whole of a file ("-" is standard input), to be freed with free(); NULL with a note `cannot-read`. */
 char *file_text(const char *path, size_t *length, fbd_errors *errors);
 
+/* The same of a text that the caller keeps; NULL, and noted, when memory is out. */
+char *file_copy(const char *text, size_t length, fbd_errors *errors);
+
 /* What messages call it. */
 const char *file_name(const char *path);
 

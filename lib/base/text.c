@@ -70,6 +70,14 @@ void text_number(struct text *text, double value, int digits)
     text_add(text, buffer);
 }
 
+/* The number of characters that a UTF-8 string takes on a terminal, one column each. */
+static size_t text_width(const char *string)
+{
+    size_t width = 0;
+    for (; *string; string++) width += ((unsigned char)*string & 0xC0) != 0x80;
+    return width;
+}
+
 void text_pad(struct text *text, size_t column)
 {
     size_t start = text->length;
@@ -101,11 +109,4 @@ void text_free(struct text *text)
 {
     free(text->data);
     *text = (struct text){0};
-}
-
-size_t text_width(const char *string)
-{
-    size_t width = 0;
-    for (; *string; string++) width += ((unsigned char)*string & 0xC0) != 0x80;
-    return width;
 }

@@ -32,7 +32,4 @@ void text_json_string(struct text *text, const char *string);
 
 void text_free(struct text *text);
 
-/* The number of characters that a UTF-8 string takes on a terminal, one column each. */
-size_t text_width(const char *string);
-
 #endif

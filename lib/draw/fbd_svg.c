@@ -287,12 +287,12 @@ static bool body_is_there(const struct fbd_model *model, const char *name, fbd_e
     return found;
 }
 
-char *fbd_diagram_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *errors)
+static char *make_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *errors)
 {
     static const fbd_drawing plain = {NULL, false};
     struct sheet sheet = {.state = state};
     if (!drawing) drawing = &plain;
-    errors->file = state->model->scene->file;
+    diag_in_file(errors, state->model->scene->file);
     if (drawing->body && !body_is_there(state->model, drawing->body, errors)) return NULL;
     state_ready(state);
     bool done = make_panels(&sheet, drawing);
@@ -309,4 +309,12 @@ char *fbd_diagram_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *
         return NULL;
     }
     return sheet.text.data;
+}
+
+char *fbd_diagram_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *list)
+{
+    struct diag_call call;
+    char *svg = make_svg(state, drawing, diag_begin(&call, list));
+    diag_end(&call);
+    return svg;
 }

@@ -57,7 +57,7 @@ static void unknown_column(const struct record *record, const char *name, size_t
 static bool choose_named(struct choice *choice, const char *list, fbd_errors *errors)
 {
     bool found = true;
-    for (const char *name = list; *name;) {
+    for (const char *name = list;; name++) {
         size_t length = strcspn(name, ",");
         int column = find_column(choice->record, name, length);
         if (column < 0) {
@@ -66,9 +66,9 @@ static bool choose_named(struct choice *choice, const char *list, fbd_errors *er
         } else if (choice->count < choice->record->column_count) {
             choice->columns[choice->count++] = column;
         }
-        name += length + (name[length] == ',');
+        name += length;
+        if (!*name) return found;
     }
-    return found;
 }
 
 static void choose_usual(struct choice *choice)
@@ -82,11 +82,11 @@ static void choose_usual(struct choice *choice)
     }
 }
 
-bool fbd_model_has_columns(const fbd_model *model, const char *columns, fbd_errors *errors)
+static bool has_columns(const fbd_model *model, const char *columns, fbd_errors *errors)
 {
     struct record record = {.model = model};
     struct choice choice = {.record = &record};
-    errors->file = model->scene->file;
+    diag_in_file(errors, model->scene->file);
     record.probe = state_new(model);
     record.arrows = calloc(diagram_most_arrows(model), sizeof *record.arrows);
     bool done = record.probe && record.arrows && modes_settle(record.probe, NULL), found = false;
@@ -99,6 +99,14 @@ bool fbd_model_has_columns(const fbd_model *model, const char *columns, fbd_erro
         diag_out_of_memory(errors);
     free(choice.columns);
     record_free(&record);
+    return found;
+}
+
+bool fbd_model_has_columns(const fbd_model *model, const char *columns, fbd_errors *list)
+{
+    struct diag_call call;
+    bool found = has_columns(model, columns, diag_begin(&call, list));
+    diag_end(&call);
     return found;
 }
 
@@ -243,12 +251,12 @@ static void write_script(struct text *text, const struct choice *choice, const s
     text_add(text, "unset multiplot\n");
 }
 
-char *fbd_result_gnuplot(fbd_result *result, const char *file, const char *columns, fbd_errors *errors)
+static char *make_script(fbd_result *result, const char *file, const char *columns, fbd_errors *errors)
 {
     const struct ensemble *run = result->simulation->ensemble;
     struct choice choice = {.record = result->record};
     struct text text = {0};
-    errors->file = run->model->scene->file;
+    diag_in_file(errors, run->model->scene->file);
     if (!result->record) {
         diag_add(errors, FBD_ERROR, "not-recorded", (struct pos){0, 0}, "set `keep` in fbd_recording",
                  "the run was not recorded");
@@ -269,4 +277,12 @@ char *fbd_result_gnuplot(fbd_result *result, const char *file, const char *colum
     if (found && text.failed) diag_out_of_memory(errors);
     if (text.failed) text_free(&text);
     return text.data;
+}
+
+char *fbd_result_gnuplot(fbd_result *result, const char *file, const char *columns, fbd_errors *list)
+{
+    struct diag_call call;
+    char *script = make_script(result, file, columns, diag_begin(&call, list));
+    diag_end(&call);
+    return script;
 }

@@ -56,11 +56,11 @@ bool fbd_has_html(void)
     return find_asset("page.html", strlen("page.html")) != NULL;
 }
 
-char *fbd_result_html(fbd_result *result, fbd_errors *errors)
+static char *make_page(fbd_result *result, fbd_errors *errors)
 {
     const struct fbd_model *model = result->simulation->ensemble->model;
     const struct page_asset *template = find_asset("page.html", strlen("page.html"));
-    errors->file = model->scene->file;
+    diag_in_file(errors, model->scene->file);
     if (!template) {
         diag_add(errors, FBD_ERROR, "no-page", (struct pos){0, 0},
                  "install dygraphs (Debian: libjs-dygraphs) and build again with -Dhtml=enabled",
@@ -81,4 +81,12 @@ char *fbd_result_html(fbd_result *result, fbd_errors *errors)
     text_free(&page);
     diag_out_of_memory(errors);
     return NULL;
+}
+
+char *fbd_result_html(fbd_result *result, fbd_errors *list)
+{
+    struct diag_call call;
+    char *page = make_page(result, diag_begin(&call, list));
+    diag_end(&call);
+    return page;
 }

@@ -34,7 +34,8 @@ void svg_escape(struct text *text, const char *string)
     }
 }
 
-void svg_number(struct text *text, double value)
+/* A length or coordinate in mm to 1/1000 mm, without trailing zeros and never -0. */
+static void write_number(struct text *text, double value)
 {
     char digits[40];
     double rounded = round(value * 1000) / 1000;
@@ -47,15 +48,15 @@ void svg_number(struct text *text, double value)
 
 void svg_point(struct text *text, struct vec point)
 {
-    svg_number(text, point.x);
+    write_number(text, point.x);
     text_add(text, ",");
-    svg_number(text, point.y);
+    write_number(text, point.y);
 }
 
 static void attribute(struct text *text, const char *name, double value)
 {
     text_printf(text, " %s=\"", name);
-    svg_number(text, value);
+    write_number(text, value);
     text_add(text, "\"");
 }
 
@@ -186,13 +187,13 @@ void svg_begin(struct text *text, struct vec size, const char *title, const char
 {
     text_add(text, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
                    "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"");
-    svg_number(text, size.x);
+    write_number(text, size.x);
     text_add(text, "mm\" height=\"");
-    svg_number(text, size.y);
+    write_number(text, size.y);
     text_add(text, "mm\" viewBox=\"0 0 ");
-    svg_number(text, size.x);
+    write_number(text, size.x);
     text_add(text, " ");
-    svg_number(text, size.y);
+    write_number(text, size.y);
     text_add(text, "\">\n<title>");
     svg_escape(text, title);
     text_add(text, "</title>\n<desc>");

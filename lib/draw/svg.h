@@ -22,9 +22,6 @@ void box_join(struct box *box, const struct box *other);
 /* `string` with the markup characters & < > " escaped; control characters are left out, which XML forbids. */
 void svg_escape(struct text *text, const char *string);
 
-/* A length or coordinate in mm to 1/1000 mm, without trailing zeros and never -0. */
-void svg_number(struct text *text, double value);
-
 /* "x,y" */
 void svg_point(struct text *text, struct vec point);
 

@@ -31,7 +31,6 @@ struct dim {
 #define DIM_VELOCITY        DIM(0, 1, -1)
 #define DIM_ACCELERATION    DIM(0, 1, -2)
 #define DIM_RATE            DIM(0, 0, -1) /* rad/s */
-#define DIM_RATE_CHANGE     DIM(0, 0, -2) /* rad/s^2 */
 #define DIM_FORCE           DIM(1, 1, -2)
 #define DIM_MOMENT          DIM(1, 2, -2) /* also energy, and torsional stiffness (N m/rad) */
 #define DIM_POWER           DIM(1, 2, -3)

@@ -26,7 +26,11 @@ static double given_inertia(const struct part *part, struct vec pivot)
     return part->inertia - part->mass * vec_dot(from, from);
 }
 
-double part_inertia(const struct part *part, struct vec pivot)
+/* The moment of inertia of a homogeneous shape about the axis through its own centre that faces the plane.
+ * Sources: the usual table, e.g. Meriam & Kraige, Dynamics, table D/4. For shape_given: the stated value,
+ * moved from `about` to the centre; `pivot` is the point of the body that sits on the axis (used when the
+ * value is stated about it). */
+static double part_inertia(const struct part *part, struct vec pivot)
 {
     double m = part->mass, R2 = square(part->radius), L2 = square(part->length);
     double both = R2 + square(part->inner_radius); /* hollow cylinder: R_o^2 + R_i^2 */

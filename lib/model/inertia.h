@@ -17,12 +17,6 @@ struct inertia {
     double I_G;   /* about G */
 };
 
-/* The moment of inertia of a homogeneous shape about the axis through its own centre that faces the plane.
- * Sources: the usual table, e.g. Meriam & Kraige, Dynamics, table D/4. For shape_given: the stated value,
- * moved from `about` to the centre; `pivot` is the point of the body that sits on the axis (used when the
- * value is stated about it). */
-double part_inertia(const struct part *part, struct vec pivot);
-
 /* Sum up `count` parts. The result may be unphysical (mass <= 0, I_G < 0) when holes outweigh the rest: the
  * caller checks. */
 struct inertia inertia_of_parts(const struct part *parts, size_t count, struct vec pivot);

@@ -104,4 +104,13 @@ struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors);
 
 void model_free(struct fbd_model *model);
 
+/* ---- by name (find.c); -1 when there is none */
+
+/* The component of a state (n coordinates, then n rates) that is called "block.x", "block.v", ...; with
+ * `plain` also "x" where the scene has one body. */
+int model_find_component(const struct fbd_model *model, const char *name, bool plain);
+
+/* The force or moment `load` of a body. */
+int model_find_load(const struct fbd_model *model, const char *body, const char *load);
+
 #endif

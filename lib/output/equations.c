@@ -135,6 +135,7 @@ double fbd_equation_term(const fbd_equation *equation, const char *name)
 size_t fbd_diagram(fbd_state *state, size_t body, fbd_arrow *arrows, size_t room)
 {
     const struct fbd_model *model = state->model;
+    if (body >= model->body_count) return 0;
     const struct model_body *b = &model->bodies[body];
     state_ready(state);
     struct instant at = state_instant(state);

@@ -191,6 +191,10 @@ static void write_method(struct text *text, const struct fbd_model *model, const
                     options->method ? "--method" : "the file");
         return;
     }
+    if (name && strcmp(name, "auto") != 0) {
+        text_printf(text, "\nMethod: there is no `%s`; a run will be refused\n", name);
+        return;
+    }
     const struct method *stiff = method_find("rodas5p");
     bool structure = !options->no_structure && options->step == 0 && model->scene->simulate.step == 0;
     text_printf(text, "\nMethod: auto, because no other is asked for\n  %s%s (%s)\n",

@@ -11,7 +11,8 @@
 
 enum { parameter_draws = 12, states_of_a_draw = 24, tries_of_a_state = 8 };
 
-bool hand_agrees(const struct hand_sample *sample)
+/* Does a sample agree? To rounding: 1e-9 of what was added up. */
+static bool agrees(const struct hand_sample *sample)
 {
     return fabs(sample->lack) <= 1e-9 * sample->size;
 }
@@ -274,7 +275,7 @@ static struct tally tally_of(const struct hand_check *check, int slip)
         const struct hand_sample *sample = &check->samples[i];
         if (sample->slip != slip) continue;
         tally.states++;
-        tally.agree += hand_agrees(sample);
+        tally.agree += agrees(sample);
         tally.worst = fmax(tally.worst, fabs(sample->lack) / sample->size);
     }
     return tally;

@@ -60,9 +60,6 @@ struct hand_check {
     bool accelerates[most_summands]; /* this summand is (part of) the left side I a */
 };
 
-/* Does a sample agree? To rounding: 1e-9 of what was added up. */
-bool hand_agrees(const struct hand_sample *sample);
-
 /* Say in which term the samples that have slip `slip` differ from the assembly, or that no single term
  * explains it. */
 void hand_diagnose(const struct hand_check *check, int slip, struct text *text);

@@ -43,25 +43,25 @@ static void write_matrix(struct text *text, const struct fbd_linearization *line
     }
 }
 
-static const char *kind_of(const fbd_mode *mode)
+static const char *kind_of(const fbd_mode *mode, bool degenerate)
 {
     double small = 1e-12 * mode->frequency;
-    if (mode->frequency == 0) return "free motion";
+    if (mode->frequency == 0) return degenerate ? "no linear frequency" : "free motion";
     if (mode->re > small) return "unstable: grows";
     if (mode->im == 0) return "decays without oscillation";
     return mode->re < -small ? "oscillates and decays" : "oscillates";
 }
 
-static void write_mode(struct text *text, const fbd_mode *mode)
+static void write_mode(struct text *text, const fbd_mode *mode, bool degenerate)
 {
     text_add(text, "  ");
-    text_number(text, mode->re, digits);
+    text_number(text, fabs(mode->re) < 1e-12 * mode->frequency ? 0 : mode->re, digits); /* rounding */
     if (mode->im != 0) {
         text_add(text, mode->im > 0 ? " + " : " - ");
         text_number(text, fabs(mode->im), digits);
         text_add(text, " i");
     }
-    text_add(text, " 1/s");
+    text_add(text, " 1/s  ");
     text_pad(text, 36);
     if (mode->im == 0 && mode->frequency > 0) {
         text_add(text, "time constant ");
@@ -78,7 +78,7 @@ static void write_mode(struct text *text, const fbd_mode *mode)
         text_number(text, fabs(mode->damping_ratio) < 1e-12 ? 0 : mode->damping_ratio, digits);
         text_add(text, "; ");
     }
-    text_printf(text, "%s\n", kind_of(mode));
+    text_printf(text, "%s\n", kind_of(mode, degenerate));
 }
 
 char *fbd_linearization_text(const fbd_linearization *linear)
@@ -88,7 +88,8 @@ char *fbd_linearization_text(const fbd_linearization *linear)
     write_matrix(&text, linear);
     text_add(&text, "\nEigenvalues\n");
     for (size_t i = 0; i < linear->size; i++)
-        if (linear->modes[i].im >= 0) write_mode(&text, &linear->modes[i]); /* the conjugate says the same */
+        if (linear->modes[i].im >= 0)
+            write_mode(&text, &linear->modes[i], linear->degenerate); /* the conjugate says the same */
     if (text.failed) text_free(&text);
     return text.data;
 }

@@ -256,9 +256,10 @@ static void write_accuracy(const struct page *page, const fbd_stats *stats)
     bool cut = outcome == FBD_FAILED || outcome == FBD_INTERRUPTED,
          reached = fbd_result_accurate(page->result);
     text_printf(text, "  accuracy %g asked for: %s, with %lu run%s in %.3f ms in all\n", stats->accuracy,
-                reached ? "reached"
-                : cut   ? "NOT known, the run did not come to its end"
-                        : "NOT reached, this is the best",
+                reached                         ? "reached"
+                : cut                           ? "NOT known, the run did not come to its end"
+                : page->result->simulation->cut ? "NOT reached when it was interrupted, this is the best"
+                                                : "NOT reached, this is the best",
                 stats->runs, stats->runs == 1 ? "" : "s", 1e3 * stats->seconds_spent);
 }
 

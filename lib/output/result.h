@@ -15,6 +15,7 @@ struct fbd_simulation {
     struct bars *bars; /* NULL without error bars */
     double seconds;
     double accuracy;                  /* asked for, 0 when it is not */
+    bool cut;                         /* the search for it was interrupted; this run came to its end */
     unsigned long runs;               /* it took, each with its companion */
     double seconds_spent;             /* in all of them, companions and ledgers included */
     double *event_errors;             /* of the times of run->events; NULL until asked for */

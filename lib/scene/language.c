@@ -61,6 +61,24 @@ static const struct field line_fields[] = {
 
 const struct group line_group = {"a line", NULL, FIELDS(line_fields), NULL, 0, "a straight line"};
 
+/* lib/solve/method.c has what they do. */
+const struct choice method_choices[] = {
+    {"auto", 0, "what the scene allows and asks for"},
+    {"dop853", 1, "explicit Runge-Kutta of order 8"},
+    {"rodas5p", 2, "Rosenbrock of order 5, for stiff systems"},
+    {"rk8pd", 3, "explicit Runge-Kutta of order 8"},
+    {"rkf45", 4, "explicit Runge-Kutta of order 5"},
+    {"rkck", 5, "explicit Runge-Kutta of order 5"},
+    {"rk4", 6, "explicit Runge-Kutta of order 4"},
+    {"rk2", 7, "explicit Runge-Kutta of order 3"},
+    {"msadams", 8, "Adams multistep"},
+    {"msbdf", 9, "backward differentiation, for stiff systems"},
+    {"bsimp", 10, "implicit extrapolation, for stiff systems"},
+    {"rk4imp", 11, "implicit Runge-Kutta of order 4"},
+    {"rk2imp", 12, "implicit midpoint rule"},
+    {"rk1imp", 13, "implicit Euler"},
+};
+
 static const struct field simulate_fields[] = {
     FIELD_VALUE(offsetof(struct simulate_keys, until), "until", a_time, required | positive,
                 "time at which the run ends"),
@@ -68,7 +86,8 @@ static const struct field simulate_fields[] = {
                  "error allowed in one step, relative to the size of the motion; 2.2e-16 to 0.1"),
     FIELD_NUMBER(offsetof(struct simulate_keys, accuracy), "accuracy", a_number, positive,
                  "global error allowed, relative to the size of the motion, instead of a tolerance"),
-    FIELD_TEXT(offsetof(struct simulate_keys, method), "method", "name of the stepper, or `auto`"),
+    FIELD_CHOICE(offsetof(struct simulate_keys, method), "method", method_choices,
+                 "name of the stepper, or `auto`"),
     FIELD_NUMBER(offsetof(struct simulate_keys, step), "step", a_time, positive,
                  "fixed step instead of an automatic one"),
     FIELD_NUMBER(offsetof(struct simulate_keys, every), "every", a_time, positive,

@@ -107,7 +107,7 @@ struct line_keys {
 struct simulate_keys {
     struct value until;
     double tolerance, accuracy, step, every;
-    const char *method;
+    int method; /* in method_choices */
     const struct node *output, *events;
 };
 
@@ -182,6 +182,9 @@ enum { coupling_constraint = 100 };
 struct hand_keys {
     const struct node *equation, *when;
 };
+
+/* A value is the place in the table; 0 is `auto`. */
+extern const struct choice method_choices[];
 
 extern const struct group scene_group, ground_group, line_group, simulate_group, output_group, event_group;
 extern const struct group body_group, part_group, inertia_group, hand_group;

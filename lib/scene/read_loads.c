@@ -160,6 +160,19 @@ static bool finish_friction(struct entry *entry)
     return fine;
 }
 
+/* On a vertical line the one side is as much up as the other. A guide does not care. */
+static void finish_normal(struct entry *entry)
+{
+    const double upright = 1e-12; /* as where the side is chosen, in model/compile.c */
+    struct load *load = &entry->keys.load;
+    load->side = (enum normal_side)entry->keys.side;
+    if (load->side != side_up || load->two_sided || !is_slide(entry)) return;
+    if (fabs(vec_unit(entry->motion->along).x) > upright) return;
+    diag_add(entry->reader->errors, FBD_WARNING, "no-side-up", entry->chosen.at,
+             "write `normal: {side: left}` or `normal: {side: right}`, as seen along +x",
+             "no side of a vertical line is up: the surface is taken to push to the left of +x");
+}
+
 static bool finish_drag(struct entry *entry)
 {
     if (has(entry, "linear") || has(entry, "quadratic")) return true;
@@ -191,7 +204,7 @@ static bool finish(struct entry *entry)
     case load_friction:
     case moment_friction: return finish_friction(entry);
     case load_drag: return finish_drag(entry);
-    case load_normal: load->side = (enum normal_side)entry->keys.side; return true;
+    case load_normal: finish_normal(entry); return true;
     case moment_spring: load->free_length = entry->keys.neutral; return true;
     case load_potential:
     case moment_potential: return check_potential(entry);

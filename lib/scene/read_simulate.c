@@ -150,7 +150,7 @@ static bool read_run(struct reader *reader, const struct node *map, struct pos a
 {
     struct simulate *simulate = &reader->scene->simulate;
     struct simulate_keys keys = {0};
-    const struct pair *method = node_find(map, "method"), *output = node_find(map, "output");
+    const struct pair *output = node_find(map, "output");
     bool fine = fields_read(reader, &simulate_group, map, at, &reader->constants, &keys);
     if (!check_accuracy(reader, map, &keys)) fine = false;
     *simulate = (struct simulate){.until = keys.until,
@@ -158,8 +158,7 @@ static bool read_run(struct reader *reader, const struct node *map, struct pos a
                                   .accuracy = keys.accuracy,
                                   .step = keys.step,
                                   .every = keys.every,
-                                  .method = keys.method,
-                                  .method_at = method ? method->value->at : (struct pos){0, 0}};
+                                  .method = method_choices[keys.method].name};
     if (!read_output(reader, keys.output, output)) fine = false;
     return (!keys.events || read_events(reader, keys.events)) && fine;
 }

@@ -140,7 +140,7 @@ static void read_scene(struct reader *reader, const struct override *overrides, 
     if (!parameters_start(reader, overrides, override_count) || !bodies_start(reader)) return;
     read_top(reader, &keys);
     read_bodies(reader);
-    if (!is_hopeless(reader)) couplings_read(reader, keys.couplings);
+    if (!is_hopeless(reader) && reader->bodies) couplings_read(reader, keys.couplings);
     if (!is_hopeless(reader)) simulate_read(reader, &keys);
     if (fbd_errors_failed(reader->errors) == 0) parameters_note_unused(reader);
 }
@@ -174,7 +174,7 @@ bool document_open(struct document *document, const char *text, size_t length, c
 {
     struct source source;
     *document = (struct document){.file = file};
-    errors->file = file ? diag_hint(errors, "%s", file) : NULL;
+    diag_in_file(errors, file);
     if (!source_open(text, length, errors, &source)) return false;
     document->root = node_read(&document->arena, &source, errors);
     if (document->arena.failed || errors->arena.failed) diag_out_of_memory(errors);
@@ -193,7 +193,7 @@ static struct scene *make(const struct document *document, const struct override
                           size_t override_count, struct programs *keep, fbd_errors *errors)
 {
     const char *file = document->file;
-    errors->file = file ? diag_hint(errors, "%s", file) : NULL;
+    diag_in_file(errors, file);
     struct scene *scene = new_scene(file, errors);
     if (!scene) return NULL;
     struct reader reader = {.scene = scene, .arena = &scene->arena, .errors = errors, .root = document->root};

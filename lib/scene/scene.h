@@ -291,8 +291,7 @@ struct simulate {
     double accuracy;    /* global, 0 when not given; excludes tolerance and step */
     double step;        /* fixed step, 0 for automatic */
     double every;       /* output interval, 0 for the default */
-    const char *method; /* NULL for the default */
-    struct pos method_at;
+    const char *method; /* NULL where the file does not say how to run */
 };
 
 struct scene {

@@ -204,9 +204,10 @@ bool value_flag(struct reader *reader, const struct node *node, const char *what
 bool value_choice(struct reader *reader, const struct node *node, const char *what,
                   const struct choice *choices, size_t count, int *choice)
 {
-    enum { most_choices = 16 };
+    enum { most_choices = 32 };
     const char *names[most_choices];
-    for (size_t i = 0; i < count && i < most_choices; i++) {
+    if (count > most_choices) count = most_choices;
+    for (size_t i = 0; i < count; i++) {
         names[i] = choices[i].name;
         if (node->kind != node_scalar || strcmp(node->text, names[i]) != 0) continue;
         *choice = choices[i].value;

@@ -15,6 +15,7 @@
 struct balance {
     struct fbd_state *state;
     double *work; /* scratch of state_jacobian, then dfdy and dfdt */
+    double zero;  /* an acceleration that is none, beside those of the start */
 };
 
 static void set_coordinates(struct fbd_state *state, const gsl_vector *q)
@@ -71,23 +72,26 @@ static double imbalance(const gsl_vector *f)
     return most;
 }
 
-/* Newton from the coordinates that the state has. */
-static bool find_balance_from(struct balance *balance, const gsl_vector *start,
-                              gsl_multiroot_fdfsolver *solver)
+/* Newton from q, on to where it gets no better; the state is moved to the best place. */
+static bool find_balance_from(struct balance *balance, gsl_vector *q, gsl_multiroot_fdfsolver *solver)
 {
     enum { most_iterations = 200 };
     struct fbd_state *state = balance->state;
-    size_t n = start->size;
-    gsl_multiroot_function_fdf function = {forces, slopes, both, n, balance};
-    forces(start, balance, solver->f);
-    double zero = 1e-13 * typical_acceleration(state);
-    int status = gsl_multiroot_fdfsolver_set(solver, &function, (gsl_vector *)start);
-    for (int i = 0; i < most_iterations && status == GSL_SUCCESS && imbalance(solver->f) > zero; i++)
+    gsl_multiroot_function_fdf function = {forces, slopes, both, q->size, balance};
+    int status = gsl_multiroot_fdfsolver_set(solver, &function, q);
+    double least = imbalance(solver->f);
+    for (int i = 0; i < most_iterations && status == GSL_SUCCESS && least > 0; i++) {
         status = gsl_multiroot_fdfsolver_iterate(solver);
-    set_coordinates(state, solver->x);
+        bool better = imbalance(solver->f) < least;
+        if (!better && least <= balance->zero) break;
+        if (!better) continue;
+        least = imbalance(solver->f);
+        gsl_vector_memcpy(q, solver->x);
+    }
+    set_coordinates(state, q);
     state_evaluate(state);
     /* Where rounding keeps it from `zero`, the last digits of a position are at fault: still a balance. */
-    return imbalance(solver->f) <= 1e4 * zero;
+    return least <= 1e4 * balance->zero;
 }
 
 /* A start on a ridge has no way down (a rod held level: the slope of its moment is zero), and Newton may leap
@@ -120,7 +124,12 @@ static int find_balance(struct balance *balance)
            nearest = HUGE_VAL;
     gsl_multiroot_fdfsolver *solver = gsl_multiroot_fdfsolver_alloc(gsl_multiroot_fdfsolver_hybridsj, n);
     bool made = q && origin && solver;
-    if (made) memcpy(origin, state->y, n * sizeof *origin);
+    if (made) {
+        memcpy(origin, state->y, n * sizeof *origin);
+        set_start(q, state->model, origin, 0);
+        forces(q, balance, solver->f);
+        balance->zero = 1e-13 * typical_acceleration(state);
+    }
     for (int trial = 0; made && trial < most_trials; trial++) {
         set_start(q, state->model, origin, trial);
         if (!find_balance_from(balance, q, solver)) continue;
@@ -226,49 +235,72 @@ static fbd_linearization *linearization_new(const struct fbd_model *model)
     return NULL;
 }
 
-/* The Jacobian at the state into `work` (as in struct balance), and the largest entry of
- * d(accelerations)/d(coordinates). */
-static double stiffness_at(struct fbd_state *state, double *work)
+/* The Jacobian at the state into `work` (as in struct balance), and the largest slope that each acceleration
+ * has along a coordinate. */
+static void slopes_at(struct fbd_state *state, double *work, double *most)
 {
     size_t n = (size_t)state->model->plan.n, size = 2 * n;
-    double most = 0;
     struct instant at = state_instant(state);
     state_jacobian(state->model, &at, state->scratch, work, work + size * size);
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j < n; j++) most = fmax(most, fabs(work[(n + i) * size + j]));
-    return most;
+    for (size_t i = 0; i < n; i++) {
+        most[i] = 0;
+        for (size_t j = 0; j < n; j++) most[i] = fmax(most[i], fabs(work[(n + i) * size + j]));
+    }
 }
 
-/* Where the slope of the forces dies out toward the equilibrium (f = -k x^3), Newton never quite arrives, and
- * what is left of the slope is no frequency. */
-static void warn_degenerate(double before, double after, fbd_errors *errors)
+/* Where the slope of a force dies out toward the equilibrium (f = -k x^3), Newton never quite arrives, and
+ * what is left of the slope is no frequency: in the limit it is zero. Told by this, that the slope was larger
+ * at the start, and is so already a little of the way back to there. */
+static void drop_dying_slopes(struct fbd_linearization *linear, const double *before, const double *beside,
+                              const double *there, fbd_errors *errors)
 {
-    const double died_out = 1e-4;
-    if (!(after < died_out * before)) return;
-    diag_add(errors, FBD_WARNING, "degenerate-equilibrium", (struct pos){0, 0},
-             "the motion about it is not linear, however small: simulate it",
-             "the forces have (nearly) no slope at the equilibrium: its frequencies say nothing");
+    const double died_out = 1e-4, of_beside = 0.1;
+    size_t n = linear->size / 2;
+    for (size_t i = 0; i < n; i++) {
+        if (!(there[i] < died_out * before[i] && there[i] < of_beside * beside[i])) continue;
+        for (size_t j = 0; j < n; j++) linear->A[(n + i) * linear->size + j] = 0;
+        linear->degenerate = true;
+        diag_add(errors, FBD_WARNING, "degenerate-equilibrium", (struct pos){0, 0},
+                 "the motion about it is not linear, however small: simulate it",
+                 "the forces along `%s` have no slope at the equilibrium: it has no linear frequency",
+                 linear->model->labels[i].name);
+    }
 }
 
-fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *errors)
+/* Find the balance and A there; 1 found, 0 none near, -1 out of memory. */
+static int find_matrix(struct fbd_linearization *linear, struct fbd_state *state, fbd_errors *errors)
+{
+    const double little = 1e-3; /* of the way back to the start */
+    size_t n = linear->size / 2;
+    double *origin = calloc(4 * n + 1, sizeof *origin);
+    if (!origin) return -1;
+    double *before = origin + n, *beside = before + n, *there = beside + n;
+    struct balance balance = {.state = state, .work = linear->A};
+    memcpy(origin, state->y, n * sizeof *origin);
+    slopes_at(state, linear->A, before);
+    int found = find_balance(&balance);
+    if (found > 0) {
+        memcpy(linear->q, state->y, n * sizeof *linear->q);
+        for (size_t i = 0; i < n; i++) state->y[i] += little * (origin[i] - linear->q[i]);
+        slopes_at(state, linear->A, beside);
+        memcpy(state->y, linear->q, n * sizeof *linear->q);
+        state_evaluate(state);
+        slopes_at(state, linear->A, there); /* leaves the Jacobian in A */
+        drop_dying_slopes(linear, before, beside, there, errors);
+    }
+    free(origin);
+    return found;
+}
+
+static fbd_linearization *linearize(fbd_state *state, fbd_errors *errors)
 {
     const struct fbd_model *model = state->model;
-    errors->file = model->scene->file;
+    diag_in_file(errors, model->scene->file);
     if (refuse_closed(state, errors) || refuse_sticking(state, errors)) return NULL;
     fbd_linearization *linear = linearization_new(model);
-    int found = -1;
-    double before = 0;
     bool settled = modes_settle(state, NULL);
-    if (linear && settled) {
-        struct balance balance = {state, linear->A};
-        before = stiffness_at(state, linear->A);
-        found = find_balance(&balance);
-    }
-    if (found > 0) {
-        memcpy(linear->q, state->y, linear->size / 2 * sizeof *linear->q);
-        warn_degenerate(before, stiffness_at(state, linear->A), errors); /* leaves the Jacobian in A */
-        if (find_modes(linear)) return linear;
-    }
+    int found = linear && settled ? find_matrix(linear, state, errors) : -1;
+    if (found > 0 && find_modes(linear)) return linear;
     if (found == 0)
         diag_add(errors, FBD_ERROR, "no-equilibrium", (struct pos){0, 0},
                  "start nearer to it: set the initial values, or give --at",
@@ -280,6 +312,14 @@ fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *errors)
         diag_out_of_memory(errors);
     fbd_linearization_free(linear);
     return NULL;
+}
+
+fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_linearization *linear = linearize(state, diag_begin(&call, list));
+    diag_end(&call);
+    return linear;
 }
 
 void fbd_linearization_free(fbd_linearization *linearization)
@@ -303,5 +343,5 @@ const double *fbd_linearization_matrix(const fbd_linearization *linearization)
 
 fbd_mode fbd_linearization_mode(const fbd_linearization *linearization, size_t index)
 {
-    return linearization->modes[index];
+    return index < linearization->size ? linearization->modes[index] : (fbd_mode){NAN, NAN, NAN, NAN};
 }

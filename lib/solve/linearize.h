@@ -16,7 +16,8 @@ struct fbd_linearization {
     size_t size; /* 2 n */
     double *A;   /* size x size, row by row (and df/dt behind it) */
     fbd_mode *modes;
-    double *q; /* the equilibrium */
+    double *q;       /* the equilibrium */
+    bool degenerate; /* forces without a slope there have been told, and their rows of A are zero */
 };
 
 #endif

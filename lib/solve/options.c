@@ -20,9 +20,7 @@ static const struct method *choose_method(const struct fbd_model *model, const f
     size_t count = 0;
     for (; count < sizeof names / sizeof *names && method_at(count); count++)
         names[count] = method_at(count)->name;
-    bool from_file = !given->method;
-    diag_add(errors, FBD_ERROR, "unknown-method",
-             from_file ? model->scene->simulate.method_at : (struct pos){0, 0},
+    diag_add(errors, FBD_ERROR, "unknown-method", (struct pos){0, 0},
              diag_nearest(errors, name, names, count), "there is no method `%s`", name);
     return NULL;
 }
@@ -37,7 +35,7 @@ bool options_choose(const struct fbd_model *model, const fbd_options *given, str
 {
     const struct simulate *file = &model->scene->simulate;
     size_t before = fbd_errors_failed(errors);
-    errors->file = model->scene->file ? diag_hint(errors, "%s", model->scene->file) : NULL;
+    diag_in_file(errors, model->scene->file);
     const char *name = given->method ? given->method : file->method;
     *chosen = (struct run_options){.method = choose_method(model, given, errors),
                                    .automatic = !name || strcmp(name, automatic) == 0,

@@ -6,7 +6,6 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
 
 struct weights {
     size_t pairs, size; /* of the layout: number of q, number of all components */
@@ -156,13 +155,6 @@ void weights_update(gsl_odeiv2_control *control, const double *y, const double *
     struct weights *w = control->state;
     for (size_t i = 0; i < w->size; i++) w->scale[i] = larger(w->scale[i], fabs(y[i]));
     for (size_t i = 0; i < w->pairs; i++) w->acceleration[i] = fabs(f[w->pairs + i]);
-}
-
-void weights_forget(gsl_odeiv2_control *control)
-{
-    struct weights *w = control->state;
-    memcpy(w->scale, w->floor, w->size * sizeof(double));
-    for (size_t i = 0; i < w->pairs; i++) w->acceleration[i] = 0;
 }
 
 void weights_set_floor(gsl_odeiv2_control *control, size_t i, double floor)

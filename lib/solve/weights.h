@@ -72,9 +72,6 @@ void weights_set_noise(gsl_odeiv2_control *control, size_t i, double noise);
 /* Take an accepted state y with f = f(t, y) into the running maxima. */
 void weights_update(gsl_odeiv2_control *control, const double *y, const double *f);
 
-/* Forget the running maxima, not the floors. */
-void weights_forget(gsl_odeiv2_control *control);
-
 /* Largest ratio of |yerr_i| to its error level, for a step of size h that ended in y with slopes f. 0 for a
  * component without error, whatever its scale; INFINITY when anything is not finite. */
 double weights_ratio(const gsl_odeiv2_control *control, double h, const double *y, const double *yerr,

@@ -40,20 +40,6 @@ static const char *title(struct list *list, const char *name, const char *unit)
 
 /* ---- coordinates and rates */
 
-/* Index in y of a coordinate or rate, qualified or, in a scene of one body, plain; -1 when there is none. */
-static int find_in_y(const struct fbd_model *model, const char *name)
-{
-    int n = model->plan.n;
-    for (int i = 0; i < n; i++) {
-        const struct coordinate *c = &model->scene->coordinates[i];
-        const struct label *label = &model->labels[i];
-        bool plain = model->body_count == 1;
-        if (strcmp(label->name, name) == 0 || (plain && strcmp(c->name, name) == 0)) return i;
-        if (strcmp(label->rate_name, name) == 0 || (plain && strcmp(c->rate_name, name) == 0)) return n + i;
-    }
-    return -1;
-}
-
 static const char *name_in_y(const struct fbd_model *model, int index)
 {
     int n = model->plan.n;
@@ -136,18 +122,17 @@ static bool add_energy(struct list *list, int index)
     return add(list, (struct column){.title = text, .kind = column_energy, .index = index});
 }
 
-static bool add_work(struct list *list, const char *name)
+/* BODY.LOAD.work, which is cut in pieces. */
+static bool add_work(struct list *list, char *name)
 {
-    const struct fbd_model *model = list->model;
-    for (size_t i = 0; i < model->load_count; i++) {
-        const char *body = model->bodies[model->loads[i].body].name, *load = model->loads[i].source->name;
-        const char *full = arena_printf(list->arena, "%s.%s.work", body, load);
-        if (!full || strcmp(full, name) != 0) continue;
-        list->columns->ledger = true;
-        const char *text = title(list, full, energy_unit(model));
-        return add(list, (struct column){.title = text, .kind = column_work, .index = (int)i});
-    }
-    return false;
+    char *load = strchr(name, '.'), *work = strrchr(name, '.');
+    if (work == load || strcmp(work, ".work") != 0) return false;
+    *load++ = *work = '\0';
+    int index = model_find_load(list->model, name, load);
+    if (index < 0) return false;
+    list->columns->ledger = true;
+    const char *text = arena_printf(list->arena, "%s.%s.work [%s]", name, load, energy_unit(list->model));
+    return add(list, (struct column){.title = text, .kind = column_work, .index = index});
 }
 
 /* ---- names */
@@ -187,7 +172,7 @@ static bool cut_call(char *name, char **argument)
 
 static bool add_call(struct list *list, const char *function, const char *argument)
 {
-    int index = find_in_y(list->model, argument);
+    int index = model_find_component(list->model, argument, true);
     if (strcmp(function, "min") == 0 && index >= 0) return add_extreme(list, -1, index);
     if (strcmp(function, "max") == 0 && index >= 0) return add_extreme(list, 1, index);
     if (strcmp(function, "time") == 0) return add_event(list, column_time, argument);
@@ -203,7 +188,7 @@ static bool add_named(struct list *list, char *name)
     if (strcmp(name, "t") == 0) return add(list, (struct column){.title = "t [s]", .kind = column_t});
     if (strcmp(name, "steps") == 0) return add(list, (struct column){.title = "steps", .kind = column_steps});
     if (strcmp(name, "rhs") == 0) return add(list, (struct column){.title = "rhs", .kind = column_rhs});
-    int index = find_in_y(list->model, name);
+    int index = model_find_component(list->model, name, true);
     if (index >= 0) return add_final(list, index);
     for (int i = 0; i < 4; i++)
         if (strcmp(name, energies[i]) == 0) return add_energy(list, i);

@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/diag.h"
 #include "model/variant.h"
@@ -30,14 +29,12 @@ static bool choose_quantity(const fbd_model *model, const char *name, bool *chos
     enum { most_names = 40 };
     size_t size = 2 * fbd_model_coordinates(model), count = 0;
     const char *names[most_names];
-    for (size_t i = 0; i < size; i++) {
-        const char *known = quantity_name_of(model, i), *dot = strchr(known, '.');
-        bool plain = fbd_model_bodies(model) == 1 && dot && strcmp(dot + 1, name) == 0;
-        if (count < most_names) names[count++] = known;
-        if (!plain && strcmp(known, name) != 0) continue;
-        chosen[i] = true;
+    int index = model_find_component(model, name, true);
+    if (index >= 0) {
+        chosen[index] = true;
         return true;
     }
+    for (; count < size && count < most_names; count++) names[count] = quantity_name_of(model, count);
     diag_add(errors, FBD_ERROR, "unknown-quantity", (struct pos){0, 0},
              diag_nearest(errors, name, names, count), "the scene has no coordinate or rate `%s`", name);
     return false;
@@ -47,7 +44,7 @@ bool quantities_choose(const fbd_model *model, const fbd_cost_options *options, 
                        bool **chosen, fbd_errors *errors)
 {
     *chosen = NULL;
-    errors->file = model->scene->file;
+    diag_in_file(errors, model->scene->file);
     if (!options->quantities) return true;
     *chosen = ARENA_ARRAY(arena, 2 * fbd_model_coordinates(model) + 1, bool);
     if (!*chosen) {
@@ -126,7 +123,7 @@ static bool study(struct fbd_cost *cost, const fbd_cost_options *options)
     return true;
 }
 
-fbd_cost *fbd_cost_new(const fbd_model *model, const fbd_cost_options *options, fbd_errors *errors)
+static fbd_cost *cost_new(const fbd_model *model, const fbd_cost_options *options, fbd_errors *errors)
 {
     struct fbd_cost *cost = calloc(1, sizeof *cost);
     if (!cost) {
@@ -137,10 +134,20 @@ fbd_cost *fbd_cost_new(const fbd_model *model, const fbd_cost_options *options, 
     cost->budget = options->budget > 0 ? options->budget : default_budget;
     cost->progress = (struct progress){options->progress, options->progress_context};
     cost->errors = errors;
-    if (study(cost, options)) return cost;
+    bool done = study(cost, options);
+    cost->errors = NULL; /* the list is that of this call */
+    if (done) return cost;
     if (fbd_errors_failed(errors) == 0) diag_out_of_memory(errors);
     fbd_cost_free(cost);
     return NULL;
+}
+
+fbd_cost *fbd_cost_new(const fbd_model *model, const fbd_cost_options *options, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_cost *cost = cost_new(model, options, diag_begin(&call, list));
+    diag_end(&call);
+    return cost;
 }
 
 void fbd_cost_free(fbd_cost *cost)
@@ -176,7 +183,7 @@ size_t fbd_cost_series_count(const fbd_cost *cost)
 
 fbd_cost_series fbd_cost_get_series(const fbd_cost *cost, size_t index)
 {
-    return cost->series[index];
+    return index < cost->series_count ? cost->series[index] : (fbd_cost_series){.order = NAN};
 }
 
 size_t fbd_cost_points(const fbd_cost *cost)

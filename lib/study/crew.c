@@ -212,14 +212,6 @@ void fbd_sweep_deliver(fbd_sweep_crew *crew, const fbd_sweep_share *share, const
     pthread_mutex_unlock(&crew->lock);
 }
 
-bool fbd_sweep_over(fbd_sweep_crew *crew)
-{
-    pthread_mutex_lock(&crew->lock);
-    bool over = is_used_up(crew) && crew->head == crew->tail;
-    pthread_mutex_unlock(&crew->lock);
-    return over;
-}
-
 fbd_sweep_end fbd_sweep_finish(fbd_sweep_crew *crew, fbd_sweep_counts *counts)
 {
     if (crew->threads == 0) work(crew); /* or none could be started */

@@ -158,7 +158,7 @@ static bool study(struct fbd_effects *effects, const fbd_cost_options *options)
     return done;
 }
 
-fbd_effects *fbd_effects_new(const fbd_model *model, const fbd_cost_options *options, fbd_errors *errors)
+static fbd_effects *effects_new(const fbd_model *model, const fbd_cost_options *options, fbd_errors *errors)
 {
     fbd_effects *effects = calloc(1, sizeof *effects);
     if (!effects) {
@@ -169,10 +169,20 @@ fbd_effects *fbd_effects_new(const fbd_model *model, const fbd_cost_options *opt
     effects->budget = options->budget > 0 ? options->budget : default_budget;
     effects->progress = (struct progress){options->progress, options->progress_context};
     effects->errors = errors;
-    if (study(effects, options)) return effects;
+    bool done = study(effects, options);
+    effects->errors = NULL; /* the list is that of this call */
+    if (done) return effects;
     if (fbd_errors_failed(errors) == 0) diag_out_of_memory(errors);
     fbd_effects_free(effects);
     return NULL;
+}
+
+fbd_effects *fbd_effects_new(const fbd_model *model, const fbd_cost_options *options, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_effects *effects = effects_new(model, options, diag_begin(&call, list));
+    diag_end(&call);
+    return effects;
 }
 
 void fbd_effects_free(fbd_effects *effects)

@@ -54,9 +54,4 @@ bool effects_list(struct fbd_effects *effects);
 /* Make the edit of `context`, a struct edit (a scene_edit). */
 void effect_edit(struct scene *scene, void *context, fbd_errors *errors);
 
-/* A formula of the scene as its Taylor polynomial of degree 1 or 2 about t = 0 and the state `at`: compiled
- * into `arena`. NULL when that is not finite or memory is out. */
-const struct expr *taylor_expr(const struct expr *expr, const double *at, int degree, struct arena *arena,
-                               fbd_errors *errors);
-
 #endif

@@ -53,8 +53,10 @@ static bool write_taylor(struct text *text, const struct expr *expr, const doubl
     return finite && !text->failed;
 }
 
-const struct expr *taylor_expr(const struct expr *expr, const double *at, int degree, struct arena *arena,
-                               fbd_errors *errors)
+/* A formula of the scene as its Taylor polynomial of degree 1 or 2 about t = 0 and the state `at`: compiled
+ * into `arena`. NULL when that is not finite or memory is out. */
+static const struct expr *taylor_expr(const struct expr *expr, const double *at, int degree,
+                                      struct arena *arena, fbd_errors *errors)
 {
     struct text text = {0};
     const struct scope scope = {.lookup = slot_symbol, .units = unit_si};

@@ -133,7 +133,7 @@ static void set_key(struct fbd_sweep *sweep, const fbd_sweep_plan *plan)
     text_number(key, plan->run.step, 17);
     text_add(key, ", until ");
     text_number(key, plan->run.until, 17);
-    text_add(key, "\n");
+    text_add(key, plan->run.no_structure ? ", no structure\n" : "\n");
 }
 
 /* ---- making and freeing */
@@ -171,7 +171,17 @@ static bool prepare(struct fbd_sweep *sweep, fbd_errors *errors)
     return sweep->base != NULL;
 }
 
-/* Every row is one run: an accuracy, which takes several, is not looked for. */
+/* Every row is one run: no second one estimates its error, and an accuracy, which takes several, is not
+ * looked for. */
+static bool refuse_errors(const fbd_options *options, fbd_errors *errors)
+{
+    if (!options->error_bars && options->accuracy == 0) return false;
+    diag_add(errors, FBD_ERROR, "bad-option", (struct pos){0, 0}, "give a tolerance",
+             "a sweep has neither error bars nor an accuracy");
+    return true;
+}
+
+/* The same of an accuracy that the file asks for, which does not keep it from being swept. */
 static void warn_of_accuracy(const struct fbd_sweep *sweep, fbd_errors *errors)
 {
     const fbd_options *options = &sweep->options;
@@ -192,6 +202,7 @@ static bool build(struct fbd_sweep *sweep, const char *name, const fbd_sweep_pla
         return false;
     if (!check_members(sweep, errors) || !prepare(sweep, errors)) return false;
     if (!options_choose(sweep->base, &sweep->options, &chosen, errors)) return false;
+    if (refuse_errors(&sweep->options, errors)) return false;
     warn_of_accuracy(sweep, errors);
     if (!columns_read(&sweep->columns, &sweep->arena, sweep->base, plan->outputs, plan->output_count, errors))
         return false;
@@ -202,8 +213,10 @@ static bool build(struct fbd_sweep *sweep, const char *name, const fbd_sweep_pla
     return !sweep->header.failed && !sweep->key.failed;
 }
 
-struct fbd_sweep *sweep_make(char *text, size_t length, const char *name, const fbd_sweep_plan *plan,
-                             fbd_errors *errors)
+/* Make a sweep; `text` is taken over. NULL with notes in `errors`: those of a wrong file, `bad-vary`,
+ * `unknown-output`, `unknown-parameter`, `varied-twice`, and those of options_choose. */
+static struct fbd_sweep *sweep_make(char *text, size_t length, const char *name, const fbd_sweep_plan *plan,
+                                    fbd_errors *errors)
 {
     struct fbd_sweep *sweep = calloc(1, sizeof *sweep);
     if (!sweep) {
@@ -215,11 +228,35 @@ struct fbd_sweep *sweep_make(char *text, size_t length, const char *name, const 
     sweep->source_length = length;
     if (build(sweep, name, plan, errors)) return sweep;
     if (fbd_errors_failed(errors) == 0) diag_out_of_memory(errors);
-    sweep_free(sweep);
+    fbd_sweep_free(sweep);
     return NULL;
 }
 
-void sweep_free(struct fbd_sweep *sweep)
+/* ---- the public face */
+
+fbd_sweep *fbd_sweep_read(const char *path, const fbd_sweep_plan *plan, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    size_t length;
+    char *text = file_text(path, &length, errors);
+    fbd_sweep *sweep = text ? sweep_make(text, length, file_name(path), plan, errors) : NULL;
+    diag_end(&call);
+    return sweep;
+}
+
+fbd_sweep *fbd_sweep_parse(const char *text, size_t length, const char *name, const fbd_sweep_plan *plan,
+                           fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    char *copy = file_copy(text, length, errors);
+    fbd_sweep *sweep = copy ? sweep_make(copy, length, name, plan, errors) : NULL;
+    diag_end(&call);
+    return sweep;
+}
+
+void fbd_sweep_free(fbd_sweep *sweep)
 {
     if (!sweep) return;
     model_free(sweep->base);
@@ -229,32 +266,6 @@ void sweep_free(struct fbd_sweep *sweep)
     arena_free(&sweep->arena);
     free(sweep->source);
     free(sweep);
-}
-
-/* ---- the public face */
-
-fbd_sweep *fbd_sweep_read(const char *path, const fbd_sweep_plan *plan, fbd_errors *errors)
-{
-    size_t length;
-    char *text = file_text(path, &length, errors);
-    return text ? sweep_make(text, length, file_name(path), plan, errors) : NULL;
-}
-
-fbd_sweep *fbd_sweep_parse(const char *text, size_t length, const char *name, const fbd_sweep_plan *plan,
-                           fbd_errors *errors)
-{
-    char *copy = malloc(length + 1);
-    if (!copy) {
-        diag_out_of_memory(errors);
-        return NULL;
-    }
-    memcpy(copy, text, length);
-    return sweep_make(copy, length, name, plan, errors);
-}
-
-void fbd_sweep_free(fbd_sweep *sweep)
-{
-    sweep_free(sweep);
 }
 
 size_t fbd_sweep_runs(const fbd_sweep *sweep)

@@ -29,12 +29,6 @@ struct fbd_sweep {
     struct text header, key;
 };
 
-/* Make a sweep; `text` is taken over. NULL with notes in `errors`: those of a wrong file, `bad-vary`,
- * `unknown-output`, `unknown-parameter`, `varied-twice`, and those of options_choose. */
-struct fbd_sweep *sweep_make(char *text, size_t length, const char *name, const fbd_sweep_plan *plan,
-                             fbd_errors *errors);
-void sweep_free(struct fbd_sweep *sweep);
-
 /* ---- rows (row.c) */
 
 /* What one thread needs to make rows, one after the other. */

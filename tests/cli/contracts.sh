@@ -3,31 +3,12 @@
 #
 # What scripts rely on: exit codes, where things are written, CSV and JSON.
 set -u
-. "$FBD_SOURCE_ROOT/tests/tools/tap.sh"
-models="$FBD_SOURCE_ROOT/models"
+. "$FBD_SOURCE_ROOT/tests/cli/program.sh"
 incline=$models/kinetics/incline.yaml
-cd "$scratch" || exit 1
-
-says() { # says PATTERN FILE
-    grep -E -- "$1" "$2" && return 0
-    cat "$2"
-    return 1
-}
-
-run() { # run ARGUMENT...: output and diagnostics apart, exit code kept
-    "$FBD_RUN" "$@" >out 2>err
-}
-
-quiet() { # succeeds when nothing was printed to a stream
-    [ ! -s "$1" ] || {
-        cat "$1"
-        return 1
-    }
-}
 
 # ---- exit codes
 check 'a run that ends as planned is 0' exits 0 run "$incline"
-check 'diagnostics are empty then' quiet err
+check 'diagnostics are empty then' is_empty err
 check 'an unknown option is 2' exits 2 run --wrong "$incline"
 check 'no file is 2' exits 2 run
 check 'two files are 2' exits 2 run "$incline" "$incline"
@@ -79,7 +60,7 @@ check 'and the term is named' says 'term `applied` has the wrong sign' out
 
 # ---- where things are written
 check '--help goes to standard output with 0' exits 0 run --help
-check 'and nowhere else' quiet err
+check 'and nowhere else' is_empty err
 check '--version says a version' "$FBD_RUN" --version
 check 'CSV to standard output leaves the report out' exits 0 run --csv - "$incline"
 check 'so that the first line is the header' sh -c 'head -1 out | grep -qx "t \[s\],block.x \[m\],block.v \[m/s\]"'

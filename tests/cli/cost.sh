@@ -3,27 +3,12 @@
 #
 # fbd-cost as users and scripts meet it: options, exit codes, rows, files.
 set -u
-. "$FBD_SOURCE_ROOT/tests/tools/tap.sh"
-models="$FBD_SOURCE_ROOT/models"
+. "$FBD_SOURCE_ROOT/tests/cli/program.sh"
 fall=$models/kinetics/falling_with_drag.yaml
-cost=$FBD_BUILD_ROOT/apps/fbd-cost
-cd "$scratch" || exit 1
-
-says() { # says PATTERN FILE
-    grep -E -- "$1" "$2" && return 0
-    cat "$2"
-    return 1
-}
+program=$FBD_BUILD_ROOT/apps/fbd-cost
 
 run() { # run ARGUMENT...: output and diagnostics apart, exit code kept
-    "$cost" --budget 0.5 "$@" >out 2>err
-}
-
-quiet() { # succeeds when nothing was printed to a stream
-    [ ! -s "$1" ] || {
-        cat "$1"
-        return 1
-    }
+    "$program" --budget 0.5 "$@" >out 2>err
 }
 
 # ---- options and exit codes
@@ -45,12 +30,12 @@ check 'an unknown parameter is 3' exits 3 run --set nothing=1 "$fall"
 check 'a scene that fails is 1' exits 1 run "$models/hard/chatter.yaml"
 check 'with its reason' says 'events chatter' err
 check '--help goes to standard output with 0' exits 0 run --help
-check 'and nowhere else' quiet err
-check '--version says a version' "$cost" --version
+check 'and nowhere else' is_empty err
+check '--version says a version' "$program" --version
 
 # ---- the table
 check 'a study ends with 0' exits 0 run --methods auto,rk4,rodas5p --of ball.v "$fall"
-check 'and without a word on standard error: progress is for terminals' quiet err
+check 'and without a word on standard error: progress is for terminals' is_empty err
 check 'it says what errors are measured against' says 'exact solution of the file, which the runs confirm' out
 check 'one quantity counts' says 'size of each quantity: ball\.v 19\.7 m/s$' out
 check 'rows of tolerances' says '^[* ] auto +1e-6 ' out
@@ -58,7 +43,7 @@ check 'and of fixed steps' says '^[* ] rk4 +h = ' out
 check 'observed orders' says 'observed order [0-9]' out
 check 'a front' says '^\* ' out
 check 'answers with their options' says '1e-6 costs .* fbd-run --method [a-z0-9]+ --tolerance 1e-' out
-"$cost" --budget 0.5 --fixed-steps --methods rk4 "$fall" >out
+"$program" --budget 0.5 --fixed-steps --methods rk4 "$fall" >out
 check 'fixed steps only where they are asked for' sh -c '! grep -E "^[* ] rk4 +1e-" out && grep -qE "^[* ] rk4 +h" out'
 
 cat >wrong.yaml <<'END'
@@ -97,7 +82,7 @@ for word in ("Fall with quadratic drag", "dop853", "rk4, fixed h", "floor of the
 END
 printf 'fbd: 1\ntitle: "a < b & \\"c\\""\nbodies:\n  b: {mass: 1, motion: slide}\nsimulate: {until: 1}\n' >title.yaml
 check 'a title is data' sh -c '"$0" --budget 0.2 --quiet --svg t.svg title.yaml && python3 -c "
-import xml.dom.minidom; xml.dom.minidom.parse(\"t.svg\")"' "$cost"
+import xml.dom.minidom; xml.dom.minidom.parse(\"t.svg\")"' "$program"
 check 'a file that cannot be written is an error' exits 1 run --quiet --csv /nowhere/at/all.csv "$fall"
 
 # ---- effects
@@ -110,5 +95,5 @@ effects = {e["name"]: e for e in json.load(open("e.json"))["effects"]}
 assert effects["normal"]["change_max"] is None and "needs it" in effects["normal"]["reason"]
 assert effects["push"]["change_max"] > 1 and effects["push"]["time"] > 0
 END
-check 'CSV has a row for each' sh -c '"$0" --budget 0.5 --effects --csv - "$1" | wc -l | grep -qx 5' "$cost" "$models/kinetics/incline.yaml"
+check 'CSV has a row for each' sh -c '"$0" --budget 0.5 --effects --csv - "$1" | wc -l | grep -qx 5' "$program" "$models/kinetics/incline.yaml"
 finish

@@ -3,21 +3,9 @@
 #
 # --error-bars and --accuracy as a user meets them: columns, keys, the report, exit codes.
 set -u
-. "$FBD_SOURCE_ROOT/tests/tools/tap.sh"
-models="$FBD_SOURCE_ROOT/models"
+. "$FBD_SOURCE_ROOT/tests/cli/program.sh"
 belt=$models/hard/stick_slip_belt.yaml
 pendulum=$models/rotation/simple_pendulum.yaml
-cd "$scratch" || exit 1
-
-says() { # says PATTERN FILE
-    grep -E -- "$1" "$2" && return 0
-    cat "$2"
-    return 1
-}
-
-run() { # run ARGUMENT...: output and diagnostics apart, exit code kept
-    "$FBD_RUN" "$@" >out 2>err
-}
 
 # ---- error bars
 run --csv plain.csv --ledger --quiet "$belt"

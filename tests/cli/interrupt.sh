@@ -4,8 +4,7 @@
 # A run that is interrupted (Ctrl-C, SIGTERM) leaves whole files of what was computed, and no others; progress goes
 # to a terminal only.
 set -u
-. "$FBD_SOURCE_ROOT/tests/tools/tap.sh"
-cd "$scratch" || exit 1
+. "$FBD_SOURCE_ROOT/tests/cli/program.sh"
 
 # Runs for hours, if one lets it: a pendulum, and a body at rest whose one step has 1e9 rows.
 cat >long.yaml <<'END'
@@ -72,11 +71,6 @@ sys.stdout.write(printed.decode())
 print("ended with", status)
 END
 
-says() { # says PATTERN FILE
-    grep -aE -- "$1" "$2" && return 0
-    cat "$2"
-    return 1
-}
 nothing_left_behind() {
     left=$(ls | grep -E '\.(csv|json)\.')
     [ -z "$left" ] || {
@@ -105,6 +99,20 @@ run SIGTERM "$FBD_RUN" --csv out.csv --json out.json --every 1e-3 rest.yaml
 check 'SIGTERM does the same, also within a step' says '^ended with -15$' printed
 check 'rows end where it was cut' same_time
 check 'and no temporary file stays behind then' nothing_left_behind
+
+broken_pipe() { # the reader goes after the first row: code of fbd-run, and what it said
+    rm -f out.csv out.json
+    { "$FBD_RUN" --csv - --json out.json --every 1e3 long.yaml 2>said || echo $? >code; } | head -1 >first
+    [ "$(cat code)" -eq 141 ] && [ ! -s said ] && [ ! -e out.json ]
+}
+check 'a reader that goes away ends a run by SIGPIPE, without a word and without files' broken_pipe
+check 'not even temporary ones' nothing_left_behind
+report_unread() { # standard output is a pipe whose reader has gone
+    rm -f out.csv
+    { sleep 0.2; "$FBD_RUN" --csv out.csv "$FBD_SOURCE_ROOT/models/kinetics/incline.yaml" || echo $? >code; } | true
+    [ "$(cat code)" -eq 141 ] && [ -s out.csv ]
+}
+check 'a report that nobody reads takes no file away' report_unread
 
 run --terminal SIGINT "$FBD_RUN" --csv out.csv --json out.json --every 1e3 long.yaml
 check 'a terminal shows progress' says 't = [^ ]* of 1e\+09 s \([0-9]* %\), [^ ]* s simulated per second, .* left' printed

@@ -3,21 +3,8 @@
 #
 # Plots by gnuplot: only when asked for and found, of the columns that are named; and where drawings go.
 set -u
-. "$FBD_SOURCE_ROOT/tests/tools/tap.sh"
+. "$FBD_SOURCE_ROOT/tests/cli/program.sh"
 incline=$FBD_SOURCE_ROOT/models/kinetics/incline.yaml
-cd "$scratch" || exit 1
-
-says() { # says PATTERN FILE
-    grep -aE -- "$1" "$2" && return 0
-    cat "$2"
-    return 1
-}
-run() {
-    "$FBD_RUN" "$@" >out 2>err
-}
-is_absent() {
-    [ ! -e "$1" ]
-}
 
 # ---- the script
 check 'the script of the plots is written' exits 0 run --quiet --gnuplot plot.gp "$incline"
@@ -28,6 +15,8 @@ check 'one plot for each unit' sh -c '[ "$(grep -c "^plot " out)" -eq 2 ]'
 check 'an unknown column is 2' exits 2 run --gnuplot other.gp --plot-of block.w "$incline"
 check 'and the nearest one is named' says 'did you mean `block\.[vx]`' err
 check 'and nothing is written' is_absent other.gp
+check 'a list with an empty name is 2' exits 2 run --gnuplot other.gp --plot-of block.v, "$incline"
+check 'and so is one with nothing else' exits 2 run --gnuplot other.gp --plot-of '' "$incline"
 printf "fbd: 1\ntitle: \"it's 'quoted'\"\nbodies:\n  b: {mass: 1, motion: slide}\nsimulate: {until: 1}\n" >quoted.yaml
 check 'quotes in a title' exits 0 run --quiet --gnuplot quoted.gp quoted.yaml
 check 'are doubled' says "title 'it''s ''quoted'''" quoted.gp

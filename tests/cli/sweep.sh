@@ -3,31 +3,9 @@
 #
 # fbd-sweep as a user meets it: tables, exit codes, what a kill leaves and how it is gone on with, ranks.
 set -u
-. "$FBD_SOURCE_ROOT/tests/tools/tap.sh"
-sweep=$FBD_BUILD_ROOT/apps/fbd-sweep
+. "$FBD_SOURCE_ROOT/tests/cli/program.sh"
+program=$FBD_BUILD_ROOT/apps/fbd-sweep
 incline=$FBD_SOURCE_ROOT/models/kinetics/incline.yaml
-cd "$scratch" || exit 1
-
-says() { # says PATTERN FILE
-    grep -E -- "$1" "$2" && return 0
-    cat "$2"
-    return 1
-}
-
-run() { # run ARGUMENT...: output and diagnostics apart, exit code kept
-    "$sweep" "$@" >out 2>err
-}
-
-empty() {
-    [ ! -s "$1" ] || {
-        cat "$1"
-        return 1
-    }
-}
-
-gone() {
-    [ ! -e "$1" ]
-}
 
 rows() { # rows NUMBER FILE: so many, besides the header
     [ "$(wc -l <"$2")" -eq $(($1 + 1)) ] || {
@@ -41,19 +19,19 @@ check 'a sweep that ends well is 0' exits 0 run --vary 'phi=0:60 deg:3' --vary v
 check 'and has a row for each run' rows 6 out
 check 'under a header with names and units' \
     says '^run,phi \[deg\],v0 \[m/s\],t \[s\],block.x \[m\],block.v \[m/s\],events,status,reason$' out
-check 'a pipe sees no progress' empty err
+check 'a pipe sees no progress' is_empty err
 check 'a run that cannot be is a row and 1' exits 1 run --vary mu_k=-0.2,0.3 "$incline"
 check 'with its reason' says '^1,-0.2,,,,,wrong,.*`kinetic` must be zero or above' out
 check 'and the others are made' says '^2,0.3,3,0.908.*,done,$' out
 check 'and counted' says '1 of 2 runs did not end well' err
 check '--quiet says nothing of it' exits 1 run --quiet --vary mu_k=-0.2,0.3 "$incline"
-check 'at all' empty err
+check 'at all' is_empty err
 
 same_as_run() { # same_as_run PARAMETER VALUE...: final x and v, digit by digit as fbd-run has them
     name=$1
     shift
     for value; do
-        "$sweep" --vary "$name=$value" --output x,v "$incline" | sed -n 's/^1,[^,]*,\([^,]*\),\([^,]*\),.*/\1 \2/p' >swept
+        "$program" --vary "$name=$value" --output x,v "$incline" | sed -n 's/^1,[^,]*,\([^,]*\),\([^,]*\),.*/\1 \2/p' >swept
         "$FBD_RUN" --set "$name=$value" --csv - "$incline" | sed -n '$s/^3,\([^,]*\),\([^,]*\)$/\1 \2/p' >alone
         [ -s alone ] && cmp swept alone || return 1
     done
@@ -63,7 +41,7 @@ check 'with units, too' same_as_run phi '10 deg' '0.3 rad' 0.7
 check 'and where the model is folded differently' same_as_run f1 0 '50 N' '-1 lbf'
 
 model_from_standard_input() {
-    "$sweep" --vary mu_k=0.2,0.3 "$incline" >one && "$sweep" --vary mu_k=0.2,0.3 - <"$incline" | same one -
+    "$program" --vary mu_k=0.2,0.3 "$incline" >one && "$program" --vary mu_k=0.2,0.3 - <"$incline" | same one -
 }
 check 'the model may come from standard input' model_from_standard_input
 check '--set holds for all runs' exits 0 run --set f1=50 --vary mu_k=0.1,0.2 "$incline"
@@ -72,18 +50,33 @@ check '--until, --method and --tolerance are those of fbd-run' \
     exits 0 run --until 1 --method rkf45 --tolerance 1e-6 --vary mu_k=0.1 "$incline"
 check '(until)' says '^1,0.1,1,' out
 
+# A block that slides with constant acceleration takes one exact step for each piece; the general method takes more.
+steps() { # steps OPTION...: what a run of the incline takes
+    "$program" "$@" --vary mu_k=0.3 --output steps "$incline" | sed -n 's/^1,0.3,\([0-9]*\),.*/\1/p'
+}
+more_steps() {
+    [ "$(steps --no-structure)" -gt "$(steps)" ]
+}
+check '--no-structure takes the general method' more_steps
+
+sed 's/^simulate: *{until: \([^,}]*\).*/simulate: {until: \1, accuracy: 1e-9}/' "$incline" >accurate.yaml
+check 'an accuracy in the file keeps nobody from sweeping' exits 0 run --vary mu_k=0.3 accurate.yaml
+check 'but is said not to be used' says 'warning: the `accuracy` of the file is not used by a sweep \[accuracy-not-used\]' err
+check 'unless a tolerance is given' exits 0 run --vary mu_k=0.3 --tolerance 1e-9 accurate.yaml
+check '(nothing is said)' is_empty err
+
 terminal() { # terminal COMMAND ARGUMENT...: what it shows on a terminal
     python3 -c 'import pty, sys
 pty.spawn(sys.argv[1:])' "$@" </dev/null >out
 }
 on_a_terminal() {
-    terminal "$sweep" --vary mu_k=0.1:0.6:400 --tolerance 1e-3 --method rkf45 --step 5e-4 --jobs 1 \
+    terminal "$program" --vary mu_k=0.1:0.6:400 --tolerance 1e-3 --method rkf45 --step 5e-4 --jobs 1 \
         --csv shown.csv "$incline"
     rows 400 shown.csv && says '[0-9]+ of 400 runs \([0-9]+ %\), [0-9.e+]+ runs/s, [0-9]+ s left' out
 }
 check 'a terminal sees how far it is and how long it will take' on_a_terminal
-check '--quiet shows nothing there' terminal "$sweep" --quiet --vary mu_k=0.1:0.2:2 --csv hidden.csv "$incline"
-check '(nothing)' empty out
+check '--quiet shows nothing there' terminal "$program" --quiet --vary mu_k=0.1:0.2:2 --csv hidden.csv "$incline"
+check '(nothing)' is_empty out
 
 # ---- usage
 check 'no --vary is 2' exits 2 run "$incline"
@@ -100,7 +93,7 @@ check '--resume without a file is 2' exits 2 run --vary mu_k=1 --resume "$inclin
 check 'a file that is not there is 3' exits 3 run --vary mu_k=1 nowhere.yaml
 check 'a wrong file is 3' exits 3 run --vary mu_k=1 "$FBD_SOURCE_ROOT/README.md"
 check 'a place that cannot be written is 1' exits 1 run --vary mu_k=1 --csv nowhere/table.csv "$incline"
-check 'nothing was written for any of these' empty out
+check 'nothing was written for any of these' is_empty out
 if [ -w /dev/full ]; then
     check 'a full disk is 1' exits 1 run --vary mu_k=0.1:0.2:10 --csv /dev/full "$incline"
     check 'and said' says 'cannot write' err
@@ -110,7 +103,7 @@ fi
 slowly='--vary mu_k=0.1:0.6:1000 --tolerance 1e-3 --method rkf45 --step 5e-4'
 # shellcheck disable=SC2086
 slow() {
-    "$sweep" $slowly "$@" "$incline"
+    "$program" $slowly "$@" "$incline"
 }
 slow >whole.csv
 
@@ -121,7 +114,7 @@ written() {
 # shellcheck disable=SC2086
 killed() { # killed SIGNAL CODE: start or go on, and kill it after some rows
     before=$(written)
-    "$sweep" $slowly --jobs 2 --csv table.csv --resume "$incline" 2>err &
+    "$program" $slowly --jobs 2 --csv table.csv --resume "$incline" 2>err &
     process=$!
     tries=0
     while [ "$(written)" -le $((before + 20)) ] && kill -0 $process 2>/dev/null && [ $tries -lt 500 ]; do
@@ -145,9 +138,10 @@ check 'a table that is not whole is not overwritten' exits 2 slow --csv table.cs
 check 'another sweep does not go on with it' \
     exits 2 run --vary mu_k=0.1:0.5:1000 --csv table.csv --resume "$incline"
 check 'and says what differs' says 'there `vary mu_k=0.1:0.6:1000`, here `vary mu_k=0.1:0.5:1000`' err
+check 'nor does one without structure' exits 2 slow --no-structure --csv table.csv --resume
 sed 's/mass: 2 kg/mass: 3 kg/' "$incline" >other.yaml
 # shellcheck disable=SC2086
-check 'nor does another model' exits 2 "$sweep" $slowly --csv table.csv --resume other.yaml
+check 'nor does another model' exits 2 "$program" $slowly --csv table.csv --resume other.yaml
 
 damaged() {
     cp table.csv.part bad.csv.part
@@ -159,32 +153,32 @@ check 'nor does it go on with what is damaged' exits 2 damaged
 check 'and says where' says 'is damaged behind row [0-9]+' err
 check 'the rest is made' exits 0 slow --csv table.csv --resume
 check 'no row is lost or repeated' same whole.csv table.csv
-check 'and nothing lies around' gone table.csv.part
-check 'not even its key' gone table.csv.part.key
+check 'and nothing lies around' is_absent table.csv.part
+check 'not even its key' is_absent table.csv.part.key
 
 # ---- ranks
-if ! command -v mpirun >/dev/null || ! "$sweep" --vary mu_k=1 "$incline" >/dev/null; then
+if ! command -v mpirun >/dev/null || ! "$program" --vary mu_k=1 "$incline" >/dev/null; then
     echo '# no mpirun here: no ranks'
-elif ! ldd "$sweep" 2>/dev/null | grep -q libmpi; then
+elif ! ldd "$program" 2>/dev/null | grep -q libmpi; then
     echo '# built without MPI: no ranks'
 else
     ranks() { # ranks NUMBER ARGUMENT...
         number=$1
         shift
         OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 \
-            mpirun --oversubscribe -n "$number" "$sweep" "$@" >out 2>err
+            mpirun --oversubscribe -n "$number" "$program" "$@" >out 2>err
     }
     same_by_ranks() {
         ranks "$1" --vary mu_k=-0.1:0.6:701 --vary v0=1,2,3 --output final,energy,steps "$incline"
         same wanted out
     }
-    "$sweep" --jobs 1 --vary mu_k=-0.1:0.6:701 --vary v0=1,2,3 --output final,energy,steps "$incline" >wanted
+    "$program" --jobs 1 --vary mu_k=-0.1:0.6:701 --vary v0=1,2,3 --output final,energy,steps "$incline" >wanted
     for number in 1 2 4; do
         check "$number ranks write the table of one process" same_by_ranks "$number"
     done
     check 'runs that fail are 1 there, too' says 'runs did not end well' err
     check 'threads of ranks as well' exits 0 ranks 2 --jobs 2 --vary mu_k=0.1:0.6:500 --csv ranks.csv "$incline"
-    "$sweep" --vary mu_k=0.1:0.6:500 "$incline" >wanted
+    "$program" --vary mu_k=0.1:0.6:500 "$incline" >wanted
     check 'write that table' same wanted ranks.csv
     check 'a mistake of usage is said once' exits 2 ranks 4 --vary mu_k=1:2 "$incline"
     check '(once)' test "$(grep -c bad-vary err)" -eq 1

@@ -30,6 +30,20 @@ bool hard_method_at(size_t index, struct hard_method *method)
     return true;
 }
 
+void hard_each_tolerance(void (*check)(struct checks *checks, const struct hard_method *method))
+{
+    static const double tolerances[] = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
+    struct checks checks = {0};
+    struct hard_method method;
+    for (size_t i = 0; hard_method_at(i, &method); i++) {
+        for (size_t k = 0; k < sizeof tolerances / sizeof *tolerances; k++) {
+            method.tolerance = tolerances[k];
+            if (method.order > 2 || method.tolerance >= 1e-8) check(&checks, &method);
+        }
+    }
+    checks_end(&checks);
+}
+
 /* ---- runs */
 
 void hard_start(struct trial *trial, const struct hard_method *method, double until)

@@ -23,6 +23,10 @@ struct hard_method {
  * every case. */
 bool hard_method_at(size_t index, struct hard_method *method);
 
+/* A check of one method at its tolerance, of every method at 1e-4, 1e-6, ... 1e-12; those of order 2 and less
+ * only down to 1e-8: beyond, they take some million steps. */
+void hard_each_tolerance(void (*check)(struct checks *checks, const struct hard_method *method));
+
 /* ---- runs */
 
 /* Start with a method (NULL: all as the file and the library say) up to `until` (NAN: the file's). */

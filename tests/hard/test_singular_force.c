@@ -60,27 +60,22 @@ static double return_time(void)
 /* Relative to x0 the turning point is 2e-8, and the force is below every tolerance until the body is as near
  * as that: nothing but its divisor tells of it. Speed errs in each step by the tolerance at most. That all of
  * them do so near the turning point, where energy is potential for some steps, may double it. */
+static void check_throw(struct checks *checks, const struct hard_method *method)
+{
+    struct trial trial = trial_open("hard/singular_approached.yaml", NULL);
+    hard_start(&trial, method, return_time());
+    if (hard_done(checks, &trial)) {
+        double tolerance = fmax(2 * hard_promise(&trial), 2 * DBL_EPSILON * x0 / (2 * K / (v0 * v0)));
+        hard_case(checks, &trial, "throw: speed", fabs(trial_get(&trial, "v") - v0) / v0, tolerance);
+        hard_case(checks, &trial, "throw: place", fabs(trial_get(&trial, "x") - x0), tolerance);
+    }
+    trial_close(&trial);
+}
+
 static void the_throw_comes_back_with_its_speed(void **unused)
 {
     (void)unused;
-    struct checks checks = {0};
-    struct hard_method method;
-    static const double tolerances[] = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
-    for (size_t i = 0; hard_method_at(i, &method); i++) {
-        for (size_t k = 0; k < sizeof tolerances / sizeof *tolerances; k++) {
-            method.tolerance = tolerances[k];
-            if (method.order <= 2 && method.tolerance < 1e-8) continue; /* some million steps */
-            struct trial trial = trial_open("hard/singular_approached.yaml", NULL);
-            hard_start(&trial, &method, return_time());
-            if (hard_done(&checks, &trial)) {
-                double tolerance = fmax(2 * hard_promise(&trial), 2 * DBL_EPSILON * x0 / (2 * K / (v0 * v0)));
-                hard_case(&checks, &trial, "throw: speed", fabs(trial_get(&trial, "v") - v0) / v0, tolerance);
-                hard_case(&checks, &trial, "throw: place", fabs(trial_get(&trial, "x") - x0), tolerance);
-            }
-            trial_close(&trial);
-        }
-    }
-    checks_end(&checks);
+    hard_each_tolerance(check_throw);
 }
 
 /* With K so small that it would turn at 2e-20 m, numbers cannot tell where it turns, and passing through

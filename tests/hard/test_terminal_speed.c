@@ -69,17 +69,7 @@ static void check_fall(struct checks *checks, const struct hard_method *method)
 static void it_is_approached_and_not_reached(void **unused)
 {
     (void)unused;
-    struct checks checks = {0};
-    struct hard_method method;
-    static const double tolerances[] = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
-    for (size_t i = 0; hard_method_at(i, &method); i++) {
-        for (size_t k = 0; k < sizeof tolerances / sizeof *tolerances; k++) {
-            method.tolerance = tolerances[k];
-            if (method.order <= 2 && method.tolerance < 1e-8) continue; /* too many steps for a test */
-            check_fall(&checks, &method);
-        }
-    }
-    checks_end(&checks);
+    hard_each_tolerance(check_fall);
 }
 
 int main(void)

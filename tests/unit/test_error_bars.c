@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Error bars and accuracy on request: estimates against true errors, the same bits with and without, events
- * that only one of the two runs has, and accuracy that is delivered or not. `make error-bars` does the same
- * for all models, methods and six tolerances.
+ * Error bars: estimates against true errors, the same bits with and without, and events that only one of the
+ * two runs has. `make error-bars` does the same for all models, methods and six tolerances.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,6 +12,7 @@
 
 #include "error_ratio.h"
 #include "gallery.h"
+#include "rows.h"
 #include "scenes.h"
 
 #include <stdlib.h>
@@ -69,23 +69,6 @@ static void fixed_steps_have_error_bars_too(void **unused)
 }
 
 /* ---- the first run is left alone */
-
-struct rows {
-    char *text;
-    size_t length;
-};
-
-static int append(void *context, const char *text, size_t length)
-{
-    struct rows *rows = context;
-    char *longer = realloc(rows->text, rows->length + length + 1);
-    if (!longer) return -1;
-    rows->text = longer;
-    memcpy(rows->text + rows->length, text, length);
-    rows->length += length;
-    rows->text[rows->length] = '\0';
-    return 0;
-}
 
 /* Take out every column whose name has a plus-minus sign. */
 static void drop_bars(char *text)
@@ -299,167 +282,6 @@ static void without_error_bars_there_are_none(void **unused)
     trial_close(&trial);
 }
 
-/* ---- accuracy on request */
-
-/* The largest error over the run, each coordinate and rate by its size. */
-static double true_error(struct trial *trial, const char *path, double x_size, double v_size)
-{
-    double worst = 0, exact[2];
-    fbd_options options = FBD_OPTIONS_DEFAULT;
-    fbd_stats stats = fbd_simulation_stats(trial->simulation);
-    options.tolerance = stats.tolerance;
-    options.method = stats.method;
-    struct trial again = trial_open(path, NULL);
-    trial_start(&again, &options);
-    double until = 0;
-    fbd_state_get(fbd_result_state(trial->result), "t", &until);
-    for (int k = 1; k <= 300; k++) {
-        trial_to(&again, until * k / 300);
-        exact_motion_of(path)(until * k / 300, exact);
-        worst = fmax(worst, fabs(trial_get(&again, x_size > 0 ? "x" : "theta") - exact[0]) / fabs(x_size));
-        worst = fmax(worst, fabs(trial_get(&again, x_size > 0 ? "v" : "omega") - exact[1]) / v_size);
-    }
-    trial_close(&again);
-    return worst;
-}
-
-static void an_accuracy_that_is_asked_for_is_delivered(void **unused)
-{
-    static const double accuracies[] = {1e-3, 1e-6, 1e-9, 1e-12};
-    static const char *const methods[] = {"auto", "dop853", "rkf45", "rk8pd", "msadams", "rodas5p"};
-    static const char path[] = "vibration/damped_oscillator.yaml";
-    (void)unused;
-    struct checks checks = {0};
-    for (size_t i = 0; i < sizeof accuracies / sizeof *accuracies; i++)
-        for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
-            struct trial trial = trial_open(path, NULL);
-            fbd_options options = FBD_OPTIONS_DEFAULT;
-            options.accuracy = accuracies[i];
-            options.method = methods[m];
-            trial_run(&trial, &options);
-            fbd_stats stats = fbd_simulation_stats(trial.simulation);
-            assert_string_equal(stats.method, methods[m]);
-            check_that(&checks, "the estimate says so", fbd_result_accurate(trial.result));
-            check_that(&checks, "few runs", stats.runs <= 4);
-            /* largest x: x0 = 1 m; largest v: 9.3 m/s at the first passage */
-            double error = true_error(&trial, path, 1, 9.3);
-            printf("# %s, %g asked for: %.2g at tolerance %.2g, %lu runs\n", methods[m], accuracies[i], error,
-                   stats.tolerance, stats.runs);
-            check_close(&checks, methods[m], error, 0, accuracies[i]);
-            trial_close(&trial);
-        }
-    checks_end(&checks);
-}
-
-/* An accuracy below the rounding of a number cannot be had; the best is delivered and says what it is. */
-static void an_accuracy_below_rounding_is_refused_with_the_best(void **unused)
-{
-    (void)unused;
-    struct trial trial = trial_open("vibration/damped_oscillator.yaml", NULL);
-    fbd_options options = FBD_OPTIONS_DEFAULT;
-    options.accuracy = 1e-16;
-    trial_run(&trial, &options);
-    assert_false(fbd_result_accurate(trial.result));
-    fbd_stats stats = fbd_simulation_stats(trial.simulation);
-    double error = true_error(&trial, "vibration/damped_oscillator.yaml", 1, 9.3);
-    assert_true(stats.error_estimate < 1e-13 && error < 1e-13);
-    assert_true(stats.runs <= 8);
-    trial_close(&trial);
-}
-
-static int stop_at_one(void *unused, const fbd_progress *progress)
-{
-    (void)unused;
-    return progress->t >= 1;
-}
-
-/* What was computed is shown, but nobody knows whether the whole run would have been as accurate as it was to
- * be. */
-static void an_interrupted_run_has_not_reached_its_accuracy(void **unused)
-{
-    (void)unused;
-    struct trial trial = trial_open("vibration/damped_oscillator.yaml", NULL);
-    fbd_options options = FBD_OPTIONS_DEFAULT;
-    options.accuracy = 1e-3; /* that of the first run, if it came to its end */
-    const fbd_recording recording = {.progress = stop_at_one};
-    trial_start(&trial, &options);
-    fbd_result *result = fbd_simulation_run(trial.simulation, &recording);
-    assert_int_equal(fbd_result_outcome(result), FBD_INTERRUPTED);
-    assert_false(fbd_result_accurate(result));
-    char *report = fbd_result_report(result);
-    assert_non_null(strstr(report, "accuracy 0.001 asked for: NOT known"));
-    free(report);
-    fbd_result_free(result);
-    trial_close(&trial);
-}
-
-/* Only the last run is written. */
-static void the_rows_are_those_of_the_run_that_was_accurate(void **unused)
-{
-    (void)unused;
-    struct rows rows = {0};
-    struct trial trial = trial_open("energy/softening_spring.yaml", NULL);
-    fbd_options options = FBD_OPTIONS_DEFAULT;
-    options.accuracy = 1e-10;
-    const fbd_recording recording = {.csv = append, .csv_context = &rows};
-    trial_start(&trial, &options);
-    fbd_result *result = fbd_simulation_run(trial.simulation, &recording);
-    assert_true(fbd_result_accurate(result));
-    assert_true(fbd_simulation_stats(trial.simulation).runs > 1);
-    size_t headers = 0, starts = 0;
-    for (char *line = rows.text; line; line = strchr(line, '\n')) {
-        line += *line == '\n';
-        headers += strncmp(line, "t [s]", 5) == 0;
-        starts += strncmp(line, "0,", 2) == 0;
-        if (!*line) break;
-    }
-    assert_int_equal(headers, 1);
-    assert_int_equal(starts, 1);
-    free(rows.text);
-    fbd_result_free(result);
-    trial_close(&trial);
-}
-
-static void check_refused(const fbd_model *model, fbd_options options, const char *id)
-{
-    fbd_errors *errors = fbd_errors_new();
-    assert_null(fbd_simulation_new(model, &options, errors));
-    assert_string_equal(fbd_errors_get(errors, 0)->id, id);
-    fbd_errors_free(errors);
-}
-
-static void an_accuracy_excludes_what_it_chooses(void **unused)
-{
-    (void)unused;
-    struct trial trial = trial_open("kinetics/incline.yaml", NULL);
-    check_refused(trial.model, (fbd_options){.until = NAN, .accuracy = 1e-8, .tolerance = 1e-9},
-                  "bad-option");
-    check_refused(trial.model, (fbd_options){.until = NAN, .accuracy = 1e-8, .step = 0.1}, "bad-option");
-    check_refused(trial.model, (fbd_options){.until = NAN, .accuracy = 0.5}, "bad-option");
-    check_refused(trial.model, (fbd_options){.until = NAN, .accuracy = -1}, "bad-option");
-    check_refused(trial.model, (fbd_options){.until = NAN, .accuracy = NAN}, "bad-option");
-    trial_close(&trial);
-}
-
-static void an_option_stands_before_the_file(void **unused)
-{
-    static const char text[] = "fbd: 1\nbodies:\n  b: {mass: 1 kg, motion: slide, initial: {x: 1 m}, "
-                               "forces: [{spring: {stiffness: 1 N/m}}]}\n"
-                               "simulate: {until: 20 s, accuracy: 1e-6}\n";
-    (void)unused;
-    struct trial trial = trial_parse(text);
-    trial_run(&trial, NULL);
-    assert_true(fbd_simulation_stats(trial.simulation).accuracy == 1e-6);
-    assert_true(fbd_simulation_stats(trial.simulation).error_estimate <= 1e-6);
-    trial_close(&trial);
-    trial = trial_parse(text);
-    trial_run(&trial, &(fbd_options){.until = NAN, .tolerance = 1e-3});
-    assert_true(fbd_simulation_stats(trial.simulation).tolerance == 1e-3);
-    assert_true(fbd_simulation_stats(trial.simulation).accuracy == 0);
-    assert_true(isnan(fbd_simulation_stats(trial.simulation).error_estimate));
-    trial_close(&trial);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -471,12 +293,6 @@ int main(void)
         cmocka_unit_test(a_run_that_an_event_stops_has_error_bars_at_its_end),
         cmocka_unit_test(who_advances_by_hand_sees_the_errors_within_each_step),
         cmocka_unit_test(without_error_bars_there_are_none),
-        cmocka_unit_test(an_accuracy_that_is_asked_for_is_delivered),
-        cmocka_unit_test(an_accuracy_below_rounding_is_refused_with_the_best),
-        cmocka_unit_test(an_interrupted_run_has_not_reached_its_accuracy),
-        cmocka_unit_test(the_rows_are_those_of_the_run_that_was_accurate),
-        cmocka_unit_test(an_accuracy_excludes_what_it_chooses),
-        cmocka_unit_test(an_option_stands_before_the_file),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,6 +17,8 @@
 #include <cmocka.h>
 
 #include "gallery.h"
+#include "scenes.h"
+#include "solve/method.h"
 
 /* A method of order p needs about tolerance^(-1/(p + 1)) steps, times what its error constant says: the
  * limits are twice what was measured at the finer tolerance, so that a method which creeps is seen. The
@@ -145,6 +147,32 @@ static void an_unknown_method_is_refused_with_the_nearest_name(void **unused)
     trial_close(&trial);
 }
 
+/* The language has the names in a table of its own (lib/scene/language.c). */
+static void a_file_may_name_every_method_and_no_other(void **unused)
+{
+    (void)unused;
+    enum { longest_text = 300 };
+    char text[longest_text];
+    for (size_t i = 0; method_at(i); i++) {
+        snprintf(text, sizeof text,
+                 "fbd: 1\nbodies: {b: {mass: 1 kg, motion: slide, initial: {v: 1 m/s}}}\n"
+                 "simulate: {until: 1 s, method: %s}\n",
+                 method_at(i)->name);
+        fbd_model *model = model_from(text);
+        fbd_simulation *simulation = fbd_simulation_new(model, &(fbd_options)FBD_OPTIONS_DEFAULT, NULL);
+        assert_non_null(simulation);
+        assert_string_equal(fbd_simulation_stats(simulation).method, method_at(i)->name);
+        fbd_simulation_free(simulation);
+        fbd_model_free(model);
+    }
+    fbd_model *model = model_from("fbd: 1\nbodies: {b: {mass: 1 kg, motion: slide}}\n"
+                                  "simulate: {until: 1 s, method: auto}\n");
+    fbd_model_free(model);
+    const char none[] = "fbd: 1\nbodies: {b: {mass: 1 kg, motion: slide}}\n"
+                        "simulate: {until: 1 s, method: rk45}\n";
+    assert_null(fbd_model_parse(none, sizeof none - 1, "none.yaml", NULL, 0, NULL));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -152,6 +180,7 @@ int main(void)
         cmocka_unit_test(every_method_moves_the_oscillator),
         cmocka_unit_test(every_method_is_blind_to_the_scale),
         cmocka_unit_test(an_unknown_method_is_refused_with_the_nearest_name),
+        cmocka_unit_test(a_file_may_name_every_method_and_no_other),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

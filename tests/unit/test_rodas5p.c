@@ -19,9 +19,9 @@
 
 enum { size = 2 };
 
-/* y0' = -2 t y0^2, y1' = y1 cos t: y0 = 1 / (1 + t^2), y1 = exp(sin t). Not linear, not autonomous. */
 enum trouble { no_trouble, in_rhs, in_jacobian, in_dfdt };
 
+/* y0' = -2 t y0^2, y1' = y1 cos t: y0 = 1 / (1 + t^2), y1 = exp(sin t). Not linear, not autonomous. */
 struct problem {
     long calls, jacobians;
     enum trouble trouble;

@@ -13,8 +13,7 @@
 #include <cmocka.h>
 #include <gsl/gsl_errno.h>
 
-#include "fail_alloc.h"
-#include "fbd.h"
+#include "memory_calls.h"
 
 static const char text[] = "fbd: 1\n"
                            "bodies:\n"
@@ -25,23 +24,7 @@ static const char text[] = "fbd: 1\n"
                            "    forces: [gravity, normal, {friction: 0.3}]\n"
                            "simulate: {until: 0.1 s}\n";
 
-typedef bool call(void);
-
-static fbd_model *load(fbd_errors **errors)
-{
-    *errors = fbd_errors_new();
-    if (!*errors) return NULL;
-    fbd_model *model = fbd_model_parse(text, strlen(text), "scene", NULL, 0, *errors);
-    if (!model) fbd_errors_free(*errors);
-    return model;
-}
-
-static bool some(char *string)
-{
-    bool there = string != NULL;
-    free(string);
-    return there;
-}
+enum { stride = 40 };
 
 /* What is written of a study that was made with memory: the reference needs bsimp and msadams, and those of
  * GSL 2.7.1 do not survive a failed allocation (see test_stepper_memory.c). */
@@ -56,7 +39,7 @@ static bool write_cost(void)
 static bool study_effects(void)
 {
     fbd_errors *errors;
-    fbd_model *model = load(&errors);
+    fbd_model *model = load(text, &errors);
     if (!model) return false;
     fbd_cost_options options = FBD_COST_OPTIONS_DEFAULT;
     options.budget = 2e-3;
@@ -69,34 +52,17 @@ static bool study_effects(void)
     return done;
 }
 
-/* Each of the first forty, then in growing strides: there are thousands. */
-static void fail_many(call *under_test)
-{
-    enum { strides = 40 };
-    size_t n = 0;
-    for (;; n += 1 + n / strides) {
-        fail_alloc_at(n);
-        bool done = under_test();
-        if (!fail_alloc_end()) {
-            assert_true(done);
-            break;
-        }
-        if (done) fail_msg("allocation %zu failed and nobody noticed", n);
-    }
-    assert_true(n > 10);
-}
-
 static void a_study_of_cost_is_written_whole_or_not_at_all(void **unused)
 {
     (void)unused;
     fbd_errors *errors;
-    fbd_model *model = load(&errors);
+    fbd_model *model = load(text, &errors);
     assert_non_null(model);
     fbd_cost_options options = FBD_COST_OPTIONS_DEFAULT;
     options.budget = 0.2;
     studied = fbd_cost_new(model, &options, errors);
     assert_non_null(studied);
-    fail_many(write_cost);
+    fail_each(write_cost, stride);
     fbd_cost_free(studied);
     fbd_model_free(model);
     fbd_errors_free(errors);
@@ -105,21 +71,15 @@ static void a_study_of_cost_is_written_whole_or_not_at_all(void **unused)
 static void a_study_of_effects_without_memory_fails_and_leaks_nothing(void **unused)
 {
     (void)unused;
-    fail_many(study_effects);
-}
-
-static int no_handler(void **unused)
-{
-    (void)unused;
-    gsl_set_error_handler_off();
-    return 0;
+    fail_each(study_effects, stride);
 }
 
 int main(void)
 {
+    gsl_set_error_handler_off();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_study_of_cost_is_written_whole_or_not_at_all),
         cmocka_unit_test(a_study_of_effects_without_memory_fails_and_leaks_nothing),
     };
-    return cmocka_run_group_tests(tests, no_handler, NULL);
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }

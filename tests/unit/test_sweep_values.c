@@ -15,15 +15,20 @@
 
 #include "sweep_table.h"
 
-static void assert_refused(const char *const *vary, const char *const *outputs, const char *id)
+static void assert_plan_refused(const fbd_sweep_plan *plan, const char *id)
 {
-    const fbd_sweep_plan plan = plan_of(vary, outputs);
-    struct table table = open_table(projectile, &plan);
+    struct table table = open_table(projectile, plan);
     assert_null(table.sweep);
     const fbd_error *note = fbd_errors_get(table.errors, 0);
     assert_non_null(note);
     assert_string_equal(note->id, id);
     close_table(&table);
+}
+
+static void assert_refused(const char *const *vary, const char *const *outputs, const char *id)
+{
+    const fbd_sweep_plan plan = plan_of(vary, outputs);
+    assert_plan_refused(&plan, id);
 }
 
 static void a_grid_has_its_ends_and_values_as_people_write_them(void **state)
@@ -186,6 +191,12 @@ static void what_is_no_sweep_is_refused(void **state)
     assert_refused(TEXTS("m=1 m"), NULL, "wrong-dimension");
     assert_refused(TEXTS("m=1 kilo"), NULL, "unknown-unit");
     assert_refused(TEXTS("m=1"), TEXTS("ball.z"), "unknown-output");
+    fbd_sweep_plan plan = plan_of(TEXTS("m=1"), NULL);
+    plan.run.error_bars = true;
+    assert_plan_refused(&plan, "bad-option");
+    plan.run = (fbd_options)FBD_OPTIONS_DEFAULT;
+    plan.run.accuracy = 1e-6;
+    assert_plan_refused(&plan, "bad-option");
     assert_refused(TEXTS("m=1"), TEXTS("t,time(nothing)"), "unknown-output");
     assert_refused(TEXTS("m=1"), TEXTS("max(t)"), "unknown-output");
     assert_refused(TEXTS("m=1"), TEXTS("ball.drag.work"), "unknown-output");

@@ -105,7 +105,8 @@ static void an_angle_counts_up_to_one_radian_and_its_rate_in_full(void **state)
     weights_scales(control, 0.1, y, f, scales);
     assert_true(scales[0] == 1 && scales[1] == 500 && scales[2] == 300 && scales[3] == 300);
     const double small[4] = {1e-4, 0, 0, 0}, rest[4] = {0};
-    weights_forget(control);
+    gsl_odeiv2_control_free(control);
+    control = control_for(2, 0, angle, 5);
     weights_scales(control, 0.1, small, rest, scales);
     assert_true(scales[0] == 1e-4);
     gsl_odeiv2_control_free(control);
@@ -118,10 +119,10 @@ static void the_scale_survives_a_passage_through_zero(void **state)
     const double top[2] = {-3, 0}, middle[2] = {0, 5}, slopes[2] = {0, 0}, yerr[2] = {3e-6, 0};
     weights_update(control, top, slopes);
     assert_true(fabs(weights_ratio(control, 0.1, middle, yerr, slopes) - 1) < 4 * DBL_EPSILON);
-    weights_forget(control); /* what is left is h v = 0.5, since q = 0 */
+    gsl_odeiv2_control_free(control);
+    control = control_for(1, 0, NULL, 5); /* what is left is h v = 0.5, since q = 0 */
     assert_true(fabs(weights_ratio(control, 0.1, middle, yerr, slopes) - 6) < 16 * DBL_EPSILON);
     weights_set_floor(control, 0, 6);
-    weights_forget(control);
     assert_true(fabs(weights_ratio(control, 0.1, middle, yerr, slopes) - 0.5) < 4 * DBL_EPSILON);
     gsl_odeiv2_control_free(control);
 }

@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "command_line.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool command_line_usage(const struct command_line *line, const char *message, const char *what)
+{
+    if (!line->silent)
+        fprintf(stderr, "%s: %s%s\nTry `%s --help`.\n", line->program, message, what, line->program);
+    return false;
+}
+
+static bool say(const struct command_line *line, int option, enum exit_code *code)
+{
+    *code = exit_done;
+    if (line->silent) return false;
+    if (option == option_help)
+        fputs(line->help, stdout);
+    else
+        printf("%s %s\n", line->program, fbd_version());
+    return false;
+}
+
+bool command_line_read(const struct command_line *line, int argc, char **argv, command_line_take *take,
+                       void *options, const char **model, enum exit_code *code)
+{
+    *code = exit_usage;
+    opterr = 0;
+    for (int option; (option = getopt_long(argc, argv, "", line->options, NULL)) != -1;) {
+        if (option == option_help || option == option_version) return say(line, option, code);
+        if (option == '?')
+            return command_line_usage(line, "unknown option, or one without its value: ", argv[optind - 1]);
+        if (!take(line, option, options)) return false;
+    }
+    if (optind + 1 != argc)
+        return command_line_usage(line,
+                                  optind == argc ? "no model file given" : "more than one model file given",
+                                  "");
+    *model = argv[optind];
+    return true;
+}
+
+bool command_line_number(const struct command_line *line, const char *option, const char *text, double least,
+                         double *value)
+{
+    const double most = 1e300;
+    char *end;
+    errno = 0;
+    *value = strtod(text, &end);
+    if (end != text && !*end && errno != ERANGE && *value >= least && *value <= most) return true;
+    if (!line->silent)
+        fprintf(stderr, "%s: --%s wants a number%s, not `%s`\nTry `%s --help`.\n", line->program, option,
+                least > 0 ? " above 0" : "", text, line->program);
+    return false;
+}
+
+bool command_line_whole(const struct command_line *line, const char *wanted, const char *text,
+                        unsigned long least, unsigned long most, unsigned long *value)
+{
+    char *end;
+    errno = 0;
+    *value = strtoul(text, &end, 10);
+    bool digits = text[0] >= '0' && text[0] <= '9';
+    if (digits && !*end && !errno && *value >= least && *value <= most) return true;
+    return command_line_usage(line, wanted, text);
+}
+
+bool command_line_setting(const struct command_line *line, char *text, fbd_setting *settings, size_t *count)
+{
+    char *equals = strchr(text, '=');
+    if (!equals || equals == text || !equals[1])
+        return command_line_usage(line, "--set wants NAME=VALUE, not ", text);
+    if (*count == most_settings) return command_line_usage(line, "too many --set", "");
+    *equals = '\0';
+    settings[(*count)++] = (fbd_setting){text, equals + 1};
+    return true;
+}

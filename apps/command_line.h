@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What the command lines of the programs have in common: options that are read in the same way, and what is
+ * said of wrong ones.
+ */
+#ifndef FBD_APPS_COMMAND_LINE_H
+#define FBD_APPS_COMMAND_LINE_H
+
+#include <getopt.h>
+
+#include "fbd.h"
+
+/* Exit codes: a contract with scripts. When a signal ends a program, 128 and its number. */
+enum exit_code {
+    exit_done = 0,
+    exit_failed = 1,       /* a run failed or ended early with a broken assumption; no memory; a full disk */
+    exit_usage = 2,        /* the command line is wrong */
+    exit_bad_model = 3,    /* the model file is wrong */
+    exit_hand_differs = 4, /* a hand derivation, or an exact solution, differs */
+    exit_inaccurate = 5,   /* the accuracy asked for was not reached */
+};
+
+struct command_line {
+    const char *program, *help;
+    const struct option *options; /* long ones; these two among them, others from option_first on */
+    bool silent;                  /* another process says what is wrong */
+};
+
+enum { option_help = 256, option_version, option_first };
+
+#define COMMAND_LINE_END                                                                                     \
+    {"help", no_argument, NULL, option_help}, {"version", no_argument, NULL, option_version},                \
+    {                                                                                                        \
+        NULL, 0, NULL, 0                                                                                     \
+    }
+
+/* Takes one option, its value in `optarg`; false, with a message, when that is wrong. */
+typedef bool command_line_take(const struct command_line *line, int option, void *options);
+
+/* Read the options and the one model file. Returns true to go on; false with *code set when all is said
+ * (help, version, a mistake). */
+bool command_line_read(const struct command_line *line, int argc, char **argv, command_line_take *take,
+                       void *options, const char **model, enum exit_code *code);
+
+/* Say what is wrong: `message` and what stands there instead, or "". Returns false. */
+bool command_line_usage(const struct command_line *line, const char *message, const char *what);
+
+/* A number as in C (the programs run in the C locale), at least `least`. */
+bool command_line_number(const struct command_line *line, const char *option, const char *text, double least,
+                         double *value);
+
+/* A whole number; `wanted` is the message: "--seed wants a whole number, not ". */
+bool command_line_whole(const struct command_line *line, const char *wanted, const char *text,
+                        unsigned long least, unsigned long most, unsigned long *value);
+
+enum { most_settings = 200 };
+
+/* NAME=VALUE, behind the `*count` settings that are there; the text is cut in two. */
+bool command_line_setting(const struct command_line *line, char *text, fbd_setting *settings, size_t *count);
+
+#endif

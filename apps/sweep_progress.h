@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Sweep progress: how far a sweep is and how long it will take, on one line of a terminal.
+ */
+#ifndef FBD_APPS_SWEEP_PROGRESS_H
+#define FBD_APPS_SWEEP_PROGRESS_H
+
+#include "fbd.h"
+#include "terminal_line.h"
+
+struct sweep_progress {
+    struct terminal_line line;
+    size_t before, runs; /* rows that were there at the beginning, and in all */
+};
+
+void sweep_progress_begin(struct sweep_progress *progress, size_t before, size_t runs, bool visible);
+
+/* The signature is that of fbd_sweep_work.progress; `context` is a struct sweep_progress. */
+void sweep_progress_show(void *context, const fbd_sweep_counts *counts);
+
+/* Take the line away. */
+void sweep_progress_end(struct sweep_progress *progress);
+
+#endif
