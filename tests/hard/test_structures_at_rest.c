@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Structures that cannot move: a beam on two and on three supports, a ladder, a truss.
+ *
+ * What makes it hard: nothing is left of the motion but rounding, so that no size of it can serve as a
+ * measure: neither of what a projection may take from the motion nor of an error.
+ *
+ * Reference: every coordinate stays where it is.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "hard.h"
+
+/* Accelerations of a thousand roundings of gravity would make this way in a second. */
+static const double way = 1e-12;
+
+static void a_structure_stays_where_it_is(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    static const char *const models[] = {"statics/beam.yaml", "statics/beam_on_three_supports.yaml",
+                                         "statics/ladder.yaml", "statics/truss.yaml"};
+    for (size_t i = 0; i < sizeof models / sizeof *models; i++) {
+        struct trial trial = trial_open(models[i], NULL);
+        size_t n = fbd_model_coordinates(trial.model);
+        double start[16], most = 0;
+        assert_true(n <= 16);
+        for (size_t k = 0; k < n; k++)
+            start[k] = trial_get(&trial, fbd_model_coordinate(trial.model, k).name);
+        hard_start(&trial, NULL, 1);
+        hard_done(&checks, &trial);
+        for (size_t k = 0; k < n; k++)
+            most = fmax(most, fabs(trial_get(&trial, fbd_model_coordinate(trial.model, k).name) - start[k]));
+        hard_case(&checks, &trial, models[i], most, way);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_structure_stays_where_it_is),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
