@@ -121,6 +121,20 @@ static enum exit_code draw_state(const struct options *options, fbd_state *state
     return svg ? write_text(options->svg, svg) : exit_usage;
 }
 
+/* What holds the state at rest; to standard output, where --json may take the place of the text. */
+static enum exit_code show_statics(const struct options *options, const fbd_state *state, fbd_errors *errors)
+{
+    fbd_statics *statics = fbd_statics_new(state, errors);
+    if (!statics) return exit_failed;
+    enum exit_code code = fbd_statics_holds(statics) ? exit_done : exit_failed;
+    bool json_only = options->json && strcmp(options->json, "-") == 0;
+    if (!json_only && !options->quiet) code = print(fbd_statics_text(statics), code);
+    if (options->json && write_text(options->json, fbd_statics_json(statics)) != exit_done)
+        code = exit_failed;
+    fbd_statics_free(statics);
+    return code;
+}
+
 static enum exit_code show_state(const fbd_model *model, const struct options *options, fbd_errors *errors)
 {
     fbd_state *state = fbd_state_new(model);
@@ -130,6 +144,8 @@ static enum exit_code show_state(const fbd_model *model, const struct options *o
         if (!options->svg || strcmp(options->svg, "-") != 0)
             code = print(fbd_equations_text(state), exit_done);
         if (code == exit_done) code = draw_state(options, state, errors);
+    } else if (code == exit_done && options->action == action_static) {
+        code = show_statics(options, state, errors);
     } else if (code == exit_done) {
         fbd_linearization *linear = fbd_linearize(state, errors);
         code = linear ? exit_done : exit_failed;
@@ -238,6 +254,7 @@ static enum exit_code act(const fbd_model *model, const struct options *options,
     case action_check_hand: return check_hand(model, options);
     case action_explain: return print(fbd_explain(model, &options->run), exit_done);
     case action_equations:
+    case action_static:
     case action_linearize: return show_state(model, options, errors);
     case action_run: break;
     }

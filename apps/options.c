@@ -39,7 +39,9 @@ static const char help[] =
     "Instead of a run\n"
     "  --equations          the assembled equations, term by term\n"
     "  --linearize          equilibrium, A matrix, eigenvalues, frequencies, damping ratios\n"
-    "  --at TIME|NAME=VALUE for these two and for --svg: at this time of the run, or with these coordinates\n"
+    "  --static             the reactions that hold the scene at rest where it is, or what it lacks\n"
+    "  --at TIME|NAME=VALUE for these three and for --svg: at this time of the run, or with these "
+    "coordinates\n"
     "                       (may be repeated)\n"
     "  --explain            what is simulated and what is not, what is conservative and why\n"
     "  --check-hand         hold the file's hand derivations against the assembly\n"
@@ -47,8 +49,9 @@ static const char help[] =
     "  --check              read the file and say what is wrong with it\n"
     "  --help, --version\n"
     "\n"
-    "Exit codes: 0 done, 1 the run failed or ended early, 2 usage, 3 the model file is wrong,\n"
-    "4 a hand derivation differs, 5 the accuracy asked for was not reached,\n"
+    "Exit codes: 0 done, 1 the run failed or ended early, or the scene is not in equilibrium (--static),\n"
+    "2 usage, 3 the model file is wrong, 4 a hand derivation differs, 5 the accuracy asked for was not "
+    "reached,\n"
     "128 + signal: interrupted, with what was computed written.\n";
 
 enum {
@@ -67,6 +70,7 @@ enum {
     option_quiet,
     option_equations,
     option_linearize,
+    option_static,
     option_at,
     option_explain,
     option_check_hand,
@@ -97,6 +101,7 @@ static const struct option long_options[] = {
     {"quiet", no_argument, NULL, option_quiet},
     {"equations", no_argument, NULL, option_equations},
     {"linearize", no_argument, NULL, option_linearize},
+    {"static", no_argument, NULL, option_static},
     {"at", required_argument, NULL, option_at},
     {"explain", no_argument, NULL, option_explain},
     {"check-hand", no_argument, NULL, option_check_hand},
@@ -122,8 +127,9 @@ static bool usage(const char *message, const char *what)
 static bool choose_action(struct options *options, enum action action)
 {
     if (options->action != action_run && options->action != action)
-        return usage("only one of --equations, --linearize, --explain, --check-hand and --check at a time",
-                     "");
+        return usage(
+            "only one of --equations, --linearize, --static, --explain, --check-hand and --check at a time",
+            "");
     options->action = action;
     return true;
 }
@@ -181,6 +187,7 @@ static bool take_option(const struct command_line *unused, int option, void *con
     case option_seed: return take_seed(&options->seed);
     case option_equations: return choose_action(options, action_equations);
     case option_linearize: return choose_action(options, action_linearize);
+    case option_static: return choose_action(options, action_static);
     case option_explain: return choose_action(options, action_explain);
     case option_check_hand: return choose_action(options, action_check_hand);
     case option_check: return choose_action(options, action_check);
@@ -217,16 +224,18 @@ static bool places_differ(const struct options *options)
 static bool options_agree(const struct options *options)
 {
     bool stands_still = options->action != action_run;
-    bool looks = options->action == action_equations || options->action == action_linearize;
-    if (options->at_count && !looks && !options->svg)
-        return usage("--at goes with --svg, --equations or --linearize", "");
-    if (options->svg && stands_still && !looks)
+    bool draws = options->action == action_equations || options->action == action_linearize;
+    bool rests = options->action == action_static;
+    if (options->at_count && !draws && !rests && !options->svg)
+        return usage("--at goes with --svg, --equations, --linearize or --static", "");
+    if (options->svg && stands_still && !draws)
         return usage("--svg belongs to a run, --equations or --linearize", "");
     if ((options->drawing.body || options->drawing.components) && !options->svg)
         return usage("--body and --components go with --svg", "");
-    if (stands_still && (options->csv || options->json || options->html || options->plot ||
-                         options->gnuplot || options->ledger || options->every > 0))
-        return usage("--csv, --json, --html, --plot, --gnuplot, --ledger and --every belong to a run", "");
+    if (stands_still && !rests && options->json) return usage("--json belongs to a run or to --static", "");
+    if (stands_still && (options->csv || options->html || options->plot || options->gnuplot ||
+                         options->ledger || options->every > 0))
+        return usage("--csv, --html, --plot, --gnuplot, --ledger and --every belong to a run", "");
     if (!places_differ(options)) return false;
     if (options->plot_of && !options->plot && !options->gnuplot)
         return usage("--plot-of goes with --plot or --gnuplot", "");

@@ -16,6 +16,7 @@ struct options {
         action_equations,
         action_explain,
         action_linearize,
+        action_static,
     } action;
     fbd_setting settings[most_settings];
     size_t setting_count;

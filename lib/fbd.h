@@ -413,6 +413,66 @@ FBD_API char *fbd_linearization_text(const fbd_linearization *linearization);
 /* The eigenvalues in the complex plane, as an SVG document. */
 FBD_API char *fbd_linearization_svg(const fbd_linearization *linearization);
 
+/* The scene at rest where it is, with every reaction. */
+typedef struct fbd_statics fbd_statics;
+
+/* Find the reactions (joints, couplings, normal forces, friction that sticks, drives) that hold every body of
+ * `state` at rest: sum of forces and sum of moments zero for each; rates count as zero, friction is within
+ * mu_s N where its surface does not move, normal forces and ropes do not pull and push. The state is not
+ * changed. Where equilibrium alone does not determine the reactions, those of the least sum of squares are
+ * taken (of all in joints and couplings, each once, within their limits; couples over the largest arm), with
+ * a warning `indeterminate`. NULL with a note in `errors`: `does-not-fit` (a coupling), `unsettled`, or
+ * memory is out. The model must outlive the result. */
+FBD_API fbd_statics *fbd_statics_new(const fbd_state *state, fbd_errors *errors);
+FBD_API void fbd_statics_free(fbd_statics *statics);
+
+/* Is it in equilibrium: to 2e-6 of the largest load, and within the limits of friction, contact and ropes? */
+FBD_API bool fbd_statics_holds(const fbd_statics *statics);
+
+/* How many reactions more than equations there are, and how many ways to move the supports leave. */
+FBD_API size_t fbd_statics_indeterminacy(const fbd_statics *statics);
+FBD_API size_t fbd_statics_mobility(const fbd_statics *statics);
+
+/* The reactions that equilibrium does not determine, "beam.pin in x"; NULL past the end. */
+FBD_API size_t fbd_statics_undetermined(const fbd_statics *statics);
+FBD_API const char *fbd_statics_undetermined_name(const fbd_statics *statics, size_t index);
+
+/* What would hold a scene that moves: a force (moment) along a coordinate. With `alone` any one of them does,
+ * else they do together. */
+typedef struct fbd_unbalanced {
+    const char *coordinate, *unit; /* "crank.theta", "N*m" */
+    double holding;
+    bool alone;
+} fbd_unbalanced;
+
+FBD_API size_t fbd_statics_unbalanced(const fbd_statics *statics);
+FBD_API fbd_unbalanced fbd_statics_unbalanced_at(const fbd_statics *statics, size_t index);
+
+typedef enum fbd_limit_kind {
+    FBD_LIMIT_NORMAL,   /* needed >= 0: a surface does not pull */
+    FBD_LIMIT_FRICTION, /* needed <= limit = mu_s N, or the static moment of a bearing */
+    FBD_LIMIT_ROPE,     /* needed >= 0: a rope does not push */
+} fbd_limit_kind;
+
+/* What a surface, a friction or a rope has to bear, and whether it does. */
+typedef struct fbd_limit {
+    const char *name, *unit; /* "block.friction", "N" */
+    fbd_limit_kind kind;
+    double needed, limit;
+    bool holds;
+} fbd_limit;
+
+FBD_API size_t fbd_statics_limits(const fbd_statics *statics);
+FBD_API fbd_limit fbd_statics_limit(const fbd_statics *statics, size_t index);
+
+/* As fbd_diagram, at rest. */
+FBD_API size_t fbd_statics_diagram(const fbd_statics *statics, size_t body, fbd_arrow *arrows, size_t room);
+
+/* As text (what holds, or why not, and a table for each body), and as one JSON object; NULL when memory is
+ * out. */
+FBD_API char *fbd_statics_text(const fbd_statics *statics);
+FBD_API char *fbd_statics_json(const fbd_statics *statics);
+
 /* Hold every `hand:` derivation of the model against the assembly at many random admissible states (and
  * parameters; the seed is printed). The number of equations that differ, or -1 when memory is out; *text says
  * yes, or by how much and in which term each differs. */

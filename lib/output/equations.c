@@ -132,6 +132,18 @@ double fbd_equation_term(const fbd_equation *equation, const char *name)
     return NAN;
 }
 
+fbd_arrow public_arrow(const struct arrow *arrow, struct vec about)
+{
+    return (fbd_arrow){.name = arrow->name,
+                       .fx = arrow->force.x,
+                       .fy = arrow->force.y,
+                       .x = arrow->point.x,
+                       .y = arrow->point.y,
+                       .couple = arrow->couple,
+                       .moment = arrow_moment(arrow, about),
+                       .power = arrow->power};
+}
+
 size_t fbd_diagram(fbd_state *state, size_t body, fbd_arrow *arrows, size_t room)
 {
     const struct fbd_model *model = state->model;
@@ -144,15 +156,7 @@ size_t fbd_diagram(fbd_state *state, size_t body, fbd_arrow *arrows, size_t room
     size_t count = diagram_fill(model, (int)body, &at, state->a, state->slots, own);
     struct pose pose = body_pose(b, &at);
     struct vec about = b->kind == motion_pivot ? pose.origin : point_motion(b, &pose, b->inertia.G).p;
-    for (size_t i = 0; i < count && i < room; i++)
-        arrows[i] = (fbd_arrow){.name = own[i].name,
-                                .fx = own[i].force.x,
-                                .fy = own[i].force.y,
-                                .x = own[i].point.x,
-                                .y = own[i].point.y,
-                                .couple = own[i].couple,
-                                .moment = arrow_moment(&own[i], about),
-                                .power = own[i].power};
+    for (size_t i = 0; i < count && i < room; i++) arrows[i] = public_arrow(&own[i], about);
     free(own);
     return count;
 }

@@ -37,6 +37,9 @@ double equation_term(const struct model_body *body, const struct arrow *arrow, i
 /* The acceleration on the other side of that equation, at an evaluated state. */
 double equation_acceleration(const struct model_body *body, const struct fbd_state *state, int part);
 
+/* An arrow with its moment about a point, for fbd.h. */
+fbd_arrow public_arrow(const struct arrow *arrow, struct vec about);
+
 /* Write the equations, and what they belong to, as text. */
 void equations_write(struct text *text, struct fbd_state *state);
 

@@ -140,6 +140,45 @@ static bool linearize(void)
     return done;
 }
 
+/* A ladder that leans on a rough wall: indeterminate, and its least reactions are beyond a limit. And a
+ * cart that is pushed or not. */
+static bool rest_with(const char *push)
+{
+    static const char format[] =
+        "fbd: 1\nground: {lines: {wall: {through: [2.5, 0], along: 90 deg}}}\nbodies:\n"
+        "  foot: {mass: 1, motion: slide, forces: [gravity, normal, friction: 0.9]}\n"
+        "  ladder: {shape: rod, mass: 20, length: 5, motion: {pivot: {on: foot, at: G, point: left}},\n"
+        "    initial: {theta: 60 deg}, forces: [gravity]}\n"
+        "  top: {mass: 1, motion: {slide: {line: wall}}, initial: {assemble: true},\n"
+        "    forces: [gravity, normal: {side: left}, friction: 0.1]}\n"
+        "  cart: {mass: 1, motion: slide, forces: [applied: %s]}\n"
+        "couplings: [pin: {name: hinge, between: [ladder.right, top.G]}]\n";
+    char scene[sizeof format + 40];
+    snprintf(scene, sizeof scene, format, push);
+    fbd_errors *errors;
+    fbd_model *model = load(scene, &errors);
+    if (!model) return false;
+    fbd_state *state = fbd_state_new(model);
+    fbd_statics *statics = state ? fbd_statics_new(state, errors) : NULL;
+    bool done = statics && some(fbd_statics_text(statics)) && some(fbd_statics_json(statics));
+    done = done && fbd_statics_indeterminacy(statics) == 1;
+    fbd_statics_free(statics);
+    fbd_state_free(state);
+    fbd_model_free(model);
+    fbd_errors_free(errors);
+    return done;
+}
+
+static bool rest(void)
+{
+    return rest_with("0 N");
+}
+
+static bool move(void)
+{
+    return rest_with("5 N");
+}
+
 static void a_run_without_memory_fails_and_leaks_nothing(void **unused)
 {
     (void)unused;
@@ -171,6 +210,13 @@ static void linearisation_without_memory_fails_and_leaks_nothing(void **unused)
     fail_each(linearize, 0);
 }
 
+static void statics_without_memory_fail_and_leak_nothing(void **unused)
+{
+    (void)unused;
+    fail_each(rest, 0);
+    fail_each(move, 0);
+}
+
 int main(void)
 {
     gsl_set_error_handler_off();
@@ -180,6 +226,7 @@ int main(void)
         cmocka_unit_test(a_run_of_joined_bodies_without_memory_fails_and_leaks_nothing),
         cmocka_unit_test(looking_without_memory_fails_and_leaks_nothing),
         cmocka_unit_test(linearisation_without_memory_fails_and_leaks_nothing),
+        cmocka_unit_test(statics_without_memory_fail_and_leak_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

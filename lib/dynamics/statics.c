@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dynamics/statics.h"
+
+#include <string.h>
+
+#include "dynamics/absolute.h"
+#include "dynamics/constraint.h"
+#include "dynamics/friction.h"
+#include "dynamics/modes.h"
+
+/* ---- rest */
+
+/* -1 or +1 for a surface that moves under the body, 0 when it is at rest as well. */
+static enum slip slip_at_rest(const struct friction *friction, const struct instant *at)
+{
+    if (friction->tie >= 0 || friction->driven) return stick;
+    double acceleration, speed = friction_surface_speed(friction, at, &acceleration);
+    return speed > 0 ? slip_minus : speed < 0 ? slip_plus : stick;
+}
+
+static enum slip rope_at_rest(const struct fbd_state *state, int tie)
+{
+    struct instant at = state_instant(state);
+    struct rope_state rope = rope_at(state->model, &at, tie);
+    return rope.touches || rope.excess > 0 ? stick : slip_plus;
+}
+
+static void stop(struct fbd_state *state)
+{
+    size_t n = (size_t)state->model->plan.n;
+    memset(state->y + n, 0, n * sizeof *state->y);
+    memset(state->a, 0, n * sizeof *state->a);
+}
+
+bool rest_begin(struct fbd_state *state)
+{
+    const struct fbd_model *model = state->model;
+    stop(state);
+    if (!modes_settle(state, NULL)) return false;
+    stop(state); /* what sticks to a moving surface had its velocity */
+    state_evaluate(state);
+    memset(state->a, 0, (size_t)model->plan.n * sizeof *state->a);
+    struct instant at = state_instant(state);
+    for (int pair = 0; pair < (int)model->plan.friction_count; pair++) {
+        const struct friction *friction = &model->plan.frictions[pair];
+        state->slip[pair] =
+            friction->rope ? (int)rope_at_rest(state, friction->tie) : (int)slip_at_rest(friction, &at);
+    }
+    if (!model->tree) return true;
+    for (int i = 0; i < model->tree->count; i++) {
+        state->tree->links[i].locked = false;
+        state->tree->links[i].A = (struct acceleration){0, {0, 0}};
+    }
+    tree_move(model, &at);
+    constraints_evaluate(model, state->tree, false);
+    return true;
+}
+
+int rest_holder(const struct fbd_state *state, int coordinate)
+{
+    const struct plan *plan = &state->model->plan;
+    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
+        const struct friction *friction = &plan->frictions[pair];
+        bool holds = friction->tie < 0 && friction->coordinate == coordinate;
+        if (holds && state->slip[pair] == stick) return pair;
+    }
+    return -1;
+}
+
+/* ---- what the joints pass on */
+
+static void add_ports(struct tree_work *work, int row_count, const double *lambda)
+{
+    for (int j = 0; j < row_count; j++) {
+        struct row *row = &work->rows[j];
+        row->lambda = lambda[j];
+        for (int i = 0; lambda[j] != 0 && i < row->port_count; i++) {
+            const struct port *port = &row->ports[i];
+            struct wrench *p = &work->x[port->link].p;
+            p->force = vec_sub(p->force, vec_scale(lambda[j], port->force));
+            p->moment -= lambda[j] * vec_cross(port->arm, port->force);
+        }
+    }
+}
+
+static void transmit(const struct fbd_model *model, const struct instant *at, const double *lambda,
+                     bool loads)
+{
+    const struct tree *tree = model->tree;
+    struct tree_work *work = at->tree;
+    for (int i = 0; i < tree->count; i++) work->x[i].p = (struct wrench){0, {0, 0}};
+    if (loads) {
+        tree_bias(tree, at, model->plan.n); /* at rest that is the constant forces alone */
+        tree_load(tree, at);
+    }
+    add_ports(work, tree->row_count, lambda);
+    for (int i = tree->count - 1; i > 0; i--) {
+        struct tree_state *s = &work->links[i];
+        s->F = work->x[i].p;
+        wrench_add(&work->x[tree->links[i].parent].p, s->F, s->d);
+    }
+    work->complete = true;
+}
+
+/* Q of the link's own coordinates. */
+static void leave_over(const struct tree_link *link, const struct tree_state *s, const double *slots,
+                       double *Q)
+{
+    const double *g = slots + link->coordinate;
+    double *own = Q + link->coordinate;
+    if (link->kind == motion_pivot) {
+        own[0] = g[0] - s->F.moment;
+    } else if (link->kind == motion_slide) {
+        own[0] = g[0] - vec_dot(s->e, s->F.force);
+    } else {
+        own[0] = g[0] - vec_dot(s->e, s->F.force);
+        own[1] = g[1] - vec_cross(s->e, s->F.force);
+        if (link->kind == motion_planar) own[2] = g[2] - s->F.moment;
+    }
+}
+
+/* A surface that moves under a body draws it along; a bearing that moves has a moment of its own. */
+static void add_slipping(struct fbd_state *state, const double *slots, bool loads, double *Q)
+{
+    const struct plan *plan = &state->model->plan;
+    struct instant at = state_instant(state);
+    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
+        const struct friction *friction = &plan->frictions[pair];
+        if (friction->rope || state->slip[pair] == stick) continue;
+        double press = friction->normal_slot >= 0 ? -state->pull[pair] * slots[friction->normal_slot] : loads;
+        Q[friction->coordinate] -= state->slip[pair] * formula_value(&friction->mu_k, &at) * press;
+    }
+}
+
+/* Bodies without joints to others: friction_at expects what holds them on a surface whose velocity changes.
+ */
+static void stand_still(struct fbd_state *state, double *slots)
+{
+    const struct plan *plan = &state->model->plan;
+    struct instant at = state_instant(state);
+    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
+        const struct friction *friction = &plan->frictions[pair];
+        double acceleration;
+        if (friction->jointed || state->slip[pair] != stick) continue;
+        friction_surface_speed(friction, &at, &acceleration);
+        slots[friction->hold_slot] += friction->inertia * acceleration;
+    }
+}
+
+void rest_forces(struct fbd_state *state, const double *lambda, bool loads, double *slots, double *Q)
+{
+    const struct fbd_model *model = state->model;
+    const struct instant given = state_instant(state), at = instant_extend(model, &given);
+    memset(slots, 0, (size_t)model->plan.slots * sizeof *slots);
+    if (loads) force_slots(model, &at, slots);
+    memcpy(Q, slots, (size_t)model->plan.n * sizeof *Q);
+    if (model->tree) {
+        transmit(model, &at, lambda, loads);
+        for (int i = 1; i < model->tree->count; i++)
+            leave_over(&model->tree->links[i], &state->tree->links[i], slots, Q);
+        tree_slots(model, &at, slots);
+    }
+    add_slipping(state, slots, loads, Q);
+    if (loads) stand_still(state, slots);
+}

@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * A scene at rest for programs: its free-body diagrams by name, and as one JSON object (docs/output.md).
+ */
+#include "dynamics/spatial.h"
+#include "output/equations.h"
+#include "output/result.h"
+#include "solve/statics.h"
+
+enum { digits = 17 };
+
+static struct vec mass_center_of(const struct fbd_statics *statics, const struct model_body *body)
+{
+    struct instant at = state_instant(statics->state);
+    struct pose pose = body_pose(body, &at);
+    return point_motion(body, &pose, body->inertia.G).p;
+}
+
+size_t fbd_statics_diagram(const fbd_statics *statics, size_t body, fbd_arrow *arrows, size_t room)
+{
+    const struct model_body *of = &statics->model->bodies[body];
+    const struct rest_diagram *diagram = &statics->diagrams[body];
+    struct instant at = state_instant(statics->state);
+    struct vec about = of->kind == motion_pivot ? body_pose(of, &at).origin : mass_center_of(statics, of);
+    for (size_t i = 0; i < diagram->count && i < room; i++)
+        arrows[i] = public_arrow(&diagram->arrows[i], about);
+    return diagram->count;
+}
+
+static void key(struct text *text, const char *name)
+{
+    text_json_string(text, name);
+    text_add(text, ": ");
+}
+
+static void member(struct text *text, const char *name, double value, const char *behind)
+{
+    key(text, name);
+    if (isfinite(value))
+        text_number(text, value, digits);
+    else
+        text_add(text, "null");
+    text_add(text, behind);
+}
+
+static void flag(struct text *text, const char *name, bool value, const char *behind)
+{
+    key(text, name);
+    text_add(text, value ? "true" : "false");
+    text_add(text, behind);
+}
+
+static void write_verdict(struct text *text, const struct fbd_statics *statics)
+{
+    text_add(text, "  ");
+    member(text, "t", statics->state->t, ",\n  ");
+    flag(text, "equilibrium", fbd_statics_holds(statics), ",\n  ");
+    text_printf(text, "\"indeterminacy\": %zu,\n  \"mobility\": %zu,\n  \"undetermined\": [",
+                statics->indeterminacy, statics->mobility);
+    for (size_t i = 0; i < statics->undetermined_count; i++) {
+        text_add(text, i ? ", " : "");
+        text_json_string(text, statics->undetermined[i]);
+    }
+    text_add(text, "],\n  \"unbalanced\": [");
+    for (size_t i = 0; i < statics->unbalanced_count; i++) {
+        const fbd_unbalanced *one = &statics->unbalanced[i];
+        text_add(text, i ? ", {\"coordinate\": " : "{\"coordinate\": ");
+        text_json_string(text, one->coordinate);
+        text_add(text, ", ");
+        member(text, "holding", one->holding, ", ");
+        flag(text, "alone", one->alone, "}");
+    }
+    text_add(text, "],\n  \"limits\": {");
+    static const char *const kinds[] = {"normal", "friction", "rope"};
+    for (size_t i = 0; i < statics->limit_count; i++) {
+        const fbd_limit *limit = &statics->limits[i];
+        text_add(text, i ? ",\n    " : "\n    ");
+        key(text, limit->name);
+        text_printf(text, "{\"kind\": \"%s\", ", kinds[limit->kind]);
+        member(text, "needed", limit->needed, ", ");
+        member(text, "limit", limit->limit, ", ");
+        flag(text, "holds", limit->holds, "}");
+    }
+    text_add(text, statics->limit_count > 0 ? "\n  },\n" : "},\n");
+}
+
+/* Positive is pulled; of a rope one entry for each piece between pulleys. */
+static void write_tensions(struct text *text, const struct fbd_statics *statics)
+{
+    const struct tree *tree = statics->model->tree;
+    bool any = false;
+    text_add(text, "  \"tensions\": [");
+    for (int i = 0; tree && i < tree->tie_count; i++) {
+        double tension = rest_tension(statics, i);
+        if (isnan(tension)) continue;
+        text_add(text, any ? ", {\"coupling\": " : "{\"coupling\": ");
+        any = true;
+        text_json_string(text, tree->ties[i].name);
+        text_add(text, ", ");
+        member(text, "tension", tension, "}");
+    }
+    text_add(text, "],\n");
+}
+
+static void write_body(struct text *text, const struct fbd_statics *statics, size_t b, struct wrench *sum)
+{
+    const struct rest_diagram *diagram = &statics->diagrams[b];
+    struct vec G = mass_center_of(statics, &statics->model->bodies[b]);
+    key(text, statics->model->bodies[b].name);
+    text_add(text, "{");
+    for (size_t i = 0; i < diagram->count; i++) {
+        const struct arrow *arrow = &diagram->arrows[i];
+        double moment = arrow_moment(arrow, G);
+        sum->force = vec_add(sum->force, arrow->force);
+        sum->moment += moment;
+        text_add(text, i ? ",\n      " : "\n      ");
+        key(text, arrow->name);
+        text_add(text, "{");
+        member(text, "fx", arrow->force.x, ", ");
+        member(text, "fy", arrow->force.y, ", ");
+        member(text, "x", arrow->point.x, ", ");
+        member(text, "y", arrow->point.y, ", ");
+        member(text, "couple", arrow->couple, ", ");
+        member(text, "moment_G", moment, "}");
+    }
+    text_add(text, diagram->count > 0 ? "\n    }" : "}");
+}
+
+static void write_bodies(struct text *text, const struct fbd_statics *statics)
+{
+    const struct fbd_model *model = statics->model;
+    struct text sums = {0};
+    text_add(text, "  \"forces\": {");
+    for (size_t b = 0; b < model->body_count; b++) {
+        struct wrench sum = {0, {0, 0}};
+        text_add(text, b ? ",\n    " : "\n    ");
+        write_body(text, statics, b, &sum);
+        text_add(&sums, b ? ",\n    " : "\n    ");
+        key(&sums, model->bodies[b].name);
+        text_add(&sums, "{");
+        member(&sums, "fx", sum.force.x, ", ");
+        member(&sums, "fy", sum.force.y, ", ");
+        member(&sums, "moment_G", rest_turns(&model->bodies[b]) ? sum.moment : NAN, "}");
+    }
+    text_add(text, "\n  },\n  \"balance\": {");
+    text_add(text, sums.data ? sums.data : "");
+    text_add(text, "\n  }\n");
+    text->failed |= sums.failed;
+    text_free(&sums);
+}
+
+char *fbd_statics_json(const fbd_statics *statics)
+{
+    const struct scene *scene = statics->model->scene;
+    struct text text = {0};
+    text_add(&text, "{\n  \"title\": ");
+    text_json_string(&text, scene->title);
+    text_printf(&text, ",\n  \"units\": \"%s\",\n", scene->units == unit_si ? "SI" : "US");
+    write_verdict(&text, statics);
+    write_tensions(&text, statics);
+    write_bodies(&text, statics);
+    text_add(&text, "}\n");
+    if (text.failed) text_free(&text);
+    return text.data;
+}

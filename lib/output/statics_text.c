@@ -1,0 +1,195 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * A scene at rest as a person reads it: does it hold, what would hold it, and the table of each body.
+ */
+#include "output/equations.h"
+#include "output/result.h"
+#include "solve/statics.h"
+
+enum { digits = 9 };
+
+/* A difference that is nothing but rounding is written as 0. */
+static double without_rounding(const struct fbd_statics *statics, double value, double size)
+{
+    return fabs(value) <= 1e-12 * size * statics->force ? 0 : value;
+}
+
+/* ---- what holds */
+
+static void write_names(struct text *text, const struct fbd_statics *statics)
+{
+    enum { most_named = 12 };
+    size_t count = statics->undetermined_count;
+    for (size_t i = 0; i < count && i < most_named; i++)
+        text_printf(text, "%s%s", i ? ", " : "", statics->undetermined[i]);
+    if (count > most_named) text_printf(text, " and %zu more", count - most_named);
+    text_add(text, "\n");
+}
+
+static void write_determinacy(struct text *text, const struct fbd_statics *statics)
+{
+    if (statics->indeterminacy > 0) {
+        text_printf(
+            text,
+            "  statically indeterminate to degree %zu: of all reactions that balance, those of the least "
+            "sum of squares\n  not determined: ",
+            statics->indeterminacy);
+        write_names(text, statics);
+    } else {
+        text_add(text, "  statically determinate\n");
+    }
+    if (statics->mobility > 0)
+        text_printf(text, "  it can move in %zu way%s, along which the loads balance\n", statics->mobility,
+                    statics->mobility == 1 ? "" : "s");
+}
+
+/* ---- what does not */
+
+static void write_unbalanced(struct text *text, const struct fbd_statics *statics)
+{
+    if (statics->unbalanced_count == 0) return;
+    bool alone = statics->unbalanced[0].alone;
+    text_printf(text, "  it moves; %s would hold it:\n",
+                alone && statics->unbalanced_count > 1 ? "any one of these"
+                : statics->unbalanced_count > 1        ? "these together"
+                                                       : "this");
+    for (size_t i = 0; i < statics->unbalanced_count; i++) {
+        const fbd_unbalanced *one = &statics->unbalanced[i];
+        text_printf(text, "    %s", one->coordinate);
+        text_pad(text, 24);
+        text_add(text, one->holding < 0 ? "" : " ");
+        text_number(text, one->holding, digits);
+        text_printf(text, " %s\n", one->unit);
+    }
+}
+
+static void write_broken(struct text *text, const fbd_limit *limit)
+{
+    text_printf(text, "  `%s` ", limit->name);
+    if (limit->kind == FBD_LIMIT_FRICTION) {
+        text_add(text, "would have to hold ");
+        text_number(text, limit->needed, digits);
+        text_add(text, " of at most ");
+        text_number(text, limit->limit, digits);
+        text_printf(text, " %s: it slips\n", limit->unit);
+        return;
+    }
+    text_printf(text, "would have to %s with ", limit->kind == FBD_LIMIT_ROPE ? "push" : "pull");
+    text_number(text, -limit->needed, digits);
+    text_printf(text, " %s\n", limit->unit);
+}
+
+static void write_verdict(struct text *text, const struct fbd_statics *statics)
+{
+    text_add(text, "Statics at t = ");
+    text_number(text, statics->state->t, digits);
+    if (fbd_statics_holds(statics)) {
+        text_add(text, " s: in equilibrium\n");
+        write_determinacy(text, statics);
+        return;
+    }
+    text_add(text, " s: NOT in equilibrium\n");
+    write_unbalanced(text, statics);
+    if (statics->unbalanced_count > 0) return; /* what limits would have to bear depends on what holds it */
+    for (size_t i = 0; i < statics->limit_count; i++)
+        if (!statics->limits[i].holds) write_broken(text, &statics->limits[i]);
+    if (statics->indeterminacy > 0)
+        text_add(text, "  (by the reactions of the least sum of squares; no others hold either)\n");
+}
+
+/* ---- tables */
+
+static void write_row(struct text *text, const struct fbd_statics *statics, const char *name,
+                      struct vec force, double moment, bool turns)
+{
+    const double values[3] = {without_rounding(statics, force.x, 1), without_rounding(statics, force.y, 1),
+                              without_rounding(statics, moment, statics->length)};
+    text_printf(text, "    %s ", name);
+    for (int k = 0; k < (turns ? 3 : 2); k++) {
+        text_pad(text, (size_t)(26 + 18 * k));
+        text_add(text, values[k] < 0 ? "" : " ");
+        text_number(text, values[k], digits);
+    }
+    text_add(text, "\n");
+}
+
+static void write_body(struct text *text, const struct fbd_statics *statics, size_t b)
+{
+    const struct fbd_model *model = statics->model;
+    const struct model_body *body = &model->bodies[b];
+    const struct rest_diagram *diagram = &statics->diagrams[b];
+    struct instant at = state_instant(statics->state);
+    struct pose pose = body_pose(body, &at);
+    struct vec G = point_motion(body, &pose, body->inertia.G).p, sum = {0, 0};
+    double moment = 0;
+    bool turns = rest_turns(body);
+    text_printf(text, "\n  %s", body->name);
+    text_pad(text, 27);
+    text_printf(text, "fx [%s]", force_unit(model));
+    text_pad(text, 45);
+    text_printf(text, "fy [%s]", force_unit(model));
+    if (turns) text_pad(text, 63);
+    if (turns) text_printf(text, "moment about G [%s]", moment_unit(model));
+    text_add(text, "\n");
+    for (size_t i = 0; i < diagram->count; i++) {
+        const struct arrow *arrow = &diagram->arrows[i];
+        double own = arrow_moment(arrow, G);
+        sum = vec_add(sum, arrow->force);
+        moment += own;
+        write_row(text, statics, arrow->name, arrow->force, own, turns);
+    }
+    write_row(text, statics, "sum", sum, moment, turns);
+}
+
+/* Rods are pulled or pushed, ropes pulled. The pieces of a rope between pulleys bear its name each. */
+static void write_members(struct text *text, const struct fbd_statics *statics)
+{
+    const struct tree *tree = statics->model->tree;
+    bool any = false;
+    for (int i = 0; tree && i < tree->tie_count; i++) {
+        double tension = rest_tension(statics, i);
+        if (isnan(tension)) continue;
+        tension = without_rounding(statics, tension, 1);
+        text_add(text, any ? "" : "\nRods and ropes\n");
+        any = true;
+        text_printf(text, "  %s", tree->ties[i].name);
+        text_pad(text, 27);
+        text_number(text, fabs(tension), digits);
+        text_printf(text, " %s %s\n", force_unit(statics->model),
+                    tension > 0   ? "tension"
+                    : tension < 0 ? "compression"
+                                  : "");
+    }
+}
+
+static void write_limits(struct text *text, const struct fbd_statics *statics)
+{
+    bool any = false;
+    for (size_t i = 0; i < statics->limit_count; i++) {
+        const fbd_limit *limit = &statics->limits[i];
+        if (limit->kind != FBD_LIMIT_FRICTION) continue;
+        text_add(text, any ? "" : "\nFriction\n");
+        any = true;
+        text_printf(text, "  %s holds ", limit->name);
+        text_number(text, without_rounding(statics, limit->needed, 1), digits);
+        text_add(text, " of at most ");
+        text_number(text, limit->limit, digits);
+        text_printf(text, " %s", limit->unit);
+        if (limit->limit > 0) text_printf(text, " (%.3g %%)", 100 * limit->needed / limit->limit);
+        text_add(text, "\n");
+    }
+}
+
+char *fbd_statics_text(const fbd_statics *statics)
+{
+    struct text text = {0};
+    if (statics->model->scene->title[0]) text_printf(&text, "%s\n\n", statics->model->scene->title);
+    write_verdict(&text, statics);
+    if (fbd_statics_holds(statics)) {
+        for (size_t b = 0; b < statics->model->body_count; b++) write_body(&text, statics, b);
+        write_members(&text, statics);
+        write_limits(&text, statics);
+    }
+    if (text.failed) text_free(&text);
+    return text.data;
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The point of a polyhedron that is nearest to the origin: least |x| with G x >= h.
+ *
+ * Lawson and Hanson, Solving Least Squares Problems, chapter 23: with u >= 0 that minimises |E u - f|, E the
+ * rows of G as columns with h below them and f = (0, ..., 0, 1), and r = E u - f, x = -r / r_last; r = 0
+ * means that there is no such point.
+ */
+#ifndef FBD_SOLVE_LEAST_DISTANCE_H
+#define FBD_SOLVE_LEAST_DISTANCE_H
+
+#include <stddef.h>
+
+enum least_distance {
+    least_distance_found,
+    least_distance_empty, /* the inequalities contradict each other, to rounding */
+    least_distance_no_memory
+};
+
+/* G is `rows` by `size`, row by row; x takes `size`. Rows should be of one size, and h of the size of 1; an x
+ * beyond 1e4 counts as none. Inequalities that leave next to no room should be looked at once more with x. */
+enum least_distance least_distance(size_t rows, size_t size, const double *G, const double *h, double *x);
+
+#endif

@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solve/statics.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/diag.h"
+#include "dynamics/project.h"
+#include "dynamics/tree.h"
+
+/* ---- the start: it has to fit its couplings */
+
+static struct pos place_of_tie(const struct fbd_model *model, const struct tie *tie)
+{
+    return model->scene->constraints[tie->constraint].at;
+}
+
+static bool fits(struct fbd_state *state, fbd_errors *errors)
+{
+    const struct fbd_model *model = state->model;
+    const struct tree *tree = model->tree;
+    struct misfit misfit = state_misfit(state);
+    if (misfit.row < 0 || misfit.position == 0) return true;
+    double reach = 0;
+    for (int i = 1; i < tree->count; i++)
+        reach = fmax(reach, fmax(vec_norm(state->tree->links[i].p), vec_norm(state->tree->links[i].d)));
+    const struct tie *tie = &tree->ties[tree->tie_of_row[misfit.row]];
+    if (misfit.position <= rest_digits * reach && state_project(state, false)) return true;
+    diag_add(
+        errors, FBD_ERROR, "does-not-fit", place_of_tie(model, tie),
+        "a run says which state near it fits; or let bodies find their place, `initial: {assemble: true}`",
+        "the start does not fit: `%s` is off by %.3g", tie->name, misfit.position);
+    return false;
+}
+
+static bool put_to_rest(struct fbd_state *state, fbd_errors *errors)
+{
+    bool settled = rest_begin(state);
+    if (settled && !fits(state, errors)) return false;
+    if (settled && rest_begin(state)) return true; /* once more, where the start was brought to */
+    diag_add(errors, FBD_ERROR, "unsettled", (struct pos){0, 0}, "look at another state, with --at",
+             "at rest no choice of branches agrees with the forces");
+    return false;
+}
+
+/* ---- what is said about the solution */
+
+static const char *limit_name(struct fbd_statics *statics, const struct rest_limit *limit)
+{
+    const struct fbd_model *model = statics->model;
+    const struct plan *plan = &model->plan;
+    if (limit->kind == limit_rope) return model->tree->ties[plan->frictions[limit->index].tie].name;
+    int load =
+        limit->kind == limit_normal ? plan->contacts[limit->index].load : plan->frictions[limit->index].load;
+    const char *name = model->loads[load].source->name;
+    for (int i = 0; model->tree && i < model->tree->tie_count; i++) { /* of a rolling body */
+        const struct tie *tie = &model->tree->ties[i];
+        if (tie->kind == constraint_roll && tie->load == load)
+            return tie->end[0].name[limit->kind == limit_normal ? 0 : 1];
+    }
+    return arena_printf(&statics->arena, "%s.%s", model->bodies[model->loads[load].body].name, name);
+}
+
+/* Of the force, or of a bearing's moment. */
+static const char *limit_unit(const struct fbd_model *model, const struct rest_limit *limit)
+{
+    bool si = model->scene->units == unit_si;
+    bool moment = limit->kind == limit_friction && model->plan.frictions[limit->index].normal_slot < 0;
+    return moment ? (si ? "N*m" : "lbf*ft") : (si ? "N" : "lbf");
+}
+
+static bool find_limits(struct fbd_statics *statics, const struct rest_system *system)
+{
+    size_t count = rest_limits(system);
+    statics->within_limits = system->within_limits;
+    statics->limits = ARENA_ARRAY(&statics->arena, count + 1, fbd_limit);
+    for (size_t i = 0; statics->limits && i < count; i++) {
+        struct rest_limit limit = rest_limit_at(system, i);
+        if (limit.kind != limit_normal && statics->state->slip[limit.index] != stick) continue;
+        if (limit.kind != limit_normal && statics->model->plan.frictions[limit.index].driven) continue;
+        double slack = 2e-9 * system->force;
+        bool holds =
+            limit.kind == limit_friction ? limit.needed <= limit.may + slack : limit.needed >= -slack;
+        statics->limits[statics->limit_count++] = (fbd_limit){.name = limit_name(statics, &limit),
+                                                              .unit = limit_unit(statics->model, &limit),
+                                                              .kind = (fbd_limit_kind)limit.kind,
+                                                              .needed = limit.needed,
+                                                              .limit = limit.may,
+                                                              .holds = holds};
+    }
+    return !statics->arena.failed;
+}
+
+static bool draw_diagrams(struct fbd_statics *statics)
+{
+    const struct fbd_model *model = statics->model;
+    struct instant at = state_instant(statics->state);
+    statics->diagrams = ARENA_ARRAY(&statics->arena, model->body_count, struct rest_diagram);
+    for (size_t b = 0; statics->diagrams && b < model->body_count; b++) {
+        struct rest_diagram *diagram = &statics->diagrams[b];
+        diagram->arrows = ARENA_ARRAY(&statics->arena, diagram_arrows(model, (int)b) + 1, struct arrow);
+        if (!diagram->arrows) return false;
+        diagram->count =
+            diagram_fill(model, (int)b, &at, statics->state->a, statics->state->slots, diagram->arrows);
+    }
+    return statics->diagrams != NULL;
+}
+
+static bool solve(struct fbd_statics *statics)
+{
+    struct rest_system system;
+    bool solved = rest_solve(&system, statics->state, &statics->arena);
+    statics->force = system.force;
+    statics->length = system.length;
+    solved = solved && find_limits(statics, &system) && rest_name_undetermined(statics, &system) &&
+             rest_find_unbalanced(statics, &system) && draw_diagrams(statics);
+    rest_free(&system);
+    return solved;
+}
+
+static void warn(const struct fbd_statics *statics, fbd_errors *errors)
+{
+    if (statics->indeterminacy == 0 || !fbd_statics_holds(statics)) return;
+    diag_add(errors, FBD_WARNING, "indeterminate", (struct pos){0, 0},
+             "of all reactions that balance those of the least sum of squares are shown; how the parts give "
+             "way decides: springs in place of rigid supports tell",
+             "statically indeterminate to degree %zu: equilibrium alone does not determine `%s`%s",
+             statics->indeterminacy, statics->undetermined_count > 0 ? statics->undetermined[0] : "",
+             statics->undetermined_count > 1 ? " and others" : "");
+}
+
+fbd_statics *fbd_statics_new(const fbd_state *state, fbd_errors *errors)
+{
+    struct fbd_statics *statics = calloc(1, sizeof *statics);
+    errors->file = state->model->scene->file;
+    if (statics) statics->state = state_new(state->model);
+    if (!statics || !statics->state) {
+        diag_out_of_memory(errors);
+        free(statics);
+        return NULL;
+    }
+    statics->model = state->model;
+    state_copy(statics->state, state);
+    if (put_to_rest(statics->state, errors)) {
+        if (solve(statics)) {
+            warn(statics, errors);
+            return statics;
+        }
+        diag_out_of_memory(errors);
+    }
+    fbd_statics_free(statics);
+    return NULL;
+}
+
+void fbd_statics_free(fbd_statics *statics)
+{
+    if (!statics) return;
+    state_free(statics->state);
+    arena_free(&statics->arena);
+    free(statics);
+}
+
+bool fbd_statics_holds(const fbd_statics *statics)
+{
+    return statics->within_limits && statics->left <= rest_digits;
+}
+
+size_t fbd_statics_indeterminacy(const fbd_statics *statics)
+{
+    return statics->indeterminacy;
+}
+
+size_t fbd_statics_mobility(const fbd_statics *statics)
+{
+    return statics->mobility;
+}
+
+size_t fbd_statics_undetermined(const fbd_statics *statics)
+{
+    return statics->undetermined_count;
+}
+
+const char *fbd_statics_undetermined_name(const fbd_statics *statics, size_t index)
+{
+    return index < statics->undetermined_count ? statics->undetermined[index] : NULL;
+}
+
+size_t fbd_statics_unbalanced(const fbd_statics *statics)
+{
+    return statics->unbalanced_count;
+}
+
+fbd_unbalanced fbd_statics_unbalanced_at(const fbd_statics *statics, size_t index)
+{
+    return index < statics->unbalanced_count ? statics->unbalanced[index]
+                                             : (fbd_unbalanced){.coordinate = ""};
+}
+
+size_t fbd_statics_limits(const fbd_statics *statics)
+{
+    return statics->limit_count;
+}
+
+fbd_limit fbd_statics_limit(const fbd_statics *statics, size_t index)
+{
+    return index < statics->limit_count ? statics->limits[index] : (fbd_limit){.name = ""};
+}
