@@ -169,6 +169,11 @@ typedef struct fbd_arrow {
  */
 FBD_API size_t fbd_diagram(fbd_state *state, size_t body, fbd_arrow *arrows, size_t room);
 
+/* The rows of couplings that say nothing at the state which the rows before them do not say (parallel rods, a
+ * pin in a direction that a slide keeps already): "knuckle in y". Fills at most `room` names, which live as
+ * long as the model; returns how many there are. */
+FBD_API size_t fbd_redundant(fbd_state *state, const char **names, size_t room);
+
 /* ---------------------------------------------------------------- simulation */
 
 typedef struct fbd_options {
@@ -277,6 +282,19 @@ FBD_API size_t fbd_simulation_events(const fbd_simulation *simulation);
 /* Event `index`; past the end one whose time is NAN. */
 FBD_API fbd_event fbd_simulation_event(fbd_simulation *simulation, size_t index);
 FBD_API fbd_stats fbd_simulation_stats(const fbd_simulation *simulation);
+
+/* How far a run with couplings has been from them at the ends of its steps: the largest violation of a row,
+ * in position (lengths; of gears the arc) and in velocity, before the step was brought back and after.
+ * `share` is the largest of both over the tolerance times the size of the motion (how far the links are from
+ * the origin, how fast they are). */
+typedef struct fbd_drift {
+    size_t rows; /* of couplings; 0 without, and then all is 0 */
+    double position, velocity, share;
+    double left_position, left_velocity, left_share;
+    const char *worst; /* the row that was off the most, "knuckle in x"; "" without */
+} fbd_drift;
+
+FBD_API fbd_drift fbd_simulation_drift(const fbd_simulation *simulation);
 
 /* Why it ended: one sentence with time, body, quantity and what to try; "" while all is well. */
 FBD_API const char *fbd_simulation_reason(const fbd_simulation *simulation);

@@ -92,6 +92,24 @@ static void name_end(struct fbd_model *model, struct tie *tie, int k)
     }
 }
 
+static void name_rows(struct arena *arena, struct tie *tie)
+{
+    tie->row_name[0] = tie->row_name[1] = tie->name;
+    if (tie->kind == constraint_pin) {
+        tie->row_name[0] = arena_printf(arena, "%s in x", tie->name);
+        tie->row_name[1] = arena_printf(arena, "%s in y", tie->name);
+    } else if (tie->kind == constraint_roll) {
+        tie->row_name[0] = arena_printf(arena, "%s.normal", tie->name);
+        tie->row_name[1] = arena_printf(arena, "%s.friction", tie->name);
+    }
+}
+
+const char *tie_row_name(const struct tree *tree, int row)
+{
+    const struct tie *tie = &tree->ties[tree->tie_of_row[row]];
+    return tie->row_name[row - tie->first_row];
+}
+
 bool ties_build(struct fbd_model *model)
 {
     const struct scene *scene = model->scene;
@@ -108,8 +126,10 @@ bool ties_build(struct fbd_model *model)
         else
             set_line(model, source, add_tie(model, (int)c, 0, source->end_count - 1));
     }
-    for (int i = 0; i < tree->tie_count; i++)
+    for (int i = 0; i < tree->tie_count; i++) {
+        name_rows(&model->arena, &tree->ties[i]);
         for (int k = 0; k < tree->ties[i].end_count; k++) name_end(model, &tree->ties[i], k);
+    }
     return !model->arena.failed;
 }
 

@@ -24,6 +24,7 @@ struct tie {
     enum constraint_kind kind;
     int constraint; /* index into scene.constraints */
     const char *name;
+    const char *row_name[2]; /* "knuckle in x", "tread.normal" */
     int first_row, row_count;
     int place; /* rope: where the piece starts on its way */
     int end_count;
@@ -39,6 +40,10 @@ struct tie {
 };
 
 struct fbd_model;
+struct tree;
+
+/* The name of row `row` of the tree. */
+const char *tie_row_name(const struct tree *tree, int row);
 
 /* Place `k` of constraint `index` of the scene. */
 struct tie_end tie_end_of(const struct fbd_model *model, int index, int k);

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "dynamics/modes.h"
+#include "output/couplings.h"
 #include "output/explain_structure.h"
 #include "solve/method.h"
 
@@ -218,6 +219,7 @@ char *fbd_explain(const fbd_model *model, const fbd_options *options)
     struct rates *rates = rates_new(state, rates_by_rows);
     if (rates) {
         write_coordinates(&text, model);
+        couplings_explain(&text, state);
         write_effects(&text, model);
         write_absent(&text, model);
         explain_plan(&text, model, rates);

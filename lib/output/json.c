@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "dynamics/diagram.h"
+#include "output/couplings.h"
 #include "output/equations.h"
 #include "output/result.h"
 
@@ -293,6 +294,7 @@ char *fbd_result_json(fbd_result *result)
     write_forces(&text, result, end);
     write_balances(&text, result, end);
     write_energy(&text, result);
+    couplings_json(&text, result);
     write_stats(&text, simulation);
     text_add(&text, "}\n");
     if (text.failed) text_free(&text);

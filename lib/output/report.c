@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "dynamics/diagram.h"
+#include "output/couplings.h"
 #include "output/equations.h"
 #include "output/result.h"
 
@@ -318,6 +319,7 @@ char *fbd_result_report(fbd_result *result)
     write_final(&page);
     write_forces(&page);
     write_energy(&page);
+    couplings_report(&text, result);
     write_cost(&page);
     if (text.failed) text_free(&text);
     return text.data;

@@ -99,21 +99,46 @@ static double still(struct run *run)
     return mass * speed * speed / 2;
 }
 
+/* How large the mechanism is and how fast. */
+static void measure(struct run *run)
+{
+    struct drift *drift = &run->drift;
+    for (int i = 1; i < run->model->tree->count; i++) {
+        const struct tree_state *s = &run->state->tree->links[i];
+        drift->reach = fmax(drift->reach, vec_norm(s->p));
+        drift->speed = fmax(drift->speed, vec_norm(s->v));
+    }
+}
+
+/* Bring the end of the step back, and note what that took; returns what is still left. */
+static struct misfit bring_back(struct run *run, struct misfit *misfit)
+{
+    struct drift *drift = &run->drift;
+    *misfit = state_misfit(run->state);
+    if (misfit->row >= 0 && (!drift->worst || misfit->position > drift->position))
+        drift->worst = tie_row_name(run->model->tree, misfit->row);
+    drift->position = fmax(drift->position, misfit->position);
+    drift->velocity = fmax(drift->velocity, misfit->velocity);
+    state_return(run->state);
+    struct misfit left = state_misfit(run->state);
+    drift->left_position = fmax(drift->left_position, left.position);
+    drift->left_velocity = fmax(drift->left_velocity, left.velocity);
+    measure(run);
+    return left;
+}
+
 void run_close_step(struct run *run)
 {
     if (!has_ties(run)) return;
-    struct misfit misfit = state_misfit(run->state);
-    run->drift = fmax(run->drift, misfit.position);
+    struct misfit misfit;
     run->projected = true;
     double before = kinetic(run->state);
-    state_return(run->state);
+    struct misfit left = bring_back(run, &misfit);
     double after = kinetic(run->state);
     run->liveliest = fmax(run->liveliest, fmax(before, after));
-    struct misfit left = state_misfit(run->state);
     double reach = 0;
     for (int i = 1; i < run->model->tree->count; i++)
         reach = fmax(reach, vec_norm(run->state->tree->links[i].p));
-    run->left = fmax(run->left, left.position);
     /* Where a mechanism can fold over to another branch (all bars in one line) a step may start to, and going
      * back takes the energy with it: that is no rounding any more. */
     if (!(fabs(after - before) <= 1e4 * fmax(run->options.tolerance, 1e-12) * run->liveliest) &&

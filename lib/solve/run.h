@@ -39,6 +39,14 @@ struct run_event {
                               contact: the normal force and its rounding */
 };
 
+/* The most that the rows of couplings have been off by at the end of a step: before it was brought back onto
+ * them, and after. */
+struct drift {
+    double position, velocity, left_position, left_velocity;
+    double reach, speed; /* the largest of the links so far: what that is measured against */
+    const char *worst;   /* the row that was off the most in position; NULL without steps */
+};
+
 enum { reason_size = 400 };
 
 struct run {
@@ -53,9 +61,8 @@ struct run {
     int snap_pair;            /* the rope that has just snapped taut, or -1 */
     double snap_work;         /* what that has taken (below zero) */
     double *impact_work;      /* per load: the same, summed up */
-    double drift;             /* the most that a step left the constraints by, before it was projected back */
+    struct drift drift;       /* from the constraints */
     double liveliest;         /* the most kinetic energy of jointed bodies so far */
-    double left;              /* and after that */
     bool projected;
     int crawl;                /* steps in a row of a few roundings of the time */
     unsigned long not_finite; /* rejections for that reason before the last step */

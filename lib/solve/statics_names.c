@@ -75,17 +75,14 @@ static void name_tie(struct fbd_statics *statics, const struct rest_system *syst
     int row = system->rows[j];
     const struct tie *tie = &tree->ties[tree->tie_of_row[row]];
     bool one = varies(system, rest_entry_of_row(system, j));
-    if (tie->row_count == 1) {
-        if (one) add_name(statics, "", tie->name, "");
+    if (tie->kind != constraint_pin) {
+        if (one) add_name(statics, "", tie_row_name(tree, row), "");
         return;
     }
-    bool pin = tie->kind == constraint_pin, second = row > tie->first_row;
-    if (pin && second) return; /* with the first */
-    bool other = pin && varies(system, rest_entry_of_row(system, j + 1));
-    if (pin && (one || other))
-        add_name(statics, "", tie->name, !other ? " in x" : !one ? " in y" : "");
-    else if (one)
-        add_name(statics, "", tie->name, second ? ".friction" : ".normal");
+    if (row > tie->first_row) return; /* with the first */
+    bool other = varies(system, rest_entry_of_row(system, j + 1));
+    if (one && other) add_name(statics, "", tie->name, "");
+    if (one != other) add_name(statics, "", tie_row_name(tree, one ? row : row + 1), "");
 }
 
 bool rest_name_undetermined(struct fbd_statics *statics, const struct rest_system *system)

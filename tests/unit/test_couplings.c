@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Rows of couplings that say nothing new are named, and harm nothing; how far a run is off its couplings is
+ * reported as it is.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "gallery.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const double g = 9.81;
+
+/* The names at the trial's state, with commas between, in a buffer of its own. */
+static const char *redundant(struct trial *trial)
+{
+    enum { most = 8 };
+    static char all[400];
+    const char *names[most];
+    size_t count = fbd_redundant(trial->state, names, most);
+    assert_true(count <= most);
+    all[0] = '\0';
+    for (size_t i = 0; i < count; i++) {
+        if (i > 0) strcat(all, ", ");
+        strcat(all, names[i]);
+    }
+    return all;
+}
+
+static fbd_arrow arrow(struct trial *trial, size_t body, const char *name)
+{
+    enum { most = 16 };
+    fbd_arrow arrows[most];
+    size_t count = fbd_diagram(trial->state, body, arrows, most);
+    for (size_t i = 0; i < count && i < most; i++)
+        if (strcmp(arrows[i].name, name) == 0) return arrows[i];
+    fail_msg("no force `%s`", name);
+    return arrows[0];
+}
+
+/* Three parallel cranks of mass m and length l under one beam of mass M: four coordinates, four rows, and yet
+ * it moves. With the angle theta of all cranks,
+ *
+ *     (3 m l^2/3 + M l^2) theta'' = -(3 m g l/2 + M g l) cos(theta).
+ *
+ * (At theta = 0, 0.36 s from the start, all bars lie in one line and it could fold: the run ends before.) */
+static const char parallelogram[] = "fbd: 1\nground: {points: {A: [0, 0], B: [1, 0], C: [2, 0]}}\nbodies:\n"
+                                    "  a: {shape: rod, mass: 2, length: 0.5, motion: {pivot: {at: A, point: "
+                                    "left}}, initial: {theta: 1 rad}, forces: "
+                                    "[gravity]}\n"
+                                    "  b: {shape: rod, mass: 2, length: 0.5, motion: {pivot: {at: B, point: "
+                                    "left}}, initial: {theta: 1 rad}, forces: "
+                                    "[gravity]}\n"
+                                    "  c: {shape: rod, mass: 2, length: 0.5, motion: {pivot: {at: C, point: "
+                                    "left}}, initial: {theta: 1 rad}, forces: "
+                                    "[gravity]}\n"
+                                    "  beam: {shape: rod, mass: 3, length: 2, motion: {pivot: {on: a, at: "
+                                    "right, point: left}}, initial: {theta: -1 "
+                                    "rad}, forces: [gravity]}\n"
+                                    "couplings:\n  - pin: {name: middle, between: [beam.G, b.right]}\n"
+                                    "  - pin: {name: end, between: [beam.right, c.right]}\n"
+                                    "simulate: {until: 0.3 s, tolerance: 1e-12}\n";
+
+static void a_parallelogram_with_a_crank_too_many_moves_and_names_what_is_too_much(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct trial trial = trial_parse(parallelogram);
+    double m = 2, M = 3, l = 0.5, inertia = (m + M) * l * l, weight = (1.5 * m + M) * g * l;
+    assert_string_equal(redundant(&trial), "end in y");
+    check_close(&checks, "acceleration", trial_acceleration(&trial, "a.theta"), -weight / inertia * cos(1.0),
+                1e-9); /* (1e-8 / s)^3 of it, with slopes s of the rows that are not redundant of some 1e-2 */
+    trial_start(&trial, NULL);
+    trial_finish(&trial);
+    double theta = trial_get(&trial, "a.theta"), omega = trial_get(&trial, "a.omega");
+    check_that(&checks, "it has moved", theta < 0.5);
+    check_close(&checks, "energy", inertia * omega * omega / 2, weight * (sin(1.0) - sin(theta)), 1e-9);
+    check_close(&checks, "parallel", trial_get(&trial, "c.theta"), theta, 1e-11);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+/* The same rod twice: both have the same slope, and the force of least norm is half in each. The system is
+ * kept regular by 1e-8 of its diagonal, so that how they share has its rounding, 1e-16, over that. */
+static void two_rods_in_one_place_share_by_halves(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    static const char text[] =
+        "fbd: 1\nbodies:\n  bob: {mass: 2 kg, motion: particle, initial: {x: 0.6, y: -0.8}, forces: "
+        "[gravity]}\n"
+        "ground: {points: {O: [0, 0]}}\ncouplings:\n  - rod: {name: one, between: [bob, ground.O]}\n"
+        "  - rod: {name: other, between: [bob, ground.O]}\nsimulate: {until: 1 s}\n";
+    struct trial trial = trial_parse(text);
+    double half = 2 * g * 0.8 / 2; /* m g cos of the angle from straight down */
+    assert_string_equal(redundant(&trial), "other");
+    check_close(&checks, "one", arrow(&trial, 0, "one").fy, half * 0.8, 1e-7);
+    check_close(&checks, "other", arrow(&trial, 0, "other").fy, half * 0.8, 1e-7);
+    check_close(&checks, "other", arrow(&trial, 0, "other").fx, -half * 0.6, 1e-7);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+/* Two blocks on one line, pinned: across the line the slides have said it all. */
+static void a_pin_across_two_slides_says_too_much(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    static const char text[] =
+        "fbd: 1\nbodies:\n  pulled: {mass: 2 kg, motion: slide, forces: [applied: 10 N]}\n"
+        "  drawn: {mass: 3 kg, motion: slide}\ncouplings: [pin: {name: hook, between: [pulled, drawn]}]\n"
+        "simulate: {until: 1 s}\n";
+    struct trial trial = trial_parse(text);
+    assert_string_equal(redundant(&trial), "hook in y");
+    check_close(&checks, "together", trial_acceleration(&trial, "drawn.x"), 2, 1e-12);
+    check_close(&checks, "the hook", arrow(&trial, 1, "hook").fx, 6, 1e-12);
+    check_close(&checks, "not across", arrow(&trial, 1, "hook").fy, 0, 0);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+static void what_is_needed_is_not_called_redundant(void **unused)
+{
+    (void)unused;
+    static const char *const models[] = {"couplings/four_bar.yaml", "couplings/atwood.yaml",
+                                         "couplings/andrews_squeezer.yaml", "couplings/rack_and_pinion.yaml",
+                                         "trees/double_pendulum.yaml"};
+    for (size_t i = 0; i < sizeof models / sizeof *models; i++) {
+        struct trial trial = trial_open(models[i], NULL);
+        assert_string_equal(redundant(&trial), "");
+        trial_close(&trial);
+    }
+}
+
+static void explain_lists_couplings_rows_and_what_is_redundant(void **unused)
+{
+    (void)unused;
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    struct trial trial = trial_parse(parallelogram);
+    char *text = fbd_explain(trial.model, &options);
+    assert_non_null(text);
+    assert_non_null(strstr(text, "Couplings (2)\n  pin: two points are one (4 rows)\n      middle, end\n"));
+    assert_non_null(strstr(text, "4 coordinates less 3 independent rows leave 1 to move\n"));
+    assert_non_null(strstr(text, "do not say: `end in y`\n"));
+    free(text);
+    trial_close(&trial);
+    trial = trial_open("trees/double_pendulum.yaml", NULL);
+    text = fbd_explain(trial.model, &options);
+    assert_null(strstr(text, "Couplings"));
+    free(text);
+    trial_close(&trial);
+}
+
+/* ---- drift */
+
+/* The gap of the four-bar's knuckle, by trigonometry. */
+static void gap(const struct trial *trial, double *x, double *y)
+{
+    double crank = trial_get(trial, "crank.theta"), coupler = crank + trial_get(trial, "coupler.theta");
+    double rocker = trial_get(trial, "rocker.theta");
+    *x = 0.3 * cos(crank) + 0.9 * cos(coupler) - 1 - 0.7 * cos(rocker);
+    *y = 0.3 * sin(crank) + 0.9 * sin(coupler) - 0.7 * sin(rocker);
+}
+
+/* At the ends of all steps the gap that is seen from outside is the one that is reported: to the rounding of
+ * positions of 1 m. Outputs between them are as near. */
+static void the_drift_that_is_reported_is_the_one_that_there_is(void **unused)
+{
+    (void)unused;
+    const double rounding = 1e-15;
+    struct checks checks = {0};
+    struct trial trial = trial_open("couplings/four_bar.yaml", NULL);
+    double most = 0, between = 0, from, to, x, y;
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    options.tolerance = 1e-7;
+    trial_start(&trial, &options);
+    while (fbd_simulation_advance(trial.simulation) == FBD_GOING) {
+        fbd_simulation_interval(trial.simulation, &from, &to);
+        assert_true(fbd_simulation_state(trial.simulation, to, trial.state));
+        gap(&trial, &x, &y);
+        most = fmax(most, fmax(fabs(x), fabs(y)));
+        assert_true(fbd_simulation_state(trial.simulation, (from + to) / 2, trial.state));
+        gap(&trial, &x, &y);
+        between = fmax(between, fmax(fabs(x), fabs(y)));
+    }
+    fbd_drift drift = fbd_simulation_drift(trial.simulation);
+    assert_int_equal(drift.rows, 2);
+    check_close(&checks, "after a step", drift.left_position, most, rounding);
+    check_that(&checks, "a step is off by something, and by less than it may",
+               drift.position > 1e-12 && drift.share < 10);
+    check_that(&checks, "and is brought back below the tolerance", drift.left_share < 0.1);
+    check_that(&checks, "the worst is a row of the knuckle", strncmp(drift.worst, "knuckle in ", 11) == 0);
+    check_close(&checks, "between the ends, by the dense output", between, 0, 10 * 1e-7);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+static void report_and_json_say_the_drift(void **unused)
+{
+    (void)unused;
+    struct trial trial = trial_parse(parallelogram);
+    trial_run(&trial, NULL);
+    char *report = fbd_result_report(trial.result), *json = fbd_result_json(trial.result);
+    assert_non_null(report);
+    assert_non_null(json);
+    assert_non_null(
+        strstr(report, "\nCouplings: 4 rows, 1 redundant at the start: `end in y`\n  off by at most "));
+    assert_non_null(
+        strstr(json,
+               "\"couplings\": {\"rows\": 4, \"redundant\": [\"end in y\"], \"drift\": {\"worst\": \""));
+    free(report);
+    free(json);
+    trial_close(&trial);
+    trial = trial_open("kinetics/incline.yaml", NULL);
+    trial_run(&trial, NULL);
+    json = fbd_result_json(trial.result);
+    assert_null(strstr(json, "couplings"));
+    assert_int_equal(fbd_simulation_drift(trial.simulation).rows, 0);
+    free(json);
+    trial_close(&trial);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_parallelogram_with_a_crank_too_many_moves_and_names_what_is_too_much),
+        cmocka_unit_test(two_rods_in_one_place_share_by_halves),
+        cmocka_unit_test(a_pin_across_two_slides_says_too_much),
+        cmocka_unit_test(what_is_needed_is_not_called_redundant),
+        cmocka_unit_test(explain_lists_couplings_rows_and_what_is_redundant),
+        cmocka_unit_test(the_drift_that_is_reported_is_the_one_that_there_is),
+        cmocka_unit_test(report_and_json_say_the_drift),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
