@@ -122,8 +122,9 @@ static enum exit_code draw_state(const struct options *options, fbd_state *state
 }
 
 /* What holds the state at rest; to standard output, where --json may take the place of the text. */
-static enum exit_code show_statics(const struct options *options, const fbd_state *state, fbd_errors *errors)
+static enum exit_code show_statics(const struct options *options, fbd_state *state, fbd_errors *errors)
 {
+    if (options->settle && !fbd_find_equilibrium(state, errors)) return exit_failed;
     fbd_statics *statics = fbd_statics_new(state, errors);
     if (!statics) return exit_failed;
     enum exit_code code = fbd_statics_holds(statics) ? exit_done : exit_failed;

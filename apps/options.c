@@ -40,6 +40,8 @@ static const char help[] =
     "  --equations          the assembled equations, term by term\n"
     "  --linearize          equilibrium, A matrix, eigenvalues, frequencies, damping ratios\n"
     "  --static             the reactions that hold the scene at rest where it is, or what it lacks\n"
+    "  --settle             with --static: where the scene comes to rest when it is let down slowly from "
+    "there\n"
     "  --at TIME|NAME=VALUE for these three and for --svg: at this time of the run, or with these "
     "coordinates\n"
     "                       (may be repeated)\n"
@@ -71,6 +73,7 @@ enum {
     option_equations,
     option_linearize,
     option_static,
+    option_settle,
     option_at,
     option_explain,
     option_check_hand,
@@ -102,6 +105,7 @@ static const struct option long_options[] = {
     {"equations", no_argument, NULL, option_equations},
     {"linearize", no_argument, NULL, option_linearize},
     {"static", no_argument, NULL, option_static},
+    {"settle", no_argument, NULL, option_settle},
     {"at", required_argument, NULL, option_at},
     {"explain", no_argument, NULL, option_explain},
     {"check-hand", no_argument, NULL, option_check_hand},
@@ -167,6 +171,7 @@ static bool take_option(const struct command_line *unused, int option, void *con
     case option_ledger: options->ledger = true; return true;
     case option_error_bars: options->run.error_bars = true; return true;
     case option_quiet: options->quiet = true; return true;
+    case option_settle: options->settle = true; return true;
     case option_at:
         if (options->at_count == most_settings) return usage("too many --at", "");
         options->at[options->at_count++] = optarg;
@@ -232,6 +237,7 @@ static bool options_agree(const struct options *options)
         return usage("--svg belongs to a run, --equations or --linearize", "");
     if ((options->drawing.body || options->drawing.components) && !options->svg)
         return usage("--body and --components go with --svg", "");
+    if (options->settle && !rests) return usage("--settle goes with --static", "");
     if (stands_still && !rests && options->json) return usage("--json belongs to a run or to --static", "");
     if (stands_still && (options->csv || options->html || options->plot || options->gnuplot ||
                          options->ledger || options->every > 0))

@@ -24,7 +24,7 @@ struct options {
     size_t at_count;
     fbd_options run;
     double every;
-    bool ledger, quiet;
+    bool ledger, quiet, settle;
     const char *csv, *json, *svg, *html;
     const char *plot, *gnuplot, *plot_of;
     fbd_drawing drawing;

@@ -431,6 +431,13 @@ FBD_API char *fbd_linearization_text(const fbd_linearization *linearization);
 /* The eigenvalues in the complex plane, as an SVG document. */
 FBD_API char *fbd_linearization_svg(const fbd_linearization *linearization);
 
+/* Move `state` to an equilibrium: to where the scene comes to rest when it is let down slowly from there
+ * (downhill in the sense of the masses, couplings kept), or, where that has no end because forces have no
+ * potential, to the balance nearest to it. Rates become zero. False with a note in `errors` when none was
+ * found (`no-equilibrium`), dry friction of a slide or a bearing holds in a range of places (`sticks`), or a
+ * motion is prescribed (`not-independent`); the state is then anywhere. */
+FBD_API bool fbd_find_equilibrium(fbd_state *state, fbd_errors *errors);
+
 /* The scene at rest where it is, with every reaction. */
 typedef struct fbd_statics fbd_statics;
 

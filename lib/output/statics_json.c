@@ -53,7 +53,11 @@ static void flag(struct text *text, const char *name, bool value, const char *be
 static void write_verdict(struct text *text, const struct fbd_statics *statics)
 {
     text_add(text, "  ");
-    member(text, "t", statics->state->t, ",\n  ");
+    member(text, "t", statics->state->t, ",\n  \"coordinates\": {");
+    for (int i = 0; i < statics->model->plan.n; i++)
+        member(text, statics->model->labels[i].name, statics->state->y[i],
+               i + 1 < statics->model->plan.n ? ", " : "");
+    text_add(text, "},\n  ");
     flag(text, "equilibrium", fbd_statics_holds(statics), ",\n  ");
     text_printf(text, "\"indeterminacy\": %zu,\n  \"mobility\": %zu,\n  \"undetermined\": [",
                 statics->indeterminacy, statics->mobility);

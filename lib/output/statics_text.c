@@ -48,11 +48,8 @@ static void write_determinacy(struct text *text, const struct fbd_statics *stati
 static void write_unbalanced(struct text *text, const struct fbd_statics *statics)
 {
     if (statics->unbalanced_count == 0) return;
-    bool alone = statics->unbalanced[0].alone;
-    text_printf(text, "  it moves; %s would hold it:\n",
-                alone && statics->unbalanced_count > 1 ? "any one of these"
-                : statics->unbalanced_count > 1        ? "these together"
-                                                       : "this");
+    const char *many = statics->unbalanced[0].alone ? "any one of these" : "these together";
+    text_printf(text, "  it moves; %s would hold it:\n", statics->unbalanced_count > 1 ? many : "this");
     for (size_t i = 0; i < statics->unbalanced_count; i++) {
         const fbd_unbalanced *one = &statics->unbalanced[i];
         text_printf(text, "    %s", one->coordinate);
@@ -79,8 +76,29 @@ static void write_broken(struct text *text, const fbd_limit *limit)
     text_printf(text, " %s\n", limit->unit);
 }
 
+/* The coordinates that are not those of the file. */
+static void write_place(struct text *text, const struct fbd_statics *statics)
+{
+    enum { most_listed = 40 };
+    const struct fbd_model *model = statics->model;
+    int listed = 0;
+    for (int i = 0; i < model->plan.n; i++) {
+        const struct label *label = &model->labels[i];
+        double q = statics->state->y[i], initial = model->scene->coordinates[i].initial;
+        if (fabs(q - initial) <= 1e-12 * fmax(1, fabs(initial))) continue;
+        if (listed++ >= most_listed) continue;
+        text_printf(text, listed == 1 ? "Where %s = " : "      %s = ", label->name);
+        text_number(text, q, digits);
+        text_printf(text, " %s (in the file ", label->unit);
+        text_number(text, initial, digits);
+        text_add(text, ")\n");
+    }
+    if (listed > most_listed) text_printf(text, "      and %d others\n", listed - most_listed);
+}
+
 static void write_verdict(struct text *text, const struct fbd_statics *statics)
 {
+    write_place(text, statics);
     text_add(text, "Statics at t = ");
     text_number(text, statics->state->t, digits);
     if (fbd_statics_holds(statics)) {
@@ -105,8 +123,8 @@ static void write_row(struct text *text, const struct fbd_statics *statics, cons
     const double values[3] = {without_rounding(statics, force.x, 1), without_rounding(statics, force.y, 1),
                               without_rounding(statics, moment, statics->length)};
     text_printf(text, "    %s ", name);
-    for (int k = 0; k < (turns ? 3 : 2); k++) {
-        text_pad(text, (size_t)(26 + 18 * k));
+    for (size_t k = 0; k < (turns ? 3U : 2U); k++) {
+        text_pad(text, 26 + 18 * k);
         text_add(text, values[k] < 0 ? "" : " ");
         text_number(text, values[k], digits);
     }
@@ -128,8 +146,10 @@ static void write_body(struct text *text, const struct fbd_statics *statics, siz
     text_printf(text, "fx [%s]", force_unit(model));
     text_pad(text, 45);
     text_printf(text, "fy [%s]", force_unit(model));
-    if (turns) text_pad(text, 63);
-    if (turns) text_printf(text, "moment about G [%s]", moment_unit(model));
+    if (turns) {
+        text_pad(text, 63);
+        text_printf(text, "moment about G [%s]", moment_unit(model));
+    }
     text_add(text, "\n");
     for (size_t i = 0; i < diagram->count; i++) {
         const struct arrow *arrow = &diagram->arrows[i];

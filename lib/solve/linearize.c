@@ -3,151 +3,12 @@
 
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_errno.h>
-#include <gsl/gsl_multiroots.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/diag.h"
 #include "dynamics/modes.h"
-
-/* ---- equilibrium: a(q, v = 0) = 0 by GSL's hybridsj with the exact Jacobian */
-
-struct balance {
-    struct fbd_state *state;
-    double *work; /* scratch of state_jacobian, then dfdy and dfdt */
-    double zero;  /* an acceleration that is none, beside those of the start */
-};
-
-static void set_coordinates(struct fbd_state *state, const gsl_vector *q)
-{
-    size_t n = (size_t)state->model->plan.n;
-    for (size_t i = 0; i < n; i++) {
-        state->y[i] = gsl_vector_get(q, i);
-        state->y[n + i] = 0;
-    }
-}
-
-static int forces(const gsl_vector *q, void *context, gsl_vector *f)
-{
-    struct balance *balance = context;
-    struct fbd_state *state = balance->state;
-    set_coordinates(state, q);
-    state_evaluate(state);
-    for (size_t i = 0; i < f->size; i++) gsl_vector_set(f, i, state->a[i]);
-    return GSL_SUCCESS;
-}
-
-static int slopes(const gsl_vector *q, void *context, gsl_matrix *J)
-{
-    struct balance *balance = context;
-    struct fbd_state *state = balance->state;
-    size_t n = J->size1, size = 2 * n;
-    double *dfdy = balance->work, *dfdt = dfdy + size * size;
-    set_coordinates(state, q);
-    struct instant at = state_instant(state);
-    state_jacobian(state->model, &at, state->scratch, dfdy, dfdt);
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j < n; j++) gsl_matrix_set(J, i, j, dfdy[(n + i) * size + j]);
-    return GSL_SUCCESS;
-}
-
-static int both(const gsl_vector *q, void *context, gsl_vector *f, gsl_matrix *J)
-{
-    forces(q, context, f);
-    return slopes(q, context, J);
-}
-
-/* The size that accelerations have at a place where nothing balances: what zero is measured against. */
-static double typical_acceleration(const struct fbd_state *state)
-{
-    double most = vec_norm(state->model->scene->gravity);
-    for (int i = 0; i < state->model->plan.n; i++) most = fmax(most, fabs(state->a[i]));
-    return most;
-}
-
-static double imbalance(const gsl_vector *f)
-{
-    double most = 0;
-    for (size_t i = 0; i < f->size; i++) most = fmax(most, fabs(gsl_vector_get(f, i)));
-    return most;
-}
-
-/* Newton from q, on to where it gets no better; the state is moved to the best place. */
-static bool find_balance_from(struct balance *balance, gsl_vector *q, gsl_multiroot_fdfsolver *solver)
-{
-    enum { most_iterations = 200 };
-    struct fbd_state *state = balance->state;
-    gsl_multiroot_function_fdf function = {forces, slopes, both, q->size, balance};
-    int status = gsl_multiroot_fdfsolver_set(solver, &function, q);
-    double least = imbalance(solver->f);
-    for (int i = 0; i < most_iterations && status == GSL_SUCCESS && least > 0; i++) {
-        status = gsl_multiroot_fdfsolver_iterate(solver);
-        bool better = imbalance(solver->f) < least;
-        if (!better && least <= balance->zero) break;
-        if (!better) continue;
-        least = imbalance(solver->f);
-        gsl_vector_memcpy(q, solver->x);
-    }
-    set_coordinates(state, q);
-    state_evaluate(state);
-    /* Where rounding keeps it from `zero`, the last digits of a position are at fault: still a balance. */
-    return least <= 1e4 * balance->zero;
-}
-
-/* A start on a ridge has no way down (a rod held level: the slope of its moment is zero), and Newton may leap
- * from near it. So starts beside it are tried as well, +-0.1, 0.2, ... 1.6 rad and the same share of a
- * coordinate's size, and the balance nearest to the state counts. */
-static void set_start(gsl_vector *q, const struct fbd_model *model, const double *origin, int trial)
-{
-    double share = trial == 0 ? 0 : ldexp(0.1, (trial - 1) / 2) * (trial % 2 ? -1 : 1);
-    for (size_t i = 0; i < q->size; i++) {
-        double size = model->scene->coordinates[i].angle ? 1 : fmax(fabs(origin[i]), 1e-3);
-        gsl_vector_set(q, i, origin[i] + share * size);
-    }
-}
-
-static double distance_between(const double *a, const double *b, size_t n)
-{
-    double most = 0;
-    for (size_t i = 0; i < n; i++) most = fmax(most, fabs(a[i] - b[i]));
-    return most;
-}
-
-/* 1 found, 0 none near, -1 out of memory. */
-static int find_balance(struct balance *balance)
-{
-    enum { most_trials = 11 };
-    struct fbd_state *state = balance->state;
-    size_t n = (size_t)state->model->plan.n;
-    gsl_vector *q = gsl_vector_alloc(n);
-    double *origin = calloc(2 * n + 1, sizeof *origin), *best = origin ? origin + n : NULL,
-           nearest = HUGE_VAL;
-    gsl_multiroot_fdfsolver *solver = gsl_multiroot_fdfsolver_alloc(gsl_multiroot_fdfsolver_hybridsj, n);
-    bool made = q && origin && solver;
-    if (made) {
-        memcpy(origin, state->y, n * sizeof *origin);
-        set_start(q, state->model, origin, 0);
-        forces(q, balance, solver->f);
-        balance->zero = 1e-13 * typical_acceleration(state);
-    }
-    for (int trial = 0; made && trial < most_trials; trial++) {
-        set_start(q, state->model, origin, trial);
-        if (!find_balance_from(balance, q, solver)) continue;
-        double distance = distance_between(state->y, origin, n);
-        /* Of two that rounding tells apart the first one stays. */
-        if (!(distance < nearest * (1 - 1e-9))) continue;
-        nearest = distance;
-        memcpy(best, state->y, n * sizeof *best);
-    }
-    if (made && nearest < HUGE_VAL) {
-        memcpy(state->y, best, n * sizeof *best);
-        state_evaluate(state);
-    }
-    if (solver) gsl_multiroot_fdfsolver_free(solver);
-    if (q) gsl_vector_free(q);
-    free(origin);
-    return made ? nearest < HUGE_VAL : -1;
-}
+#include "solve/equilibrium.h"
 
 /* ---- eigenvalues */
 
@@ -235,7 +96,7 @@ static fbd_linearization *linearization_new(const struct fbd_model *model)
     return NULL;
 }
 
-/* The Jacobian at the state into `work` (as in struct balance), and the largest slope that each acceleration
+/* The Jacobian at the state into `work` (df/dt behind it), and the largest slope that each acceleration
  * has along a coordinate. */
 static void slopes_at(struct fbd_state *state, double *work, double *most)
 {
@@ -275,10 +136,9 @@ static int find_matrix(struct fbd_linearization *linear, struct fbd_state *state
     double *origin = calloc(4 * n + 1, sizeof *origin);
     if (!origin) return -1;
     double *before = origin + n, *beside = before + n, *there = beside + n;
-    struct balance balance = {.state = state, .work = linear->A};
     memcpy(origin, state->y, n * sizeof *origin);
     slopes_at(state, linear->A, before);
-    int found = find_balance(&balance);
+    int found = equilibrium_search(state);
     if (found > 0) {
         memcpy(linear->q, state->y, n * sizeof *linear->q);
         for (size_t i = 0; i < n; i++) state->y[i] += little * (origin[i] - linear->q[i]);

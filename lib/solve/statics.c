@@ -129,10 +129,10 @@ static void warn(const struct fbd_statics *statics, fbd_errors *errors)
              statics->undetermined_count > 1 ? " and others" : "");
 }
 
-fbd_statics *fbd_statics_new(const fbd_state *state, fbd_errors *errors)
+static fbd_statics *statics_new(const fbd_state *state, fbd_errors *errors)
 {
     struct fbd_statics *statics = calloc(1, sizeof *statics);
-    errors->file = state->model->scene->file;
+    diag_in_file(errors, state->model->scene->file);
     if (statics) statics->state = state_new(state->model);
     if (!statics || !statics->state) {
         diag_out_of_memory(errors);
@@ -150,6 +150,14 @@ fbd_statics *fbd_statics_new(const fbd_state *state, fbd_errors *errors)
     }
     fbd_statics_free(statics);
     return NULL;
+}
+
+fbd_statics *fbd_statics_new(const fbd_state *state, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_statics *statics = statics_new(state, diag_begin(&call, list));
+    diag_end(&call);
+    return statics;
 }
 
 void fbd_statics_free(fbd_statics *statics)

@@ -30,11 +30,12 @@ static bool find_sizes(struct rest_system *system)
     const struct fbd_model *model = system->state->model;
     struct instant at = state_instant(system->state);
     struct arrow *arrows = ARENA_ARRAY(system->arena, diagram_most_arrows(model), struct arrow);
-    double couple = 0;
+    double couple = 0, heaviest = 0;
     for (size_t b = 0; arrows && b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
         struct pose pose = body_pose(body, &at);
         struct vec G = point_motion(body, &pose, body->inertia.G).p;
+        heaviest = fmax(heaviest, body->inertia.mass);
         size_t count = diagram_fill(model, (int)b, &at, system->state->a, system->slots0, arrows);
         for (size_t i = 0; i < count; i++) {
             system->length = fmax(system->length, vec_norm(vec_sub(arrows[i].point, G)));
@@ -45,6 +46,8 @@ static bool find_sizes(struct rest_system *system)
     }
     if (system->length == 0) system->length = 1;
     system->force = fmax(system->force, couple / system->length);
+    /* Where all loads vanish, as at the neutral place of a spring, a millionth of the weights is a size. */
+    system->force = fmax(system->force, 1e-6 * heaviest * vec_norm(model->scene->gravity));
     return arrows != NULL;
 }
 
@@ -58,7 +61,7 @@ static void read_reactions(const struct rest_system *system, const double *slots
         const struct tree_link *link = &model->tree->links[i];
         const struct tree_state *s = &system->state->tree->links[i];
         const double *g = slots + link->coordinate;
-        double *own = r + 3 * (i - 1);
+        double *own = r + 3 * (size_t)(i - 1);
         own[0] = s->F.force.x;
         own[1] = s->F.force.y;
         own[2] = s->F.moment / system->length;

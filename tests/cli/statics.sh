@@ -56,6 +56,14 @@ END
 check 'a scene that does not fit its couplings is 1' exits 1 run --static off.yaml
 check 'with its place in the file' says '^off\.yaml:6:[0-9]+: error: .*`B` is off by 0\.1.*\[does-not-fit\]' err
 
+check '--settle goes to where it rests' exits 0 run --static --settle --json - "$models/trees/elastic_pendulum.yaml"
+check 'which is there' json 'abs(it["coordinates"]["bob.y"] + 0.9 + 0.5*9.81/40) < 1e-9 and it["mobility"] == 3'
+check 'what falls for ever is 1' exits 1 run --static --settle "$models/kinetics/drop_us.yaml"
+check 'and says so' says '\[no-equilibrium\]' err
+check 'dry friction has no one place' exits 1 run --static --settle "$models/kinetics/incline.yaml"
+check 'with its place in the file' says 'incline\.yaml:[0-9]+:[0-9]+: error: .*\[sticks\]' err
+check '--settle goes with --static' exits 2 run --settle "$models/kinetics/incline.yaml"
+
 check 'two things at a time are 2' exits 2 run --static --equations "$models/statics/beam.yaml"
 check 'CSV belongs to a run' exits 2 run --static --csv a.csv "$models/statics/beam.yaml"
 check 'and so do pictures' exits 2 run --static --html a.html "$models/statics/beam.yaml"

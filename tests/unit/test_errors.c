@@ -58,6 +58,10 @@ static void models_and_states_need_no_list(void **unused)
     fbd_linearization *linear = fbd_linearize(state, NULL);
     assert_non_null(linear);
     fbd_linearization_free(linear);
+    fbd_statics *statics = fbd_statics_new(state, NULL);
+    assert_non_null(statics);
+    fbd_statics_free(statics);
+    assert_true(fbd_find_equilibrium(state, NULL));
     fbd_state_free(state);
     fbd_model_free(model);
 }

@@ -179,6 +179,27 @@ static bool move(void)
     return rest_with("5 N");
 }
 
+/* Two rods hung up by three points, let down. */
+static bool let_down(void)
+{
+    static const char swing[] = "fbd: 1\nground: {points: {C: [1, 0]}}\nbodies:\n"
+                                "  a: {shape: rod, mass: 1, length: 1, motion: {pivot: {point: left}}, "
+                                "initial: {theta: -1}, forces: [gravity]}\n"
+                                "  b: {shape: rod, mass: 2, length: 1, motion: planar, initial: {assemble: "
+                                "true, x: 1, y: -1, theta: 1}}\n"
+                                "couplings:\n  - pin: {name: p, between: [b.left, a.right]}\n"
+                                "  - rod: {name: r, between: [b.right, ground.C]}\n";
+    fbd_errors *errors;
+    fbd_model *model = load(swing, &errors);
+    if (!model) return false;
+    fbd_state *state = fbd_state_new(model);
+    bool done = state && fbd_find_equilibrium(state, errors);
+    fbd_state_free(state);
+    fbd_model_free(model);
+    fbd_errors_free(errors);
+    return done;
+}
+
 static void a_run_without_memory_fails_and_leaks_nothing(void **unused)
 {
     (void)unused;
@@ -215,6 +236,7 @@ static void statics_without_memory_fail_and_leak_nothing(void **unused)
     (void)unused;
     fail_each(rest, 0);
     fail_each(move, 0);
+    fail_each(let_down, 0);
 }
 
 int main(void)

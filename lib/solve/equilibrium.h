@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The equilibrium near a state: accelerations zero at rest.
+ *
+ * With couplings the coordinates are not independent. Let C(q) be the nearest place on the constraints (in
+ * the sense of the mass matrix). Then
+ *
+ *     F(q) = a(C(q)) + k (C(q) - q) = 0,    dF/dq = da/dq (1 - P) - k P,   P = M^-1 J^T (J M^-1 J^T)^-1 J,
+ *
+ * has the equilibria on the constraints for its zeros, since a lies in the null space of J and C(q) - q
+ * across it; k makes both of one size.
+ */
+#ifndef FBD_SOLVE_EQUILIBRIUM_H
+#define FBD_SOLVE_EQUILIBRIUM_H
+
+#include "dynamics/state.h"
+
+/* Move the state to the equilibrium near it by GSL's hybrid Newton method with the exact Jacobian, in the
+ * modes that it has; rates become zero. 1 found, 0 none near (the state is then anywhere), -1 out of memory.
+ */
+int equilibrium_search(struct fbd_state *state);
+
+#endif

@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Where scenes come to rest when they are let down slowly, against places that are known; and those that have
+ * no such place.
+ *
+ * Positions of some 1 m and 1 rad come out to 1e-9: accelerations are balanced to 1e-9 of gravity at worst,
+ * and the slopes of the forces are of the size of gravity over the length.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "rest_checks.h"
+
+static const double place = 1e-9;
+
+static void let_down(struct trial *trial)
+{
+    fbd_errors *errors = fbd_errors_new();
+    assert_non_null(errors);
+    bool found = fbd_find_equilibrium(trial->state, errors);
+    if (!found) fbd_errors_print(errors, stderr);
+    assert_true(found);
+    fbd_errors_free(errors);
+}
+
+/* It rests there, says statics. */
+static void check_rests(struct checks *checks, struct trial *trial)
+{
+    struct rest rest = rest_of(*trial);
+    check_holds(checks, &rest, 0);
+    fbd_statics_free(rest.statics);
+    fbd_errors_free(rest.errors);
+}
+
+static void a_pendulum_ends_below_its_axis_from_anywhere(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    static const double from[] = {-3.1, -1.5, 0.3, pi / 2, 3.14};
+    for (size_t i = 0; i < sizeof from / sizeof *from; i++) {
+        struct trial trial = trial_open("rotation/compound_pendulum.yaml", NULL);
+        trial_set(&trial, "theta", from[i]);
+        trial_set(&trial, "omega", 2);
+        let_down(&trial);
+        check_close(&checks, "straight down", trial_get(&trial, "theta"), 0, place);
+        check_close(&checks, "at rest", trial_get(&trial, "omega"), 0, 0);
+        check_rests(&checks, &trial);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
+/* Nothing pushes the scene as a whole to the side: its centre of mass stays at 0.5 x 0.6 / 2.5. */
+static void an_elastic_pendulum_ends_below_its_cart_and_the_centre_of_mass_stays(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct trial trial = trial_open("trees/elastic_pendulum.yaml", NULL);
+    let_down(&trial);
+    check_close(&checks, "cart", trial_get(&trial, "cart.x"), 0.12, place);
+    check_close(&checks, "bob across", trial_get(&trial, "bob.x"), 0, place);
+    check_close(&checks, "bob down", trial_get(&trial, "bob.y"), -(0.9 + 0.5 * g / 40), place);
+    check_rests(&checks, &trial);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+static void a_chain_of_ten_hangs_straight_down(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct trial trial = trial_open("trees/chain_of_ten_rods.yaml", NULL);
+    let_down(&trial);
+    for (size_t k = 0; k < 10; k++)
+        check_close(&checks, "angle", trial_get(&trial, fbd_model_coordinate(trial.model, k).name), 0, place);
+    check_rests(&checks, &trial);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+/* The lower bob is a million times lighter, and its accelerations as much larger. */
+static void two_bobs_hang_straight_down_whatever_their_masses(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct trial trial = trial_open("trees/mass_ratio.yaml", NULL);
+    let_down(&trial);
+    check_close(&checks, "upper", trial_get(&trial, "upper.theta"), 0, place);
+    check_close(&checks, "lower", trial_get(&trial, "lower.theta"), 0, place);
+    check_rests(&checks, &trial);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+/* Three rods of 1 m between points 2 m apart: the middle one level, the others 60 deg below the horizon. */
+static void three_rods_hang_between_two_points_as_a_trapezoid(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    static const char text[] = "fbd: 1\nground: {points: {B: [2, 0]}}\nbodies:\n"
+                               "  a: {shape: rod, mass: 1, length: 1, motion: {pivot: {point: left}}, "
+                               "initial: {theta: -1.5 rad}, forces: "
+                               "[gravity]}\n"
+                               "  b: {shape: rod, mass: 1, length: 1, motion: {pivot: {on: a, at: right, "
+                               "point: left}}, initial: {theta: 1.2 "
+                               "rad, assemble: true}, forces: [gravity]}\n"
+                               "  c: {shape: rod, mass: 1, length: 1, motion: {pivot: {on: b, at: right, "
+                               "point: left}}, initial: {theta: 1, "
+                               "assemble: true}, forces: [gravity]}\n"
+                               "couplings: [pin: {name: end, between: [c.right, ground.B]}]\n";
+    struct trial trial = trial_parse(text);
+    let_down(&trial);
+    check_close(&checks, "first", trial_get(&trial, "a.theta"), -pi / 3, place);
+    check_close(&checks, "second", trial_get(&trial, "b.theta"), pi / 3, place);
+    check_close(&checks, "third", trial_get(&trial, "c.theta"), pi / 3, place);
+    struct rest rest = rest_of(trial);
+    check_holds(&checks, &rest, 0);
+    /* Half the weight at either end; about the knee of the first rod: H sin 60 = (3/2 - 1/2) g cos 60. */
+    check_close(&checks, "H", arrow(&rest, "a", "pin").fx, -g * cos(pi / 3) / sin(pi / 3), 100 * place);
+    check_close(&checks, "V", arrow(&rest, "a", "pin").fy, 1.5 * g, 100 * place);
+    rest_close(&rest);
+    checks_end(&checks);
+}
+
+static void a_bob_on_a_rope_ends_below(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct trial trial = trial_open("couplings/rope_pendulum.yaml", NULL);
+    let_down(&trial);
+    check_close(&checks, "across", trial_get(&trial, "bob.x"), 0, place);
+    check_close(&checks, "down", trial_get(&trial, "bob.y"), -1, place);
+    check_rests(&checks, &trial);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+/* A spring that nothing pulls ends at its neutral place, where every force is nothing but rounding. */
+static void a_spring_without_a_load_ends_neutral(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct trial trial = trial_open("energy/softening_spring.yaml", NULL);
+    let_down(&trial);
+    check_close(&checks, "x", trial_get(&trial, "x"), 0, place);
+    check_rests(&checks, &trial);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+static void check_refused(const char *path, const char *id)
+{
+    struct trial trial = trial_open(path, NULL);
+    fbd_errors *errors = fbd_errors_new();
+    assert_false(fbd_find_equilibrium(trial.state, errors));
+    assert_int_equal(fbd_errors_failed(errors), 1);
+    assert_string_equal(fbd_errors_get(errors, 0)->id, id);
+    fbd_errors_free(errors);
+    trial_close(&trial);
+}
+
+static void what_has_no_place_of_rest_is_said(void **unused)
+{
+    (void)unused;
+    check_refused("kinetics/drop_us.yaml", "no-equilibrium");
+    check_refused("couplings/gear_pair.yaml", "no-equilibrium");
+    check_refused("energy/inverse_square.yaml", "no-equilibrium"); /* attracted ever less on the other side */
+    check_refused("kinetics/incline.yaml", "sticks");
+    check_refused("trees/shaken_pendulum.yaml", "not-independent");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_pendulum_ends_below_its_axis_from_anywhere),
+        cmocka_unit_test(an_elastic_pendulum_ends_below_its_cart_and_the_centre_of_mass_stays),
+        cmocka_unit_test(a_chain_of_ten_hangs_straight_down),
+        cmocka_unit_test(two_bobs_hang_straight_down_whatever_their_masses),
+        cmocka_unit_test(three_rods_hang_between_two_points_as_a_trapezoid),
+        cmocka_unit_test(a_bob_on_a_rope_ends_below),
+        cmocka_unit_test(a_spring_without_a_load_ends_neutral),
+        cmocka_unit_test(what_has_no_place_of_rest_is_said),
+    };
+    return cmocka_run_group_tests(tests, no_handler, NULL);
+}
