@@ -196,8 +196,7 @@ static bool set_basis(struct rest_system *system, double *start)
         for (size_t k = 0; k < d; k++) {
             start[j] -= svd_null(&system->svd, j, k) * y[k];
             for (size_t l = 0; l < least.rank; l++)
-                system->basis[j * d + l] +=
-                    svd_null(&system->svd, j, k) * gsl_matrix_get(least.V, k, l) / gsl_vector_get(least.S, l);
+                system->basis[j * d + l] += svd_null(&system->svd, j, k) * least.V[l * d + k] / least.S[l];
         }
     }
     svd_free(&least);

@@ -2,19 +2,23 @@
  *
  * Singular values of a small dense matrix of any shape, for systems that may have too many or too few
  * equations.
+ *
+ * One-sided Jacobi rotations (Hestenes 1958; Golub and Van Loan, Matrix Computations, section 8.6.3): columns
+ * are turned in pairs until all are orthogonal, A V = U S. Of GSL's methods (2.7.1) two take memory without
+ * looking, and its own Jacobi left the equations of a truss of a hundred rods unsolved.
  */
 #ifndef FBD_SOLVE_SVD_H
 #define FBD_SOLVE_SVD_H
 
-#include <gsl/gsl_matrix.h>
 #include <stdbool.h>
 #include <stddef.h>
 
-/* A = U S V^T; singular values below 1e-10 of the largest are zero, and come last. */
+/* A = U S V^T; singular values below 1e-10 of the largest count as zero, and come last. */
 struct svd {
     size_t rows, cols, rank;
-    gsl_matrix *U, *V; /* U with as many rows as the larger of the two; V square */
-    gsl_vector *S;
+    double *U; /* cols of rows: U S, column after column */
+    double *V; /* cols of cols, column after column */
+    double *S; /* cols, falling */
 };
 
 /* Of a matrix given row by row. False when memory is out; svd_free in any case. */
@@ -27,7 +31,7 @@ void svd_add_solution(const struct svd *svd, const double *b, double *x);
 /* Entry i of null vector k, 0 <= k < cols - rank: orthonormal, A times them is zero. */
 static inline double svd_null(const struct svd *svd, size_t i, size_t k)
 {
-    return gsl_matrix_get(svd->V, i, svd->rank + k);
+    return svd->V[(svd->rank + k) * svd->cols + i];
 }
 
 #endif

@@ -51,6 +51,59 @@ static void a_truss_bears_its_load_as_the_method_of_joints_says(void **unused)
     checks_end(&checks);
 }
 
+/* A truss of 25 panels, its text: joints of 1 kg, L1 ... L25 below (L25 on a roller) and U0 ... U24 above. */
+static void write_truss(char *text, size_t room)
+{
+    enum { panels = 25 };
+    size_t at = 0;
+#define ADD(...) at += (size_t)snprintf(text + at, room - at, __VA_ARGS__)
+    ADD("fbd: 1\nground: {points: {L0: [0, 0]}}\nbodies:\n");
+    for (int i = 1; i <= panels; i++)
+        ADD("  L%d: {mass: 1, motion: %s, initial: {x: %d}, forces: [gravity%s]}\n", i,
+            i == panels ? "slide" : "particle", i, i == panels ? ", normal" : "");
+    for (int i = 0; i < panels; i++)
+        ADD("  U%d: {mass: 1, motion: particle, initial: {x: %d.5, y: 1}, forces: [gravity]}\n", i, i);
+    ADD("couplings:\n");
+    for (int i = 0; i < panels; i++) {
+        const char *from = i == 0 ? "ground." : "";
+        ADD("  - rod: {name: low%d, between: [%sL%d, L%d]}\n", i, from, i, i + 1);
+        ADD("  - rod: {name: up%d, between: [%sL%d, U%d]}\n", i, from, i, i);
+        ADD("  - rod: {name: down%d, between: [U%d, L%d]}\n", i, i, i + 1);
+        if (i + 1 < panels) ADD("  - rod: {name: top%d, between: [U%d, U%d]}\n", i, i, i + 1);
+    }
+#undef ADD
+    assert_true(at < room);
+}
+
+/* By Ritter's cut through panel k, moments about U_k: R (k + 1/2) - sum of weights to the left on their arms
+ * = the tension of the lower chord on its arm of 1 m. */
+static void a_long_truss_bears_its_weight_as_a_cut_through_it_says(void **unused)
+{
+    (void)unused;
+    enum { panels = 25 };
+    static char text[20000];
+    struct checks checks = {0};
+    write_truss(text, sizeof text);
+    struct rest rest = rest_of(trial_parse(text));
+    double N = 0, W = 2 * panels * g;
+    for (int i = 0; i < panels; i++) N += g * (i + 1 + i + 0.5) / panels;
+    check_holds(&checks, &rest, 0);
+    check_arrow(&checks, &rest, "L25", "normal", 0, N);
+    for (int k = 0; k < panels; k++) {
+        char body[8], rod[8];
+        double about = k + 0.5, moment = (W - N) * about;
+        for (int i = 0; i < panels; i++) {
+            if (i + 1 < about) moment -= g * (about - (i + 1));
+            if (i < k) moment -= g * (k - i);
+        }
+        snprintf(body, sizeof body, "L%d", k + 1);
+        snprintf(rod, sizeof rod, "low%d", k);
+        check_close(&checks, rod, arrow(&rest, body, rod).fx, -moment, 1e-8); /* of 2 kN, by 98 equations */
+    }
+    rest_close(&rest);
+    checks_end(&checks);
+}
+
 /* About the foot: N L sin = (m g/2 + m0 g) L cos + P s cos. */
 static void a_ladder_stands_by_friction_at_its_foot(void **unused)
 {
@@ -219,6 +272,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_beam_rests_on_two_supports_by_moments_about_one),
         cmocka_unit_test(a_truss_bears_its_load_as_the_method_of_joints_says),
+        cmocka_unit_test(a_long_truss_bears_its_weight_as_a_cut_through_it_says),
         cmocka_unit_test(a_ladder_stands_by_friction_at_its_foot),
         cmocka_unit_test(a_ladder_slips_where_friction_ends),
         cmocka_unit_test(a_rubbing_pulley_holds_unequal_weights),
