@@ -2,6 +2,7 @@
  *
  * Couplings that close loops: a start that does not fit is refused, and every step ends on the constraints.
  */
+#include <gsl/gsl_errno.h>
 #include <string.h>
 
 #include "base/text.h"
@@ -79,6 +80,53 @@ void run_close_start(struct run *run)
         refuse(run, &misfit, !position);
     else
         state_project(run->state, false);
+}
+
+/* The largest change from `from` to `to`, in tolerances of the largest size that each number has had. */
+static double tolerances_apart(const struct run *run, const double *from, const double *to)
+{
+    size_t n = (size_t)run->model->plan.n;
+    const double *most = run->anchor + 2 * n;
+    double apart = 0;
+    for (size_t i = 0; i < 2 * n; i++) {
+        double moved = fabs(to[i] - from[i]);
+        if (moved > 0) apart = fmax(apart, moved / (run->options.tolerance * fmax(most[i], fabs(to[i]))));
+    }
+    return apart;
+}
+
+/* y[2n] at time t, brought back; by how much. */
+static double bring_back(struct run *run, double t, double *y)
+{
+    struct instant at = state_instant(run->during);
+    double *before = run->sample;
+    memcpy(before, y, 2 * (size_t)run->model->plan.n * sizeof *y);
+    at.t = t;
+    return_to_constraints(run->model, &at, y);
+    return tolerances_apart(run, before, y);
+}
+
+void run_close_within(struct run *run, double t, double *y)
+{
+    const double far = 100;
+    if (!has_ties(run)) return;
+    double moved = bring_back(run, t, y);
+    if (moved <= far) return;
+    /* The curve through a step that passes a singular position may be off by more than the step's end is: no
+     * error estimate covers what it is made of. Steps that end at t have one. */
+    size_t n = (size_t)run->model->plan.n;
+    double *other = run->aside, *f = other + 2 * n;
+    if (switcher_walk(run->stepper, t, other, f) == GSL_SUCCESS && bring_back(run, t, other) < moved)
+        memcpy(y, other, 2 * n * sizeof *y);
+}
+
+/* A multistep method goes on from what it remembers, which a return to the constraints does not change. When
+ * that has gone far it starts anew: near a singular position being off grows. */
+bool run_has_gone_astray(const struct run *run)
+{
+    const double far = 10;
+    if (!run->projected || !run->options.method->multistep) return false;
+    return tolerances_apart(run, run->y, run->state->y) > far;
 }
 
 void run_close_step(struct run *run)
