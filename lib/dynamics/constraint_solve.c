@@ -159,7 +159,8 @@ static double entry(const struct fbd_model *model, const struct instant *at, int
     return tree_slip_share(model, at, link) * tree_normal_in(tree, at->tree, link) + (j == k);
 }
 
-/* ---- L D U in the envelope: row i from column first[i], column i from row first[i] */
+/* ---- L D U in the envelope: row i from column first[i], column i from row first[i]; rows and columns are
+ * places in the order of elimination (model/tie_order.c) */
 
 /* Entry k of the row or column j, which is kept from `from` on. */
 static double *entry_of(const struct tree *tree, double *kept, int j, int k)
@@ -178,8 +179,8 @@ static const double nothing = 1e-15;
 /* Row and column j up to the diagonal, given those before. */
 static void factor_row(const struct tree *tree, struct tree_work *work, int j, double epsilon)
 {
-    const int *first = tree->first;
-    double shift = epsilon * work->scale[j], pivot = work->diagonal[j] + shift;
+    const int *first = tree->first, unknown = tree->unknown_at[j];
+    double shift = epsilon * work->scale[unknown], pivot = work->diagonal[unknown] + shift;
     for (int i = first[j]; i < j; i++) {
         double *lower = entry_of(tree, work->lower, j, i), *upper = entry_of(tree, work->upper, j, i);
         for (int k = first[i] > first[j] ? first[i] : first[j]; k < i; k++) {
@@ -189,10 +190,9 @@ static void factor_row(const struct tree *tree, struct tree_work *work, int j, d
         *lower *= work->inverse[i];
         pivot -= *lower * *upper;
     }
-    bool movable = work->diagonal[j] > nothing * work->most;
+    bool movable = work->diagonal[unknown] > nothing * work->most;
     work->inverse[j] = movable && pivot != 0 ? 1 / pivot : 0;
-    if (j >= tree->row_count) return;
-    work->rows[j].redundant = !movable || !(pivot > 10 * shift);
+    if (is_row(tree, unknown)) work->rows[unknown].redundant = !movable || !(pivot > 10 * shift);
 }
 
 /* rest = right - S z. */
@@ -202,7 +202,7 @@ static void rest_of(const struct tree *tree, const struct tree_work *work, const
     const double *lower = work->whole, *upper = lower + tree->envelope_size, *diagonal = work->diagonal;
     int m = tree_unknowns(tree);
     for (int j = 0; j < m; j++) {
-        rest[j] = right[j] - diagonal[j] * z[j];
+        rest[j] = right[j] - diagonal[tree->unknown_at[j]] * z[j];
         for (int k = tree->first[j]; k < j; k++) {
             rest[j] -= entry_in(tree, lower, j, k) * z[k];
             rest[k] -= entry_in(tree, upper, j, k) * z[j];
@@ -228,13 +228,12 @@ static double largest(const double *values, int count)
     return most;
 }
 
-static void solve(const struct tree *tree, struct tree_work *work, double *z)
+static void solve(const struct tree *tree, struct tree_work *work, double *unknowns)
 {
     enum { least_corrections = 2, most_corrections = 8 };
     int m = tree_unknowns(tree), corrections = work->projecting ? 0 : most_corrections;
-    size_t bytes = (size_t)m * sizeof *z;
-    double *right = work->right, *rest = work->rest;
-    memcpy(right, z, bytes);
+    double *right = work->right, *rest = work->rest, *z = work->ordered;
+    for (int p = 0; p < m; p++) z[p] = right[p] = unknowns[tree->unknown_at[p]];
     substitute(tree, work, z);
     for (int pass = 0; pass < corrections; pass++) {
         rest_of(tree, work, right, z, rest);
@@ -242,6 +241,7 @@ static void solve(const struct tree *tree, struct tree_work *work, double *z)
         substitute(tree, work, rest);
         for (int j = 0; j < m; j++) z[j] += rest[j];
     }
+    for (int p = 0; p < m; p++) unknowns[tree->unknown_at[p]] = z[p];
 }
 
 /* ---- how much the joints could give way */
@@ -297,16 +297,18 @@ static void assemble(const struct fbd_model *model, const struct instant *at)
     double *lower = work->whole, *upper = lower + tree->envelope_size;
     memset(lower, 0, 2 * tree->envelope_size * sizeof *lower);
     memset(work->mark, 0, (size_t)tree->count * sizeof *work->mark);
-    for (int k = 0; k < m; k++) {
+    for (int p = 0; p < m; p++) {
+        int k = tree->unknown_at[p];
         bool part = tree_takes_part(tree, at, k);
         if (part) answer_unit(model, at, k);
-        /* Column k meets rows j whose envelope reaches it, and those in its own. */
-        for (int j = tree->first[k]; j < m && j < tree->reach[k]; j++) {
+        /* Column p meets rows q whose envelope reaches it, and those in its own. */
+        for (int q = tree->first[p]; q < tree->reach[p]; q++) {
+            int j = tree->unknown_at[q];
             bool both = part && tree_takes_part(tree, at, j);
             double value = both ? entry(model, at, j, k) : j == k;
-            if (j < k) *entry_of(tree, upper, k, j) = value;
-            if (j == k) work->diagonal[k] = value;
-            if (j > k && tree->first[j] <= k) *entry_of(tree, lower, j, k) = value;
+            if (q < p) *entry_of(tree, upper, p, q) = value;
+            if (q == p) work->diagonal[k] = value;
+            if (q > p && tree->first[q] <= p) *entry_of(tree, lower, q, p) = value;
         }
     }
     set_scales(tree, at);

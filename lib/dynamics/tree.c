@@ -15,7 +15,7 @@
 static size_t doubles_of(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
-    return 4 * tree->envelope_size + 6 * (size_t)tree_unknowns(tree) + 3 * (size_t)model->plan.n;
+    return 4 * tree->envelope_size + 7 * (size_t)tree_unknowns(tree) + 3 * (size_t)model->plan.n;
 }
 
 size_t tree_work_size(const struct fbd_model *model)
@@ -49,7 +49,8 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->a = work->unit + n;
     work->a_along = work->a + n;
     work->scale = work->a_along + n;
-    void *behind = work->scale + unknowns;
+    work->ordered = work->scale + unknowns;
+    void *behind = work->ordered + unknowns;
     work->mark = behind;
     work->damping = 1e-6;
     work->accuracy = 1e-10;
