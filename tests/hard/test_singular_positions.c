@@ -137,8 +137,8 @@ static void rows_of_windows_turn_at_every_tolerance(void **unused)
     checks_end(&checks);
 }
 
-/* The benchmark: 40 windows. A conservative loop keeps its energy to 1e-8 of what it turns over at 1e-10: the
- * weights of its rods fall by 2 m and rise again in each turn. */
+/* The benchmark: 40 windows, and less than 0.1 J of error. A conservative loop keeps its energy to 1e-8 of
+ * what it turns over at 1e-10: the weights of its rods fall by 1 m and 2 m and rise again in each turn. */
 static void forty_windows_keep_their_energy(void **unused)
 {
     (void)unused;
@@ -155,7 +155,7 @@ static void forty_windows_keep_their_energy(void **unused)
         free(text);
         trial_run(&trial, &(fbd_options){.until = 10, .tolerance = tolerances[i]});
         fbd_energy energy = fbd_result_energy(trial.result);
-        check_close(&checks, "residual", energy.residual, 0, 100 * tolerances[i] * fall);
+        check_close(&checks, "residual", energy.residual, 0, fmin(0.1, 100 * tolerances[i] * fall));
         trial_close(&trial);
     }
     checks_end(&checks);
