@@ -263,8 +263,8 @@ static void bring_back(const struct place *place)
 void return_to_constraints(const struct fbd_model *model, const struct instant *at, double *y)
 {
     if (!has_ties(model)) return;
-    struct place place = {model, *at, y, false};
-    place.at.y = y;
+    struct place place = {.model = model, .at = *at};
+    place.at.y = place.y = y;
     bring_back(&place);
 }
 

@@ -59,7 +59,8 @@ static void set_members(struct graph *graph)
 
 static bool make_graph(struct graph *graph, const struct tree *tree, struct arena *arena)
 {
-    size_t links = (size_t)tree->count, groups = (size_t)(tree->tie_count + tree->pair_count), members = 0;
+    size_t links = (size_t)tree->count, groups = (size_t)tree->tie_count + (size_t)tree->pair_count;
+    size_t members = 0;
     *graph = (struct graph){.tree = tree, .group_count = (int)groups};
     graph->unknowns = tree->row_count + tree->pair_count;
     graph->groups = ARENA_ARRAY(arena, groups, struct group);

@@ -5,10 +5,10 @@
 #include <gsl/gsl_errno.h>
 #include <string.h>
 
-#include "base/text.h"
 #include "dynamics/energy.h"
 #include "dynamics/project.h"
 #include "dynamics/tree_system.h"
+#include "solve/fit.h"
 #include "solve/run.h"
 
 static bool has_ties(const struct run *run)
@@ -32,54 +32,15 @@ static const char *tie_name(const struct run *run, int row)
     return tree->ties[tree->tie_of_row[row]].name;
 }
 
-/* "rod.theta = -0.7, ...": what has to change. */
-static void list_changes(struct text *text, const struct fbd_state *from, const struct fbd_state *to)
-{
-    enum { most_listed = 6 };
-    const struct fbd_model *model = from->model;
-    int n = model->plan.n, listed = 0;
-    for (int i = 0; i < 2 * n; i++) {
-        double size = fmax(1, fabs(from->y[i]));
-        if (fabs(to->y[i] - from->y[i]) <= 1e-9 * size) continue;
-        if (listed++ >= most_listed) continue;
-        const struct label *label = &model->labels[i % n];
-        text_printf(text, "%s%s = ", listed > 1 ? ", " : "", i < n ? label->name : label->rate_name);
-        text_number(text, to->y[i], 9);
-    }
-    if (listed > most_listed) text_add(text, ", ...");
-}
-
-static void refuse(struct run *run, const struct misfit *misfit, bool by_velocity)
-{
-    struct text text = {0};
-    state_copy(run->during, run->state);
-    bool closed = state_project(run->during, false);
-    list_changes(&text, run->state, run->during);
-    int row = by_velocity ? misfit->velocity_row : misfit->row;
-    run_fail(run, FBD_FAILED, "the start does not fit: `%s` is off by %.3g%s. %s%s%s", tie_name(run, row),
-             by_velocity ? misfit->velocity : misfit->position, by_velocity ? " in velocity" : "",
-             closed ? "Nearest is " : "No state near it fits", closed && !text.failed ? text.data : "",
-             closed ? "; or let bodies find their place, `initial: {assemble: true}`" : "");
-    text_free(&text);
-}
-
 void run_close_start(struct run *run)
 {
+    struct text lack = {0};
     if (!has_ties(run)) return;
-    struct misfit misfit = state_misfit(run->state);
-    double reach = 0, speed = 0;
-    for (int i = 1; i < run->model->tree->count; i++) {
-        const struct tree_state *s = &run->state->tree->links[i];
-        reach = fmax(reach, fmax(vec_norm(s->p), vec_norm(s->d)));
-        speed = fmax(speed, fmax(vec_norm(s->v), fabs(s->omega)));
-    }
-    /* Six digits in a file are meant to fit. */
-    const double digits = 2e-6;
-    bool position = !(misfit.position <= digits * reach), velocity = !(misfit.velocity <= digits * speed);
-    if (position || velocity)
-        refuse(run, &misfit, !position);
+    if (fit_lack(run->state, run->during, &lack))
+        run_fail(run, FBD_FAILED, "the start does not fit: %s", lack.failed ? "" : lack.data);
     else
         state_project(run->state, false);
+    text_free(&lack);
 }
 
 /* The largest change from `from` to `to`, in tolerances of the largest size that each number has had. */
@@ -96,7 +57,7 @@ static double tolerances_apart(const struct run *run, const double *from, const 
 }
 
 /* y[2n] at time t, brought back; by how much. */
-static double bring_back(struct run *run, double t, double *y)
+static double close_at(struct run *run, double t, double *y)
 {
     struct instant at = state_instant(run->during);
     double *before = run->sample;
@@ -110,13 +71,13 @@ void run_close_within(struct run *run, double t, double *y)
 {
     const double far = 100;
     if (!has_ties(run)) return;
-    double moved = bring_back(run, t, y);
+    double moved = close_at(run, t, y);
     if (moved <= far) return;
     /* The curve through a step that passes a singular position may be off by more than the step's end is: no
      * error estimate covers what it is made of. Steps that end at t have one. */
     size_t n = (size_t)run->model->plan.n;
     double *other = run->aside, *f = other + 2 * n;
-    if (switcher_walk(run->stepper, t, other, f) == GSL_SUCCESS && bring_back(run, t, other) < moved)
+    if (switcher_walk(run->stepper, t, other, f) == GSL_SUCCESS && close_at(run, t, other) < moved)
         memcpy(y, other, 2 * n * sizeof *y);
 }
 

@@ -121,7 +121,7 @@ static void rows_of_windows_turn_with_every_method(void **unused)
     (void)unused;
     struct checks checks = {0};
     struct hard_method method;
-    for (size_t r = 0; r < sizeof rows / sizeof *rows; r += 2)
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r += 4)
         for (size_t i = 0; hard_method_at(i, &method); i++) turn(&checks, &rows[r], &method);
     checks_end(&checks);
 }
@@ -130,7 +130,7 @@ static void rows_of_windows_turn_at_every_tolerance(void **unused)
 {
     (void)unused;
     struct checks checks = {0};
-    static const double tolerances[] = {1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
+    static const double tolerances[] = {1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-12};
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++)
         for (size_t i = 0; i < sizeof tolerances / sizeof *tolerances; i++)
             turn(&checks, &rows[r], &(struct hard_method){.tolerance = tolerances[i]});
@@ -145,7 +145,7 @@ static void forty_windows_keep_their_energy(void **unused)
     struct checks checks = {0};
     const struct row_of_windows row = {40, 1, 1, 0, 1};
     const double fall = g * (41 * 1 + 40 * 2);
-    static const double tolerances[] = {1e-6, 3e-7, 1e-7, 1e-8, 1e-10};
+    static const double tolerances[] = {1e-6, 1e-7, 1e-10};
     for (size_t i = 0; i < sizeof tolerances / sizeof *tolerances; i++) {
         struct hard_method method = {.tolerance = tolerances[i]};
         turn(&checks, &row, &method);
