@@ -141,6 +141,8 @@ static enum exit_code show_state(const fbd_model *model, const struct options *o
     fbd_state *state = fbd_state_new(model);
     if (!state) return no_memory();
     enum exit_code code = place(model, options, state, errors);
+    if (code == exit_done && options->action == action_equations && !fbd_state_close(state, errors))
+        code = exit_failed;
     if (code == exit_done && options->action == action_equations) {
         if (!options->svg || strcmp(options->svg, "-") != 0)
             code = print(fbd_equations_text(state), exit_done);

@@ -119,6 +119,11 @@ FBD_API bool fbd_state_set(fbd_state *state, const char *name, double value);
 /* The same from text with a unit ("180 deg"); the name may leave the body out when the scene has only one.
  * False with a note in `errors`. */
 FBD_API bool fbd_state_set_text(fbd_state *state, const char *name, const char *text, fbd_errors *errors);
+
+/* Bring a state onto the couplings of its scene: bodies with `assemble` find their place, and the others fit
+ * to six digits. False with a note in `errors` when they do not (`does-not-fit`: which coupling is off, and
+ * the nearest state that fits) or memory is out. */
+FBD_API bool fbd_state_close(fbd_state *state, fbd_errors *errors);
 FBD_API bool fbd_state_get(const fbd_state *state, const char *name, double *value);
 
 /* One named term of an equation. */

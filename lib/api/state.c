@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include "dynamics/modes.h"
+#include "dynamics/project.h"
+#include "solve/fit.h"
 
 fbd_state *fbd_state_new(const fbd_model *model)
 {
@@ -76,6 +78,39 @@ bool fbd_state_set_text(fbd_state *state, const char *name, const char *text, fb
     bool set = set_text(state, name, text, diag_begin(&call, list));
     diag_end(&call);
     return set;
+}
+
+static bool close_state(fbd_state *state, fbd_errors *errors)
+{
+    struct text lack = {0};
+    struct fbd_state *other = state_new(state->model);
+    if (!other) {
+        diag_out_of_memory(errors);
+        return false;
+    }
+    if (!state->settled) modes_settle(state, NULL);
+    if (state->model->assembles) state_project(state, true);
+    bool fits = !fit_lack(state, other, &lack);
+    diag_in_file(errors, state->model->scene->file);
+    if (fits)
+        state_project(state, false);
+    else if (lack.failed)
+        diag_out_of_memory(errors);
+    else
+        diag_add(errors, FBD_ERROR, "does-not-fit", (struct pos){0, 0}, NULL, "the state does not fit: %s",
+                 lack.data);
+    state->settled = false;
+    text_free(&lack);
+    state_free(other);
+    return fits;
+}
+
+bool fbd_state_close(fbd_state *state, fbd_errors *list)
+{
+    struct diag_call call;
+    bool fits = close_state(state, diag_begin(&call, list));
+    diag_end(&call);
+    return fits;
 }
 
 bool fbd_state_get(const fbd_state *state, const char *name, double *value)

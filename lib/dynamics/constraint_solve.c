@@ -13,11 +13,15 @@
  * positive definite, and friction shifts it by less than its diagonal.
  *
  * Where a row says nothing that others do not say, always or in passing (all bars of a parallelogram in one
- * line), S is singular. So what is factored is S + epsilon diag(S), and two corrections by what is left over
- * of the true system make up for it: a direction of S with the relative size s comes out right to (epsilon /
- * (epsilon + s))^3, which is rounding for s > 1e-3; multipliers of a redundant row are those of the least
- * norm; and near a singular position everything stays smooth, so that motion passes it. (The augmented
- * Lagrangian method of Bayo and Ledesma, Nonlinear Dynamics 9, 1996, does the same.)
+ * line), S is singular. So what is factored is S + epsilon D, and corrections by what is left over of the
+ * true system make up for it: after n of them a direction of S with the relative size s comes out right to
+ * (epsilon / (epsilon + s))^(n + 1), which is rounding after two for s > 1e-3, and after eight for s > 1e-6,
+ * as a light coupler between heavy bodies has it; multipliers of a redundant row are those of the least norm;
+ * and near a singular position everything stays smooth, so that motion passes it. (The augmented Lagrangian
+ * method of Bayo and Ledesma, Nonlinear Dynamics 9, 1996, does the same.)
+ *
+ * D is not the diagonal of S, which vanishes with the slope of a row: then nothing would be damped just where
+ * it has to be. It is what the rows of a tie could have there in other positions (set_scales).
  */
 #include <float.h>
 #include <string.h>
@@ -155,7 +159,8 @@ static double entry(const struct fbd_model *model, const struct instant *at, int
     return tree_slip_share(model, at, link) * tree_normal_in(tree, at->tree, link) + (j == k);
 }
 
-/* ---- L D U in the envelope: row i from column first[i], column i from row first[i] */
+/* ---- L D U in the envelope: row i from column first[i], column i from row first[i]; rows and columns are
+ * places in the order of elimination (model/tie_order.c) */
 
 /* Entry k of the row or column j, which is kept from `from` on. */
 static double *entry_of(const struct tree *tree, double *kept, int j, int k)
@@ -163,11 +168,19 @@ static double *entry_of(const struct tree *tree, double *kept, int j, int k)
     return &kept[tree->envelope[j] + (size_t)(k - tree->first[j])];
 }
 
+static double entry_in(const struct tree *tree, const double *kept, int j, int k)
+{
+    return kept[tree->envelope[j] + (size_t)(k - tree->first[j])];
+}
+
+/* A row that nothing can move, as a rod on the axis of a pivot, has no multiplier. */
+static const double nothing = 1e-15;
+
 /* Row and column j up to the diagonal, given those before. */
 static void factor_row(const struct tree *tree, struct tree_work *work, int j, double epsilon)
 {
-    const int *first = tree->first;
-    double pivot = work->diagonal[j] * (1 + epsilon);
+    const int *first = tree->first, unknown = tree->unknown_at[j];
+    double shift = epsilon * work->scale[unknown], pivot = work->diagonal[unknown] + shift;
     for (int i = first[j]; i < j; i++) {
         double *lower = entry_of(tree, work->lower, j, i), *upper = entry_of(tree, work->upper, j, i);
         for (int k = first[i] > first[j] ? first[i] : first[j]; k < i; k++) {
@@ -177,32 +190,22 @@ static void factor_row(const struct tree *tree, struct tree_work *work, int j, d
         *lower *= work->inverse[i];
         pivot -= *lower * *upper;
     }
-    if (j < tree->row_count) work->rows[j].redundant = !(pivot > 10 * epsilon * work->diagonal[j]);
-    bool immovable = !(work->diagonal[j] > work->least);
-    work->inverse[j] = immovable ? 0 : 1 / pivot;
-    if (immovable && j < tree->row_count) work->rows[j].redundant = true;
-}
-
-static void keep(const struct tree *tree, struct tree_work *work)
-{
-    size_t bytes = tree->envelope_size * sizeof *work->lower, m = (size_t)tree_unknowns(tree);
-    memcpy(work->whole, work->lower, bytes);
-    memcpy(work->whole + tree->envelope_size, work->upper, bytes);
-    memcpy(work->whole + 2 * tree->envelope_size, work->diagonal, m * sizeof *work->diagonal);
+    bool movable = work->diagonal[unknown] > nothing * work->most;
+    work->inverse[j] = movable && pivot != 0 ? 1 / pivot : 0;
+    if (is_row(tree, unknown)) work->rows[unknown].redundant = !movable || !(pivot > 10 * shift);
 }
 
 /* rest = right - S z. */
 static void rest_of(const struct tree *tree, const struct tree_work *work, const double *right,
                     const double *z, double *rest)
 {
-    double *lower = work->whole, *upper = lower + tree->envelope_size,
-           *diagonal = upper + tree->envelope_size;
+    const double *lower = work->whole, *upper = lower + tree->envelope_size, *diagonal = work->diagonal;
     int m = tree_unknowns(tree);
     for (int j = 0; j < m; j++) {
-        rest[j] = right[j] - diagonal[j] * z[j];
+        rest[j] = right[j] - diagonal[tree->unknown_at[j]] * z[j];
         for (int k = tree->first[j]; k < j; k++) {
-            rest[j] -= *entry_of(tree, lower, j, k) * z[k];
-            rest[k] -= *entry_of(tree, upper, j, k) * z[j];
+            rest[j] -= entry_in(tree, lower, j, k) * z[k];
+            rest[k] -= entry_in(tree, upper, j, k) * z[j];
         }
     }
 }
@@ -218,48 +221,113 @@ static void substitute(const struct tree *tree, const struct tree_work *work, do
     }
 }
 
-static void solve(const struct tree *tree, struct tree_work *work, double *z)
+static double largest(const double *values, int count)
 {
-    int m = tree_unknowns(tree), corrections = work->projecting ? 0 : 2;
-    size_t bytes = (size_t)m * sizeof *z;
-    double *right = work->right, *rest = work->rest;
-    memcpy(right, z, bytes);
+    double most = 0;
+    for (int j = 0; j < count; j++) most = fmax(most, fabs(values[j]));
+    return most;
+}
+
+static void solve(const struct tree *tree, struct tree_work *work, double *unknowns)
+{
+    enum { least_corrections = 2, most_corrections = 8 };
+    int m = tree_unknowns(tree), corrections = work->projecting ? 0 : most_corrections;
+    double *right = work->right, *rest = work->rest, *z = work->ordered;
+    for (int p = 0; p < m; p++) z[p] = right[p] = unknowns[tree->unknown_at[p]];
     substitute(tree, work, z);
     for (int pass = 0; pass < corrections; pass++) {
         rest_of(tree, work, right, z, rest);
+        if (pass >= least_corrections && largest(rest, m) <= 1e-14 * largest(right, m)) break;
         substitute(tree, work, rest);
         for (int j = 0; j < m; j++) z[j] += rest[j];
     }
+    for (int p = 0; p < m; p++) unknowns[tree->unknown_at[p]] = z[p];
 }
 
-void tree_system_factor(const struct fbd_model *model, const struct instant *at)
+/* ---- how much the joints could give way */
+
+/* How much the joint of a link could move a point at `arm` from its O, by a unit force in the best direction;
+ * where it cannot, the joint before it. */
+static double mobility(const struct tree *tree, const struct tree_work *work, int link, struct vec arm)
+{
+    for (; link > 0; link = tree->links[link].parent) {
+        const struct tree_state *s = &work->links[link];
+        enum motion_kind kind = tree->links[link].kind;
+        double r2 = vec_dot(arm, arm), gives = 0;
+        if (kind == motion_pivot)
+            gives = s->D * r2;
+        else if (kind == motion_slide)
+            gives = s->D;
+        else
+            gives = s->inverse[0] + s->inverse[2] + s->D * r2;
+        if (!s->locked && gives > 0) return gives;
+        arm = vec_add(arm, s->d);
+    }
+    return 0;
+}
+
+/* A row counts as weak against what its tie could do in other positions or directions: so a pin, turned in
+ * the plane, is the same pin, and a rod notices when all that it joins has come in line with it. */
+static void set_scales(const struct tree *tree, const struct instant *at)
+{
+    struct tree_work *work = at->tree;
+    double most = 0;
+    for (int i = 0; i < tree->tie_count; i++) {
+        int first = tree->ties[i].first_row, end = first + tree->ties[i].row_count;
+        double scale = 0;
+        for (int j = first; j < end; j++) {
+            const struct row *row = &work->rows[j];
+            if (!tree_takes_part(tree, at, j)) continue;
+            for (int k = 0; k < row->port_count; k++)
+                scale = fmax(scale, mobility(tree, work, row->ports[k].link, row->ports[k].arm));
+            scale = fmax(scale, work->diagonal[j]);
+        }
+        for (int j = first; j < end; j++) work->scale[j] = tree_takes_part(tree, at, j) ? scale : 1;
+        most = fmax(most, scale);
+    }
+    for (int k = tree->row_count; k < tree_unknowns(tree); k++) work->scale[k] = work->diagonal[k];
+    work->most = most;
+}
+
+static void assemble(const struct fbd_model *model, const struct instant *at)
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
     int m = tree_unknowns(tree);
-    memset(work->lower, 0, tree->envelope_size * sizeof *work->lower);
-    memset(work->upper, 0, tree->envelope_size * sizeof *work->upper);
+    double *lower = work->whole, *upper = lower + tree->envelope_size;
+    memset(lower, 0, 2 * tree->envelope_size * sizeof *lower);
     memset(work->mark, 0, (size_t)tree->count * sizeof *work->mark);
-    for (int k = 0; k < m; k++) {
+    for (int p = 0; p < m; p++) {
+        int k = tree->unknown_at[p];
         bool part = tree_takes_part(tree, at, k);
         if (part) answer_unit(model, at, k);
-        /* Column k meets rows j whose envelope reaches it, and those in its own. */
-        for (int j = tree->first[k]; j < m && j < tree->reach[k]; j++) {
+        /* Column p meets rows q whose envelope reaches it, and those in its own. */
+        for (int q = tree->first[p]; q < tree->reach[p]; q++) {
+            int j = tree->unknown_at[q];
             bool both = part && tree_takes_part(tree, at, j);
             double value = both ? entry(model, at, j, k) : j == k;
-            if (j < k) *entry_of(tree, work->upper, k, j) = value;
-            if (j == k) work->diagonal[k] = value;
-            if (j > k && tree->first[j] <= k) *entry_of(tree, work->lower, j, k) = value;
+            if (q < p) *entry_of(tree, upper, p, q) = value;
+            if (q == p) work->diagonal[k] = value;
+            if (q > p && tree->first[q] <= p) *entry_of(tree, lower, q, p) = value;
         }
     }
+    set_scales(tree, at);
+}
+
+void tree_system_refactor(const struct tree *tree, struct tree_work *work)
+{
+    size_t bytes = tree->envelope_size * sizeof *work->lower;
     /* A projection must not throw the state about for what a row with no slope has left. */
     const double epsilon = work->projecting ? work->damping : 1e-8;
-    keep(tree, work);
-    /* A row that nothing can move, as a rod on the axis of a pivot, has no multiplier. */
-    work->least = 0;
-    for (int j = 0; j < tree->row_count; j++)
-        if (tree_takes_part(tree, at, j)) work->least = fmax(work->least, 1e-15 * work->diagonal[j]);
-    for (int j = 0; j < m; j++) factor_row(tree, work, j, epsilon);
+    memcpy(work->lower, work->whole, bytes);
+    memcpy(work->upper, work->whole + tree->envelope_size, bytes);
+    for (int j = 0; j < tree_unknowns(tree); j++) factor_row(tree, work, j, epsilon);
+}
+
+void tree_system_factor(const struct fbd_model *model, const struct instant *at)
+{
+    assemble(model, at);
+    tree_system_refactor(model->tree, at->tree);
 }
 
 void tree_system_solve(const struct fbd_model *model, const struct instant *at, double *z)

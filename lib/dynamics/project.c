@@ -6,36 +6,59 @@
 
 #include "dynamics/tree_system.h"
 
-/* The rows where the state is, with the tree factored for answers: no loads, no bias. */
-static void prepare(struct fbd_state *state, bool assemble)
+/* What is projected: y is that of the instant. */
+struct place {
+    const struct fbd_model *model;
+    struct instant at;
+    double *y;
+    bool assemble; /* only bodies that the scene marks so move */
+};
+
+static struct place place_of(struct fbd_state *state, bool assemble)
 {
-    const struct fbd_model *model = state->model;
+    return (struct place){state->model, state_instant(state), state->y, assemble};
+}
+
+static bool has_ties(const struct fbd_model *model)
+{
+    return model->tree && model->tree->tie_count > 0;
+}
+
+/* Where the links and rows are. */
+static void look(const struct place *place)
+{
+    tree_move(place->model, &place->at);
+    constraints_evaluate(place->model, place->at.tree, false);
+}
+
+/* The rows where the state is, with the tree factored for answers: no loads, no bias. */
+static void prepare(const struct place *place)
+{
+    const struct fbd_model *model = place->model;
     const struct tree *tree = model->tree;
-    struct tree_work *work = state->tree;
-    struct instant at = state_instant(state);
+    struct tree_work *work = place->at.tree;
     for (int i = 1; i < tree->count; i++) {
         const struct body *body = model->bodies[tree->links[i].body].source;
-        work->links[i].locked = (assemble && !body->assemble) || body->motion.prescribed.expr;
+        work->links[i].locked = (place->assemble && !body->assemble) || body->motion.prescribed.expr;
         work->links[i].held = 0;
     }
-    tree_move(model, &at);
+    tree_move(model, &place->at);
     memset(work->x, 0, (size_t)tree->count * sizeof *work->x);
     tree_factor(tree, work);
     constraints_evaluate(model, work, false);
 }
 
-static void release(struct fbd_state *state)
+static void release(const struct place *place)
 {
-    for (int i = 1; i < state->model->tree->count; i++) state->tree->links[i].locked = false;
+    for (int i = 1; i < place->model->tree->count; i++) place->at.tree->links[i].locked = false;
 }
 
-static struct misfit misfit_of(const struct fbd_state *state)
+static struct misfit misfit_of(const struct place *place)
 {
     struct misfit misfit = {.row = -1, .velocity_row = -1};
-    struct instant at = state_instant(state);
-    for (int j = 0; j < state->model->tree->row_count; j++) {
-        const struct row *row = &state->tree->rows[j];
-        if (!tree_takes_part(state->model->tree, &at, j)) continue;
+    for (int j = 0; j < place->model->tree->row_count; j++) {
+        const struct row *row = &place->at.tree->rows[j];
+        if (!tree_takes_part(place->model->tree, &place->at, j)) continue;
         if (!(fabs(row->g.x) <= misfit.position)) {
             misfit.position = fabs(row->g.x);
             misfit.row = j;
@@ -50,42 +73,53 @@ static struct misfit misfit_of(const struct fbd_state *state)
 
 struct misfit state_misfit(struct fbd_state *state)
 {
-    if (!state->tree || state->model->tree->tie_count == 0) return (struct misfit){0, 0, -1, -1};
-    prepare(state, false);
-    return misfit_of(state);
+    if (!has_ties(state->model)) return (struct misfit){0, 0, -1, -1};
+    struct place place = place_of(state, false);
+    prepare(&place);
+    return misfit_of(&place);
 }
 
 void state_start_constraints(struct fbd_state *state)
 {
-    if (!state->tree || state->model->tree->tie_count == 0) return;
+    if (!has_ties(state->model)) return;
     struct instant at = state_instant(state);
     tree_move(state->model, &at);
     constraints_start(state->model, &at);
 }
 
 /* Rounding of the positions that a row is made of. */
-static double rounding(const struct fbd_state *state)
+static double rounding(const struct place *place)
 {
     double reach = 0;
-    for (int i = 1; i < state->model->tree->count; i++) {
-        const struct tree_state *s = &state->tree->links[i];
+    for (int i = 1; i < place->model->tree->count; i++) {
+        const struct tree_state *s = &place->at.tree->links[i];
         reach = fmax(reach, fmax(vec_norm(s->p), vec_norm(s->d)));
     }
     return 16 * DBL_EPSILON * reach;
 }
 
-/* One Newton step: y[first ..] += share * (the answer to -value of each row). */
-static void step(struct fbd_state *state, bool velocity, double share, double *target)
+/* The size of the parts that the rows join. */
+static double arm_length(const struct place *place)
 {
-    const struct fbd_model *model = state->model;
-    const struct tree *tree = model->tree;
-    struct tree_work *work = state->tree;
-    struct instant at = state_instant(state);
-    work->projecting = true;
+    double length = 0;
+    for (int j = 0; j < place->model->tree->row_count; j++) {
+        const struct row *row = &place->at.tree->rows[j];
+        for (int k = 0; k < row->port_count; k++)
+            if (row->ports[k].link > 0) length = fmax(length, vec_norm(row->ports[k].arm));
+    }
+    return length;
+}
+
+/* y[first ..] += share * (the answer to -value of each row), by the system as it is factored. */
+static void move(const struct place *place, bool velocity, double share)
+{
+    const struct tree *tree = place->model->tree;
+    struct tree_work *work = place->at.tree;
+    double *target = place->y + (velocity ? place->model->plan.n : 0);
     for (int j = 0; j < tree_unknowns(tree); j++)
         work->z[j] = j >= tree->row_count ? 0 : velocity ? -work->rows[j].g.x1 : -work->rows[j].g.x;
-    tree_system_factor(model, &at);
-    tree_system_solve(model, &at, work->z);
+    work->projecting = true;
+    tree_system_solve(place->model, &place->at, work->z);
     work->projecting = false;
     for (int i = 1; i < tree->count; i++) {
         int first = tree->links[i].coordinate, count = joint_freedom(tree->links[i].kind);
@@ -94,63 +128,148 @@ static void step(struct fbd_state *state, bool velocity, double share, double *t
     }
 }
 
+static void factor(const struct place *place, double damping)
+{
+    place->at.tree->projecting = true;
+    place->at.tree->damping = damping;
+    tree_system_factor(place->model, &place->at);
+    place->at.tree->projecting = false;
+}
+
+static void refactor(const struct place *place, double damping)
+{
+    place->at.tree->projecting = true;
+    place->at.tree->damping = damping;
+    tree_system_refactor(place->model->tree, place->at.tree);
+    place->at.tree->projecting = false;
+}
+
+/* ---- from anywhere: the start */
+
+enum { most_steps = 60 };
+
+static const double least_damping = 1e-13;
+
+/* Less and less: a light coupler between heavy bodies has slopes that differ by their masses. */
+static double start_damping(const struct place *place, double misfit)
+{
+    return fmin(1e-6, fmax(least_damping, 1e-6 * misfit / arm_length(place)));
+}
+
 bool state_project_velocity(struct fbd_state *state, bool assemble)
 {
-    if (!state->tree || state->model->tree->tie_count == 0) return true;
+    if (!has_ties(state->model)) return true;
+    struct place place = place_of(state, assemble);
     /* Linear: the second step mends the rounding of the first. */
     for (int pass = 0; pass < 2; pass++) {
-        prepare(state, assemble);
-        struct misfit before = misfit_of(state);
-        if (before.velocity == 0) break;
-        step(state, true, 1, state->y + state->model->plan.n);
+        prepare(&place);
+        if (misfit_of(&place).velocity == 0) break;
+        factor(&place, least_damping);
+        move(&place, true, 1);
     }
-    prepare(state, assemble);
+    prepare(&place);
     double speed = 0;
     for (int i = 1; i < state->model->tree->count; i++)
         speed = fmax(speed, vec_norm(state->tree->links[i].v) + fabs(state->tree->links[i].omega));
-    bool there = misfit_of(state).velocity <= 1e-9 * (1 + speed);
-    release(state);
+    bool there = misfit_of(&place).velocity <= 1e-9 * (1 + speed);
+    release(&place);
     return there;
 }
 
-static bool project_position(struct fbd_state *state, bool assemble, int most_steps)
+static bool project_position(struct fbd_state *state, const struct place *place)
 {
     size_t bytes = (size_t)state->model->plan.n * sizeof *state->y;
     double *before = state->scratch, share = 1;
-    prepare(state, assemble);
-    struct misfit misfit = misfit_of(state);
-    for (int k = 0; k < most_steps && misfit.position > rounding(state); k++) {
+    prepare(place);
+    struct misfit misfit = misfit_of(place);
+    for (int k = 0; k < most_steps && misfit.position > rounding(place); k++) {
         memcpy(before, state->y, bytes);
-        step(state, false, share, state->y);
-        prepare(state, assemble);
-        struct misfit after = misfit_of(state);
+        factor(place, start_damping(place, misfit.position));
+        move(place, false, share);
+        prepare(place);
+        struct misfit after = misfit_of(place);
         if (after.position < misfit.position) {
             misfit = after;
             share = fmin(1, 2 * share);
             continue;
         }
         memcpy(state->y, before, bytes); /* too far: a shorter step, until there is none */
-        prepare(state, assemble);
-        if (misfit.position <= 64 * rounding(state) || share < 1e-4) break;
+        prepare(place);
+        if (misfit.position <= 64 * rounding(place) || share < 1e-4) break;
         share /= 4;
     }
-    return misfit.position <= 1e3 * rounding(state);
+    return misfit.position <= 1e3 * rounding(place);
 }
 
 bool state_project(struct fbd_state *state, bool assemble)
 {
-    if (!state->tree || state->model->tree->tie_count == 0) return true;
-    enum { most_steps = 60 };
-    state->tree->damping = 1e-6;
-    bool there = project_position(state, assemble, most_steps);
+    if (!has_ties(state->model)) return true;
+    struct place place = place_of(state, assemble);
+    bool there = project_position(state, &place);
     return state_project_velocity(state, assemble) && there;
+}
+
+/* ---- from near by: a step or a stage of it
+ *
+ * Near a singular position a row has hardly any slope, and what it is off by says little of how far the state
+ * is off: rounding e of g means e / s, with s the slope relative to what it is elsewhere, and velocities,
+ * which go with positions, e / s^2. Where that is more than the accuracy of the state itself, or where the
+ * state is off by more than s, so that it might as well belong to another branch, the state is left alone
+ * (Levenberg and Marquardt's damping of s^2; Yamashita and Fukushima, Computing [Suppl] 15 (2001) 239, for
+ * damping in proportion to what is left). */
+
+static double square(double x)
+{
+    return x * x;
+}
+
+static const double epsilon = 4 * DBL_EPSILON;
+
+static double position_damping(const struct place *place, double misfit, double length)
+{
+    double accuracy = place->at.tree->accuracy;
+    double rounds = square(epsilon / accuracy), other_branch = square(10 * accuracy);
+    return fmin(1, fmax(fmax(rounds, other_branch), 4 * misfit / length));
+}
+
+static void bring_back(const struct place *place)
+{
+    enum { most_corrections = 12 };
+    struct tree_work *work = place->at.tree;
+    prepare(place);
+    double length = arm_length(place), least = rounding(place);
+    double misfit = misfit_of(place).position;
+    bool moved = false;
+    for (int k = 0; k < most_corrections && misfit > least; k++) {
+        double damping = position_damping(place, misfit, length);
+        if (k == 0)
+            factor(place, damping);
+        else
+            refactor(place, damping);
+        move(place, false, 1);
+        look(place);
+        moved = true;
+        double after = misfit_of(place).position;
+        bool slow = after > 0.9 * misfit;
+        misfit = after;
+        if (slow) break;
+    }
+    if (moved) prepare(place);
+    factor(place, fmin(1, epsilon / work->accuracy));
+    move(place, true, 1);
+    release(place);
+}
+
+void return_to_constraints(const struct fbd_model *model, const struct instant *at, double *y)
+{
+    if (!has_ties(model)) return;
+    struct place place = {.model = model, .at = *at};
+    place.at.y = place.y = y;
+    bring_back(&place);
 }
 
 void state_return(struct fbd_state *state)
 {
-    if (!state->tree || state->model->tree->tie_count == 0) return;
-    state->tree->damping = 1e-3;
-    project_position(state, false, 2);
-    state_project_velocity(state, false);
-    state->tree->damping = 1e-6;
+    struct instant at = state_instant(state);
+    return_to_constraints(state->model, &at, state->y);
 }

@@ -28,6 +28,9 @@ bool state_project(struct fbd_state *state, bool assemble);
  * they have hardly any, and making them fit would throw the state about by more than it is off. */
 void state_return(struct fbd_state *state);
 
+/* The same for y[2n] within a step, in the modes of the instant. */
+void return_to_constraints(const struct fbd_model *model, const struct instant *at, double *y);
+
 /* The state's velocities alone. */
 bool state_project_velocity(struct fbd_state *state, bool assemble);
 

@@ -15,7 +15,7 @@
 static size_t doubles_of(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
-    return 4 * tree->envelope_size + 6 * (size_t)tree_unknowns(tree) + 3 * (size_t)model->plan.n;
+    return 4 * tree->envelope_size + 7 * (size_t)tree_unknowns(tree) + 3 * (size_t)model->plan.n;
 }
 
 size_t tree_work_size(const struct fbd_model *model)
@@ -43,14 +43,17 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->inverse = work->diagonal + unknowns;
     work->z = work->inverse + unknowns;
     work->whole = work->z + unknowns;
-    work->right = work->whole + 2 * tree->envelope_size + unknowns;
+    work->right = work->whole + 2 * tree->envelope_size;
     work->rest = work->right + unknowns;
     work->unit = work->rest + unknowns;
     work->a = work->unit + n;
     work->a_along = work->a + n;
-    void *behind = work->a_along + n;
+    work->scale = work->a_along + n;
+    work->ordered = work->scale + unknowns;
+    void *behind = work->ordered + unknowns;
     work->mark = behind;
     work->damping = 1e-6;
+    work->accuracy = 1e-10;
     work->links[0].turn = work->links[0].e = (struct vec){1, 0};
 }
 

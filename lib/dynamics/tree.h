@@ -69,15 +69,17 @@ struct tree_work {
     struct row *rows;                               /* row_count: constraints, see constraint.h */
     struct tie_state *ties;                         /* tie_count: what they keep of the start */
     double *lower, *upper, *diagonal, *inverse, *z; /* the system of tree_system.h */
-    double *whole;        /* the system before it was factored: lower, upper, diagonal */
-    double *right, *rest; /* unknowns */
-    int *mark;            /* count: which unknown a tree answers to */
-    double *unit;         /* n: accelerations that are added */
-    double *a, *a_along;  /* n: accelerations of the last force_balance, and their variation */
-    double least;         /* a diagonal of the system that counts */
-    double damping;       /* of a projection: slopes whose square is less than this share are left alone */
-    bool projecting;      /* the system is set up for a projection: no friction */
-    bool complete;        /* A and F of the links are final, see tree_complete */
+    double *whole;                  /* lower and upper parts of the system before it was factored */
+    double *right, *rest, *ordered; /* unknowns in the order of elimination */
+    int *mark;                      /* count: which unknown a tree answers to */
+    double *unit;                   /* n: accelerations that are added */
+    double *a, *a_along;            /* n: accelerations of the last force_balance, and their variation */
+    double most;                    /* the largest scale of a row */
+    double *scale;                  /* unknowns: how large the diagonals could be, see constraint_solve.c */
+    double damping;  /* of a projection: slopes whose square is less than this share are left alone */
+    double accuracy; /* relative, of the coordinates that are projected */
+    bool projecting; /* the system is set up for a projection: no friction */
+    bool complete;   /* A and F of the links are final, see tree_complete */
 };
 
 /* Bytes that a workspace needs (a multiple of the size of a double), and laying it out. */

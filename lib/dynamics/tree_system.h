@@ -12,6 +12,9 @@ int tree_unknowns(const struct tree *tree);
 /* Set up and factor the system from the rows' ports and the factored tree. Overwrites work->x. */
 void tree_system_factor(const struct fbd_model *model, const struct instant *at);
 
+/* Factor it once more, with another damping. */
+void tree_system_refactor(const struct tree *tree, struct tree_work *work);
+
 /* Solve for the right-hand side z, which becomes the unknowns; leaves in work->x the right-hand side of their
  * forces alone, solved, and in work->unit the accelerations of the joints. */
 void tree_system_solve(const struct fbd_model *model, const struct instant *at, double *z);

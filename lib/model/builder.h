@@ -38,6 +38,9 @@ void plan_ties(struct builder *builder);
 void body_terms_add(struct builder *builder, int b);
 void body_terms_finish(struct builder *builder);
 
+/* Refuse gears on fixed axes whose pitch circles do not touch (gear_check.c). */
+void gears_check(struct builder *builder);
+
 /* As model_compile, without labels. */
 struct fbd_model *model_compile_group(struct scene *scene, fbd_errors *errors);
 

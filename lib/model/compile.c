@@ -265,6 +265,7 @@ static struct fbd_model *compile(struct scene *scene, bool labels, fbd_errors *e
                set_absolutes(model) && tree_number(model) && tree_name_reactions(model) &&
                plan_build(&builder) && classify_loads(&builder);
         set_watches(&builder);
+        if (done) gears_check(&builder);
     }
     if (!done) diag_out_of_memory(errors);
     if (fbd_errors_failed(errors) > 0) {

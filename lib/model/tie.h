@@ -51,7 +51,8 @@ struct tie_end tie_end_of(const struct fbd_model *model, int index, int k);
 /* Compile the constraints of the scene; places of the bodies are known. False when memory is out. */
 bool ties_build(struct fbd_model *model);
 
-/* Which unknowns of the system meet; the tree is finished by then. False when memory is out. */
-bool ties_envelope(struct fbd_model *model);
+/* The order in which the system's unknowns are eliminated, and which of them meet; the tree is finished by
+ * then (tie_order.c). False when memory is out. */
+bool ties_order(struct fbd_model *model);
 
 #endif

@@ -409,5 +409,5 @@ bool tree_finish(struct fbd_model *model)
     tree->pivots_only = tree->watched_count == 0;
     for (int i = 1; i < tree->count; i++)
         if (tree->links[i].kind != motion_pivot) tree->pivots_only = false;
-    return ties_envelope(model);
+    return ties_order(model);
 }

@@ -96,8 +96,9 @@ struct tree {
     struct tie *ties;
     /* of the unknowns of dynamics/tree_system.h, the rows and then the pairs: */
     int *tie_of_row;    /* rows alone */
-    int *first, *reach; /* the first that one meets, and behind the last */
-    size_t *envelope;   /* where the entries from first[k] to k begin */
+    int *unknown_at;    /* the unknown that is eliminated at a place */
+    int *first, *reach; /* of a place: the first that it meets, and behind the last */
+    size_t *envelope;   /* where the entries from first[p] to p begin */
     size_t envelope_size;
     int body_count; /* jointed bodies */
     int *bodies;    /* each after the one that it moves on */

@@ -63,6 +63,10 @@ static void draw_closed(gsl_rng *rng, struct fbd_state *state, const double *sta
     if (!model->tree || model->tree->tie_count == 0) return;
     for (size_t i = 0; i < model->scene->coordinate_count; i++)
         state->y[i] = start[i] + between(rng, -1, 1) * (model->scene->coordinates[i].angle ? 0.3 : 0.1);
+    /* Round bodies slip as often as they roll. */
+    for (size_t k = 0; k < model->plan.friction_count; k++)
+        if (model->plan.frictions[k].tie >= 0 && !model->plan.frictions[k].rope)
+            state->slip[k] = between(rng, 0, 1) < 0.5 ? stick : slip_plus;
     state_project(state, false);
 }
 

@@ -118,13 +118,29 @@ static void write_events(struct text *text, const fbd_simulation *simulation)
     text_add(text, run->event_count ? "\n  ],\n" : "],\n");
 }
 
-/* Friction says also whether it holds, and up to where. */
-static void write_friction(struct text *text, struct fbd_state *state, const struct model_body *body)
+/* The friction of a rolling body, whose arrow is called `name`; NULL when it is something else. */
+static const struct tie *rolling_friction(const struct fbd_model *model, int body, const char *name)
 {
+    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
+        const struct tie *tie = &model->tree->ties[i];
+        for (int k = 0; tie->kind == constraint_roll && k < tie->end_count; k++)
+            if (tie->end[k].body == body && tie->end[k].name[1] == name) return tie;
+    }
+    return NULL;
+}
+
+/* Friction says also whether it holds, and up to where. */
+static void write_friction(struct text *text, struct fbd_state *state, int body, const struct arrow *arrow)
+{
+    const struct fbd_model *model = state->model;
+    const struct tie *tie = rolling_friction(model, body, arrow->name);
+    int own = model->bodies[body].friction, pair = tie ? tie->pair : own;
+    if (tie && pair < 0) text_add(text, ", \"mode\": \"stick\""); /* it never slips */
+    if (pair < 0 || (!tie && arrow->load != model->plan.frictions[own].load)) return;
     struct instant at = state_instant(state);
-    force_balance(state->model, &at, state->scratch);
-    struct friction_values values = friction_at(state->model, body->friction, &at, state->scratch);
-    text_printf(text, ", \"mode\": \"%s\", ", state->slip[body->friction] == stick ? "stick" : "slip");
+    force_balance(model, &at, state->scratch);
+    struct friction_values values = friction_at(model, pair, &at, state->scratch);
+    text_printf(text, ", \"mode\": \"%s\", ", state->slip[pair] == stick ? "stick" : "slip");
     member(text, "limit", values.limit_static, false);
     member(text, "margin", values.limit_static > 0 ? fabs(values.force) / values.limit_static : NAN, true);
 }
@@ -160,6 +176,7 @@ static void write_body_forces(struct text *text, fbd_result *result, struct fbd_
     struct bars *bars = result->simulation->bars;
     struct instant at = state_instant(state);
     struct vec about = moment_center(body, state);
+    struct pose pose = body_pose(body, &at);
     size_t count = diagram_fill(model, b, &at, state->a, state->slots, ledger->arrows);
     const struct arrow *others = bars ? bars_diagram(bars, b) : NULL;
     for (size_t i = 0; i < count; i++) {
@@ -174,10 +191,11 @@ static void write_body_forces(struct text *text, fbd_result *result, struct fbd_
         member(text, "x", arrow->point.x, false);
         member(text, "y", arrow->point.y, false);
         member(text, "moment", moment, false);
+        member(text, "moment_G", arrow_moment(arrow, point_motion(body, &pose, body->inertia.G).p), false);
+        member(text, "moment_O", arrow_moment(arrow, pose.origin), false);
         member(text, "power", arrow->power, false);
         member(text, "work", work, true);
-        if (body->friction >= 0 && arrow->load == model->plan.frictions[body->friction].load)
-            write_friction(text, state, body);
+        write_friction(text, state, b, arrow);
         if (bars) write_force_error(text, bars, body, arrow, &others[i], moment, work);
         text_add(text, "}");
     }

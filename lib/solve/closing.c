@@ -2,12 +2,13 @@
  *
  * Couplings that close loops: a start that does not fit is refused, and every step ends on the constraints.
  */
+#include <gsl/gsl_errno.h>
 #include <string.h>
 
-#include "base/text.h"
 #include "dynamics/energy.h"
 #include "dynamics/project.h"
 #include "dynamics/tree_system.h"
+#include "solve/fit.h"
 #include "solve/run.h"
 
 static bool has_ties(const struct run *run)
@@ -25,60 +26,62 @@ static double kinetic(struct fbd_state *state)
     return sum;
 }
 
-static const char *tie_name(const struct run *run, int row)
-{
-    const struct tree *tree = run->model->tree;
-    return tree->ties[tree->tie_of_row[row]].name;
-}
-
-/* "rod.theta = -0.7, ...": what has to change. */
-static void list_changes(struct text *text, const struct fbd_state *from, const struct fbd_state *to)
-{
-    enum { most_listed = 6 };
-    const struct fbd_model *model = from->model;
-    int n = model->plan.n, listed = 0;
-    for (int i = 0; i < 2 * n; i++) {
-        double size = fmax(1, fabs(from->y[i]));
-        if (fabs(to->y[i] - from->y[i]) <= 1e-9 * size) continue;
-        if (listed++ >= most_listed) continue;
-        const struct label *label = &model->labels[i % n];
-        text_printf(text, "%s%s = ", listed > 1 ? ", " : "", i < n ? label->name : label->rate_name);
-        text_number(text, to->y[i], 9);
-    }
-    if (listed > most_listed) text_add(text, ", ...");
-}
-
-static void refuse(struct run *run, const struct misfit *misfit, bool by_velocity)
-{
-    struct text text = {0};
-    state_copy(run->during, run->state);
-    bool closed = state_project(run->during, false);
-    list_changes(&text, run->state, run->during);
-    int row = by_velocity ? misfit->velocity_row : misfit->row;
-    run_fail(run, FBD_FAILED, "the start does not fit: `%s` is off by %.3g%s. %s%s%s", tie_name(run, row),
-             by_velocity ? misfit->velocity : misfit->position, by_velocity ? " in velocity" : "",
-             closed ? "Nearest is " : "No state near it fits", closed && !text.failed ? text.data : "",
-             closed ? "; or let bodies find their place, `initial: {assemble: true}`" : "");
-    text_free(&text);
-}
-
 void run_close_start(struct run *run)
 {
+    struct text lack = {0};
     if (!has_ties(run)) return;
-    struct misfit misfit = state_misfit(run->state);
-    double reach = 0, speed = 0;
-    for (int i = 1; i < run->model->tree->count; i++) {
-        const struct tree_state *s = &run->state->tree->links[i];
-        reach = fmax(reach, fmax(vec_norm(s->p), vec_norm(s->d)));
-        speed = fmax(speed, fmax(vec_norm(s->v), fabs(s->omega)));
-    }
-    /* Six digits in a file are meant to fit. */
-    const double digits = 2e-6;
-    bool position = !(misfit.position <= digits * reach), velocity = !(misfit.velocity <= digits * speed);
-    if (position || velocity)
-        refuse(run, &misfit, !position);
+    if (fit_lack(run->state, run->during, &lack))
+        run_fail(run, FBD_FAILED, "the start does not fit: %s", lack.failed ? "" : lack.data);
     else
         state_project(run->state, false);
+    text_free(&lack);
+}
+
+/* The largest change from `from` to `to`, in tolerances of the largest size that each number has had. */
+static double tolerances_apart(const struct run *run, const double *from, const double *to)
+{
+    size_t n = (size_t)run->model->plan.n;
+    const double *most = run->anchor + 2 * n;
+    double apart = 0;
+    for (size_t i = 0; i < 2 * n; i++) {
+        double moved = fabs(to[i] - from[i]);
+        if (moved > 0) apart = fmax(apart, moved / (run->options.tolerance * fmax(most[i], fabs(to[i]))));
+    }
+    return apart;
+}
+
+/* y[2n] at time t, brought back; by how much. */
+static double close_at(struct run *run, double t, double *y)
+{
+    struct instant at = state_instant(run->during);
+    double *before = run->sample;
+    memcpy(before, y, 2 * (size_t)run->model->plan.n * sizeof *y);
+    at.t = t;
+    return_to_constraints(run->model, &at, y);
+    return tolerances_apart(run, before, y);
+}
+
+void run_close_within(struct run *run, double t, double *y)
+{
+    const double far = 100;
+    if (!has_ties(run)) return;
+    double moved = close_at(run, t, y);
+    if (moved <= far) return;
+    /* The curve through a step that passes a singular position may be off by more than the step's end is: no
+     * error estimate covers what it is made of. Steps that end at t have one. */
+    size_t n = (size_t)run->model->plan.n;
+    double *other = run->aside, *f = other + 2 * n;
+    if (switcher_walk(run->stepper, t, other, f) == GSL_SUCCESS && close_at(run, t, other) < moved)
+        memcpy(y, other, 2 * n * sizeof *y);
+}
+
+/* A multistep method goes on from what it remembers, which a return to the constraints does not change. When
+ * that has gone far it starts anew: near a singular position being off grows. */
+bool run_has_gone_astray(const struct run *run)
+{
+    const double far = 10;
+    if (!run->projected || !run->options.method->multistep) return false;
+    return tolerances_apart(run, run->y, run->state->y) > far;
 }
 
 /* A kinetic energy that is nothing but rounding: in a scene at rest accelerations are what is left of forces
@@ -99,15 +102,18 @@ static double still(struct run *run)
     return mass * speed * speed / 2;
 }
 
-/* How large the mechanism is and how fast. */
-static void measure(struct run *run)
+/* Note how large the mechanism is and how fast; returns its present size. */
+static double measure(struct run *run)
 {
-    struct drift *drift = &run->drift;
+    double reach = 0, speed = 0;
     for (int i = 1; i < run->model->tree->count; i++) {
         const struct tree_state *s = &run->state->tree->links[i];
-        drift->reach = fmax(drift->reach, vec_norm(s->p));
-        drift->speed = fmax(drift->speed, vec_norm(s->v));
+        reach = fmax(reach, vec_norm(s->p));
+        speed = fmax(speed, vec_norm(s->v));
     }
+    run->drift.reach = fmax(run->drift.reach, reach);
+    run->drift.speed = fmax(run->drift.speed, speed);
+    return reach;
 }
 
 /* Bring the end of the step back, and note what that took; returns what is still left. */
@@ -123,7 +129,6 @@ static struct misfit bring_back(struct run *run, struct misfit *misfit)
     struct misfit left = state_misfit(run->state);
     drift->left_position = fmax(drift->left_position, left.position);
     drift->left_velocity = fmax(drift->left_velocity, left.velocity);
-    measure(run);
     return left;
 }
 
@@ -136,24 +141,22 @@ void run_close_step(struct run *run)
     struct misfit left = bring_back(run, &misfit);
     double after = kinetic(run->state);
     run->liveliest = fmax(run->liveliest, fmax(before, after));
-    double reach = 0;
-    for (int i = 1; i < run->model->tree->count; i++)
-        reach = fmax(reach, vec_norm(run->state->tree->links[i].p));
+    double reach = measure(run);
     /* Where a mechanism can fold over to another branch (all bars in one line) a step may start to, and going
      * back takes the energy with it: that is no rounding any more. */
     if (!(fabs(after - before) <= 1e4 * fmax(run->options.tolerance, 1e-12) * run->liveliest) &&
         !(fabs(after - before) <= still(run))) {
         run_fail(run, FBD_FAILED,
                  "at t = %.9g the couplings pass a singular position, where the mechanism could go on in two "
-                 "ways, and "
-                 "the step cannot tell which: try another tolerance or --method dop853",
+                 "ways, "
+                 "and the step cannot tell which: try another tolerance or --method dop853",
                  run->state->t);
         return;
     }
     if (left.position <= 1e3 * fmax(run->options.tolerance, 1e-12) * reach) return;
     run_fail(run, FBD_FAILED,
              "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the mechanism is "
-             "at the end "
-             "of its reach, or the tolerance is too large",
-             run->state->t, tie_name(run, misfit.row >= 0 ? misfit.row : 0), misfit.position);
+             "at the end of its reach, or the tolerance is too large",
+             run->state->t, tie_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0),
+             misfit.position);
 }

@@ -97,12 +97,14 @@ static bool make_run(struct run *run)
     size_t n = (size_t)plan->n;
     run->state = state_new(run->model);
     run->during = state_new(run->model);
-    run->y = calloc(7 * n + 1, sizeof *run->y);
+    run->y = calloc(11 * n + 1, sizeof *run->y);
     if (!run->state || !run->during || !run->y || !make_scans(run)) return false;
+    if (run->state->tree) run->state->tree->accuracy = run->during->tree->accuracy = run->options.tolerance;
     if (!poles_init(&run->poles, run->model)) return false;
     run->f = run->y + 2 * n;
     run->sample = run->f + 2 * n;
-    run->along = run->sample + 2 * n;
+    run->aside = run->sample + 2 * n;
+    run->along = run->aside + 4 * n;
     run->values = calloc(2 * run->moving.count + 1, sizeof *run->values);
     run->anchor = calloc(4 * n + 1, sizeof *run->anchor);
     run->arrows = calloc(diagram_most_arrows(run->model), sizeof *run->arrows);
@@ -343,6 +345,7 @@ static void accept(struct run *run, double t)
     memcpy(run->state->y, run->y, 2 * n * sizeof *run->y);
     modes_hold(run->state);
     run_close_step(run);
+    run->restart |= run_has_gone_astray(run);
     memcpy(run->y, run->state->y, 2 * n * sizeof *run->y);
 }
 
@@ -442,8 +445,12 @@ fbd_outcome run_advance(struct run *run)
 
 bool run_coordinates(struct run *run, double t, double *y)
 {
-    if (t != run->state->t) return switcher_dense(run->stepper, t, y) == GSL_SUCCESS;
-    memcpy(y, run->state->y, 2 * (size_t)run->model->plan.n * sizeof *y);
+    if (t == run->state->t) {
+        memcpy(y, run->state->y, 2 * (size_t)run->model->plan.n * sizeof *y);
+        return true;
+    }
+    if (switcher_dense(run->stepper, t, y) != GSL_SUCCESS) return false;
+    run_close_within(run, t, y);
     return true;
 }
 

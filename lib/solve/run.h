@@ -13,6 +13,7 @@
 #include "dynamics/diagram.h"
 #include "dynamics/modes.h"
 #include "dynamics/rates.h"
+#include "dynamics/tree.h"
 #include "solve/linear.h"
 #include "solve/poles.h"
 #include "solve/scan.h"
@@ -77,6 +78,7 @@ struct run {
     struct counted_system system;
     struct rates *rates;       /* in the modes of `during` */
     double *y, *f, *sample;    /* 2 n each; y: the end of the last step, before its events */
+    double *aside;             /* 4 n: a sample made in another way */
     double *along;             /* n: how the accelerations change along the motion, when the noise was set */
     unsigned long since_noise; /* steps */
     double *values;            /* moving event functions and their rates */
@@ -119,6 +121,12 @@ void run_apply(struct run *run, const bool *timed, const bool *moving);
 /* Refuse a start that couplings do not allow (closing.c); bring the end of a step back onto them. */
 void run_close_start(struct run *run);
 void run_close_step(struct run *run);
+
+/* Has the step that ends at run->y been brought back so far that its method has to start anew? */
+bool run_has_gone_astray(const struct run *run);
+
+/* Bring y[2n] at a time within the last step back to the couplings. */
+void run_close_within(struct run *run, double t, double *y);
 
 /* User events whose function is exactly zero at run->state (a body came to rest there, or the run ends there)
  * happen now; within its band (watchers.h) a zero counts at an event only, which may be what stopped the

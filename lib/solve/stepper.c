@@ -362,6 +362,32 @@ int stepper_partial(struct stepper *s, double t, double *y, double *f)
     return code == GSL_SUCCESS ? counted_system_rhs(s->system, t, y, f) : code;
 }
 
+int stepper_walk(struct stepper *s, double t, double *y, double *f)
+{
+    enum { most_steps = 500 };
+    const double longer = 1.5, shorter = 0.4, room = 0.1;
+    if (!s->stepped || !s->redo || !(t > s->t0 && t < s->t1)) return GSL_EINVAL;
+    size_t bytes = s->n * sizeof *y;
+    double *y1 = s->work, *f1 = s->work + s->n, now = s->t0, h = t - now;
+    memcpy(y, s->y0, bytes);
+    memcpy(f, s->f0, bytes);
+    for (int k = 0; k < most_steps && now + h > now; k++) {
+        double next = now + h < t ? now + h : t, ratio = INFINITY;
+        memcpy(y1, y, bytes);
+        gsl_odeiv2_step_reset(s->redo);
+        int code = gsl_odeiv2_step_apply(s->redo, now, next - now, y1, s->yerr, f, f1, &s->system->gsl);
+        if (code == GSL_SUCCESS && all_finite(s->n, y1, f1))
+            ratio = weights_ratio(s->control, next - now, y1, s->yerr, f1);
+        h = ratio <= room ? longer * h : ratio <= 1 ? h : shorter * h;
+        if (!(ratio <= 1)) continue;
+        memcpy(y, y1, bytes);
+        memcpy(f, f1, bytes);
+        now = next;
+        if (now == t) return GSL_SUCCESS;
+    }
+    return GSL_EFAILED;
+}
+
 double stepper_attempt(struct stepper *s, struct counted_system *system, double t, const double *y,
                        const double *f, double h)
 {

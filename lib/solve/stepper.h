@@ -83,6 +83,10 @@ int stepper_dense(struct stepper *stepper, double t, double *y);
  * stepper_dense. Codes as there, or that of a right-hand side that fails at t. */
 int stepper_partial(struct stepper *stepper, double t, double *y, double *f);
 
+/* The same by as many steps as the tolerance asks for. GSL_EFAILED when that does not come to t, GSL_EINVAL
+ * for a multistep method. The last step stays what it was. */
+int stepper_walk(struct stepper *stepper, double t, double *y, double *f);
+
 /* Try a step of size h from (t, y) with slopes f and throw it away: its largest error in units of what is
  * allowed (at most 1 would be accepted), infinite where it cannot be made, or by a multistep method. The last
  * step stays what it was. */

@@ -121,6 +121,11 @@ int switcher_partial(struct switcher *s, double t, double *y, double *f)
     return stepper_partial(s->steppers[s->made], t, y, f);
 }
 
+int switcher_walk(struct switcher *s, double t, double *y, double *f)
+{
+    return stepper_walk(s->steppers[s->made], t, y, f);
+}
+
 struct stepper_counts switcher_counts(const struct switcher *s)
 {
     struct stepper_counts sum = *stepper_get_counts(s->steppers[0]);

@@ -7,6 +7,12 @@ set -u
 incline=$models/kinetics/incline.yaml
 
 # ---- exit codes
+sed 's/initial: {assemble: true}/initial: {theta: -40 deg}/' "$models/couplings/slider_crank.yaml" >apart.yaml
+check 'a start that does not fit its couplings is 1' exits 1 run --quiet apart.yaml
+check 'and so are its equations' exits 1 run --equations apart.yaml
+check 'which say what is off' says 'does not fit: `wrist` is off by' err
+check 'bodies that find their place do so for equations, too' \
+    exits 0 run --equations --at crank.theta=1.2 "$models/couplings/slider_crank.yaml"
 check 'a run that ends as planned is 0' exits 0 run "$incline"
 check 'diagnostics are empty then' is_empty err
 check 'an unknown option is 2' exits 2 run --wrong "$incline"
@@ -89,6 +95,26 @@ assert set(result["stats"]) >= {"method", "tolerance", "steps", "rejected", "rhs
 assert abs(result["forces"]["block"]["friction"]["limit"] - 8.495709211125343) < 1e-12
 END
 printf 'fbd: 1\ntitle: "quote \\" slash \\\\ and \\t tab"\nbodies:\n  b: {mass: 1, motion: slide}\nsimulate: {until: 1}\n' >title.yaml
+check 'each force has its moment about G and about O: they differ by the arm from O to G' python3 - "$FBD_RUN" "$models" <<'END'
+import json, math, subprocess, sys
+models = sys.argv[2]
+def run(model, *more):
+    command = [sys.argv[1], "--json", "-", *more, models + "/" + model]
+    return json.loads(subprocess.run(command, capture_output=True, check=True).stdout)
+result = run("couplings/slider_crank.yaml")
+theta = result["final"]["crank"]["theta"]
+x, y = 0.1 * math.cos(theta), 0.1 * math.sin(theta)
+forces = result["forces"]["crank"]
+assert set(forces) == {"gravity", "drive", "connecting_rod.pin", "pin"}, forces
+for force in forces.values():
+    arm = x * force["fy"] - y * force["fx"]
+    assert abs(force["moment_O"] - force["moment_G"] - arm) < 1e-9, force
+    assert force["moment_O"] == force["moment"]
+rolls = run("couplings/disc_on_incline.yaml")["forces"]["ball"]["tread.friction"]
+slips = run("couplings/disc_on_incline.yaml", "--set", "mu=0.1")["forces"]["ball"]["tread.friction"]
+assert rolls["mode"] == "stick" and abs(rolls["margin"] - math.tan(math.pi / 6) / 3 / 0.5) < 1e-9, rolls
+assert slips["mode"] == "slip" and abs(slips["margin"] - 1) < 1e-12, slips
+END
 check 'a title is data' sh -c '"$FBD_RUN" --json - title.yaml | python3 -m json.tool'
 
 # ---- the same bits

@@ -15,6 +15,7 @@
 
 #include <cmocka.h>
 
+#include "model/model.h"
 #include "scene_fixture.h"
 
 #include <dirent.h>
@@ -114,12 +115,18 @@ static bool check_file(const char *name)
     read_file(path, &file);
     fbd_errors *errors = fbd_errors_new();
     struct scene *scene = scene_read(file.text, file.length, name, NULL, 0, errors);
+    struct fbd_model *model = NULL;
+    if (scene && fbd_errors_failed(errors) == 0) {
+        model = model_compile(scene, errors); /* owns it now */
+        scene = NULL;
+    }
     bool fine = file.count > 0 && pairs_off(&file, errors);
     if (!fine) {
         print_error("%s expects %zu notes and is answered:\n", name, file.count);
         fbd_errors_print(errors, stderr);
     }
     scene_free(scene);
+    if (model) model_free(model);
     fbd_errors_free(errors);
     return fine;
 }

@@ -73,28 +73,32 @@ static void atwoods_machine_has_a_tension_on_each_side(void **unused)
     checks_end(&checks);
 }
 
-/* (c): a massless pulley is a point of the ground that the rope slips over. */
+/* (c): a massless pulley is a point that the rope slips over, here of a bracket without weight, whose pin
+ * carries what the axle does. */
 static void over_a_massless_pulley_both_tensions_are_one(void **unused)
 {
     (void)unused;
     struct checks checks = {0};
     struct trial trial = trial_parse(
         "fbd: 1\n"
-        "ground: {points: {top: [0, 0]}}\n"
         "bodies:\n"
+        "  bracket: {mass: 1, inertia: 1, motion: pivot}\n"
         "  m1: {mass: 3, motion: {slide: {along: -90 deg, through: [0, -4]}}, forces: [gravity]}\n"
         "  m2: {mass: 2, motion: {slide: {along: -90 deg, through: [0, -4]}}, forces: [gravity]}\n"
         "couplings:\n"
-        "  - rope: {name: cable, through: [m1, ground.top, m2]}\n"
+        "  - rope: {name: cable, through: [m1, bracket, m2]}\n"
         "simulate: {until: 2}\n");
     trial_start(&trial, NULL);
     trial_to(&trial, 1);
     check_named(&checks, "B09.c_a", trial_acceleration(&trial, "m1.x"));
-    check_named(&checks, "B09.c_T1", arrow_on(&trial, 0, "cable").fy);
-    check_named(&checks, "B09.c_T2", arrow_on(&trial, 1, "cable").fy);
+    check_named(&checks, "B09.c_T1", arrow_on(&trial, 1, "cable").fy);
+    check_named(&checks, "B09.c_T2", arrow_on(&trial, 2, "cable").fy);
+    check_named(&checks, "B09.c_axle_force", arrow_on(&trial, 0, "pin").fy);
     trial_to(&trial, 2);
     check_named(&checks, "B09.c_s", trial_get(&trial, "m1.x"));
     check_named(&checks, "B09.c_v", trial_get(&trial, "m1.v"));
+    const double R = 0.1; /* a massless pulley turns as the rope tells it */
+    check_named(&checks, "B09.c_pulley_omega", trial_get(&trial, "m1.v") / R);
     trial_close(&trial);
     checks_end(&checks);
 }
@@ -192,10 +196,24 @@ static void round_bodies_roll_or_slip_down_an_incline(void **unused)
 
 /* ---- C02: the reference's spin is positive where ours is negative */
 
+/* (b) is a disc. */
+static struct trial open_ball(const char *prefix, const char *const *settings)
+{
+    if (strcmp(prefix, "b_") != 0) return trial_open("couplings/bowling_ball.yaml", settings);
+    return trial_parse("fbd: 1\n"
+                       "ground: {lines: {lane: {along: 0 deg}}}\n"
+                       "bodies:\n"
+                       "  ball: {mass: 6.8, shape: disc, radius: 0.108, motion: planar,\n"
+                       "         initial: {y: 0.108, vx: 8}, forces: [gravity]}\n"
+                       "couplings:\n"
+                       "  - roll: {name: tread, body: ball, on: lane, static: 0.12, kinetic: 0.12}\n"
+                       "simulate: {until: 6}\n");
+}
+
 static void check_ball(struct checks *checks, const char *prefix, const char *const *settings)
 {
     char name[32];
-    struct trial trial = trial_open("couplings/bowling_ball.yaml", settings);
+    struct trial trial = open_ball(prefix, settings);
     trial_start(&trial, NULL);
     trial_to(&trial, 1);
     double omega_1 = -trial_get(&trial, "ball.omega");
@@ -218,7 +236,7 @@ static void check_ball(struct checks *checks, const char *prefix, const char *co
     snprintf(name, sizeof name, "C02.%sv_6s", prefix);
     check_named(checks, name, trial_get(&trial, "ball.vx"));
     trial_close(&trial);
-    trial = trial_open("couplings/bowling_ball.yaml", settings);
+    trial = open_ball(prefix, settings);
     trial_run(&trial, NULL);
     fbd_energy energy = fbd_result_energy(trial.result);
     snprintf(name, sizeof name, "C02.%senergy_lost", prefix);
@@ -232,32 +250,65 @@ static void a_bowling_ball_slides_and_then_rolls(void **unused)
     (void)unused;
     struct checks checks = {0};
     check_ball(&checks, "", NULL);
+    check_ball(&checks, "b_", NULL);
     check_ball(&checks, "c_", SET("v_0=4 m/s", "omega_0=100 rad/s")); /* and comes back */
     checks_end(&checks);
 }
 
 /* ---- mechanisms */
 
-/* Test Set for IVP Solvers (Mazzia and Magherini), Andrews' squeezing mechanism: the reference solution. */
+/* Mazzia and Magherini, Test Set for Initial Value Problem Solvers, release 2.4 (2008), problem `andrews`:
+ * the reference solution at t = 0.03, found there by PSIDE at a tolerance of 1e-14 on a Cray C90. Parameters,
+ * start and solution have been held against the problem's Fortran text and against the copies of it in Cash's
+ * driver of MEBDFI (andrewi.f, 2000) and in the package deTestSet of R. Its multipliers are forces between
+ * the pins of K2 and K3, K2 and K4, K2 and K6.
+ *
+ * Our solutions by dop853 and rk8pd at tolerances from 1e-11 to 3e-14 agree with each other to 1e-13, and
+ * with the published one to 3e-10 in the angles, 5e-8 in the rates and 1e-7 in the forces: in the formulation
+ * with index 3 that it was found with, digits are lost from one to the next. */
 static void the_squeezer_moves_as_published_to_eight_digits(void **unused)
 {
     (void)unused;
     static const struct {
-        const char *name;
-        double value;
+        const char *body;
+        double theta, omega;
     } published[] = {
-        {"K1.theta", 0.1581077119629904e2},  {"K2.theta", -0.1575637105984298e2},
-        {"K3.theta", 0.4082224013073101e-1}, {"K4.theta", -0.5347301163226948},
-        {"K5.theta", 0.5244099658805304},    {"K6.theta", 0.5347301163226948},
-        {"K7.theta", 0.1048080741042263e1},
+        {"K1", 0.1581077119629904e2, 0.1139920302151208e4},
+        {"K2", -0.1575637105984298e2, -0.1424379294994111e4},
+        {"K3", 0.4082224013073101e-1, 0.1103291221937134e2},
+        {"K4", -0.5347301163226948, 0.1929337464421385e2},
+        {"K5", 0.5244099658805304, 0.5735699284790808},
+        {"K6", 0.5347301163226948, -0.1929337464421385e2},
+        {"K7", 0.1048080741042263e1, 0.3231791658026955},
     };
+    static const double multipliers[] = {0.1991753333731910e3, -0.2975531228015052e2, 0.2306654119098399e2,
+                                         0.3145271365475927e2, 0.2264249232082739e2,  0.1161740700019673e2};
+    const double *m = multipliers;
     struct checks checks = {0};
     struct trial trial = trial_open("couplings/andrews_squeezer.yaml", NULL);
     trial_start(&trial, NULL);
     trial_to(&trial, 0.03);
-    for (size_t i = 0; i < sizeof published / sizeof *published; i++)
-        check_close(&checks, published[i].name, trial_get(&trial, published[i].name), published[i].value,
-                    1e-8 * fabs(published[i].value));
+    const double force = 244.9; /* the largest */
+    for (size_t i = 0; i < sizeof published / sizeof *published; i++) {
+        char name[16];
+        double theta = published[i].theta, omega = published[i].omega;
+        snprintf(name, sizeof name, "%s.theta", published[i].body);
+        check_close(&checks, name, trial_get(&trial, name), theta, 1e-8 * fabs(theta));
+        snprintf(name, sizeof name, "%s.omega", published[i].body);
+        check_close(&checks, name, trial_get(&trial, name), omega, 1e-7 * fabs(omega));
+    }
+    const struct {
+        size_t body;
+        const char *pin;
+        double fx, fy;
+    } forces[] = {{1, "left", -(m[0] + m[2] + m[4]), -(m[1] + m[3] + m[5])},
+                  {4, "middle", m[2], m[3]},
+                  {6, "right", m[4], m[5]}};
+    for (size_t i = 0; i < sizeof forces / sizeof *forces; i++) {
+        fbd_arrow pin = arrow_on(&trial, forces[i].body, forces[i].pin);
+        check_close(&checks, forces[i].pin, pin.fx, forces[i].fx, 2e-7 * force);
+        check_close(&checks, forces[i].pin, pin.fy, forces[i].fy, 2e-7 * force);
+    }
     trial_close(&trial);
     checks_end(&checks);
 }
@@ -325,65 +376,6 @@ static void a_rope_goes_slack_and_snaps_taut(void **unused)
     checks_end(&checks);
 }
 
-/* IFToMM benchmark A02 with forty windows; the text is that of models/couplings/n_four_bar.yaml. */
-static char *windows(int count)
-{
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) return NULL;
-    fprintf(out, "fbd: 1\nbodies:\n");
-    for (int i = 0; i <= count; i++) {
-        fprintf(out, "  v%d: {shape: rod, mass: 1, length: 1, motion: {pivot: {at: [%d, 0], point: left}}, ",
-                i, i);
-        fprintf(out, "initial: {theta: 90 deg, omega: -1}, forces: [gravity]}\n");
-        if (i == count) break;
-        fprintf(out, "  h%d: {shape: rod, mass: 1, length: 1, motion: {pivot: {on: v%d, at: right, ", i, i);
-        fprintf(out, "point: left}}, initial: {theta: -90 deg, omega: 1}, forces: [gravity]}\n");
-    }
-    fprintf(out, "couplings:\n");
-    for (int i = 0; i < count; i++)
-        fprintf(out, "  - pin: {name: p%d, between: [h%d.right, v%d.right]}\n", i, i, i + 1);
-    fprintf(out, "simulate: {until: 10 s, tolerance: 1e-6}\n");
-    fclose(out);
-    return text;
-}
-
-/* The benchmark asks for less than 0.1 J of error in the energy. Pins stay closed to the tolerance at every
- * output. */
-static void forty_windows_swing_for_ten_seconds(void **unused)
-{
-    (void)unused;
-    enum { count = 40, outputs = 100 };
-    struct checks checks = {0};
-    char *text = windows(count);
-    assert_non_null(text);
-    struct trial trial = trial_parse(text);
-    trial_start(&trial, NULL);
-    double worst = 0;
-    for (int k = 1; k <= outputs; k++) {
-        trial_to(&trial, 0.1 * k);
-        for (int i = 0; i < count; i++) {
-            char v[16], h[16], next[16];
-            snprintf(v, sizeof v, "v%d.theta", i);
-            snprintf(h, sizeof h, "h%d.theta", i);
-            snprintf(next, sizeof next, "v%d.theta", i + 1);
-            double a = trial_get(&trial, v), b = a + trial_get(&trial, h), c = trial_get(&trial, next);
-            double x = cos(a) + cos(b) - 1 - cos(c), y = sin(a) + sin(b) - sin(c);
-            worst = fmax(worst, hypot(x, y));
-        }
-    }
-    check_close(&checks, "pins", worst, 0, 1e-6);
-    trial_close(&trial);
-    trial = trial_parse(text);
-    trial_run(&trial, NULL);
-    fbd_energy energy = fbd_result_energy(trial.result);
-    check_close(&checks, "energy", energy.residual, 0, 0.1);
-    trial_close(&trial);
-    free(text);
-    checks_end(&checks);
-}
-
 /* ---- prescribed motion */
 
 static void a_driven_slider_crank_is_where_geometry_says(void **unused)
@@ -444,7 +436,6 @@ int main(void)
         cmocka_unit_test(the_squeezer_moves_as_published_to_eight_digits),
         cmocka_unit_test(a_nearly_singular_slider_crank_stays_on_its_branch),
         cmocka_unit_test(a_linkage_keeps_its_energy_and_its_loop),
-        cmocka_unit_test(forty_windows_swing_for_ten_seconds),
         cmocka_unit_test(a_rope_goes_slack_and_snaps_taut),
         cmocka_unit_test(a_driven_slider_crank_is_where_geometry_says),
         cmocka_unit_test(a_shaken_support_takes_the_force_by_hand),

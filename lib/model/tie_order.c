@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * In which order the unknowns of dynamics/tree_system.h are eliminated, fixed when the model is compiled.
+ *
+ * Two unknowns meet when they join a common tree: rows of ties, and frictions of slides, which belong to one
+ * tree each. What is kept of a row and column reaches from the first unknown that it meets to the diagonal,
+ * so that a chain of loops takes time in proportion to its length when its unknowns are numbered along it. A
+ * file may list couplings and bodies in any order; so they are numbered anew from one end of each connected
+ * part to the other, breadth first and then backwards (George's reverse Cuthill-McKee order; George and Liu,
+ * Computer Solution of Large Sparse Positive Definite Systems, 1981, chapter 4), and that order is taken when
+ * it keeps less than the order of the file does.
+ */
+#include <string.h>
+
+#include "model/model.h"
+
+/* Unknowns that stay together: the rows of a tie, or the friction of a slide. */
+struct group {
+    int first, count;
+    const int *roots;
+    int root_count;
+};
+
+struct graph {
+    const struct tree *tree;
+    int group_count, unknowns;
+    struct group *groups;
+    int *at_root, *members; /* groups of the tree with first link i: members[at_root[i]] to at_root[i + 1] */
+    int *queue, *level;     /* groups in the order of a search, and their distance; -1: not seen */
+    bool *root_seen;
+};
+
+static void set_groups(struct graph *graph)
+{
+    const struct tree *tree = graph->tree;
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        graph->groups[i] = (struct group){tie->first_row, tie->row_count, tie->root, tie->root_count};
+    }
+    for (int k = 0; k < tree->pair_count; k++)
+        graph->groups[tree->tie_count + k] =
+            (struct group){tree->row_count + k, 1, &tree->links[tree->pairs[k]].root, 1};
+}
+
+static void set_members(struct graph *graph)
+{
+    int links = graph->tree->count, *at = graph->at_root;
+    for (int g = 0; g < graph->group_count; g++)
+        for (int i = 0; i < graph->groups[g].root_count; i++) at[graph->groups[g].roots[i] + 1]++;
+    for (int i = 0; i < links; i++) at[i + 1] += at[i];
+    for (int g = graph->group_count - 1; g >= 0; g--)
+        for (int i = 0; i < graph->groups[g].root_count; i++) {
+            int root = graph->groups[g].roots[i];
+            graph->members[--at[root + 1]] = g;
+        }
+    /* at[i + 1] is now where the groups of tree i begin. */
+    for (int i = 0; i < links; i++) at[i] = at[i + 1];
+}
+
+static bool make_graph(struct graph *graph, const struct tree *tree, struct arena *arena)
+{
+    size_t links = (size_t)tree->count, groups = (size_t)tree->tie_count + (size_t)tree->pair_count;
+    size_t members = 0;
+    *graph = (struct graph){.tree = tree, .group_count = (int)groups};
+    graph->unknowns = tree->row_count + tree->pair_count;
+    graph->groups = ARENA_ARRAY(arena, groups, struct group);
+    graph->at_root = ARENA_ARRAY(arena, links + 1, int);
+    graph->queue = ARENA_ARRAY(arena, groups, int);
+    graph->level = ARENA_ARRAY(arena, groups, int);
+    graph->root_seen = ARENA_ARRAY(arena, links, bool);
+    if (arena->failed) return false;
+    set_groups(graph);
+    for (size_t g = 0; g < groups; g++) members += (size_t)graph->groups[g].root_count;
+    graph->members = ARENA_ARRAY(arena, members + 1, int);
+    if (arena->failed) return false;
+    memset(graph->at_root, 0, (links + 1) * sizeof *graph->at_root);
+    set_members(graph);
+    graph->at_root[links] = (int)members;
+    return true;
+}
+
+/* Breadth first from a group; queue[from ..] gets those of its connected part. Returns behind the last. */
+static int search(struct graph *graph, int start, int from)
+{
+    int end = from;
+    graph->level[start] = 0;
+    graph->queue[end++] = start;
+    for (int k = from; k < end; k++) {
+        const struct group *group = &graph->groups[graph->queue[k]];
+        for (int i = 0; i < group->root_count; i++) {
+            int root = group->roots[i];
+            if (graph->root_seen[root]) continue;
+            graph->root_seen[root] = true;
+            for (int m = graph->at_root[root]; m < graph->at_root[root + 1]; m++) {
+                int other = graph->members[m];
+                if (graph->level[other] >= 0) continue;
+                graph->level[other] = graph->level[graph->queue[k]] + 1;
+                graph->queue[end++] = other;
+            }
+        }
+    }
+    return end;
+}
+
+static void forget(struct graph *graph, int from, int end)
+{
+    for (int k = from; k < end; k++) {
+        const struct group *group = &graph->groups[graph->queue[k]];
+        graph->level[graph->queue[k]] = -1;
+        for (int i = 0; i < group->root_count; i++) graph->root_seen[group->roots[i]] = false;
+    }
+}
+
+/* Each connected part from one of its ends: a group that is farthest from one that is farthest from another.
+ */
+static void set_order(struct graph *graph, int *unknown_at)
+{
+    int from = 0, place = graph->unknowns;
+    for (int g = 0; g < graph->group_count; g++) graph->level[g] = -1;
+    memset(graph->root_seen, 0, (size_t)graph->tree->count * sizeof *graph->root_seen);
+    for (int g = 0; g < graph->group_count; g++) {
+        int start = g, end = from;
+        if (graph->level[g] >= 0) continue;
+        for (int pass = 0; pass < 3; pass++) {
+            if (pass > 0) forget(graph, from, end);
+            end = search(graph, start, from);
+            start = graph->queue[end - 1];
+        }
+        from = end;
+    }
+    for (int k = 0; k < from; k++) {
+        const struct group *group = &graph->groups[graph->queue[k]];
+        for (int i = group->count - 1; i >= 0; i--) unknown_at[--place] = group->first + i;
+    }
+}
+
+/* What the order in unknown_at keeps. */
+static void set_envelope(struct graph *graph, struct tree *tree, int *group_of, int *lowest, int *highest)
+{
+    int m = graph->unknowns;
+    for (int g = 0; g < graph->group_count; g++)
+        for (int i = 0; i < graph->groups[g].count; i++) group_of[graph->groups[g].first + i] = g;
+    for (int i = 0; i < tree->count; i++) lowest[i] = m;
+    for (int p = 0; p < m; p++) {
+        const struct group *group = &graph->groups[group_of[tree->unknown_at[p]]];
+        for (int i = 0; i < group->root_count; i++) {
+            int root = group->roots[i];
+            if (lowest[root] > p) lowest[root] = p;
+            highest[root] = p;
+        }
+    }
+    tree->envelope_size = 0;
+    for (int p = 0; p < m; p++) {
+        const struct group *group = &graph->groups[group_of[tree->unknown_at[p]]];
+        tree->first[p] = p;
+        tree->reach[p] = p + 1;
+        for (int i = 0; i < group->root_count; i++) {
+            int root = group->roots[i];
+            if (lowest[root] < tree->first[p]) tree->first[p] = lowest[root];
+            if (highest[root] >= tree->reach[p]) tree->reach[p] = highest[root] + 1;
+        }
+        tree->envelope[p] = tree->envelope_size;
+        tree->envelope_size += (size_t)(p - tree->first[p]);
+    }
+}
+
+static bool allocate(struct tree *tree, struct arena *arena, size_t m)
+{
+    tree->tie_of_row = ARENA_ARRAY(arena, (size_t)tree->row_count, int);
+    tree->unknown_at = ARENA_ARRAY(arena, m, int);
+    tree->first = ARENA_ARRAY(arena, m, int);
+    tree->reach = ARENA_ARRAY(arena, m, int);
+    tree->envelope = ARENA_ARRAY(arena, m, size_t);
+    return !arena->failed;
+}
+
+bool ties_order(struct fbd_model *model)
+{
+    struct tree *tree = model->tree;
+    struct arena *arena = &model->arena;
+    struct graph graph;
+    int m = tree->row_count + tree->pair_count;
+    if (!allocate(tree, arena, (size_t)m) || !make_graph(&graph, tree, arena)) return false;
+    int *group_of = ARENA_ARRAY(arena, (size_t)m, int), *lowest, *highest;
+    lowest = ARENA_ARRAY(arena, (size_t)tree->count, int);
+    highest = ARENA_ARRAY(arena, (size_t)tree->count, int);
+    if (arena->failed) return false;
+    for (int i = 0; i < tree->tie_count; i++)
+        for (int k = 0; k < tree->ties[i].row_count; k++) tree->tie_of_row[tree->ties[i].first_row + k] = i;
+    for (int k = 0; k < m; k++) tree->unknown_at[k] = k;
+    set_envelope(&graph, tree, group_of, lowest, highest);
+    size_t of_the_file = tree->envelope_size;
+    set_order(&graph, tree->unknown_at);
+    set_envelope(&graph, tree, group_of, lowest, highest);
+    if (tree->envelope_size < of_the_file) return true;
+    for (int k = 0; k < m; k++) tree->unknown_at[k] = k;
+    set_envelope(&graph, tree, group_of, lowest, highest);
+    return true;
+}

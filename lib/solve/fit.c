@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solve/fit.h"
+
+#include "dynamics/project.h"
+#include "dynamics/tree.h"
+
+/* "rod.theta = -0.7, ...": what has to change. */
+static void list_changes(struct text *text, const struct fbd_state *from, const struct fbd_state *to)
+{
+    enum { most_listed = 6 };
+    const struct fbd_model *model = from->model;
+    int n = model->plan.n, listed = 0;
+    for (int i = 0; i < 2 * n; i++) {
+        double size = fmax(1, fabs(from->y[i]));
+        if (fabs(to->y[i] - from->y[i]) <= 1e-9 * size) continue;
+        if (listed++ >= most_listed) continue;
+        const struct label *label = &model->labels[i % n];
+        text_printf(text, "%s%s = ", listed > 1 ? ", " : "", i < n ? label->name : label->rate_name);
+        text_number(text, to->y[i], 9);
+    }
+    if (listed > most_listed) text_add(text, ", ...");
+}
+
+static void tell(const struct fbd_state *state, struct fbd_state *other, const char *name, double off,
+                 bool by_velocity, struct text *lack)
+{
+    state_copy(other, state);
+    bool closed = state_project(other, false);
+    text_printf(lack, "`%s` is off by %.3g%s. ", name, off, by_velocity ? " in velocity" : "");
+    text_add(lack, closed ? "Nearest is " : "No state near it fits");
+    if (!closed) return;
+    list_changes(lack, state, other);
+    text_add(lack, "; or let bodies find their place, `initial: {assemble: true}`");
+}
+
+bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct text *lack)
+{
+    const double digits = 2e-6; /* six digits in a file are meant to fit */
+    const struct tree *tree = state->model->tree;
+    if (!tree || tree->tie_count == 0) return false;
+    struct misfit misfit = state_misfit(state);
+    double reach = 0, speed = 0;
+    for (int i = 1; i < tree->count; i++) {
+        const struct tree_state *s = &state->tree->links[i];
+        reach = fmax(reach, fmax(vec_norm(s->p), vec_norm(s->d)));
+        speed = fmax(speed, fmax(vec_norm(s->v), fabs(s->omega)));
+    }
+    bool position = !(misfit.position <= digits * reach), velocity = !(misfit.velocity <= digits * speed);
+    if (!position && !velocity) return false;
+    int row = position ? misfit.row : misfit.velocity_row;
+    tell(state, other, tree->ties[tree->tie_of_row[row]].name, position ? misfit.position : misfit.velocity,
+         !position, lack);
+    return true;
+}
