@@ -147,9 +147,8 @@ void run_close_step(struct run *run)
     if (!(fabs(after - before) <= 1e4 * fmax(run->options.tolerance, 1e-12) * run->liveliest) &&
         !(fabs(after - before) <= still(run))) {
         run_fail(run, FBD_FAILED,
-                 "at t = %.9g the couplings pass a singular position, where the mechanism could go on in two "
-                 "ways, "
-                 "and the step cannot tell which: try another tolerance or --method dop853",
+                 "at t = %.9g the couplings pass a singular position, where the mechanism could go on in "
+                 "two ways, and the step cannot tell which: try another tolerance or --method dop853",
                  run->state->t);
         return;
     }

@@ -4,8 +4,8 @@
 #include "dynamics/project.h"
 #include "dynamics/tree.h"
 
-/* "rod.theta = -0.7, ...": what has to change. */
-static void list_changes(struct text *text, const struct fbd_state *from, const struct fbd_state *to)
+/* "rod.theta = -0.7, ...": what has to change; false when that is nothing but rounding. */
+static bool list_changes(struct text *text, const struct fbd_state *from, const struct fbd_state *to)
 {
     enum { most_listed = 6 };
     const struct fbd_model *model = from->model;
@@ -19,18 +19,27 @@ static void list_changes(struct text *text, const struct fbd_state *from, const 
         text_number(text, to->y[i], 9);
     }
     if (listed > most_listed) text_add(text, ", ...");
+    return listed > 0;
 }
 
-static void tell(const struct fbd_state *state, struct fbd_state *other, const char *name, double off,
+/* What is wrong and what is next to it; false when that differs by rounding only, as where everything is at
+ * rest but for rounding and speeds have no size to go by. */
+static bool tell(const struct fbd_state *state, struct fbd_state *other, const char *name, double off,
                  bool by_velocity, struct text *lack)
 {
+    struct text changes = {0};
     state_copy(other, state);
-    bool closed = state_project(other, false);
-    text_printf(lack, "`%s` is off by %.3g%s. ", name, off, by_velocity ? " in velocity" : "");
-    text_add(lack, closed ? "Nearest is " : "No state near it fits");
-    if (!closed) return;
-    list_changes(lack, state, other);
-    text_add(lack, "; or let bodies find their place, `initial: {assemble: true}`");
+    bool closed = state_project(other, false), differs = !closed || list_changes(&changes, state, other);
+    if (differs) {
+        text_printf(lack, "`%s` is off by %.3g%s. ", name, off, by_velocity ? " in velocity" : "");
+        if (closed)
+            text_printf(lack, "Nearest is %s; or let bodies find their place, `initial: {assemble: true}`",
+                        changes.failed ? "" : changes.data);
+        else
+            text_add(lack, "No state near it fits");
+    }
+    text_free(&changes);
+    return differs;
 }
 
 bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct text *lack)
@@ -48,7 +57,6 @@ bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct text *lac
     bool position = !(misfit.position <= digits * reach), velocity = !(misfit.velocity <= digits * speed);
     if (!position && !velocity) return false;
     int row = position ? misfit.row : misfit.velocity_row;
-    tell(state, other, tree->ties[tree->tie_of_row[row]].name, position ? misfit.position : misfit.velocity,
-         !position, lack);
-    return true;
+    double off = position ? misfit.position : misfit.velocity;
+    return tell(state, other, tree->ties[tree->tie_of_row[row]].name, off, !position, lack);
 }
