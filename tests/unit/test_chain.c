@@ -194,7 +194,7 @@ static void check_inverse(int n, uint64_t seed)
         pin = pin_of(&rods[i], pin);
         worst = fmax(worst, fabs(pin.moment) / pin.moments);
     }
-    print_message("%d rods: moments in the pins %.2g of what is added up\n", n, worst);
+    print_message("# %d rods: moments in the pins %.2g of what is added up\n", n, worst);
     assert_true(worst <= DBL_EPSILON);
     free(rods);
     state_free(state);
