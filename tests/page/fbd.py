@@ -26,3 +26,12 @@ def table(*arguments):
 
 def result(*arguments):
     return json.loads(run("--json", "-", *arguments))
+
+
+def many_bodies(model):
+    """Writes a scene of 200 rods that swing, each about its own axis."""
+    lines = ["fbd: 1", "title: Many", "bodies:"]
+    for i in range(200):
+        lines.append(f"  b{i}: {{shape: rod, mass: 1 kg, length: 0.5 m, motion: {{pivot: {{at: [{i % 20}, {i // 20}], "
+                     f"point: left}}}}, initial: {{theta: {i} deg}}, forces: [gravity]}}")
+    model.write_text("\n".join(lines + ["simulate: {until: 10 s}"]), encoding="utf-8")

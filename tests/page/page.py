@@ -12,7 +12,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(os.environ["FBD_SOURCE_ROOT"]) / "tests/tools"))
 from browser import Browser, Missing  # noqa: E402
 from claims import claim, close, finish, skip  # noqa: E402
-from fbd import MODELS, result, run, table  # noqa: E402
+from fbd import MODELS, many_bodies, result, run, table  # noqa: E402
 
 SEVEN_DIGITS = 1.2e-7  # the page keeps numbers that are read as floats
 SIX_DIGITS = 6e-6      # and shows six digits
@@ -80,6 +80,13 @@ def check_incline(browser, folder):
         t = browser.run("return fbd.player.t")
         time.sleep(0.1)
         assert browser.run("return fbd.player.t") == t and not browser.run("return fbd.player.playing")
+    with claim("pausing and playing on before the next frame still draws each frame once"):
+        drawn = browser.run("""fbd.seek(0); fbd.setPlaying(true);
+            for (let i = 0; i < 3; i++) { fbd.setPlaying(false); fbd.setPlaying(true); }
+            const frame = () => new Promise((done) => requestAnimationFrame(done));
+            await frame(); const before = fbd.player.frames; await frame();
+            const drawn = fbd.player.frames - before; fbd.setPlaying(false); return drawn;""")
+        assert drawn == 1, drawn
     with claim("the end of the run ends the play"):
         browser.run("fbd.seek(2.9); fbd.setPlaying(true);")
         wait_for(browser, "!fbd.player.playing")
@@ -274,12 +281,8 @@ def check_text_is_data(browser, folder):
 
 
 def check_many(browser, folder):
-    lines = ["fbd: 1", "title: Many", "bodies:"]
-    for i in range(200):
-        lines.append(f"  b{i}: {{shape: rod, mass: 1 kg, length: 0.5 m, motion: {{pivot: {{at: [{i % 20}, {i // 20}], "
-                     f"point: left}}}}, initial: {{theta: {i} deg}}, forces: [gravity]}}")
     model, path = folder / "many.yaml", folder / "many.html"
-    model.write_text("\n".join(lines + ["simulate: {until: 10 s}"]), encoding="utf-8")
+    many_bodies(model)
     run("--quiet", "--html", path, model)
     with claim("the page of 200 bodies is below 5 MB"):
         assert path.stat().st_size < 5e6, path.stat().st_size
@@ -289,6 +292,21 @@ def check_many(browser, folder):
         wait_for(browser, "fbd.player.frames > 30")
         spent = browser.run("fbd.setPlaying(false); return fbd.player.drawing / fbd.player.frames;")
         print(f"# 200 bodies: {spent:.2f} ms of drawing a frame (60 frames a second leave 16.7)")
+    with claim("a choice of bodies brings their equations and plots"):
+        found = browser.run("""const list = document.getElementById('body'), found = [];
+            for (const choice of ['-1', '7']) {
+              list.value = choice; list.dispatchEvent(new Event('change'));
+              found.push([document.querySelectorAll('#equations table').length, document.querySelectorAll('.chart').length]);
+            } return found;""")
+        assert found[0][0] == 200 and found[1][0] == 1 and found[0][1] > 200 > 20 > found[1][1], found
+    with claim("a plot that comes into sight has the values of the cursor's time"):
+        browser.run("""const list = document.getElementById('body');
+            list.value = '-1'; list.dispatchEvent(new Event('change'));""")
+        wait_for(browser, "charts[charts.length - 1].unseen")
+        browser.run("fbd.seek(3.21); document.querySelector('.chart:last-child').scrollIntoView();")
+        wait_for(browser, "!charts[charts.length - 1].unseen")
+        text, value = browser.run("return [charts[charts.length - 1].values[0].data, show(fbd.value('energy.residual', 3.21))]")
+        assert text.startswith(f"energy.residual = {value} "), (text, value)
     with claim("the page of 200 bodies is quiet"):
         page_is_quiet(browser, path)
 

@@ -99,7 +99,7 @@ function makeChart(spec) {
     const item = document.createElement("b");
     item.style.color = palette[i % palette.length];
     legend.append(item);
-    return item;
+    return item.appendChild(document.createTextNode(""));
   });
   const graph = new Dygraph(holder, chartRows(spec.columns, plotWindow.from, plotWindow.to), {
     labels: ["t", ...spec.columns.map((c) => run.columns[c].n)],
@@ -118,7 +118,13 @@ function makeChart(spec) {
     unhighlightCallback: () => { plotWindow.hover = null; refresh(); },
     clickCallback: (event, t) => seek(t),
   });
-  charts.push({ spec, graph, cursor, values });
+  const chart = { spec, graph, cursor, values, unseen: false };
+  // a plot out of sight needs no cursor and no values; a browser that does not tell draws them all
+  box.addEventListener("contentvisibilityautostatechange", (event) => {
+    chart.unseen = event.skipped;
+    if (!event.skipped) refresh();
+  });
+  charts.push(chart);
 }
 
 function makeCharts(bodies) {
@@ -130,10 +136,11 @@ function makeCharts(bodies) {
 
 // The line of the cursor in every plot.
 function placeCursors() {
-  for (const { graph, cursor } of charts) {
+  for (const { graph, cursor, unseen } of charts) {
+    if (unseen) continue;
     const area = graph.getArea(), x = graph.toDomXCoord(now());
     cursor.style.display = x >= area.x && x <= area.x + area.w ? "block" : "none";
-    cursor.style.left = `${x}px`;
+    cursor.style.transform = `translateX(${x}px)`;
     cursor.style.height = `${area.h}px`;
   }
 }
@@ -141,8 +148,8 @@ function placeCursors() {
 // The values at time t beside the plots' titles.
 function showValues(t) {
   const row = rowAt(t);
-  for (const { spec, values } of charts)
-    spec.columns.forEach((c, i) => {
-      values[i].textContent = `${run.columns[c].n} = ${show(valueAt(c, t, row))} ${unit(spec.unit)}`;
-    });
+  for (const { spec, values, unseen } of charts) {
+    if (unseen) continue;
+    spec.columns.forEach((c, i) => write(values[i], `${run.columns[c].n} = ${show(valueAt(c, t, row))} ${unit(spec.unit)}`));
+  }
 }

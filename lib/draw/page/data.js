@@ -120,3 +120,8 @@ function show(value) {
 function unit(text) {
   return text.replace(/\*/g, "·");
 }
+
+// A text node is touched only when its text changes: the browser lays out anew whatever is touched.
+function write(node, text) {
+  if (node.data !== text) node.data = text;
+}

@@ -3,10 +3,11 @@
 // The page: time, controls, tables. `fbd` is for whoever drives the page by a script.
 
 const element = (id) => document.getElementById(id);
-const player = { t: run.start, playing: false, speed: 1, last: 0, written: 0, frames: 0, drawing: 0 };
+const player = { t: run.start, playing: false, speed: 1, last: 0, next: 0, written: 0, frames: 0, drawing: 0 };
 const eventTimes = run.events.times;
 const speeds = [0.001, 0.01, 0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10, 100, 1000, 1e4, 1e5, 1e6];
 const allBodies = -1, fewBodies = 4;
+const changing = []; // the tables' texts that change with time, and their values
 
 function now() {
   return player.t;
@@ -39,37 +40,56 @@ function addRow(table, cells, css) {
   return row;
 }
 
+// A row whose number changes with time: value(t, row).
+function addChanging(table, label, value, units, css) {
+  const number = addRow(table, [[label], ["", true], [units]], css).cells[1];
+  changing.push([number.appendChild(document.createTextNode("")), value]);
+}
+
+function valueIn(index) {
+  return (t, row) => valueAt(index, t, row);
+}
+
+// The terms are known to seven digits.
+function sumOf(terms, t, row) {
+  const values = terms.map(([, index]) => valueAt(index, t, row));
+  const sum = values.reduce((a, b) => a + b, 0), largest = Math.max(0, ...values.map(Math.abs));
+  return Math.abs(sum) < 5e-7 * largest ? 0 : sum;
+}
+
 // One equation: the terms, their sum, the inertia and the acceleration.
-function showEquation(equation, t, row) {
-  const table = document.createElement("table"), units = unit(equation.unit);
+function equationTable(equation) {
+  const box = document.createElement("div"), table = document.createElement("table"), units = unit(equation.unit);
   table.createCaption().textContent = `${equation.name}: ${equation.inertia} ${equation.accelerationName} = sum`;
-  let sum = 0, largest = 0;
-  for (const [term, column] of equation.terms) {
-    const value = valueAt(column, t, row);
-    sum += value;
-    largest = Math.max(largest, Math.abs(value));
-    addRow(table, [[term], [show(value), true], [units]]);
-  }
-  if (Math.abs(sum) < 5e-7 * largest) sum = 0; // the terms are known to seven digits
-  addRow(table, [["sum"], [show(sum), true], [units]], "sum");
+  for (const [term, index] of equation.terms) addChanging(table, term, valueIn(index), units);
+  addChanging(table, "sum", (t, row) => sumOf(equation.terms, t, row), units, "sum");
   addRow(table, [[equation.inertia], [show(equation.value), true], [unit(equation.inertiaUnit)]]);
-  const acceleration = valueAt(equation.acceleration, t, row);
-  addRow(table, [[equation.accelerationName], [show(acceleration), true], [unit(equation.accelerationUnit)]]);
-  return table;
+  addChanging(table, equation.accelerationName, valueIn(equation.acceleration), unit(equation.accelerationUnit));
+  box.append(table);
+  return box;
+}
+
+function makeTables(bodies) {
+  changing.length = 0;
+  element("equations").replaceChildren(...bodies.flatMap((body) => body.equations.map(equationTable)));
+  const ledger = element("ledger"), energy = unit(run.units.energy);
+  ledger.textContent = "";
+  for (const index of run.energy) addChanging(ledger, run.columns[index].n.replace(".", ": "), valueIn(index), energy);
+  for (const body of bodies)
+    for (const arrow of body.arrows)
+      if (arrow.work >= 0) addChanging(ledger, `work of ${body.name}.${arrow.name}`, valueIn(arrow.work), energy);
 }
 
 function showTables(t) {
-  const row = rowAt(t), energy = unit(run.units.energy), clock = `t = ${show(t)} s`;
+  const row = rowAt(t), clock = `t = ${show(t)} s`;
   element("equations-time").textContent = clock;
   element("ledger-time").textContent = clock;
-  const equations = chosenBodies().reduce((list, body) => list.concat(body.equations.map((e) => showEquation(e, t, row))), []);
-  element("equations").replaceChildren(...equations);
-  const ledger = element("ledger");
-  ledger.textContent = "";
-  for (const column of run.energy) addRow(ledger, [[run.columns[column].n.replace(".", ": ")], [show(valueAt(column, t, row)), true], [energy]]);
-  for (const body of chosenBodies())
-    for (const arrow of body.arrows)
-      if (arrow.work >= 0) addRow(ledger, [[`work of ${body.name}.${arrow.name}`], [show(valueAt(arrow.work, t, row)), true], [energy]]);
+  for (const [text, value] of changing) write(text, show(value(t, row)));
+}
+
+function makeDetails(bodies) {
+  makeCharts(bodies);
+  makeTables(bodies);
 }
 
 function showCost() {
@@ -100,13 +120,13 @@ function listEvents() {
 
 // Redraw at the present time; the texts not at every frame of a motion.
 function refresh(everything = true) {
-  const before = performance.now();
+  const before = performance.now(), pause = chosenBodies().length > fewBodies ? 250 : 66; // ms between two texts
   drawScene(player.t, { forces: element("show-forces").checked, names: element("show-names").checked,
     velocity: element("show-velocity").checked, trace: element("show-trace").checked, follow: element("follow").checked }, chosenBody());
   placeCursors();
   element("scrub").value = player.t;
   element("clock").textContent = `${show(player.t)} s`;
-  if (everything || before - player.written > 66) {
+  if (everything || before - player.written > pause) {
     showValues(plotWindow.hover === null ? player.t : plotWindow.hover);
     showTables(plotWindow.hover === null ? player.t : plotWindow.hover);
     player.written = before;
@@ -121,12 +141,13 @@ function seek(t) {
 }
 
 function setPlaying(playing) {
+  cancelAnimationFrame(player.next);
   player.playing = playing && run.end > run.start;
   element("play").textContent = player.playing ? "❚❚" : "▶";
   if (!player.playing) { refresh(); return; }
   if (player.t >= run.end) player.t = run.start;
   player.last = performance.now();
-  requestAnimationFrame(advance);
+  player.next = requestAnimationFrame(advance);
 }
 
 function advance(clock) {
@@ -139,7 +160,7 @@ function advance(clock) {
     return;
   }
   refresh(false);
-  requestAnimationFrame(advance);
+  player.next = requestAnimationFrame(advance);
 }
 
 function setSpeed(speed) {
@@ -195,7 +216,7 @@ function connect() {
   element("play").addEventListener("click", () => setPlaying(!player.playing));
   element("scrub").addEventListener("input", () => seek(Number(element("scrub").value)));
   element("speed").addEventListener("change", () => setSpeed(Number(element("speed").value)));
-  element("body").addEventListener("change", () => { makeCharts(chosenBodies()); refresh(); });
+  element("body").addEventListener("change", () => { makeDetails(chosenBodies()); refresh(); });
   for (const id of ["show-forces", "show-names", "show-velocity", "show-trace"]) element(id).addEventListener("change", () => refresh());
   element("follow").addEventListener("change", () => { fit(); refresh(); });
   document.addEventListener("keydown", (event) => {
@@ -207,6 +228,7 @@ function connect() {
   });
   addEventListener("resize", () => { fit(); refresh(); });
   addEventListener("hashchange", seekHash);
+  addEventListener("beforeprint", () => { for (const chart of charts) chart.unseen = false; refresh(); });
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { fit(); refresh(); });
 }
 
@@ -214,7 +236,7 @@ fillChoices();
 measure();
 fit();
 element("follow").checked = bodiesAreSpecks();
-makeCharts(chosenBodies());
+makeDetails(chosenBodies());
 listEvents();
 showCost();
 connect();

@@ -356,6 +356,13 @@ function arrowTo(from, dx, dy, colour) {
   head(x, y, ux, uy, colour);
 }
 
+const textWidths = new Map(); // all captions are of one font
+
+function textWidth(text) {
+  if (!textWidths.has(text)) textWidths.set(text, pen.measureText(text).width);
+  return textWidths.get(text);
+}
+
 function caption(text, x, y, ux, uy, colour) {
   pen.font = "13px Arial, Helvetica, sans-serif";
   pen.textAlign = "left";
@@ -364,7 +371,7 @@ function caption(text, x, y, ux, uy, colour) {
   pen.setLineDash([]);
   pen.strokeStyle = view.colour.paper;
   // a text beside the canvas's edge is pushed in
-  const width = pen.measureText(text).width, left = x + 5 * ux - width * (ux > 0.3 ? 0 : ux < -0.3 ? 1 : 0.5);
+  const width = textWidth(text), left = x + 5 * ux - width * (ux > 0.3 ? 0 : ux < -0.3 ? 1 : 0.5);
   const at = [Math.max(4, Math.min(left, view.width - width - 4)), Math.max(16, Math.min(y + 5 * uy, view.height - 16))];
   pen.strokeText(text, ...at);
   pen.fillStyle = colour;
