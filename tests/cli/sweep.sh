@@ -66,7 +66,7 @@ check 'unless a tolerance is given' exits 0 run --vary mu_k=0.3 --tolerance 1e-9
 check '(nothing is said)' is_empty err
 
 terminal() { # terminal COMMAND ARGUMENT...: what it shows on a terminal
-    python3 -c 'import pty, sys
+    TERM=xterm python3 -c 'import pty, sys
 pty.spawn(sys.argv[1:])' "$@" </dev/null >out
 }
 on_a_terminal() {
