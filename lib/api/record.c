@@ -45,15 +45,16 @@ struct going {
     fbd_result *result;
     const fbd_recording *recording; /* or NULL */
     unsigned long steps;
+    bool whole; /* no rows, record or error bars: nothing to stop for on the way */
 };
 
 /* Tell how far the run is, and end it when that is answered by a stop. */
-static void tell_progress(struct going *going)
+static void tell_progress(struct going *going, double t)
 {
     const fbd_recording *recording = going->recording;
     struct ensemble *ensemble = going->result->simulation->ensemble;
     if (!recording || !recording->progress || ensemble->outcome != FBD_GOING) return;
-    fbd_progress progress = {.t = ensemble->t,
+    fbd_progress progress = {.t = t,
                              .until = ensemble->options.until,
                              .steps = going->steps,
                              .events = ensemble->event_count};
@@ -66,7 +67,9 @@ static bool observe(void *context, struct ensemble *ensemble, size_t group)
     struct going *going = context;
     fbd_result *result = going->result;
     going->steps++;
-    tell_progress(going);
+    /* A group that is alone, in a run that stops for nothing, has no other to wait for. */
+    bool alone = ensemble->count == 1 && going->whole;
+    tell_progress(going, alone ? ensemble->groups[group].run->state->t : ensemble->t);
     if (!result->ledger.any || !ledger_integrates(&result->ledger, &ensemble->groups[group])) return true;
     double before = processor_seconds(); /* a call of the system: not for every step of a thousand groups */
     bool done = ledger_step(&result->ledger, ensemble, group);
@@ -81,7 +84,8 @@ static void observe_again(void *context, struct ensemble *ensemble, size_t group
 }
 
 /* The next time at which there is something to do other than a row: a sample of the errors, the end of a step
- * for the record, or, since who watches wants to be asked, a thousandth of the run. */
+ * for the record, or, since who watches wants to be asked, a thousandth of the run; where one group goes to
+ * the end without a stop it asks after each step. */
 static double next_stop(const struct going *going)
 {
     const double slice = 1e-3;
@@ -89,7 +93,8 @@ static double next_stop(const struct going *going)
     struct ensemble *ensemble = going->result->simulation->ensemble;
     double next = bars ? bars_next(bars) : HUGE_VAL;
     if (going->result->record) next = fmin(next, ensemble_next_end(ensemble));
-    if (going->recording && going->recording->progress)
+    bool told = going->recording && going->recording->progress;
+    if (told && !(ensemble->count == 1 && going->whole))
         next =
             fmin(next, fmax(ensemble->t + slice * ensemble->options.until, nextafter(ensemble->t, HUGE_VAL)));
     return next;
@@ -120,7 +125,7 @@ static bool carry_on(struct going *going, struct csv *csv)
     double row = csv ? csv_next(csv) : ensemble->options.until, stop = next_stop(going);
     bool other = stop < row;
     go(going, other ? stop : row, csv && !other ? csv->near : 0, csv || result->record);
-    tell_progress(going);
+    tell_progress(going, ensemble->t);
     bool event = ensemble->event_count > events;
     bool due = csv && (!other || event || ensemble->outcome != FBD_GOING);
     if (due && !csv_row(csv, ensemble, event)) return false;
@@ -134,7 +139,8 @@ static bool carry(fbd_result *result, const fbd_recording *recording, struct csv
     fbd_simulation *simulation = result->simulation;
     struct ensemble *ensemble = simulation->ensemble;
     struct bars *bars = simulation->bars;
-    struct going going = {result, recording, 0};
+    bool whole = !csv && !result->record && !bars;
+    struct going going = {result, recording, 0, whole};
     if (result->ledger.any || (recording && recording->progress))
         ensemble->observer = (struct observer){&going, observe, observe_again};
     bool fine = true;
