@@ -13,10 +13,10 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "accuracy.h"
 #include "recommended.h"
+#include "timing.h"
 
 enum { rungs = 12, most_solvers = 12, most_repeats = 21, targets = 2 };
 
@@ -42,13 +42,6 @@ struct cost {
     double seconds;
     double tolerance; /* of the first rung that is as good */
 };
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 static double tolerance_of(int rung)
 {
@@ -100,10 +93,10 @@ static void climb(struct contest *contest, size_t s)
     const double enough = 2e-11, too_long = 2.5;
     for (int r = 0; r < rungs; r++) {
         struct rung *rung = &contest->rungs[s][r];
-        double start = now();
+        double start = processor_seconds();
         rung->tried = true;
         rung->error = contest->solvers[s]->run(contest->problem, contest->model, tolerance_of(r));
-        rung->seconds = now() - start;
+        rung->seconds = processor_seconds() - start;
         if (rung->error <= enough || rung->seconds > too_long) break;
     }
 }
@@ -135,16 +128,10 @@ static void time_once(struct contest *contest, size_t s, int r)
     const double least = 500e-6;
     struct rung *rung = &contest->rungs[s][r];
     int turns = (int)fmin(ceil(least / fmax(rung->seconds, 1e-7)), 200);
-    double start = now();
+    double start = processor_seconds();
     for (int i = 0; i < turns; i++)
         contest->solvers[s]->run(contest->problem, contest->model, tolerance_of(r));
-    rung->samples[rung->repeats++] = (now() - start) / turns;
-}
-
-static int ascending(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
+    rung->samples[rung->repeats++] = (processor_seconds() - start) / turns;
 }
 
 static void time_in_turn(struct contest *contest)
@@ -160,8 +147,7 @@ static void time_in_turn(struct contest *contest)
         for (int r = 0; r < rungs; r++) {
             struct rung *rung = &contest->rungs[s][r];
             if (rung->repeats == 0) continue;
-            qsort(rung->samples, (size_t)rung->repeats, sizeof *rung->samples, ascending);
-            rung->seconds = rung->samples[rung->repeats / 2];
+            rung->seconds = median(rung->samples, (size_t)rung->repeats);
         }
 }
 

@@ -6,22 +6,15 @@
 #include <gsl/gsl_errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "fbd.h"
+#include "timing.h"
 
 enum { pairs = 2001 };
 
 static const char scene[] =
     "fbd: 1\nbodies:\n  block: {mass: 2 kg, motion: {slide: {along: 20 deg}}, forces: [gravity, normal, "
     "{friction: {static: 0.5, kinetic: 0.4}}]}\n";
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 static int count(void *context, const char *text, size_t length)
 {
@@ -38,21 +31,15 @@ static double run(const fbd_model *model, double until, unsigned long *steps, fb
     options.until = until;
     size_t bytes = 0;
     fbd_recording recording = {.every = until / 500, .csv = count, .csv_context = &bytes};
-    double start = now();
+    double start = wall_seconds();
     fbd_simulation *simulation = fbd_simulation_new(model, &options, errors);
     fbd_result *result = simulation ? fbd_simulation_run(simulation, &recording) : NULL;
-    double seconds = now() - start;
+    double seconds = wall_seconds() - start;
     if (!result || fbd_result_outcome(result) != FBD_DONE || bytes == 0) exit(1);
     *steps = fbd_simulation_stats(simulation).steps;
     fbd_result_free(result);
     fbd_simulation_free(simulation);
     return seconds;
-}
-
-static int ascending(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
 }
 
 int main(void)
@@ -70,10 +57,8 @@ int main(void)
         brief[k] = run(model, 1, &few, errors);
         ratio[k] = run(model, 1e6, &many, errors) / brief[k];
     }
-    qsort(ratio, pairs, sizeof *ratio, ascending);
-    qsort(brief, pairs, sizeof *brief, ascending);
     printf("block at rest: 1 s takes %.1f us in %lu steps; 1e6 s takes %.3f times that in %lu steps\n",
-           1e6 * brief[pairs / 2], few, ratio[pairs / 2], many);
+           1e6 * median(brief, pairs), few, median(ratio, pairs), many);
     fbd_model_free(model);
     fbd_errors_free(errors);
     return 0;

@@ -9,9 +9,9 @@
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include "chain.h"
+#include "timing.h"
 
 enum { most_rods = 512, states = 4, rounds = 101, most_solvers = 4 };
 
@@ -46,25 +46,6 @@ struct times {
 };
 
 /* Processor time of all threads: a busy machine disturbs it least. */
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
-static int ascending(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
-static double median(double *values)
-{
-    qsort(values, rounds, sizeof *values, ascending);
-    return values[rounds / 2];
-}
-
 /* The same on every machine: a linear congruential generator, -1 to 1. */
 static void fill(struct inputs *inputs)
 {
@@ -98,9 +79,9 @@ static double disagreement(const struct chain_solver *solver, void *chain, void 
 /* Seconds of one right-hand side. */
 static double time_of(const struct chain_solver *solver, void *chain, int calls, const struct inputs *inputs)
 {
-    double dydt[2 * most_rods], start = now();
+    double dydt[2 * most_rods], start = processor_seconds();
     for (int call = 0; call < calls; call++) solver->rates(chain, inputs->y[call % states], dydt);
-    return (now() - start) / calls;
+    return (processor_seconds() - start) / calls;
 }
 
 static void measure(void **chains, const struct inputs *inputs, struct times *times)
@@ -147,7 +128,7 @@ static double compare(int n, const struct inputs *inputs, bool *met)
     double a_rod = 0;
     printf("%5d", n);
     for (int s = 0; s < solvers; s++) {
-        double ns = 1e9 * median(times.seconds[s]) / n, ratio = median(times.ratio[s]);
+        double ns = 1e9 * median(times.seconds[s], rounds) / n, ratio = median(times.ratio[s], rounds);
         if (s == ours) {
             a_rod = ns;
             printf("  %8.1f", ns);

@@ -16,9 +16,9 @@
 #include <string.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
-#include <time.h>
 
 #include "fbd.h"
+#include "timing.h"
 
 enum { rungs = 12, repeats = 7 };
 
@@ -41,13 +41,6 @@ struct scene {
     double x0, v0, k, c;
     bool belt;
 };
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 static double error_at(const struct scene *scene, double t, double x, double v)
 {
@@ -158,7 +151,7 @@ static struct outcome run_ours(const struct scene *scene, double tolerance)
     options.until = scene->times[scene->time_count - 1];
     options.tolerance = tolerance;
     fbd_state *state = fbd_state_new(model);
-    double start = now(), error = 0, from, to, x = NAN, v = NAN;
+    double start = wall_seconds(), error = 0, from, to, x = NAN, v = NAN;
     fbd_simulation *simulation = fbd_simulation_new(model, &options, errors);
     fbd_outcome end = FBD_GOING;
     for (int next = 0; end == FBD_GOING;) {
@@ -171,7 +164,7 @@ static struct outcome run_ours(const struct scene *scene, double tolerance)
             error = fmax(error, error_at(scene, scene->times[next], x, v));
         }
     }
-    outcome.seconds = now() - start;
+    outcome.seconds = wall_seconds() - start;
     fbd_stats stats = fbd_simulation_stats(simulation);
     outcome.rhs = (double)stats.rhs;
     outcome.jacobians = (double)stats.jacobians;
@@ -243,7 +236,7 @@ static struct outcome run_cvode(const struct scene *scene, double tolerance)
     struct outcome outcome = {.error = NAN};
     struct cvode_side side = {.scene = scene, .sticking = scene->belt};
     SUNContext context;
-    double start = now();
+    double start = wall_seconds();
     if (SUNContext_Create(NULL, &context) != 0) exit(1);
     N_Vector y = N_VNew_Serial(2, context), absolute = N_VNew_Serial(2, context);
     SUNMatrix A = SUNDenseMatrix(2, 2, context);
@@ -266,7 +259,7 @@ static struct outcome run_cvode(const struct scene *scene, double tolerance)
         double error = done ? error_at(scene, scene->times[i], NV_Ith_S(y, 0), NV_Ith_S(y, 1)) : NAN;
         outcome.error = error <= outcome.error ? outcome.error : error;
     }
-    outcome.seconds = now() - start;
+    outcome.seconds = wall_seconds() - start;
     long jacobians = 0;
     CVodeGetNumJacEvals(cvode, &jacobians);
     outcome.rhs = (double)side.rhs;
@@ -282,12 +275,6 @@ static struct outcome run_cvode(const struct scene *scene, double tolerance)
 
 /* ---- comparing */
 
-static int ascending(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 /* Both sides at the same rung in turn; times are medians. */
 static void climb(const struct scene *scene, struct outcome *ours, struct outcome *theirs)
 {
@@ -299,10 +286,8 @@ static void climb(const struct scene *scene, struct outcome *ours, struct outcom
             a[k] = ours[r].seconds;
             b[k] = theirs[r].seconds;
         }
-        qsort(a, repeats, sizeof *a, ascending);
-        qsort(b, repeats, sizeof *b, ascending);
-        ours[r].seconds = a[repeats / 2];
-        theirs[r].seconds = b[repeats / 2];
+        ours[r].seconds = median(a, repeats);
+        theirs[r].seconds = median(b, repeats);
     }
 }
 

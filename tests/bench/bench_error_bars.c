@@ -5,22 +5,14 @@
  *
  * Usage: bench_error_bars MODEL...
  */
-#include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include <gsl/gsl_errno.h>
 
 #include "fbd.h"
+#include "timing.h"
 
 enum { pairs = 41, few_pairs = 5, most_models = 500 };
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 static int nowhere(void *context, const char *text, size_t length)
 {
@@ -35,27 +27,15 @@ static double run(const fbd_model *model, bool error_bars, bool csv, fbd_stats *
     options.error_bars = error_bars;
     fbd_recording recording = {.ledger = true, .csv = csv ? nowhere : NULL};
     fbd_errors *errors = fbd_errors_new();
-    double start = now();
+    double start = processor_seconds();
     fbd_simulation *simulation = fbd_simulation_new(model, &options, errors);
     fbd_result *result = simulation ? fbd_simulation_run(simulation, &recording) : NULL;
     if (result) *stats = fbd_simulation_stats(simulation);
     fbd_result_free(result);
     fbd_simulation_free(simulation);
-    double seconds = now() - start;
+    double seconds = processor_seconds() - start;
     fbd_errors_free(errors);
     return seconds;
-}
-
-static int ascending(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
-static double median(double *values, size_t count)
-{
-    qsort(values, count, sizeof *values, ascending);
-    return values[count / 2];
 }
 
 /* The median ratio of pairs; of a few where one run takes long. */

@@ -9,10 +9,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "dynamics/project.h"
 #include "fbd.h"
+#include "timing.h"
 
 enum { rounds = 51, most_loops = 320 };
 
@@ -58,20 +58,6 @@ static char *text_of(int n, bool any_order)
     return text;
 }
 
-/* Processor time: a busy machine disturbs it least. */
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
-static int ascending(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 struct bench {
     struct fbd_state *state;
     double *dydt, *start;
@@ -93,16 +79,15 @@ static void project(struct bench *bench)
 /* Seconds of one call, the median over the rounds. */
 static double time_of(void (*call)(struct bench *bench), struct bench *bench)
 {
-    double seconds[rounds], start = now();
+    double seconds[rounds], start = processor_seconds();
     call(bench);
-    int calls = (int)fmin(1e4, fmax(1, a_batch / (now() - start)));
+    int calls = (int)fmin(1e4, fmax(1, a_batch / (processor_seconds() - start)));
     for (int round = 0; round < rounds; round++) {
-        start = now();
+        start = processor_seconds();
         for (int k = 0; k < calls; k++) call(bench);
-        seconds[round] = (now() - start) / calls;
+        seconds[round] = (processor_seconds() - start) / calls;
     }
-    qsort(seconds, rounds, sizeof *seconds, ascending);
-    return seconds[rounds / 2];
+    return median(seconds, rounds);
 }
 
 static bool open_bench(struct bench *bench, fbd_model **model, int n, bool any_order)

@@ -11,11 +11,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "dynamics/modes.h"
 #include "dynamics/rates.h"
 #include "fbd.h"
+#include "timing.h"
 
 enum { states = 64, calls = 4000, pairs = 3001, most_size = 8 };
 
@@ -122,32 +122,20 @@ static const struct system scenes[] = {
 
 /* ---- measuring */
 
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
 static double samples[states][most_size];
 
 /* Seconds of `calls` evaluations; through volatile, so that neither function is inlined. */
 static double time_of(rates_function *function, void *params, double *sum)
 {
     rates_function *volatile called = function;
-    double dydt[most_size], start = now();
+    double dydt[most_size], start = wall_seconds();
     for (int i = 0; i < calls; i++) {
         called(5e-3 * i, samples[i % states], dydt, params);
         *sum += dydt[1];
     }
-    return now() - start;
+    return wall_seconds() - start;
 }
 
-static int ascending(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
 static bool measure(const struct system *scene)
 {
     fbd_errors *errors = fbd_errors_new();
@@ -183,13 +171,11 @@ static bool measure(const struct system *scene)
         hand[i] = 1e9 * b / calls;
         ratio[i] = a / b;
     }
-    qsort(ours, pairs, sizeof *ours, ascending);
-    qsort(hand, pairs, sizeof *hand, ascending);
-    qsort(ratio, pairs, sizeof *ratio, ascending);
+    double middle = median(ratio, pairs);
     printf("%-32s %6.2f ns, by hand %6.2f ns, ratio %.2f (quartiles %.2f to %.2f), bound %.2f: %s; differ by "
            "%.1e\n",
-           scene->name, ours[pairs / 2], hand[pairs / 2], ratio[pairs / 2], ratio[pairs / 4],
-           ratio[3 * pairs / 4], bound, ratio[pairs / 2] <= bound ? "met" : "NOT met", worst);
+           scene->name, median(ours, pairs), median(hand, pairs), middle, ratio[pairs / 4],
+           ratio[3 * pairs / 4], bound, middle <= bound ? "met" : "NOT met", worst);
     return isfinite(sum);
 }
 

@@ -10,22 +10,16 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
-enum { pairs = 200, warm_up = 10 };
+#include "timing.h"
 
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
+enum { pairs = 200, warm_up = 10 };
 
 /* Seconds from start to end of a process whose output goes nowhere; ends the benchmark when it fails. */
 static double run(char *program, char *model)
 {
-    double start = now();
+    double start = wall_seconds();
     pid_t child = fork();
     if (child == 0) {
         int nowhere = open("/dev/null", O_WRONLY);
@@ -38,19 +32,7 @@ static double run(char *program, char *model)
         fprintf(stderr, "%s failed\n", program);
         exit(1);
     }
-    return now() - start;
-}
-
-static int ascending(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
-static double median(double *values)
-{
-    qsort(values, pairs, sizeof *values, ascending);
-    return values[pairs / 2];
+    return wall_seconds() - start;
 }
 
 int main(int argc, char **argv)
@@ -64,8 +46,9 @@ int main(int argc, char **argv)
         theirs[i] = b;
         ratios[i] = a / b;
     }
-    double ratio = median(ratios);
+    double ratio = median(ratios, pairs);
     printf("fbd-run %.3f ms, parse only %.3f ms, median ratio of %d pairs %.2f (quartiles %.2f to %.2f)\n",
-           1e3 * median(ours), 1e3 * median(theirs), pairs, ratio, ratios[pairs / 4], ratios[3 * pairs / 4]);
+           1e3 * median(ours, pairs), 1e3 * median(theirs, pairs), pairs, ratio, ratios[pairs / 4],
+           ratios[3 * pairs / 4]);
     return 0;
 }

@@ -19,24 +19,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "fbd.h"
+#include "timing.h"
 
 enum { pairs = 41 };
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
-static int ascending(const void *a, const void *b)
-{
-    const double *first = a, *second = b;
-    return *first < *second ? -1 : *first > *second;
-}
 
 /* ---- a side of a comparison: something that runs, and says where it ended */
 
@@ -87,14 +74,14 @@ static void run_ours(struct side *side)
 
 static void run(struct side *side)
 {
-    double before = now();
+    double before = processor_seconds();
     for (int i = 0; i < side->times; i++) {
         if (side->model)
             run_ours(side);
         else
             run_by_hand(side);
     }
-    side->seconds = now() - before;
+    side->seconds = processor_seconds() - before;
 }
 
 static double error_of(const struct side *side, const double *exact, int count)
@@ -131,8 +118,7 @@ static double ratio_of(struct side *one, struct side *other)
         run(other);
         ratios[i] = one->seconds / other->seconds;
     }
-    qsort(ratios, pairs, sizeof *ratios, ascending);
-    return ratios[pairs / 2];
+    return median(ratios, pairs);
 }
 
 /* ---- the scenes */

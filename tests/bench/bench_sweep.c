@@ -9,18 +9,11 @@
 #include <gsl/gsl_errno.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include "fbd.h"
+#include "timing.h"
 
 enum { pairs = 15 };
-
-static double seconds(clockid_t clock)
-{
-    struct timespec time;
-    clock_gettime(clock, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 static int swallow(void *context, const char *rows, size_t length)
 {
@@ -42,9 +35,9 @@ static struct cost measure(const fbd_sweep *sweep, size_t jobs)
                                  .jobs = jobs,
                                  .write = swallow,
                                  .write_context = &bytes};
-    double wall = seconds(CLOCK_MONOTONIC), processor = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    double wall = wall_seconds(), processor = processor_seconds();
     fbd_sweep_end end = fbd_sweep_run(sweep, &work, &counts);
-    struct cost cost = {seconds(CLOCK_MONOTONIC) - wall, seconds(CLOCK_PROCESS_CPUTIME_ID) - processor};
+    struct cost cost = {wall_seconds() - wall, processor_seconds() - processor};
     if (end == FBD_SWEEP_DONE && counts.failed == 0) return cost;
     fputs("the sweep failed\n", stderr);
     exit(1);
@@ -54,7 +47,7 @@ static struct cost measure(const fbd_sweep *sweep, size_t jobs)
 static double measure_alone(const char *text, size_t length, int repetitions)
 {
     const fbd_options options = FBD_OPTIONS_DEFAULT;
-    double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    double start = processor_seconds();
     for (int i = 0; i < repetitions; i++) {
         fbd_errors *errors = fbd_errors_new();
         fbd_model *model = fbd_model_parse(text, length, "model", NULL, 0, errors);
@@ -65,19 +58,7 @@ static double measure_alone(const char *text, size_t length, int repetitions)
         fbd_model_free(model);
         fbd_errors_free(errors);
     }
-    return (seconds(CLOCK_PROCESS_CPUTIME_ID) - start) / repetitions;
-}
-
-static int ascending(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
-static double median(double *values)
-{
-    qsort(values, pairs, sizeof *values, ascending);
-    return values[pairs / 2];
+    return (processor_seconds() - start) / repetitions;
 }
 
 static fbd_sweep *open_sweep(const char *path, const char *vary)
@@ -107,11 +88,11 @@ int main(int argc, char **argv)
     }
     size_t length;
     const char *text = fbd_sweep_source(sweep, &length);
-    double alone = measure_alone(text, length, 2000), busy_rate = median(busy), lost = median(loss),
-           gained = median(gain);
+    double alone = measure_alone(text, length, 2000), busy_rate = median(busy, pairs),
+           lost = median(loss, pairs), gained = median(gain, pairs);
     printf("%.0f runs, medians of %d pairs of one thread and two\n", runs, pairs);
-    printf("one thread: %.0f runs/s of wall time, %.0f of processor time (bound: 20000)\n", median(rate),
-           busy_rate);
+    printf("one thread: %.0f runs/s of wall time, %.0f of processor time (bound: 20000)\n",
+           median(rate, pairs), busy_rate);
     printf("two threads: %.2f times as fast (bound: 1.8; quartiles %.2f to %.2f)\n", gained, gain[pairs / 4],
            gain[3 * pairs / 4]);
     printf("    and %.3f times the processor time: %.2f times as fast on two processors that are free\n",
