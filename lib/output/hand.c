@@ -55,23 +55,50 @@ static bool changed_model(const fbd_model *model, gsl_rng *rng, fbd_model **resu
     return done;
 }
 
+/* From the coordinates at t = 0 to those at the state's time: prescribed ones lead there in small steps, the
+ * others follow. False where that ends. */
+static bool follow_prescribed(struct fbd_state *state)
+{
+    enum { steps = 64 };
+    const double t = state->t;
+    bool fits = true;
+    for (int k = 1; fits && k <= steps; k++) {
+        state->t = t * k / steps;
+        modes_drive(state);
+        fits = state_project(state, false);
+    }
+    return fits;
+}
+
+static bool is_driven(const struct fbd_model *model)
+{
+    for (size_t k = 0; k < model->plan.friction_count; k++)
+        if (model->plan.frictions[k].driven) return true;
+    return false;
+}
+
 /* Where couplings close loops, most states do not fit: so the start moves by up to 0.3 rad or a tenth of a
- * metre, with random rates, and the nearest state that fits is taken. */
-static void draw_closed(gsl_rng *rng, struct fbd_state *state, const double *start)
+ * metre, with random rates, and the nearest state that fits is taken. False when there is none. */
+static bool draw_closed(gsl_rng *rng, struct fbd_state *state, const double *start)
 {
     const struct fbd_model *model = state->model;
-    if (!model->tree || model->tree->tie_count == 0) return;
-    for (size_t i = 0; i < model->scene->coordinate_count; i++)
-        state->y[i] = start[i] + between(rng, -1, 1) * (model->scene->coordinates[i].angle ? 0.3 : 0.1);
+    size_t n = model->scene->coordinate_count;
+    if (!model->tree || model->tree->tie_count == 0) return true;
+    memcpy(state->y, start, n * sizeof *start);
+    if (is_driven(model) && !follow_prescribed(state)) return false;
+    for (size_t i = 0; i < n; i++)
+        state->y[i] += between(rng, -1, 1) * (model->scene->coordinates[i].angle ? 0.3 : 0.1);
+    modes_drive(state);
     /* Round bodies slip as often as they roll. */
     for (size_t k = 0; k < model->plan.friction_count; k++)
         if (model->plan.frictions[k].tie >= 0 && !model->plan.frictions[k].rope)
             state->slip[k] = between(rng, 0, 1) < 0.5 ? stick : slip_plus;
-    state_project(state, false);
+    return state_project(state, false);
 }
 
-/* Random coordinates and rates of the size of the initial ones, at least one unit; angles all around. */
-static void draw_state(gsl_rng *rng, struct fbd_state *state, const double *start)
+/* Random coordinates and rates of the size of the initial ones, at least one unit; angles all around. False
+ * where couplings have no such state. */
+static bool draw_state(gsl_rng *rng, struct fbd_state *state, const double *start)
 {
     const struct scene *scene = state->model->scene;
     size_t n = scene->coordinate_count;
@@ -86,7 +113,7 @@ static void draw_state(gsl_rng *rng, struct fbd_state *state, const double *star
         state->y[n + i] = between(rng, -speed, speed);
     }
     state->settled = false;
-    draw_closed(rng, state, start);
+    return draw_closed(rng, state, start);
 }
 
 static bool admissible(struct fbd_state *state)
@@ -251,12 +278,12 @@ static bool sample_model(struct hand_check *check, const fbd_model *model, gsl_r
     struct fbd_state *state = state_new(model);
     size_t n = (size_t)model->plan.n, extended = 2 * n + hand_slots + model->absolute_count;
     double *y = calloc(extended + n + 1, sizeof *y), *start = y ? y + extended : NULL;
+    if (state && model->assembles) state_project(state, true);
     if (y && state) memcpy(start, state->y, n * sizeof *start);
     bool done = state && y;
     for (int i = 0; done && i < states_of_a_draw; i++)
         for (int k = 0; k < tries_of_a_state && check->count < most_samples; k++) {
-            draw_state(rng, state, start);
-            if (!admissible(state)) continue;
+            if (!draw_state(rng, state, start) || !admissible(state)) continue;
             take_sample(check, hand, state, y);
             break;
         }

@@ -8,6 +8,7 @@
 
 #include "gallery.h"
 
+#include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -83,6 +84,53 @@ int checks_free(void **state)
 {
     free(*state);
     return 0;
+}
+
+/* ---- models */
+
+enum { most_path = 512 };
+
+static int is_topic(const struct dirent *entry)
+{
+    return entry->d_name[0] != '.' && !strchr(entry->d_name, '.') && strcmp(entry->d_name, "hard") != 0;
+}
+
+static int is_model(const struct dirent *entry)
+{
+    const char *dot = strrchr(entry->d_name, '.');
+    return dot && strcmp(dot, ".yaml") == 0;
+}
+
+/* The names in models/`topic` that `wanted` picks; their number. */
+static int names_in(const char *topic, int (*wanted)(const struct dirent *entry), struct dirent ***names)
+{
+    char path[most_path];
+    const char *root = getenv("FBD_SOURCE_ROOT");
+    snprintf(path, sizeof path, "%s/models/%s", root ? root : ".", topic);
+    int count = scandir(path, names, wanted, alphasort);
+    if (count < 0) fail_msg("cannot list %s", path);
+    return count;
+}
+
+size_t each_model(struct checks *checks, void (*test)(struct checks *checks, const char *path))
+{
+    struct dirent **topics, **models;
+    size_t total = 0;
+    int topic_count = names_in("", is_topic, &topics);
+    for (int i = 0; i < topic_count; i++) {
+        int count = names_in(topics[i]->d_name, is_model, &models);
+        for (int k = 0; k < count; k++) {
+            char path[2 * most_path];
+            snprintf(path, sizeof path, "%s/%s", topics[i]->d_name, models[k]->d_name);
+            test(checks, path);
+            free(models[k]);
+        }
+        free(models);
+        free(topics[i]);
+        total += (size_t)count;
+    }
+    free(topics);
+    return total;
 }
 
 /* ---- opening */

@@ -42,6 +42,10 @@ int checks_begin(void **state);
 int checks_free(void **state);
 struct checks *checks_of(void **state);
 
+/* Call `test` with the path, below models/, of each model of the gallery, in the order of their names: all
+ * topics but `hard`, whose cases have tests of their own (tests/hard). Returns their number. */
+size_t each_model(struct checks *checks, void (*test)(struct checks *checks, const char *path));
+
 /* ---- trials */
 
 struct trial {

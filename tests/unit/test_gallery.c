@@ -12,34 +12,10 @@
 
 #include "gallery.h"
 
-#include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { most_path = 512 };
-
-/* Calls `test` with the path, below models/, of each model; returns their number. */
-static size_t each_model(struct checks *checks, void (*test)(struct checks *checks, const char *path))
-{
-    static const char *const topics[] = {"kinetics", "rotation", "energy", "vibration", "forcing", "plane"};
-    const char *root = getenv("FBD_SOURCE_ROOT");
-    size_t count = 0;
-    for (size_t i = 0; i < sizeof topics / sizeof *topics; i++) {
-        char path[most_path];
-        snprintf(path, sizeof path, "%s/models/%s", root ? root : ".", topics[i]);
-        DIR *folder = opendir(path);
-        assert_non_null(folder);
-        for (struct dirent *entry = readdir(folder); entry; entry = readdir(folder)) {
-            const char *dot = strrchr(entry->d_name, '.');
-            if (!dot || strcmp(dot, ".yaml") != 0) continue;
-            snprintf(path, sizeof path, "%s/%s", topics[i], entry->d_name);
-            test(checks, path);
-            count++;
-        }
-        closedir(folder);
-    }
-    return count;
-}
 
 static void check_words(struct checks *checks, const char *path)
 {
@@ -67,6 +43,20 @@ static void every_model_opens_and_says_what_it_is(void **unused)
     checks_end(&checks);
 }
 
+static bool is_static(const char *path)
+{
+    return strncmp(path, "statics/", 8) == 0;
+}
+
+/* Why some have no equation of motion to derive in one line:
+ * statics/ does not move, and its reactions are derived in test_statics; the others are held against
+ * published or independent numbers (test_reference_couplings, test_reference_trees). */
+static bool has_derivation(const char *path)
+{
+    return !is_static(path) && strcmp(path, "couplings/andrews_squeezer.yaml") != 0 &&
+           strcmp(path, "trees/chain_of_ten_rods.yaml") != 0;
+}
+
 static void check_derivations(struct checks *checks, const char *path)
 {
     struct trial trial = trial_open(path, NULL);
@@ -76,8 +66,8 @@ static void check_derivations(struct checks *checks, const char *path)
         snprintf(what, sizeof what, "%s agrees with its derivation, seed %u:\n%s", path, seed,
                  text ? text : "");
         check_that(checks, what, wrong == 0);
-        snprintf(what, sizeof what, "%s has a derivation", path);
-        check_that(checks, what, text && strstr(text, "agrees at"));
+        snprintf(what, sizeof what, "%s has a derivation, or none, as the test says", path);
+        check_that(checks, what, text && (strstr(text, "agrees at") != NULL) == has_derivation(path));
         free(text);
     }
     trial_close(&trial);
@@ -117,8 +107,10 @@ static void check_run(struct checks *checks, const char *path)
     snprintf(what, sizeof what, "%s runs to its end: %s", path, fbd_simulation_reason(trial.simulation));
     check_that(checks, what, trial.outcome == FBD_DONE || trial.outcome == FBD_STOPPED);
     snprintf(what, sizeof what, "%s: residual", path);
-    /* 1e-9 in each of up to some 500 steps. */
-    check_close(checks, what, energy.residual, 0, 5e-7 * turned_over(&trial));
+    /* Ten tolerances in each of up to some 500 steps; what does not move has roundings under a kilonewton. */
+    double tolerance = fbd_simulation_stats(trial.simulation).tolerance;
+    double rounding = is_static(path) ? 1e-10 : 0;
+    check_close(checks, what, energy.residual, 0, 5e3 * tolerance * turned_over(&trial) + rounding);
     trial_close(&trial);
 }
 

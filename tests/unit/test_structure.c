@@ -12,7 +12,6 @@
 
 #include "gallery.h"
 
-#include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -157,22 +156,8 @@ static void check_agreement(struct checks *checks, const char *path)
 static void runs_with_and_without_agree_over_the_gallery(void **unused)
 {
     (void)unused;
-    static const char *const topics[] = {"kinetics", "rotation", "energy", "vibration", "forcing", "plane"};
     struct checks checks = {0};
-    const char *root = getenv("FBD_SOURCE_ROOT");
-    for (size_t i = 0; i < sizeof topics / sizeof *topics; i++) {
-        char path[most_path];
-        snprintf(path, sizeof path, "%s/models/%s", root ? root : ".", topics[i]);
-        DIR *folder = opendir(path);
-        assert_non_null(folder);
-        for (struct dirent *entry = readdir(folder); entry; entry = readdir(folder)) {
-            const char *dot = strrchr(entry->d_name, '.');
-            if (!dot || strcmp(dot, ".yaml") != 0) continue;
-            snprintf(path, sizeof path, "%s/%s", topics[i], entry->d_name);
-            check_agreement(&checks, path);
-        }
-        closedir(folder);
-    }
+    each_model(&checks, check_agreement);
     checks_end(&checks);
 }
 
