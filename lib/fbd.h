@@ -122,7 +122,8 @@ FBD_API bool fbd_state_set_text(fbd_state *state, const char *name, const char *
 
 /* Bring a state onto the couplings of its scene: bodies with `assemble` find their place, and the others fit
  * to six digits. False with a note in `errors` when they do not (`does-not-fit`: which coupling is off, and
- * the nearest state that fits) or memory is out. */
+ * the nearest state that fits), when the forces of couplings cannot be told there (`masses-apart`), or memory
+ * is out. */
 FBD_API bool fbd_state_close(fbd_state *state, fbd_errors *errors);
 FBD_API bool fbd_state_get(const fbd_state *state, const char *name, double *value);
 

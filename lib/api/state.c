@@ -80,6 +80,20 @@ bool fbd_state_set_text(fbd_state *state, const char *name, const char *text, fb
     return set;
 }
 
+/* Say so when the forces of couplings cannot be told. */
+static bool is_solved(fbd_state *state, fbd_errors *errors)
+{
+    struct text lack = {0};
+    if (!state->settled) modes_settle(state, NULL);
+    bool solved = !fit_unsolved(state, &lack);
+    if (lack.failed)
+        diag_out_of_memory(errors);
+    else if (!solved)
+        diag_add(errors, FBD_ERROR, "masses-apart", (struct pos){0, 0}, NULL, "%s", lack.data);
+    text_free(&lack);
+    return solved;
+}
+
 static bool close_state(fbd_state *state, fbd_errors *errors)
 {
     struct text lack = {0};
@@ -102,7 +116,7 @@ static bool close_state(fbd_state *state, fbd_errors *errors)
     state->settled = false;
     text_free(&lack);
     state_free(other);
-    return fits;
+    return fits && is_solved(state, errors);
 }
 
 bool fbd_state_close(fbd_state *state, fbd_errors *list)

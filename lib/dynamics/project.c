@@ -71,6 +71,28 @@ static struct misfit misfit_of(const struct place *place)
     return misfit;
 }
 
+double state_acceleration_misfit(const struct fbd_state *state, int *row)
+{
+    const struct fbd_model *model = state->model;
+    const struct tree_work *work = state->tree;
+    const struct instant at = state_instant(state);
+    double worst = 0, mass = 0, force = 0, size = vec_norm(model->scene->gravity);
+    *row = -1;
+    if (!has_ties(model)) return 0;
+    for (int i = 1; i < model->tree->count; i++) {
+        mass += model->tree->links[i].mass;
+        force = fmax(force, vec_norm(work->links[i].F.force));
+        size = fmax(size, vec_norm(work->links[i].A.a));
+    }
+    for (int j = 0; j < model->tree->row_count; j++) {
+        double miss = fabs(work->rows[j].g.x2);
+        if (!tree_takes_part(model->tree, &at, j) || miss <= worst) continue;
+        worst = miss;
+        *row = j;
+    }
+    return worst > 0 ? worst / fmax(size, force / mass) : 0;
+}
+
 struct misfit state_misfit(struct fbd_state *state)
 {
     if (!has_ties(state->model)) return (struct misfit){0, 0, -1, -1};

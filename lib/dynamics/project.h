@@ -17,6 +17,12 @@ struct misfit {
 /* How far the state is from its constraints. */
 struct misfit state_misfit(struct fbd_state *state);
 
+/* By how much the accelerations of an evaluated state miss a constraint, g'', and where: the largest, as a
+ * share of the largest acceleration that there is or that the forces could give to all bodies together.
+ * Rounding, unless masses are so far apart that the system of the multipliers cannot be solved. 0 and -1
+ * without rows. */
+double state_acceleration_misfit(const struct fbd_state *state, int *row);
+
 /* What the state keeps of its start: lengths that are not given, how gears mesh. */
 void state_start_constraints(struct fbd_state *state);
 

@@ -37,6 +37,13 @@ void run_close_start(struct run *run)
     text_free(&lack);
 }
 
+void run_check_solved(struct run *run)
+{
+    struct text lack = {0};
+    if (fit_unsolved(run->state, &lack)) run_fail(run, FBD_FAILED, "%s", lack.failed ? "" : lack.data);
+    text_free(&lack);
+}
+
 /* The largest change from `from` to `to`, in tolerances of the largest size that each number has had. */
 static double tolerances_apart(const struct run *run, const double *from, const double *to)
 {

@@ -60,3 +60,19 @@ bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct text *lac
     double off = position ? misfit.position : misfit.velocity;
     return tell(state, other, tree->ties[tree->tie_of_row[row]].name, off, !position, lack);
 }
+
+bool fit_unsolved(struct fbd_state *state, struct text *lack)
+{
+    const double digits = 1e-6;
+    int row;
+    if (!state->model->tree || state->model->tree->tie_count == 0) return false;
+    state_evaluate(state);
+    double miss = state_acceleration_misfit(state, &row);
+    if (miss <= digits) return false;
+    text_printf(
+        lack,
+        "the force of `%s` cannot be told: accelerations miss it by %.2g of their size, as the masses that "
+        "it joins are too far apart. Give the lightest body more mass, or let a coupling do without it",
+        tie_row_name(state->model->tree, row), miss);
+    return true;
+}

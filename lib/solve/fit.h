@@ -12,4 +12,9 @@
  * `other` becomes. False, with nothing added to `lack`, when it fits to six digits, as many as files have. */
 bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct text *lack);
 
+/* Do the accelerations of a settled state, which is evaluated here, miss the couplings by more than rounding?
+ * Then masses are too far apart (a pulley of a milligram between weights of kilograms) for their forces to be
+ * told; `lack` gets a sentence. */
+bool fit_unsolved(struct fbd_state *state, struct text *lack);
+
 #endif

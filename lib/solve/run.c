@@ -135,6 +135,7 @@ static void start(struct run *run)
     }
     watchers_arm(&run->watchers, run->state);
     run_check_contacts(run);
+    if (run->outcome == FBD_GOING) run_check_solved(run);
     if (run->outcome == FBD_GOING && !(run->options.until > run->state->t)) run->outcome = FBD_DONE;
 }
 

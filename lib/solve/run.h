@@ -122,6 +122,9 @@ void run_apply(struct run *run, const bool *timed, const bool *moving);
 void run_close_start(struct run *run);
 void run_close_step(struct run *run);
 
+/* Refuse a start whose couplings have no forces that can be told (fit_unsolved). */
+void run_check_solved(struct run *run);
+
 /* Has the step that ends at run->y been brought back so far that its method has to start anew? */
 bool run_has_gone_astray(const struct run *run);
 

@@ -226,6 +226,33 @@ static void report_and_json_say_the_drift(void **unused)
     trial_close(&trial);
 }
 
+/* Atwood's machine: T1 - T2 = M a/2 and a = (m1 - m2) g/(m1 + m2 + M/2). With a pulley of 1e-8 of the weights
+ * that it joins, doubles cannot tell the tensions: no number is better than a wrong one. */
+static void forces_that_cannot_be_told_are_refused(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct trial light = trial_open("couplings/atwood.yaml", SET("M=1e-5"));
+    fbd_errors *errors = fbd_errors_new();
+    assert_true(fbd_state_close(light.state, errors));
+    double a = g / (5 + 1e-5 / 2);
+    check_close(&checks, "acceleration", trial_acceleration(&light, "m1.x"), a, 1e-8);
+    check_close(&checks, "tension", trial_term(&light, "m1.x", "cable"), 3 * (a - g), 1e-7);
+    trial_run(&light, NULL);
+    check_that(&checks, "a light pulley runs", light.outcome == FBD_DONE);
+    trial_close(&light);
+
+    struct trial dust = trial_open("couplings/atwood.yaml", SET("M=1e-8"));
+    assert_false(fbd_state_close(dust.state, errors));
+    assert_string_equal(fbd_errors_get(errors, 0)->id, "masses-apart");
+    trial_start(&dust, NULL);
+    check_that(&checks, "dust fails", fbd_simulation_advance(dust.simulation) == FBD_FAILED);
+    check_that(&checks, "and says why", strstr(fbd_simulation_reason(dust.simulation), "`cable`"));
+    fbd_errors_free(errors);
+    trial_close(&dust);
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -236,6 +263,7 @@ int main(void)
         cmocka_unit_test(explain_lists_couplings_rows_and_what_is_redundant),
         cmocka_unit_test(the_drift_that_is_reported_is_the_one_that_there_is),
         cmocka_unit_test(report_and_json_say_the_drift),
+        cmocka_unit_test(forces_that_cannot_be_told_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
