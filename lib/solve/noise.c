@@ -2,20 +2,36 @@
 #include <float.h>
 #include <string.h>
 
-#include "dynamics/tree.h"
+#include "dynamics/constraint.h"
 #include "solve/run.h"
 
-/* How much the links above a link, and itself, have turned in all: an angle in the world is their sum, and
- * has its rounding. */
-static double turned(const struct run *run, int link)
+/* How much the links from the ground to each have turned in all: an angle in the world is their sum, and has
+ * its rounding. A force between two links has the larger one: `turned` has room for all links twice. */
+static void measure_turns(struct run *run, const struct instant *at)
 {
-    double sum = 0;
-    for (const struct tree *tree = run->model->tree; link > 0; link = tree->links[link].parent) {
-        const struct model_body *body = &run->model->bodies[tree->links[link].body];
+    const struct tree *tree = run->model->tree;
+    double *own = run->turned, *sides = own + tree->count;
+    own[0] = 0;
+    for (int i = 1; i < tree->count; i++) {
+        const struct model_body *body = &run->model->bodies[tree->links[i].body];
         bool turns = body->kind == motion_pivot || body->kind == motion_planar;
-        if (turns) sum += fabs(run->state->y[body->first + body->count - 1]);
+        own[i] =
+            own[tree->links[i].parent] + (turns ? fabs(run->state->y[body->first + body->count - 1]) : 0);
     }
-    return sum;
+    memcpy(sides, own, (size_t)tree->count * sizeof *sides);
+    for (int i = 1; i < tree->count; i++) {
+        double *parent = &sides[tree->links[i].parent];
+        *parent = fmax(*parent, own[i]);
+    }
+    for (int j = 0; j < tree->row_count; j++) {
+        const struct row *row = &at->tree->rows[j];
+        double most = 0;
+        for (int k = 0; k < row->port_count; k++) most = fmax(most, own[row->ports[k].link]);
+        for (int k = 0; k < row->port_count; k++) {
+            double *side = &sides[row->ports[k].link];
+            *side = fmax(*side, most);
+        }
+    }
 }
 
 /* The size of what has been added up for the share of an arrow in each coordinate of a jointed body. A moment
@@ -39,7 +55,7 @@ static void add_gross_forces(struct run *run, int b, const struct instant *at, d
     const struct model_body *body = &run->model->bodies[b];
     size_t count = diagram_fill(run->model, b, at, run->state->a, run->state->slots, run->arrows);
     int link = body->place.link;
-    double angle = turned(run, link);
+    double angle = link > 0 ? run->turned[run->model->tree->count + link] : 0;
     for (size_t i = 0; i < count; i++) {
         if (link > 0)
             add_jointed(body, &at->tree->links[link], angle, &run->arrows[i], gross);
@@ -81,6 +97,7 @@ static void set_noise(struct run *run)
     struct instant here = state_instant(run->state);
     const struct instant *at = &here;
     changes(run, at, run->along);
+    if (run->model->tree) measure_turns(run, at);
     for (size_t b = 0; b < run->model->body_count; b++) {
         const struct model_body *body = &run->model->bodies[b];
         double gross[most_coordinates_of_a_body] = {0}, roundings = body->place.link > 0 ? 16 : 2;

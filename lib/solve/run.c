@@ -97,7 +97,8 @@ static bool make_run(struct run *run)
     size_t n = (size_t)plan->n;
     run->state = state_new(run->model);
     run->during = state_new(run->model);
-    run->y = calloc(11 * n + 1, sizeof *run->y);
+    size_t links = run->model->tree ? (size_t)run->model->tree->count : 0;
+    run->y = calloc(11 * n + 2 * links + 1, sizeof *run->y);
     if (!run->state || !run->during || !run->y || !make_scans(run)) return false;
     if (run->state->tree) run->state->tree->accuracy = run->during->tree->accuracy = run->options.tolerance;
     if (!poles_init(&run->poles, run->model)) return false;
@@ -105,6 +106,7 @@ static bool make_run(struct run *run)
     run->sample = run->f + 2 * n;
     run->aside = run->sample + 2 * n;
     run->along = run->aside + 4 * n;
+    run->turned = run->along + n;
     run->values = calloc(2 * run->moving.count + 1, sizeof *run->values);
     run->anchor = calloc(4 * n + 1, sizeof *run->anchor);
     run->arrows = calloc(diagram_most_arrows(run->model), sizeof *run->arrows);

@@ -80,6 +80,7 @@ struct run {
     double *y, *f, *sample;    /* 2 n each; y: the end of the last step, before its events */
     double *aside;             /* 4 n: a sample made in another way */
     double *along;             /* n: how the accelerations change along the motion, when the noise was set */
+    double *turned;            /* twice the links of the tree: see noise.c */
     unsigned long since_noise; /* steps */
     double *values;            /* moving event functions and their rates */
     struct decided decided;

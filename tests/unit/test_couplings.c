@@ -226,6 +226,32 @@ static void report_and_json_say_the_drift(void **unused)
     trial_close(&trial);
 }
 
+/* A crank and a rod of one length, folded: they turn as one about the crank's axis, 2 (m l^2/3) theta'' = M,
+ * and the piston stays there. What acts on it along its guide is rounding of forces whose direction is that
+ * of the rod, and must not be followed with ever smaller steps. */
+static void what_only_rounding_moves_does_not_stop_a_run(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct trial trial = trial_parse(
+        "fbd: 1\nbodies:\n"
+        "  crank: {shape: rod, mass: 1, length: 0.2, motion: {pivot: {point: left}}, initial: {theta: 180 "
+        "deg}, "
+        "moments: [{applied: {name: M, value: 3}}]}\n"
+        "  rod: {shape: rod, mass: 1, length: 0.2, motion: {pivot: {on: crank, at: right, point: left}}, "
+        "initial: {theta: 180 deg}}\n"
+        "  piston: {mass: 1, motion: slide}\n"
+        "couplings: [{pin: {name: wrist, between: [rod.right, piston.G]}}]\nsimulate: {until: 0.15 s}\n");
+    trial_start(&trial, NULL);
+    trial_finish(&trial);
+    check_that(&checks, "the end", trial.outcome == FBD_DONE);
+    check_close(&checks, "crank", trial_get(&trial, "crank.theta"), acos(-1) + 112.5 * 0.15 * 0.15 / 2, 1e-9);
+    check_close(&checks, "piston", trial_get(&trial, "piston.x"), 0, 1e-12);
+    check_that(&checks, "in few steps", fbd_simulation_stats(trial.simulation).steps < 200);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
 /* Atwood's machine: T1 - T2 = M a/2 and a = (m1 - m2) g/(m1 + m2 + M/2). With a pulley of 1e-8 of the weights
  * that it joins, doubles cannot tell the tensions: no number is better than a wrong one. */
 static void forces_that_cannot_be_told_are_refused(void **unused)
@@ -263,6 +289,7 @@ int main(void)
         cmocka_unit_test(explain_lists_couplings_rows_and_what_is_redundant),
         cmocka_unit_test(the_drift_that_is_reported_is_the_one_that_there_is),
         cmocka_unit_test(report_and_json_say_the_drift),
+        cmocka_unit_test(what_only_rounding_moves_does_not_stop_a_run),
         cmocka_unit_test(forces_that_cannot_be_told_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
