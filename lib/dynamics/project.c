@@ -11,12 +11,23 @@ struct place {
     const struct fbd_model *model;
     struct instant at;
     double *y;
-    bool assemble; /* only bodies that the scene marks so move */
+    bool assemble;  /* only bodies that the scene marks so move */
+    bool returning; /* from a step: what sticks does not move */
 };
+
+/* Must the joint of a link stay as it is? */
+static bool stays(const struct place *place, int link)
+{
+    const struct tree_link *joint = &place->model->tree->links[link];
+    const struct body *body = place->model->bodies[joint->body].source;
+    bool sticks = place->returning && joint->pair >= 0 && place->at.slip[joint->pair] == stick;
+    return sticks || body->motion.prescribed.expr || (place->assemble && !body->assemble);
+}
 
 static struct place place_of(struct fbd_state *state, bool assemble)
 {
-    return (struct place){state->model, state_instant(state), state->y, assemble};
+    return (
+        struct place){.model = state->model, .at = state_instant(state), .y = state->y, .assemble = assemble};
 }
 
 static bool has_ties(const struct fbd_model *model)
@@ -38,8 +49,7 @@ static void prepare(const struct place *place)
     const struct tree *tree = model->tree;
     struct tree_work *work = place->at.tree;
     for (int i = 1; i < tree->count; i++) {
-        const struct body *body = model->bodies[tree->links[i].body].source;
-        work->links[i].locked = (place->assemble && !body->assemble) || body->motion.prescribed.expr;
+        work->links[i].locked = stays(place, i);
         work->links[i].held = 0;
     }
     tree_move(model, &place->at);
@@ -120,16 +130,24 @@ static double rounding(const struct place *place)
     return 16 * DBL_EPSILON * reach;
 }
 
-/* The size of the parts that the rows join. */
+static struct vec port_point(const struct place *place, const struct port *port)
+{
+    return vec_add(place->at.tree->links[port->link].p, port->arm);
+}
+
+/* The size of the parts that the rows join: their arms, or, where only points are joined, what joins them. */
 static double arm_length(const struct place *place)
 {
-    double length = 0;
+    double length = 0, apart = 0;
     for (int j = 0; j < place->model->tree->row_count; j++) {
         const struct row *row = &place->at.tree->rows[j];
-        for (int k = 0; k < row->port_count; k++)
+        for (int k = 0; k < row->port_count; k++) {
             if (row->ports[k].link > 0) length = fmax(length, vec_norm(row->ports[k].arm));
+            struct vec from = port_point(place, &row->ports[0]), to = port_point(place, &row->ports[k]);
+            apart = fmax(apart, vec_norm(vec_sub(to, from)));
+        }
     }
-    return length;
+    return length > 0 ? length : apart;
 }
 
 /* y[first ..] += share * (the answer to -value of each row), by the system as it is factored. */
@@ -285,7 +303,7 @@ static void bring_back(const struct place *place)
 void return_to_constraints(const struct fbd_model *model, const struct instant *at, double *y)
 {
     if (!has_ties(model)) return;
-    struct place place = {.model = model, .at = *at};
+    struct place place = {.model = model, .at = *at, .returning = true};
     place.at.y = place.y = y;
     bring_back(&place);
 }

@@ -252,6 +252,37 @@ static void what_only_rounding_moves_does_not_stop_a_run(void **unused)
     checks_end(&checks);
 }
 
+/* A swinging bar between a wall and a block that friction holds: bringing the loop back to its couplings
+ * after a step must not push the block. */
+static void a_sticking_block_in_a_loop_stays_exactly_where_it_is(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct trial trial = trial_parse(
+        "fbd: 1\nbodies:\n"
+        "  block: {mass: 9, motion: slide, initial: {x: 0.7}, forces: [gravity, normal, {friction: 0.9}]}\n"
+        "  link: {shape: rod, mass: 1, length: 0.5, motion: {pivot: {on: block, at: G, point: left}}, "
+        "initial: {theta: -100 deg, assemble: true}, forces: [gravity]}\n"
+        "  wall_link: {shape: rod, mass: 1, length: 0.5, motion: {pivot: {point: left}}, initial: {theta: "
+        "-70 deg}, "
+        "forces: [gravity]}\n"
+        "  bar: {shape: rod, mass: 1, length: 0.6, motion: {pivot: {on: wall_link, at: right, point: left}}, "
+        "initial: {theta: 60 deg, assemble: true}, forces: [gravity]}\n"
+        "couplings: [{pin: {name: end, between: [bar.right, link.right]}}]\nsimulate: {until: 5 s}\n");
+    trial_start(&trial, NULL);
+    double swing = 0;
+    for (int i = 0; i <= 50; i++) {
+        if (i > 0) trial_to(&trial, 0.1 * i);
+        swing = fmax(swing, fabs(trial_get(&trial, "wall_link.omega")));
+        check_that(&checks, "the block stays",
+                   trial_get(&trial, "block.x") == 0.7 && trial_get(&trial, "block.v") == 0);
+    }
+    check_that(&checks, "the bar swings", swing > 1);
+    check_that(&checks, "nothing slips", fbd_simulation_events(trial.simulation) == 0);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
 /* Atwood's machine: T1 - T2 = M a/2 and a = (m1 - m2) g/(m1 + m2 + M/2). With a pulley of 1e-8 of the weights
  * that it joins, doubles cannot tell the tensions: no number is better than a wrong one. */
 static void forces_that_cannot_be_told_are_refused(void **unused)
@@ -289,6 +320,7 @@ int main(void)
         cmocka_unit_test(explain_lists_couplings_rows_and_what_is_redundant),
         cmocka_unit_test(the_drift_that_is_reported_is_the_one_that_there_is),
         cmocka_unit_test(report_and_json_say_the_drift),
+        cmocka_unit_test(a_sticking_block_in_a_loop_stays_exactly_where_it_is),
         cmocka_unit_test(what_only_rounding_moves_does_not_stop_a_run),
         cmocka_unit_test(forces_that_cannot_be_told_are_refused),
     };
