@@ -13,8 +13,8 @@ struct arena_chunk {
     max_align_t data[];
 };
 
-/* Chunks grow from the first to the largest, since many an arena holds no more than one expression and all of
- * a chunk is cleared. */
+/* Chunks grow from the first to the largest, since many an arena holds no more than one expression. What is
+ * handed out is cleared, and nothing else. */
 enum { first_chunk = 512, largest_chunk = 16384 };
 
 static size_t round_up(size_t size)
@@ -36,18 +36,19 @@ void *arena_array(struct arena *arena, size_t count, size_t size)
         size_t next = chunk ? 4 * chunk->size : first_chunk;
         size_t room = next < largest_chunk ? next : largest_chunk;
         if (room < wanted) room = wanted;
-        chunk = calloc(1, sizeof *chunk + room);
+        chunk = malloc(sizeof *chunk + room);
         if (!chunk) {
             arena->failed = true;
             return NULL;
         }
+        chunk->used = 0;
         chunk->size = room;
         chunk->next = arena->chunks;
         arena->chunks = chunk;
     }
     void *start = (char *)chunk->data + chunk->used;
     chunk->used += wanted;
-    return start;
+    return memset(start, 0, wanted);
 }
 
 char *arena_text(struct arena *arena, const char *text, size_t length)

@@ -36,17 +36,24 @@ void text_add(struct text *text, const char *string)
     text_add_bytes(text, string, strlen(string));
 }
 
+/* Mostly there is room, and one pass is enough. */
 void text_printf(struct text *text, const char *format, ...)
 {
     va_list args, again;
     va_start(args, format);
     va_copy(again, args);
-    int length = vsnprintf(NULL, 0, format, args);
+    size_t room = text->failed ? 0 : text->capacity - text->length;
+    int length = vsnprintf(room ? text->data + text->length : NULL, room, format, args);
     va_end(args);
-    if (length >= 0 && text_reserve(text, (size_t)length + 1)) {
+    bool fits = length >= 0 && (size_t)length < room;
+    if (!fits && length >= 0 && text_reserve(text, (size_t)length)) {
         vsnprintf(text->data + text->length, (size_t)length + 1, format, again);
-        text->length += (size_t)length;
+        fits = true;
     }
+    if (fits)
+        text->length += (size_t)length;
+    else if (room)
+        text->data[text->length] = '\0';
     va_end(again);
 }
 
@@ -83,7 +90,10 @@ void text_pad(struct text *text, size_t column)
     size_t start = text->length;
     while (start > 0 && text->data[start - 1] != '\n') start--;
     size_t width = text->length > start ? text_width(text->data + start) : 0;
-    for (; width < column; width++) text_add(text, " ");
+    if (width >= column || !text_reserve(text, column - width)) return;
+    memset(text->data + text->length, ' ', column - width);
+    text->length += column - width;
+    text->data[text->length] = '\0';
 }
 
 void text_json_string(struct text *text, const char *string)

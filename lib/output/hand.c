@@ -24,34 +24,33 @@ static double between(gsl_rng *rng, double low, double high)
     return low + (high - low) * gsl_rng_uniform(rng);
 }
 
-/* The model with its parameters changed by up to 30 %: false when memory is out; *changed is NULL when the
- * file does not allow these. */
-static bool changed_model(const fbd_model *model, gsl_rng *rng, fbd_model **result)
+/* The model of a document, each parameter that of `model` times a random factor, `spread` more or less than
+ * 1: false when memory is out; *drawn is NULL when the file does not allow these. */
+static bool draw_model(const struct document *document, const fbd_model *model, gsl_rng *rng, double spread,
+                       fbd_model **drawn)
 {
     const struct scene *scene = model->scene;
-    size_t count = scene->parameter_count;
-    fbd_setting *settings = calloc(count + 1, sizeof *settings);
-    char(*values)[32] = calloc(count + 1, sizeof *values);
+    struct arena arena = {0};
+    struct override *overrides = ARENA_ARRAY(&arena, scene->parameter_count + 1, struct override);
     fbd_errors *errors = fbd_errors_new();
-    bool done = settings && values && errors;
-    *result = NULL;
+    struct text text = {0};
+    *drawn = NULL;
+    for (size_t i = 0; overrides && i < scene->parameter_count; i++) {
+        text.length = 0;
+        text_number(&text, scene->parameters[i].value * between(rng, 1 - spread, 1 + spread), 17);
+        if (text.failed) break;
+        overrides[i] =
+            (struct override){scene->parameters[i].name, arena_text(&arena, text.data, text.length)};
+    }
+    bool done = errors && !arena.failed && !text.failed;
     if (done) {
-        for (size_t i = 0; i < count; i++) {
-            struct text text = {0};
-            text_number(&text, scene->parameters[i].value * between(rng, 0.7, 1.3), 17);
-            done = done && !text.failed;
-            if (done) snprintf(values[i], sizeof values[i], "%s", text.data);
-            text_free(&text);
-            settings[i] = (fbd_setting){scene->parameters[i].name, values[i]};
-        }
-        if (done)
-            *result =
-                fbd_model_parse(model->source, model->source_length, scene->file, settings, count, errors);
-        done = done && !errors->out_of_memory;
+        struct scene *changed = scene_make(document, overrides, scene->parameter_count, errors);
+        if (changed) *drawn = model_compile(changed, errors);
+        done = !errors->out_of_memory;
     }
     fbd_errors_free(errors);
-    free(values);
-    free(settings);
+    text_free(&text);
+    arena_free(&arena);
     return done;
 }
 
@@ -344,7 +343,8 @@ static bool write_verdict(const struct hand_check *check, struct text *text)
 }
 
 /* Check one equation; 1 differs, 0 agrees, -1 out of memory. */
-static int check_one(struct hand_check *check, gsl_rng *rng, struct text *text)
+static int check_one(struct hand_check *check, const struct document *document, gsl_rng *rng,
+                     struct text *text)
 {
     const struct fbd_model *model = check->model;
     const struct body *body = &model->scene->bodies[check->body];
@@ -359,33 +359,55 @@ static int check_one(struct hand_check *check, gsl_rng *rng, struct text *text)
     if (!sample_model(check, model, rng)) return -1;
     for (int draw = 1; draw < parameter_draws; draw++) {
         fbd_model *changed;
-        bool done = changed_model(model, rng, &changed) && (!changed || sample_model(check, changed, rng));
+        bool done = draw_model(document, model, rng, 0.3, &changed) &&
+                    (!changed || sample_model(check, changed, rng));
         fbd_model_free(changed);
         if (!done) return -1;
     }
     return write_verdict(check, text) ? 0 : 1;
 }
 
+/* Check all equations of check->model; how many differ, -1 out of memory. */
+static int check_all(struct hand_check *check, const struct document *document, gsl_rng *rng,
+                     struct text *text)
+{
+    int differ = 0, checked = 0;
+    for (size_t b = 0; b < check->model->body_count; b++)
+        for (size_t i = 0; differ >= 0 && i < check->model->scene->bodies[b].hand_count; i++, checked++) {
+            check->body = (int)b;
+            check->index = (int)i;
+            int one = check_one(check, document, rng, text);
+            differ = one < 0 ? -1 : differ + one;
+        }
+    if (checked == 0) text_add(text, "no body carries a `hand:` derivation\n");
+    return differ;
+}
+
 int fbd_check_hand(const fbd_model *model, unsigned seed, char **result)
 {
     struct text text = {0};
-    struct hand_check check = {.model = model, .samples = calloc(most_samples, sizeof *check.samples)};
+    struct document document;
+    fbd_errors *errors = fbd_errors_new();
+    struct hand_check check = {.samples = calloc(most_samples, sizeof *check.samples)};
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    int differ = 0;
-    if (check.samples && rng) {
-        int checked = 0;
+    fbd_model *split = NULL;
+    int differ = -1;
+    if (errors && check.samples && rng) {
         gsl_rng_set(rng, seed);
-        for (size_t b = 0; b < model->body_count; b++)
-            for (size_t i = 0; differ >= 0 && i < model->scene->bodies[b].hand_count; i++, checked++) {
-                check.body = (int)b;
-                check.index = (int)i;
-                int one = check_one(&check, rng, &text);
-                differ = one < 0 ? -1 : differ + one;
-            }
-        if (checked == 0) text_add(&text, "no body carries a `hand:` derivation\n");
+        bool open =
+            document_open(&document, model->source, model->source_length, model->scene->file, errors) &&
+            !errors->out_of_memory;
+        document.split_hands = true;
+        if (open && draw_model(&document, model, rng, 0, &split) && split) {
+            check.model = split;
+            differ = check_all(&check, &document, rng, &text);
+        }
+        document_close(&document);
         text_printf(&text, "seed %u\n", seed);
     }
-    bool lost = !check.samples || !rng || text.failed || differ < 0;
+    bool lost = text.failed || differ < 0;
+    fbd_model_free(split);
+    fbd_errors_free(errors);
     free(check.samples);
     if (rng) gsl_rng_free(rng);
     if (lost) text_free(&text);

@@ -82,7 +82,7 @@ static bool read_hand(struct reader *reader, int index, const struct node *node,
         hand->at = keys.equation->at;
         hand->text = arena_text(reader->arena, keys.equation->text, keys.equation->length);
         if (!hand->text || !read_equation(reader, keys.equation, &scope, hand) ||
-            !split_equation(reader, &scope, hand))
+            (reader->split_hands && !split_equation(reader, &scope, hand)))
             fine = false;
     }
     if (keys.when) {

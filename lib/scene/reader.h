@@ -63,7 +63,7 @@ struct reader {
 
     /* Mappings of the file, or NULL. Entry i of a mapping is parameter, body, point or line i. */
     const struct node *root, *parameters, *bodies, *points, *lines;
-    bool without_hands; /* derivations are left unread */
+    bool without_hands, split_hands; /* see struct document */
     struct definition *definitions;
     struct draft *drafts;
     struct ground_point *ground_points;

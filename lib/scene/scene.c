@@ -198,6 +198,7 @@ static struct scene *make(const struct document *document, const struct override
     if (!scene) return NULL;
     struct reader reader = {.scene = scene, .arena = &scene->arena, .errors = errors, .root = document->root};
     reader.without_hands = document->without_hands;
+    reader.split_hands = document->split_hands;
     reader.known = document->programs;
     reader.keep = keep;
     if (check_root(&reader)) read_scene(&reader, overrides, override_count);

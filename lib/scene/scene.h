@@ -328,6 +328,7 @@ struct document {
     const char *file; /* names the text in messages; may be NULL */
     const struct node *root;
     bool without_hands;        /* leave the derivations by hand unread: nothing that moves depends on them */
+    bool split_hands;          /* and those that are read, into their summands: what --check-hand compares */
     struct programs *programs; /* expressions compiled once for all readings (programs.h), or NULL */
     struct scene *first;       /* the scene that holds them */
 };

@@ -75,6 +75,11 @@ bool source_open(const char *text, size_t length, fbd_errors *errors, struct sou
     }
     *source = (struct source){text, length};
     for (size_t i = 0; i < length;) {
+        if (text[i] >= ' ' && text[i] <= '~') {
+            at.column++;
+            i++;
+            continue;
+        }
         unsigned code;
         size_t width = source_decode(text + i, length - i, &code);
         if (width == 0) {
