@@ -321,15 +321,16 @@ struct rope_state rope_at(const struct fbd_model *model, const struct instant *a
 {
     const struct tie *rope = &model->tree->ties[tie];
     const struct row *row = &at->tree->rows[rope->first_row];
-    struct rope_state state = {row->g.x, row->g.x1, row->g.x2, -row->lambda, false};
-    double length = 0, speed = 0;
+    struct rope_state state = {row->g.x, row->g.x1, row->g.x2, -row->lambda, 0, false};
+    double length = fabs(at->tree->ties[tie].zero), speed = 0, reach = 0;
     for (int k = 0; k < rope->end_count; k++) {
         const struct tree_state *s = &at->tree->links[rope->end[k].link];
-        length = fmax(length, vec_norm(s->p) + rope->end[k].radius);
+        reach = fmax(reach, vec_norm(s->p) + rope->end[k].radius);
         speed = fmax(speed,
                      vec_norm(s->v) + fabs(s->omega) * (rope->end[k].radius + vec_norm(rope->end[k].point)));
     }
-    state.touches = fabs(state.excess) <= 1e-9 * (length + fabs(at->tree->ties[tie].zero)) &&
-                    fabs(state.rate) <= 1e-10 * speed;
+    length += reach;
+    state.rounding = 16 * DBL_EPSILON * length;
+    state.touches = fabs(state.excess) <= 1e-9 * length && fabs(state.rate) <= 1e-10 * speed;
     return state;
 }

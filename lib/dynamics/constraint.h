@@ -55,7 +55,8 @@ double tie_slip_acceleration(const struct fbd_model *model, const struct instant
 struct rope_state {
     double excess, rate, acceleration; /* of its way over its length, and how that changes */
     double tension;
-    bool touches; /* just taut to rounding, in length and rate */
+    double rounding; /* of the excess */
+    bool touches;    /* just taut to rounding, in length and rate */
 };
 struct rope_state rope_at(const struct fbd_model *model, const struct instant *at, int tie);
 

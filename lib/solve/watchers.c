@@ -133,7 +133,8 @@ static double user_value(const struct watch *watch, const struct view *view, dou
     return left - right;
 }
 
-/* Taut: the tension. Slack: what is left of its length. */
+/* Taut: the tension. Slack: what is left of its length; just after it has gone slack that is rounding, and
+ * rounding makes nothing taut. */
 static double rope_value(const struct watcher *watcher, const struct view *view, double *rate)
 {
     const struct fbd_model *model = view->state->model;
@@ -141,7 +142,7 @@ static double rope_value(const struct watcher *watcher, const struct view *view,
     struct rope_state rope = rope_at(model, &view->at, tie);
     if (view->at.slip[watcher->index] != stick) {
         *rate = -rope.rate;
-        return -rope.excess;
+        return rope.rounding - rope.excess;
     }
     *rate = -view->state->tree->z[model->tree->ties[tie].first_row];
     return rope.tension;
