@@ -265,12 +265,19 @@ static void curve_of_nodes(struct nystrom *s)
     }
 }
 
-/* sum c_i P_i(x) by Clenshaw's recurrence with (i + 1) P_(i+1) = (2 i + 1) x P_i - i P_(i-1). */
+/* P_(i+1) = ahead[i] x P_i - back[i-1] P_(i-1): (2 i + 1)/(i + 1) and (i + 1)/(i + 2). Divisions would take
+ * most of the time of a look. */
+static const double ahead[q_terms] = {1.0,      3.0 / 2,  5.0 / 3,   7.0 / 4,   9.0 / 5,   11.0 / 6, 13.0 / 7,
+                                      15.0 / 8, 17.0 / 9, 19.0 / 10, 21.0 / 11, 23.0 / 12, 25.0 / 13};
+static const double back[q_terms] = {1.0 / 2, 2.0 / 3,  3.0 / 4,   4.0 / 5,   5.0 / 6,   6.0 / 7,  7.0 / 8,
+                                     8.0 / 9, 9.0 / 10, 10.0 / 11, 11.0 / 12, 12.0 / 13, 13.0 / 14};
+
+/* sum c_i P_i(x) by Clenshaw's recurrence. */
 static double legendre_sum(const double *c, int terms, double x)
 {
     double next = 0, after = 0;
     for (int i = terms - 1; i > 0; i--) {
-        double here = c[i] + (2 * i + 1.0) / (i + 1.0) * x * next - (i + 1.0) / (i + 2.0) * after;
+        double here = c[i] + ahead[i] * x * next - back[i] * after;
         after = next;
         next = here;
     }
@@ -294,8 +301,10 @@ static int fill_nodes(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys)
         s->a[m * nystrom_nodes] = s->k[m * row + 1];
         s->a[m * nystrom_nodes + nystrom_nodes - 1] = s->k[m * row];
     }
+    memcpy(s->argument, s->y0, 2 * s->n * sizeof *s->y0); /* the rates do not matter */
     for (size_t j = 1; j < nystrom_nodes - 1; j++) {
-        nystrom_dense_eval(step, nystrom_node[j], s->argument);
+        for (size_t m = 0; m < s->n; m++)
+            s->argument[m] = legendre_sum(s->q + m * q_terms, q_terms, 2 * nystrom_node[j] - 1);
         int status = GSL_ODEIV_FN_EVAL(sys, s->t + nystrom_node[j] * s->h, s->argument, s->slopes);
         if (status != GSL_SUCCESS) return status;
         for (size_t m = 0; m < s->n; m++) s->a[m * nystrom_nodes + j] = s->slopes[s->n + m];
