@@ -713,7 +713,7 @@ FBD_API char *fbd_cost_svg(const fbd_cost *cost);
 
 /* The scene with one effect left out, beside the scene itself. */
 typedef struct fbd_effect {
-    const char *body, *name;       /* "block", "friction" */
+    const char *body, *name;       /* "block", "friction"; body "" for what is of the whole scene */
     const char *change;            /* "left out", "linear: sin(theta) -> theta", ... */
     const char *reason;            /* why there is no number: what cannot be left out; "" otherwise */
     double change_end, change_max; /* of the answer: |difference| / scale, at the end and over the run */

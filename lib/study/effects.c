@@ -98,7 +98,9 @@ static bool try_without(struct fbd_effects *effects, size_t index, fbd_model **m
     if (effects->edits[index].refusal) return true;
     fbd_errors *errors = fbd_errors_new();
     if (!errors) return false;
-    *model = model_variant(effects->model, effect_edit, &effects->edits[index], errors);
+    struct edit *edit = &effects->edits[index];
+    *model = edit->kind == edit_linear_scene ? effects_linear_scene(effects, &edit->about, errors)
+                                             : model_variant(effects->model, effect_edit, edit, errors);
     bool runs = *model && run_without(effects, index, *model, seconds, errors);
     for (size_t i = 0; !runs && i < fbd_errors_count(errors); i++)
         if (fbd_errors_get(errors, i)->severity == FBD_ERROR)

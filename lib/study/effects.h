@@ -22,6 +22,13 @@ enum edit_kind {
     edit_linear_gravity, /* sin(theta) becomes theta about the equilibrium */
     edit_linear_drag,    /* quadratic drag becomes linear */
     edit_linear_formula, /* an expression becomes its Taylor polynomial about an equilibrium */
+    edit_linear_scene,   /* the whole scene becomes its linearisation (effects_linear.c) */
+};
+
+/* The equilibrium near the start; NULLs when there is none. */
+struct equilibrium {
+    const double *at;     /* 2 n */
+    const double *matrix; /* 2 n x 2 n: see fbd_linearization_matrix */
 };
 
 struct edit {
@@ -29,8 +36,8 @@ struct edit {
     int body, index;        /* load, part or coupling */
     double value, value2;   /* of the kind: stiffness and neutral angle; speed */
     const fbd_model *model; /* the scene itself */
-    const double *at;       /* the equilibrium: 2 n; or NULL */
-    const char *refusal;    /* why it cannot be done; NULL otherwise */
+    struct equilibrium about;
+    const char *refusal; /* why it cannot be done; NULL otherwise */
 };
 
 struct fbd_effects {
@@ -50,6 +57,11 @@ struct fbd_effects {
 
 /* List what can be left out; `track` tells how the scene moves. False when memory is out. */
 bool effects_list(struct fbd_effects *effects);
+
+/* The scene that an edit_linear_scene puts in the place of the present one. NULL with a note in `errors` when
+ * memory is out. */
+fbd_model *effects_linear_scene(const struct fbd_effects *effects, const struct equilibrium *about,
+                                fbd_errors *errors);
 
 /* Make the edit of `context`, a struct edit (a scene_edit). */
 void effect_edit(struct scene *scene, void *context, fbd_errors *errors);

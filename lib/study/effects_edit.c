@@ -72,7 +72,7 @@ static void replace(struct value *value, const struct edit *edit, int degree, st
                     fbd_errors *errors)
 {
     if (!value->expr || expr_is_constant(value->expr)) return;
-    value->expr = taylor_expr(value->expr, edit->at, degree, &scene->arena, errors);
+    value->expr = taylor_expr(value->expr, edit->about.at, degree, &scene->arena, errors);
     if (value->expr || fbd_errors_failed(errors) > 0) return;
     diag_add(errors, FBD_ERROR, "not-finite", value->at, NULL, "it has no tangent at the equilibrium");
 }
@@ -122,7 +122,8 @@ void effect_edit(struct scene *scene, void *context, fbd_errors *errors)
 {
     const struct edit *edit = context;
     struct body *body = &scene->bodies[edit->body];
-    bool of_load = edit->kind != edit_part && edit->kind != edit_rotary && edit->kind != edit_uncouple;
+    bool of_load = edit->kind != edit_part && edit->kind != edit_rotary && edit->kind != edit_uncouple &&
+                   edit->kind != edit_linear_scene;
     struct load *load = of_load ? &body->loads[edit->index] : NULL;
     for (size_t b = 0; b < scene->body_count; b++) scene->bodies[b].hand_count = 0; /* of another scene */
     switch (edit->kind) {
@@ -143,5 +144,6 @@ void effect_edit(struct scene *scene, void *context, fbd_errors *errors)
         replace(&load->fy, edit, 1, scene, errors);
         replace(&load->potential, edit, 2, scene, errors);
         break;
+    case edit_linear_scene: break; /* not an edit of this scene */
     }
 }

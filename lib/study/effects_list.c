@@ -16,14 +16,16 @@ static void add(struct fbd_effects *effects, struct edit edit, const char *name,
     if (effects->count == effects->room || !change) return;
     edit.model = effects->model;
     effects->edits[effects->count] = edit;
-    effects->effects[effects->count++] = (fbd_effect){.body = effects->model->bodies[edit.body].name,
-                                                      .name = name,
-                                                      .change = change,
-                                                      .reason = edit.refusal ? edit.refusal : "",
-                                                      .change_end = NAN,
-                                                      .change_max = NAN,
-                                                      .worst = "",
-                                                      .time = NAN};
+    bool whole = edit.kind == edit_linear_scene;
+    effects->effects[effects->count++] =
+        (fbd_effect){.body = whole ? "" : effects->model->bodies[edit.body].name,
+                     .name = name,
+                     .change = change,
+                     .reason = edit.refusal ? edit.refusal : "",
+                     .change_end = NAN,
+                     .change_max = NAN,
+                     .worst = "",
+                     .time = NAN};
 }
 
 /* ---- loads */
@@ -64,6 +66,35 @@ static void add_friction(struct fbd_effects *effects, int b, int i)
     if (load->surface_speed.expr)
         add(effects, (struct edit){.kind = edit_surface, .body = b, .index = i}, load->name,
             "the surface at rest");
+}
+
+/* ---- equilibria */
+
+static const double *copy_of(struct fbd_effects *effects, const double *numbers, size_t count)
+{
+    double *copy = ARENA_ARRAY(&effects->arena, count + 1, double);
+    if (copy) memcpy(copy, numbers, count * sizeof *copy);
+    return copy;
+}
+
+/* The equilibrium nearest to the start, or the one where the scene comes to rest; NULLs when there is none,
+ * or friction could hold anywhere. False when memory is out. */
+static bool find_equilibrium(struct fbd_effects *effects, bool at_rest, struct equilibrium *about)
+{
+    fbd_errors *errors = fbd_errors_new();
+    fbd_state *state = fbd_state_new(effects->model);
+    bool found = errors && state && (!at_rest || fbd_find_equilibrium(state, errors));
+    fbd_linearization *linear = found ? fbd_linearize(state, errors) : NULL;
+    size_t size = 2 * fbd_model_coordinates(effects->model);
+    *about = (struct equilibrium){NULL, NULL};
+    if (linear)
+        *about = (struct equilibrium){copy_of(effects, state->y, size),
+                                      copy_of(effects, fbd_linearization_matrix(linear), size * size)};
+    bool done = errors && state && !errors->out_of_memory && !effects->arena.failed;
+    fbd_linearization_free(linear);
+    fbd_state_free(state);
+    fbd_errors_free(errors);
+    return done;
 }
 
 /* ---- nonlinearities */
@@ -162,7 +193,7 @@ static bool is_beyond_quadratic(const struct fbd_effects *effects, const struct 
     return false;
 }
 
-static void add_linear_formula(struct fbd_effects *effects, int b, int i, const double *equilibrium)
+static void add_linear_formula(struct fbd_effects *effects, int b, int i, struct equilibrium about)
 {
     const struct load *load = &effects->model->scene->bodies[b].loads[i];
     const struct expr *all[] = {load->value.expr, load->fx.expr, load->fy.expr, load->potential.expr};
@@ -170,12 +201,46 @@ static void add_linear_formula(struct fbd_effects *effects, int b, int i, const 
     for (int k = 0; k < 3; k++) nonlinear = nonlinear || is_nonlinear(effects, all[k]);
     for (int k = 0; k < 4; k++) timed = timed || (all[k] && expr_uses_time(all[k]));
     if (!nonlinear) return;
-    struct edit edit = {.kind = edit_linear_formula, .body = b, .index = i, .at = equilibrium};
+    struct edit edit = {.kind = edit_linear_formula, .body = b, .index = i, .about = about};
     if (timed)
         edit.refusal = "it depends on time: there is no one linear law in its place";
-    else if (!equilibrium)
+    else if (!about.at)
         edit.refusal = "there is no equilibrium near the start to take it about";
     add(effects, edit, load->name, "linear about the equilibrium");
+}
+
+static bool any_uses_time(const struct scene *scene)
+{
+    for (size_t b = 0; b < scene->body_count; b++)
+        for (size_t i = 0; i < scene->bodies[b].load_count; i++) {
+            const struct load *load = &scene->bodies[b].loads[i];
+            const struct expr *all[] = {load->value.expr, load->fx.expr, load->fy.expr, load->potential.expr,
+                                        load->surface_speed.expr};
+            for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+                if (all[k] && expr_uses_time(all[k])) return true;
+        }
+    return false;
+}
+
+/* Of jointed bodies no nonlinearity can be left out alone: sines of sums of angles are in every term. False
+ * when memory is out. */
+static bool add_linear_scene(struct fbd_effects *effects)
+{
+    const struct scene *scene = effects->model->scene;
+    bool jointed = false;
+    for (size_t b = 0; b < scene->body_count; b++)
+        jointed = jointed || scene->bodies[b].motion.parent != ground_body;
+    if (!jointed) return true;
+    struct edit edit = {.kind = edit_linear_scene};
+    if (!find_equilibrium(effects, true, &edit.about)) return false;
+    if (effects->model->tree->tie_count > 0)
+        edit.refusal = "couplings close loops: its coordinates are not independent";
+    else if (any_uses_time(scene))
+        edit.refusal = "forces depend on time: there is no place of rest";
+    else if (!edit.about.at)
+        edit.refusal = "there is no place of rest to take it about";
+    add(effects, edit, "all", "linear about the place of rest");
+    return true;
 }
 
 /* ---- inertia */
@@ -210,37 +275,19 @@ static void add_couplings(struct fbd_effects *effects)
 
 /* ---- the whole */
 
-/* The equilibrium nearest to the start; *at is NULL when there is none, or friction could hold anywhere.
- * False when memory is out. */
-static bool find_equilibrium(struct fbd_effects *effects, const double **at)
-{
-    fbd_errors *errors = fbd_errors_new();
-    fbd_state *state = fbd_state_new(effects->model);
-    fbd_linearization *linear = errors && state ? fbd_linearize(state, errors) : NULL;
-    size_t size = 2 * fbd_model_coordinates(effects->model);
-    double *copy = linear ? ARENA_ARRAY(&effects->arena, size + 1, double) : NULL;
-    if (copy) memcpy(copy, state->y, size * sizeof *copy);
-    *at = copy;
-    bool done = errors && state && !errors->out_of_memory && !effects->arena.failed;
-    fbd_linearization_free(linear);
-    fbd_state_free(state);
-    fbd_errors_free(errors);
-    return done;
-}
-
 bool effects_list(struct fbd_effects *effects)
 {
     const struct scene *scene = effects->model->scene;
     enum { kinds_of_a_load = 4 };
-    size_t room = 1 + scene->coupling_count;
+    size_t room = 2 + scene->coupling_count;
     for (size_t b = 0; b < scene->body_count; b++)
         room += kinds_of_a_load * scene->bodies[b].load_count + scene->bodies[b].part_count + 1;
     effects->effects = ARENA_ARRAY(&effects->arena, room, fbd_effect);
     effects->edits = ARENA_ARRAY(&effects->arena, room, struct edit);
     if (effects->arena.failed) return false;
     effects->room = room;
-    const double *equilibrium;
-    if (!find_equilibrium(effects, &equilibrium)) return false;
+    struct equilibrium about;
+    if (!find_equilibrium(effects, false, &about)) return false;
     for (int b = 0; b < (int)scene->body_count; b++) {
         bool alone = stands_alone(scene, b);
         for (int i = 0; i < (int)scene->bodies[b].load_count; i++) {
@@ -250,10 +297,10 @@ bool effects_list(struct fbd_effects *effects)
             if (rubs) add_friction(effects, b, i);
             if (load->kind == load_gravity && alone) add_linear_gravity(effects, b, i);
             if (load->kind == load_drag && alone) add_linear_drag(effects, b, i);
-            if (!rubs) add_linear_formula(effects, b, i, equilibrium);
+            if (!rubs) add_linear_formula(effects, b, i, about);
         }
         add_inertia(effects, b);
     }
     add_couplings(effects);
-    return !effects->arena.failed;
+    return add_linear_scene(effects) && !effects->arena.failed;
 }

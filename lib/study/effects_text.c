@@ -24,9 +24,16 @@ static void change(struct text *text, const struct fbd_effects *effects, double 
         text_printf(text, "%.1e", value);
 }
 
+/* "block.friction", or what is of the whole scene. */
+static void name(struct text *text, const fbd_effect *effect)
+{
+    text_printf(text, "%s%s%s", effect->body, effect->body[0] ? "." : "", effect->name);
+}
+
 static void row(struct text *text, const struct fbd_effects *effects, const fbd_effect *effect)
 {
-    text_printf(text, "  %s.%s", effect->body, effect->name);
+    text_add(text, "  ");
+    name(text, effect);
     text_pad(text, 25);
     text_printf(text, " %s", effect->change);
     text_pad(text, 59);
@@ -56,9 +63,9 @@ static void verdict(struct text *text, const struct fbd_effects *effects)
     for (size_t i = 0; i < effects->count; i++) {
         const fbd_effect *effect = &effects->effects[i];
         if (!(effect->change_max < small)) continue;
-        text_printf(text, "%s%s.%s (%s)",
-                    shown++ ? ", " : "\nThese change nothing by more than 1e-3: ", effect->body, effect->name,
-                    effect->change);
+        text_add(text, shown++ ? ", " : "\nThese change nothing by more than 1e-3: ");
+        name(text, effect);
+        text_printf(text, " (%s)", effect->change);
     }
     text_add(text, shown ? ".\n"
                          : "\nEach of these changes something by more than 1e-3: the scene calls for all.\n");

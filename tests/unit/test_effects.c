@@ -225,6 +225,42 @@ static void a_law_becomes_its_tangent_at_the_equilibrium(void **unused)
     checks_end(&checks);
 }
 
+/* How much the whole double pendulum, released from a straight line at an angle, differs from its
+ * linearisation. */
+static double linear_double_pendulum_differs(const char *angle)
+{
+    char text[600];
+    snprintf(text, sizeof text,
+             "fbd: 1\nbodies:\n"
+             "  one: {mass: 1, shape: rod, from: [0, 0], to: [0, -1], motion: pivot, initial: {theta: %s}, "
+             "forces: [gravity]}\n"
+             "  two: {mass: 1, shape: rod, from: [0, 0], to: [0, -1], motion: {pivot: {on: one, at: right, "
+             "point: left}}, forces: [gravity]}\n"
+             "simulate: {until: 3 s}\n",
+             angle);
+    struct study with = study(text);
+    const fbd_effect *all = find(&with, "all", "linear about the place of rest");
+    assert_string_equal(all->body, "");
+    assert_string_equal(all->reason, "");
+    double change = all->change_max;
+    assert_true(all->time > 0);
+    end_study(&with);
+    return change;
+}
+
+/* What the linearisation leaves out is of the third order: beside the motion it goes with the square of its
+ * size. */
+static void a_scene_of_joints_becomes_its_linearisation(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    double small = linear_double_pendulum_differs("0.01 rad"),
+           large = linear_double_pendulum_differs("0.04 rad");
+    check_that(&checks, "small swings are nearly linear", small > 1e-6 && small < 1e-3);
+    check_close(&checks, "of second order", large / small, 16, 0.5);
+    checks_end(&checks);
+}
+
 static void what_cannot_be_left_out_says_why(void **unused)
 {
     (void)unused;
@@ -268,6 +304,7 @@ int main(void)
         cmocka_unit_test(gravity_is_linear_about_where_the_body_hangs),
         cmocka_unit_test(quadratic_drag_becomes_linear_at_the_largest_speed),
         cmocka_unit_test(a_law_becomes_its_tangent_at_the_equilibrium),
+        cmocka_unit_test(a_scene_of_joints_becomes_its_linearisation),
         cmocka_unit_test(what_cannot_be_left_out_says_why),
         cmocka_unit_test(a_scene_that_breaks_without_an_effect_says_so),
     };
