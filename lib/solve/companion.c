@@ -149,7 +149,7 @@ static void note_sizes(struct companion *companion, const struct ensemble *main,
  * that is not at their ends. */
 static long stride(const struct companion *companion, const struct ensemble *main)
 {
-    enum { most = 2 };
+    enum { most = 4 };
     double every = sample_interval(companion), shortest = HUGE_VAL;
     for (size_t p = 0; p < main->count; p++) {
         const struct run *run = main->groups[p].run;
