@@ -25,7 +25,7 @@ enum edit_kind {
     edit_linear_scene,   /* the whole scene becomes its linearisation (effects_linear.c) */
 };
 
-/* The equilibrium near the start; NULLs when there is none. */
+/* An equilibrium, or NULLs when there is none. */
 struct equilibrium {
     const double *at;     /* 2 n */
     const double *matrix; /* 2 n x 2 n: see fbd_linearization_matrix */
