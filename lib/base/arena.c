@@ -32,11 +32,13 @@ void *arena_array(struct arena *arena, size_t count, size_t size)
     size_t bytes = count * size;
     size_t wanted = round_up(bytes > 0 ? bytes : 1);
     struct arena_chunk *chunk = arena->chunks;
+    bool whole = false;
     if (!chunk || chunk->size - chunk->used < wanted) {
         size_t next = chunk ? 4 * chunk->size : first_chunk;
         size_t room = next < largest_chunk ? next : largest_chunk;
-        if (room < wanted) room = wanted;
-        chunk = malloc(sizeof *chunk + room);
+        whole = room <= wanted; /* large: from calloc, which need not touch what comes from the system */
+        if (whole) room = wanted;
+        chunk = whole ? calloc(1, sizeof *chunk + room) : malloc(sizeof *chunk + room);
         if (!chunk) {
             arena->failed = true;
             return NULL;
@@ -48,7 +50,7 @@ void *arena_array(struct arena *arena, size_t count, size_t size)
     }
     void *start = (char *)chunk->data + chunk->used;
     chunk->used += wanted;
-    return memset(start, 0, wanted);
+    return whole ? start : memset(start, 0, wanted);
 }
 
 char *arena_text(struct arena *arena, const char *text, size_t length)
