@@ -23,6 +23,23 @@ static size_t round_up(size_t size)
     return (size + unit - 1) / unit * unit;
 }
 
+/* Put a chunk with room for `wanted` bytes at the head; one that a large piece has for itself is clear, as
+ * the system gives it, and need not be touched. */
+static bool add_chunk(struct arena *arena, size_t wanted, bool *clear)
+{
+    size_t next = arena->chunks ? 4 * arena->chunks->size : first_chunk;
+    if (next > largest_chunk) next = largest_chunk;
+    *clear = wanted >= next;
+    size_t room = wanted > next ? wanted : next, size = sizeof(struct arena_chunk) + room;
+    struct arena_chunk *chunk = *clear ? calloc(1, size) : malloc(size);
+    if (!chunk) return false;
+    chunk->used = 0;
+    chunk->size = room;
+    chunk->next = arena->chunks;
+    arena->chunks = chunk;
+    return true;
+}
+
 void *arena_array(struct arena *arena, size_t count, size_t size)
 {
     if (size != 0 && count > (SIZE_MAX / 2) / size) {
@@ -32,25 +49,15 @@ void *arena_array(struct arena *arena, size_t count, size_t size)
     size_t bytes = count * size;
     size_t wanted = round_up(bytes > 0 ? bytes : 1);
     struct arena_chunk *chunk = arena->chunks;
-    bool whole = false;
-    if (!chunk || chunk->size - chunk->used < wanted) {
-        size_t next = chunk ? 4 * chunk->size : first_chunk;
-        size_t room = next < largest_chunk ? next : largest_chunk;
-        whole = room <= wanted; /* large: from calloc, which need not touch what comes from the system */
-        if (whole) room = wanted;
-        chunk = whole ? calloc(1, sizeof *chunk + room) : malloc(sizeof *chunk + room);
-        if (!chunk) {
-            arena->failed = true;
-            return NULL;
-        }
-        chunk->used = 0;
-        chunk->size = room;
-        chunk->next = arena->chunks;
-        arena->chunks = chunk;
+    bool clear = false;
+    if ((!chunk || chunk->size - chunk->used < wanted) && !add_chunk(arena, wanted, &clear)) {
+        arena->failed = true;
+        return NULL;
     }
+    chunk = arena->chunks;
     void *start = (char *)chunk->data + chunk->used;
     chunk->used += wanted;
-    return whole ? start : memset(start, 0, wanted);
+    return clear ? start : memset(start, 0, wanted);
 }
 
 char *arena_text(struct arena *arena, const char *text, size_t length)
