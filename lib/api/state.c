@@ -84,38 +84,24 @@ bool fbd_state_set_text(fbd_state *state, const char *name, const char *text, fb
 static bool is_solved(fbd_state *state, fbd_errors *errors)
 {
     struct text lack = {0};
+    struct pos at = {0, 0};
     if (!state->settled) modes_settle(state, NULL);
-    bool solved = !fit_unsolved(state, &lack);
+    bool solved = !fit_unsolved(state, &at, &lack);
     if (lack.failed)
         diag_out_of_memory(errors);
     else if (!solved)
-        diag_add(errors, FBD_ERROR, "masses-apart", (struct pos){0, 0}, NULL, "%s", lack.data);
+        diag_add(errors, FBD_ERROR, "masses-apart", at, NULL, "%s", lack.data);
     text_free(&lack);
     return solved;
 }
 
 static bool close_state(fbd_state *state, fbd_errors *errors)
 {
-    struct text lack = {0};
-    struct fbd_state *other = state_new(state->model);
-    if (!other) {
-        diag_out_of_memory(errors);
-        return false;
-    }
     if (!state->settled) modes_settle(state, NULL);
     if (state->model->assembles) state_project(state, true);
-    bool fits = !fit_lack(state, other, &lack);
-    diag_in_file(errors, state->model->scene->file);
-    if (fits)
-        state_project(state, false);
-    else if (lack.failed)
-        diag_out_of_memory(errors);
-    else
-        diag_add(errors, FBD_ERROR, "does-not-fit", (struct pos){0, 0}, NULL, "the state does not fit: %s",
-                 lack.data);
+    bool fits = fit_check(state, "the state", errors);
+    if (fits) state_project(state, false);
     state->settled = false;
-    text_free(&lack);
-    state_free(other);
     return fits && is_solved(state, errors);
 }
 

@@ -115,6 +115,21 @@ void text_json_string(struct text *text, const char *string)
     text_add(text, "\"");
 }
 
+void text_json_key(struct text *text, const char *name)
+{
+    text_json_string(text, name);
+    text_add(text, ": ");
+}
+
+void text_json_number(struct text *text, double value)
+{
+    enum { all_digits = 17 };
+    if (isfinite(value))
+        text_number(text, value, all_digits);
+    else
+        text_add(text, "null");
+}
+
 void text_free(struct text *text)
 {
     free(text->data);

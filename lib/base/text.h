@@ -30,6 +30,10 @@ void text_pad(struct text *text, size_t column);
 /* `string` between double quotes with JSON's escapes. */
 void text_json_string(struct text *text, const char *string);
 
+/* `"name": ` before a value; a number with all its digits, null for what JSON has no number for. */
+void text_json_key(struct text *text, const char *name);
+void text_json_number(struct text *text, double value);
+
 void text_free(struct text *text);
 
 #endif

@@ -55,7 +55,7 @@ bool tree_takes_part(const struct tree *tree, const struct instant *at, int k)
 
 /* ---- forces of an unknown on the links */
 
-static void apply_ports(const struct row *row, double lambda, struct tree_rhs *x)
+void row_apply(const struct row *row, double lambda, struct tree_rhs *x)
 {
     for (int i = 0; i < row->port_count; i++) {
         const struct port *port = &row->ports[i];
@@ -109,9 +109,9 @@ static void apply_unknown(const struct fbd_model *model, const struct instant *a
         work->x[tree->pairs[k - tree->row_count]].g += size;
         return;
     }
-    apply_ports(&work->rows[k], size, work->x);
+    row_apply(&work->rows[k], size, work->x);
     double share = rolling_share(model, at, k);
-    if (share != 0) apply_ports(&work->rows[k + 1], share * size, work->x);
+    if (share != 0) row_apply(&work->rows[k + 1], share * size, work->x);
 }
 
 /* The trees that unknown k joins: their first links. */
@@ -382,7 +382,7 @@ void tree_apply_variations(const struct fbd_model *model, const struct instant *
         if (tie->kind != constraint_roll || tie->pair < 0 || at->slip[tie->pair] == stick) continue;
         double d_mu;
         formula_along(&model->plan.frictions[tie->pair].mu_k, at, along, &d_mu);
-        apply_ports(&work->rows[tie->first_row + 1],
-                    -at->slip[tie->pair] * d_mu * work->rows[tie->first_row].lambda, work->x);
+        row_apply(&work->rows[tie->first_row + 1],
+                  -at->slip[tie->pair] * d_mu * work->rows[tie->first_row].lambda, work->x);
     }
 }

@@ -7,6 +7,7 @@
 #include "dynamics/constraint.h"
 #include "dynamics/friction.h"
 #include "dynamics/modes.h"
+#include "dynamics/tree_system.h"
 
 /* ---- rest */
 
@@ -74,12 +75,7 @@ static void add_ports(struct tree_work *work, int row_count, const double *lambd
     for (int j = 0; j < row_count; j++) {
         struct row *row = &work->rows[j];
         row->lambda = lambda[j];
-        for (int i = 0; lambda[j] != 0 && i < row->port_count; i++) {
-            const struct port *port = &row->ports[i];
-            struct wrench *p = &work->x[port->link].p;
-            p->force = vec_sub(p->force, vec_scale(lambda[j], port->force));
-            p->moment -= lambda[j] * vec_cross(port->arm, port->force);
-        }
+        if (lambda[j] != 0) row_apply(row, lambda[j], work->x);
     }
 }
 

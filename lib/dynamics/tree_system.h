@@ -25,6 +25,9 @@ void tree_add_unit(const struct tree *tree, const struct tree_work *work, double
 /* J a of row j for the accelerations work->x.A. */
 double tree_row_answer(const struct tree_work *work, int j);
 
+/* Subtract the forces of a row with the multiplier lambda from p of the links. */
+void row_apply(const struct row *row, double lambda, struct tree_rhs *x);
+
 /* Subtract the variations of the constraint forces, at fixed multipliers, from p of the links. */
 void tree_apply_variations(const struct fbd_model *model, const struct instant *at,
                            const struct direction *along);

@@ -170,11 +170,9 @@ void couplings_report(struct text *text, const fbd_result *result)
 
 static void number(struct text *text, const char *name, double value)
 {
-    text_printf(text, ", \"%s\": ", name);
-    if (isfinite(value))
-        text_number(text, value, 17);
-    else
-        text_add(text, "null");
+    text_add(text, ", ");
+    text_json_key(text, name);
+    text_json_number(text, value);
 }
 
 void couplings_json(struct text *text, const fbd_result *result)

@@ -11,25 +11,10 @@
 
 enum { digits = 17 };
 
-/* JSON has no NaN and no infinity: null. */
-static void number(struct text *text, double value)
-{
-    if (isfinite(value))
-        text_number(text, value, digits);
-    else
-        text_add(text, "null");
-}
-
-static void key(struct text *text, const char *name)
-{
-    text_json_string(text, name);
-    text_add(text, ": ");
-}
-
 static void member(struct text *text, const char *name, double value, bool last)
 {
-    key(text, name);
-    number(text, value);
+    text_json_key(text, name);
+    text_json_number(text, value);
     if (!last) text_add(text, ", ");
 }
 
@@ -54,7 +39,7 @@ static void write_final(struct text *text, const struct fbd_model *model, const 
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
         text_add(text, ",\n    ");
-        key(text, body->name);
+        text_json_key(text, body->name);
         text_add(text, "{");
         for (int k = 0; k < body->count; k++)
             member(text, model->scene->coordinates[body->first + k].name, state->y[body->first + k], false);
@@ -76,7 +61,7 @@ static void write_final_errors(struct text *text, const fbd_simulation *simulati
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
         text_add(text, b ? ",\n    " : "\n    ");
-        key(text, body->name);
+        text_json_key(text, body->name);
         text_add(text, "{");
         for (int k = 0; k < 2 * body->count; k++) {
             bool rate = k >= body->count;
@@ -93,7 +78,7 @@ static void write_final_errors(struct text *text, const fbd_simulation *simulati
 
 static void text_member(struct text *text, const char *name, const char *value, bool last)
 {
-    key(text, name);
+    text_json_key(text, name);
     text_json_string(text, value);
     if (!last) text_add(text, ", ");
 }
@@ -184,7 +169,7 @@ static void write_body_forces(struct text *text, fbd_result *result, struct fbd_
         double moment = arrow_moment(arrow, about);
         double work = arrow->load >= 0 ? ledger_work(ledger, state, (size_t)arrow->load, ledger->work) : 0;
         text_add(text, i ? ",\n      " : "\n      ");
-        key(text, arrow->name);
+        text_json_key(text, arrow->name);
         text_add(text, "{");
         member(text, "fx", arrow->force.x, false);
         member(text, "fy", arrow->force.y, false);
@@ -208,7 +193,7 @@ static void write_forces(struct text *text, fbd_result *result, struct fbd_state
     text_add(text, "  \"forces\": {");
     for (size_t b = 0; b < model->body_count; b++) {
         text_add(text, b ? ",\n    " : "\n    ");
-        key(text, model->bodies[b].name);
+        text_json_key(text, model->bodies[b].name);
         text_add(text, "{");
         write_body_forces(text, result, state, (int)b);
         text_add(text, "}");
@@ -230,7 +215,7 @@ static void write_balances(struct text *text, fbd_result *result, struct fbd_sta
         struct balance balance = balance_of(&model->bodies[b], &at, result->ledger.arrows, count);
         text_add(text, first ? "\n    " : ",\n    ");
         first = false;
-        key(text, model->bodies[b].name);
+        text_json_key(text, model->bodies[b].name);
         text_add(text, "{");
         member(text, "fx", balance.force.x, false);
         member(text, "fy", balance.force.y, false);

@@ -7,8 +7,6 @@
 #include "output/result.h"
 #include "solve/statics.h"
 
-enum { digits = 17 };
-
 static struct vec mass_center_of(const struct fbd_statics *statics, const struct model_body *body)
 {
     struct instant at = state_instant(statics->state);
@@ -27,25 +25,16 @@ size_t fbd_statics_diagram(const fbd_statics *statics, size_t body, fbd_arrow *a
     return diagram->count;
 }
 
-static void key(struct text *text, const char *name)
-{
-    text_json_string(text, name);
-    text_add(text, ": ");
-}
-
 static void member(struct text *text, const char *name, double value, const char *behind)
 {
-    key(text, name);
-    if (isfinite(value))
-        text_number(text, value, digits);
-    else
-        text_add(text, "null");
+    text_json_key(text, name);
+    text_json_number(text, value);
     text_add(text, behind);
 }
 
 static void flag(struct text *text, const char *name, bool value, const char *behind)
 {
-    key(text, name);
+    text_json_key(text, name);
     text_add(text, value ? "true" : "false");
     text_add(text, behind);
 }
@@ -79,7 +68,7 @@ static void write_verdict(struct text *text, const struct fbd_statics *statics)
     for (size_t i = 0; i < statics->limit_count; i++) {
         const fbd_limit *limit = &statics->limits[i];
         text_add(text, i ? ",\n    " : "\n    ");
-        key(text, limit->name);
+        text_json_key(text, limit->name);
         text_printf(text, "{\"kind\": \"%s\", ", kinds[limit->kind]);
         member(text, "needed", limit->needed, ", ");
         member(text, "limit", limit->limit, ", ");
@@ -110,7 +99,7 @@ static void write_body(struct text *text, const struct fbd_statics *statics, siz
 {
     const struct rest_diagram *diagram = &statics->diagrams[b];
     struct vec G = mass_center_of(statics, &statics->model->bodies[b]);
-    key(text, statics->model->bodies[b].name);
+    text_json_key(text, statics->model->bodies[b].name);
     text_add(text, "{");
     for (size_t i = 0; i < diagram->count; i++) {
         const struct arrow *arrow = &diagram->arrows[i];
@@ -118,7 +107,7 @@ static void write_body(struct text *text, const struct fbd_statics *statics, siz
         sum->force = vec_add(sum->force, arrow->force);
         sum->moment += moment;
         text_add(text, i ? ",\n      " : "\n      ");
-        key(text, arrow->name);
+        text_json_key(text, arrow->name);
         text_add(text, "{");
         member(text, "fx", arrow->force.x, ", ");
         member(text, "fy", arrow->force.y, ", ");
@@ -140,7 +129,7 @@ static void write_bodies(struct text *text, const struct fbd_statics *statics)
         text_add(text, b ? ",\n    " : "\n    ");
         write_body(text, statics, b, &sum);
         text_add(&sums, b ? ",\n    " : "\n    ");
-        key(&sums, model->bodies[b].name);
+        text_json_key(&sums, model->bodies[b].name);
         text_add(&sums, "{");
         member(&sums, "fx", sum.force.x, ", ");
         member(&sums, "fy", sum.force.y, ", ");

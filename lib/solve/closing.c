@@ -30,7 +30,7 @@ void run_close_start(struct run *run)
 {
     struct text lack = {0};
     if (!has_ties(run)) return;
-    if (fit_lack(run->state, run->during, &lack))
+    if (fit_lack(run->state, run->during, NULL, &lack))
         run_fail(run, FBD_FAILED, "the start does not fit: %s", lack.failed ? "" : lack.data);
     else
         state_project(run->state, false);
@@ -40,7 +40,7 @@ void run_close_start(struct run *run)
 void run_check_solved(struct run *run)
 {
     struct text lack = {0};
-    if (fit_unsolved(run->state, &lack)) run_fail(run, FBD_FAILED, "%s", lack.failed ? "" : lack.data);
+    if (fit_unsolved(run->state, NULL, &lack)) run_fail(run, FBD_FAILED, "%s", lack.failed ? "" : lack.data);
     text_free(&lack);
 }
 

@@ -16,7 +16,7 @@ static bool list_changes(struct text *text, const struct fbd_state *from, const 
         if (listed++ >= most_listed) continue;
         const struct label *label = &model->labels[i % n];
         text_printf(text, "%s%s = ", listed > 1 ? ", " : "", i < n ? label->name : label->rate_name);
-        text_number(text, to->y[i], 9);
+        text_number(text, fabs(to->y[i]) > 1e-12 * size ? to->y[i] : 0, 9);
     }
     if (listed > most_listed) text_add(text, ", ...");
     return listed > 0;
@@ -42,7 +42,13 @@ static bool tell(const struct fbd_state *state, struct fbd_state *other, const c
     return differs;
 }
 
-bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct text *lack)
+/* Of the coupling that a row is of. */
+static struct pos place_of(const struct fbd_model *model, int row)
+{
+    return model->scene->constraints[model->tree->ties[model->tree->tie_of_row[row]].constraint].at;
+}
+
+bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct pos *at, struct text *lack)
 {
     const double digits = 2e-6; /* six digits in a file are meant to fit */
     const struct tree *tree = state->model->tree;
@@ -58,10 +64,27 @@ bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct text *lac
     if (!position && !velocity) return false;
     int row = position ? misfit.row : misfit.velocity_row;
     double off = position ? misfit.position : misfit.velocity;
+    if (at) *at = place_of(state->model, row);
     return tell(state, other, tree->ties[tree->tie_of_row[row]].name, off, !position, lack);
 }
 
-bool fit_unsolved(struct fbd_state *state, struct text *lack)
+bool fit_check(struct fbd_state *state, const char *what, fbd_errors *errors)
+{
+    struct text lack = {0};
+    struct pos at = {0, 0};
+    struct fbd_state *other = state_new(state->model);
+    bool fits = other && !fit_lack(state, other, &at, &lack);
+    diag_in_file(errors, state->model->scene->file);
+    if (!other || lack.failed)
+        diag_out_of_memory(errors);
+    else if (!fits)
+        diag_add(errors, FBD_ERROR, "does-not-fit", at, NULL, "%s does not fit: %s", what, lack.data);
+    text_free(&lack);
+    state_free(other);
+    return fits;
+}
+
+bool fit_unsolved(struct fbd_state *state, struct pos *at, struct text *lack)
 {
     const double digits = 1e-6;
     int row;
@@ -69,6 +92,7 @@ bool fit_unsolved(struct fbd_state *state, struct text *lack)
     state_evaluate(state);
     double miss = state_acceleration_misfit(state, &row);
     if (miss <= digits) return false;
+    if (at) *at = place_of(state->model, row);
     text_printf(
         lack,
         "the force of `%s` cannot be told: accelerations miss it by %.2g of their size, as the masses that "

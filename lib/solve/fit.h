@@ -5,16 +5,21 @@
 #ifndef FBD_SOLVE_FIT_H
 #define FBD_SOLVE_FIT_H
 
+#include "base/diag.h"
 #include "base/text.h"
 #include "dynamics/state.h"
 
 /* Say what a state lacks to fit: by how much a coupling is off, and the nearest state that fits, which
- * `other` becomes. False, with nothing added to `lack`, when it fits to six digits, as many as files have. */
-bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct text *lack);
+ * `other` becomes. *at (may be NULL) is the coupling's place in the file. False, with nothing added to
+ * `lack`, when it fits to six digits, as many as files have. */
+bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct pos *at, struct text *lack);
+
+/* The same as a note in `errors` (`does-not-fit`) about `what`, "the start"; true when it fits. */
+bool fit_check(struct fbd_state *state, const char *what, fbd_errors *errors);
 
 /* Do the accelerations of a settled state, which is evaluated here, miss the couplings by more than rounding?
  * Then masses are too far apart (a pulley of a milligram between weights of kilograms) for their forces to be
- * told; `lack` gets a sentence. */
-bool fit_unsolved(struct fbd_state *state, struct text *lack);
+ * told; `lack` gets a sentence, and *at (may be NULL) the coupling's place in the file. */
+bool fit_unsolved(struct fbd_state *state, struct pos *at, struct text *lack);
 
 #endif

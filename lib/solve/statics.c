@@ -6,30 +6,16 @@
 
 #include "base/diag.h"
 #include "dynamics/project.h"
-#include "dynamics/tree.h"
+#include "solve/fit.h"
 
 /* ---- the start: it has to fit its couplings */
 
-static struct pos place_of_tie(const struct fbd_model *model, const struct tie *tie)
-{
-    return model->scene->constraints[tie->constraint].at;
-}
-
 static bool fits(struct fbd_state *state, fbd_errors *errors)
 {
-    const struct fbd_model *model = state->model;
-    const struct tree *tree = model->tree;
-    struct misfit misfit = state_misfit(state);
-    if (misfit.row < 0 || misfit.position == 0) return true;
-    double reach = 0;
-    for (int i = 1; i < tree->count; i++)
-        reach = fmax(reach, fmax(vec_norm(state->tree->links[i].p), vec_norm(state->tree->links[i].d)));
-    const struct tie *tie = &tree->ties[tree->tie_of_row[misfit.row]];
-    if (misfit.position <= rest_digits * reach && state_project(state, false)) return true;
-    diag_add(
-        errors, FBD_ERROR, "does-not-fit", place_of_tie(model, tie),
-        "a run says which state near it fits; or let bodies find their place, `initial: {assemble: true}`",
-        "the start does not fit: `%s` is off by %.3g", tie->name, misfit.position);
+    if (!fit_check(state, "the start", errors)) return false;
+    if (state_project(state, false)) return true;
+    diag_add(errors, FBD_ERROR, "does-not-fit", (struct pos){0, 0}, NULL,
+             "the start fits its couplings to six digits, and no state near it fits better");
     return false;
 }
 

@@ -67,17 +67,14 @@ char *fbd_cost_csv(const fbd_cost *cost)
 
 static void member(struct text *text, const char *name, double value)
 {
-    text_printf(text, "\"%s\": ", name);
-    if (isfinite(value))
-        text_number(text, value, all_digits);
-    else
-        text_add(text, "null");
+    text_json_key(text, name);
+    text_json_number(text, value);
     text_add(text, ", ");
 }
 
 static void member_text(struct text *text, const char *name, const char *value)
 {
-    text_printf(text, "\"%s\": ", name);
+    text_json_key(text, name);
     text_json_string(text, value);
     text_add(text, ", ");
 }

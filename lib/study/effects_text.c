@@ -93,12 +93,10 @@ char *fbd_effects_text(const fbd_effects *effects)
 
 /* ---- data */
 
-static void number(struct text *text, double value, const char *absent)
+/* Empty where there is none. */
+static void number(struct text *text, double value)
 {
-    if (isfinite(value))
-        text_number(text, value, all_digits);
-    else
-        text_add(text, absent);
+    if (isfinite(value)) text_number(text, value, all_digits);
 }
 
 static void quoted(struct text *text, const char *value)
@@ -117,11 +115,11 @@ char *fbd_effects_csv(const fbd_effects *effects)
         text_printf(&text, "%s,%s,", effect->body, effect->name);
         quoted(&text, effect->change);
         text_add(&text, ",");
-        number(&text, effect->change_end, "");
+        number(&text, effect->change_end);
         text_add(&text, ",");
-        number(&text, effect->change_max, "");
+        number(&text, effect->change_max);
         text_printf(&text, ",%d,%s,", effect->noise, effect->worst);
-        number(&text, effect->time, "");
+        number(&text, effect->time);
         text_printf(&text, ",%ld,", effect->events);
         quoted(&text, effect->reason);
         text_add(&text, "\n");
@@ -132,15 +130,15 @@ char *fbd_effects_csv(const fbd_effects *effects)
 
 static void member(struct text *text, const char *name, const char *value)
 {
-    text_printf(text, "\"%s\": ", name);
+    text_json_key(text, name);
     text_json_string(text, value);
     text_add(text, ", ");
 }
 
 static void member_number(struct text *text, const char *name, double value)
 {
-    text_printf(text, "\"%s\": ", name);
-    number(text, value, "null");
+    text_json_key(text, name);
+    text_json_number(text, value);
     text_add(text, ", ");
 }
 

@@ -302,6 +302,7 @@ static void forces_that_cannot_be_told_are_refused(void **unused)
     struct trial dust = trial_open("couplings/atwood.yaml", SET("M=1e-8"));
     assert_false(fbd_state_close(dust.state, errors));
     assert_string_equal(fbd_errors_get(errors, 0)->id, "masses-apart");
+    assert_int_equal(fbd_errors_get(errors, 0)->line, 27); /* of the rope */
     trial_start(&dust, NULL);
     check_that(&checks, "dust fails", fbd_simulation_advance(dust.simulation) == FBD_FAILED);
     check_that(&checks, "and says why", strstr(fbd_simulation_reason(dust.simulation), "`cable`"));
