@@ -24,6 +24,11 @@ valgrind: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	.ci/test $(BUILD) --no-rebuild --setup valgrind --suite unit --suite hard
 
+# Every file with which something was once wrong (tests/faults/EXPECTED), and how many claims held.
+faults: $(BUILD)/.tests
+	ninja -C $(BUILD)
+	.ci/test $(BUILD) --no-rebuild --suite faults
+
 bench: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	meson test -C $(BUILD) --no-rebuild --benchmark --verbose
@@ -78,5 +83,5 @@ $(BUILD)-sanitize/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run test sanitize valgrind bench effects error-bars gallery check-format format lint install clean
+.PHONY: all run test sanitize valgrind faults bench effects error-bars gallery check-format format lint install clean
 .SECONDARY:

@@ -169,8 +169,8 @@ struct load_keys {
 enum { frame_world, frame_body };
 
 struct coupling_keys {
-    const char *name, *body, *on;
-    const struct node *between, *through, *radii;
+    const char *name;
+    const struct node *between, *through, *radii, *body, *on;
     double stiffness, free_length, coefficient, length, radius;
     bool inside;
     struct value mu_s, mu_k;

@@ -62,8 +62,9 @@ static const struct field rope_fields[] = {
 static const struct group rope_group = COUPLING_GROUP("a rope", rope_fields, "inextensible and massless");
 
 static const struct field roll_fields[] = {
-    FIELD_NAME(COUPLING(body), "body", "the body that rolls"),
-    FIELD_NAME(COUPLING(on), "on", "the line that it rolls on: of the ground, or a body on a slide"),
+    FIELD_NODE(COUPLING(body), "body", field_scalar, required, NULL, "the body that rolls"),
+    FIELD_NODE(COUPLING(on), "on", field_scalar, required, NULL,
+               "the line that it rolls on: of the ground, or a body on a slide"),
     FIELD_NUMBER(COUPLING(radius), "radius", a_length, positive, "its radius; default that of its shape"),
     FIELD_VALUE(COUPLING(mu_s), "static", a_number, not_negative, "coefficient of static friction"),
     FIELD_VALUE(COUPLING(mu_k), "kinetic", a_number, not_negative, "coefficient of kinetic friction"),

@@ -218,20 +218,11 @@ static bool read_rope(struct reader *reader, const struct coupling_keys *keys, s
     return true;
 }
 
-static const struct node *scalar_at(struct reader *reader, const struct node *map, const char *key)
-{
-    const struct pair *pair = node_find(map, key);
-    if (pair) return pair->value;
-    diag_add(reader->errors, FBD_ERROR, "missing-key", map->at, NULL, "`roll` needs `%s`", key);
-    return NULL;
-}
-
 /* `on`: a line of the ground, or a body, whose x axis through its origin is the line. */
-static bool read_roll(struct reader *reader, const struct node *map, const struct coupling_keys *keys,
-                      struct constraint *constraint)
+static bool read_roll(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
 {
-    const struct node *body = scalar_at(reader, map, "body"), *on = scalar_at(reader, map, "on");
-    if (!body || !on || !body_name_read(reader, body, "body", &constraint->body[0])) return false;
+    const struct node *on = keys->on;
+    if (!body_name_read(reader, keys->body, "body", &constraint->body[0])) return false;
     constraint->end_count = 2;
     constraint->body[1] = ground_body;
     if (!needs_body(reader, constraint, 0) || !set_circle(reader, constraint, 0, keys->radius)) return false;
@@ -259,7 +250,7 @@ static bool read_constraint(struct reader *reader, const struct chosen *chosen,
     case constraint_gear: return read_gear(reader, keys, constraint);
     case constraint_rope: return read_rope(reader, keys, constraint);
     case constraint_rack: return read_rack(reader, keys, constraint);
-    case constraint_roll: return read_roll(reader, chosen->node, keys, constraint);
+    case constraint_roll: return read_roll(reader, keys, constraint);
     }
     return false;
 }
