@@ -46,6 +46,15 @@ error-bars: $(BUILD)/.tests
 	$(BUILD)/tests/bench/bench_error_bars models/*/*.yaml
 	$(BUILD)/tests/bench/validate_error_bars models/*/*.yaml
 
+# Every allocation and every call on a file of some seventy command lines fails in turn; takes some minutes. The
+# tests do the same with fewer of them.
+failures: $(BUILD)/.tests
+	ninja -C $(BUILD)
+	for kind in memory files; do \
+		FBD_SOURCE_ROOT=$(CURDIR) FBD_BUILD_ROOT=$(CURDIR)/$(BUILD) $(BUILD)/tests/failures/fail_each $$kind \
+			$(CURDIR)/$(BUILD)/tests/failures/libfailure-layer.so tests/failures/command_lines || exit; \
+	done
+
 check-format: $(BUILD)/.lint
 	.ci/lint $(BUILD) format
 
@@ -83,5 +92,5 @@ $(BUILD)-sanitize/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run test sanitize valgrind faults bench effects error-bars gallery check-format format lint install clean
+.PHONY: all run test sanitize valgrind faults bench effects error-bars failures gallery check-format format lint install clean
 .SECONDARY:

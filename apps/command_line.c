@@ -5,6 +5,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "standard_streams.h"
+
+enum exit_code exit_code_for(enum exit_code code, fbd_errors *errors)
+{
+    const fbd_error *note;
+    for (size_t i = 0; (note = fbd_errors_get(errors, i)) != NULL; i++)
+        if (strcmp(note->id, "out-of-memory") == 0) return exit_failed;
+    return code;
+}
+
 bool command_line_usage(const struct command_line *line, const char *message, const char *what)
 {
     if (!line->silent)
@@ -20,6 +30,7 @@ static bool say(const struct command_line *line, int option, enum exit_code *cod
         fputs(line->help, stdout);
     else
         printf("%s %s\n", line->program, fbd_version());
+    if (!standard_output_arrives(line->program)) *code = exit_failed;
     return false;
 }
 

@@ -20,6 +20,9 @@ enum exit_code {
     exit_inaccurate = 5,   /* the accuracy asked for was not reached */
 };
 
+/* `code`, but where memory was out: then a file or an option may well be right, and it is a failure. */
+enum exit_code exit_code_for(enum exit_code code, fbd_errors *errors);
+
 struct command_line {
     const char *program, *help;
     const struct option *options; /* long ones; these two among them, others from option_first on */

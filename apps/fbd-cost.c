@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "cost_options.h"
+#include "standard_streams.h"
 #include "terminal_line.h"
 #include "whole_file.h"
 
@@ -97,7 +98,7 @@ static enum exit_code blame(fbd_errors *errors)
 {
     const fbd_error *first = fbd_errors_get(errors, 0);
     if (!first) return exit_failed;
-    if (strcmp(first->id, "no-reference") == 0 || strcmp(first->id, "out-of-memory") == 0) return exit_failed;
+    if (strcmp(first->id, "no-reference") == 0) return exit_failed;
     return first->line > 0 ? exit_bad_model : exit_usage;
 }
 
@@ -152,6 +153,7 @@ static enum exit_code read_and_study(const struct cost_options *options)
         code = options->effects ? study_effects(model, options, errors) : study_cost(model, options, errors);
     fflush(stdout);
     fbd_errors_print(errors, stderr);
+    code = exit_code_for(code, errors);
     fbd_errors_free(errors);
     fbd_model_free(model);
     return code;
@@ -162,6 +164,7 @@ int main(int argc, char **argv)
     struct cost_options options;
     enum exit_code code;
     struct terminal_line line;
+    standard_streams_begin();
     gsl_set_error_handler_off(); /* every status is looked at instead */
     if (cost_options_read(argc, argv, &options, &code)) {
         terminal_line_begin(&line, true);

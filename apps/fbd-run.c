@@ -10,6 +10,7 @@
 #include "options.h"
 #include "outputs.h"
 #include "run_progress.h"
+#include "standard_streams.h"
 
 static enum exit_code no_memory(void)
 {
@@ -23,10 +24,7 @@ static enum exit_code print(char *text, enum exit_code code)
     if (!text) return no_memory();
     fputs(text, stdout);
     free(text);
-    if (fflush(stdout) == 0) return code;
-    if (!interrupt_by_pipe())
-        fprintf(stderr, "fbd-run: cannot write to standard output: %s\n", strerror(errno));
-    return exit_failed;
+    return standard_output_arrives("fbd-run") ? code : exit_failed;
 }
 
 /* Say so when the accuracy that was asked for has not been reached; `interrupt` may be NULL. */
@@ -272,6 +270,7 @@ static enum exit_code read_and_act(const struct options *options)
     enum exit_code code = model ? act(model, options, errors) : exit_bad_model;
     fflush(stdout);
     fbd_errors_print(errors, stderr);
+    code = exit_code_for(code, errors);
     fbd_errors_free(errors);
     fbd_model_free(model);
     return code;
@@ -281,6 +280,7 @@ int main(int argc, char **argv)
 {
     struct options options;
     enum exit_code code;
+    standard_streams_begin();
     gsl_set_error_handler_off(); /* every status is looked at instead */
     if (options_read(argc, argv, &options, &code)) code = read_and_act(&options);
     return (int)code;

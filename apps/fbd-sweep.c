@@ -11,6 +11,7 @@
 
 #include "partial_file.h"
 #include "ranks.h"
+#include "standard_streams.h"
 #include "sweep_options.h"
 #include "sweep_progress.h"
 
@@ -81,11 +82,9 @@ static int fill(const struct ranks *ranks, const fbd_sweep *sweep, const struct 
     fbd_sweep_end end = ranks_lead(ranks, sweep, &work, &counts);
     sweep_progress_end(&progress);
     size_t rows = file->rows + counts.written, failed = file->failed + counts.failed;
-    int reason = errno;
-    bool closed = partial_file_close(file, rows == runs);
-    if (end == FBD_SWEEP_REFUSED || !closed) {
+    if (!partial_file_close(file, rows == runs)) {
         fprintf(stderr, "fbd-sweep: cannot write `%s`: %s\n", options->csv ? options->csv : "-",
-                strerror(closed ? reason : errno));
+                strerror(errno));
         return exit_failed;
     }
     if (end == FBD_SWEEP_OUT_OF_MEMORY) return no_memory();
@@ -97,7 +96,7 @@ static int fill(const struct ranks *ranks, const fbd_sweep *sweep, const struct 
 /* ---- ranks */
 
 /* What is wrong with the file is told from what is wrong with the command line: it has a place there. */
-static int blame(fbd_errors *errors)
+static enum exit_code blame(fbd_errors *errors)
 {
     const fbd_error *note;
     for (size_t i = 0; (note = fbd_errors_get(errors, i)) != NULL; i++)
@@ -144,7 +143,7 @@ static int lead(const struct ranks *ranks, const struct sweep_options *options)
     fbd_errors *errors = fbd_errors_new();
     if (!errors) return no_memory();
     fbd_sweep *sweep = fbd_sweep_read(options->model, &options->plan, errors);
-    int code = sweep ? exit_done : blame(errors);
+    int code = sweep ? exit_done : (int)exit_code_for(blame(errors), errors);
     fbd_errors_print(errors, stderr);
     fbd_errors_free(errors);
     if (sweep)
@@ -160,6 +159,7 @@ int main(int argc, char **argv)
     struct ranks ranks;
     struct sweep_options options;
     enum exit_code said;
+    standard_streams_begin();
     gsl_set_error_handler_off(); /* every status is looked at instead */
     if (!ranks_start(&ranks)) return exit_failed;
     int code = exit_done;

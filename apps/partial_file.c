@@ -39,7 +39,8 @@ static bool cannot(struct obstacle *why, const char *what, const char *path)
     return false;
 }
 
-/* A line of a stream without its end, to be freed; NULL at the end, and for a line that was torn off. */
+/* A line of a stream without its end, to be freed; NULL at the end, and for a line that was torn off. What
+ * cannot be read, or held in memory, is no end: `has_failed` tells, before anything is cut off for it. */
 static char *read_line(FILE *stream)
 {
     char *line = NULL;
@@ -53,13 +54,20 @@ static char *read_line(FILE *stream)
     return NULL;
 }
 
-/* True when the lines of the stream are those of `key`; else what differs first. */
+static bool has_failed(FILE *stream)
+{
+    return ferror(stream) || !feof(stream);
+}
+
+/* True when the lines of the stream are those of `key`; else what differs first, or no text when it cannot be
+ * read. */
 static bool same_key(FILE *stream, const char *key, struct obstacle *why)
 {
     for (; *key; key += strcspn(key, "\n") + 1) {
         size_t length = strcspn(key, "\n");
         char *line = read_line(stream);
         bool same = line && strlen(line) == length && strncmp(line, key, length) == 0;
+        if (!line && has_failed(stream)) return false;
         if (!same)
             why->text = format("it belongs to another sweep: there `%s`, here `%.*s`", line ? line : "",
                                (int)length, key);
@@ -68,7 +76,7 @@ static bool same_key(FILE *stream, const char *key, struct obstacle *why)
     }
     char *more = read_line(stream);
     if (more) why->text = format("it belongs to another sweep: there also `%s`", more);
-    bool same = !more;
+    bool same = !more && !has_failed(stream);
     free(more);
     return same;
 }
@@ -123,10 +131,10 @@ static bool check_key(const struct partial_file *file, const char *key, struct o
     if (!stream) return cannot(why, "read", file->key);
     struct obstacle differs = {0};
     bool same = same_key(stream, key, &differs);
+    if (!same && !differs.text) cannot(why, "read", file->key);
     fclose(stream);
-    if (!same)
-        why->text = format("`%s` cannot be gone on with: %s", file->part,
-                           differs.text ? differs.text : "out of memory");
+    if (!same && !differs.text) return false;
+    if (!same) why->text = format("`%s` cannot be gone on with: %s", file->part, differs.text);
     free(differs.text);
     return same;
 }
@@ -175,6 +183,7 @@ static bool fill_part(struct partial_file *file, const char *header, const char 
     if (!(fresh ? write_key(file, key, why) : check_key(file, key, why))) return false;
     long whole = fresh ? 0 : check_rows(file, file->stream, header, why);
     if (whole < 0) return false;
+    if (!fresh && has_failed(file->stream)) return cannot(why, "read", file->part);
     if (ftruncate(fileno(file->stream), whole) != 0 || fseek(file->stream, whole, SEEK_SET) != 0)
         return cannot(why, "write", file->part);
     if (whole > 0) return true;
@@ -221,15 +230,20 @@ enum partial_opening partial_file_open(struct partial_file *file, const char *pa
 int partial_file_write(void *context, const char *rows, size_t length)
 {
     struct partial_file *file = context;
-    return fwrite(rows, 1, length, file->stream) == length && fflush(file->stream) == 0 ? 0 : 1;
+    if (fwrite(rows, 1, length, file->stream) == length && fflush(file->stream) == 0) return 0;
+    if (!file->error) file->error = errno;
+    return 1;
 }
 
 bool partial_file_close(struct partial_file *file, bool whole)
 {
-    bool fine = fflush(file->stream) == 0;
+    bool fine = !file->error && fflush(file->stream) == 0;
     if (file->part && whole) fine = fine && fsync(fileno(file->stream)) == 0;
-    int reason = errno;
-    if (file->path) fine = fclose(file->stream) == 0 && fine;
+    int reason = file->error ? file->error : errno;
+    if (file->path && fclose(file->stream) != 0) {
+        if (fine) reason = errno;
+        fine = false;
+    }
     file->stream = NULL;
     if (fine && whole && file->part) {
         fine = rename(file->part, file->path) == 0;

@@ -18,6 +18,7 @@ struct partial_file {
     char *part, *key; /* names; NULL for what cannot be gone on with: standard output, a pipe, a terminal */
     size_t rows;      /* that are there already */
     size_t failed;    /* of these, runs that came to no good end */
+    int error;        /* errno of the first write that failed: it may have been in another thread */
 };
 
 enum partial_opening {

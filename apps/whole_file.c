@@ -63,9 +63,15 @@ bool whole_file_close(struct whole_file *file, bool keep)
     if (!file->stream) return true;
     bool written = fflush(file->stream) == 0 && !ferror(file->stream);
     int reason = errno;
-    if (file->stream != stdout) written = fclose(file->stream) == 0 && written;
+    if (file->stream != stdout && fclose(file->stream) != 0) {
+        if (written) reason = errno;
+        written = false;
+    }
     file->stream = NULL;
-    if (!file->temporary) return written;
+    if (!file->temporary) {
+        errno = reason;
+        return written;
+    }
     if (written && keep) {
         written = rename(file->temporary, file->path) == 0;
         reason = errno;

@@ -230,19 +230,32 @@ static bool sort_notes(fbd_errors *errors)
     return true;
 }
 
+/* Without memory to sort them they are still there, in the order in which they were found. */
+static const fbd_error *unsorted(const fbd_errors *errors, size_t index)
+{
+    const struct diag_note *note = errors->first;
+    while (index-- > 0) note = note->next;
+    return &note->error;
+}
+
 const fbd_error *fbd_errors_get(fbd_errors *errors, size_t index)
 {
     static const fbd_error no_memory = {.severity = FBD_ERROR,
                                         .id = "out-of-memory",
                                         .message = "out of memory"};
     if (!errors) return NULL;
-    if (index < errors->count && (errors->sorted || sort_notes(errors))) return errors->sorted[index];
+    if (index < errors->count)
+        return errors->sorted || sort_notes(errors) ? errors->sorted[index] : unsorted(errors, index);
     return errors->out_of_memory && index == errors->count ? &no_memory : NULL;
 }
 
 void fbd_errors_print(fbd_errors *errors, FILE *stream)
 {
     const fbd_error *e;
+    if (errors && errors->out_of_memory) { /* what else is noted may come of that */
+        fputs("error: out of memory [out-of-memory]\n", stream);
+        return;
+    }
     for (size_t i = 0; (e = fbd_errors_get(errors, i)) != NULL; i++) {
         if (e->file) fprintf(stream, "%s:", e->file);
         if (e->line) fprintf(stream, "%d:%d:", e->line, e->column);

@@ -9,13 +9,18 @@
 
 enum { largest_file = 64 * 1024 * 1024 };
 
+/* `why` is NULL when memory is out. */
 static void cannot_read(fbd_errors *errors, const char *path, const char *why)
 {
+    if (!why) {
+        diag_out_of_memory(errors);
+        return;
+    }
     diag_in_file(errors, path);
     diag_add(errors, FBD_ERROR, "cannot-read", (struct pos){0, 0}, NULL, "cannot read the file: %s", why);
 }
 
-/* The whole of a stream, or NULL with *why. */
+/* The whole of a stream, or NULL with *why, which is NULL when memory is out. */
 static char *read_stream(FILE *stream, size_t *length, const char **why)
 {
     size_t room = 16384;
@@ -40,7 +45,7 @@ static char *read_stream(FILE *stream, size_t *length, const char **why)
         room *= 2;
     }
     free(text);
-    *why = "out of memory";
+    *why = NULL;
     return NULL;
 }
 
@@ -49,7 +54,7 @@ char *file_text(const char *path, size_t *length, fbd_errors *errors)
     bool standard = strcmp(path, "-") == 0;
     FILE *stream = standard ? stdin : fopen(path, "rb");
     if (!stream) {
-        cannot_read(errors, path, strerror(errno));
+        cannot_read(errors, path, errno == ENOMEM ? NULL : strerror(errno));
         return NULL;
     }
     const char *why = NULL;

@@ -87,11 +87,17 @@ static void put_end(struct text *text, const char *status, const char *reason)
     text_add(text, "\n");
 }
 
+/* Without memory there is no row: what a row says depends on the scene alone. */
+static void lose(struct text *text)
+{
+    text->failed = true;
+}
+
 /* The first error, with its place; without any it is the memory that is out. */
 static void put_wrong(const struct row_maker *maker, fbd_errors *errors, struct text *text)
 {
     const struct columns *columns = &maker->sweep->columns;
-    char reason[600] = "out of memory";
+    char reason[600] = "";
     for (size_t i = 0; i < columns->count + 1; i++) text_add(text, ","); /* and the number of events */
     const fbd_error *note;
     for (size_t i = 0; (note = errors->out_of_memory ? NULL : fbd_errors_get(errors, i)) != NULL; i++) {
@@ -104,7 +110,8 @@ static void put_wrong(const struct row_maker *maker, fbd_errors *errors, struct 
             snprintf(reason, sizeof reason, "%s: %s [%s]", file, note->message, note->id);
         break;
     }
-    put_end(text, note ? "wrong" : "failed", reason);
+    if (!note) lose(text);
+    put_end(text, "wrong", reason);
 }
 
 static const char *status_of(fbd_outcome outcome)
@@ -155,10 +162,14 @@ static enum row_end put_run(struct row_maker *maker, struct ensemble *run, struc
 {
     const struct columns *columns = &maker->sweep->columns;
     if (!carry(maker, run, ledger, probe)) return row_stopped;
+    if (run->outcome == FBD_OUT_OF_MEMORY) {
+        lose(text);
+        return row_failed;
+    }
     const struct observed observed = {run, ledger, maker->extremes};
     columns_put(columns, &observed, text);
     text_printf(text, ",%zu", run->event_count);
-    put_end(text, status_of(run->outcome), run->outcome == FBD_OUT_OF_MEMORY ? "out of memory" : run->reason);
+    put_end(text, status_of(run->outcome), run->reason);
     return run->outcome == FBD_DONE || run->outcome == FBD_STOPPED ? row_well : row_failed;
 }
 
@@ -197,7 +208,7 @@ enum row_end row_make(struct row_maker *maker, uint64_t run, struct text *text)
     const struct fbd_sweep *sweep = maker->sweep;
     size_t start = text->length, count = sweep->axes.member_count + sweep->fixed_count;
     fbd_errors *errors = fbd_errors_new();
-    if (!errors || !row_maker_set(maker, run)) text->failed = true;
+    if (!errors || !row_maker_set(maker, run)) lose(text);
     enum row_end end = row_failed;
     if (!text->failed) {
         put_start(maker, run, text);

@@ -88,13 +88,11 @@ static void no_allocation_that_fails_makes_a_wrong_row(void **state)
         fail_alloc_at(n);
         bool done = sweep_all("mu=0.1,0.3", keep, &table);
         bool failed = fail_alloc_end();
-        table.rows[table.length] = '\0';
-        bool confessed = strstr(table.rows, ",failed,out of memory\n") != NULL;
         bool right = table.length == whole.length && memcmp(table.rows, whole.rows, whole.length) == 0;
-        if (done && !confessed && !right)
+        if (done && !right)
             print_error("allocation %zu fails:\n%.*s\nfor\n%.*s\n", n, (int)table.length, table.rows,
                         (int)whole.length, whole.rows);
-        assert_true(!done || confessed || right);
+        assert_true(!done || right);
         if (!failed) {
             assert_true(done && right);
             return;
