@@ -20,6 +20,16 @@ sanitize: $(BUILD)-sanitize/.tests
 	ninja -C $(BUILD)-sanitize
 	.ci/test $(BUILD)-sanitize --no-rebuild
 
+# Threads that share a model, and a sweep by four of them, under ThreadSanitizer.
+tsan: $(BUILD)-tsan/.tests
+	ninja -C $(BUILD)-tsan tests/unit/test_threads apps/fbd-sweep
+	.ci/test $(BUILD)-tsan --no-rebuild --timeout-multiplier 10 threads
+	TSAN_OPTIONS=halt_on_error=1 $(BUILD)-tsan/apps/fbd-sweep --jobs 4 --vary 'phi=0:60 deg:20' --vary 'mu_k=uniform(0.1,0.4):10' \
+		models/kinetics/incline.yaml >$(BUILD)-tsan/by-four.csv
+	$(BUILD)-tsan/apps/fbd-sweep --jobs 1 --vary 'phi=0:60 deg:20' --vary 'mu_k=uniform(0.1,0.4):10' \
+		models/kinetics/incline.yaml >$(BUILD)-tsan/by-one.csv
+	cmp $(BUILD)-tsan/by-four.csv $(BUILD)-tsan/by-one.csv
+
 valgrind: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	.ci/test $(BUILD) --no-rebuild --setup valgrind --suite unit --suite hard
@@ -82,6 +92,10 @@ $(BUILD)-sanitize/build.ninja:
 	.ci/install-packages run
 	meson setup $(BUILD)-sanitize -Db_sanitize=address,undefined $(MESON_OPTIONS)
 
+$(BUILD)-tsan/build.ninja:
+	.ci/install-packages run
+	meson setup $(BUILD)-tsan -Db_sanitize=thread $(MESON_OPTIONS)
+
 # A build that was set up before cmocka was there has no tests yet.
 %/.tests: | %/build.ninja
 	.ci/install-packages run test
@@ -92,5 +106,5 @@ $(BUILD)-sanitize/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run test sanitize valgrind faults bench effects error-bars failures gallery check-format format lint install clean
+.PHONY: all run test sanitize tsan valgrind faults bench effects error-bars failures gallery check-format format lint install clean
 .SECONDARY:
