@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "place.h"
+
 static const char help[] =
     "Usage: fbd-cost [options] MODEL.yaml\n"
     "Run every method at a ladder of tolerances on a scene and show what accuracy costs: true error against\n"
@@ -109,21 +111,19 @@ static bool take_option(const struct command_line *unused, int option, void *con
     }
 }
 
-static bool same_place(const char *one, const char *other)
-{
-    return one && other && strcmp(one, other) == 0;
-}
-
 /* Options that would be passed over in silence are mistakes. */
 static bool options_agree(const struct cost_options *options)
 {
     const fbd_cost_options *study = &options->study;
     if (options->effects && (options->svg || study->methods || study->fixed_steps))
         return usage("--effects has no --svg, --methods or --fixed-steps", "");
-    if (same_place(options->csv, options->json) || same_place(options->csv, options->svg) ||
-        same_place(options->json, options->svg))
-        return usage("two of --csv, --json and --svg cannot go to the same place", "");
-    return true;
+    bool table = !options->quiet && !place_is_stdout(options->csv) && !place_is_stdout(options->json) &&
+                 !place_is_stdout(options->svg);
+    const struct output_place places[] = {{"--csv", options->csv},
+                                          {"--json", options->json},
+                                          {"--svg", options->svg},
+                                          {"the table", table ? "-" : NULL}};
+    return places_differ(&line, options->model, places, sizeof places / sizeof *places);
 }
 
 bool cost_options_read(int argc, char **argv, struct cost_options *options, enum exit_code *code)

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "cost_options.h"
+#include "place.h"
 #include "standard_streams.h"
 #include "terminal_line.h"
 #include "whole_file.h"
@@ -49,7 +50,7 @@ static enum exit_code write_all(const struct cost_options *options, const struct
     bool table_wanted = !options->quiet;
     for (size_t i = 0; i < count; i++) {
         if (!outputs[i].path) continue;
-        if (strcmp(outputs[i].path, "-") == 0) table_wanted = false;
+        if (place_is_stdout(outputs[i].path)) table_wanted = false;
         enum exit_code code = write_file(outputs[i].path, outputs[i].make(study));
         if (code != exit_done) return code;
     }

@@ -9,6 +9,7 @@
 
 #include "options.h"
 #include "outputs.h"
+#include "place.h"
 #include "run_progress.h"
 #include "standard_streams.h"
 
@@ -126,7 +127,7 @@ static enum exit_code show_statics(const struct options *options, fbd_state *sta
     fbd_statics *statics = fbd_statics_new(state, errors);
     if (!statics) return exit_failed;
     enum exit_code code = fbd_statics_holds(statics) ? exit_done : exit_failed;
-    bool json_only = options->json && strcmp(options->json, "-") == 0;
+    bool json_only = place_is_stdout(options->json);
     if (!json_only && !options->quiet) code = print(fbd_statics_text(statics), code);
     if (options->json && write_text(options->json, fbd_statics_json(statics)) != exit_done)
         code = exit_failed;
@@ -142,15 +143,14 @@ static enum exit_code show_state(const fbd_model *model, const struct options *o
     if (code == exit_done && options->action == action_equations && !fbd_state_close(state, errors))
         code = exit_failed;
     if (code == exit_done && options->action == action_equations) {
-        if (!options->svg || strcmp(options->svg, "-") != 0)
-            code = print(fbd_equations_text(state), exit_done);
+        if (!place_is_stdout(options->svg)) code = print(fbd_equations_text(state), exit_done);
         if (code == exit_done) code = draw_state(options, state, errors);
     } else if (code == exit_done && options->action == action_static) {
         code = show_statics(options, state, errors);
     } else if (code == exit_done) {
         fbd_linearization *linear = fbd_linearize(state, errors);
         code = linear ? exit_done : exit_failed;
-        bool drawn_only = options->svg && strcmp(options->svg, "-") == 0;
+        bool drawn_only = place_is_stdout(options->svg);
         if (linear && !drawn_only) code = print(fbd_linearization_text(linear), exit_done);
         if (code == exit_done && options->svg) code = write_text(options->svg, fbd_linearization_svg(linear));
         fbd_linearization_free(linear);
@@ -187,18 +187,12 @@ static enum exit_code blame(fbd_errors *errors)
     return first && first->line > 0 ? exit_bad_model : exit_usage;
 }
 
-/* The report needs the works; it goes to standard output unless data goes there. */
-static bool wants_report(struct outputs *outputs, const struct options *options)
-{
-    return !options->quiet && !outputs_on_stdout(outputs, options);
-}
-
 /* Carry the simulation to its end, or to where it is interrupted, and write what was asked for. */
 static enum exit_code carry_and_write(fbd_simulation *simulation, const struct options *options,
                                       struct outputs *outputs, const struct interrupt *interrupt,
                                       fbd_errors *errors)
 {
-    bool report = wants_report(outputs, options);
+    bool report = !options->quiet && !options_use_stdout(options); /* it needs the works */
     struct run_progress progress;
     fbd_recording recording = {.every = options->every,
                                .ledger = options->ledger,

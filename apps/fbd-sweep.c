@@ -140,6 +140,10 @@ static int sweep_and_write(const struct ranks *ranks, const fbd_sweep *sweep,
 
 static int lead(const struct ranks *ranks, const struct sweep_options *options)
 {
+    if (!sweep_outputs_differ(options)) {
+        ranks_give(ranks, NULL, 0);
+        return exit_usage;
+    }
     fbd_errors *errors = fbd_errors_new();
     if (!errors) return no_memory();
     fbd_sweep *sweep = fbd_sweep_read(options->model, &options->plan, errors);

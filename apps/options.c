@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "gnuplot.h"
+#include "place.h"
 
 static const char help[] =
     "Usage: fbd-run [options] MODEL.yaml\n"
@@ -213,16 +214,25 @@ static bool plot_can_be_written(const char *file)
     return true;
 }
 
-static bool places_differ(const struct options *options)
+enum { place_count = 7 };
+
+/* Where outputs go. The report comes last and goes where `>` leads, unless data goes there. */
+static void list_places(const struct options *options, struct output_place places[place_count])
 {
-    const char *places[] = {options->csv,  options->json, options->svg,
-                            options->html, options->plot, options->gnuplot};
-    const size_t count = sizeof places / sizeof *places;
-    for (size_t i = 0; i < count; i++)
-        for (size_t k = 0; k < i; k++)
-            if (places[i] && places[k] && strcmp(places[i], places[k]) == 0)
-                return usage("two outputs cannot go to the same place: ", places[i]);
-    return true;
+    const struct output_place all[place_count] = {
+        {"--csv", options->csv},   {"--json", options->json}, {"--svg", options->svg},
+        {"--html", options->html}, {"--plot", options->plot}, {"--gnuplot", options->gnuplot},
+        {"the report", "-"},
+    };
+    memcpy(places, all, sizeof all);
+    if (options->quiet || options_use_stdout(options)) places[place_count - 1].path = NULL;
+}
+
+bool options_use_stdout(const struct options *options)
+{
+    return place_is_stdout(options->csv) || place_is_stdout(options->json) || place_is_stdout(options->svg) ||
+           place_is_stdout(options->html) || place_is_stdout(options->plot) ||
+           place_is_stdout(options->gnuplot);
 }
 
 /* Options that would be passed over in silence are mistakes. */
@@ -242,7 +252,6 @@ static bool options_agree(const struct options *options)
     if (stands_still && (options->csv || options->html || options->plot || options->gnuplot ||
                          options->ledger || options->every > 0))
         return usage("--csv, --html, --plot, --gnuplot, --ledger and --every belong to a run", "");
-    if (!places_differ(options)) return false;
     if (options->plot_of && !options->plot && !options->gnuplot)
         return usage("--plot-of goes with --plot or --gnuplot", "");
     if (options->plot && !plot_can_be_written(options->plot)) return false;
@@ -250,7 +259,9 @@ static bool options_agree(const struct options *options)
     if (!options->csv && !options->html && options->every > 0)
         return usage("--every goes with --csv or --html", "");
     if (stands_still && options->run.error_bars) return usage("--error-bars belongs to a run", "");
-    return true;
+    struct output_place places[place_count];
+    list_places(options, places);
+    return places_differ(&line, options->model, places, place_count);
 }
 
 bool options_read(int argc, char **argv, struct options *options, enum exit_code *code)

@@ -35,4 +35,7 @@ struct options {
  * mistake). */
 bool options_read(int argc, char **argv, struct options *options, enum exit_code *code);
 
+/* Does data go to standard output? Then the report stays out. */
+bool options_use_stdout(const struct options *options);
+
 #endif

@@ -37,13 +37,6 @@ bool outputs_open(struct outputs *outputs, const struct options *options)
     return true;
 }
 
-bool outputs_on_stdout(struct outputs *outputs, const struct options *options)
-{
-    for (int i = 0; i < output_count; i++)
-        if (outputs->files[i].stream == stdout) return true;
-    return options->svg && strcmp(options->svg, "-") == 0;
-}
-
 /* Put a text of the library into an open file, if it is open, and free it; false when there is no text. An
  * error of writing shows when the file is closed. */
 static bool put_text(struct whole_file *file, char *text)

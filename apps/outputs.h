@@ -24,7 +24,4 @@ bool outputs_write(struct outputs *outputs, const struct options *options, fbd_r
 /* Put the files in their places, or leave nothing behind. False with a message. */
 bool outputs_close(struct outputs *outputs, bool keep);
 
-/* Does one of them, or the diagram, go to standard output? */
-bool outputs_on_stdout(struct outputs *outputs, const struct options *options);
-
 #endif

@@ -1,30 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "partial_file.h"
 
+#include "partial_lines.h"
+#include "place.h"
 #include "whole_file.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-/* ---- texts */
-
-static char *format(const char *text, ...)
-{
-    va_list args;
-    va_start(args, text);
-    int length = vsnprintf(NULL, 0, text, args);
-    va_end(args);
-    char *made = length < 0 ? NULL : malloc((size_t)length + 1);
-    va_start(args, text);
-    if (made) vsnprintf(made, (size_t)length + 1, text, args);
-    va_end(args);
-    return made;
-}
 
 /* Why a file is not opened. */
 struct obstacle {
@@ -35,50 +21,14 @@ struct obstacle {
 static bool cannot(struct obstacle *why, const char *what, const char *path)
 {
     why->kind = partial_failed;
-    why->text = format("cannot %s `%s`: %s", what, path, strerror(errno));
+    why->text = partial_format("cannot %s `%s`: %s", what, path, strerror(errno));
     return false;
 }
 
-/* A line of a stream without its end, to be freed; NULL at the end, and for a line that was torn off. What
- * cannot be read, or held in memory, is no end: `has_failed` tells, before anything is cut off for it. */
-static char *read_line(FILE *stream)
+/* Hand a text to the system at once. */
+static bool put(FILE *stream, const char *text, size_t length)
 {
-    char *line = NULL;
-    size_t room = 0;
-    ssize_t length = getline(&line, &room, stream);
-    if (length > 0 && line[length - 1] == '\n') {
-        line[length - 1] = '\0';
-        return line;
-    }
-    free(line);
-    return NULL;
-}
-
-static bool has_failed(FILE *stream)
-{
-    return ferror(stream) || !feof(stream);
-}
-
-/* True when the lines of the stream are those of `key`; else what differs first, or no text when it cannot be
- * read. */
-static bool same_key(FILE *stream, const char *key, struct obstacle *why)
-{
-    for (; *key; key += strcspn(key, "\n") + 1) {
-        size_t length = strcspn(key, "\n");
-        char *line = read_line(stream);
-        bool same = line && strlen(line) == length && strncmp(line, key, length) == 0;
-        if (!line && has_failed(stream)) return false;
-        if (!same)
-            why->text = format("it belongs to another sweep: there `%s`, here `%.*s`", line ? line : "",
-                               (int)length, key);
-        free(line);
-        if (!same) return false;
-    }
-    char *more = read_line(stream);
-    if (more) why->text = format("it belongs to another sweep: there also `%s`", more);
-    bool same = !more && !has_failed(stream);
-    free(more);
-    return same;
+    return fwrite(text, 1, length, stream) == length && fflush(stream) == 0;
 }
 
 /* ---- what is there */
@@ -95,48 +45,65 @@ static bool ended_well(const char *row)
     return false;
 }
 
-/* Read the header and the rows; returns where the last whole line ends, or -1 with *why. */
-static long check_rows(struct partial_file *file, FILE *stream, const char *header, struct obstacle *why)
+static bool is_header(FILE *stream, const char *header, bool *empty)
 {
-    char *line = read_line(stream);
-    size_t columns = strcspn(header, "\n");
-    bool fine = line && strlen(line) == columns && strncmp(line, header, columns) == 0;
-    bool empty = !line;
+    size_t length = 0, columns = strcspn(header, "\n");
+    char *line = partial_line(stream, &length);
+    bool same = line && length == columns && memcmp(line, header, columns) == 0;
+    *empty = !line;
     free(line);
-    if (empty) return 0;
-    if (!fine) {
-        why->text = format("`%s` has other columns", file->part);
-        return -1;
-    }
-    long whole = ftell(stream);
-    while ((line = read_line(stream)) != NULL) {
-        char number[32];
-        int digits = snprintf(number, sizeof number, "%zu,", file->rows + 1);
-        bool next = strncmp(line, number, (size_t)digits) == 0;
-        if (next) file->failed += !ended_well(line);
-        free(line);
-        if (!next) {
-            why->text = format("`%s` is damaged behind row %zu", file->part, file->rows);
-            return -1;
-        }
-        file->rows++;
-        whole = ftell(stream);
-    }
-    return whole;
+    return same;
 }
 
-static bool check_key(const struct partial_file *file, const char *key, struct obstacle *why)
+/* What is known of a row that should be the next one. A row that was changed by hand may have any number. */
+static enum partial_row check_row(struct partial_file *file, const char *line, size_t length)
 {
-    FILE *stream = fopen(file->key, "r");
-    if (!stream) return cannot(why, "read", file->key);
-    struct obstacle differs = {0};
-    bool same = same_key(stream, key, &differs);
-    if (!same && !differs.text) cannot(why, "read", file->key);
-    fclose(stream);
-    if (!same && !differs.text) return false;
-    if (!same) why->text = format("`%s` cannot be gone on with: %s", file->part, differs.text);
-    free(differs.text);
-    return same;
+    char number[32];
+    int digits = snprintf(number, sizeof number, "%zu,", file->rows + 1);
+    if (strncmp(line, number, (size_t)digits) != 0) return partial_row_differs;
+    return partial_sums_check(&file->sums, line, length);
+}
+
+/* Read the header and the rows; returns where the last whole row ends that is known to be right, or -1 with
+ * *why. */
+static long check_rows(struct partial_file *file, FILE *stream, const char *header, struct obstacle *why)
+{
+    bool empty;
+    bool fine = is_header(stream, header, &empty);
+    if (empty && !partial_line_failed(stream)) return 0;
+    if (empty) cannot(why, "read", file->part);
+    if (!empty && !fine) why->text = partial_format("`%s` has other columns", file->part);
+    if (!fine) return -1;
+    long whole = ftell(stream);
+    size_t length = 0;
+    enum partial_row row = partial_row_same;
+    for (char *line; row == partial_row_same && (line = partial_line(stream, &length)) != NULL; free(line)) {
+        row = check_row(file, line, length);
+        if (row != partial_row_same) continue;
+        file->rows++;
+        file->failed += !ended_well(line);
+        whole = ftell(stream);
+    }
+    bool unread = row == partial_row_same && partial_line_failed(stream);
+    if (unread || ferror(file->sums.stream)) {
+        cannot(why, "read", unread ? file->part : file->key);
+        return -1;
+    }
+    if (row != partial_row_differs) return whole;
+    why->text = partial_format("`%s` is damaged behind row %zu: keep its first %zu lines, or delete it",
+                               file->part, file->rows, file->rows + 1);
+    return -1;
+}
+
+static bool check_key(struct partial_file *file, const char *header, const char *key, struct obstacle *why)
+{
+    char *differs;
+    enum partial_sums_opening opening = partial_sums_open(&file->sums, file->key, key, header, &differs);
+    if (opening == partial_sums_failed) return cannot(why, "read", file->key);
+    if (opening == partial_sums_differ)
+        why->text = partial_format("`%s` cannot be gone on with: %s", file->part, differs);
+    free(differs);
+    return opening == partial_sums_opened;
 }
 
 static bool lock(const struct partial_file *file, struct obstacle *why)
@@ -144,20 +111,16 @@ static bool lock(const struct partial_file *file, struct obstacle *why)
     struct flock all = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     if (fcntl(fileno(file->stream), F_SETLK, &all) == 0) return true;
     if (errno != EACCES && errno != EAGAIN) return true; /* a file system without locks */
-    why->text = format("`%s` is being written by another process", file->part);
+    why->text = partial_format("`%s` is being written by another process", file->part);
     return false;
 }
 
 /* ---- opening */
 
-static bool write_key(const struct partial_file *file, const char *key, struct obstacle *why)
-{
-    return whole_file_put(file->key, key) || cannot(why, "write", file->key);
-}
-
 static bool refuse_rest(const struct partial_file *file, struct obstacle *why)
 {
-    why->text = format("`%s` is there from a sweep that did not end: go on with it by --resume, or delete it",
+    why->text =
+        partial_format("`%s` is there from a sweep that did not end: go on with it by --resume, or delete it",
                        file->part);
     return false;
 }
@@ -180,26 +143,42 @@ static bool fill_part(struct partial_file *file, const char *header, const char 
 {
     struct stat status;
     bool fresh = fstat(fileno(file->stream), &status) == 0 && status.st_size == 0;
-    if (!(fresh ? write_key(file, key, why) : check_key(file, key, why))) return false;
+    if (fresh && !partial_sums_make(&file->sums, file->key, key, header))
+        return cannot(why, "write", file->key);
+    if (!fresh && !check_key(file, header, key, why)) return false;
     long whole = fresh ? 0 : check_rows(file, file->stream, header, why);
     if (whole < 0) return false;
-    if (!fresh && has_failed(file->stream)) return cannot(why, "read", file->part);
+    if (!partial_sums_cut(&file->sums, file->rows)) return cannot(why, "write", file->key);
     if (ftruncate(fileno(file->stream), whole) != 0 || fseek(file->stream, whole, SEEK_SET) != 0)
         return cannot(why, "write", file->part);
-    if (whole > 0) return true;
-    return partial_file_write(file, header, strlen(header)) == 0 || cannot(why, "write", file->part);
+    return whole > 0 || put(file->stream, header, strlen(header)) || cannot(why, "write", file->part);
 }
 
 static bool open_stream(struct partial_file *file, const char *path, const char *header, struct obstacle *why)
 {
-    file->stream = path ? fopen(path, "w") : stdout;
+    file->stream = path ? whole_file_straight(path) : stdout;
     if (!file->stream) return cannot(why, "write", path);
-    return partial_file_write(file, header, strlen(header)) == 0 || cannot(why, "write", path ? path : "-");
+    return put(file->stream, header, strlen(header)) || cannot(why, "write", path ? path : "-");
+}
+
+/* The part lies beside what the links of the path lead to, so that it can be put in its place. */
+static bool open_beside(struct partial_file *file, const char *header, const char *key, bool resume,
+                        struct obstacle *why)
+{
+    char target[place_size];
+    if (!place_target(file->path, target)) return cannot(why, "write", file->path);
+    file->target = partial_format("%s", target);
+    file->part = partial_format("%s.part", target);
+    file->key = partial_format("%s.part.key", target);
+    return file->target && file->part && file->key && open_part(file, resume, why) &&
+           fill_part(file, header, key, why);
 }
 
 static void forget(struct partial_file *file)
 {
-    if (file->stream && file->path) fclose(file->stream);
+    if (file->stream && file->stream != stdout) fclose(file->stream);
+    partial_sums_close(&file->sums);
+    free(file->target);
     free(file->part);
     free(file->key);
     *file = (struct partial_file){0};
@@ -210,16 +189,11 @@ enum partial_opening partial_file_open(struct partial_file *file, const char *pa
 {
     struct stat status;
     struct obstacle obstacle = {.kind = partial_refused};
-    bool fine = false;
     *file = (struct partial_file){.path = path};
-    if (!path || (stat(path, &status) == 0 && !S_ISREG(status.st_mode))) {
-        fine = open_stream(file, path, header, &obstacle);
-    } else {
-        file->part = format("%s.part", path);
-        file->key = format("%s.part.key", path);
-        fine = file->part && file->key && open_part(file, resume, &obstacle) &&
-               fill_part(file, header, key, &obstacle);
-    }
+    bool straight =
+        !path || place_descriptor(path) >= 0 || (stat(path, &status) == 0 && !S_ISREG(status.st_mode));
+    bool fine = straight ? open_stream(file, path, header, &obstacle)
+                         : open_beside(file, header, key, resume, &obstacle);
     if (!fine) forget(file);
     *why = obstacle.text;
     return fine ? partial_opened : obstacle.kind;
@@ -230,26 +204,35 @@ enum partial_opening partial_file_open(struct partial_file *file, const char *pa
 int partial_file_write(void *context, const char *rows, size_t length)
 {
     struct partial_file *file = context;
-    if (fwrite(rows, 1, length, file->stream) == length && fflush(file->stream) == 0) return 0;
+    bool written = (!file->sums.stream || partial_sums_add(&file->sums, rows, length)) &&
+                   put(file->stream, rows, length);
+    if (written) return 0;
     if (!file->error) file->error = errno;
     return 1;
+}
+
+/* The table takes the place of a file that was there, and its mode. */
+static bool put_in_place(const struct partial_file *file)
+{
+    struct stat before;
+    if (stat(file->target, &before) == 0) whole_file_be_like(fileno(file->stream), &before);
+    return fsync(fileno(file->stream)) == 0 && rename(file->part, file->target) == 0;
 }
 
 bool partial_file_close(struct partial_file *file, bool whole)
 {
     bool fine = !file->error && fflush(file->stream) == 0;
-    if (file->part && whole) fine = fine && fsync(fileno(file->stream)) == 0;
     int reason = file->error ? file->error : errno;
-    if (file->path && fclose(file->stream) != 0) {
+    if (fine && whole && file->part) {
+        fine = put_in_place(file);
+        reason = errno;
+        if (fine) unlink(file->key);
+    }
+    if (file->stream != stdout && fclose(file->stream) != 0) {
         if (fine) reason = errno;
         fine = false;
     }
     file->stream = NULL;
-    if (fine && whole && file->part) {
-        fine = rename(file->part, file->path) == 0;
-        reason = errno;
-        if (fine) unlink(file->key);
-    }
     forget(file);
     errno = reason;
     return fine;

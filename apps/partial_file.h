@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * A table that grows row by row and can be gone on with: FILE.part while it grows, renamed FILE when it is
- * whole. Beside it lies FILE.part.key, a text that says what the rows depend on; only a table with the same
- * text is gone on with. Rows are appended in order, so after a kill at any instant the file holds the first
- * rows, and at most a torn line at its end, which is dropped.
+ * whole. Beside it lies FILE.part.key, a text that says what the rows depend on, with a checksum for each
+ * row; only a table with the same text is gone on with, and only behind rows that have their checksums. Rows
+ * are appended in order, so after a kill at any instant the file holds the first rows, and at most a torn
+ * line at its end, which is dropped. Where FILE is a link, all this lies beside what it points to.
  */
 #ifndef FBD_APPS_PARTIAL_FILE_H
 #define FBD_APPS_PARTIAL_FILE_H
@@ -12,13 +13,17 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "partial_sums.h"
+
 struct partial_file {
     FILE *stream;
     const char *path; /* NULL for standard output */
+    char *target;     /* what the path leads to */
     char *part, *key; /* names; NULL for what cannot be gone on with: standard output, a pipe, a terminal */
-    size_t rows;      /* that are there already */
-    size_t failed;    /* of these, runs that came to no good end */
-    int error;        /* errno of the first write that failed: it may have been in another thread */
+    struct partial_sums sums;
+    size_t rows;   /* that are there already */
+    size_t failed; /* of these, runs that came to no good end */
+    int error;     /* errno of the first write that failed: it may have been in another thread */
 };
 
 enum partial_opening {

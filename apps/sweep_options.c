@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "place.h"
+
 static const char help[] =
     "Usage: fbd-sweep --vary NAME=VALUES [options] MODEL.yaml\n"
     "Run a model under many values of its parameters and write one table, a row for each run.\n"
@@ -122,13 +124,28 @@ static bool take_option(const struct command_line *line, int option, void *conte
 
 static bool options_agree(const struct command_line *line, struct sweep_options *options)
 {
-    if (options->csv && strcmp(options->csv, "-") == 0) options->csv = NULL;
+    if (place_is_stdout(options->csv)) options->csv = NULL;
     if (options->plan.vary_count == 0)
         return command_line_usage(line,
                                   "nothing varies: give --vary NAME=VALUES (or use fbd-run for one run)", "");
     if (options->resume && !options->csv)
         return command_line_usage(line, "--resume goes with --csv FILE: it goes on with FILE.part", "");
     return true;
+}
+
+/* The table grows under other names, which are as good as its own. */
+bool sweep_outputs_differ(const struct sweep_options *options)
+{
+    const struct command_line line = {"fbd-sweep", help, long_options, false};
+    char target[place_size], part[place_size + 16] = "", key[place_size + 16] = "";
+    if (options->csv && place_descriptor(options->csv) < 0 && place_target(options->csv, target)) {
+        snprintf(part, sizeof part, "%s.part", target);
+        snprintf(key, sizeof key, "%s.part.key", target);
+    }
+    const struct output_place places[] = {{"--csv", options->csv ? options->csv : "-"},
+                                          {"--csv", part[0] ? part : NULL},
+                                          {"--csv", key[0] ? key : NULL}};
+    return places_differ(&line, options->model, places, sizeof places / sizeof *places);
 }
 
 bool sweep_options_read(int argc, char **argv, bool silent, struct sweep_options *options,

@@ -24,4 +24,7 @@ struct sweep_options {
 bool sweep_options_read(int argc, char **argv, bool silent, struct sweep_options *options,
                         enum exit_code *code);
 
+/* False, with a message, when the table would be written over the model file. */
+bool sweep_outputs_differ(const struct sweep_options *options);
+
 #endif

@@ -2,55 +2,116 @@
 #include "whole_file.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "interrupt.h"
+#include "place.h"
 
-/* mkstemp makes files that only their owner can read; the result should be as open as any new file. */
-static void set_usual_mode(int descriptor)
+/* ---- modes and owners */
+
+/* mkstemp makes files that only their owner can read; a new file should be as open as any. */
+static mode_t usual_mode(void)
 {
     mode_t mask = umask(0);
     umask(mask);
-    (void)fchmod(descriptor, 0666 & ~mask);
+    return 0666 & ~mask;
 }
 
-/* A pipe or a terminal cannot be put in place whole: it is written as it is. */
+/* Where the group cannot be kept, its members may no more than all others: they are not those who were
+ * meant. */
+void whole_file_be_like(int descriptor, const struct stat *before)
+{
+    struct stat now;
+    if (fstat(descriptor, &now) != 0) return;
+    mode_t mode = before->st_mode & 0777;
+    bool owner = now.st_uid == before->st_uid || fchown(descriptor, before->st_uid, (gid_t)-1) == 0;
+    bool group = now.st_gid == before->st_gid || fchown(descriptor, (uid_t)-1, before->st_gid) == 0;
+    if (!group) mode = (mode & ~(mode_t)070) | (mode & (mode & 07) << 3);
+    if (owner && group) mode = before->st_mode & 07777;
+    (void)fchmod(descriptor, mode);
+}
+
+/* ---- opening */
+
+/* A pipe, a terminal or what is open already cannot be put in place whole: it is written as it is. */
 static bool is_special(const char *path)
 {
     struct stat status;
-    return stat(path, &status) == 0 && !S_ISREG(status.st_mode);
+    return place_descriptor(path) >= 0 || (stat(path, &status) == 0 && !S_ISREG(status.st_mode));
+}
+
+FILE *whole_file_straight(const char *path)
+{
+    int descriptor = place_descriptor(path);
+    if (descriptor == STDOUT_FILENO) return stdout;
+    if (descriptor < 0) return fopen(path, "w");
+    int copy = dup(descriptor);
+    FILE *stream = copy >= 0 ? fdopen(copy, "w") : NULL;
+    if (!stream && copy >= 0) close(copy);
+    return stream;
+}
+
+static char *joined(const char *start, const char *end)
+{
+    size_t length = strlen(start), more = strlen(end) + 1;
+    char *text = malloc(length + more);
+    if (!text) return NULL;
+    memcpy(text, start, length);
+    memcpy(text + length, end, more);
+    return text;
+}
+
+static bool open_temporary(struct whole_file *file, const struct stat *before)
+{
+    int descriptor = mkstemp(file->temporary);
+    if (descriptor < 0) return false;
+    if (before)
+        whole_file_be_like(descriptor, before);
+    else
+        (void)fchmod(descriptor, usual_mode());
+    file->stream = fdopen(descriptor, "w");
+    if (file->stream) return true;
+    close(descriptor);
+    unlink(file->temporary);
+    return false;
+}
+
+static void forget(struct whole_file *file)
+{
+    int reason = errno;
+    free(file->target);
+    free(file->temporary);
+    file->target = file->temporary = NULL;
+    errno = reason;
+}
+
+/* A file that was made unwritable is meant to stay, though its folder would let it be replaced. */
+static bool open_beside(struct whole_file *file)
+{
+    struct stat before;
+    char target[place_size];
+    if (!place_target(file->path, target)) return false;
+    bool there = stat(target, &before) == 0;
+    if (there && faccessat(AT_FDCWD, target, W_OK, AT_EACCESS) != 0) return false;
+    file->target = joined(target, "");
+    file->temporary = joined(target, ".XXXXXX");
+    if (file->target && file->temporary && open_temporary(file, there ? &before : NULL)) return true;
+    forget(file);
+    return false;
 }
 
 bool whole_file_open(struct whole_file *file, const char *path)
 {
     *file = (struct whole_file){.path = path};
-    if (strcmp(path, "-") == 0) {
-        file->stream = stdout;
-        return true;
-    }
-    if (is_special(path)) {
-        file->stream = fopen(path, "w");
-        return file->stream != NULL;
-    }
-    size_t size = strlen(path) + sizeof ".XXXXXX";
-    file->temporary = malloc(size);
-    if (!file->temporary) return false;
-    snprintf(file->temporary, size, "%s.XXXXXX", path);
-    int descriptor = mkstemp(file->temporary);
-    if (descriptor >= 0) {
-        set_usual_mode(descriptor);
-        file->stream = fdopen(descriptor, "w");
-        if (file->stream) return true;
-        close(descriptor);
-        unlink(file->temporary);
-    }
-    free(file->temporary);
-    file->temporary = NULL;
-    return false;
+    if (!is_special(path)) return open_beside(file);
+    file->stream = whole_file_straight(path);
+    return file->stream != NULL;
 }
+
+/* ---- writing and closing */
 
 int whole_file_write(void *context, const char *text, size_t length)
 {
@@ -73,12 +134,11 @@ bool whole_file_close(struct whole_file *file, bool keep)
         return written;
     }
     if (written && keep) {
-        written = rename(file->temporary, file->path) == 0;
+        written = rename(file->temporary, file->target) == 0;
         reason = errno;
     }
     if (!written || !keep) unlink(file->temporary);
-    free(file->temporary);
-    file->temporary = NULL;
+    forget(file);
     errno = reason;
     return written;
 }
@@ -87,7 +147,7 @@ bool whole_file_put(const char *path, const char *text)
 {
     struct whole_file file;
     struct interrupt interrupt;
-    bool beside = strcmp(path, "-") != 0 && !is_special(path); /* a pipe may keep us waiting for ever */
+    bool beside = !is_special(path); /* a pipe may keep us waiting for ever */
     if (beside) interrupt_hold(&interrupt);
     bool written = whole_file_open(&file, path);
     if (written) {
