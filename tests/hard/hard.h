@@ -7,6 +7,7 @@
 #define FBD_TESTS_HARD_H
 
 #include "gallery.h"
+#include "thorough.h"
 
 /* ---- methods */
 
@@ -24,7 +25,7 @@ struct hard_method {
 bool hard_method_at(size_t index, struct hard_method *method);
 
 /* A check of one method at its tolerance, of every method at 1e-4, 1e-6, ... 1e-12; those of order 2 and less
- * only down to 1e-8: beyond, they take some million steps. */
+ * only down to 1e-8: beyond, they take some million steps. Under a sanitizer, at 1e-6 alone. */
 void hard_each_tolerance(void (*check)(struct checks *checks, const struct hard_method *method));
 
 /* ---- runs */
