@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What a sanitizer looks for is in a line that runs, however often it runs: tests that are long because they
+ * say the same of many methods, tolerances or periods say it of fewer there, and of all in the plain build.
+ */
+#ifndef FBD_TESTS_THOROUGH_H
+#define FBD_TESTS_THOROUGH_H
+
+#include <stdbool.h>
+
+static inline bool thorough(void)
+{
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
+    return false;
+#elif defined __has_feature
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+    return false;
+#else
+    return true;
+#endif
+#else
+    return true;
+#endif
+}
+
+#endif
