@@ -8,9 +8,9 @@
  * Reference: T = 2 pi sqrt(L/g)/M(1, cos(theta0/2)), M the arithmetic-geometric mean; a quarter period after
  * n whole ones it passes the bottom with omega = -2 sqrt(g/L) sin(theta0/2).
  *
- * Methods of order 2 and 3 swing 1000 times, so that the suite stays short, and all 200 under a sanitizer. Implicit Euler damps: at 1e-5 it
- * loses the swing in some hundred periods whatever the tolerance allows in one step; its 10 swings are the
- * limit that is held.
+ * Methods of order 2 and 3 swing 1000 times, so that the suite stays short, and all 200 under a sanitizer.
+ * Implicit Euler damps: at 1e-5 it loses the swing in some hundred periods whatever the tolerance allows in
+ * one step; its 10 swings are the limit that is held.
  */
 #include <setjmp.h>
 #include <stdarg.h>

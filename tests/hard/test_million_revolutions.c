@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * A wheel under a periodic moment over a million revolutions (10 000 for methods of order 3 and less, and under
- * a sanitizer).
+ * A wheel under a periodic moment over a million revolutions (10 000 for methods of order 3 and less, and
+ * under a sanitizer).
  *
  * What makes it hard: theta grows to 6e6 rad beside a ripple of 5 mrad; an error control relative to theta
  * would forget it.
