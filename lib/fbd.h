@@ -1,6 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * fbd: free-body diagrams that run. The one public header.
+ *
+ * A call that cannot be meant changes nothing and answers with the error value of its function, whatever the
+ * build: with NULL where an object, a text or a place for an answer is asked for, an index past the end, a
+ * state of another model. Error values are NULL, false, 0 for what is counted, NAN for a number, "" for a
+ * text that is never NULL, and FBD_FAILED, FBD_SWEEP_REFUSED or -1 where a function says so; with a list of
+ * errors there is a note `bad-call`. Functions that free take NULL. Of an object that has been freed nothing
+ * can be known. Options may be NULL: all is then as in the file.
  */
 #ifndef FBD_H
 #define FBD_H
@@ -67,8 +74,8 @@ typedef struct fbd_setting {
 } fbd_setting;
 
 /* Read and compile a model file ("-" is standard input) or a text. NULL with notes in `errors` when it is
- * wrong or cannot be read (id `cannot-read`); a model may come with warnings. The model is the caller's, to
- * be freed with fbd_model_free. */
+ * wrong or cannot be read (id `cannot-read`); `name` is what messages call the text, or NULL; a model may
+ * come with warnings. The model is the caller's, to be freed with fbd_model_free. */
 FBD_API fbd_model *fbd_model_read(const char *path, const fbd_setting *settings, size_t setting_count,
                                   fbd_errors *errors);
 FBD_API fbd_model *fbd_model_parse(const char *text, size_t length, const char *name,
@@ -172,7 +179,7 @@ typedef struct fbd_arrow {
 } fbd_arrow;
 
 /* Fill at most `room` arrows of a body, reactions included; returns how many there are, 0 past the last body.
- */
+ * `arrows` may be NULL when only their number is asked for. */
 FBD_API size_t fbd_diagram(fbd_state *state, size_t body, fbd_arrow *arrows, size_t room);
 
 /* The rows of couplings that say nothing at the state which the rows before them do not say (parallel rods, a
@@ -220,7 +227,8 @@ typedef struct fbd_event {
     double t_error; /* estimated error of t: NAN without error bars, INFINITY when it is not known */
 } fbd_event;
 
-/* "breakaway", "stick", "reversal", "contact_lost", "user", "rope_slack", "rope_taut", "switch" */
+/* "breakaway", "stick", "reversal", "contact_lost", "user", "rope_slack", "rope_taut", "switch"; "" for none
+ * of them */
 FBD_API const char *fbd_event_kind_name(fbd_event_kind kind);
 
 typedef enum fbd_outcome {
@@ -271,7 +279,7 @@ FBD_API void fbd_simulation_free(fbd_simulation *simulation);
 FBD_API fbd_outcome fbd_simulation_advance(fbd_simulation *simulation);
 
 /* The interval of the last step, and the state anywhere in it (dense output; modes are those of the step).
- * The state must belong to the same model. Looking changes nothing in the trajectory. */
+ * False for another t or a state of another model. Looking changes nothing in the trajectory. */
 FBD_API void fbd_simulation_interval(const fbd_simulation *simulation, double *from, double *to);
 FBD_API bool fbd_simulation_state(fbd_simulation *simulation, double t, fbd_state *state);
 
@@ -584,7 +592,7 @@ typedef struct fbd_sweep_work {
 typedef enum fbd_sweep_end {
     FBD_SWEEP_DONE,
     FBD_SWEEP_STOPPED, /* `stop` said so; whole rows up to some run were written */
-    FBD_SWEEP_REFUSED, /* `write` said so */
+    FBD_SWEEP_REFUSED, /* `write` said so, or is not there */
     FBD_SWEEP_OUT_OF_MEMORY,
 } fbd_sweep_end;
 
@@ -602,14 +610,15 @@ typedef struct fbd_sweep_share {
     void *ticket;
 } fbd_sweep_share;
 
-/* NULL when memory is out. Sweep and work must outlive the crew. */
+/* NULL when memory is out, or `write` is not there. Sweep and work must outlive the crew. */
 FBD_API fbd_sweep_crew *fbd_sweep_start(const fbd_sweep *sweep, const fbd_sweep_work *work);
 
 /* 1: *share is claimed for a helper of `jobs` threads; 0: none now, since earlier rows are missing; -1: there
  * will be none any more. Does not wait. */
 FBD_API int fbd_sweep_claim(fbd_sweep_crew *crew, size_t jobs, fbd_sweep_share *share);
 
-/* The rows of a claimed share; fewer than it has stop the sweep after them. */
+/* The rows of a claimed share; fewer than it has stop the sweep after them. What was not claimed, or has been
+ * delivered, is passed over. */
 FBD_API void fbd_sweep_deliver(fbd_sweep_crew *crew, const fbd_sweep_share *share, const char *rows,
                                size_t length, const fbd_sweep_counts *counts);
 

@@ -32,6 +32,7 @@ double simulation_event_error(fbd_simulation *simulation, size_t index)
 
 bool fbd_simulation_errors(fbd_simulation *simulation, double t, double *errors)
 {
+    if (!simulation || !errors) return false;
     struct ensemble *run = simulation->ensemble;
     struct bars *bars = simulation->bars;
     size_t n = (size_t)run->model->plan.n;
@@ -49,6 +50,7 @@ bool fbd_simulation_errors(fbd_simulation *simulation, double t, double *errors)
 
 double fbd_result_error(fbd_result *result, const char *name)
 {
+    if (!result || !name) return NAN;
     const struct bars *bars = result->simulation->bars;
     int index = model_find_component(result->ledger.model, name, false);
     return bars && index >= 0 ? bars_component(bars, fbd_result_state(result), (size_t)index) : NAN;
@@ -56,6 +58,7 @@ double fbd_result_error(fbd_result *result, const char *name)
 
 fbd_energy fbd_result_energy_error(fbd_result *result)
 {
+    if (!result) return (fbd_energy){NAN, NAN, NAN, NAN, NAN, NAN};
     fbd_energy energy = fbd_result_energy(result);
     if (result->simulation->bars) return bars_energy(result->simulation->bars, &energy);
     return (fbd_energy){NAN, NAN, NAN, NAN, NAN, NAN};
@@ -63,6 +66,7 @@ fbd_energy fbd_result_energy_error(fbd_result *result)
 
 double fbd_result_work_error(fbd_result *result, const char *body, const char *load)
 {
+    if (!result || !body || !load) return NAN;
     struct bars *bars = result->simulation->bars;
     int index = model_find_load(result->ledger.model, body, load);
     return bars && index >= 0 ? bars_work(bars, (size_t)index, fbd_result_work(result, body, load)) : NAN;
@@ -70,6 +74,8 @@ double fbd_result_work_error(fbd_result *result, const char *body, const char *l
 
 size_t fbd_result_force_errors(fbd_result *result, size_t body, fbd_arrow *arrows, size_t room)
 {
+    if (!result) return 0;
+    if (!arrows) room = 0;
     struct bars *bars = result->simulation->bars;
     if (!bars) return 0;
     size_t count = fbd_diagram(fbd_result_state(result), body, arrows, room);
@@ -91,6 +97,7 @@ size_t fbd_result_force_errors(fbd_result *result, size_t body, fbd_arrow *arrow
 
 bool fbd_result_accurate(const fbd_result *result)
 {
+    if (!result) return false;
     const fbd_simulation *simulation = result->simulation;
     fbd_outcome outcome = simulation->ensemble->outcome;
     if (simulation->accuracy == 0) return true;

@@ -4,6 +4,7 @@
  */
 #include <stdlib.h>
 
+#include "base/call.h"
 #include "base/file.h"
 #include "model/model.h"
 
@@ -31,12 +32,21 @@ static fbd_model *compile(char *text, size_t length, const char *name, const fbd
     return model;
 }
 
+/* Is there what is to be read? */
+static bool is_asked(const char *text, const fbd_setting *settings, size_t count, fbd_errors *errors)
+{
+    if (text && call_has_settings(settings, count)) return true;
+    call_refuse(errors, text ? "a setting has no name or no value" : "there is no text or path");
+    return false;
+}
+
 fbd_model *fbd_model_parse(const char *text, size_t length, const char *name, const fbd_setting *settings,
                            size_t setting_count, fbd_errors *list)
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    char *copy = file_copy(text, length, errors);
+    bool asked = is_asked(text, settings, setting_count, errors);
+    char *copy = asked ? file_copy(text, length, errors) : NULL;
     fbd_model *model = copy ? compile(copy, length, name, settings, setting_count, errors) : NULL;
     diag_end(&call);
     return model;
@@ -48,7 +58,8 @@ fbd_model *fbd_model_read(const char *path, const fbd_setting *settings, size_t 
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
     size_t length;
-    char *text = file_text(path, &length, errors);
+    bool asked = is_asked(path, settings, setting_count, errors);
+    char *text = asked ? file_text(path, &length, errors) : NULL;
     fbd_model *model = text ? compile(text, length, file_name(path), settings, setting_count, errors) : NULL;
     diag_end(&call);
     return model;
@@ -61,22 +72,24 @@ void fbd_model_free(fbd_model *model)
 
 const char *fbd_model_title(const fbd_model *model)
 {
+    if (!model) return "";
     return model->scene->title;
 }
 
 size_t fbd_model_bodies(const fbd_model *model)
 {
+    if (!model) return 0;
     return model->body_count;
 }
 
 const char *fbd_model_body_name(const fbd_model *model, size_t body)
 {
-    return body < model->body_count ? model->bodies[body].name : NULL;
+    return model && body < model->body_count ? model->bodies[body].name : NULL;
 }
 
 fbd_inertia fbd_model_inertia(const fbd_model *model, size_t body)
 {
-    if (body >= model->body_count) return (fbd_inertia){NAN, NAN, NAN, NAN, {NAN, NAN}};
+    if (!model || body >= model->body_count) return (fbd_inertia){NAN, NAN, NAN, NAN, {NAN, NAN}};
     const struct model_body *b = &model->bodies[body];
     bool pivot = b->kind == motion_pivot;
     return (fbd_inertia){.mass = b->inertia.mass,
@@ -88,11 +101,13 @@ fbd_inertia fbd_model_inertia(const fbd_model *model, size_t body)
 
 size_t fbd_model_coordinates(const fbd_model *model)
 {
+    if (!model) return 0;
     return model->scene->coordinate_count;
 }
 
 fbd_coordinate fbd_model_coordinate(const fbd_model *model, size_t index)
 {
+    if (!model) return (fbd_coordinate){.body = 0};
     if (index >= model->scene->coordinate_count) return (fbd_coordinate){.body = model->body_count};
     const struct label *label = &model->labels[index];
     return (fbd_coordinate){.name = label->name,

@@ -193,6 +193,7 @@ fbd_result *record(fbd_simulation *simulation, const fbd_recording *recording)
 
 fbd_result *fbd_simulation_run(fbd_simulation *simulation, const fbd_recording *recording)
 {
+    if (!simulation) return NULL;
     if (simulation->ensemble->started) return NULL; /* the ledger has to see every step */
     return simulation->accuracy > 0 ? record_accurately(simulation, recording)
                                     : record(simulation, recording);
@@ -210,21 +211,25 @@ void fbd_result_free(fbd_result *result)
 
 fbd_outcome fbd_result_outcome(const fbd_result *result)
 {
+    if (!result) return FBD_FAILED;
     return result->simulation->ensemble->outcome;
 }
 
 fbd_state *fbd_result_state(fbd_result *result)
 {
+    if (!result) return NULL;
     return ensemble_state(result->simulation->ensemble);
 }
 
 fbd_energy fbd_result_energy(fbd_result *result)
 {
+    if (!result) return (fbd_energy){NAN, NAN, NAN, NAN, NAN, NAN};
     return ledger_energy(&result->ledger, fbd_result_state(result), result->ledger.work);
 }
 
 double fbd_result_work(fbd_result *result, const char *body, const char *load)
 {
+    if (!result || !body || !load) return NAN;
     int index = model_find_load(result->ledger.model, body, load);
     if (index < 0) return NAN;
     return ledger_work(&result->ledger, fbd_result_state(result), (size_t)index, result->ledger.work);

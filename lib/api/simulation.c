@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "api/record.h"
+#include "base/call.h"
 #include "solve/options.h"
 
 static void bad_accuracy(fbd_errors *errors, const char *hint, const char *message)
@@ -56,8 +57,12 @@ static fbd_simulation *simulation_new(const fbd_model *model, const fbd_options 
 
 fbd_simulation *fbd_simulation_new(const fbd_model *model, const fbd_options *options, fbd_errors *list)
 {
+    static const fbd_options defaults = FBD_OPTIONS_DEFAULT;
     struct diag_call call;
-    fbd_simulation *simulation = simulation_new(model, options, diag_begin(&call, list));
+    fbd_errors *errors = diag_begin(&call, list);
+    if (!options) options = &defaults;
+    fbd_simulation *simulation =
+        model ? simulation_new(model, options, errors) : call_refuse(errors, "there is no model");
     diag_end(&call);
     return simulation;
 }
@@ -74,6 +79,7 @@ void fbd_simulation_free(fbd_simulation *simulation)
 
 fbd_outcome fbd_simulation_advance(fbd_simulation *simulation)
 {
+    if (!simulation) return FBD_FAILED;
     struct ensemble *ensemble = simulation->ensemble;
     if (!bars_catch_up(simulation->bars, ensemble))
         ensemble_fail(ensemble, FBD_OUT_OF_MEMORY, "out of memory");
@@ -84,18 +90,20 @@ fbd_outcome fbd_simulation_advance(fbd_simulation *simulation)
 
 void fbd_simulation_interval(const fbd_simulation *simulation, double *from, double *to)
 {
-    *from = simulation->ensemble->from;
-    *to = simulation->ensemble->t;
+    if (from) *from = simulation ? simulation->ensemble->from : NAN;
+    if (to) *to = simulation ? simulation->ensemble->t : NAN;
 }
 
 bool fbd_simulation_state(fbd_simulation *simulation, double t, fbd_state *state)
 {
-    struct ensemble *ensemble = simulation->ensemble;
+    struct ensemble *ensemble = simulation ? simulation->ensemble : NULL;
+    if (!ensemble || !state || state->model != ensemble->model) return false;
     return t >= ensemble->from && t <= ensemble->t && ensemble_look(ensemble, t, state);
 }
 
 size_t fbd_simulation_events(const fbd_simulation *simulation)
 {
+    if (!simulation) return 0;
     return simulation->ensemble->event_count;
 }
 
@@ -120,8 +128,8 @@ static const char *detail_of(fbd_simulation *simulation, size_t index)
 
 fbd_event fbd_simulation_event(fbd_simulation *simulation, size_t index)
 {
-    const struct ensemble *run = simulation->ensemble;
-    if (index >= run->event_count)
+    const struct ensemble *run = simulation ? simulation->ensemble : NULL;
+    if (!run || index >= run->event_count)
         return (fbd_event){.t = NAN, .body = "", .name = "", .detail = "", .t_error = NAN};
     const struct run_event *event = &run->events[index];
     return (fbd_event){.t = event->t,
@@ -148,6 +156,7 @@ static void add_stats(fbd_stats *stats, const struct run *run)
 
 fbd_stats fbd_simulation_stats(const fbd_simulation *simulation)
 {
+    if (!simulation) return (fbd_stats){.method = "", .error_estimate = NAN};
     struct ensemble *ensemble = simulation->ensemble;
     const struct run_options *options = &ensemble->options;
     fbd_stats stats = {.method = options_method(options),
@@ -175,5 +184,6 @@ fbd_stats fbd_simulation_stats(const fbd_simulation *simulation)
 
 const char *fbd_simulation_reason(const fbd_simulation *simulation)
 {
+    if (!simulation) return "";
     return simulation->ensemble->reason;
 }

@@ -5,12 +5,14 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/call.h"
 #include "dynamics/modes.h"
 #include "dynamics/project.h"
 #include "solve/fit.h"
 
 fbd_state *fbd_state_new(const fbd_model *model)
 {
+    if (!model) return NULL;
     fbd_state *state = state_new(model);
     if (state) modes_settle(state, NULL);
     return state;
@@ -30,6 +32,7 @@ static double *find(const fbd_state *state, const char *name)
 
 bool fbd_state_set(fbd_state *state, const char *name, double value)
 {
+    if (!state || !name) return false;
     double *place = strcmp(name, "t") == 0 ? &state->t : find(state, name);
     if (!place || !isfinite(value)) return false;
     *place = value;
@@ -75,7 +78,9 @@ static bool set_text(fbd_state *state, const char *name, const char *text, fbd_e
 bool fbd_state_set_text(fbd_state *state, const char *name, const char *text, fbd_errors *list)
 {
     struct diag_call call;
-    bool set = set_text(state, name, text, diag_begin(&call, list));
+    fbd_errors *errors = diag_begin(&call, list);
+    bool set = state && name && text ? set_text(state, name, text, errors)
+                                     : call_refuse(errors, "there is no state, name or text") != NULL;
     diag_end(&call);
     return set;
 }
@@ -108,13 +113,15 @@ static bool close_state(fbd_state *state, fbd_errors *errors)
 bool fbd_state_close(fbd_state *state, fbd_errors *list)
 {
     struct diag_call call;
-    bool fits = close_state(state, diag_begin(&call, list));
+    fbd_errors *errors = diag_begin(&call, list);
+    bool fits = state ? close_state(state, errors) : call_refuse(errors, "there is no state") != NULL;
     diag_end(&call);
     return fits;
 }
 
 bool fbd_state_get(const fbd_state *state, const char *name, double *value)
 {
+    if (!state || !name || !value) return false;
     const double *place = strcmp(name, "t") == 0 ? &state->t : find(state, name);
     if (!place) return false;
     *value = *place;

@@ -251,6 +251,7 @@ const fbd_error *fbd_errors_get(fbd_errors *errors, size_t index)
 
 void fbd_errors_print(fbd_errors *errors, FILE *stream)
 {
+    if (!stream) return;
     const fbd_error *e;
     if (errors && errors->out_of_memory) { /* what else is noted may come of that */
         fputs("error: out of memory [out-of-memory]\n", stream);

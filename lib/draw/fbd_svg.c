@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/call.h"
 #include "draw/panel.h"
 #include "output/equations.h"
 #include "output/result.h"
@@ -314,7 +315,8 @@ static char *make_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *
 char *fbd_diagram_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *list)
 {
     struct diag_call call;
-    char *svg = make_svg(state, drawing, diag_begin(&call, list));
+    fbd_errors *errors = diag_begin(&call, list);
+    char *svg = state ? make_svg(state, drawing, errors) : call_refuse(errors, "there is no state");
     diag_end(&call);
     return svg;
 }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/call.h"
 #include "base/diag.h"
 #include "draw/record.h"
 #include "dynamics/modes.h"
@@ -105,7 +106,9 @@ static bool has_columns(const fbd_model *model, const char *columns, fbd_errors 
 bool fbd_model_has_columns(const fbd_model *model, const char *columns, fbd_errors *list)
 {
     struct diag_call call;
-    bool found = has_columns(model, columns, diag_begin(&call, list));
+    fbd_errors *errors = diag_begin(&call, list);
+    bool found = model && columns ? has_columns(model, columns, errors)
+                                  : call_refuse(errors, "there is no model, or no list of columns") != NULL;
     diag_end(&call);
     return found;
 }
@@ -282,7 +285,9 @@ static char *make_script(fbd_result *result, const char *file, const char *colum
 char *fbd_result_gnuplot(fbd_result *result, const char *file, const char *columns, fbd_errors *list)
 {
     struct diag_call call;
-    char *script = make_script(result, file, columns, diag_begin(&call, list));
+    fbd_errors *errors = diag_begin(&call, list);
+    char *script =
+        result ? make_script(result, file, columns, errors) : call_refuse(errors, "there is no result");
     diag_end(&call);
     return script;
 }

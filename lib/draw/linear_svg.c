@@ -142,6 +142,7 @@ static void draw_modes(struct plane *plane)
 
 char *fbd_linearization_svg(const fbd_linearization *linearization)
 {
+    if (!linearization) return NULL;
     struct plane plane = {.linear = linearization};
     plane.labels.arena = &plane.arena;
     const char *title = linearization->model->scene->title;

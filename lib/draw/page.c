@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/call.h"
 #include "base/diag.h"
 #include "draw/svg.h"
 
@@ -86,7 +87,8 @@ static char *make_page(fbd_result *result, fbd_errors *errors)
 char *fbd_result_html(fbd_result *result, fbd_errors *list)
 {
     struct diag_call call;
-    char *page = make_page(result, diag_begin(&call, list));
+    fbd_errors *errors = diag_begin(&call, list);
+    char *page = result ? make_page(result, errors) : call_refuse(errors, "there is no result");
     diag_end(&call);
     return page;
 }

@@ -22,6 +22,8 @@ static size_t rows_at_work(const struct fbd_state *state)
 
 size_t fbd_redundant(fbd_state *state, const char **names, size_t room)
 {
+    if (!state) return 0;
+    if (!names) room = 0;
     const struct fbd_model *model = state->model;
     size_t count = 0;
     state_ready(state);
@@ -55,6 +57,7 @@ static void add_drift(fbd_drift *all, const struct drift *drift, const struct ru
 
 fbd_drift fbd_simulation_drift(const fbd_simulation *simulation)
 {
+    if (!simulation) return (fbd_drift){.worst = ""};
     const struct ensemble *ensemble = simulation->ensemble;
     fbd_drift drift = {.worst = "", .rows = (size_t)row_count(ensemble->model)};
     for (size_t i = 0; i < ensemble->count; i++)

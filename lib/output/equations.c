@@ -72,6 +72,7 @@ static void fill_equation(struct fbd_equations *all, const struct fbd_state *sta
 
 fbd_equations *fbd_assemble(fbd_state *state)
 {
+    if (!state) return NULL;
     const struct fbd_model *model = state->model;
     fbd_equations *all = calloc(1, sizeof *all);
     if (!all) return NULL;
@@ -104,16 +105,19 @@ void fbd_equations_free(fbd_equations *equations)
 
 size_t fbd_equations_count(const fbd_equations *equations)
 {
+    if (!equations) return 0;
     return equations->count;
 }
 
 const fbd_equation *fbd_equations_get(const fbd_equations *equations, size_t index)
 {
+    if (!equations) return NULL;
     return index < equations->count ? &equations->equations[index].public : NULL;
 }
 
 const fbd_equation *fbd_equations_find(const fbd_equations *equations, const char *coordinate)
 {
+    if (!equations || !coordinate) return NULL;
     const char *dot = strchr(coordinate, '.');
     for (size_t i = 0; dot && i < equations->count; i++) {
         const fbd_equation *equation = &equations->equations[i].public;
@@ -127,6 +131,7 @@ const fbd_equation *fbd_equations_find(const fbd_equations *equations, const cha
 
 double fbd_equation_term(const fbd_equation *equation, const char *name)
 {
+    if (!name) return NAN;
     for (size_t i = 0; equation && i < equation->term_count; i++)
         if (strcmp(equation->terms[i].name, name) == 0) return equation->terms[i].value;
     return NAN;
@@ -146,6 +151,8 @@ fbd_arrow public_arrow(const struct arrow *arrow, struct vec about)
 
 size_t fbd_diagram(fbd_state *state, size_t body, fbd_arrow *arrows, size_t room)
 {
+    if (!state) return 0;
+    if (!arrows) room = 0;
     const struct fbd_model *model = state->model;
     if (body >= model->body_count) return 0;
     const struct model_body *b = &model->bodies[body];

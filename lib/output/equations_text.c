@@ -112,6 +112,7 @@ void equations_write(struct text *text, struct fbd_state *state)
 
 char *fbd_equations_text(fbd_state *state)
 {
+    if (!state) return NULL;
     struct text text = {0};
     equations_write(&text, state);
     if (text.failed) text_free(&text);

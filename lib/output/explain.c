@@ -212,6 +212,9 @@ static void write_method(struct text *text, const struct fbd_model *model, const
 
 char *fbd_explain(const fbd_model *model, const fbd_options *options)
 {
+    static const fbd_options defaults = FBD_OPTIONS_DEFAULT;
+    if (!model) return NULL;
+    if (!options) options = &defaults;
     struct text text = {0};
     struct fbd_state *state = state_new(model);
     if (!state) return NULL;

@@ -385,6 +385,8 @@ static int check_all(struct hand_check *check, const struct document *document, 
 
 int fbd_check_hand(const fbd_model *model, unsigned seed, char **result)
 {
+    if (result) *result = NULL;
+    if (!model || !result) return -1;
     struct text text = {0};
     struct document document;
     fbd_errors *errors = fbd_errors_new();

@@ -279,6 +279,7 @@ static void write_stats(struct text *text, const fbd_simulation *simulation)
 
 char *fbd_result_json(fbd_result *result)
 {
+    if (!result) return NULL;
     fbd_simulation *simulation = result->simulation;
     struct ensemble *run = simulation->ensemble;
     struct fbd_state *end = ensemble_state(run);

@@ -83,6 +83,7 @@ static void write_mode(struct text *text, const fbd_mode *mode, bool degenerate)
 
 char *fbd_linearization_text(const fbd_linearization *linear)
 {
+    if (!linear) return NULL;
     struct text text = {0};
     write_equilibrium(&text, linear);
     write_matrix(&text, linear);

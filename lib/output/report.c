@@ -304,6 +304,7 @@ static void write_assembled(struct text *text, const struct fbd_model *model, co
 
 char *fbd_result_report(fbd_result *result)
 {
+    if (!result) return NULL;
     fbd_simulation *simulation = result->simulation;
     struct ensemble *run = simulation->ensemble;
     struct fbd_state *end = ensemble_state(run);

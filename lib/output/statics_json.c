@@ -16,6 +16,8 @@ static struct vec mass_center_of(const struct fbd_statics *statics, const struct
 
 size_t fbd_statics_diagram(const fbd_statics *statics, size_t body, fbd_arrow *arrows, size_t room)
 {
+    if (!statics || body >= statics->model->body_count) return 0;
+    if (!arrows) room = 0;
     const struct model_body *of = &statics->model->bodies[body];
     const struct rest_diagram *diagram = &statics->diagrams[body];
     struct instant at = state_instant(statics->state);
@@ -144,6 +146,7 @@ static void write_bodies(struct text *text, const struct fbd_statics *statics)
 
 char *fbd_statics_json(const fbd_statics *statics)
 {
+    if (!statics) return NULL;
     const struct scene *scene = statics->model->scene;
     struct text text = {0};
     text_add(&text, "{\n  \"title\": ");

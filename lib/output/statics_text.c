@@ -202,6 +202,7 @@ static void write_limits(struct text *text, const struct fbd_statics *statics)
 
 char *fbd_statics_text(const fbd_statics *statics)
 {
+    if (!statics) return NULL;
     struct text text = {0};
     if (statics->model->scene->title[0]) text_printf(&text, "%s\n\n", statics->model->scene->title);
     write_verdict(&text, statics);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/call.h"
 #include "base/diag.h"
 #include "dynamics/project.h"
 #include "dynamics/rates.h"
@@ -453,7 +454,8 @@ static bool find_equilibrium(fbd_state *state, fbd_errors *errors)
 bool fbd_find_equilibrium(fbd_state *state, fbd_errors *list)
 {
     struct diag_call call;
-    bool found = find_equilibrium(state, diag_begin(&call, list));
+    fbd_errors *errors = diag_begin(&call, list);
+    bool found = state ? find_equilibrium(state, errors) : call_refuse(errors, "there is no state") != NULL;
     diag_end(&call);
     return found;
 }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/call.h"
 #include "base/diag.h"
 #include "dynamics/modes.h"
 #include "solve/equilibrium.h"
@@ -177,7 +178,8 @@ static fbd_linearization *linearize(fbd_state *state, fbd_errors *errors)
 fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *list)
 {
     struct diag_call call;
-    fbd_linearization *linear = linearize(state, diag_begin(&call, list));
+    fbd_errors *errors = diag_begin(&call, list);
+    fbd_linearization *linear = state ? linearize(state, errors) : call_refuse(errors, "there is no state");
     diag_end(&call);
     return linear;
 }
@@ -193,15 +195,18 @@ void fbd_linearization_free(fbd_linearization *linearization)
 
 size_t fbd_linearization_size(const fbd_linearization *linearization)
 {
+    if (!linearization) return 0;
     return linearization->size;
 }
 
 const double *fbd_linearization_matrix(const fbd_linearization *linearization)
 {
+    if (!linearization) return NULL;
     return linearization->A;
 }
 
 fbd_mode fbd_linearization_mode(const fbd_linearization *linearization, size_t index)
 {
-    return index < linearization->size ? linearization->modes[index] : (fbd_mode){NAN, NAN, NAN, NAN};
+    return linearization && index < linearization->size ? linearization->modes[index]
+                                                        : (fbd_mode){NAN, NAN, NAN, NAN};
 }

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/call.h"
 #include "base/diag.h"
 #include "dynamics/project.h"
 #include "solve/fit.h"
@@ -141,7 +142,8 @@ static fbd_statics *statics_new(const fbd_state *state, fbd_errors *errors)
 fbd_statics *fbd_statics_new(const fbd_state *state, fbd_errors *list)
 {
     struct diag_call call;
-    fbd_statics *statics = statics_new(state, diag_begin(&call, list));
+    fbd_errors *errors = diag_begin(&call, list);
+    fbd_statics *statics = state ? statics_new(state, errors) : call_refuse(errors, "there is no state");
     diag_end(&call);
     return statics;
 }
@@ -156,46 +158,54 @@ void fbd_statics_free(fbd_statics *statics)
 
 bool fbd_statics_holds(const fbd_statics *statics)
 {
-    return statics->within_limits && statics->left <= rest_digits;
+    return statics && statics->within_limits && statics->left <= rest_digits;
 }
 
 size_t fbd_statics_indeterminacy(const fbd_statics *statics)
 {
+    if (!statics) return 0;
     return statics->indeterminacy;
 }
 
 size_t fbd_statics_mobility(const fbd_statics *statics)
 {
+    if (!statics) return 0;
     return statics->mobility;
 }
 
 size_t fbd_statics_undetermined(const fbd_statics *statics)
 {
+    if (!statics) return 0;
     return statics->undetermined_count;
 }
 
 const char *fbd_statics_undetermined_name(const fbd_statics *statics, size_t index)
 {
-    return index < statics->undetermined_count ? statics->undetermined[index] : NULL;
+    return statics && index < statics->undetermined_count ? statics->undetermined[index] : NULL;
 }
 
 size_t fbd_statics_unbalanced(const fbd_statics *statics)
 {
+    if (!statics) return 0;
     return statics->unbalanced_count;
 }
 
 fbd_unbalanced fbd_statics_unbalanced_at(const fbd_statics *statics, size_t index)
 {
-    return index < statics->unbalanced_count ? statics->unbalanced[index]
-                                             : (fbd_unbalanced){.coordinate = ""};
+    return statics && index < statics->unbalanced_count
+               ? statics->unbalanced[index]
+               : (fbd_unbalanced){.coordinate = "", .unit = "", .holding = NAN};
 }
 
 size_t fbd_statics_limits(const fbd_statics *statics)
 {
+    if (!statics) return 0;
     return statics->limit_count;
 }
 
 fbd_limit fbd_statics_limit(const fbd_statics *statics, size_t index)
 {
-    return index < statics->limit_count ? statics->limits[index] : (fbd_limit){.name = ""};
+    return statics && index < statics->limit_count
+               ? statics->limits[index]
+               : (fbd_limit){.name = "", .unit = "", .needed = NAN, .limit = NAN};
 }

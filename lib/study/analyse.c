@@ -109,6 +109,7 @@ static bool meets(const struct fbd_cost *cost, const fbd_cost_series *series, si
 
 const fbd_cost_point *fbd_cost_cheapest(const fbd_cost *cost, double error)
 {
+    if (!cost) return NULL;
     const double alike = 1.03;
     const fbd_cost_point *best = NULL, *by_default = NULL;
     for (size_t s = 0; s < cost->series_count; s++) {

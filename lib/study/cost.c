@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/call.h"
 #include "base/diag.h"
 #include "model/variant.h"
 #include "study/stopwatch.h"
@@ -57,6 +58,21 @@ bool quantities_choose(const fbd_model *model, const fbd_cost_options *options, 
 }
 
 /* ---- making it */
+
+bool study_is_asked(const fbd_model *model, const fbd_cost_options **options, fbd_errors *errors)
+{
+    static const fbd_cost_options defaults = FBD_COST_OPTIONS_DEFAULT;
+    if (!*options) *options = &defaults;
+    const fbd_cost_options *asked = *options;
+    if (!model)
+        call_refuse(errors, "there is no model");
+    else if ((asked->methods && !call_has_texts(asked->methods, asked->method_count)) ||
+             (asked->quantities && !call_has_texts(asked->quantities, asked->quantity_count)))
+        call_refuse(errors, "the name of a method or quantity is missing");
+    else
+        return true;
+    return false;
+}
 
 bool study_until(const fbd_model *model, const fbd_cost_options *options, double *until, fbd_errors *errors)
 {
@@ -145,7 +161,8 @@ static fbd_cost *cost_new(const fbd_model *model, const fbd_cost_options *option
 fbd_cost *fbd_cost_new(const fbd_model *model, const fbd_cost_options *options, fbd_errors *list)
 {
     struct diag_call call;
-    fbd_cost *cost = cost_new(model, options, diag_begin(&call, list));
+    fbd_errors *errors = diag_begin(&call, list);
+    fbd_cost *cost = study_is_asked(model, &options, errors) ? cost_new(model, options, errors) : NULL;
     diag_end(&call);
     return cost;
 }
@@ -162,6 +179,10 @@ void fbd_cost_free(fbd_cost *cost)
 
 fbd_cost_reference fbd_cost_get_reference(const fbd_cost *cost)
 {
+    if (!cost)
+        return (fbd_cost_reference){
+            "", {"", ""}, {NAN, NAN}, false, false, NAN, NAN, NAN, NAN, false, NAN,
+        };
     const struct certified_reference *r = &cost->reference;
     return (fbd_cost_reference){.says = cost->says,
                                 .method = {r->settings[0].method, r->settings[1].method},
@@ -178,20 +199,23 @@ fbd_cost_reference fbd_cost_get_reference(const fbd_cost *cost)
 
 size_t fbd_cost_series_count(const fbd_cost *cost)
 {
+    if (!cost) return 0;
     return cost->series_count;
 }
 
 fbd_cost_series fbd_cost_get_series(const fbd_cost *cost, size_t index)
 {
-    return index < cost->series_count ? cost->series[index] : (fbd_cost_series){.order = NAN};
+    return cost && index < cost->series_count ? cost->series[index]
+                                              : (fbd_cost_series){.method = "", .order = NAN};
 }
 
 size_t fbd_cost_points(const fbd_cost *cost)
 {
+    if (!cost) return 0;
     return cost->point_count;
 }
 
 const fbd_cost_point *fbd_cost_get_point(const fbd_cost *cost, size_t index)
 {
-    return index < cost->point_count ? &cost->points[index] : NULL;
+    return cost && index < cost->point_count ? &cost->points[index] : NULL;
 }

@@ -57,6 +57,9 @@ const char *quantity_name_of(const fbd_model *model, size_t quantity);
 bool quantities_choose(const fbd_model *model, const fbd_cost_options *options, struct arena *arena,
                        bool **chosen, fbd_errors *errors);
 
+/* Is there a model, and a name for each method and quantity? *options NULL becomes the usual ones. */
+bool study_is_asked(const fbd_model *model, const fbd_cost_options **options, fbd_errors *errors);
+
 /* The end of a run: that of the options, else the file's. False with notes when there is none (those of
  * fbd_simulation_new), or when it is the start. */
 bool study_until(const fbd_model *model, const fbd_cost_options *options, double *until, fbd_errors *errors);

@@ -52,6 +52,7 @@ static void csv_row(struct text *text, const fbd_cost_point *point, double order
 
 char *fbd_cost_csv(const fbd_cost *cost)
 {
+    if (!cost) return NULL;
     struct text text = {0};
     text_add(&text, "method,tolerance,step [s],state,error,error at end,at floor,event error [s],same events,"
                     "time [s],time low [s],time high [s],repeats,rhs,jacobians,steps,rejected,events,front,"
@@ -166,6 +167,7 @@ static void json_answers(struct text *text, const fbd_cost *cost)
 
 char *fbd_cost_json(const fbd_cost *cost)
 {
+    if (!cost) return NULL;
     struct text text = {0};
     text_add(&text, "{\n  \"title\": ");
     text_json_string(&text, fbd_model_title(cost->model));

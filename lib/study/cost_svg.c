@@ -355,6 +355,7 @@ static const char style[] =
 
 char *fbd_cost_svg(const fbd_cost *cost)
 {
+    if (!cost) return NULL;
     struct text text = {0};
     struct axes axes;
     const char *title = fbd_model_title(cost->model);

@@ -193,6 +193,7 @@ static void answer(struct text *text, const struct fbd_cost *cost, double target
 
 char *fbd_cost_text(const fbd_cost *cost)
 {
+    if (!cost) return NULL;
     struct text text = {0};
     const char *title = fbd_model_title(cost->model);
     if (title[0]) text_printf(&text, "%s\n\n", title);

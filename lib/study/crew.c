@@ -162,6 +162,7 @@ static void start_threads(fbd_sweep_crew *crew)
 
 fbd_sweep_crew *fbd_sweep_start(const fbd_sweep *sweep, const fbd_sweep_work *work)
 {
+    if (!sweep || !work || !work->write) return NULL;
     enum { places_of_a_thread = 4, places_of_a_helper = 4, most_jobs = 1024 };
     const size_t usual_rows = 16000; /* bytes of a full share: none of them grows in most sweeps */
     fbd_sweep_crew *crew = calloc(1, sizeof *crew);
@@ -191,6 +192,7 @@ fbd_sweep_crew *fbd_sweep_start(const fbd_sweep *sweep, const fbd_sweep_work *wo
 
 int fbd_sweep_claim(fbd_sweep_crew *crew, size_t jobs, fbd_sweep_share *share)
 {
+    if (!crew || !share) return -1;
     pthread_mutex_lock(&crew->lock);
     if (crew->work.stop && crew->work.stop(crew->work.stop_context)) end_early(crew, FBD_SWEEP_STOPPED);
     bool none = is_used_up(crew);
@@ -200,9 +202,23 @@ int fbd_sweep_claim(fbd_sweep_crew *crew, size_t jobs, fbd_sweep_share *share)
     return place ? 1 : none ? -1 : 0;
 }
 
+/* Has this share been claimed from this crew, and not yet been delivered? */
+static bool is_handed_out(fbd_sweep_crew *crew, const fbd_sweep_share *share)
+{
+    bool found = false;
+    pthread_mutex_lock(&crew->lock);
+    for (size_t i = crew->head; i < crew->tail && !found; i++) {
+        const struct place *place = &crew->ring[i % crew->room];
+        found = place == share->ticket && !place->done && place->first == share->first;
+    }
+    pthread_mutex_unlock(&crew->lock);
+    return found;
+}
+
 void fbd_sweep_deliver(fbd_sweep_crew *crew, const fbd_sweep_share *share, const char *rows, size_t length,
                        const fbd_sweep_counts *counts)
 {
+    if (!crew || !share || !is_handed_out(crew, share) || !counts || (length > 0 && !rows)) return;
     struct place *place = share->ticket;
     text_add_bytes(&place->rows, rows, length);
     place->made = place->rows.failed ? 0 : counts->written;
@@ -214,6 +230,8 @@ void fbd_sweep_deliver(fbd_sweep_crew *crew, const fbd_sweep_share *share, const
 
 fbd_sweep_end fbd_sweep_finish(fbd_sweep_crew *crew, fbd_sweep_counts *counts)
 {
+    if (counts) *counts = (fbd_sweep_counts){0};
+    if (!crew) return FBD_SWEEP_REFUSED;
     if (crew->threads == 0) work(crew); /* or none could be started */
     for (size_t i = 0; i < crew->threads; i++) pthread_join(crew->thread[i], NULL);
     fbd_sweep_end end = crew->end;
@@ -224,8 +242,9 @@ fbd_sweep_end fbd_sweep_finish(fbd_sweep_crew *crew, fbd_sweep_counts *counts)
 
 fbd_sweep_end fbd_sweep_run(const fbd_sweep *sweep, const fbd_sweep_work *work, fbd_sweep_counts *counts)
 {
+    if (counts) *counts = (fbd_sweep_counts){0};
+    if (!sweep || !work || !work->write) return FBD_SWEEP_REFUSED;
     fbd_sweep_crew *crew = fbd_sweep_start(sweep, work);
     if (crew) return fbd_sweep_finish(crew, counts);
-    if (counts) *counts = (fbd_sweep_counts){0};
     return FBD_SWEEP_OUT_OF_MEMORY;
 }

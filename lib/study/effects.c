@@ -182,7 +182,9 @@ static fbd_effects *effects_new(const fbd_model *model, const fbd_cost_options *
 fbd_effects *fbd_effects_new(const fbd_model *model, const fbd_cost_options *options, fbd_errors *list)
 {
     struct diag_call call;
-    fbd_effects *effects = effects_new(model, options, diag_begin(&call, list));
+    fbd_errors *errors = diag_begin(&call, list);
+    fbd_effects *effects =
+        study_is_asked(model, &options, errors) ? effects_new(model, options, errors) : NULL;
     diag_end(&call);
     return effects;
 }
@@ -196,10 +198,11 @@ void fbd_effects_free(fbd_effects *effects)
 
 size_t fbd_effects_count(const fbd_effects *effects)
 {
+    if (!effects) return 0;
     return effects->count;
 }
 
 const fbd_effect *fbd_effects_get(const fbd_effects *effects, size_t index)
 {
-    return index < effects->count ? &effects->effects[index] : NULL;
+    return effects && index < effects->count ? &effects->effects[index] : NULL;
 }

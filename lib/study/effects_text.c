@@ -73,6 +73,7 @@ static void verdict(struct text *text, const struct fbd_effects *effects)
 
 char *fbd_effects_text(const fbd_effects *effects)
 {
+    if (!effects) return NULL;
     struct text text = {0};
     const char *title = fbd_model_title(effects->model);
     if (title[0]) text_printf(&text, "%s\n\n", title);
@@ -108,6 +109,7 @@ static void quoted(struct text *text, const char *value)
 
 char *fbd_effects_csv(const fbd_effects *effects)
 {
+    if (!effects) return NULL;
     struct text text = {0};
     text_add(&text, "body,effect,without it,change at end,change,noise,quantity,time ratio,events,reason\n");
     for (size_t i = 0; i < effects->count; i++) {
@@ -144,6 +146,7 @@ static void member_number(struct text *text, const char *name, double value)
 
 char *fbd_effects_json(const fbd_effects *effects)
 {
+    if (!effects) return NULL;
     struct text text = {0};
     text_add(&text, "{\n  ");
     member(&text, "title", fbd_model_title(effects->model));

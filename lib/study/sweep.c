@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/sweep.h"
 
+#include "base/call.h"
 #include "base/file.h"
 #include "scene/names.h"
 #include "scene/node.h"
@@ -234,12 +235,26 @@ static struct fbd_sweep *sweep_make(char *text, size_t length, const char *name,
 
 /* ---- the public face */
 
+/* Is there what is to be read, and a plan? */
+static bool is_asked(const char *text, const fbd_sweep_plan *plan, fbd_errors *errors)
+{
+    if (!text || !plan)
+        call_refuse(errors, text ? "there is no plan" : "there is no text or path");
+    else if (!call_has_texts(plan->vary, plan->vary_count) ||
+             !call_has_texts(plan->outputs, plan->output_count) ||
+             !call_has_settings(plan->settings, plan->setting_count))
+        call_refuse(errors, "a text of the plan is missing");
+    else
+        return true;
+    return false;
+}
+
 fbd_sweep *fbd_sweep_read(const char *path, const fbd_sweep_plan *plan, fbd_errors *list)
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
     size_t length;
-    char *text = file_text(path, &length, errors);
+    char *text = is_asked(path, plan, errors) ? file_text(path, &length, errors) : NULL;
     fbd_sweep *sweep = text ? sweep_make(text, length, file_name(path), plan, errors) : NULL;
     diag_end(&call);
     return sweep;
@@ -250,7 +265,7 @@ fbd_sweep *fbd_sweep_parse(const char *text, size_t length, const char *name, co
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    char *copy = file_copy(text, length, errors);
+    char *copy = is_asked(text, plan, errors) ? file_copy(text, length, errors) : NULL;
     fbd_sweep *sweep = copy ? sweep_make(copy, length, name, plan, errors) : NULL;
     diag_end(&call);
     return sweep;
@@ -270,21 +285,24 @@ void fbd_sweep_free(fbd_sweep *sweep)
 
 size_t fbd_sweep_runs(const fbd_sweep *sweep)
 {
+    if (!sweep) return 0;
     return (size_t)sweep->axes.runs;
 }
 
 const char *fbd_sweep_header(const fbd_sweep *sweep)
 {
+    if (!sweep) return NULL;
     return sweep->header.data;
 }
 
 const char *fbd_sweep_key(const fbd_sweep *sweep)
 {
+    if (!sweep) return NULL;
     return sweep->key.data;
 }
 
 const char *fbd_sweep_source(const fbd_sweep *sweep, size_t *length)
 {
-    *length = sweep->source_length;
-    return sweep->source;
+    if (length) *length = sweep ? sweep->source_length : 0;
+    return sweep ? sweep->source : NULL;
 }

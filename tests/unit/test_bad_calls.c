@@ -1,0 +1,466 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Calls of the library that cannot be meant: every function of fbd.h, with NULL for whatever it asks for,
+ * with an index past the end, with a state of another model. Each answers with its error value. A function
+ * that is not called here fails the last test.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <gsl/gsl_errno.h>
+
+#include "fbd.h"
+
+static const char scene[] = "fbd: 1\n"
+                            "parameters: {k: 4 N/m}\n"
+                            "bodies:\n"
+                            "  block:\n"
+                            "    mass: 2 kg\n"
+                            "    motion: slide\n"
+                            "    initial: {x: 0.1 m}\n"
+                            "    forces: [spring: {stiffness: k}]\n"
+                            "simulate: {until: 0.2 s, events: [{name: mark, when: 'block.x = 0'}]}\n";
+
+/* ---- what has been called */
+
+enum { most_called = 400 };
+static const char *called[most_called];
+static size_t called_count;
+
+static void note(const char *name)
+{
+    assert_true(called_count < most_called);
+    called[called_count++] = name;
+}
+
+/* The function is called in this expression, which is true when it answers as it should. */
+#define ANSWERS(function, expression)                                                                        \
+    do {                                                                                                     \
+        (void)function;                                                                                      \
+        note(#function);                                                                                     \
+        if (!(expression)) fail_msg("%s", #expression);                                                      \
+    } while (0)
+
+/* The same, with a note for the list. */
+#define REFUSES(function, expression)                                                                        \
+    do {                                                                                                     \
+        size_t before_ = fbd_errors_count(errors);                                                           \
+        ANSWERS(function, expression);                                                                       \
+        assert_int_equal(fbd_errors_count(errors), before_ + 1);                                             \
+        assert_string_equal(fbd_errors_get(errors, before_)->id, "bad-call");                                \
+    } while (0)
+
+/* The same for what answers nothing. */
+#define ENDURES(function, statement)                                                                         \
+    do {                                                                                                     \
+        (void)function;                                                                                      \
+        note(#function);                                                                                     \
+        statement;                                                                                           \
+    } while (0)
+
+static fbd_model *model, *other;
+static fbd_errors *errors;
+static const size_t past = SIZE_MAX;
+
+static int set_up(void **state)
+{
+    (void)state;
+    model = fbd_model_parse(scene, strlen(scene), "scene", NULL, 0, NULL);
+    other = fbd_model_parse(scene, strlen(scene), "other", NULL, 0, NULL);
+    errors = fbd_errors_new();
+    return model && other && errors ? 0 : -1;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    fbd_model_free(model);
+    fbd_model_free(other);
+    fbd_errors_free(errors);
+    return 0;
+}
+
+static bool is_nan(double value)
+{
+    return value != value;
+}
+
+/* ---- each part of the header */
+
+static void errors_and_models(void **state)
+{
+    (void)state;
+    const fbd_setting nameless[] = {{NULL, "1"}}, empty[] = {{"k", NULL}};
+    ANSWERS(fbd_errors_count, fbd_errors_count(NULL) == 0);
+    ANSWERS(fbd_errors_failed, fbd_errors_failed(NULL) == 0);
+    ANSWERS(fbd_errors_get, !fbd_errors_get(NULL, 0));
+    ANSWERS(fbd_errors_get, !fbd_errors_get(errors, past));
+    ENDURES(fbd_errors_print, fbd_errors_print(NULL, stderr));
+    ENDURES(fbd_errors_print, fbd_errors_print(errors, NULL));
+    ENDURES(fbd_errors_free, fbd_errors_free(NULL));
+    REFUSES(fbd_model_read, !fbd_model_read(NULL, NULL, 0, errors));
+    REFUSES(fbd_model_read, !fbd_model_read("-", NULL, 1, errors));
+    REFUSES(fbd_model_parse, !fbd_model_parse(NULL, 3, "name", NULL, 0, errors));
+    REFUSES(fbd_model_parse, !fbd_model_parse(scene, strlen(scene), "name", NULL, 1, errors));
+    REFUSES(fbd_model_parse, !fbd_model_parse(scene, strlen(scene), "name", nameless, 1, errors));
+    REFUSES(fbd_model_parse, !fbd_model_parse(scene, strlen(scene), "name", empty, 1, errors));
+    ANSWERS(fbd_model_parse, !fbd_model_parse(NULL, 0, NULL, NULL, 0, NULL));
+    ENDURES(fbd_model_free, fbd_model_free(NULL));
+    ANSWERS(fbd_model_title, strcmp(fbd_model_title(NULL), "") == 0);
+    ANSWERS(fbd_model_bodies, fbd_model_bodies(NULL) == 0);
+    ANSWERS(fbd_model_body_name, !fbd_model_body_name(NULL, 0));
+    ANSWERS(fbd_model_body_name, !fbd_model_body_name(model, past));
+    ANSWERS(fbd_model_inertia, is_nan(fbd_model_inertia(NULL, 0).mass));
+    ANSWERS(fbd_model_inertia, is_nan(fbd_model_inertia(model, past).I_G));
+    ANSWERS(fbd_model_coordinates, fbd_model_coordinates(NULL) == 0);
+    ANSWERS(fbd_model_coordinate, !fbd_model_coordinate(NULL, 0).name);
+    ANSWERS(fbd_model_coordinate, !fbd_model_coordinate(model, past).rate_unit);
+    REFUSES(fbd_model_has_columns, !fbd_model_has_columns(NULL, "block.x", errors));
+    REFUSES(fbd_model_has_columns, !fbd_model_has_columns(model, NULL, errors));
+    ANSWERS(fbd_explain, !fbd_explain(NULL, NULL));
+    char *plan = fbd_explain(model, NULL);
+    assert_non_null(plan);
+    free(plan);
+}
+
+static void a_model_may_have_no_name(void **state)
+{
+    (void)state;
+    fbd_model *nameless = fbd_model_parse(scene, strlen(scene), NULL, NULL, 0, errors);
+    assert_non_null(nameless);
+    fbd_model_free(nameless);
+}
+
+static void states(void **context)
+{
+    (void)context;
+    fbd_state *state = fbd_state_new(model);
+    double value;
+    assert_non_null(state);
+    ANSWERS(fbd_state_new, !fbd_state_new(NULL));
+    ENDURES(fbd_state_free, fbd_state_free(NULL));
+    ANSWERS(fbd_state_set, !fbd_state_set(NULL, "block.x", 1));
+    ANSWERS(fbd_state_set, !fbd_state_set(state, NULL, 1));
+    ANSWERS(fbd_state_set, !fbd_state_set(state, "block.x", INFINITY));
+    REFUSES(fbd_state_set_text, !fbd_state_set_text(NULL, "block.x", "1", errors));
+    REFUSES(fbd_state_set_text, !fbd_state_set_text(state, NULL, "1", errors));
+    REFUSES(fbd_state_set_text, !fbd_state_set_text(state, "block.x", NULL, errors));
+    REFUSES(fbd_state_close, !fbd_state_close(NULL, errors));
+    ANSWERS(fbd_state_get, !fbd_state_get(NULL, "block.x", &value));
+    ANSWERS(fbd_state_get, !fbd_state_get(state, NULL, &value));
+    ANSWERS(fbd_state_get, !fbd_state_get(state, "block.x", NULL));
+    ANSWERS(fbd_diagram, fbd_diagram(NULL, 0, NULL, 0) == 0);
+    ANSWERS(fbd_diagram, fbd_diagram(state, past, NULL, 0) == 0);
+    ANSWERS(fbd_diagram, fbd_diagram(state, 0, NULL, 5) > 0);
+    ANSWERS(fbd_redundant, fbd_redundant(NULL, NULL, 0) == 0);
+    ANSWERS(fbd_redundant, fbd_redundant(state, NULL, 5) == 0);
+    REFUSES(fbd_diagram_svg, !fbd_diagram_svg(NULL, NULL, errors));
+    REFUSES(fbd_find_equilibrium, !fbd_find_equilibrium(NULL, errors));
+    fbd_state_free(state);
+}
+
+static void equations(void **context)
+{
+    (void)context;
+    fbd_state *state = fbd_state_new(model);
+    fbd_equations *all = fbd_assemble(state);
+    assert_non_null(all);
+    ANSWERS(fbd_assemble, !fbd_assemble(NULL));
+    ENDURES(fbd_equations_free, fbd_equations_free(NULL));
+    ANSWERS(fbd_equations_count, fbd_equations_count(NULL) == 0);
+    ANSWERS(fbd_equations_get, !fbd_equations_get(NULL, 0));
+    ANSWERS(fbd_equations_get, !fbd_equations_get(all, past));
+    ANSWERS(fbd_equations_find, !fbd_equations_find(NULL, "block.x"));
+    ANSWERS(fbd_equations_find, !fbd_equations_find(all, NULL));
+    ANSWERS(fbd_equation_term, is_nan(fbd_equation_term(NULL, "spring")));
+    ANSWERS(fbd_equation_term, is_nan(fbd_equation_term(fbd_equations_get(all, 0), NULL)));
+    ANSWERS(fbd_equations_text, !fbd_equations_text(NULL));
+    fbd_equations_free(all);
+    fbd_state_free(state);
+}
+
+static void simulations(void **context)
+{
+    (void)context;
+    fbd_simulation *simulation = fbd_simulation_new(model, NULL, errors);
+    fbd_state *state = fbd_state_new(model), *foreign = fbd_state_new(other);
+    double from = 1, to = 1, bars[2];
+    assert_non_null(simulation);
+    REFUSES(fbd_simulation_new, !fbd_simulation_new(NULL, NULL, errors));
+    ENDURES(fbd_simulation_free, fbd_simulation_free(NULL));
+    ANSWERS(fbd_simulation_advance, fbd_simulation_advance(NULL) == FBD_FAILED);
+    ENDURES(fbd_simulation_interval, fbd_simulation_interval(NULL, &from, &to));
+    assert_true(is_nan(from) && is_nan(to));
+    ENDURES(fbd_simulation_interval, fbd_simulation_interval(simulation, NULL, NULL));
+    ANSWERS(fbd_simulation_state, !fbd_simulation_state(NULL, 0, state));
+    ANSWERS(fbd_simulation_state, !fbd_simulation_state(simulation, 0, NULL));
+    ANSWERS(fbd_simulation_state, !fbd_simulation_state(simulation, 0, foreign));
+    ANSWERS(fbd_simulation_state, !fbd_simulation_state(simulation, NAN, state));
+    ANSWERS(fbd_simulation_errors, !fbd_simulation_errors(NULL, 0, bars));
+    ANSWERS(fbd_simulation_errors, !fbd_simulation_errors(simulation, 0, NULL));
+    ANSWERS(fbd_simulation_events, fbd_simulation_events(NULL) == 0);
+    ANSWERS(fbd_simulation_event, is_nan(fbd_simulation_event(NULL, 0).t));
+    ANSWERS(fbd_simulation_event, is_nan(fbd_simulation_event(simulation, past).t));
+    ANSWERS(fbd_simulation_stats, fbd_simulation_stats(NULL).steps == 0 && fbd_simulation_stats(NULL).method);
+    ANSWERS(fbd_simulation_drift, fbd_simulation_drift(NULL).rows == 0 && fbd_simulation_drift(NULL).worst);
+    ANSWERS(fbd_simulation_reason, strcmp(fbd_simulation_reason(NULL), "") == 0);
+    ANSWERS(fbd_simulation_run, !fbd_simulation_run(NULL, NULL));
+    ANSWERS(fbd_event_kind_name, strcmp(fbd_event_kind_name((fbd_event_kind)99), "") == 0);
+    fbd_state_free(state);
+    fbd_state_free(foreign);
+    fbd_simulation_free(simulation);
+}
+
+static void results(void **context)
+{
+    (void)context;
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    options.error_bars = true;
+    fbd_simulation *simulation = fbd_simulation_new(model, &options, errors);
+    fbd_result *result = fbd_simulation_run(simulation, NULL);
+    assert_non_null(result);
+    ENDURES(fbd_result_free, fbd_result_free(NULL));
+    ANSWERS(fbd_result_outcome, fbd_result_outcome(NULL) == FBD_FAILED);
+    ANSWERS(fbd_result_state, !fbd_result_state(NULL));
+    ANSWERS(fbd_result_energy, is_nan(fbd_result_energy(NULL).kinetic));
+    ANSWERS(fbd_result_work, is_nan(fbd_result_work(NULL, "block", "spring")));
+    ANSWERS(fbd_result_work, is_nan(fbd_result_work(result, NULL, "spring")));
+    ANSWERS(fbd_result_work, is_nan(fbd_result_work(result, "block", NULL)));
+    ANSWERS(fbd_result_error, is_nan(fbd_result_error(NULL, "block.x")));
+    ANSWERS(fbd_result_error, is_nan(fbd_result_error(result, NULL)));
+    ANSWERS(fbd_result_energy_error, is_nan(fbd_result_energy_error(NULL).kinetic));
+    ANSWERS(fbd_result_work_error, is_nan(fbd_result_work_error(NULL, "block", "spring")));
+    ANSWERS(fbd_result_work_error, is_nan(fbd_result_work_error(result, NULL, NULL)));
+    ANSWERS(fbd_result_force_errors, fbd_result_force_errors(NULL, 0, NULL, 0) == 0);
+    ANSWERS(fbd_result_force_errors, fbd_result_force_errors(result, past, NULL, 3) == 0);
+    ANSWERS(fbd_result_force_errors, fbd_result_force_errors(result, 0, NULL, 3) > 0);
+    ANSWERS(fbd_result_accurate, !fbd_result_accurate(NULL));
+    ANSWERS(fbd_result_report, !fbd_result_report(NULL));
+    ANSWERS(fbd_result_json, !fbd_result_json(NULL));
+    REFUSES(fbd_result_gnuplot, !fbd_result_gnuplot(NULL, NULL, NULL, errors));
+    ANSWERS(fbd_has_html, fbd_has_html() || true);
+    REFUSES(fbd_result_html, !fbd_result_html(NULL, errors));
+    fbd_result_free(result);
+    fbd_simulation_free(simulation);
+}
+
+static void linearizations_and_derivations(void **context)
+{
+    (void)context;
+    fbd_state *state = fbd_state_new(model);
+    fbd_linearization *linear = fbd_linearize(state, errors);
+    char *text = NULL;
+    assert_non_null(linear);
+    REFUSES(fbd_linearize, !fbd_linearize(NULL, errors));
+    ENDURES(fbd_linearization_free, fbd_linearization_free(NULL));
+    ANSWERS(fbd_linearization_size, fbd_linearization_size(NULL) == 0);
+    ANSWERS(fbd_linearization_matrix, !fbd_linearization_matrix(NULL));
+    ANSWERS(fbd_linearization_mode, is_nan(fbd_linearization_mode(NULL, 0).re));
+    ANSWERS(fbd_linearization_mode, is_nan(fbd_linearization_mode(linear, past).im));
+    ANSWERS(fbd_linearization_text, !fbd_linearization_text(NULL));
+    ANSWERS(fbd_linearization_svg, !fbd_linearization_svg(NULL));
+    ANSWERS(fbd_check_hand, fbd_check_hand(NULL, 1, &text) == -1 && !text);
+    ANSWERS(fbd_check_hand, fbd_check_hand(model, 1, NULL) == -1);
+    fbd_linearization_free(linear);
+    fbd_state_free(state);
+}
+
+static void statics(void **context)
+{
+    (void)context;
+    fbd_state *state = fbd_state_new(model);
+    fbd_statics *at_rest = fbd_statics_new(state, NULL);
+    assert_non_null(at_rest);
+    REFUSES(fbd_statics_new, !fbd_statics_new(NULL, errors));
+    ENDURES(fbd_statics_free, fbd_statics_free(NULL));
+    ANSWERS(fbd_statics_holds, !fbd_statics_holds(NULL));
+    ANSWERS(fbd_statics_indeterminacy, fbd_statics_indeterminacy(NULL) == 0);
+    ANSWERS(fbd_statics_mobility, fbd_statics_mobility(NULL) == 0);
+    ANSWERS(fbd_statics_undetermined, fbd_statics_undetermined(NULL) == 0);
+    ANSWERS(fbd_statics_undetermined_name, !fbd_statics_undetermined_name(NULL, 0));
+    ANSWERS(fbd_statics_undetermined_name, !fbd_statics_undetermined_name(at_rest, past));
+    ANSWERS(fbd_statics_unbalanced, fbd_statics_unbalanced(NULL) == 0);
+    ANSWERS(fbd_statics_unbalanced_at, is_nan(fbd_statics_unbalanced_at(NULL, 0).holding));
+    ANSWERS(fbd_statics_unbalanced_at, is_nan(fbd_statics_unbalanced_at(at_rest, past).holding));
+    ANSWERS(fbd_statics_limits, fbd_statics_limits(NULL) == 0);
+    ANSWERS(fbd_statics_limit, is_nan(fbd_statics_limit(NULL, 0).needed));
+    ANSWERS(fbd_statics_limit, is_nan(fbd_statics_limit(at_rest, past).needed));
+    ANSWERS(fbd_statics_diagram, fbd_statics_diagram(NULL, 0, NULL, 0) == 0);
+    ANSWERS(fbd_statics_diagram, fbd_statics_diagram(at_rest, past, NULL, 0) == 0);
+    ANSWERS(fbd_statics_diagram, fbd_statics_diagram(at_rest, 0, NULL, 4) > 0);
+    ANSWERS(fbd_statics_text, !fbd_statics_text(NULL));
+    ANSWERS(fbd_statics_json, !fbd_statics_json(NULL));
+    fbd_statics_free(at_rest);
+    fbd_state_free(state);
+}
+
+/* ---- sweeps */
+
+static int count_bytes(void *context, const char *rows, size_t length)
+{
+    (void)rows;
+    *(size_t *)context += length;
+    return 0;
+}
+
+static void sweeps_that_cannot_be_made(void **context)
+{
+    (void)context;
+    static const char *const vary[] = {"k=1,2"}, *const hole[] = {NULL};
+    const fbd_sweep_plan plan = {.vary = vary, .vary_count = 1, .run = FBD_OPTIONS_DEFAULT};
+    fbd_sweep_plan holes[] = {plan, plan, plan, plan};
+    holes[0].vary = hole;
+    holes[1].vary = NULL;
+    holes[2].outputs = hole;
+    holes[2].output_count = 1;
+    holes[3].setting_count = 1;
+    for (size_t i = 0; i < sizeof holes / sizeof *holes; i++)
+        REFUSES(fbd_sweep_parse, !fbd_sweep_parse(scene, strlen(scene), "scene", &holes[i], errors));
+    REFUSES(fbd_sweep_parse, !fbd_sweep_parse(scene, strlen(scene), "scene", NULL, errors));
+    REFUSES(fbd_sweep_parse, !fbd_sweep_parse(NULL, 0, "scene", &plan, errors));
+    REFUSES(fbd_sweep_read, !fbd_sweep_read(NULL, &plan, errors));
+    REFUSES(fbd_sweep_read, !fbd_sweep_read("-", NULL, errors));
+}
+
+static void sweeps(void **context)
+{
+    (void)context;
+    static const char *const vary[] = {"k=1,2"};
+    const fbd_sweep_plan plan = {.vary = vary, .vary_count = 1, .run = FBD_OPTIONS_DEFAULT};
+    fbd_sweep *sweep = fbd_sweep_parse(scene, strlen(scene), "scene", &plan, errors);
+    size_t length = 7, bytes = 0;
+    fbd_sweep_counts counts = {.written = 7};
+    const fbd_sweep_work idle = {.end = 2, .jobs = 1};
+    const fbd_sweep_work work = {
+        .end = 2, .jobs = 1, .helpers = 1, .write = count_bytes, .write_context = &bytes};
+    assert_non_null(sweep);
+    ENDURES(fbd_sweep_free, fbd_sweep_free(NULL));
+    ANSWERS(fbd_sweep_runs, fbd_sweep_runs(NULL) == 0);
+    ANSWERS(fbd_sweep_header, !fbd_sweep_header(NULL));
+    ANSWERS(fbd_sweep_key, !fbd_sweep_key(NULL));
+    ANSWERS(fbd_sweep_source, !fbd_sweep_source(NULL, &length) && length == 0);
+    ANSWERS(fbd_sweep_source, fbd_sweep_source(sweep, NULL));
+    ANSWERS(fbd_sweep_run, fbd_sweep_run(NULL, &work, &counts) == FBD_SWEEP_REFUSED && counts.written == 0);
+    ANSWERS(fbd_sweep_run, fbd_sweep_run(sweep, NULL, NULL) == FBD_SWEEP_REFUSED);
+    ANSWERS(fbd_sweep_run, fbd_sweep_run(sweep, &idle, NULL) == FBD_SWEEP_REFUSED);
+    ANSWERS(fbd_sweep_start, !fbd_sweep_start(NULL, &work));
+    ANSWERS(fbd_sweep_start, !fbd_sweep_start(sweep, NULL));
+    ANSWERS(fbd_sweep_start, !fbd_sweep_start(sweep, &idle));
+    fbd_sweep_crew *crew = fbd_sweep_start(sweep, &work);
+    fbd_sweep_share share = {0, 2, &bytes}; /* a ticket of nobody */
+    assert_non_null(crew);
+    ANSWERS(fbd_sweep_claim, fbd_sweep_claim(NULL, 1, &share) == -1);
+    ANSWERS(fbd_sweep_claim, fbd_sweep_claim(crew, 1, NULL) == -1);
+    ENDURES(fbd_sweep_deliver, fbd_sweep_deliver(NULL, &share, "x", 1, &counts));
+    ENDURES(fbd_sweep_deliver, fbd_sweep_deliver(crew, NULL, "x", 1, &counts));
+    ENDURES(fbd_sweep_deliver, fbd_sweep_deliver(crew, &share, "x", 1, &counts));
+    ENDURES(fbd_sweep_deliver, fbd_sweep_deliver(crew, &share, NULL, 1, &counts));
+    ANSWERS(fbd_sweep_finish, fbd_sweep_finish(NULL, &counts) == FBD_SWEEP_REFUSED);
+    ANSWERS(fbd_sweep_finish, fbd_sweep_finish(crew, NULL) == FBD_SWEEP_DONE); /* nothing was harmed */
+    assert_true(bytes > 10);
+    fbd_sweep_free(sweep);
+}
+
+/* ---- studies */
+
+static void studies(void **context)
+{
+    (void)context;
+    static const char *const hole[] = {NULL}, *const methods[] = {"rkf45"};
+    fbd_cost_options options = FBD_COST_OPTIONS_DEFAULT, holes = FBD_COST_OPTIONS_DEFAULT;
+    options.budget = 0.05;
+    options.methods = methods;
+    options.method_count = 1;
+    holes.quantities = hole;
+    holes.quantity_count = 1;
+    fbd_cost *cost = fbd_cost_new(model, &options, errors);
+    fbd_effects *effects = fbd_effects_new(model, &options, errors);
+    assert_true(cost && effects);
+    REFUSES(fbd_cost_new, !fbd_cost_new(NULL, NULL, errors));
+    REFUSES(fbd_cost_new, !fbd_cost_new(model, &holes, errors));
+    ENDURES(fbd_cost_free, fbd_cost_free(NULL));
+    ANSWERS(fbd_cost_get_reference, is_nan(fbd_cost_get_reference(NULL).floor));
+    ANSWERS(fbd_cost_series_count, fbd_cost_series_count(NULL) == 0);
+    ANSWERS(fbd_cost_get_series, fbd_cost_get_series(NULL, 0).count == 0);
+    ANSWERS(fbd_cost_get_series, fbd_cost_get_series(cost, past).count == 0);
+    ANSWERS(fbd_cost_points, fbd_cost_points(NULL) == 0);
+    ANSWERS(fbd_cost_get_point, !fbd_cost_get_point(NULL, 0));
+    ANSWERS(fbd_cost_get_point, !fbd_cost_get_point(cost, past));
+    ANSWERS(fbd_cost_cheapest, !fbd_cost_cheapest(NULL, 1));
+    ANSWERS(fbd_cost_cheapest, !fbd_cost_cheapest(cost, NAN));
+    ANSWERS(fbd_cost_text, !fbd_cost_text(NULL));
+    ANSWERS(fbd_cost_csv, !fbd_cost_csv(NULL));
+    ANSWERS(fbd_cost_json, !fbd_cost_json(NULL));
+    ANSWERS(fbd_cost_svg, !fbd_cost_svg(NULL));
+    REFUSES(fbd_effects_new, !fbd_effects_new(NULL, &options, errors));
+    ENDURES(fbd_effects_free, fbd_effects_free(NULL));
+    ANSWERS(fbd_effects_count, fbd_effects_count(NULL) == 0);
+    ANSWERS(fbd_effects_get, !fbd_effects_get(NULL, 0));
+    ANSWERS(fbd_effects_get, !fbd_effects_get(effects, past));
+    ANSWERS(fbd_effects_text, !fbd_effects_text(NULL));
+    ANSWERS(fbd_effects_csv, !fbd_effects_csv(NULL));
+    ANSWERS(fbd_effects_json, !fbd_effects_json(NULL));
+    fbd_cost_free(cost);
+    fbd_effects_free(effects);
+}
+
+/* ---- all of them */
+
+static bool was_called(const char *name, size_t length)
+{
+    for (size_t i = 0; i < called_count; i++)
+        if (strlen(called[i]) == length && strncmp(called[i], name, length) == 0) return true;
+    return false;
+}
+
+/* Each declaration begins with FBD_API, and its name stands before the first parenthesis. */
+static void no_function_is_forgotten(void **context)
+{
+    (void)context;
+    char path[1000];
+    static char text[200000];
+    const char *root = getenv("FBD_SOURCE_ROOT");
+    snprintf(path, sizeof path, "%s/lib/fbd.h", root ? root : ".");
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    assert_true(fread(text, 1, sizeof text - 1, file) < sizeof text - 1);
+    fclose(file);
+    note("fbd_errors_new"); /* which ask for nothing */
+    note("fbd_version");
+    size_t functions = 0, forgotten = 0;
+    for (const char *at = text; (at = strstr(at, "\nFBD_API ")) != NULL;) {
+        const char *end = at = strchr(at, '(');
+        while (at[-1] == '_' || (at[-1] >= 'a' && at[-1] <= 'z')) at--;
+        functions++;
+        if (was_called(at, (size_t)(end - at))) continue;
+        forgotten++;
+        print_error("not called: %.*s\n", (int)(end - at), at);
+    }
+    assert_true(functions > 100);
+    assert_int_equal(forgotten, 0);
+}
+
+int main(void)
+{
+    gsl_set_error_handler_off();
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(errors_and_models),
+        cmocka_unit_test(a_model_may_have_no_name),
+        cmocka_unit_test(states),
+        cmocka_unit_test(equations),
+        cmocka_unit_test(simulations),
+        cmocka_unit_test(results),
+        cmocka_unit_test(linearizations_and_derivations),
+        cmocka_unit_test(statics),
+        cmocka_unit_test(sweeps_that_cannot_be_made),
+        cmocka_unit_test(sweeps),
+        cmocka_unit_test(studies),
+        cmocka_unit_test(no_function_is_forgotten),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
