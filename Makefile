@@ -39,6 +39,14 @@ faults: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	.ci/test $(BUILD) --no-rebuild --suite faults
 
+# Invents inputs for the targets of tests/fuzz, for so many seconds in all.
+SECONDS = 300
+
+fuzz: $(BUILD)-fuzz/build.ninja
+	.ci/install-packages run fuzz
+	ninja -C $(BUILD)-fuzz
+	tests/fuzz/run $(BUILD)-fuzz $(SECONDS)
+
 bench: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	meson test -C $(BUILD) --no-rebuild --benchmark --verbose
@@ -96,6 +104,11 @@ $(BUILD)-tsan/build.ninja:
 	.ci/install-packages run
 	meson setup $(BUILD)-tsan -Db_sanitize=thread $(MESON_OPTIONS)
 
+$(BUILD)-fuzz/build.ninja:
+	.ci/install-packages run fuzz
+	CC=clang meson setup $(BUILD)-fuzz -Dfuzz=true -Db_sanitize=address,undefined -Db_lundef=false \
+		-Dmpi=disabled $(MESON_OPTIONS)
+
 # A build that was set up before cmocka was there has no tests yet.
 %/.tests: | %/build.ninja
 	.ci/install-packages run test
@@ -106,5 +119,5 @@ $(BUILD)-tsan/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run test sanitize tsan valgrind faults bench effects error-bars failures gallery check-format format lint install clean
+.PHONY: all run test sanitize tsan valgrind faults fuzz bench effects error-bars failures gallery check-format format lint install clean
 .SECONDARY:

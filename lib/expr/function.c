@@ -82,6 +82,11 @@ bool function_exists(const char *name, size_t length)
     return find_function(name, length) != NULL;
 }
 
+const char *expr_function(size_t index)
+{
+    return index < function_count ? functions[index].name : NULL;
+}
+
 /* ---- calls that cannot be made */
 
 static const char *const other_names[][2] = {

@@ -96,6 +96,11 @@ const struct unit_row *unit_find(const char *name, size_t length)
     return NULL;
 }
 
+const struct unit_row *unit_row(size_t index)
+{
+    return index < row_count ? &table[index] : NULL;
+}
+
 /* ---- what people write instead */
 
 /* Where the nearest spelling would mislead (`mph` is no `mg`, `lb` may be a force or a mass) the answer is

@@ -23,6 +23,9 @@ struct unit_row {
 /* The row of the unit called `name[0..length)`, or NULL. */
 const struct unit_row *unit_find(const char *name, size_t length);
 
+/* Row `index`, or NULL past the end. */
+const struct unit_row *unit_row(size_t index);
+
 /* What to write instead of the unknown unit `name[0..length)`, as a hint. */
 const char *unit_suggest(fbd_errors *errors, const char *name, size_t length);
 

@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Whole runs with all outputs, and all that may be asked instead of a run. Which of them an input goes
+ * through is chosen by its fuzz_choices, so that each is short and all are taken often.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "claims.h"
+#include "fbd.h"
+#include "fuzz.h"
+#include "scene/language.h"
+
+enum {
+    most_steps = 150,    /* of a run, then it is interrupted */
+    most_table = 300000, /* bytes of CSV, then the writer refuses */
+    most_arrows = 64,
+};
+
+struct input {
+    const fbd_model *model;
+    fbd_errors *errors;
+    bool names_nan; /* it says `nan` itself, or a run failed for one: outputs may repeat that */
+    uint32_t choices;
+};
+
+/* ---- claims on texts; each takes the text and frees it, NULL is `memory is out` */
+
+static void claim_text(const struct input *input, const char *what, char *text)
+{
+    if (!text) fuzz_fail("%s: none", what);
+    claim_plain(what, text);
+    if (!input->names_nan) claim_no_nan(what, text);
+    free(text);
+}
+
+static void claim_object(const struct input *input, const char *what, char *text)
+{
+    if (!text) fuzz_fail("%s: none", what);
+    claim_json(what, text);
+    claim_text(input, what, text);
+}
+
+static void claim_drawing(const struct input *input, const char *what, char *text)
+{
+    if (!text) fuzz_fail("%s: none", what);
+    claim_xml(what, text);
+    claim_text(input, what, text);
+}
+
+static void claim_arrows(const fbd_arrow *arrows, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        claim_finite(arrows[i].name, arrows[i].fx);
+        claim_finite(arrows[i].name, arrows[i].fy);
+        claim_finite(arrows[i].name, arrows[i].x + arrows[i].y);
+        claim_finite(arrows[i].name, arrows[i].couple);
+        claim_finite(arrows[i].name, arrows[i].moment);
+        claim_finite(arrows[i].name, arrows[i].power);
+    }
+}
+
+static void claim_energy(fbd_energy energy)
+{
+    claim_finite("kinetic energy", energy.kinetic);
+    claim_finite("potential energy", energy.potential);
+    claim_finite("work", energy.work);
+    claim_finite("residual", energy.residual);
+    claim_finite("initial energy", energy.initial_kinetic + energy.initial_potential);
+}
+
+/* ---- runs */
+
+/* Tells the run to end after so many steps. */
+static int watch(void *context, const fbd_progress *progress)
+{
+    size_t *steps = context;
+    claim_finite("time", progress->t);
+    return ++*steps > most_steps;
+}
+
+static int write_table(void *context, const char *rows, size_t length)
+{
+    struct text *table = context;
+    text_add_bytes(table, rows, length);
+    return table->length > most_table;
+}
+
+static fbd_options choose_options(uint32_t *choices)
+{
+    static const double untils[] = {NAN, 1e-3, 0.1, 10};
+    static const double tolerances[] = {0, 1e-3, 1e-6, 1e-12};
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    options.until = untils[fuzz_take(choices, 2)];
+    unsigned method = fuzz_take(choices, 5); /* 0 is auto, and so are half of all */
+    if (method < 14) options.method = method_choices[method].name;
+    unsigned accuracy = fuzz_take(choices, 4);
+    options.no_structure = fuzz_take(choices, 2) == 0;
+    options.error_bars = fuzz_take(choices, 2) == 0;
+    if (accuracy == 0)
+        options.accuracy = 1e-6;
+    else if (accuracy == 1)
+        options.step = 0.01;
+    else
+        options.tolerance = tolerances[fuzz_take(choices, 2)];
+    return options;
+}
+
+static void look_at_end(const struct input *input, fbd_simulation *simulation, fbd_result *result)
+{
+    fbd_arrow arrows[most_arrows];
+    fbd_state *state = fbd_result_state(result);
+    claim_energy(fbd_result_energy(result));
+    for (size_t i = 0; i < fbd_model_coordinates(input->model); i++) {
+        fbd_coordinate coordinate = fbd_model_coordinate(input->model, i);
+        double q = NAN, v = NAN;
+        fbd_state_get(state, coordinate.name, &q);
+        fbd_state_get(state, coordinate.rate_name, &v);
+        claim_finite(coordinate.name, q);
+        claim_finite(coordinate.rate_name, v);
+    }
+    for (size_t i = 0; i < fbd_model_bodies(input->model); i++) {
+        size_t count = fbd_diagram(state, i, arrows, most_arrows);
+        claim_arrows(arrows, count < most_arrows ? count : most_arrows);
+    }
+    for (size_t i = 0; i < fbd_simulation_events(simulation); i++)
+        claim_finite("time of an event", fbd_simulation_event(simulation, i).t);
+}
+
+/* What is written of a run that came to an end of any kind. */
+static void write_outputs(const struct input *input, fbd_result *result, unsigned which)
+{
+    if (which & 1) claim_text(input, "report", fbd_result_report(result));
+    if (which & 2) claim_object(input, "JSON", fbd_result_json(result));
+    if ((which & 28) == 4)
+        claim_text(input, "plots", fbd_result_gnuplot(result, "plots.svg", NULL, input->errors));
+    if ((which & 28) == 8) free(fbd_result_html(result, input->errors));
+}
+
+static void claim_csv(const struct text *table)
+{
+    if (table->length > 0 && table->length <= most_table) claim_table("CSV", table->data);
+}
+
+static void run(struct input *input)
+{
+    size_t steps = 0;
+    struct text table = {0};
+    uint32_t *choices = &input->choices;
+    fbd_options options = choose_options(choices);
+    unsigned which = fuzz_take(choices, 5);
+    fbd_recording recording = {.ledger = fuzz_take(choices, 1),
+                               .csv = write_table,
+                               .csv_context = &table,
+                               .motion_only = fuzz_take(choices, 3) == 0,
+                               .keep = (which & 28) == 4 || (which & 28) == 8,
+                               .progress = watch,
+                               .progress_context = &steps};
+    if (fuzz_take(choices, 2) != 0 && isfinite(options.until)) recording.every = options.until / 4;
+    fbd_simulation *simulation = fbd_simulation_new(input->model, &options, input->errors);
+    fbd_result *result = simulation ? fbd_simulation_run(simulation, &recording) : NULL;
+    fbd_outcome outcome = result ? fbd_result_outcome(result) : FBD_FAILED;
+    input->names_nan = input->names_nan || outcome == FBD_FAILED;
+    if (result) write_outputs(input, result, recording.motion_only ? 0 : which);
+    if (outcome != FBD_FAILED && !recording.motion_only) {
+        look_at_end(input, simulation, result);
+        claim_csv(&table);
+    }
+    if (simulation) claim_plain("the reason", fbd_simulation_reason(simulation));
+    fbd_result_free(result);
+    fbd_simulation_free(simulation);
+    text_free(&table);
+}
+
+/* ---- questions without time */
+
+static void ask_equations(struct input *input, fbd_state *state)
+{
+    fbd_drawing drawing = {.components = fuzz_take(&input->choices, 1)};
+    if (!fbd_state_close(state, input->errors)) return;
+    claim_text(input, "equations", fbd_equations_text(state));
+    claim_drawing(input, "diagram", fbd_diagram_svg(state, &drawing, input->errors));
+    fbd_equations *equations = fbd_assemble(state);
+    for (size_t i = 0; equations && i < fbd_equations_count(equations); i++) {
+        const fbd_equation *equation = fbd_equations_get(equations, i);
+        claim_finite("inertia", equation->inertia);
+        claim_finite("sum", equation->sum);
+        claim_finite(equation->acceleration_name, equation->acceleration);
+        for (size_t k = 0; k < equation->term_count; k++)
+            claim_finite(equation->terms[k].name, equation->terms[k].value);
+    }
+    fbd_equations_free(equations);
+}
+
+static void ask_statics(struct input *input, fbd_state *state)
+{
+    if (fuzz_take(&input->choices, 1) && !fbd_find_equilibrium(state, input->errors)) return;
+    fbd_statics *statics = fbd_statics_new(state, input->errors);
+    if (!statics) return;
+    claim_text(input, "statics", fbd_statics_text(statics));
+    claim_object(input, "JSON of statics", fbd_statics_json(statics));
+    for (size_t i = 0; i < fbd_statics_limits(statics); i++)
+        claim_finite("a limit", fbd_statics_limit(statics, i).needed);
+    for (size_t i = 0; i < fbd_model_bodies(input->model); i++) {
+        fbd_arrow arrows[most_arrows];
+        size_t count = fbd_statics_diagram(statics, i, arrows, most_arrows);
+        claim_arrows(arrows, count < most_arrows ? count : most_arrows);
+    }
+    fbd_statics_free(statics);
+}
+
+static void ask_linearization(struct input *input, fbd_state *state)
+{
+    fbd_linearization *linear = fbd_linearize(state, input->errors);
+    if (!linear) return;
+    size_t size = fbd_linearization_size(linear);
+    for (size_t i = 0; i < size * size; i++) claim_finite("A", fbd_linearization_matrix(linear)[i]);
+    for (size_t i = 0; i < size; i++) {
+        fbd_mode mode = fbd_linearization_mode(linear, i);
+        claim_finite("an eigenvalue", mode.re + mode.im);
+    }
+    claim_text(input, "linearization", fbd_linearization_text(linear));
+    claim_drawing(input, "eigenvalues", fbd_linearization_svg(linear));
+    fbd_linearization_free(linear);
+}
+
+static void ask_hand(const struct input *input)
+{
+    char *text = NULL;
+    fbd_check_hand(input->model, 1, &text);
+    claim_text(input, "hand derivations", text);
+}
+
+static void ask(struct input *input)
+{
+    unsigned what = fuzz_take(&input->choices, 3);
+    const fbd_options options = FBD_OPTIONS_DEFAULT;
+    fbd_state *state = fbd_state_new(input->model);
+    if (what <= 2) ask_equations(input, state);
+    if (what == 3) ask_statics(input, state);
+    if (what == 4) ask_linearization(input, state);
+    if (what == 5) ask_hand(input);
+    if (what == 6) claim_text(input, "explanation", fbd_explain(input->model, &options));
+    fbd_state_free(state);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    const char *text = (const char *)data;
+    struct input input = {.errors = fbd_errors_new(),
+                          .names_nan = names_nan(text, size),
+                          .choices = fuzz_choices(text, size)};
+    fbd_model *model = fbd_model_parse(text, size, "fuzzed.yaml", NULL, 0, input.errors);
+    input.model = model;
+    if (model) {
+        ask(&input);
+        run(&input);
+    }
+    fbd_model_free(model);
+    fbd_errors_free(input.errors);
+    return 0;
+}
