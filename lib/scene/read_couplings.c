@@ -3,6 +3,7 @@
  * Couplings: what joins two bodies beside what they move on. Each is declared once and stands in the diagrams
  * of both.
  */
+#include "scene/coupling_names.h"
 #include "scene/fields.h"
 #include "scene/reader.h"
 #include "scene/values.h"
@@ -58,57 +59,6 @@ static bool read_between(struct reader *reader, const struct node *list, struct 
     diag_add(reader->errors, FBD_ERROR, "same-body", list->at, "name points of two bodies",
              "both ends are on the same body: nothing would act");
     return false;
-}
-
-/* ---- names */
-
-struct taken_name {
-    const char *name, *kind;
-    struct pos at;
-};
-
-/* Is one of the first `count` couplings called `name`? */
-static bool is_taken(const struct taken_name *names, const char *name, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        if (names[i].name && strcmp(names[i].name, name) == 0) return true;
-    return false;
-}
-
-/* Forces of joints have their names, and so have the loads of the bodies: a coupling cannot be called so. */
-static bool is_in_diagrams(const struct reader *reader, const char *name)
-{
-    static const char *const reactions[] = {"pin", "guide", "weld"};
-    for (size_t i = 0; i < sizeof reactions / sizeof *reactions; i++)
-        if (strcmp(name, reactions[i]) == 0) return true;
-    for (size_t b = 0; b < reader->scene->body_count; b++)
-        for (size_t i = 0; i < reader->scene->bodies[b].load_count; i++)
-            if (strcmp(reader->scene->bodies[b].loads[i].name, name) == 0) return true;
-    return false;
-}
-
-static bool check_given(struct reader *reader, const struct taken_name *names, size_t i)
-{
-    bool twice = is_taken(names, names[i].name, i);
-    if (!twice && !is_in_diagrams(reader, names[i].name)) return true;
-    diag_add(reader->errors, FBD_ERROR, "duplicate-name", names[i].at, "choose another name",
-             twice ? "two couplings are called `%s`" : "a force of a body is called `%s` already",
-             names[i].name);
-    return false;
-}
-
-static bool name_couplings(struct reader *reader, struct taken_name *names, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        if (names[i].name && !check_given(reader, names, i)) return false;
-    for (size_t i = 0; i < count; i++)
-        for (int number = 1; !names[i].name; number++) {
-            const char *name = names[i].kind;
-            if (number > 1) name = arena_printf(reader->arena, "%s_%d", names[i].kind, number);
-            if (!name) return false;
-            if (!is_taken(names, name, count) && !is_in_diagrams(reader, name)) names[i].name = name;
-        }
-    return true;
 }
 
 /* ---- constraints */
@@ -257,7 +207,7 @@ static bool read_constraint(struct reader *reader, const struct chosen *chosen,
 
 /* ---- the list */
 
-static bool read_coupling(struct reader *reader, const struct node *node, struct taken_name *name)
+static bool read_coupling(struct reader *reader, const struct node *node, struct coupling_name *name)
 {
     struct scene *scene = reader->scene;
     struct names names = {.reader = reader, .place = place_event, .body = ground_body};
@@ -266,7 +216,7 @@ static bool read_coupling(struct reader *reader, const struct node *node, struct
     struct coupling_keys keys = {0};
     if (!kind_read(reader, &coupling_kinds, node, "couplings", &chosen)) return false;
     bool fine = fields_read(reader, chosen.kind->group, chosen.node, chosen.at, &scope, &keys);
-    *name = (struct taken_name){keys.name, chosen.kind->name, chosen.at};
+    *name = (struct coupling_name){keys.name, chosen.kind, chosen.at};
     if (chosen.kind->value >= coupling_constraint)
         return fine &&
                read_constraint(reader, &chosen, &keys, &scene->constraints[scene->constraint_count++]);
@@ -285,14 +235,14 @@ bool couplings_read(struct reader *reader, const struct node *list)
     size_t count = list ? list->count : 0, load = 0, constraint = 0;
     scene->couplings = ARENA_ARRAY(reader->arena, count, struct coupling);
     scene->constraints = ARENA_ARRAY(reader->arena, count, struct constraint);
-    struct taken_name *names = ARENA_ARRAY(reader->arena, count, struct taken_name);
+    struct coupling_name *names = ARENA_ARRAY(reader->arena, count, struct coupling_name);
     if (!scene->couplings || !scene->constraints || !names) return false;
     bool fine = true;
     for (size_t i = 0; i < count; i++)
         if (!read_coupling(reader, list->items[i], &names[i])) fine = false;
-    if (!fine || !name_couplings(reader, names, count)) return false;
+    if (!fine || !couplings_name(reader, names, count)) return false;
     for (size_t i = 0; i < count; i++) {
-        bool force = strcmp(names[i].kind, "spring") == 0 || strcmp(names[i].kind, "damper") == 0;
+        bool force = names[i].kind->value < coupling_constraint;
         *(force ? &scene->couplings[load++].load.name : &scene->constraints[constraint++].name) =
             names[i].name;
     }

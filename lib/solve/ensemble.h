@@ -63,6 +63,7 @@ struct ensemble {
     bool cut;       /* it has been asked to end */
     bool stepping;  /* a group is making a step */
     double from, t; /* see above; with ensemble_go from == t */
+    double calm;    /* before this time no group steps, tells an event or ends: ensemble_go looks at none */
     fbd_outcome outcome;
     const char *reason; /* "" while all is well */
     char cut_reason[60];

@@ -41,6 +41,7 @@ static void start(struct ensemble *ensemble, bool lazy)
     if (ensemble->started) return;
     ensemble->started = true;
     ensemble->lazy = lazy;
+    ensemble->calm = -HUGE_VAL;
     for (size_t p = 0; p < ensemble->count; p++)
         if (!(lazy && ensemble->groups[p].quiet)) ensemble->queue[ensemble->queued++] = p;
 }
@@ -192,11 +193,46 @@ double ensemble_next_end(const struct ensemble *ensemble)
     return first > ensemble->t ? first : nextafter(ensemble->t, HUGE_VAL);
 }
 
+/* Until when a group is calm: it has made a step beyond, or its last one, and has nothing to tell before. */
+static double calm_until(const struct group *group)
+{
+    const struct run *run = group->run;
+    if (ended_early(run)) return -HUGE_VAL;
+    return group->released < run->event_count ? fmin(run->state->t, run->events[group->released].t)
+                                              : run->state->t;
+}
+
+/* A thousand rows of a hundred thousand groups that made one step each are no reason to look at all of them a
+ * thousand times. */
+static void find_calm(struct ensemble *ensemble)
+{
+    ensemble->calm = HUGE_VAL;
+    for (size_t p = 0; p < ensemble->count; p++)
+        ensemble->calm = fmin(ensemble->calm, calm_until(&ensemble->groups[p]));
+}
+
 bool ensemble_has_reached(const struct ensemble *ensemble, double t)
 {
+    if (ensemble->started && t < ensemble->calm) return true;
     for (size_t p = 0; p < ensemble->count; p++)
         if (end_of(ensemble, p) < t) return false;
     return true;
+}
+
+/* Carry every group that is behind to t, the target or what is before it. */
+static void go(struct ensemble *ensemble, double target, double near, bool pause)
+{
+    double queued = go_queued(ensemble, target, near, pause);
+    double t = ensemble->queued < ensemble->count ? go_quiet(ensemble, queued) : queued;
+    if (ensemble->outcome != FBD_GOING) return; /* memory is out */
+    for (size_t p = 0; p < ensemble->count; p++) {
+        if (ensemble->groups[p].run->from > t) rewind_group(ensemble, p, t);
+        if (ensemble->outcome != FBD_GOING) return;
+        ensemble->due[p] = p;
+    }
+    ensemble->from = t;
+    arrive(ensemble, t, ensemble->count);
+    find_calm(ensemble);
 }
 
 fbd_outcome ensemble_go(struct ensemble *ensemble, double target, double near, bool pause)
@@ -204,16 +240,11 @@ fbd_outcome ensemble_go(struct ensemble *ensemble, double target, double near, b
     if (ensemble->outcome != FBD_GOING) return ensemble->outcome;
     start(ensemble, true);
     target = fmin(target, ensemble->options.until);
-    double queued = go_queued(ensemble, target, near, pause);
-    double t = ensemble->queued < ensemble->count ? go_quiet(ensemble, queued) : queued;
-    if (ensemble->outcome != FBD_GOING) return ensemble->outcome; /* memory is out */
-    for (size_t p = 0; p < ensemble->count; p++) {
-        if (ensemble->groups[p].run->from > t) rewind_group(ensemble, p, t);
-        if (ensemble->outcome != FBD_GOING) return ensemble->outcome;
-        ensemble->due[p] = p;
-    }
-    ensemble->from = t;
-    arrive(ensemble, t, ensemble->count);
+    if (target + near < ensemble->calm && !ensemble->cut) {
+        ensemble->from = target;
+        arrive(ensemble, target, 0);
+    } else
+        go(ensemble, target, near, pause);
     if (ensemble->cut && ensemble->outcome == FBD_GOING) end_cut(ensemble);
     return ensemble->outcome;
 }
