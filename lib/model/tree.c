@@ -322,37 +322,42 @@ static bool has_normal(const struct fbd_model *model, const struct model_body *b
     return false;
 }
 
-/* Does anything act on a particle that would turn it, if it could turn? */
-static bool is_twisted(const struct fbd_model *model, const struct model_body *body)
+static bool is_off_center(const struct model_body *body, struct vec at)
 {
-    if (body->parent != ground_body || body->child >= 0) return true;
-    for (size_t i = 0; i < model->load_count; i++) {
+    return at.x != body->inertia.G.x || at.y != body->inertia.G.y;
+}
+
+/* On which bodies does a force act that would turn it, if it were a particle that could turn? Found for all
+ * at once: a coupling is not in the lists of the bodies that it joins. */
+static bool *find_twisted(struct fbd_model *model)
+{
+    bool *twisted = ARENA_ARRAY(&model->arena, model->body_count, bool);
+    for (size_t i = 0; twisted && i < model->load_count; i++) {
         const struct model_load *load = &model->loads[i];
-        struct vec at = &model->bodies[load->body] == body ? load->point : load->anchor;
-        bool own = &model->bodies[load->body] == body ||
-                   (load->partner >= 0 && &model->bodies[load->partner] == body);
-        if (own && (at.x != body->inertia.G.x || at.y != body->inertia.G.y)) return true;
+        if (is_off_center(&model->bodies[load->body], load->point)) twisted[load->body] = true;
+        if (load->partner >= 0 && is_off_center(&model->bodies[load->partner], load->anchor))
+            twisted[load->partner] = true;
     }
-    return false;
+    return twisted;
 }
 
 /* The force of a joint beside what is listed: a slide with `normal` has it in its list. */
-static const char *reaction_of(const struct fbd_model *model, const struct model_body *body)
+static const char *reaction_of(const struct fbd_model *model, const struct model_body *body, bool twisted)
 {
     switch (body->kind) {
     case motion_pivot: return "pin";
     case motion_slide: return has_normal(model, body) ? NULL : "guide";
     case motion_weld: return "weld";
-    case motion_particle: return is_twisted(model, body) ? "guide" : NULL;
+    case motion_particle: return twisted || body->parent != ground_body || body->child >= 0 ? "guide" : NULL;
     case motion_planar: break;
     }
     return NULL;
 }
 
-static void name_reactions(struct fbd_model *model, struct model_body *body)
+static void name_reactions(struct fbd_model *model, struct model_body *body, bool twisted)
 {
     struct arena *arena = &model->arena;
-    body->reaction = reaction_of(model, body);
+    body->reaction = reaction_of(model, body, twisted);
     for (int i = body->first_load; i < body->first_load + body->load_count; i++)
         model->loads[i].in_joint = acts_in_joint(&model->loads[i]);
     if (body->parent == ground_body) return;
@@ -372,10 +377,11 @@ static void name_reactions(struct fbd_model *model, struct model_body *body)
 bool tree_name_reactions(struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
-    for (int i = 0; tree && i < tree->body_count; i++) {
+    const bool *twisted = tree ? find_twisted(model) : NULL;
+    for (int i = 0; twisted && i < tree->body_count; i++) {
         int b = tree->bodies[tree->body_count - 1 - i]; /* lists of children in the order of the tree */
         struct model_body *body = &model->bodies[b];
-        name_reactions(model, body);
+        name_reactions(model, body, twisted[b]);
         if (body->parent == ground_body) continue;
         body->sibling = model->bodies[body->parent].child;
         model->bodies[body->parent].child = b;
