@@ -3,7 +3,10 @@
 
 #include <string.h>
 
+#include "solve/bdf.h"
+#include "solve/bsimp.h"
 #include "solve/dop853.h"
+#include "solve/implicit_rk.h"
 #include "solve/rodas5p.h"
 
 /* The orders are measured ones (tests/unit/test_stepper.c): GSL's rk2 gives the result of its formula of
@@ -59,34 +62,34 @@ static const struct method methods[] = {
      .stable = 2},
     {.name = "msbdf",
      .description = "backward differentiation multistep in Nordsieck form, orders 1 to 5, for stiff systems",
-     .type = &gsl_odeiv2_step_msbdf,
+     .type = &step_msbdf,
      .order = 5,
      .implicit = true,
      .multistep = true,
      .needs_driver = true},
     {.name = "bsimp",
      .description = "implicit extrapolation of Bader and Deuflhard, order 12, for stiff systems",
-     .type = &gsl_odeiv2_step_bsimp,
+     .type = &step_bsimp,
      .order = 12,
      .estimate_order = 13,
      .implicit = true},
     {.name = "rk4imp",
      .description = "Gauss implicit Runge-Kutta of order 4",
-     .type = &gsl_odeiv2_step_rk4imp,
+     .type = &step_rk4imp,
      .order = 4,
      .estimate_order = 5,
      .implicit = true,
      .needs_driver = true},
     {.name = "rk2imp",
      .description = "implicit midpoint rule, order 2",
-     .type = &gsl_odeiv2_step_rk2imp,
+     .type = &step_rk2imp,
      .order = 2,
      .estimate_order = 3,
      .implicit = true,
      .needs_driver = true},
     {.name = "rk1imp",
      .description = "implicit Euler, order 1",
-     .type = &gsl_odeiv2_step_rk1imp,
+     .type = &step_rk1imp,
      .order = 1,
      .estimate_order = 2,
      .implicit = true,

@@ -41,8 +41,8 @@ struct stepper {
     double memory[];
 };
 
-/* Not by gsl_odeiv2_step_alloc, which calls GSL's error handler when memory is out; its own steppers still
- * do. */
+/* Not by gsl_odeiv2_step_alloc, which calls GSL's error handler when memory is out; the methods that are
+ * GSL's own (method.c) still do. */
 static gsl_odeiv2_step *step_alloc(const struct method *method, size_t n, const gsl_odeiv2_driver *driver)
 {
     gsl_odeiv2_step *step = malloc(sizeof *step);
@@ -267,17 +267,6 @@ static void count_rejection(struct stepper *s, enum rejection why, bool again)
     if (!again || !telling || why == rejected_rhs || why == rejected_not_finite) s->counts.last = why;
 }
 
-/* bsimp refuses a step in which a component changes by more than 100 times what it is at the start, but takes
- * zero for 1 there: a velocity that is zero but for rounding would end the run. */
-static void clear_roundings(struct stepper *s, double *y, const double *f)
-{
-    double *scale = s->work + 2 * s->n;
-    if (s->method->type != &gsl_odeiv2_step_bsimp) return;
-    weights_scales(s->control, 0, y, f, scale);
-    for (size_t i = 0; i < s->n; i++)
-        if (fabs(y[i]) <= 8 * DBL_EPSILON * scale[i]) y[i] = 0;
-}
-
 enum stepper_status stepper_step(struct stepper *s, struct counted_system *system, double *t, double *y,
                                  double *f, double *h, double t_limit)
 {
@@ -294,7 +283,6 @@ enum stepper_status stepper_step(struct stepper *s, struct counted_system *syste
         /* The second condition ends the retries at t = 0, where there is always a smaller number. */
         if (t0 + plan.h == t0 || plan.h < 1e-30 * room) return give_up(s, y, f, stepper_underflow);
         system->last_code = GSL_SUCCESS;
-        clear_roundings(s, y, s->f0);
         int code = gsl_odeiv2_step_apply(s->step, t0, plan.h, y, s->yerr, s->f0, f, &system->gsl);
         if (code == GSL_EBADFUNC) return give_up(s, y, f, stepper_bad_function);
         struct outcome outcome = code == GSL_SUCCESS ? judge(s, plan.h, y, f) : judge_failure(s, system);
@@ -319,7 +307,6 @@ enum stepper_status stepper_step(struct stepper *s, struct counted_system *syste
 static int redo(struct stepper *s, double t, double *y, double *f)
 {
     memcpy(y, s->y0, s->n * sizeof *y);
-    clear_roundings(s, y, s->f0);
     return gsl_odeiv2_step_apply(s->redo, s->t0, t - s->t0, y, s->yerr, s->f0, f, &s->system->gsl);
 }
 

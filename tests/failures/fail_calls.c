@@ -17,15 +17,19 @@
 static struct layer_page *page;
 static bool counting; /* between the begin of main and the end of the process */
 static atomic_long calls;
+static const void *refused_to; /* who has made the first call that failed */
 
-bool layer_refuses(enum layer_kind kind, const char *what)
+bool layer_refuses(enum layer_kind kind, const char *what, const void *caller)
 {
     if (!counting) return false;
     long call = atomic_fetch_add(&calls, kind == page->kind) + 1;
     page->calls[kind]++; /* two threads may count as one here: nobody relies on it */
     if (kind != page->kind || page->at == 0) return false;
     bool refused = page->stay ? call >= page->at : call == page->at;
-    if (refused && page->refused++ == 0) strncpy(page->what, what, sizeof page->what - 1);
+    if (refused && page->refused++ == 0) {
+        strncpy(page->what, what, sizeof page->what - 1);
+        refused_to = caller;
+    }
     return refused;
 }
 
@@ -111,11 +115,14 @@ int __libc_start_main(int (*main)(int, char **, char **), int argc, char **argv,
 /* ---- after main */
 
 /* What is lost by others than the programs. The loader keeps the storage of a thread that has ended for the
- * next one. GSL 2.7.1 loses the header of a matrix when there is no memory for what is in it. */
+ * next one. GSL 2.7.1 loses what it has when there is no memory for the rest of it (gsl_matrix_alloc, the
+ * state of msadams). */
 static bool is_excused(const Dl_info *where)
 {
-    return strstr(where->dli_fname, "/ld-linux") ||
-           (page->refused && where->dli_sname && strcmp(where->dli_sname, "gsl_matrix_alloc") == 0);
+    Dl_info refused;
+    if (strstr(where->dli_fname, "/ld-linux")) return true;
+    return strstr(where->dli_fname, "/libgsl.") && refused_to && dladdr(refused_to, &refused) &&
+           strcmp(refused.dli_fname, where->dli_fname) == 0;
 }
 
 static void note_lost(const void *caller)

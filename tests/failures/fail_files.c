@@ -25,7 +25,7 @@
 
 static bool refuse(const char *what, int error)
 {
-    bool refused = layer_refuses(layer_files, what);
+    bool refused = layer_refuses(layer_files, what, NULL);
     if (refused) errno = error;
     return refused;
 }
@@ -50,7 +50,7 @@ static ssize_t cookie_read(void *context, char *text, size_t length)
 static ssize_t cookie_write(void *context, const char *text, size_t length)
 {
     const struct cookie *cookie = context;
-    if (!layer_refuses(layer_files, "write")) return write(cookie->descriptor, text, length);
+    if (!layer_refuses(layer_files, "write", NULL)) return write(cookie->descriptor, text, length);
     ssize_t written = length > 1 ? write(cookie->descriptor, text, length / 2) : 0;
     errno = ENOSPC;
     return written;
@@ -75,7 +75,7 @@ static int really_close(int descriptor)
 static int cookie_close(void *context)
 {
     struct cookie *cookie = context;
-    bool refused = layer_refuses(layer_files, "close");
+    bool refused = layer_refuses(layer_files, "close", NULL);
     int closed = really_close(cookie->descriptor);
     *cookie = (struct cookie){0};
     if (refused) errno = EIO;
@@ -200,7 +200,7 @@ int mkstemp64(char *name)
 
 int close(int descriptor)
 {
-    bool refused = layer_refuses(layer_files, "close");
+    bool refused = layer_refuses(layer_files, "close", NULL);
     int closed = really_close(descriptor);
     if (refused) errno = EIO;
     return refused ? -1 : closed;

@@ -91,9 +91,9 @@ const void *layer_memory_left(long *place)
 
 /* ---- the functions */
 
-static bool refuse(const char *what)
+static bool refuse(const char *what, const void *caller)
 {
-    bool refused = layer_refuses(layer_memory, what);
+    bool refused = layer_refuses(layer_memory, what, caller);
     if (refused) errno = ENOMEM;
     return refused;
 }
@@ -102,12 +102,12 @@ static bool refuse(const char *what)
 
 void *malloc(size_t size)
 {
-    return refuse("malloc") ? NULL : note(__libc_malloc(size), CALLER);
+    return refuse("malloc", CALLER) ? NULL : note(__libc_malloc(size), CALLER);
 }
 
 void *calloc(size_t count, size_t size)
 {
-    return refuse("calloc") ? NULL : note(__libc_calloc(count, size), CALLER);
+    return refuse("calloc", CALLER) ? NULL : note(__libc_calloc(count, size), CALLER);
 }
 
 static void *change(void *memory, size_t size, const void *caller)
@@ -121,23 +121,23 @@ static void *change(void *memory, size_t size, const void *caller)
 
 void *realloc(void *memory, size_t size)
 {
-    return refuse("realloc") ? NULL : change(memory, size, CALLER);
+    return refuse("realloc", CALLER) ? NULL : change(memory, size, CALLER);
 }
 
 void *reallocarray(void *memory, size_t count, size_t size)
 {
-    if (refuse("reallocarray") || (size > 0 && count > SIZE_MAX / size)) return NULL;
+    if (refuse("reallocarray", CALLER) || (size > 0 && count > SIZE_MAX / size)) return NULL;
     return change(memory, count * size, CALLER);
 }
 
 void *aligned_alloc(size_t alignment, size_t size)
 {
-    return refuse("aligned_alloc") ? NULL : note(__libc_memalign(alignment, size), CALLER);
+    return refuse("aligned_alloc", CALLER) ? NULL : note(__libc_memalign(alignment, size), CALLER);
 }
 
 int posix_memalign(void **memory, size_t alignment, size_t size)
 {
-    void *made = refuse("posix_memalign") ? NULL : note(__libc_memalign(alignment, size), CALLER);
+    void *made = refuse("posix_memalign", CALLER) ? NULL : note(__libc_memalign(alignment, size), CALLER);
     if (!made) return ENOMEM;
     *memory = made;
     return 0;
@@ -154,5 +154,5 @@ int pthread_create(pthread_t *thread, const pthread_attr_t *how, void *(*start)(
 {
     static int (*create)(pthread_t *, const pthread_attr_t *, void *(*)(void *), void *);
     if (!create) *(void **)&create = dlsym(RTLD_NEXT, "pthread_create");
-    return refuse("pthread_create") ? EAGAIN : create(thread, how, start, argument);
+    return refuse("pthread_create", CALLER) ? EAGAIN : create(thread, how, start, argument);
 }

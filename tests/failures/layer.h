@@ -41,8 +41,8 @@ enum { layer_seconds = 60 }; /* a run that takes longer hangs */
 
 /* ---- between the files of the layer */
 
-/* Is this call to fail? */
-bool layer_refuses(enum layer_kind kind, const char *what);
+/* Is this call to fail? `caller` is where it comes from, or NULL. */
+bool layer_refuses(enum layer_kind kind, const char *what, const void *caller);
 
 /* From now on calls count; what has been allocated before is not asked back. */
 void layer_memory_begin(void);

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Steppers when memory runs out. Of GSL's own methods rkf45 stands for all: msadams and msbdf lose memory
- * of their own on that way, and bsimp writes through the null pointer (GSL 2.7.1).
+ * Steppers when memory runs out. Of GSL's own methods msadams is left out: it loses memory of its own on that
+ * way (GSL 2.7.1).
  */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -18,12 +19,10 @@
 static void a_stepper_is_made_whole_or_not_at_all(void **state)
 {
     (void)state;
-    const char *names[] = {"dop853", "rkf45"};
     const bool angle[2] = {true, false};
-    for (size_t m = 0; m < sizeof names / sizeof *names; m++) {
-        struct stepper_options options = {.method = method_find(names[m]),
-                                          .layout = {2, 1, angle},
-                                          .tolerance = 1e-6};
+    for (size_t m = 0; method_at(m); m++) {
+        if (strcmp(method_at(m)->name, "msadams") == 0) continue;
+        struct stepper_options options = {.method = method_at(m), .layout = {2, 1, angle}, .tolerance = 1e-6};
         for (size_t n = 0;; n++) {
             fail_alloc_at(n);
             struct stepper *stepper = stepper_alloc(&options);
@@ -43,14 +42,22 @@ static int fall(double t, const double y[], double f[], void *params)
     return GSL_SUCCESS;
 }
 
+static int slopes(double t, const double y[], double *dfdy, double dfdt[], void *params)
+{
+    (void)t, (void)y, (void)params;
+    dfdy[0] = dfdy[2] = dfdy[3] = 0;
+    dfdy[1] = 1;
+    dfdt[0] = dfdt[1] = 0;
+    return GSL_SUCCESS;
+}
+
 static void a_run_takes_no_memory(void **state)
 {
     (void)state;
-    gsl_odeiv2_system inner = {.function = fall, .dimension = 2};
+    gsl_odeiv2_system inner = {.function = fall, .jacobian = slopes, .dimension = 2};
     struct counted_system system;
     counted_system_init(&system, &inner);
     for (size_t m = 0; method_at(m); m++) {
-        if (method_at(m)->implicit) continue;
         struct stepper_options options = {.method = method_at(m), .layout = {.pairs = 1}, .tolerance = 1e-6};
         struct stepper *stepper = stepper_alloc(&options);
         double t = 0, h, y[2] = {0, 3}, f[2], z[2];
