@@ -47,6 +47,13 @@ fuzz: $(BUILD)-fuzz/build.ninja
 	ninja -C $(BUILD)-fuzz
 	tests/fuzz/run $(BUILD)-fuzz $(SECONDS)
 
+# Random scenes against the independent assembly of tests/cross, with seeds that the tests do not use.
+SCENES = 100000
+SEED = 1000000
+cross-check: $(BUILD)/.tests
+	ninja -C $(BUILD)
+	$(BUILD)/tests/cross/cross_check --scenes $(SCENES) --seed $(SEED) --jobs 2
+
 bench: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	meson test -C $(BUILD) --no-rebuild --benchmark --verbose
@@ -119,5 +126,5 @@ $(BUILD)-fuzz/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run test sanitize tsan valgrind faults fuzz bench effects error-bars failures gallery check-format format lint install clean
+.PHONY: all run test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars failures gallery check-format format lint install clean
 .SECONDARY:

@@ -327,6 +327,23 @@ static bool is_off_center(const struct model_body *body, struct vec at)
     return at.x != body->inertia.G.x || at.y != body->inertia.G.y;
 }
 
+/* Constraints that hold a body beside its centre of mass; a line that something rolls on is pressed anywhere. */
+static void find_held(const struct fbd_model *model, bool *twisted)
+{
+    for (size_t c = 0; c < model->scene->constraint_count; c++) {
+        const struct constraint *constraint = &model->scene->constraints[c];
+        bool lines = constraint->kind == constraint_roll || constraint->kind == constraint_rack;
+        for (int k = 0; k < constraint->end_count; k++) {
+            const struct point *point = &constraint->point[k];
+            int b = constraint->body[k];
+            if (b == ground_body) continue;
+            if ((lines && k == 1) ||
+                (point->kind == point_fixed && is_off_center(&model->bodies[b], point->where)))
+                twisted[b] = true;
+        }
+    }
+}
+
 /* On which bodies does a force act that would turn it, if it were a particle that could turn? Found for all
  * at once: a coupling is not in the lists of the bodies that it joins. */
 static bool *find_twisted(struct fbd_model *model)
@@ -334,10 +351,13 @@ static bool *find_twisted(struct fbd_model *model)
     bool *twisted = ARENA_ARRAY(&model->arena, model->body_count, bool);
     for (size_t i = 0; twisted && i < model->load_count; i++) {
         const struct model_load *load = &model->loads[i];
-        if (is_off_center(&model->bodies[load->body], load->point)) twisted[load->body] = true;
+        bool at_origin = load->source->kind == load_potential;
+        if (is_off_center(&model->bodies[load->body], at_origin ? (struct vec){0, 0} : load->point))
+            twisted[load->body] = true;
         if (load->partner >= 0 && is_off_center(&model->bodies[load->partner], load->anchor))
             twisted[load->partner] = true;
     }
+    if (twisted) find_held(model, twisted);
     return twisted;
 }
 

@@ -311,9 +311,43 @@ static void forces_that_cannot_be_told_are_refused(void **unused)
     checks_end(&checks);
 }
 
+/* A particle does not turn: what a rod beside its centre would do is taken up by a couple, which belongs into
+ * its diagram. Without it the moments about G do not add up. */
+static void a_particle_held_beside_its_centre_has_the_couple_that_keeps_it_from_turning(void **unused)
+{
+    (void)unused;
+    static const char *const held[] = {
+        "  - rod: {between: [ground.A, bob.P]}\n",
+        "  - pin: {between: [ground.B, bob.P]}\n",
+        "  - rope: {through: [ground.A, bob.P]}\n",
+    };
+    struct checks checks = {0};
+    for (size_t i = 0; i < sizeof held / sizeof *held; i++) {
+        char text[600];
+        snprintf(text, sizeof text,
+                 "fbd: 1\nground: {points: {A: [0, 2], B: [0.5, 0]}}\nbodies:\n  bob:\n    shape: disc\n"
+                 "    mass: 2\n    radius: 0.5\n    points: {P: [0.5, 0]}\n    motion: particle\n"
+                 "    forces: [gravity]\ncouplings:\n%s",
+                 held[i]);
+        struct trial trial = trial_parse(text);
+        fbd_arrow arrows[8];
+        size_t count = fbd_diagram(trial.state, 0, arrows, 8);
+        double moment = 0, size = 0;
+        for (size_t k = 0; k < count; k++) {
+            moment += arrows[k].moment;
+            size = fmax(size, fabs(arrows[k].moment));
+        }
+        check_that(&checks, "the rod turns", size > 1);
+        check_close(&checks, "moments about G", moment, 0, 1e-12 * size);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_particle_held_beside_its_centre_has_the_couple_that_keeps_it_from_turning),
         cmocka_unit_test(a_parallelogram_with_a_crank_too_many_moves_and_names_what_is_too_much),
         cmocka_unit_test(two_rods_in_one_place_share_by_halves),
         cmocka_unit_test(a_pin_across_two_slides_says_too_much),

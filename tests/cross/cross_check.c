@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Random scenes by the library and by the independent assembly.
+ *
+ *     cross_check [--scenes N] [--seed FIRST] [--runs K] [--jobs J] [--tap]
+ *     cross_check --show SEED
+ *
+ * Scenes FIRST, FIRST + 1, ...; every K-th (default: each) is also run for a second. Scenes that fail are
+ * shrunk and printed. Exit code 1 when any has failed.
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "compare.h"
+#include "generate.h"
+#include "shrink.h"
+#include "write.h"
+
+struct counts {
+    unsigned long scenes, unfit, runs, broke_off, sensitive, verdicts[verdict_count];
+    double acceleration, force, state;
+};
+
+struct plan {
+    uint64_t scenes, first, stride;
+    unsigned runs;
+    bool tap;
+};
+
+/* Most of a run's time goes into scenes that print: more than these are counted alone. */
+enum { most_printed = 10 };
+
+static const double run_length = 1;
+
+/* ---- one that fails */
+
+struct wanted {
+    enum verdict verdict;
+    double until;
+    struct outcome outcome;
+};
+
+static bool fails_alike(void *context, struct scene *scene)
+{
+    struct wanted *wanted = context;
+    static struct absolute absolute;
+    if (!scene_fit(scene, &absolute) || !scene_settle(scene, &absolute)) return false;
+    struct outcome outcome;
+    scene_compare(scene, &absolute, wanted->until, &outcome);
+    if (outcome.verdict != wanted->verdict) return false;
+    wanted->outcome = outcome;
+    return true;
+}
+
+static void print_scene(const struct scene *scene)
+{
+    static char text[text_room];
+    scene_write(scene, run_length, text);
+    for (char *line = text; *line; line = strchr(line, '\n') + 1)
+        printf("#     %.*s\n", (int)(strchr(line, '\n') - line), line);
+}
+
+static void print_failure(struct scene *scene, const struct outcome *outcome)
+{
+    struct wanted wanted = {.verdict = outcome->verdict,
+                            .until = outcome->verdict >= run_failed ? run_length : 0,
+                            .outcome = *outcome};
+    printf("# seed %llu: %s: %s\n", (unsigned long long)scene->seed, verdict_name(outcome->verdict),
+           outcome->what);
+    scene_shrink(scene, fails_alike, &wanted);
+    printf("# shrunk: %s\n", wanted.outcome.what);
+    print_scene(scene);
+    fflush(stdout);
+}
+
+/* ---- many */
+
+static void check_scene(uint64_t seed, bool run, struct counts *counts)
+{
+    static struct scene scene;
+    static struct absolute absolute;
+    struct outcome outcome;
+    counts->scenes++;
+    if (!scene_generate(&scene, &absolute, seed)) {
+        counts->unfit++;
+        return;
+    }
+    scene_compare(&scene, &absolute, run ? run_length : 0, &outcome);
+    counts->runs += outcome.ran;
+    counts->broke_off += outcome.broke_off;
+    counts->sensitive += outcome.sensitive;
+    counts->acceleration = fmax(counts->acceleration, outcome.worst_acceleration);
+    counts->force = fmax(counts->force, outcome.worst_force);
+    counts->state = fmax(counts->state, outcome.worst_state);
+    counts->verdicts[outcome.verdict]++;
+    unsigned long failed = counts->scenes - counts->unfit - counts->verdicts[agrees];
+    if (outcome.verdict != agrees && failed <= most_printed) print_failure(&scene, &outcome);
+}
+
+static void check_share(const struct plan *plan, uint64_t share, struct counts *counts)
+{
+    for (uint64_t i = share; i < plan->scenes; i += plan->stride)
+        check_scene(plan->first + i, plan->runs > 0 && (plan->first + i) % plan->runs == 0, counts);
+}
+
+static void add_counts(struct counts *sum, const struct counts *counts)
+{
+    sum->scenes += counts->scenes;
+    sum->unfit += counts->unfit;
+    sum->runs += counts->runs;
+    sum->broke_off += counts->broke_off;
+    sum->sensitive += counts->sensitive;
+    for (int i = 0; i < verdict_count; i++) sum->verdicts[i] += counts->verdicts[i];
+    sum->acceleration = fmax(sum->acceleration, counts->acceleration);
+    sum->force = fmax(sum->force, counts->force);
+    sum->state = fmax(sum->state, counts->state);
+}
+
+/* Each share in a process of its own, which sends its counts through a pipe. */
+static bool check_all(const struct plan *plan, struct counts *sum)
+{
+    int ends[2];
+    bool fine = true;
+    if (plan->stride == 1) {
+        check_share(plan, 0, sum);
+        return true;
+    }
+    if (pipe(ends) != 0) return false;
+    for (uint64_t share = 0; share < plan->stride; share++) {
+        if (fork() != 0) continue;
+        struct counts counts = {0};
+        check_share(plan, share, &counts);
+        fflush(stdout);
+        _exit(write(ends[1], &counts, sizeof counts) == (ssize_t)sizeof counts ? 0 : 1);
+    }
+    close(ends[1]);
+    for (uint64_t share = 0; share < plan->stride; share++) {
+        struct counts counts;
+        int status;
+        if (read(ends[0], &counts, sizeof counts) == (ssize_t)sizeof counts)
+            add_counts(sum, &counts);
+        else
+            fine = false;
+        if (wait(&status) < 0 || status != 0) fine = false;
+    }
+    return fine;
+}
+
+static void report(const struct plan *plan, const struct counts *counts)
+{
+    unsigned long compared = counts->scenes - counts->unfit;
+    const char *mark = plan->tap ? "# " : "";
+    printf("%s%lu scenes from seed %llu: %lu compared, %lu left out (no consistent or no well-conditioned "
+           "start)\n",
+           mark, counts->scenes, (unsigned long long)plan->first, compared, counts->unfit);
+    printf("%s%lu runs, of these %lu up to their first event, %lu too sensitive to compare\n", mark,
+           counts->runs, counts->broke_off, counts->sensitive);
+    printf("%slargest differences: accelerations %.2g, forces %.2g of the largest term, states %.2g\n", mark,
+           counts->acceleration, counts->force, counts->state);
+    for (int i = agrees + 1; i < verdict_count; i++) {
+        if (plan->tap)
+            printf("%s %d - %s\n", counts->verdicts[i] ? "not ok" : "ok", i,
+                   (const char *const[]){"", "scenes are accepted", "forces agree", "accelerations agree",
+                                         "terms add up", "runs reach their end", "states agree"}[i]);
+        else if (counts->verdicts[i])
+            printf("%s: %lu\n", verdict_name((enum verdict)i), counts->verdicts[i]);
+    }
+}
+
+static int show(uint64_t seed)
+{
+    static struct scene scene;
+    static struct absolute absolute;
+    static char text[text_room];
+    bool fit = scene_generate(&scene, &absolute, seed);
+    scene_write(&scene, run_length, text);
+    fputs(text, stdout);
+    if (!fit) puts("# left out: no consistent or no well-conditioned start");
+    return 0;
+}
+
+int main(int count, char **arguments)
+{
+    struct plan plan = {.scenes = 2000, .first = 1, .stride = 1, .runs = 1};
+    for (int i = 1; i < count; i++) {
+        const char *value = i + 1 < count ? arguments[i + 1] : "";
+        uint64_t number = strtoull(value, NULL, 10);
+        if (strcmp(arguments[i], "--tap") == 0) plan.tap = true;
+        if (strcmp(arguments[i], "--show") == 0) return show(number);
+        if (strcmp(arguments[i], "--scenes") == 0) plan.scenes = number;
+        if (strcmp(arguments[i], "--seed") == 0) plan.first = number;
+        if (strcmp(arguments[i], "--runs") == 0) plan.runs = (unsigned)number;
+        if (strcmp(arguments[i], "--jobs") == 0 && number > 0) plan.stride = number;
+    }
+    struct counts counts = {0};
+    if (plan.tap) printf("1..%d\n", verdict_count - 1);
+    fflush(stdout);
+    if (!check_all(&plan, &counts)) return 2;
+    report(&plan, &counts);
+    return counts.verdicts[agrees] == counts.scenes - counts.unfit ? 0 : 1;
+}

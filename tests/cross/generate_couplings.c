@@ -1,0 +1,287 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Random couplings that fit where the bodies are: points are put where they have to be, wheels onto their
+ * lines, axes at the distance of their radii.
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include "generate.h"
+
+static const double pi = 3.141592653589793;
+
+static struct coupling *add_coupling(struct scene *scene, enum coupling_kind kind)
+{
+    static const char *const names[] = {"spring", "damper", "pin", "rod", "rope", "gear", "rack", "roll"};
+    struct coupling *coupling = &scene->coupling[scene->coupling_count];
+    memset(coupling, 0, sizeof *coupling);
+    coupling->kind = kind;
+    coupling->count = 2;
+    coupling->line = -1;
+    snprintf(coupling->name, sizeof coupling->name, "%s%d", names[kind], scene->coupling_count++);
+    return coupling;
+}
+
+static struct vec2 world_of(const struct absolute *absolute, int b, struct vec2 point)
+{
+    struct place place = point_of(absolute, b, point);
+    return (struct vec2){place.x.u, place.y.u};
+}
+
+/* A point of body b that is at a place in the world. */
+static struct vec2 local_of(const struct absolute *absolute, int b, struct vec2 world)
+{
+    if (b < 0) return world;
+    double x = world.x - absolute->x[3 * b], y = world.y - absolute->x[3 * b + 1];
+    double c = absolute->pose[b].c.u, s = absolute->pose[b].s.u;
+    return (struct vec2){absolute->mass[b].G.x + c * x + s * y, absolute->mass[b].G.y - s * x + c * y};
+}
+
+static void start(struct absolute *absolute, const struct scene *scene)
+{
+    struct scene *bare = (struct scene *)scene;
+    int couplings = scene->coupling_count;
+    bare->coupling_count = 0;
+    absolute_start(absolute, scene);
+    bare->coupling_count = couplings;
+}
+
+/* ---- ends */
+
+static struct end random_end(struct random *random, struct scene *scene, int b)
+{
+    struct end end = {.body = b, .at = {.point = at_G}};
+    if (b < 0) {
+        end.at = (struct spot){at_pair, {random_between(random, -3, 3), random_between(random, -3, 3)}};
+    } else if (random_chance(random, 0.7)) {
+        end.at.point = random_point(random, &scene->body[b]);
+    }
+    return end;
+}
+
+/* Another body than `b`, or the ground. */
+static int other_than(struct random *random, const struct scene *scene, int b)
+{
+    int other = random_below(random, scene->body_count + 1) - 1;
+    return other == b ? (b == 0 ? -1 : b - 1) : other;
+}
+
+static struct vec2 end_world(const struct absolute *absolute, const struct end *end)
+{
+    if (end->body < 0) return end->at.where;
+    return world_of(absolute, end->body, spot_of(&absolute->scene->body[end->body], &end->at));
+}
+
+static void add_between(struct random *random, struct scene *scene, enum coupling_kind kind)
+{
+    struct absolute absolute;
+    int b = random_below(random, scene->body_count);
+    struct end one = random_end(random, scene, b),
+               two = random_end(random, scene, other_than(random, scene, b));
+    if (kind == pin && two.body >= 0 && scene->body[two.body].point_count == most_points) return;
+    start(&absolute, scene);
+    struct vec2 p = end_world(&absolute, &one), q = end_world(&absolute, &two);
+    if (kind != pin && hypot(p.x - q.x, p.y - q.y) < 0.3) return;
+    struct coupling *coupling = add_coupling(scene, kind);
+    if (kind == pin) {
+        struct body *body = &scene->body[two.body < 0 ? 0 : two.body];
+        two.at = (struct spot){at_pair, p};
+        if (two.body >= 0) {
+            two.at.point = body->point_count;
+            body->points[body->point_count++] = local_of(&absolute, two.body, p);
+        }
+    }
+    coupling->end[0] = one;
+    coupling->end[1] = two;
+    if (random_chance(random, 0.5)) {
+        coupling->end[0] = two;
+        coupling->end[1] = one;
+    }
+    if (kind == spring_of_two) coupling->stiffness = random_between(random, 1, 20);
+    if (kind == spring_of_two) coupling->free_length = random_between(random, 0, 2);
+    coupling->coefficient = kind == damper_of_two ? random_between(random, 0.2, 2) : 0;
+    if (kind == rod && random_chance(random, 0.5)) coupling->length = hypot(p.x - q.x, p.y - q.y);
+}
+
+/* ---- ropes */
+
+/* A disc on an axis in the world, to be a pulley. */
+static int add_pulley(struct random *random, struct scene *scene)
+{
+    struct body *body = random_body(random, scene, pivot, -1);
+    double radius = random_between(random, 0.1, 0.4);
+    random_disc(random, body, radius);
+    body->point = (struct spot){.point = at_origin};
+    return scene->body_count - 1;
+}
+
+static bool far_apart(const struct absolute *absolute, const struct coupling *rope_between)
+{
+    struct vec2 p[most_ends];
+    for (int k = 0; k < rope_between->count; k++) {
+        p[k] = end_world(absolute, &rope_between->end[k]);
+        if (k > 0 && hypot(p[k].x - p[k - 1].x, p[k].y - p[k - 1].y) < 0.9) return false;
+    }
+    for (int k = 1; k + 1 < rope_between->count; k++) {
+        if (!rope_between->end[k].pulley) continue;
+        /* Nearly straight over a pulley: on which side it runs would be a matter of rounding. */
+        double ax = p[k].x - p[k - 1].x, ay = p[k].y - p[k - 1].y;
+        double bx = p[k + 1].x - p[k].x, by = p[k + 1].y - p[k].y;
+        if (fabs(ax * by - ay * bx) < 0.2 * hypot(ax, ay) * hypot(bx, by)) return false;
+    }
+    return true;
+}
+
+static void add_rope(struct random *random, struct scene *scene)
+{
+    int before = scene->body_count, count = 2 + random_below(random, 3);
+    int pulley =
+        count > 2 && before < most_bodies && random_chance(random, 0.6) ? add_pulley(random, scene) : -1;
+    struct coupling *coupling = add_coupling(scene, rope);
+    struct absolute absolute;
+    coupling->count = count;
+    int last = -2;
+    bool moves = false;
+    for (int k = 0; k < count; k++) {
+        int b = random_below(random, before + 1) - 1;
+        if (b == last || (k == 0 && b < 0)) b = b == 0 ? -1 : b < 0 ? 0 : b - 1;
+        coupling->end[k] = random_end(random, scene, b);
+        if (pulley >= 0 && k == count / 2)
+            coupling->end[k] = (struct end){.body = pulley, .at = {.point = at_G}, .pulley = true};
+        else if (k > 0 && k + 1 < count && b >= 0 && coupling->end[k].at.point == at_G)
+            coupling->end[k].at.point = random_point(random, &scene->body[b]);
+        last = coupling->end[k].body;
+        moves |= last >= 0;
+    }
+    for (int k = 1; k < count; k++) moves &= coupling->end[k].body != coupling->end[k - 1].body;
+    start(&absolute, scene);
+    if (moves && far_apart(&absolute, coupling)) return;
+    scene->coupling_count--;
+    scene->body_count = before;
+}
+
+/* ---- gears and racks */
+
+/* A frame for both axes: the ground, or a body with room on it. */
+static int random_base(struct random *random, const struct scene *scene)
+{
+    return random_chance(random, 0.5) ? -1 : random_below(random, scene->body_count);
+}
+
+static struct body *add_wheel(struct random *random, struct scene *scene, int on, struct vec2 at,
+                              double radius)
+{
+    struct body *body = random_body(random, scene, pivot, on);
+    random_disc(random, body, radius);
+    body->at = (struct spot){at_pair, at};
+    body->point = (struct spot){.point = at_origin};
+    return body;
+}
+
+static void add_gear(struct random *random, struct scene *scene)
+{
+    if (scene->body_count + 2 > most_bodies) return;
+    int base = random_base(random, scene);
+    bool inside = random_chance(random, 0.3);
+    double r1 = random_between(random, 0.1, 0.4),
+           r2 = random_between(random, inside ? 0.6 : 0.1, inside ? 1.2 : 0.5);
+    double apart = inside ? r2 - r1 : r1 + r2, angle = random_between(random, -pi, pi);
+    struct vec2 at = {random_between(random, -1, 1), random_between(random, -1, 1)};
+    int first = scene->body_count;
+    add_wheel(random, scene, base, at, r1);
+    /* Beside each other on one base, or the second on an arm about the axis of the first. */
+    int arm = base;
+    struct vec2 there = {at.x + apart * cos(angle), at.y + apart * sin(angle)};
+    if (random_chance(random, 0.4) && scene->body_count + 2 <= most_bodies) {
+        struct body *body = random_body(random, scene, pivot, base);
+        body->at = (struct spot){at_pair, at};
+        body->point = (struct spot){.point = at_origin};
+        arm = scene->body_count - 1;
+        there = (struct vec2){apart * cos(angle), apart * sin(angle)};
+    }
+    add_wheel(random, scene, arm, there, r2);
+    struct coupling *coupling = add_coupling(scene, gear);
+    coupling->end[0] = (struct end){.body = first, .at = {.point = at_G}};
+    coupling->end[1] = (struct end){.body = scene->body_count - 1, .at = {.point = at_G}};
+    coupling->inside = inside;
+    if (random_chance(random, 0.5)) {
+        coupling->radius[0] = r1;
+        coupling->radius[1] = r2;
+    }
+}
+
+/* A rack that slides on the base, and a pinion on the base beside its line, on either side. */
+static void add_rack(struct random *random, struct scene *scene)
+{
+    if (scene->body_count + 2 > most_bodies) return;
+    int base = random_base(random, scene);
+    double radius = random_between(random, 0.1, 0.5), side = random_chance(random, 0.5) ? 1 : -1;
+    struct body *bar = random_body(random, scene, slide, base);
+    int rack_body = scene->body_count - 1;
+    bar->at = (struct spot){at_pair, {random_between(random, -1, 1), random_between(random, -1, 1)}};
+    double c = cos(bar->along), s = sin(bar->along), far = random_between(random, -1, 1);
+    struct vec2 at = {bar->at.where.x + far * c - side * radius * s,
+                      bar->at.where.y + far * s + side * radius * c};
+    add_wheel(random, scene, base, at, radius);
+    struct coupling *coupling = add_coupling(scene, rack);
+    coupling->end[0] = (struct end){.body = scene->body_count - 1, .at = {.point = at_G}};
+    coupling->end[1] = (struct end){.body = rack_body, .at = {.point = at_G}};
+    if (random_chance(random, 0.5)) coupling->radius[0] = radius;
+}
+
+/* ---- rolling */
+
+static void add_friction(struct random *random, struct coupling *coupling, const struct taste *taste)
+{
+    if (!taste->frictions || random_chance(random, 0.4)) return;
+    double kinetic = random_between(random, 0.1, 0.5);
+    coupling->has_friction = true;
+    coupling->mu_k = constant_formula(dim_number, kinetic);
+    coupling->mu_s = constant_formula(dim_number, kinetic + random_between(random, 0, 0.2));
+}
+
+/* A free wheel beside a line of the ground, or the x axis of a body. */
+static void add_roll(struct random *random, struct scene *scene, const struct taste *taste)
+{
+    if (scene->body_count + 1 > most_bodies || scene->line_count == most_lines) return;
+    int base = random_chance(random, 0.5) ? -1 : random_below(random, scene->body_count);
+    double radius = random_between(random, 0.1, 0.5);
+    struct body *body = random_body(random, scene, planar, -1);
+    int wheel = scene->body_count - 1;
+    random_disc(random, body, radius);
+    struct coupling *coupling = add_coupling(scene, roll);
+    coupling->end[0] = (struct end){.body = wheel, .at = {.point = at_G}};
+    coupling->end[1] = (struct end){.body = base, .at = {.point = at_origin}};
+    if (random_chance(random, 0.5)) coupling->radius[0] = radius;
+    add_friction(random, coupling, taste);
+    struct absolute absolute;
+    double along = 0, far = random_between(random, -1, 1), side = random_chance(random, 0.7) ? 1 : -1;
+    struct vec2 through = {0, 0};
+    if (base < 0) {
+        struct line *line = &scene->line[scene->line_count];
+        line->along = along = random_between(random, -0.6, 0.6);
+        line->through = through = (struct vec2){random_between(random, -1, 1), random_between(random, -1, 1)};
+        coupling->line = scene->line_count++;
+    }
+    start(&absolute, scene);
+    struct place e = direction_of(&absolute, base, along), O = point_of(&absolute, base, through);
+    body->q[0] = O.x.u + far * e.x.u - side * radius * e.y.u;
+    body->q[1] = O.y.u + far * e.y.u + side * radius * e.x.u;
+}
+
+void random_coupling(struct random *random, struct scene *scene, const struct taste *taste)
+{
+    if (scene->coupling_count == most_couplings) return;
+    switch (random_below(random, 10)) {
+    case 0: add_between(random, scene, spring_of_two); break;
+    case 1: add_between(random, scene, damper_of_two); break;
+    case 2:
+    case 3: add_between(random, scene, pin); break;
+    case 4: add_between(random, scene, rod); break;
+    case 5:
+    case 6: add_rope(random, scene); break;
+    case 7: add_gear(random, scene); break;
+    case 8: add_rack(random, scene); break;
+    case 9: add_roll(random, scene, taste); break;
+    }
+}

@@ -1,0 +1,260 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Random forces and moments, and the formulas in them.
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include "generate.h"
+
+/* ---- formulas */
+
+static struct variable own_coordinate(struct random *random, const struct scene *scene, int b, bool rate)
+{
+    int n = coordinate_count(scene->body[b].motion);
+    return (struct variable){.kind = rate ? var_rate : var_coordinate,
+                             .body = b,
+                             .index = random_below(random, n)};
+}
+
+/* Anything that a force may speak of. Places in the world of a point whose name is also a coordinate are left
+ * to the coordinate. */
+static struct variable any_variable(struct random *random, const struct scene *scene, int own)
+{
+    int b = random_chance(random, 0.5) ? own : random_below(random, scene->body_count);
+    const struct body *body = &scene->body[b];
+    int n = coordinate_count(body->motion);
+    struct variable variable = {.kind = var_time, .body = b};
+    switch (random_below(random, 5)) {
+    case 0: break;
+    case 1:
+    case 2:
+        if (n > 0) variable = own_coordinate(random, scene, b, random_chance(random, 0.3));
+        break;
+    case 3: variable.kind = random_chance(random, 0.7) ? var_angle : var_angle_rate; break;
+    case 4:
+        variable.kind = (enum variable_kind)(var_place_x + random_below(random, 4));
+        variable.index = body->point_count > 0 ? random_below(random, body->point_count) : -1;
+        if (variable.index < 0 && body->motion != pivot && body->motion != weld) variable.kind = var_angle;
+        break;
+    }
+    return variable;
+}
+
+static enum function random_function(struct random *random, bool kinks)
+{
+    if (kinks && random_chance(random, 0.4))
+        return (enum function)(f_abs + random_below(random, function_count - f_abs));
+    return (enum function)(f_linear + random_below(random, f_abs - f_linear));
+}
+
+/* A force that grows with the square of a coordinate, or with a velocity, may run away within the second. */
+static void tame(struct summand *summand)
+{
+    bool rate = false, coordinate = false;
+    for (int i = 0; i < summand->count; i++) {
+        enum variable_kind kind = summand->variable[i].kind;
+        rate |= kind == var_rate || kind == var_place_vx || kind == var_place_vy || kind == var_angle_rate;
+        coordinate |= kind != var_time;
+    }
+    enum function f = summand->function;
+    if (rate &&
+        (f == f_linear || f == f_square || f == f_hyper || f == f_abs || f == f_ramp || f == f_branch))
+        summand->function = f_tanh;
+    if (coordinate && (f == f_square || f == f_branch)) summand->function = f_sin;
+}
+
+static struct summand random_summand(struct random *random, const struct scene *scene, double size,
+                                     bool kinks)
+{
+    struct summand summand = {.factor = random_between(random, -size, size), .parameter = -1};
+    summand.function = random_function(random, kinks);
+    summand.shift = random_between(random, -1, 1);
+    if (scene->parameter_count > 0 && random_chance(random, 0.4))
+        summand.parameter = random_below(random, scene->parameter_count);
+    return summand;
+}
+
+static void add_variable(struct random *random, struct summand *summand, struct variable variable)
+{
+    bool rate = variable.kind == var_rate || variable.kind >= var_place_vx;
+    variable.coefficient =
+        random_between(random, 0.2, rate ? 0.5 : 1) * (random_chance(random, 0.5) ? 1 : -1);
+    summand->variable[summand->count++] = variable;
+}
+
+struct formula random_formula(struct random *random, const struct scene *scene, int b,
+                              enum dimension dimension, double size, bool kinks)
+{
+    if (random_chance(random, 0.4)) return constant_formula(dimension, random_between(random, -size, size));
+    struct formula formula = {.dimension = dimension, .count = 1 + random_below(random, 2)};
+    for (int k = 0; k < formula.count; k++) {
+        formula.summand[k] = random_summand(random, scene, size / 2, kinks);
+        for (int i = random_below(random, 2); i >= 0; i--)
+            add_variable(random, &formula.summand[k], any_variable(random, scene, b));
+        tame(&formula.summand[k]);
+    }
+    return formula;
+}
+
+/* Of time alone. */
+static struct formula time_formula(struct random *random, enum dimension dimension, double size)
+{
+    static const enum function functions[] = {f_linear, f_sin, f_cos, f_tanh, f_square};
+    struct formula formula = {.dimension = dimension, .count = 1};
+    formula.summand[0] = (struct summand){.factor = random_between(random, 0.3 * size, size),
+                                          .parameter = -1,
+                                          .function = functions[random_below(random, 5)],
+                                          .count = 1,
+                                          .shift = random_between(random, -1, 1)};
+    formula.summand[0].variable[0].coefficient = random_between(random, 0.5, 2);
+    return formula;
+}
+
+struct formula random_drive(struct random *random, enum dimension dimension)
+{
+    return time_formula(random, dimension, 0.8);
+}
+
+static struct formula potential_of(struct random *random, const struct scene *scene, int b, bool angle)
+{
+    struct formula formula = {.dimension = dim_energy, .count = 1 + random_below(random, 2)};
+    for (int k = 0; k < formula.count; k++) {
+        struct variable variable = own_coordinate(random, scene, b, false);
+        if (angle) variable.index = coordinate_count(scene->body[b].motion) - 1;
+        formula.summand[k] = random_summand(random, scene, 6, false);
+        add_variable(random, &formula.summand[k], variable);
+        if (!angle && random_chance(random, 0.4))
+            add_variable(random, &formula.summand[k], own_coordinate(random, scene, b, false));
+    }
+    return formula;
+}
+
+/* ---- loads */
+
+static struct load *add_load(struct scene *scene, int b, enum load_kind kind)
+{
+    struct body *body = &scene->body[b];
+    if (body->load_count == most_loads) return NULL;
+    struct load *load = &body->load[body->load_count];
+    memset(load, 0, sizeof *load);
+    load->kind = kind;
+    load->at.point = at_G;
+    snprintf(load->name, sizeof load->name, "f%d", body->load_count++);
+    return load;
+}
+
+static struct spot some_spot(struct random *random, struct body *body)
+{
+    if (random_chance(random, 0.4)) return (struct spot){.point = at_G};
+    if (random_chance(random, 0.3))
+        return (struct spot){at_pair, {random_between(random, -0.6, 0.6), random_between(random, -0.6, 0.6)}};
+    return (struct spot){.point = random_point(random, body)};
+}
+
+static void add_applied(struct random *random, struct scene *scene, int b, bool kinks)
+{
+    struct load *load = add_load(scene, b, applied);
+    if (!load) return;
+    load->form = scene->body[b].motion == slide ? (enum applied_form)random_below(random, 3)
+                                                : (enum applied_form)(1 + random_below(random, 2));
+    load->follows = random_chance(random, 0.4);
+    load->at = some_spot(random, &scene->body[b]);
+    load->value = random_formula(random, scene, b, dim_force, 10, kinks);
+    load->second = load->form == components ? random_formula(random, scene, b, dim_force, 10, kinks)
+                                            : random_formula(random, scene, b, dim_angle, 3, false);
+}
+
+static void add_link(struct random *random, struct scene *scene, int b, enum load_kind kind)
+{
+    struct load *load = add_load(scene, b, kind);
+    if (!load) return;
+    load->at = some_spot(random, &scene->body[b]);
+    load->to_ground = scene->body[b].motion != slide || random_chance(random, 0.5);
+    /* Far enough that its length stays off zero, where its direction turns round at once. */
+    double far = random_chance(random, 0.5) ? 6 : -6;
+    load->to = (struct vec2){far + random_between(random, -1, 1), random_between(random, -4, 4)};
+    if (kind == spring) load->stiffness = random_between(random, 1, 20);
+    if (kind == spring) load->neutral = random_between(random, 0, load->to_ground ? 6 : 1);
+    if (kind == damper) load->coefficient = random_between(random, 0.2, 3);
+}
+
+/* Dry friction: on a slide with its surface, in a bearing. */
+static void add_dry(struct random *random, struct scene *scene, int b, bool surface)
+{
+    struct load *load = add_load(scene, b, surface ? friction : moment_friction);
+    if (!load) return;
+    double kinetic = surface ? random_between(random, 0.05, 0.4) : random_between(random, 0.2, 1.5);
+    enum dimension dimension = surface ? dim_number : dim_moment;
+    load->second = constant_formula(dimension, kinetic);
+    load->value = constant_formula(dimension, round(kinetic * random_between(random, 1, 1.4) * 1000) / 1000);
+    if (random_chance(random, 0.3))
+        load->surface = time_formula(random, surface ? dim_speed : dim_angular_speed, 1);
+    if (!surface && random_chance(random, 0.3)) scene->body[b].v[0] = 0;
+}
+
+static void add_surface(struct random *random, struct scene *scene, int b, const struct taste *taste)
+{
+    struct load *load = add_load(scene, b, normal);
+    if (!load) return;
+    load->side = random_chance(random, 0.5) ? left_side : right_side;
+    load->two_sided = random_chance(random, 0.4);
+    if (!taste->frictions || scene->body[b].driven) return;
+    add_dry(random, scene, b, true);
+    if (random_chance(random, 0.3)) scene->body[b].v[0] = 0;
+}
+
+static void add_drag(struct random *random, struct scene *scene, int b)
+{
+    struct load *load = add_load(scene, b, drag);
+    if (!load) return;
+    load->at = some_spot(random, &scene->body[b]);
+    load->coefficient = random_between(random, 0, 1);
+    load->quadratic = random_chance(random, 0.6) ? random_between(random, 0, 0.3) : 0;
+}
+
+static void add_potential(struct random *random, struct scene *scene, int b, bool moment)
+{
+    struct load *load = add_load(scene, b, moment ? moment_potential : potential);
+    if (load) load->value = potential_of(random, scene, b, moment);
+}
+
+static void add_moment(struct random *random, struct scene *scene, int b, const struct taste *taste)
+{
+    enum motion motion = scene->body[b].motion;
+    struct load *load;
+    switch (random_below(random, motion == weld ? 1 : 5)) {
+    case 0:
+        load = add_load(scene, b, moment_applied);
+        if (load) load->value = random_formula(random, scene, b, dim_moment, 4, taste->kinks);
+        break;
+    case 1:
+        load = add_load(scene, b, moment_spring);
+        if (!load) break;
+        load->stiffness = random_between(random, 0.5, 10);
+        load->neutral = random_between(random, -1, 1);
+        break;
+    case 2:
+        load = add_load(scene, b, moment_damper);
+        if (load) load->coefficient = random_between(random, 0.1, 1);
+        break;
+    case 3: add_potential(random, scene, b, true); break;
+    case 4:
+        if (motion == pivot && taste->frictions && !scene->body[b].driven) add_dry(random, scene, b, false);
+        break;
+    }
+}
+
+void random_loads(struct random *random, struct scene *scene, int b, const struct taste *taste)
+{
+    enum motion motion = scene->body[b].motion;
+    bool turns = motion == pivot || motion == planar || motion == weld;
+    if (random_chance(random, 0.8)) add_load(scene, b, gravity);
+    if (motion == slide && random_chance(random, 0.4)) add_surface(random, scene, b, taste);
+    if (random_chance(random, 0.4)) add_applied(random, scene, b, taste->kinks);
+    if (random_chance(random, 0.3)) add_link(random, scene, b, spring);
+    if (random_chance(random, 0.2)) add_link(random, scene, b, damper);
+    if (random_chance(random, 0.2)) add_drag(random, scene, b);
+    if (motion != weld && random_chance(random, 0.2)) add_potential(random, scene, b, false);
+    if (turns && random_chance(random, 0.4)) add_moment(random, scene, b, taste);
+}

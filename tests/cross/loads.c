@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Forces that are no unknowns, each as the language defines it: a force at a point, or a couple, on a body;
+ * and what acts within a joint once more, opposite, on the body that it moves on.
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include "absolute.h"
+
+struct target {
+    struct absolute *absolute;
+    double *f;
+    bool list;
+};
+
+/* The wrench of that name on a body; where there is none yet, of zero. */
+struct wrench *wrench_of(struct absolute *absolute, int body, const char *name)
+{
+    for (int i = 0; i < absolute->wrench_count; i++)
+        if (absolute->wrench[i].body == body && strcmp(absolute->wrench[i].name, name) == 0)
+            return &absolute->wrench[i];
+    struct wrench *wrench = &absolute->wrench[absolute->wrench_count];
+    if (absolute->wrench_count + 1 < most_wrenches) absolute->wrench_count++;
+    *wrench = (struct wrench){.body = body, .unique = true};
+    snprintf(wrench->name, sizeof wrench->name, "%s", name);
+    return wrench;
+}
+
+/* A force at a place in the world, and a couple. */
+static void put(const struct target *target, int b, const char *name, struct vec2 force, struct vec2 at,
+                double couple)
+{
+    const double *x = &target->absolute->x[3 * b];
+    double w[3] = {force.x, force.y, couple + (at.x - x[0]) * force.y - (at.y - x[1]) * force.x};
+    for (int i = 0; i < 3; i++) target->f[3 * b + i] += w[i];
+    double size = fmax(hypot(w[0], w[1]), fabs(w[2]));
+    target->absolute->force_size = fmax(target->absolute->force_size, size);
+    if (!target->list) return;
+    struct wrench *wrench = wrench_of(target->absolute, b, name);
+    for (int i = 0; i < 3; i++) wrench->w[i] += w[i];
+}
+
+/* The same within the joint of b: the opposite, at the same place, on the body that it moves on. */
+static void put_in_joint(const struct target *target, int b, const char *name, struct vec2 force,
+                         struct vec2 at, double couple)
+{
+    const struct scene *scene = target->absolute->scene;
+    char other[wrench_name_room];
+    put(target, b, name, force, at, couple);
+    if (scene->body[b].on < 0) return;
+    snprintf(other, sizeof other, "%s.%s", scene->body[b].name, name);
+    put(target, scene->body[b].on, other, (struct vec2){-force.x, -force.y}, at, -couple);
+}
+
+static struct vec2 here(struct place place)
+{
+    return (struct vec2){place.x.u, place.y.u};
+}
+
+static struct vec2 times(double k, struct vec2 a)
+{
+    return (struct vec2){k * a.x, k * a.y};
+}
+
+static struct vec2 sum(struct vec2 a, struct vec2 b)
+{
+    return (struct vec2){a.x + b.x, a.y + b.y};
+}
+
+/* Spring and damper between two places: -(k (length - free) + c d(length)/dt) along the line. */
+static struct vec2 link_force(struct place one, struct place two, double k, double free, double c)
+{
+    struct series length = place_length(place_sub(one, two));
+    double pull = k * (length.u - free) + c * length.u1;
+    return times(-pull / length.u, here(place_sub(one, two)));
+}
+
+static struct vec2 applied_force(const struct target *target, int b, const struct load *load)
+{
+    const struct absolute *absolute = target->absolute;
+    double first = formula_value(absolute, &load->value), second = 0;
+    if (load->form != along_slide) second = formula_value(absolute, &load->second);
+    int frame = load->follows || load->form == along_slide ? b : -1;
+    if (load->form == components) {
+        struct place e = direction_of(absolute, frame, 0);
+        return sum(times(first, here(e)), times(second, here(place_left(e))));
+    }
+    return times(first, here(direction_of(absolute, frame, second)));
+}
+
+/* -dV/dq along each coordinate of the joint. */
+static void put_potential(const struct target *target, int b, const struct load *load)
+{
+    const struct absolute *absolute = target->absolute;
+    const struct body *body = &absolute->scene->body[b];
+    struct vec2 G = here(point_of(absolute, b, absolute->mass[b].G));
+    struct vec2 O = here(point_of(absolute, b, (struct vec2){0, 0}));
+    double slope[3] = {0};
+    for (int i = 0; i < coordinate_count(body->motion); i++)
+        slope[i] = -formula_series(absolute, &load->value, b, i).u1;
+    if (body->motion == slide) {
+        struct place e = direction_of(absolute, body->on, body->along);
+        put_in_joint(target, b, load->name, times(slope[0], here(e)), G, 0);
+    } else if (body->motion == pivot) {
+        put_in_joint(target, b, load->name, (struct vec2){0, 0}, O, slope[0]);
+    } else {
+        struct place e = direction_of(absolute, body->on, 0);
+        struct vec2 force = sum(times(slope[0], here(e)), times(slope[1], here(place_left(e))));
+        put_in_joint(target, b, load->name, force, O, slope[2]);
+    }
+}
+
+static void put_spring(const struct target *target, int b, const struct load *load)
+{
+    const struct absolute *absolute = target->absolute;
+    const struct body *body = &absolute->scene->body[b];
+    struct place P = point_of(absolute, b, spot_of(body, &load->at));
+    if (load->to_ground) {
+        struct vec2 f = link_force(P, point_of(absolute, -1, load->to), load->stiffness, load->neutral,
+                                   load->coefficient);
+        put(target, b, load->name, f, here(P), 0);
+        return;
+    }
+    struct series x = coordinate_of(absolute, b, 0);
+    double f = -load->stiffness * (x.u - load->neutral) - load->coefficient * x.u1;
+    struct place e = direction_of(absolute, body->on, body->along);
+    put_in_joint(target, b, load->name, times(f, here(e)), here(P), 0);
+}
+
+static void put_drag(const struct target *target, int b, const struct load *load)
+{
+    const struct absolute *absolute = target->absolute;
+    struct place P = point_of(absolute, b, spot_of(&absolute->scene->body[b], &load->at));
+    double c = load->coefficient + load->quadratic * hypot(P.x.u1, P.y.u1);
+    put(target, b, load->name, (struct vec2){-c * P.x.u1, -c * P.y.u1}, here(P), 0);
+}
+
+static void put_load(const struct target *target, int b, const struct load *load)
+{
+    const struct absolute *absolute = target->absolute;
+    const struct scene *scene = absolute->scene;
+    const struct body *body = &scene->body[b];
+    struct vec2 none = {0, 0}, G = here(point_of(absolute, b, absolute->mass[b].G));
+    struct series angle = coordinate_of(absolute, b, body->motion == pivot ? 0 : 2);
+    switch (load->kind) {
+    case gravity: put(target, b, load->name, times(absolute->mass[b].m, scene->gravity), G, 0); break;
+    case applied: {
+        struct vec2 P = here(point_of(absolute, b, spot_of(body, &load->at)));
+        put(target, b, load->name, applied_force(target, b, load), P, 0);
+        break;
+    }
+    case spring:
+    case damper: put_spring(target, b, load); break;
+    case drag: put_drag(target, b, load); break;
+    case potential:
+    case moment_potential: put_potential(target, b, load); break;
+    case moment_applied: put(target, b, load->name, none, G, formula_value(absolute, &load->value)); break;
+    case moment_spring:
+        put_in_joint(target, b, load->name, none, G, -load->stiffness * (angle.u - load->neutral));
+        break;
+    case moment_damper: put_in_joint(target, b, load->name, none, G, -load->coefficient * angle.u1); break;
+    case normal:
+    case friction:
+    case moment_friction: break; /* unknowns: solve.c */
+    }
+}
+
+static void put_coupling(const struct target *target, const struct coupling *coupling)
+{
+    const struct absolute *absolute = target->absolute;
+    struct place P[2];
+    if (coupling->kind != spring_of_two && coupling->kind != damper_of_two) return;
+    for (int k = 0; k < 2; k++) {
+        const struct end *end = &coupling->end[k];
+        struct vec2 p = end->body < 0 ? end->at.where : spot_of(&absolute->scene->body[end->body], &end->at);
+        P[k] = point_of(absolute, end->body, p);
+    }
+    struct vec2 f = link_force(P[0], P[1], coupling->stiffness, coupling->free_length, coupling->coefficient);
+    for (int k = 0; k < 2; k++)
+        if (coupling->end[k].body >= 0)
+            put(target, coupling->end[k].body, coupling->name, times(k == 0 ? 1 : -1, f), here(P[k]), 0);
+}
+
+void absolute_loads(struct absolute *absolute, double *f, bool list)
+{
+    const struct scene *scene = absolute->scene;
+    struct target target = {absolute, f, list};
+    absolute->force_size = 0;
+    for (int i = 0; i < 3 * scene->body_count; i++) f[i] = 0;
+    for (int b = 0; b < scene->body_count; b++)
+        for (int i = 0; i < scene->body[b].load_count; i++) put_load(&target, b, &scene->body[b].load[i]);
+    for (int c = 0; c < scene->coupling_count; c++) put_coupling(&target, &scene->coupling[c]);
+}

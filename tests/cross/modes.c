@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What holds and what gives at the start. Where something moves against what would hold it, its velocity says
+ * it; the rest is tried: every choice, and the one that is consistent is right if it is the only one.
+ */
+#include "absolute.h"
+
+/* Along the row of a grip: velocity and acceleration beyond what its surface does. */
+static double slip_velocity(struct absolute *absolute, const struct grip *grip)
+{
+    const struct row *row = &absolute->row[grip->row];
+    absolute_seed(absolute, seed_motion);
+    double v = row_value(absolute, row).u1;
+    if (row->drive) v -= formula_series(absolute, row->drive, row->owner, -1).u;
+    return v;
+}
+
+static double slip_acceleration(const struct absolute *absolute, const struct grip *grip)
+{
+    double a = -absolute->gamma[grip->row];
+    for (int i = 0; i < absolute->n; i++) a += absolute->J[grip->row][i] * absolute->a[i];
+    return a;
+}
+
+static double normal_force(const struct absolute *absolute, const struct grip *grip)
+{
+    return grip->normal < 0 ? 1 : grip->press * absolute->lambda[grip->normal];
+}
+
+static bool is_two_sided(const struct absolute *absolute, const struct grip *grip)
+{
+    if (grip->kind != grip_contact && grip->kind != grip_surface) return false;
+    if (grip->load < 0) return false;
+    const struct body *body = &absolute->scene->body[grip->owner];
+    for (int i = 0; i < body->load_count; i++)
+        if (body->load[i].kind == normal) return body->load[i].two_sided;
+    return false;
+}
+
+/* By how much a grip is beyond its limit; negative when within. */
+static double beyond(const struct absolute *absolute, const struct grip *grip)
+{
+    double N = normal_force(absolute, grip), sized = fmax(absolute->acceleration_size, 1e-300);
+    if (grip->kind == grip_contact) return is_two_sided(absolute, grip) ? -1e-9 : -N / absolute->force_size;
+    double relative = slip_acceleration(absolute, grip) / sized;
+    if (grip->kind == grip_rope)
+        return grip->mode == holds ? absolute->lambda[grip->row] / absolute->force_size : relative;
+    if (grip->mode != holds) return -grip->mode * relative;
+    double limit = fmax(grip_coefficient(absolute, grip, false), grip_coefficient(absolute, grip, true)) * N;
+    return (fabs(absolute->lambda[grip->row]) - limit) / absolute->force_size;
+}
+
+/* A slipping pair whose velocity is not zero may slow down as it likes. */
+static bool is_open(struct absolute *absolute, const struct grip *grip)
+{
+    if (grip->kind == grip_contact) return false;
+    return grip->kind == grip_rope || fabs(slip_velocity(absolute, grip)) < 1e-9;
+}
+
+double absolute_excess(const struct absolute *absolute)
+{
+    double most = -1;
+    for (int i = 0; i < absolute->grip_count; i++) {
+        const struct grip *grip = &absolute->grip[i];
+        if (grip->kind == grip_contact || grip->mode == holds || grip->kind == grip_rope)
+            most = fmax(most, beyond(absolute, grip));
+    }
+    return most;
+}
+
+/* A guide may push to either side: the normal force of its friction is the size of what it does. */
+bool absolute_turn_guides(struct absolute *absolute)
+{
+    bool turned = false;
+    for (int i = 0; i < absolute->grip_count; i++) {
+        struct grip *grip = &absolute->grip[i];
+        if (!is_two_sided(absolute, grip) || normal_force(absolute, grip) >= 0) continue;
+        grip->press = -grip->press;
+        turned = true;
+    }
+    return turned;
+}
+
+static void solve_with_guides(struct absolute *absolute)
+{
+    absolute_solve(absolute, true);
+    for (int round = 0; round < 4 && absolute_turn_guides(absolute); round++) absolute_solve(absolute, true);
+}
+
+static bool is_consistent(struct absolute *absolute, const bool *open)
+{
+    solve_with_guides(absolute);
+    if (absolute->modes_in_doubt) return false;
+    for (int i = 0; i < absolute->grip_count; i++) {
+        const struct grip *grip = &absolute->grip[i];
+        if (is_two_sided(absolute, grip) && normal_force(absolute, grip) < 0) return false; /* no solution */
+        bool judged = open[i] || grip->kind == grip_contact;
+        if (judged && beyond(absolute, grip) > 0) return false;
+    }
+    return true;
+}
+
+/* The choice number `choice`: three modes for each open grip, of a rope two. */
+static bool choose(struct absolute *absolute, const bool *open, int choice)
+{
+    for (int i = 0; i < absolute->grip_count; i++) {
+        if (!open[i]) continue;
+        struct grip *grip = &absolute->grip[i];
+        int mode = choice % 3;
+        choice /= 3;
+        if (grip->kind == grip_rope && mode == 2) return false;
+        static const enum grip_mode modes[] = {holds, slips_plus, slips_minus};
+        grip->mode = grip->kind == grip_rope && mode == 1 ? lets_go : modes[mode];
+    }
+    return true;
+}
+
+bool absolute_settle(struct absolute *absolute)
+{
+    bool open[most_grips] = {false};
+    int choices = 1, found = -1;
+    for (int i = 0; i < absolute->grip_count; i++) {
+        struct grip *grip = &absolute->grip[i];
+        open[i] = is_open(absolute, grip);
+        grip->mode = holds;
+        if (open[i])
+            choices *= 3;
+        else if (grip->kind != grip_contact)
+            grip->mode = slip_velocity(absolute, grip) > 0 ? slips_plus : slips_minus;
+    }
+    if (choices > 81) return false;
+    for (int choice = 0; choice < choices; choice++) {
+        if (!choose(absolute, open, choice)) continue;
+        bool consistent = is_consistent(absolute, open);
+        if (absolute->modes_in_doubt) return false;
+        if (!consistent) continue;
+        if (found >= 0) return false;
+        found = choice;
+    }
+    /* Several that depend on each other are a matter of their own, unless all of them hold. */
+    if (found < 0 || (choices > 3 && found > 0)) return false;
+    choose(absolute, open, found);
+    solve_with_guides(absolute);
+    return true;
+}

@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The rows of a scene, what may hold or give, and the place where it starts.
+ */
+#include <string.h>
+
+#include "absolute.h"
+
+static struct row *add_row(struct absolute *absolute, enum row_kind kind, int owner, double zero)
+{
+    struct row *row = &absolute->row[absolute->row_count++];
+    *row = (struct row){.kind = kind, .owner = owner, .zero = zero, .grip = -1};
+    return row;
+}
+
+static struct grip *add_grip(struct absolute *absolute, enum grip_kind kind, int owner, int row,
+                             int press_row)
+{
+    struct grip *grip = &absolute->grip[absolute->grip_count++];
+    *grip =
+        (struct grip){.kind = kind, .owner = owner, .load = -1, .row = row, .normal = press_row, .press = 1};
+    return grip;
+}
+
+static const struct load *load_of(const struct body *body, enum load_kind kind, int *index)
+{
+    for (*index = 0; *index < body->load_count; ++*index)
+        if (body->load[*index].kind == kind) return &body->load[*index];
+    *index = -1;
+    return NULL;
+}
+
+/* The friction of a load holds a row, the coordinate of the joint, at the speed of its surface. */
+static void add_friction(struct absolute *absolute, enum grip_kind kind, int b, int load, int press_row)
+{
+    struct row *row = add_row(absolute, kind == grip_surface ? row_along : row_angle, b, 0);
+    row->drive = &absolute->scene->body[b].load[load].surface;
+    row->grip = absolute->grip_count;
+    add_grip(absolute, kind, b, absolute->row_count - 1, press_row)->load = load;
+}
+
+static void add_slide(struct absolute *absolute, int b)
+{
+    const struct body *body = &absolute->scene->body[b];
+    add_row(absolute, row_angle, b, body->along);
+    int across = absolute->row_count, i, press;
+    add_row(absolute, row_across, b, 0);
+    if (body->driven) add_row(absolute, row_along, b, 0)->drive = &body->drive;
+    const struct load *surface = load_of(body, normal, &i);
+    if (!surface) return;
+    press = surface->side == left_side ? 1 : -1;
+    struct grip *contact = add_grip(absolute, grip_contact, b, across, across);
+    contact->load = i;
+    contact->press = press;
+    if (!load_of(body, friction, &i)) return;
+    add_friction(absolute, grip_surface, b, i, across);
+    absolute->grip[absolute->grip_count - 1].press = press;
+}
+
+static void add_joint(struct absolute *absolute, int b)
+{
+    const struct body *body = &absolute->scene->body[b];
+    int i;
+    switch (body->motion) {
+    case slide: add_slide(absolute, b); break;
+    case pivot:
+    case weld:
+        add_row(absolute, row_pin_x, b, 0);
+        add_row(absolute, row_pin_y, b, 0);
+        if (body->motion == weld) add_row(absolute, row_angle, b, body->along);
+        if (body->driven) add_row(absolute, row_angle, b, 0)->drive = &body->drive;
+        if (body->motion == pivot && load_of(body, moment_friction, &i))
+            add_friction(absolute, grip_bearing, b, i, -1);
+        break;
+    case particle: add_row(absolute, row_angle, b, 0); break;
+    case planar: break;
+    }
+}
+
+/* +1 when the way turns left at end k. */
+static double turn_at(const struct absolute *absolute, const struct coupling *coupling, int k)
+{
+    struct place p[3];
+    for (int i = 0; i < 3; i++) {
+        const struct end *end = &coupling->end[k - 1 + i];
+        struct vec2 where = end->at.where;
+        if (end->body >= 0) where = spot_of(&absolute->scene->body[end->body], &end->at);
+        if (end->pulley) circle_of(absolute->scene, coupling, k - 1 + i, &where);
+        p[i] = point_of(absolute, end->body, where);
+    }
+    return place_cross(place_sub(p[1], p[0]), place_sub(p[2], p[1])).u > 0 ? 1 : -1;
+}
+
+static void add_rope(struct absolute *absolute, int c)
+{
+    const struct coupling *coupling = &absolute->scene->coupling[c];
+    for (int k = 1, from = 0; k < coupling->count; k++) {
+        if (k + 1 < coupling->count && !coupling->end[k].pulley) continue;
+        struct row *row = add_row(absolute, row_rope, c, 0);
+        row->from = from;
+        row->to = k;
+        if (coupling->end[from].pulley) row->turn[0] = turn_at(absolute, coupling, from);
+        if (coupling->end[k].pulley) row->turn[1] = turn_at(absolute, coupling, k);
+        row->zero = row_value(absolute, row).u;
+        add_grip(absolute, grip_rope, c, absolute->row_count - 1, -1);
+        row->grip = absolute->grip_count - 1;
+        from = k;
+    }
+}
+
+/* On which side of its line the circle is. */
+static double side_of(const struct absolute *absolute, int c)
+{
+    struct row left = {.kind = row_roll_normal, .owner = c, .side = 1};
+    struct vec2 unused;
+    return row_value(absolute, &left).u +
+                       circle_of(absolute->scene, &absolute->scene->coupling[c], 0, &unused) <
+                   0
+               ? -1
+               : 1;
+}
+
+static void add_roll(struct absolute *absolute, int c)
+{
+    double side = side_of(absolute, c);
+    int across = absolute->row_count;
+    add_row(absolute, row_roll_normal, c, 0)->side = side;
+    struct row *row = add_row(absolute, row_roll_along, c, 0);
+    row->side = side;
+    row->zero = row_value(absolute, row).u;
+    add_grip(absolute, grip_contact, c, across, across);
+    if (!absolute->scene->coupling[c].has_friction) return;
+    row->grip = absolute->grip_count;
+    add_grip(absolute, grip_tread, c, across + 1, across);
+}
+
+static void add_coupling(struct absolute *absolute, int c)
+{
+    const struct coupling *coupling = &absolute->scene->coupling[c];
+    struct row *row;
+    switch (coupling->kind) {
+    case pin:
+        add_row(absolute, row_link_pin_x, c, 0);
+        add_row(absolute, row_link_pin_y, c, 0);
+        break;
+    case rod:
+    case gear:
+    case rack:
+        row = add_row(absolute,
+                      coupling->kind == rod    ? row_rod
+                      : coupling->kind == gear ? row_gear
+                                               : row_rack,
+                      c, 0);
+        if (coupling->kind == rack) row->side = side_of(absolute, c);
+        row->zero = coupling->length > 0 ? coupling->length : row_value(absolute, row).u;
+        break;
+    case rope: add_rope(absolute, c); break;
+    case roll: add_roll(absolute, c); break;
+    case spring_of_two:
+    case damper_of_two: break;
+    }
+}
+
+void absolute_start(struct absolute *absolute, const struct scene *scene)
+{
+    double q[3 * most_bodies], v[3 * most_bodies];
+    int k = 0;
+    memset(absolute, 0, sizeof *absolute);
+    absolute->scene = scene;
+    absolute->n = 3 * scene->body_count;
+    for (int b = 0; b < scene->body_count; b++) {
+        absolute->mass[b] = mass_of(&scene->body[b]);
+        for (int i = 0; i < coordinate_count(scene->body[b].motion); i++, k++) {
+            q[k] = scene->body[b].q[i];
+            v[k] = scene->body[b].v[i];
+        }
+    }
+    absolute_place(absolute, 0, q, v);
+    absolute_seed(absolute, seed_motion);
+    for (int b = 0; b < scene->body_count; b++) add_joint(absolute, b);
+    for (int c = 0; c < scene->coupling_count; c++) add_coupling(absolute, c);
+}
