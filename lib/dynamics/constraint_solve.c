@@ -173,7 +173,8 @@ static double entry_in(const struct tree *tree, const double *kept, int j, int k
     return kept[tree->envelope[j] + (size_t)(k - tree->first[j])];
 }
 
-/* A row that nothing can move, as a rod on the axis of a pivot, has no multiplier. */
+/* A row that nothing can move, as a rod on the axis of a pivot, has no multiplier: it would be one of
+ * rounding. */
 static const double nothing = 1e-15;
 
 /* Row and column j up to the diagonal, given those before. */
@@ -267,26 +268,32 @@ static double mobility(const struct tree *tree, const struct tree_work *work, in
 }
 
 /* A row counts as weak against what its tie could do in other positions or directions: so a pin, turned in
- * the plane, is the same pin, and a rod notices when all that it joins has come in line with it. */
+ * the plane, is the same pin, and a rod notices when all that it joins has come in line with it.
+ *
+ * What nothing can move has all of that of the order of rounding, when it sits on the axis but for rounding
+ * (the pin of a welded body). So whether it moves is measured against the lightest link too, as a whole. */
 static void set_scales(const struct tree *tree, const struct instant *at)
 {
     struct tree_work *work = at->tree;
-    double most = 0;
+    double most = 0, lightest = DBL_MAX;
     for (int i = 0; i < tree->tie_count; i++) {
         int first = tree->ties[i].first_row, end = first + tree->ties[i].row_count;
         double scale = 0;
         for (int j = first; j < end; j++) {
             const struct row *row = &work->rows[j];
             if (!tree_takes_part(tree, at, j)) continue;
-            for (int k = 0; k < row->port_count; k++)
-                scale = fmax(scale, mobility(tree, work, row->ports[k].link, row->ports[k].arm));
+            for (int k = 0; k < row->port_count; k++) {
+                int link = row->ports[k].link;
+                scale = fmax(scale, mobility(tree, work, link, row->ports[k].arm));
+                if (link > 0) lightest = fmin(lightest, tree->links[link].mass);
+            }
             scale = fmax(scale, work->diagonal[j]);
         }
         for (int j = first; j < end; j++) work->scale[j] = tree_takes_part(tree, at, j) ? scale : 1;
         most = fmax(most, scale);
     }
     for (int k = tree->row_count; k < tree_unknowns(tree); k++) work->scale[k] = work->diagonal[k];
-    work->most = most;
+    work->most = fmax(most, 1 / lightest);
 }
 
 static void assemble(const struct fbd_model *model, const struct instant *at)

@@ -327,7 +327,8 @@ static bool is_off_center(const struct model_body *body, struct vec at)
     return at.x != body->inertia.G.x || at.y != body->inertia.G.y;
 }
 
-/* Constraints that hold a body beside its centre of mass; a line that something rolls on is pressed anywhere. */
+/* Constraints that hold a body beside its centre of mass; a line that something rolls on is pressed anywhere.
+ */
 static void find_held(const struct fbd_model *model, bool *twisted)
 {
     for (size_t c = 0; c < model->scene->constraint_count; c++) {

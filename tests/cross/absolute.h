@@ -121,6 +121,7 @@ struct place direction_of(const struct absolute *absolute, int body, double angl
 struct series angle_of(const struct absolute *absolute, int body);
 struct series row_value(const struct absolute *absolute, const struct row *row);
 struct series coordinate_of(const struct absolute *absolute, int body, int index);
+double shortest_piece(const struct absolute *absolute); /* of all ropes; INFINITY without */
 size_t row_bodies(const struct absolute *absolute, const struct row *row, int *bodies);
 
 /* Fill J, gamma and D of all rows at the instant. */
@@ -155,7 +156,8 @@ bool absolute_project(struct absolute *absolute, bool positions);
 /* The largest gap of a condition on positions. */
 double absolute_gap(struct absolute *absolute);
 
-/* Integrate to time t, the modes as they are. False where that takes too many steps. */
+/* Integrate to time t, the modes as they are. False where that takes too many steps, or where what a rope
+ * holds comes to its pulley. */
 bool absolute_integrate(struct absolute *absolute, double t, double tolerance);
 
 /* formula.c: with `seed` a variable's number of a body's own coordinate, the derivative in it; or -1: in time

@@ -135,7 +135,7 @@ static void keep_start(struct scene *scene, const struct absolute *absolute)
     absolute_coordinates(absolute, q, v);
     for (int b = 0; b < scene->body_count; b++)
         for (int i = 0; i < coordinate_count(scene->body[b].motion); i++, k++)
-            scene->body[b].v[i] = fabs(v[k]) < 1e-12 ? 0 : v[k]; /* rounding of what stands still */
+            scene->body[b].v[i] = fabs(v[k]) < 1e-9 ? 0 : v[k]; /* rounding of what stands still */
 }
 
 /* One-sided surfaces are turned to the side on which they push. */

@@ -91,7 +91,7 @@ bool absolute_integrate(struct absolute *absolute, double until, double toleranc
         }
         t = last ? until : t + h;
         absolute->t = t;
-        if (!absolute_project(absolute, true)) return false;
+        if (!absolute_project(absolute, true) || shortest_piece(absolute) < 0.05) return false;
         h *= error < 1e-4 ? 2 : error < 1e-2 ? 1.3 : 1;
     }
     return true;

@@ -244,6 +244,26 @@ static struct series rope_value(const struct absolute *absolute, const struct ro
     return length;
 }
 
+double shortest_piece(const struct absolute *absolute)
+{
+    double shortest = INFINITY;
+    struct vec2 unused;
+    for (int j = 0; j < absolute->row_count; j++) {
+        const struct row *row = &absolute->row[j];
+        const struct coupling *coupling = &absolute->scene->coupling[row->owner];
+        for (int k = row->from; row->kind == row_rope && k < row->to; k++) {
+            double sR[2] = {0, 0};
+            for (int i = 0; i < 2; i++)
+                if (coupling->end[k + i].pulley)
+                    sR[i] = row->turn[i] * circle_of(absolute->scene, coupling, k + i, &unused);
+            struct straight piece = straight_piece(end_place(absolute, coupling, k), sR[0],
+                                                   end_place(absolute, coupling, k + 1), sR[1]);
+            shortest = piece.length.u > 0 ? fmin(shortest, piece.length.u) : 0;
+        }
+    }
+    return shortest;
+}
+
 struct series row_value(const struct absolute *absolute, const struct row *row)
 {
     const struct scene *scene = absolute->scene;

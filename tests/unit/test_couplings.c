@@ -344,9 +344,34 @@ static void a_particle_held_beside_its_centre_has_the_couple_that_keeps_it_from_
     checks_end(&checks);
 }
 
+/* A pin between two points of what is welded together says nothing, also where both sit on the axis but for
+ * rounding. */
+static void a_pin_on_the_axis_but_for_rounding_holds_nothing(void **unused)
+{
+    (void)unused;
+    static const char scene[] = "fbd: 1\nbodies:\n  arm:\n    shape: rod\n    mass: 2\n    length: 1\n"
+                                "    points: {P: [9.1e-18, 2.6e-17]}\n    motion: pivot\n"
+                                "    forces: [{applied: {value: 3 N, angle: 90 deg, at: right}}]\n  plate:\n"
+                                "    shape: disc\n    mass: 1\n    radius: 0.5\n    center: [-0.2, 0]\n"
+                                "    points: {P: [0, 0]}\n    motion: {weld: {on: arm, angle: 1.5}}\n";
+    static const char pin[] = "couplings:\n  - pin: {between: [plate.P, arm.P]}\n";
+    char text[800];
+    struct checks checks = {0};
+    struct trial bare = trial_parse(scene);
+    snprintf(text, sizeof text, "%s%s", scene, pin);
+    struct trial pinned = trial_parse(text);
+    double alpha = trial_acceleration(&bare, "arm.theta");
+    check_that(&checks, "it turns", alpha > 1);
+    check_close(&checks, "alpha", trial_acceleration(&pinned, "arm.theta"), alpha, 1e-12);
+    trial_close(&bare);
+    trial_close(&pinned);
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_pin_on_the_axis_but_for_rounding_holds_nothing),
         cmocka_unit_test(a_particle_held_beside_its_centre_has_the_couple_that_keeps_it_from_turning),
         cmocka_unit_test(a_parallelogram_with_a_crank_too_many_moves_and_names_what_is_too_much),
         cmocka_unit_test(two_rods_in_one_place_share_by_halves),
