@@ -117,7 +117,9 @@ static enum exit_code draw_state(const struct options *options, fbd_state *state
 {
     if (!options->svg) return exit_done;
     char *svg = fbd_diagram_svg(state, &options->drawing, errors);
-    return svg ? write_text(options->svg, svg) : exit_usage;
+    if (svg) return write_text(options->svg, svg);
+    const fbd_error *first = fbd_errors_get(errors, 0);
+    return first && strcmp(first->id, "unknown-body") == 0 ? exit_usage : exit_failed;
 }
 
 /* What holds the state at rest; to standard output, where --json may take the place of the text. */
@@ -159,6 +161,16 @@ static enum exit_code show_state(const fbd_model *model, const struct options *o
     return code;
 }
 
+/* A file that can be read may still have a start that no motion begins at. */
+static enum exit_code check_start(const fbd_model *model, fbd_errors *errors)
+{
+    fbd_state *state = fbd_state_new(model);
+    if (!state) return no_memory();
+    enum exit_code code = fbd_state_close(state, errors) ? exit_done : exit_failed;
+    fbd_state_free(state);
+    return code;
+}
+
 static enum exit_code check_hand(const fbd_model *model, const struct options *options)
 {
     char *text = NULL;
@@ -174,8 +186,10 @@ static enum exit_code draw_diagram(const fbd_model *model, const struct options 
     if (!options->svg) return exit_done;
     fbd_state *state = fbd_state_new(model);
     if (!state) return no_memory();
-    enum exit_code code = place(model, options, state, errors);
-    if (code == exit_done) code = draw_state(options, state, errors);
+    /* A start that cannot be has no diagram; the run that follows says why. */
+    bool refused = options->at_count == 0 && !fbd_state_close(state, NULL);
+    enum exit_code code = refused ? exit_done : place(model, options, state, errors);
+    if (code == exit_done && !refused) code = draw_state(options, state, errors);
     fbd_state_free(state);
     return code;
 }
@@ -216,7 +230,8 @@ static enum exit_code carry_and_write(fbd_simulation *simulation, const struct o
     if (outcome != FBD_FAILED && outcome != FBD_INTERRUPTED && code == exit_done)
         code = accurate(result, simulation, interrupt);
     if (result && outcome != FBD_DONE && outcome != FBD_STOPPED) {
-        fprintf(stderr, "fbd-run: %s\n", fbd_simulation_reason(simulation));
+        if (!fbd_simulation_blame(simulation, errors))
+            fprintf(stderr, "fbd-run: %s\n", fbd_simulation_reason(simulation));
         code = exit_failed;
     }
     fbd_result_free(result);
@@ -245,7 +260,7 @@ static enum exit_code run(const fbd_model *model, const struct options *options,
 static enum exit_code act(const fbd_model *model, const struct options *options, fbd_errors *errors)
 {
     switch (options->action) {
-    case action_check: return exit_done;
+    case action_check: return check_start(model, errors);
     case action_check_hand: return check_hand(model, options);
     case action_explain: return print(fbd_explain(model, &options->run), exit_done);
     case action_equations:

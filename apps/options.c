@@ -49,7 +49,7 @@ static const char help[] =
     "  --explain            what is simulated and what is not, what is conservative and why\n"
     "  --check-hand         hold the file's hand derivations against the assembly\n"
     "  --seed NUMBER        seed of the random states for that (default 1)\n"
-    "  --check              read the file and say what is wrong with it\n"
+    "  --check              read the file and say what is wrong with it, or with its start\n"
     "  --help, --version\n"
     "\n"
     "Exit codes: 0 done, 1 the run failed or ended early, or the scene is not in equilibrium (--static),\n"

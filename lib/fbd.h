@@ -127,10 +127,12 @@ FBD_API bool fbd_state_set(fbd_state *state, const char *name, double value);
  * False with a note in `errors`. */
 FBD_API bool fbd_state_set_text(fbd_state *state, const char *name, const char *text, fbd_errors *errors);
 
-/* Bring a state onto the couplings of its scene: bodies with `assemble` find their place, and the others fit
- * to six digits. False with a note in `errors` when they do not (`does-not-fit`: which coupling is off, and
- * the nearest state that fits), when the forces of couplings cannot be told there (`masses-apart`), or memory
- * is out. */
+/* Make a state one that a motion can start at: bodies with `assemble` find their place, and the others fit
+ * their couplings to six digits. False with a note in `errors` of what a run would be refused for at its
+ * start: `does-not-fit` (which coupling is off, and the nearest state that fits), `not-finite` (which force,
+ * or other quantity), `unsettled` (no choice of stick and slip agrees with the forces), `leaves-surface` (a
+ * normal force would have to pull), `masses-apart` (the forces of couplings cannot be told), or memory is
+ * out. */
 FBD_API bool fbd_state_close(fbd_state *state, fbd_errors *errors);
 FBD_API bool fbd_state_get(const fbd_state *state, const char *name, double *value);
 
@@ -312,6 +314,10 @@ FBD_API fbd_drift fbd_simulation_drift(const fbd_simulation *simulation);
 
 /* Why it ended: one sentence with time, body, quantity and what to try; "" while all is well. */
 FBD_API const char *fbd_simulation_reason(const fbd_simulation *simulation);
+
+/* When it was refused at its start, as fbd_state_close refuses it: that reason as a note in `errors`, with
+ * the id and the place in the file. False, and nothing noted, when it was not. */
+FBD_API bool fbd_simulation_blame(const fbd_simulation *simulation, fbd_errors *errors);
 
 /* ---------------------------------------------------------------- recording a whole run */
 

@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include "draw/record.h"
+#include "output/finite_result.h"
 
 /* ---- a run of a simulation */
 
@@ -130,7 +131,19 @@ static bool carry_on(struct going *going, struct csv *csv)
     bool due = csv && (!other || event || ensemble->outcome != FBD_GOING);
     if (due && !csv_row(csv, ensemble, event)) return false;
     if (result->record && !record_step(result->record, ensemble, from, event)) return false;
+    if (result->record && result->record->odd)
+        ensemble_spoil(ensemble, "`%s` is not finite at t = %.9g", result->record->odd,
+                       result->record->odd_time);
     return !simulation->bars || bars_step(simulation->bars, ensemble);
+}
+
+/* What is shown at the end is finite, or the run has failed by what is not. False when memory is out. */
+static bool is_whole(fbd_result *result)
+{
+    struct ensemble *ensemble = result->simulation->ensemble;
+    bool ended = ensemble->outcome == FBD_DONE || ensemble->outcome == FBD_STOPPED;
+    return !ended || result_finite(ensemble, &result->ledger, result->ledger.work) ||
+           ensemble->outcome == FBD_FAILED;
 }
 
 /* Without rows, error bars and the like there is nothing to stop for before the end. */
@@ -146,7 +159,7 @@ static bool carry(fbd_result *result, const fbd_recording *recording, struct csv
     bool fine = true;
     while (fine && ensemble->outcome == FBD_GOING) fine = carry_on(&going, csv);
     fine = fine && ensemble->outcome != FBD_OUT_OF_MEMORY &&
-           ledger_at(&result->ledger, ensemble, result->ledger.work);
+           ledger_at(&result->ledger, ensemble, result->ledger.work) && is_whole(result);
     ensemble->observer = (struct observer){0};
     return fine && (!bars || (bars_finish(bars, ensemble) && simulation_match_events(simulation)));
 }

@@ -182,6 +182,19 @@ fbd_stats fbd_simulation_stats(const fbd_simulation *simulation)
     return stats;
 }
 
+bool fbd_simulation_blame(const fbd_simulation *simulation, fbd_errors *list)
+{
+    const struct ensemble *ensemble = simulation ? simulation->ensemble : NULL;
+    const struct run *refused = ensemble ? ensemble->refused : NULL;
+    struct diag_call call;
+    if (!refused) return false;
+    fbd_errors *errors = diag_begin(&call, list);
+    diag_in_file(errors, ensemble->model->scene->file);
+    diag_add(errors, FBD_ERROR, refused->refusal, refused->refusal_at, NULL, "%s", refused->reason);
+    diag_end(&call);
+    return true;
+}
+
 const char *fbd_simulation_reason(const fbd_simulation *simulation)
 {
     if (!simulation) return "";

@@ -8,7 +8,7 @@
 #include "base/call.h"
 #include "dynamics/modes.h"
 #include "dynamics/project.h"
-#include "solve/fit.h"
+#include "solve/start.h"
 
 fbd_state *fbd_state_new(const fbd_model *model)
 {
@@ -85,29 +85,12 @@ bool fbd_state_set_text(fbd_state *state, const char *name, const char *text, fb
     return set;
 }
 
-/* Say so when the forces of couplings cannot be told. */
-static bool is_solved(fbd_state *state, fbd_errors *errors)
-{
-    struct text lack = {0};
-    struct pos at = {0, 0};
-    if (!state->settled) modes_settle(state, NULL);
-    bool solved = !fit_unsolved(state, &at, &lack);
-    if (lack.failed)
-        diag_out_of_memory(errors);
-    else if (!solved)
-        diag_add(errors, FBD_ERROR, "masses-apart", at, NULL, "%s", lack.data);
-    text_free(&lack);
-    return solved;
-}
-
 static bool close_state(fbd_state *state, fbd_errors *errors)
 {
     if (!state->settled) modes_settle(state, NULL);
     if (state->model->assembles) state_project(state, true);
-    bool fits = fit_check(state, "the state", errors);
-    if (fits) state_project(state, false);
     state->settled = false;
-    return fits && is_solved(state, errors);
+    return start_check(state, "the state", errors);
 }
 
 bool fbd_state_close(fbd_state *state, fbd_errors *list)

@@ -73,7 +73,10 @@ void text_number(struct text *text, double value, int digits)
     char buffer[64];
     double shown = value == 0 ? 0.0 : value; /* -0 and 0 read the same */
     if (snprintf(buffer, sizeof buffer, "%.*g", digits, shown) < 0) return;
-    if (isfinite(value)) set_point(buffer);
+    if (isfinite(value))
+        set_point(buffer);
+    else
+        text->odd = true;
     text_add(text, buffer);
 }
 

@@ -12,6 +12,7 @@ struct text {
     char *data; /* zero-terminated once anything was added */
     size_t length, capacity;
     bool failed; /* memory ran out; later additions are ignored */
+    bool odd;    /* a number that is not finite was written */
 };
 
 /* Room for `more` bytes and the end; false when memory is out. */

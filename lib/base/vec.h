@@ -7,6 +7,13 @@
 
 #include <math.h>
 
+/* The larger one, or NaN where one of them is: what fmax forgets counts as too large in every comparison that
+ * is written as !(x <= most). */
+static inline double larger(double a, double b)
+{
+    return a > b || isnan(a) ? a : b;
+}
+
 struct vec {
     double x, y;
 };

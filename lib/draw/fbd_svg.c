@@ -10,6 +10,7 @@
 #include "draw/panel.h"
 #include "output/equations.h"
 #include "output/result.h"
+#include "solve/start.h"
 
 static const double page_width = 186, margin = 5, gap = 8, heading_height = 13, line_height = 4.2;
 
@@ -250,6 +251,18 @@ static void write_sheet(struct sheet *sheet)
 
 /* ---- the whole */
 
+/* Lengths and forces may be finite, and yet too large for any scale: the first body with such a panel. */
+static const char *body_without_scale(const struct sheet *sheet)
+{
+    for (size_t i = 0; i < sheet->count; i++) {
+        const struct panel *panel = &sheet->panels[i];
+        bool odd = sheet->text.odd || panel->under.odd || sheet->notes[i].odd;
+        odd |= !isfinite(panel->scale.force) || !isfinite(panel->scale.moment);
+        if (odd || !isfinite(10 / panel->millimetres)) return panel->body->name;
+    }
+    return NULL;
+}
+
 static bool make_panels(struct sheet *sheet, const fbd_drawing *drawing)
 {
     const struct fbd_model *model = sheet->state->model;
@@ -288,6 +301,15 @@ static bool body_is_there(const struct fbd_model *model, const char *name, fbd_e
     return found;
 }
 
+/* What is not finite cannot be drawn to scale. */
+static bool is_finite(const struct fbd_state *state, fbd_errors *errors)
+{
+    struct lack lack = {0};
+    if (start_finite(state, &lack)) return true;
+    lack_note(&lack, errors);
+    return false;
+}
+
 static char *make_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *errors)
 {
     static const fbd_drawing plain = {NULL, false};
@@ -296,14 +318,24 @@ static char *make_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *
     diag_in_file(errors, state->model->scene->file);
     if (drawing->body && !body_is_there(state->model, drawing->body, errors)) return NULL;
     state_ready(state);
+    if (!is_finite(state, errors)) return NULL;
     bool done = make_panels(&sheet, drawing);
     if (done) write_sheet(&sheet);
+    const char *odd = done ? body_without_scale(&sheet) : NULL;
     for (size_t i = 0; i < sheet.count; i++) {
         if (sheet.panels[i].under.failed || sheet.notes[i].failed) sheet.text.failed = true;
         text_free(&sheet.panels[i].under);
         text_free(&sheet.notes[i]);
     }
     arena_free(&sheet.arena);
+    if (odd && !sheet.text.failed) {
+        diag_add(errors, FBD_ERROR, "not-finite", (struct pos){0, 0}, NULL,
+                 "the diagram of `%s` cannot be drawn at t = %.9g: a length or a force is too large for any "
+                 "scale",
+                 odd, state->t);
+        text_free(&sheet.text);
+        return NULL;
+    }
     if (!done || sheet.text.failed) {
         text_free(&sheet.text);
         diag_out_of_memory(errors);

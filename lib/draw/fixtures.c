@@ -262,6 +262,14 @@ static void angle_arc(struct panel *panel, struct vec center, double radius, dou
     panel_note(panel, name, vec_add(center, vec_scale(radius, out)), out);
 }
 
+/* In degrees, unless these are beyond all numbers. */
+static const char *angle_text(struct panel *panel, const char *name, double angle)
+{
+    double degrees = angle * 180 / pi;
+    return isfinite(degrees) ? arena_printf(panel->arena, "%s%.4g°", name, degrees)
+                             : arena_printf(panel->arena, "%s%.4g rad", name, angle);
+}
+
 static void draw_slide(struct panel *panel)
 {
     const struct model_body *body = panel->body;
@@ -292,7 +300,7 @@ static void draw_slide(struct panel *panel)
     struct vec foot = vec_sub(far, vec_scale(2 * surface_half + 9, e));
     double turn = along;
     panel_line(panel, "reference", foot, vec_add(foot, (struct vec){18, 0}), 3);
-    const char *text = arena_printf(panel->arena, "%.4g°", turn * 180 / pi);
+    const char *text = angle_text(panel, "", turn);
     if (text) angle_arc(panel, foot, 13, 0, turn, text);
 }
 
@@ -303,7 +311,7 @@ static void draw_angle(struct panel *panel, struct vec center, double zero, doub
     double theta = panel->at.y[body_angle_coordinate(body)], turn = remainder(theta, 2 * pi);
     struct vec end = vec_add(center, vec_scale(length, panel_direction(vec_unit(zero))));
     panel_line(panel, "reference", center, end, 5);
-    const char *text = arena_printf(panel->arena, "θ = %.4g°", theta * 180 / pi);
+    const char *text = angle_text(panel, "θ = ", theta);
     if (!text) return;
     if (fabs(turn) < 0.03)
         panel_note(panel, text, end, panel_direction(vec_unit(zero)));

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "draw/pack.h"
 
+#include <float.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -95,8 +96,9 @@ static void pack_columns(struct pack *pack)
             packed->offset = cell(record, 0, c);
         } else if (!find_base(pack, c, first, packed)) {
             bool place = column->kind == record_coordinate || column->kind == record_pose;
-            packed->kind = place ? packed_double : packed_float;
-            packed->slot = place ? pack->doubles++ : pack->floats++;
+            bool wide = place || column->least < -FLT_MAX || column->greatest > FLT_MAX;
+            packed->kind = wide ? packed_double : packed_float;
+            packed->slot = wide ? pack->doubles++ : pack->floats++;
         }
     }
 }
@@ -152,7 +154,7 @@ static void put_double(struct encoder *encoder, double value)
     for (int i = 0; i < 8; i++) put_byte(encoder, (unsigned char)(bits >> (8 * i)));
 }
 
-/* Too large for a float: infinite, which is not drawn. */
+/* Of an envelope: too large for a float is infinite, which is not drawn. */
 static void put_float(struct encoder *encoder, double value)
 {
     float narrow = (float)value;

@@ -96,11 +96,21 @@ static void widen_envelope(struct record *record, double t)
     }
 }
 
+static void find_odd(struct record *record, double t)
+{
+    for (size_t c = 0; c < record->column_count && !record->odd; c++) {
+        if (isfinite(record->values[c])) continue;
+        record->odd = record->columns[c].name;
+        record->odd_time = t;
+    }
+}
+
 /* The row of a state; the integrals of work up to there are in record->work. */
 static void take(struct record *record, struct fbd_state *state, bool keep)
 {
     bool stored = keep || record->seen++ % record->stride == 0;
     record_fill(record, state, stored || !record->costly);
+    if (stored) find_odd(record, state->t);
     widen_envelope(record, state->t);
     if (stored) store(record, state->t, keep);
 }

@@ -82,6 +82,8 @@ struct record {
     double *turning; /* rates and accelerations at the start of the step */
     bool costly;     /* a potential energy is a quadrature: only for rows that are stored */
     bool failed;     /* memory ran out */
+    const char *odd; /* the first column with a number that is not finite, and when; or NULL */
+    double odd_time;
 };
 
 /* Set up for a run and take the row of its start. False when memory is out. */

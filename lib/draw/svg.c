@@ -40,6 +40,7 @@ static void write_number(struct text *text, double value)
     char digits[40];
     double rounded = round(value * 1000) / 1000;
     snprintf(digits, sizeof digits, "%.3f", rounded == 0 ? 0.0 : rounded);
+    text->odd |= !(fabs(rounded) < 1e30); /* mm: no drawing */
     char *end = digits + strlen(digits);
     while (end[-1] == '0') end--;
     if (end[-1] == '.') end--;

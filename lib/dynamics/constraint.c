@@ -161,13 +161,27 @@ static void line(const struct view *view, const struct tie *tie, const struct ti
 struct piece {
     struct jet t;
     struct jet_vec u, Q1, Q2;
+    bool shrunk; /* to a point */
 };
+
+/* Both ends of a piece are at one point. |d| has a kink there, and what follows is on the side to which they
+ * part: with d = v s + a s^2 / 2 it is |v| s + (v . a) s^2 / 2 |v|, along u = v / |v|; without v along a.
+ * Ends that stay together have no direction. */
+static struct piece piece_at_a_point(struct jet_vec C1, struct jet_vec d)
+{
+    struct vec v = {d.x.x1, d.y.x1}, a = {d.x.x2, d.y.x2}, along = vec_norm(v) > 0 ? v : a;
+    double size = vec_norm(along);
+    struct vec u = size > 0 ? vec_scale(1 / size, along) : (struct vec){0, 0};
+    struct jet_vec direction = {jet_constant(u.x), jet_constant(u.y)};
+    return (struct piece){jet_dot(d, direction), direction, C1, C1, true};
+}
 
 static struct piece piece_between(struct jet_vec C1, double sR1, struct jet_vec C2, double sR2)
 {
     double rho = sR2 - sR1;
     struct jet_vec d = jet_vec_sub(C2, C1);
     struct jet d2 = jet_dot(d, d);
+    if (rho == 0 && sR1 == 0 && d2.x == 0) return piece_at_a_point(C1, d);
     struct piece piece = {.t = jet_sqrt(jet_sub(d2, jet_constant(rho * rho)))};
     struct jet scale = jet_inverse(d2);
     piece.u.x = jet_mul(scale, jet_add(jet_mul(d.x, piece.t), jet_scale(rho, d.y)));
@@ -187,10 +201,18 @@ static struct jet angle_from(double psi, struct jet_vec u)
     return jet_angle(turned);
 }
 
+/* A taut rope pulls along its pieces: where one of them is a point that has no direction, and no force. */
+static void refuse_direction(struct row *row)
+{
+    for (int i = 0; i < row->port_count; i++) row->ports[i].force = (struct vec){NAN, NAN};
+}
+
 static void rope(const struct view *view, const struct tie *tie, const struct tie_state *state,
                  struct row *row)
 {
+    const double taut = 1e-9; /* of its length */
     int last = tie->end_count - 1;
+    bool shrunk = false;
     struct jet length = jet_constant(-state->zero);
     start_row(row, length);
     for (int k = 0; k < last; k++) {
@@ -199,6 +221,7 @@ static void rope(const struct view *view, const struct tie *tie, const struct ti
         double sR2 = k + 1 == last ? state->side[1] * to->radius : 0;
         struct piece piece = piece_between(point_of(view, from), sR1, point_of(view, to), sR2);
         length = jet_add(length, piece.t);
+        shrunk |= piece.shrunk;
         if (sR1 != 0) {
             struct jet round = jet_sub(angle_from(state->psi[0], piece.u), angle_of(view, from->link));
             length = jet_add(length, jet_scale(sR1, round));
@@ -211,6 +234,24 @@ static void rope(const struct view *view, const struct tie *tie, const struct ti
         add_port(view, row, tie, k + 1, piece.Q2, piece.u);
     }
     row->g = length;
+    if (shrunk && !(length.x < -taut * state->zero)) refuse_direction(row);
+}
+
+int rope_blocked_at(const struct fbd_model *model, const struct tree_work *work, int index)
+{
+    const struct tie *tie = &model->tree->ties[index];
+    const struct tie_state *state = &work->ties[index];
+    struct view view = {work, false};
+    int last = tie->end_count - 1;
+    for (int k = 0; k < last; k++) {
+        double sR1 = k == 0 ? state->side[0] * tie->end[0].radius : 0;
+        double sR2 = k + 1 == last ? state->side[1] * tie->end[last].radius : 0;
+        struct vec from = jet_value(point_of(&view, &tie->end[k]));
+        struct vec to = jet_value(point_of(&view, &tie->end[k + 1]));
+        bool rims = sR1 != 0 || sR2 != 0;
+        if (rims && !(vec_norm(vec_sub(to, from)) > fabs(sR2 - sR1))) return k;
+    }
+    return -1;
 }
 
 /* ---- all of them */

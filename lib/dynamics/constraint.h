@@ -60,6 +60,10 @@ struct rope_state {
 };
 struct rope_state rope_at(const struct fbd_model *model, const struct instant *at, int tie);
 
+/* The first place of a rope's way after which it has none to the next: a point on or within the rim of the
+ * pulley beside it, or two pulleys between which it crosses and which overlap; -1 without one. */
+int rope_blocked_at(const struct fbd_model *model, const struct tree_work *work, int tie);
+
 /* A rolling body that has slipped rolls on from where it is. */
 void tie_rezero(const struct fbd_model *model, struct tree_work *work, int tie);
 

@@ -22,6 +22,19 @@ double arrow_moment(const struct arrow *arrow, struct vec about)
     return arrow->couple + vec_cross(vec_sub(arrow->point, about), arrow->force);
 }
 
+bool arrow_is_reaction(const struct fbd_model *model, const struct arrow *arrow)
+{
+    if (arrow->load < 0) return true;
+    switch (model->loads[arrow->load].source->kind) {
+    case load_normal:
+    case load_friction:
+    case moment_friction:
+    case load_drive:
+    case load_rope: return true;
+    default: return false;
+    }
+}
+
 struct vec mass_center_acceleration(const struct model_body *body, const struct instant *at, const double *a)
 {
     const double *own = a + body->first;

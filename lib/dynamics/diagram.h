@@ -63,4 +63,7 @@ struct vec mass_center_acceleration(const struct model_body *body, const struct 
 /* The moment of an arrow about a point. */
 double arrow_moment(const struct arrow *arrow, struct vec about);
 
+/* Does it follow from the others, as what a surface, a joint or a rope gives? */
+bool arrow_is_reaction(const struct fbd_model *model, const struct arrow *arrow);
+
 #endif

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "output/finite_result.h"
+
 enum { digits = 17, default_rows = 500 };
 
 /* ---- columns of forces: a slide shows the component along itself (normal force: across), a pivot the moment
@@ -88,21 +90,24 @@ static void headers(struct csv *csv, const struct fbd_state *start)
 
 static void number(struct csv *csv, double value)
 {
+    csv->odd |= !isfinite(value);
     text_add(&csv->line, ",");
     text_number(&csv->line, value, digits);
 }
 
-/* An error of INFINITY (unknown) is written `inf`. */
+/* The field of an error that is not known is empty. */
 static void error(struct csv *csv, double value)
 {
-    if (csv->bars) number(csv, value);
+    if (!csv->bars) return;
+    text_add(&csv->line, ",");
+    if (isfinite(value)) text_number(&csv->line, value, digits);
 }
 
 /* A quantity of the run and of its companion. */
 static void value(struct csv *csv, double main, double other)
 {
     number(csv, main);
-    if (csv->bars) number(csv, bars_difference(csv->bars, main, other));
+    if (csv->bars) error(csv, bars_difference(csv->bars, main, other));
 }
 
 static double shown_force(const struct csv *csv, const struct model_body *body, const struct arrow *arrow)
@@ -202,9 +207,20 @@ static void component(struct csv *csv, const struct fbd_state *state, int i)
     if (csv->bars) error(csv, bars_component(csv->bars, state, (size_t)i));
 }
 
-static bool row(struct csv *csv, const struct fbd_state *state)
+/* A row with a number that is not finite is not written: it ends the run. */
+static bool refuse_line(struct csv *csv, struct ensemble *ensemble)
+{
+    csv->line.length = 0;
+    csv->odd = false;
+    if (result_finite(ensemble, csv->ledger, csv->work))
+        ensemble_spoil(ensemble, "a number of the row at t = %.9g is not finite", ensemble->t);
+    return ensemble->outcome == FBD_FAILED || ensemble->outcome == FBD_BROKEN;
+}
+
+static bool row(struct csv *csv, struct ensemble *ensemble)
 {
     const struct fbd_model *model = csv->model;
+    const struct fbd_state *state = ensemble_state(ensemble);
     csv->last = state->t;
     text_number(&csv->line, state->t, digits);
     for (size_t b = 0; b < model->body_count; b++) {
@@ -213,7 +229,7 @@ static bool row(struct csv *csv, const struct fbd_state *state)
         for (int k = 0; k < body->count; k++) component(csv, state, body->first_rate + k);
     }
     if (csv->ledger) ledger_values(csv, state);
-    return put_line(csv);
+    return csv->odd ? refuse_line(csv, ensemble) : put_line(csv);
 }
 
 /* ---- the file */
@@ -239,7 +255,7 @@ bool csv_begin(struct csv *csv, struct ensemble *run, struct ledger *ledger, str
     struct fbd_state *state = ensemble_state(run);
     headers(csv, state);
     if (bars && !bars_look(bars, run, start, false, csv->ledger)) return false;
-    return put_line(csv) && row(csv, state);
+    return put_line(csv) && row(csv, run);
 }
 
 double csv_next(const struct csv *csv)
@@ -255,7 +271,7 @@ bool csv_row(struct csv *csv, struct ensemble *ensemble, bool event)
     if (!regular && !event && !last) return true;
     if (csv->ledger && !ledger_at(csv->ledger, ensemble, csv->work)) return false;
     if (csv->bars && !bars_look(csv->bars, ensemble, ensemble->t, event, csv->ledger)) return false;
-    return row(csv, ensemble_state(ensemble));
+    return row(csv, ensemble);
 }
 
 void csv_free(struct csv *csv)

@@ -19,6 +19,7 @@ struct csv {
     struct text line;
     struct arrow *arrows;
     double *work; /* integrals up to the row */
+    bool odd;     /* the line has a number that is not finite */
     bool failed;  /* memory or the writer */
 };
 

@@ -311,6 +311,11 @@ char *fbd_result_report(fbd_result *result)
     const struct fbd_model *model = run->model;
     struct text text = {0};
     if (model->scene->title[0]) text_printf(&text, "%s\n\n", model->scene->title);
+    if (run->refused) { /* nothing has moved, and its equations may have no numbers */
+        text_printf(&text, "The run did not start: %s.\n", run->reason);
+        if (text.failed) text_free(&text);
+        return text.data;
+    }
     write_assembled(&text, model, result->start);
     equations_write(&text, result->start);
     state_ready(end);

@@ -8,7 +8,6 @@
 #include "dynamics/energy.h"
 #include "dynamics/project.h"
 #include "dynamics/tree_system.h"
-#include "solve/fit.h"
 #include "solve/run.h"
 
 static bool has_ties(const struct run *run)
@@ -24,24 +23,6 @@ static double kinetic(struct fbd_state *state)
     for (size_t b = 0; b < state->model->body_count; b++)
         if (state->model->bodies[b].place.link > 0) sum += kinetic_energy(&state->model->bodies[b], &at);
     return sum;
-}
-
-void run_close_start(struct run *run)
-{
-    struct text lack = {0};
-    if (!has_ties(run)) return;
-    if (fit_lack(run->state, run->during, NULL, &lack))
-        run_fail(run, FBD_FAILED, "the start does not fit: %s", lack.failed ? "" : lack.data);
-    else
-        state_project(run->state, false);
-    text_free(&lack);
-}
-
-void run_check_solved(struct run *run)
-{
-    struct text lack = {0};
-    if (fit_unsolved(run->state, NULL, &lack)) run_fail(run, FBD_FAILED, "%s", lack.failed ? "" : lack.data);
-    text_free(&lack);
 }
 
 /* The largest change from `from` to `to`, in tolerances of the largest size that each number has had. */
@@ -123,6 +104,35 @@ static double measure(struct run *run)
     return reach;
 }
 
+/* What a step may be off by before it is brought back, as a share of the size of the mechanism: its error,
+ * and more where it was not asked for (a fixed step). */
+static double explained(const struct run *run)
+{
+    const double many = 1e4, least = 1e-12, unknown = 0.1;
+    return run->options.step > 0 ? unknown : fmin(many * fmax(run->options.tolerance, least), unknown);
+}
+
+/* A rope that has become longer than it is without having been taut at any time: the event was missed. To
+ * make it taut now would throw the bodies about. */
+static bool overlong_rope(struct run *run, double most)
+{
+    const struct plan *plan = &run->model->plan;
+    struct instant at = state_instant(run->state);
+    for (size_t i = 0; i < plan->friction_count; i++) {
+        if (!plan->frictions[i].rope || run->state->slip[i] == stick) continue;
+        int tie = plan->frictions[i].tie;
+        double excess = rope_at(run->model, &at, tie).excess;
+        if (excess <= most) continue;
+        run_fail(
+            run, FBD_FAILED,
+            "at t = %.9g the rope `%s` is longer than it is by %.3g: the instant at which it became taut "
+            "was missed. Try a smaller tolerance or step",
+            run->state->t, run->model->tree->ties[tie].name, excess);
+        return true;
+    }
+    return false;
+}
+
 /* Bring the end of the step back, and note what that took; returns what is still left. */
 static struct misfit bring_back(struct run *run, struct misfit *misfit)
 {
@@ -149,6 +159,15 @@ void run_close_step(struct run *run)
     double after = kinetic(run->state);
     run->liveliest = fmax(run->liveliest, fmax(before, after));
     double reach = measure(run);
+    if (overlong_rope(run, explained(run) * reach)) return;
+    if (!(misfit.position <= explained(run) * reach)) {
+        run_fail(
+            run, FBD_FAILED,
+            "at t = %.9g the coupling `%s` is off by %.3g, far more than the error of a step: the mechanism "
+            "moves too fast there for the tolerance or the step",
+            run->state->t, tie_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0), misfit.position);
+        return;
+    }
     /* Where a mechanism can fold over to another branch (all bars in one line) a step may start to, and going
      * back takes the energy with it: that is no rounding any more. */
     if (!(fabs(after - before) <= 1e4 * fmax(run->options.tolerance, 1e-12) * run->liveliest) &&

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solve/ensemble.h"
 
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -95,6 +97,7 @@ struct ensemble *ensemble_new(const struct fbd_model *model, const struct run_op
     for (size_t p = 0; p < ensemble->count; p++) {
         const struct run *run = ensemble->groups[p].run;
         ensemble->due[p] = p;
+        if (run->refusal && !ensemble->refused) ensemble->refused = run;
         if (run->outcome != FBD_GOING) ensemble_fail(ensemble, run->outcome, run->reason);
     }
     ensemble_release(ensemble, ensemble->count);
@@ -124,6 +127,19 @@ void ensemble_fail(struct ensemble *ensemble, fbd_outcome outcome, const char *r
     if (ensemble->outcome != FBD_GOING && ensemble->outcome != FBD_DONE) return;
     ensemble->outcome = outcome;
     ensemble->reason = reason;
+}
+
+void ensemble_spoil(struct ensemble *ensemble, const char *format, ...)
+{
+    if (ensemble->outcome != FBD_GOING && ensemble->outcome != FBD_DONE && ensemble->outcome != FBD_STOPPED)
+        return;
+    va_list args;
+    va_start(args, format);
+    /* NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): it is, a line above */
+    vsnprintf(ensemble->own_reason, sizeof ensemble->own_reason, format, args);
+    va_end(args);
+    ensemble->outcome = FBD_FAILED;
+    ensemble->reason = ensemble->own_reason;
 }
 
 /* ---- the log of events */

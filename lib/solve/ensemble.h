@@ -66,7 +66,8 @@ struct ensemble {
     double calm;    /* before this time no group steps, tells an event or ends: ensemble_go looks at none */
     fbd_outcome outcome;
     const char *reason; /* "" while all is well */
-    char cut_reason[60];
+    char own_reason[reason_size];
+    const struct run *refused; /* the one whose start is, and so the whole; or NULL */
     struct observer observer;
 
     struct run_event *events; /* up to t, of all groups in the order of time, indices of the whole scene */
@@ -130,5 +131,8 @@ void ensemble_release(struct ensemble *ensemble, size_t count);
 bool ensemble_make_run(struct ensemble *ensemble, struct group *group);
 
 void ensemble_fail(struct ensemble *ensemble, fbd_outcome outcome, const char *reason);
+
+/* End with failure, also where it had come to its end: what has been found makes it worthless. */
+void ensemble_spoil(struct ensemble *ensemble, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 #endif

@@ -13,6 +13,7 @@
 #include "dynamics/statics.h"
 #include "dynamics/tree.h"
 #include "solve/lu.h"
+#include "solve/start.h"
 
 struct balance {
     struct fbd_state *state;
@@ -102,14 +103,14 @@ static int both(const gsl_vector *q, void *context, gsl_vector *f, gsl_matrix *J
 static double typical_acceleration(const struct fbd_state *state)
 {
     double most = vec_norm(state->model->scene->gravity);
-    for (int i = 0; i < state->model->plan.n; i++) most = fmax(most, fabs(state->a[i]));
+    for (int i = 0; i < state->model->plan.n; i++) most = larger(most, fabs(state->a[i]));
     return most;
 }
 
 static double imbalance(const gsl_vector *f)
 {
     double most = 0;
-    for (size_t i = 0; i < f->size; i++) most = fmax(most, fabs(gsl_vector_get(f, i)));
+    for (size_t i = 0; i < f->size; i++) most = larger(most, fabs(gsl_vector_get(f, i)));
     return most;
 }
 
@@ -197,7 +198,7 @@ static double stride(const struct balance *balance, struct newton *newton, doubl
     if (!newton_step(newton, h)) return HUGE_VAL;
     for (size_t i = 0; i < newton->n; i++) {
         double size = size_of(balance, i, gsl_vector_get(newton->q, i));
-        most = fmax(most, fabs(newton->d[i]) / (0.3 * size));
+        most = larger(most, fabs(newton->d[i]) / (0.3 * size));
     }
     return work_along(balance, newton) > 0 ? most : HUGE_VAL;
 }
@@ -210,7 +211,7 @@ static double first_h(const struct newton *newton)
     for (size_t i = 0; i < newton->n; i++) {
         double sum = 0;
         for (size_t j = 0; j < newton->n; j++) sum += fabs(gsl_matrix_get(newton->J, i, j));
-        most = fmax(most, 2 * sum);
+        most = larger(most, 2 * sum);
     }
     return most > 0 ? 1 / most : 1;
 }
@@ -227,7 +228,7 @@ static bool let_down(struct balance *balance, struct newton *newton)
         both(newton->q, balance, newton->f, newton->J);
         rest_forces(balance->state, balance->lambda, true, balance->slots, balance->Q);
         double most = stride(balance, newton, h);
-        while (most > 1 && h > 1e-300) {
+        while (!(most <= 1) && h > 1e-300) {
             h /= 4;
             most = stride(balance, newton, h);
         }
@@ -251,7 +252,7 @@ static bool arrived(struct balance *balance, struct newton *newton)
     double slope = 0;
     take_coordinates(balance, newton->q);
     both(newton->q, balance, newton->f, newton->J);
-    for (size_t i = 0; i < n * n; i++) slope = fmax(slope, fabs(gsl_matrix_get(newton->J, i / n, i % n)));
+    for (size_t i = 0; i < n * n; i++) slope = larger(slope, fabs(gsl_matrix_get(newton->J, i / n, i % n)));
     if (slope == 0) return true;                         /* no force anywhere */
     if (!newton_step(newton, 1e6 / slope)) return false; /* a little of 1/h for what can move freely */
     for (size_t i = 0; i < n; i++)
@@ -297,7 +298,7 @@ static void set_start(gsl_vector *q, const struct fbd_model *model, const double
 static double distance_between(const double *a, const double *b, size_t n)
 {
     double most = 0;
-    for (size_t i = 0; i < n; i++) most = fmax(most, fabs(a[i] - b[i]));
+    for (size_t i = 0; i < n; i++) most = larger(most, fabs(a[i] - b[i]));
     return most;
 }
 
@@ -342,8 +343,9 @@ static double reach_of(const struct fbd_state *state)
     return reach > 0 ? reach : 1;
 }
 
-/* Accelerations at rest where it starts are what others are measured against. */
-static void measure(struct balance *balance)
+/* Accelerations at rest where it starts are what others are measured against; false when they are not finite.
+ */
+static bool measure(struct balance *balance)
 {
     struct fbd_state *state = balance->state;
     size_t n = coordinates_of(balance);
@@ -353,6 +355,7 @@ static void measure(struct balance *balance)
     double size = typical_acceleration(state);
     balance->zero = 1e-13 * size;
     if (balance->share) balance->k = size / reach_of(state);
+    return isfinite(size);
 }
 
 static void balance_free(struct balance *balance)
@@ -362,7 +365,8 @@ static void balance_free(struct balance *balance)
     free(balance->start);
 }
 
-static bool balance_new(struct balance *balance, struct fbd_state *state)
+/* 1 made, 0 the start is not finite, -1 out of memory. */
+static int balance_new(struct balance *balance, struct fbd_state *state)
 {
     size_t n = (size_t)state->model->plan.n, size = 2 * n;
     bool tied = state->model->tree && state->model->tree->tie_count > 0;
@@ -372,19 +376,18 @@ static bool balance_new(struct balance *balance, struct fbd_state *state)
                                 .work = calloc(size * size + size + 1, sizeof(double)),
                                 .share = tied ? calloc(n * n + 1, sizeof(double)) : NULL,
                                 .start = calloc(2 * n + slots + rows + 1, sizeof(double))};
-    if (!balance->work || !balance->start || (tied && !balance->share)) return false;
+    if (!balance->work || !balance->start || (tied && !balance->share)) return -1;
     balance->Q = balance->start + n;
     balance->slots = balance->Q + n;
     balance->lambda = balance->slots + slots;
     memcpy(balance->start, state->y, n * sizeof *balance->start);
-    measure(balance);
-    return true;
+    return measure(balance);
 }
 
 int equilibrium_search(struct fbd_state *state)
 {
     struct balance balance;
-    int found = balance_new(&balance, state) ? search(&balance) : -1;
+    int made = balance_new(&balance, state), found = made > 0 ? search(&balance) : made;
     balance_free(&balance);
     return found;
 }
@@ -396,9 +399,10 @@ static int settle(struct fbd_state *state)
     struct balance balance;
     struct newton newton = {0};
     size_t n = (size_t)state->model->plan.n;
-    bool made = balance_new(&balance, state) && newton_new(&newton, n);
-    int found = made ? let_down(&balance, &newton) && arrived(&balance, &newton) : -1;
-    if (found == 0) {
+    int made = balance_new(&balance, state);
+    if (made > 0 && !newton_new(&newton, n)) made = -1;
+    int found = made > 0 ? let_down(&balance, &newton) && arrived(&balance, &newton) : made;
+    if (made > 0 && found == 0) {
         memcpy(state->y, balance.start, n * sizeof *state->y);
         found = search(&balance);
         if (found > 0) found = arrived(&balance, &newton);
@@ -440,9 +444,10 @@ static bool find_equilibrium(fbd_state *state, fbd_errors *errors)
                  "at rest no choice of branches agrees with the forces");
         return false;
     }
+    if (!start_question(state, false, errors)) return false; /* wherever it starts, it is let down */
     int found = settle(state);
     state->settled = false;
-    if (found > 0) return true;
+    if (found > 0) return start_question(state, true, errors);
     if (found < 0) diag_out_of_memory(errors);
     if (found == 0)
         diag_add(errors, FBD_ERROR, "no-equilibrium", (struct pos){0, 0},

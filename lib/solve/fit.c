@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solve/fit.h"
 
+#include "dynamics/constraint.h"
 #include "dynamics/project.h"
-#include "dynamics/tree.h"
+#include "dynamics/tree_system.h"
 
 /* "rod.theta = -0.7, ...": what has to change; false when that is nothing but rounding. */
 static bool list_changes(struct text *text, const struct fbd_state *from, const struct fbd_state *to)
@@ -14,12 +15,92 @@ static bool list_changes(struct text *text, const struct fbd_state *from, const 
         double size = fmax(1, fabs(from->y[i]));
         if (fabs(to->y[i] - from->y[i]) <= 1e-9 * size) continue;
         if (listed++ >= most_listed) continue;
-        const struct label *label = &model->labels[i % n];
-        text_printf(text, "%s%s = ", listed > 1 ? ", " : "", i < n ? label->name : label->rate_name);
+        const struct coordinate *c = &model->scene->coordinates[i % n]; /* a group has no labels */
+        text_printf(text, "%s%s.%s = ", listed > 1 ? ", " : "", model->bodies[c->body].name,
+                    i < n ? c->name : c->rate_name);
         text_number(text, fabs(to->y[i]) > 1e-12 * size ? to->y[i] : 0, 9);
     }
     if (listed > most_listed) text_add(text, ", ...");
     return listed > 0;
+}
+
+/* Of the coupling that a row is of. */
+static struct pos place_of(const struct fbd_model *model, int row)
+{
+    return model->scene->constraints[model->tree->ties[model->tree->tie_of_row[row]].constraint].at;
+}
+
+/* A row that is off by more than it may be. */
+struct miss {
+    int row;
+    double off, share; /* as a share of what it may be off by */
+};
+
+static void note_miss(struct miss *miss, int row, double off, double most)
+{
+    double share = off / most;
+    if (off <= most || share <= miss->share) return;
+    *miss = (struct miss){row, off, isnan(share) ? HUGE_VAL : share};
+}
+
+/* How large, and how fast, what a tie joins is. */
+struct size {
+    const struct tie *tie;
+    double reach, speed;
+};
+
+static bool joins_the_same(const struct tie *a, const struct tie *b)
+{
+    if (!a || a->root_count != b->root_count) return false;
+    for (int k = 0; k < a->root_count; k++)
+        if (a->root[k] != b->root[k]) return false;
+    return true;
+}
+
+/* Ties that follow each other often join the same trees. */
+static void find_size(const struct fbd_state *state, const struct tie *tie, struct size *size)
+{
+    const struct tree *tree = state->model->tree;
+    if (joins_the_same(size->tie, tie)) return;
+    *size = (struct size){tie, 0, 0};
+    for (int k = 0; k < tie->root_count; k++)
+        for (int i = tie->root[k]; i < tree->links[tie->root[k]].end; i++) {
+            const struct tree_state *s = &state->tree->links[i];
+            size->reach = fmax(size->reach, fmax(vec_norm(s->p), vec_norm(s->d)));
+            size->speed = fmax(size->speed, fmax(vec_norm(s->v), fabs(s->omega)));
+        }
+}
+
+/* The rows that are off the most, in position and in velocity. A slack rope may be too short, not too long.
+ */
+static void find_misses(struct fbd_state *state, struct miss *position, struct miss *velocity)
+{
+    const double digits = 2e-6; /* six digits in a file are meant to fit */
+    const struct tree *tree = state->model->tree;
+    struct instant at = state_instant(state);
+    struct size size = {NULL, 0, 0};
+    *position = *velocity = (struct miss){-1, 0, 0};
+    state_misfit(state); /* evaluates the rows */
+    for (int j = 0; j < tree->row_count; j++) {
+        const struct tie *tie = &tree->ties[tree->tie_of_row[j]];
+        const struct jet g = state->tree->rows[j].g;
+        bool held = tree_takes_part(tree, &at, j);
+        if (!held && tie->kind != constraint_rope) continue;
+        find_size(state, tie, &size);
+        note_miss(position, j, held ? fabs(g.x) : g.x < 0 ? 0 : g.x, digits * size.reach);
+        if (held) note_miss(velocity, j, fabs(g.x1), digits * size.speed);
+    }
+}
+
+/* Ropes that are too long are pulled taut. */
+static void pull_taut(struct fbd_state *state)
+{
+    const struct plan *plan = &state->model->plan;
+    for (size_t i = 0; i < plan->friction_count; i++) {
+        const struct friction *rope = &plan->frictions[i];
+        if (rope->rope && state->tree->rows[state->model->tree->ties[rope->tie].first_row].g.x > 0)
+            state->slip[i] = stick;
+    }
 }
 
 /* What is wrong and what is next to it; false when that differs by rounding only, as where everything is at
@@ -29,6 +110,8 @@ static bool tell(const struct fbd_state *state, struct fbd_state *other, const c
 {
     struct text changes = {0};
     state_copy(other, state);
+    state_misfit(other);
+    pull_taut(other);
     bool closed = state_project(other, false), differs = !closed || list_changes(&changes, state, other);
     if (differs) {
         text_printf(lack, "`%s` is off by %.3g%s. ", name, off, by_velocity ? " in velocity" : "");
@@ -42,46 +125,45 @@ static bool tell(const struct fbd_state *state, struct fbd_state *other, const c
     return differs;
 }
 
-/* Of the coupling that a row is of. */
-static struct pos place_of(const struct fbd_model *model, int row)
+/* What stands at place k of a rope's way. */
+static const char *name_at(const struct fbd_model *model, const struct tie *tie, int k)
 {
-    return model->scene->constraints[model->tree->ties[model->tree->tie_of_row[row]].constraint].at;
+    return tie->end[k].body < 0 ? "the ground" : model->bodies[tie->end[k].body].name;
+}
+
+bool fit_blocked(struct fbd_state *state, struct pos *at, struct text *lack)
+{
+    const struct fbd_model *model = state->model;
+    const struct tree *tree = model->tree;
+    if (!tree || tree->tie_count == 0) return false;
+    state_misfit(state); /* puts the links in their places */
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        int k = tie->kind == constraint_rope ? rope_blocked_at(model, state->tree, i) : -1;
+        if (k < 0) continue;
+        if (at) *at = model->scene->constraints[tie->constraint].at;
+        text_printf(lack,
+                    "`%s` has no way from `%s` to `%s`: they are nearer to each other than the rim of the "
+                    "pulley. Move them apart",
+                    tie->name, name_at(model, tie, k), name_at(model, tie, k + 1));
+        return true;
+    }
+    return false;
 }
 
 bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct pos *at, struct text *lack)
 {
-    const double digits = 2e-6; /* six digits in a file are meant to fit */
     const struct tree *tree = state->model->tree;
     if (!tree || tree->tie_count == 0) return false;
-    struct misfit misfit = state_misfit(state);
-    double reach = 0, speed = 0;
-    for (int i = 1; i < tree->count; i++) {
-        const struct tree_state *s = &state->tree->links[i];
-        reach = fmax(reach, fmax(vec_norm(s->p), vec_norm(s->d)));
-        speed = fmax(speed, fmax(vec_norm(s->v), fabs(s->omega)));
-    }
-    bool position = !(misfit.position <= digits * reach), velocity = !(misfit.velocity <= digits * speed);
-    if (!position && !velocity) return false;
-    int row = position ? misfit.row : misfit.velocity_row;
-    double off = position ? misfit.position : misfit.velocity;
-    if (at) *at = place_of(state->model, row);
-    return tell(state, other, tree->ties[tree->tie_of_row[row]].name, off, !position, lack);
-}
-
-bool fit_check(struct fbd_state *state, const char *what, fbd_errors *errors)
-{
-    struct text lack = {0};
-    struct pos at = {0, 0};
-    struct fbd_state *other = state_new(state->model);
-    bool fits = other && !fit_lack(state, other, &at, &lack);
-    diag_in_file(errors, state->model->scene->file);
-    if (!other || lack.failed)
-        diag_out_of_memory(errors);
-    else if (!fits)
-        diag_add(errors, FBD_ERROR, "does-not-fit", at, NULL, "%s does not fit: %s", what, lack.data);
-    text_free(&lack);
-    state_free(other);
-    return fits;
+    struct miss position, velocity;
+    find_misses(state, &position, &velocity);
+    const struct miss *miss = position.row >= 0 ? &position : &velocity;
+    if (miss->row < 0) return false;
+    const char *name = tree->ties[tree->tie_of_row[miss->row]].name;
+    if (at) *at = place_of(state->model, miss->row);
+    if (isfinite(miss->off)) return tell(state, other, name, miss->off, miss == &velocity, lack);
+    text_printf(lack, "`%s` joins points that are at one place: it has no direction. Move them apart", name);
+    return true;
 }
 
 bool fit_unsolved(struct fbd_state *state, struct pos *at, struct text *lack)
@@ -91,7 +173,7 @@ bool fit_unsolved(struct fbd_state *state, struct pos *at, struct text *lack)
     if (!state->model->tree || state->model->tree->tie_count == 0) return false;
     state_evaluate(state);
     double miss = state_acceleration_misfit(state, &row);
-    if (miss <= digits) return false;
+    if (miss <= digits || row < 0) return false;
     if (at) *at = place_of(state->model, row);
     text_printf(
         lack,

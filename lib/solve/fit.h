@@ -14,8 +14,8 @@
  * `lack`, when it fits to six digits, as many as files have. */
 bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct pos *at, struct text *lack);
 
-/* The same as a note in `errors` (`does-not-fit`) about `what`, "the start"; true when it fits. */
-bool fit_check(struct fbd_state *state, const char *what, fbd_errors *errors);
+/* Say of a rope that it has no way: an end lies within the rim of the pulley that it runs round. */
+bool fit_blocked(struct fbd_state *state, struct pos *at, struct text *lack);
 
 /* Do the accelerations of a settled state, which is evaluated here, miss the couplings by more than rounding?
  * Then masses are too far apart (a pulley of a milligram between weights of kilograms) for their forces to be

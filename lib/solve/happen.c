@@ -12,6 +12,7 @@
 #include "dynamics/project.h"
 #include "dynamics/tree.h"
 #include "solve/run.h"
+#include "solve/start.h"
 
 /* ---- the log */
 
@@ -181,14 +182,14 @@ void run_check_contacts(struct run *run)
     for (size_t i = 0; i < model->plan.contact_count; i++) {
         const struct contact *contact = &model->plan.contacts[i];
         double N = -run->state->slots[contact->slot], slack = watchers_contact_slack(model, contact);
-        if (!(N < -slack)) continue;
+        if (N >= -slack) continue;
         struct run_event *event = note(run, FBD_EVENT_CONTACT_LOST, contact->body, contact->load, -1);
         if (event) event->force = N, event->limit = slack;
-        run_fail(run, FBD_BROKEN,
-                 "at t = %.9g `%s` leaves its surface: the normal force would have to pull (N = %.6g). "
-                 "Declare the "
-                 "normal force `two_sided` if it is a guide, or end the run before",
-                 run->state->t, model->bodies[contact->body].name, N);
+        struct text words = {0};
+        start_contact_words(model, contact, run->state->t, N, &words);
+        run_fail(run, words.failed ? FBD_OUT_OF_MEMORY : FBD_BROKEN, "%s",
+                 words.failed ? "out of memory" : words.data);
+        text_free(&words);
     }
 }
 

@@ -8,8 +8,10 @@
 
 #include "base/call.h"
 #include "base/diag.h"
+#include "dynamics/finite.h"
 #include "dynamics/modes.h"
 #include "solve/equilibrium.h"
+#include "solve/start.h"
 
 /* ---- eigenvalues */
 
@@ -22,14 +24,15 @@ static int by_frequency(const void *left, const void *right)
     return a->im > b->im ? -1 : a->im < b->im ? 1 : a->re < b->re ? -1 : 1;
 }
 
-static bool find_modes(struct fbd_linearization *linear)
+/* 1 found, 0 the iteration does not end, -1 out of memory. */
+static int find_modes(struct fbd_linearization *linear)
 {
     size_t size = linear->size, bytes = size * size * sizeof *linear->A;
     double *A = malloc(bytes); /* a copy, which is overwritten */
     gsl_vector_complex *values = gsl_vector_complex_alloc(size);
     gsl_eigen_nonsymm_workspace *work = gsl_eigen_nonsymm_alloc(size);
-    bool done = false;
-    if (A && values && work) {
+    bool made = A && values && work, done = false;
+    if (made) {
         memcpy(A, linear->A, bytes);
         gsl_matrix_view view = gsl_matrix_view_array(A, size, size);
         gsl_eigen_nonsymm_params(0, 1, work); /* balanced: coordinates have different units */
@@ -38,13 +41,14 @@ static bool find_modes(struct fbd_linearization *linear)
             gsl_complex lambda = gsl_vector_complex_get(values, i);
             double re = GSL_REAL(lambda), im = GSL_IMAG(lambda), frequency = hypot(re, im);
             linear->modes[i] = (fbd_mode){re, im, frequency, frequency > 0 ? -re / frequency : NAN};
+            done = isfinite(frequency) && (frequency == 0 || isfinite(1 / frequency));
         }
-        qsort(linear->modes, size, sizeof *linear->modes, by_frequency);
+        if (done) qsort(linear->modes, size, sizeof *linear->modes, by_frequency);
     }
     if (work) gsl_eigen_nonsymm_free(work);
     if (values) gsl_vector_complex_free(values);
     free(A);
-    return done;
+    return made ? done : -1;
 }
 
 /* ---- the whole */
@@ -153,24 +157,60 @@ static int find_matrix(struct fbd_linearization *linear, struct fbd_state *state
     return found;
 }
 
+/* The balance, and every slope there. */
+static bool is_finite(const struct fbd_linearization *linear, struct fbd_state *state, fbd_errors *errors)
+{
+    const struct fbd_model *model = linear->model;
+    size_t size = linear->size, n = size / 2;
+    if (!start_question(state, true, errors)) return false;
+    for (size_t i = 0; i < size * size; i++) {
+        if (isfinite(linear->A[i])) continue;
+        size_t row = i / size % n, column = i % size;
+        const struct label *label = &model->labels[column % n];
+        diag_add(errors, FBD_ERROR, "not-finite", (struct pos){0, 0}, NULL,
+                 "at the equilibrium the slope of the acceleration along `%s` with `%s` is not finite: %s",
+                 model->labels[row].name, column < n ? label->name : label->rate_name,
+                 not_finite_reason(linear->A[i]));
+        return false;
+    }
+    return true;
+}
+
+/* `found` is 0 where there is no balance, or with `balanced` no eigenvalues; else memory is out. */
+static void note_failure(const struct fbd_model *model, bool settled, int found, bool balanced,
+                         fbd_errors *errors)
+{
+    struct pos nowhere = {0, 0};
+    if (!settled)
+        diag_add(errors, FBD_ERROR, "unsettled", nowhere, "look from another state, with --at",
+                 "at the start no choice of branches agrees with the forces");
+    else if (found != 0)
+        diag_out_of_memory(errors);
+    else if (balanced)
+        diag_add(errors, FBD_ERROR, "not-finite", nowhere, NULL,
+                 "the eigenvalues of the motion about the equilibrium (`%s`, ...) are not found, or not "
+                 "finite: its slopes are too far apart",
+                 model->labels[0].name);
+    else
+        diag_add(errors, FBD_ERROR, "no-equilibrium", nowhere,
+                 "start nearer to it: set the initial values, or give --at",
+                 "no equilibrium was found near the start");
+}
+
 static fbd_linearization *linearize(fbd_state *state, fbd_errors *errors)
 {
     const struct fbd_model *model = state->model;
     diag_in_file(errors, model->scene->file);
-    if (refuse_closed(state, errors) || refuse_sticking(state, errors)) return NULL;
-    fbd_linearization *linear = linearization_new(model);
     bool settled = modes_settle(state, NULL);
+    if (!start_question(state, settled, errors) || refuse_closed(state, errors) ||
+        refuse_sticking(state, errors))
+        return NULL;
+    fbd_linearization *linear = linearization_new(model);
     int found = linear && settled ? find_matrix(linear, state, errors) : -1;
-    if (found > 0 && find_modes(linear)) return linear;
-    if (found == 0)
-        diag_add(errors, FBD_ERROR, "no-equilibrium", (struct pos){0, 0},
-                 "start nearer to it: set the initial values, or give --at",
-                 "no equilibrium was found near the start");
-    else if (!settled)
-        diag_add(errors, FBD_ERROR, "unsettled", (struct pos){0, 0}, "look from another state, with --at",
-                 "at the start no choice of branches agrees with the forces");
-    else
-        diag_out_of_memory(errors);
+    bool said = found > 0 && !is_finite(linear, state, errors);
+    int modes = found > 0 && !said ? find_modes(linear) : -1;
+    if (modes > 0) return linear;
+    if (!said) note_failure(model, settled, found > 0 ? modes : found, found > 0, errors);
     fbd_linearization_free(linear);
     return NULL;
 }

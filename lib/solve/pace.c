@@ -175,8 +175,8 @@ static void rewind_group(struct ensemble *ensemble, size_t p, double t)
 
 static void end_cut(struct ensemble *ensemble)
 {
-    snprintf(ensemble->cut_reason, sizeof ensemble->cut_reason, "interrupted at t = %.9g", ensemble->t);
-    ensemble_fail(ensemble, FBD_INTERRUPTED, ensemble->cut_reason);
+    snprintf(ensemble->own_reason, sizeof ensemble->own_reason, "interrupted at t = %.9g", ensemble->t);
+    ensemble_fail(ensemble, FBD_INTERRUPTED, ensemble->own_reason);
 }
 
 void ensemble_interrupt(struct ensemble *ensemble)

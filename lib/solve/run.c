@@ -7,6 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dynamics/finite.h"
+#include "solve/start.h"
+
 /* ---- the system that the stepper sees */
 
 static int jacobian(double t, const double y[], double *dfdy, double dfdt[], void *params)
@@ -122,23 +125,30 @@ static bool make_run(struct run *run)
     return run->kind != structure_linear || linear_pace_init(&run->pace, 2 * n);
 }
 
+static void refuse(struct run *run, struct lack *lack)
+{
+    if (!lack->id || lack->text.failed) {
+        run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
+    } else {
+        run->refusal = lack->id;
+        run->refusal_at = lack->at;
+        if (strcmp(lack->id, "leaves-surface") == 0) run_check_contacts(run); /* an event, too */
+        run_fail(run, FBD_FAILED, "%s", lack->text.data);
+    }
+    text_free(&lack->text);
+}
+
 static void start(struct run *run)
 {
+    struct lack lack;
     run->restart = true;
     run->from = run->state->t;
-    if (modes_settle(run->state, NULL)) run_close_start(run); /* what slips is not closed */
-    if (run->outcome != FBD_GOING) return;
-    if (!modes_settle(run->state, NULL)) {
-        run_fail(
-            run, FBD_FAILED,
-            "at the start no choice of branches and of stick or slip agrees with the forces. A force that "
-            "jumps against the motion, as c*sign(v), is dry friction: declare it as `friction`");
+    if (!start_ready(run->state, run->during, "the start", &lack)) {
+        refuse(run, &lack);
         return;
     }
     watchers_arm(&run->watchers, run->state);
-    run_check_contacts(run);
-    if (run->outcome == FBD_GOING) run_check_solved(run);
-    if (run->outcome == FBD_GOING && !(run->options.until > run->state->t)) run->outcome = FBD_DONE;
+    if (!(run->options.until > run->state->t)) run->outcome = FBD_DONE;
 }
 
 struct run *run_new(const struct fbd_model *model, const struct run_options *options)
@@ -338,10 +348,27 @@ static int find_event(struct run *run, double *t)
     return 0;
 }
 
+/* A coordinate that has grown beyond all numbers, though its rate has not; the step is not taken. */
+static bool is_beyond_numbers(struct run *run, double t)
+{
+    size_t n = (size_t)run->model->plan.n;
+    for (size_t i = 0; i < 2 * n; i++) {
+        if (isfinite(run->y[i])) continue;
+        const struct coordinate *c = &run->model->scene->coordinates[i % n];
+        run_fail(run, FBD_FAILED,
+                 "`%s.%s` is not finite at t = %.9g: %s. The last good state is that at t = %.9g",
+                 run->model->bodies[c->body].name, i < n ? c->name : c->rate_name, t,
+                 not_finite_reason(run->y[i]), run->state->t);
+        return true;
+    }
+    return false;
+}
+
 static void accept(struct run *run, double t)
 {
     size_t n = (size_t)run->model->plan.n;
     double *most = run->anchor + 2 * n;
+    if (is_beyond_numbers(run, t)) return;
     for (size_t i = 0; i < 2 * n; i++) most[i] = fmax(most[i], fabs(run->state->y[i]));
     run->state->t = t;
     memset(run->watchers.fired, 0, run->model->plan.watch_count * sizeof *run->watchers.fired);

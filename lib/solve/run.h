@@ -69,6 +69,8 @@ struct run {
     unsigned long not_finite; /* rejections for that reason before the last step */
     fbd_outcome outcome;
     char reason[reason_size];
+    const char *refusal; /* the id of what its start lacks (start.h), and the place; else NULL */
+    struct pos refusal_at;
 
     struct watchers watchers;
     struct scan timed, moving;
@@ -119,12 +121,8 @@ int run_panels(const struct run *run);
  * crossed; NULL for none. Settles the modes. */
 void run_apply(struct run *run, const bool *timed, const bool *moving);
 
-/* Refuse a start that couplings do not allow (closing.c); bring the end of a step back onto them. */
-void run_close_start(struct run *run);
+/* Bring the end of a step back onto the couplings. */
 void run_close_step(struct run *run);
-
-/* Refuse a start whose couplings have no forces that can be told (fit_unsolved). */
-void run_check_solved(struct run *run);
 
 /* Has the step that ends at run->y been brought back so far that its method has to start anew? */
 bool run_has_gone_astray(const struct run *run);

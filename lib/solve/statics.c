@@ -6,17 +6,27 @@
 
 #include "base/call.h"
 #include "base/diag.h"
+#include "dynamics/finite.h"
 #include "dynamics/project.h"
-#include "solve/fit.h"
+#include "solve/start.h"
 
 /* ---- the start: it has to fit its couplings */
 
 static bool fits(struct fbd_state *state, fbd_errors *errors)
 {
-    if (!fit_check(state, "the start", errors)) return false;
+    if (!start_question(state, true, errors)) return false;
     if (state_project(state, false)) return true;
     diag_add(errors, FBD_ERROR, "does-not-fit", (struct pos){0, 0}, NULL,
              "the start fits its couplings to six digits, and no state near it fits better");
+    return false;
+}
+
+/* At rest, before the forces are found and after. */
+static bool is_finite(const struct fbd_state *state, fbd_errors *errors)
+{
+    struct lack lack = {0};
+    if (start_finite(state, &lack)) return true;
+    lack_note(&lack, errors);
     return false;
 }
 
@@ -24,7 +34,9 @@ static bool put_to_rest(struct fbd_state *state, fbd_errors *errors)
 {
     bool settled = rest_begin(state);
     if (settled && !fits(state, errors)) return false;
+    if (settled && !is_finite(state, errors)) return false;
     if (settled && rest_begin(state)) return true; /* once more, where the start was brought to */
+    if (!is_finite(state, errors)) return false;   /* nothing settles then */
     diag_add(errors, FBD_ERROR, "unsettled", (struct pos){0, 0}, "look at another state, with --at",
              "at rest no choice of branches agrees with the forces");
     return false;
@@ -105,6 +117,24 @@ static bool solve(struct fbd_statics *statics)
     return solved;
 }
 
+/* What was found beside the forces of the diagrams. */
+static bool is_known(const struct fbd_statics *statics, fbd_errors *errors)
+{
+    struct not_finite found;
+    struct pos nowhere = {0, 0};
+    bool odd = not_finite_note(&found, statics->left, nowhere, "what is out of balance");
+    for (size_t i = 0; !odd && i < statics->limit_count; i++) {
+        const fbd_limit *limit = &statics->limits[i];
+        odd = not_finite_note(&found, limit->needed + limit->limit, nowhere, "what `%s` has to bear, or may",
+                              limit->name);
+    }
+    for (size_t i = 0; !odd && i < statics->unbalanced_count; i++)
+        odd = not_finite_note(&found, statics->unbalanced[i].holding, nowhere, "what would hold `%s`",
+                              statics->unbalanced[i].coordinate);
+    if (odd) diag_add(errors, FBD_ERROR, "not-finite", nowhere, NULL, "%s is not finite at rest", found.what);
+    return !odd && is_finite(statics->state, errors);
+}
+
 static void warn(const struct fbd_statics *statics, fbd_errors *errors)
 {
     if (statics->indeterminacy == 0 || !fbd_statics_holds(statics)) return;
@@ -129,11 +159,12 @@ static fbd_statics *statics_new(const fbd_state *state, fbd_errors *errors)
     statics->model = state->model;
     state_copy(statics->state, state);
     if (put_to_rest(statics->state, errors)) {
-        if (solve(statics)) {
+        bool solved = solve(statics);
+        if (!solved) diag_out_of_memory(errors);
+        if (solved && is_known(statics, errors)) {
             warn(statics, errors);
             return statics;
         }
-        diag_out_of_memory(errors);
     }
     fbd_statics_free(statics);
     return NULL;

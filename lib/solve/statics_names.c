@@ -182,8 +182,8 @@ bool rest_find_unbalanced(struct fbd_statics *statics, const struct rest_system 
         if (!system->held[k]) free[count++] = k;
     statics->mobility = count - system->svd.rank;
     for (size_t k = 0; k < count; k++)
-        statics->left = fmax(statics->left, fabs(system->scale[free[k]] * system->Q[free[k]]) /
-                                                (system->force > 0 ? system->force : 1));
+        statics->left = larger(statics->left, fabs(system->scale[free[k]] * system->Q[free[k]]) /
+                                                  (system->force > 0 ? system->force : 1));
     if (!(statics->left > rest_digits)) return true;
     if (m == 0) {
         hold_each(statics, system);

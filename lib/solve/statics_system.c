@@ -11,19 +11,6 @@
 
 /* ---- sizes: what zero is measured against */
 
-static bool is_reaction(const struct fbd_model *model, const struct arrow *arrow)
-{
-    if (arrow->load < 0) return true;
-    switch (model->loads[arrow->load].source->kind) {
-    case load_normal:
-    case load_friction:
-    case moment_friction:
-    case load_drive:
-    case load_rope: return true;
-    default: return false;
-    }
-}
-
 /* The largest arm of a body's arrows about its centre of mass, then the largest load, couples over that. */
 static bool find_sizes(struct rest_system *system)
 {
@@ -39,7 +26,7 @@ static bool find_sizes(struct rest_system *system)
         size_t count = diagram_fill(model, (int)b, &at, system->state->a, system->slots0, arrows);
         for (size_t i = 0; i < count; i++) {
             system->length = fmax(system->length, vec_norm(vec_sub(arrows[i].point, G)));
-            if (is_reaction(model, &arrows[i])) continue;
+            if (arrow_is_reaction(model, &arrows[i])) continue;
             system->force = fmax(system->force, vec_norm(arrows[i].force));
             couple = fmax(couple, fabs(arrows[i].couple));
         }

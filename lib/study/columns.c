@@ -252,7 +252,7 @@ static bool is_meant(const struct column *column, const struct run_event *event)
 
 static void put_number(struct text *text, double value)
 {
-    if (!isnan(value)) text_number(text, value, digits);
+    if (isfinite(value)) text_number(text, value, digits);
 }
 
 static void put_event(const struct column *column, const struct ensemble *run, struct text *text)

@@ -2,6 +2,7 @@
  *
  * One run of a sweep, and its row.
  */
+#include "output/finite_result.h"
 #include "solve/options.h"
 #include "study/sweep.h"
 
@@ -157,19 +158,37 @@ static bool carry(struct row_maker *maker, struct ensemble *run, struct ledger *
     return true;
 }
 
+/* A start that is refused has its id, and mostly a place in the file. */
+static void put_outcome(const struct ensemble *run, struct text *text)
+{
+    char reason[600];
+    const char *file = run->model->scene->file ? run->model->scene->file : "model";
+    if (run->refused && run->refused->refusal_at.line > 0)
+        snprintf(reason, sizeof reason, "%s:%d:%d: %s [%s]", file, run->refused->refusal_at.line,
+                 run->refused->refusal_at.column, run->reason, run->refused->refusal);
+    else if (run->refused)
+        snprintf(reason, sizeof reason, "%s: %s [%s]", file, run->reason, run->refused->refusal);
+    else
+        snprintf(reason, sizeof reason, "%s", run->reason);
+    put_end(text, status_of(run->outcome), reason);
+}
+
 static enum row_end put_run(struct row_maker *maker, struct ensemble *run, struct ledger *ledger,
                             struct fbd_state *probe, struct text *text)
 {
     const struct columns *columns = &maker->sweep->columns;
     if (!carry(maker, run, ledger, probe)) return row_stopped;
-    if (run->outcome == FBD_OUT_OF_MEMORY) {
+    bool ended = run->outcome == FBD_DONE || run->outcome == FBD_STOPPED;
+    bool known =
+        !ended || result_finite(run, ledger, ledger ? ledger->work : NULL) || run->outcome == FBD_FAILED;
+    if (run->outcome == FBD_OUT_OF_MEMORY || !known) {
         lose(text);
         return row_failed;
     }
     const struct observed observed = {run, ledger, maker->extremes};
     columns_put(columns, &observed, text);
     text_printf(text, ",%zu", run->event_count);
-    put_end(text, status_of(run->outcome), run->reason);
+    put_outcome(run, text);
     return run->outcome == FBD_DONE || run->outcome == FBD_STOPPED ? row_well : row_failed;
 }
 

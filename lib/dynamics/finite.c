@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dynamics/finite.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "dynamics/diagram.h"
+#include "dynamics/energy.h"
+#include "dynamics/kinematics.h"
+
+const char *not_finite_reason(double value)
+{
+    return isnan(value)
+               ? "an expression leaves its domain there (a root or logarithm of a negative number, 0/0)"
+               : "it is beyond the largest number (a division by zero, or an overflow)";
+}
+
+bool not_finite_note(struct not_finite *found, double value, struct pos at, const char *format, ...)
+{
+    if (isfinite(value)) return false;
+    va_list args;
+    va_start(args, format);
+    /* NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): it is, a line above */
+    vsnprintf(found->what, sizeof found->what, format, args);
+    va_end(args);
+    found->value = value;
+    found->at = at;
+    return true;
+}
+
+static bool note_coordinates(const struct fbd_state *state, struct not_finite *found)
+{
+    const struct fbd_model *model = state->model;
+    for (int i = 0; i < 2 * model->plan.n; i++) {
+        const struct coordinate *c = &model->scene->coordinates[i % model->plan.n];
+        const struct model_body *body = &model->bodies[c->body];
+        const char *name = i < model->plan.n ? c->name : c->rate_name;
+        if (not_finite_note(found, state->y[i], body->source->at, "`%s.%s`", body->name, name)) return true;
+    }
+    return false;
+}
+
+static bool note_accelerations(const struct fbd_state *state, struct not_finite *found)
+{
+    const struct fbd_model *model = state->model;
+    for (int i = 0; i < model->plan.n; i++) {
+        const struct coordinate *c = &model->scene->coordinates[i];
+        const struct model_body *body = &model->bodies[c->body];
+        if (not_finite_note(found, state->a[i], body->source->at, "the acceleration along `%s.%s`",
+                            body->name, c->name))
+            return true;
+    }
+    return false;
+}
+
+static struct pos place_of(const struct fbd_model *model, const struct model_body *body,
+                           const struct arrow *arrow)
+{
+    return arrow->load >= 0 ? model->loads[arrow->load].source->at : body->source->at;
+}
+
+static bool note_arrow(const struct fbd_model *model, const struct model_body *body,
+                       const struct arrow *arrow, struct vec G, struct not_finite *found)
+{
+    struct pos at = place_of(model, body, arrow);
+    const char *on = body->name, *name = arrow->name;
+    const double force[] = {arrow->force.x, arrow->force.y};
+    for (int k = 0; k < 2; k++)
+        if (not_finite_note(found, force[k], at, "the force `%s` on `%s`", name, on)) return true;
+    const double moments[] = {arrow->couple, arrow_moment(arrow, G)};
+    for (int k = 0; k < 2; k++)
+        if (not_finite_note(found, moments[k], at, "the moment of `%s` on `%s`", name, on)) return true;
+    for (int k = 0; k < body->count; k++)
+        if (not_finite_note(found, arrow->share[k], at, "the share of `%s` in the motion of `%s`", name, on))
+            return true;
+    return not_finite_note(found, arrow->power, at, "the power of `%s` on `%s`", name, on);
+}
+
+/* What is given, or with `reactions` what follows. */
+static bool note_arrows(const struct fbd_state *state, struct arrow *arrows, bool reactions,
+                        struct not_finite *found)
+{
+    const struct fbd_model *model = state->model;
+    struct instant at = state_instant(state);
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
+        struct pose pose = body_pose(body, &at);
+        struct vec G = point_motion(body, &pose, body->inertia.G).p;
+        size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, arrows);
+        for (size_t i = 0; i < count; i++)
+            if (arrow_is_reaction(model, &arrows[i]) == reactions &&
+                note_arrow(model, body, &arrows[i], G, found))
+                return true;
+    }
+    return false;
+}
+
+static bool note_energies(const struct fbd_state *state, struct not_finite *found)
+{
+    const struct fbd_model *model = state->model;
+    struct instant at = state_instant(state);
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
+        if (not_finite_note(found, kinetic_energy(body, &at), body->source->at, "the kinetic energy of `%s`",
+                            body->name))
+            return true;
+    }
+    for (size_t i = 0; i < model->load_count; i++) {
+        const struct model_load *load = &model->loads[i];
+        if (load->potential_kind == potential_none || load->potential_kind == potential_quadrature) continue;
+        double V = potential_energy(model, load, &at, NULL);
+        if (not_finite_note(found, V, load->source->at, "the potential energy of `%s` on `%s`",
+                            load->source->name, model->bodies[load->body].name))
+            return true;
+    }
+    return false;
+}
+
+enum finite finite_check(const struct fbd_state *state, struct not_finite *found)
+{
+    struct arrow *arrows = calloc(diagram_most_arrows(state->model), sizeof *arrows);
+    if (!arrows) return finite_no_memory;
+    bool odd = note_coordinates(state, found) || note_arrows(state, arrows, false, found) ||
+               note_accelerations(state, found) || note_arrows(state, arrows, true, found) ||
+               note_energies(state, found);
+    free(arrows);
+    return odd ? finite_not : finite_all;
+}

@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solve/start.h"
+
+#include "dynamics/finite.h"
+#include "dynamics/modes.h"
+#include "dynamics/project.h"
+#include "model/model.h"
+#include "solve/fit.h"
+#include "solve/watchers.h"
+
+bool start_finite(const struct fbd_state *state, struct lack *lack)
+{
+    struct not_finite found;
+    enum finite finite = finite_check(state, &found);
+    if (finite == finite_all) return true;
+    if (finite == finite_no_memory) return false;
+    lack->id = "not-finite";
+    lack->at = found.at;
+    text_printf(&lack->text, "%s is not finite at t = ", found.what);
+    text_number(&lack->text, state->t, 9);
+    text_printf(&lack->text, ": %s", not_finite_reason(found.value));
+    return false;
+}
+
+bool start_fits(struct fbd_state *state, struct fbd_state *other, bool modes, const char *what,
+                struct lack *lack)
+{
+    struct text why = {0};
+    *lack = (struct lack){0};
+    bool fits = !fit_blocked(state, &lack->at, &why) && !(modes && fit_lack(state, other, &lack->at, &why));
+    if (fits) return true;
+    lack->id = "does-not-fit";
+    text_printf(&lack->text, "%s does not fit: %s", what, why.failed ? "" : why.data);
+    lack->text.failed |= why.failed;
+    text_free(&why);
+    return false;
+}
+
+static bool is_settled(bool settled, struct lack *lack)
+{
+    if (settled) return true;
+    lack->id = "unsettled";
+    text_add(&lack->text,
+             "at the start no choice of branches and of stick or slip agrees with the forces. A force that "
+             "jumps against the motion, as c*sign(v), is dry friction: declare it as `friction`");
+    return false;
+}
+
+void start_contact_words(const struct fbd_model *model, const struct contact *contact, double t, double N,
+                         struct text *text)
+{
+    text_add(text, "at t = ");
+    text_number(text, t, 9);
+    text_printf(text, " `%s` leaves its surface: the normal force would have to pull (N = ",
+                model->bodies[contact->body].name);
+    text_number(text, N, 6);
+    text_add(text, "). Declare the normal force `two_sided` if it is a guide, or end the run before");
+}
+
+/* No surface has to pull. */
+static bool rests_on_surfaces(const struct fbd_state *state, struct lack *lack)
+{
+    const struct fbd_model *model = state->model;
+    for (size_t i = 0; i < model->plan.contact_count; i++) {
+        const struct contact *contact = &model->plan.contacts[i];
+        double N = -state->slots[contact->slot];
+        if (N >= -watchers_contact_slack(model, contact)) continue;
+        lack->id = "leaves-surface";
+        lack->at = model->loads[contact->load].source->at;
+        start_contact_words(model, contact, state->t, N, &lack->text);
+        return false;
+    }
+    return true;
+}
+
+static bool is_solved(struct fbd_state *state, struct lack *lack)
+{
+    if (!fit_unsolved(state, &lack->at, &lack->text)) return true;
+    lack->id = "masses-apart";
+    return false;
+}
+
+bool start_ready(struct fbd_state *state, struct fbd_state *other, const char *what, struct lack *lack)
+{
+    bool settled = modes_settle(state, NULL);
+    if (!start_fits(state, other, settled, what, lack)) return false;
+    if (settled) state_project(state, false); /* what slips is not closed */
+    settled = modes_settle(state, NULL);
+    return start_finite(state, lack) && is_settled(settled, lack) && rests_on_surfaces(state, lack) &&
+           is_solved(state, lack);
+}
+
+bool start_question(struct fbd_state *state, bool modes, fbd_errors *errors)
+{
+    struct lack lack = {0};
+    struct fbd_state *other = state_new(state->model);
+    bool fine = other && start_fits(state, other, modes, "the start", &lack);
+    if (fine) {
+        state_evaluate(state);
+        fine = start_finite(state, &lack);
+    }
+    if (!fine) lack_note(&lack, errors);
+    state_free(other);
+    return fine;
+}
+
+void lack_note(struct lack *lack, fbd_errors *errors)
+{
+    if (!lack->id || lack->text.failed)
+        diag_out_of_memory(errors);
+    else
+        diag_add(errors, FBD_ERROR, lack->id, lack->at, NULL, "%s", lack->text.data);
+    text_free(&lack->text);
+}
+
+bool start_check(struct fbd_state *state, const char *what, fbd_errors *errors)
+{
+    struct lack lack = {0};
+    struct fbd_state *other = state_new(state->model);
+    diag_in_file(errors, state->model->scene->file);
+    bool ready = other && start_ready(state, other, what, &lack);
+    if (!ready) lack_note(&lack, errors);
+    text_free(&lack.text);
+    state_free(other);
+    return ready;
+}
