@@ -35,6 +35,21 @@ static FILE *script_file(const char *script)
     return NULL;
 }
 
+/* Start gnuplot between two descriptors; what went wrong, as errno says it, or 0. */
+static int start(int input, int output, pid_t *child)
+{
+    char name[] = "gnuplot", all[] = "-";
+    char *const arguments[] = {name, all, NULL};
+    posix_spawn_file_actions_t actions;
+    int failed = posix_spawn_file_actions_init(&actions);
+    if (failed) return failed;
+    failed = posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+    if (!failed) failed = posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+    if (!failed) failed = posix_spawnp(child, name, &actions, NULL, arguments, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    return failed;
+}
+
 bool gnuplot_run(const char *script, int output)
 {
     FILE *input = script_file(script);
@@ -42,15 +57,8 @@ bool gnuplot_run(const char *script, int output)
         fprintf(stderr, "fbd-run: cannot write the script of the plot: %s\n", strerror(errno));
         return false;
     }
-    char name[] = "gnuplot", all[] = "-";
-    char *const arguments[] = {name, all, NULL};
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, fileno(input), STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
     pid_t child;
-    int failed = posix_spawnp(&child, name, &actions, NULL, arguments, environ), status = 1;
-    posix_spawn_file_actions_destroy(&actions);
+    int status = 1, failed = start(fileno(input), output, &child);
     if (failed)
         fprintf(stderr, "fbd-run: cannot start gnuplot: %s\n", strerror(failed));
     else

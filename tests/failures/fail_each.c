@@ -24,6 +24,7 @@ struct plan {
 
 struct tally {
     long claims, failed, runs, calls;
+    FILE *notes; /* on what is wrong with the claim that is being made; they are printed behind it */
 };
 
 static const struct piece before = {"before", "before\n", 7};
@@ -103,30 +104,30 @@ static long next_call(const struct plan *plan, long call, long calls)
     return call + stride;
 }
 
-static void explain(const struct snapshot *run, const struct layer_page *page, long call, bool stay,
-                    const char *wrong)
+static void explain(FILE *notes, const struct snapshot *run, const struct layer_page *page, long call,
+                    bool stay, const char *wrong)
 {
-    printf("# call %ld, %s, fails%s: %s\n", call, page->what, stay ? " and all after it" : "", wrong);
+    fprintf(notes, "# call %ld, %s, fails%s: %s\n", call, page->what, stay ? " and all after it" : "", wrong);
     if (WIFEXITED(run->status))
-        printf("#   exit code %d\n", WEXITSTATUS(run->status));
+        fprintf(notes, "#   exit code %d\n", WEXITSTATUS(run->status));
     else
-        printf("#   signal %d\n", WTERMSIG(run->status));
-    if (page->lost > 0) printf("#   %ld blocks, one of %s\n", page->lost, page->lost_by);
+        fprintf(notes, "#   signal %d\n", WTERMSIG(run->status));
+    if (page->lost > 0) fprintf(notes, "#   %ld blocks, one of %s\n", page->lost, page->lost_by);
     for (char *line = run->err.data; *line; line += strcspn(line, "\n") + (strchr(line, '\n') != NULL))
-        printf("#   says: %.*s\n", (int)strcspn(line, "\n"), line);
+        fprintf(notes, "#   says: %.*s\n", (int)strcspn(line, "\n"), line);
     for (size_t i = 0; i < run->count; i++)
-        printf("#   leaves: %s, %zu bytes\n", run->files[i].name, run->files[i].size);
+        fprintf(notes, "#   leaves: %s, %zu bytes\n", run->files[i].name, run->files[i].size);
 }
 
 /* True when the run is as it should be. */
 static bool try_call(const struct plan *plan, const struct server *server, const struct snapshot *start,
-                     const struct snapshot *whole, long call, bool stay, bool show)
+                     const struct snapshot *whole, long call, bool stay, FILE *notes)
 {
     prepare(plan, start, whole);
     int status = server_run(server, plan->kind, call, stay);
     struct snapshot run = snapshot_take(server, plan->place, status);
     const char *wrong = judge(whole, &run, server->page, &before);
-    if (wrong && show) explain(&run, server->page, call, stay, wrong);
+    if (wrong && notes) explain(notes, &run, server->page, call, stay, wrong);
     snapshot_free(&run);
     return !wrong;
 }
@@ -142,12 +143,13 @@ static long fail_calls(const struct plan *plan, struct command *command, struct 
     struct snapshot whole = snapshot_take(&server, plan->place, status);
     *calls = server.page->calls[plan->kind];
     if (!WIFEXITED(status) || server.page->lost != 0) {
-        explain(&whole, server.page, 0, false, "undisturbed");
+        explain(tally->notes, &whole, server.page, 0, false, "undisturbed");
         wrong++;
     }
     for (int stay = 0; stay < 2; stay++) {
         for (long call = 1;; call = next_call(plan, call, *calls)) {
-            wrong += !try_call(plan, &server, &start, &whole, call, stay, plan->verbose || wrong < 3);
+            FILE *notes = plan->verbose || wrong < 3 ? tally->notes : NULL;
+            wrong += !try_call(plan, &server, &start, &whole, call, stay, notes);
             tally->runs++;
             if (server.page->refused == 0) break;
         }
@@ -162,15 +164,21 @@ static void claim(const struct plan *plan, const char *line, struct tally *tally
 {
     struct command command;
     long calls;
+    char *notes = NULL;
+    size_t length;
     read_command(&command, line);
+    tally->notes = open_memstream(&notes, &length);
+    if (!tally->notes) err(70, "open_memstream");
     long wrong = fail_calls(plan, &command, tally, &calls);
+    fclose(tally->notes);
     tally->claims++;
     tally->calls += calls;
     tally->failed += wrong > 0;
     printf("%s %ld - %s: %ld calls failed in turn", wrong ? "not ok" : "ok", tally->claims, command.text,
            calls);
     if (wrong) printf(", %ld of them wrongly", wrong);
-    printf("\n");
+    printf("\n%s", notes);
+    free(notes);
     fflush(stdout);
 }
 
