@@ -87,6 +87,23 @@ void claim_plain(const char *what, const char *text)
     }
 }
 
+void claim_notes(fbd_errors *errors)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *stream = open_memstream(&text, &length);
+    if (!stream) return;
+    fbd_errors_print(errors, stream);
+    fclose(stream);
+    claim_plain("the notes", text);
+    free(text);
+    for (size_t i = 0; i < fbd_errors_count(errors); i++) {
+        const fbd_error *note = fbd_errors_get(errors, i);
+        if (!note->id[0] || !note->message[0] || strchr(note->message, '\n'))
+            fuzz_fail("a note `%s` that is not one line: `%s`", note->id, note->message);
+    }
+}
+
 /* ---- tables */
 
 static size_t columns_of(const char *line)

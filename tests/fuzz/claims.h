@@ -9,6 +9,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "fbd.h"
+
 /* A number is finite. */
 void claim_finite(const char *what, double value);
 
@@ -21,6 +23,9 @@ bool names_nan(const char *text, size_t length);
 /* UTF-8 without control characters other than the end of a line and the tabulator, and without what turns the
  * direction of writing: nothing that a terminal acts on. */
 void claim_plain(const char *what, const char *text);
+
+/* The notes as they are printed are plain, each message one line. */
+void claim_notes(fbd_errors *errors);
 
 /* A header with different names, and rows with as many numbers as it has names; only an error may be `inf`,
  * which says that it is not known. */

@@ -30,21 +30,21 @@ static int hexadecimal(char c)
     return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-uint32_t fuzz_choices(const char *text, size_t length)
+uint64_t fuzz_choices(const char *text, size_t length)
 {
-    uint32_t given = 0, hash = 2166136261u; /* FNV-1a */
+    uint64_t given = 0, hash = 14695981039346656037u; /* FNV-1a */
     size_t digits = 0;
     if (length > 2 && text[0] == '#' && text[1] == '?')
-        for (; digits < 8 && 2 + digits < length && hexadecimal(text[2 + digits]) >= 0; digits++)
-            given = given << 4 | (uint32_t)hexadecimal(text[2 + digits]);
-    if (digits == 8) return given;
-    for (size_t i = 0; i < length; i++) hash = (hash ^ (uint8_t)text[i]) * 16777619u;
-    return hash ^ hash >> 15;
+        for (; digits < 16 && 2 + digits < length && hexadecimal(text[2 + digits]) >= 0; digits++)
+            given = given << 4 | (uint64_t)hexadecimal(text[2 + digits]);
+    if (digits == 16) return given;
+    for (size_t i = 0; i < length; i++) hash = (hash ^ (uint8_t)text[i]) * 1099511628211u;
+    return hash ^ hash >> 29;
 }
 
-unsigned fuzz_take(uint32_t *choices, unsigned bits)
+unsigned fuzz_take(uint64_t *choices, unsigned bits)
 {
-    unsigned taken = *choices & ((1u << bits) - 1);
+    unsigned taken = (unsigned)(*choices & ((1u << bits) - 1));
     *choices >>= bits;
     return taken;
 }

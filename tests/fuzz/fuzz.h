@@ -28,10 +28,10 @@ enum { fuzz_longest = 4096 };
 _Noreturn void fuzz_fail(const char *what, ...) __attribute__((format(printf, 1, 2)));
 
 /* What else is to be done with an input, as random bits that belong to it: those of a first line
- * `#?xxxxxxxx` in hexadecimal, else a hash of all of it. To YAML the line is a comment. */
-uint32_t fuzz_choices(const char *text, size_t length);
+ * `#?` and sixteen hexadecimal digits, else a hash of all of it. To YAML the line is a comment. */
+uint64_t fuzz_choices(const char *text, size_t length);
 
 /* Take `bits` bits off the choices. */
-unsigned fuzz_take(uint32_t *choices, unsigned bits);
+unsigned fuzz_take(uint64_t *choices, unsigned bits);
 
 #endif

@@ -133,8 +133,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     memcpy(text, data, size);
     text[size] = '\0';
     for (size_t i = 0; i < sizeof wants / sizeof *wants; i++) compile(text, &wants[i], errors);
-    for (size_t i = 0; i < fbd_errors_count(errors); i++)
-        claim_plain("a note", fbd_errors_get(errors, i)->message);
+    claim_notes(errors);
     double value;
     if (expr_number(text, size, &value)) claim_finite("a number", value);
     fbd_errors_free(errors);

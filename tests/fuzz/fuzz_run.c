@@ -13,7 +13,7 @@
 #include "scene/language.h"
 
 enum {
-    most_steps = 150,    /* of a run, then it is interrupted */
+    most_steps = 60,     /* of a run, then it is interrupted */
     most_table = 300000, /* bytes of CSV, then the writer refuses */
     most_arrows = 64,
 };
@@ -22,7 +22,7 @@ struct input {
     const fbd_model *model;
     fbd_errors *errors;
     bool names_nan; /* it says `nan` itself, or a run failed for one: outputs may repeat that */
-    uint32_t choices;
+    uint64_t choices;
 };
 
 /* ---- claims on texts; each takes the text and frees it, NULL is `memory is out` */
@@ -87,7 +87,7 @@ static int write_table(void *context, const char *rows, size_t length)
     return table->length > most_table;
 }
 
-static fbd_options choose_options(uint32_t *choices)
+static fbd_options choose_options(uint64_t *choices)
 {
     static const double untils[] = {NAN, 1e-3, 0.1, 10};
     static const double tolerances[] = {0, 1e-3, 1e-6, 1e-12};
@@ -95,12 +95,12 @@ static fbd_options choose_options(uint32_t *choices)
     options.until = untils[fuzz_take(choices, 2)];
     unsigned method = fuzz_take(choices, 5); /* 0 is auto, and so are half of all */
     if (method < 14) options.method = method_choices[method].name;
-    unsigned accuracy = fuzz_take(choices, 4);
+    unsigned accuracy = fuzz_take(choices, 5);
     options.no_structure = fuzz_take(choices, 2) == 0;
-    options.error_bars = fuzz_take(choices, 2) == 0;
+    options.error_bars = fuzz_take(choices, 3) == 0;
     if (accuracy == 0)
         options.accuracy = 1e-6;
-    else if (accuracy == 1)
+    else if (accuracy <= 2)
         options.step = 0.01;
     else
         options.tolerance = tolerances[fuzz_take(choices, 2)];
@@ -133,9 +133,9 @@ static void write_outputs(const struct input *input, fbd_result *result, unsigne
 {
     if (which & 1) claim_text(input, "report", fbd_result_report(result));
     if (which & 2) claim_object(input, "JSON", fbd_result_json(result));
-    if ((which & 28) == 4)
+    if (which >> 2 == 1)
         claim_text(input, "plots", fbd_result_gnuplot(result, "plots.svg", NULL, input->errors));
-    if ((which & 28) == 8) free(fbd_result_html(result, input->errors));
+    if (which >> 2 == 2) free(fbd_result_html(result, input->errors));
 }
 
 static void claim_csv(const struct text *table)
@@ -147,17 +147,17 @@ static void run(struct input *input)
 {
     size_t steps = 0;
     struct text table = {0};
-    uint32_t *choices = &input->choices;
+    uint64_t *choices = &input->choices;
     fbd_options options = choose_options(choices);
-    unsigned which = fuzz_take(choices, 5);
+    unsigned which = fuzz_take(choices, 6); /* plots and page, which keep every row, seldom */
     fbd_recording recording = {.ledger = fuzz_take(choices, 1),
                                .csv = write_table,
                                .csv_context = &table,
                                .motion_only = fuzz_take(choices, 3) == 0,
-                               .keep = (which & 28) == 4 || (which & 28) == 8,
+                               .keep = which >> 2 == 1 || which >> 2 == 2,
                                .progress = watch,
                                .progress_context = &steps};
-    if (fuzz_take(choices, 2) != 0 && isfinite(options.until)) recording.every = options.until / 4;
+    if (fuzz_take(choices, 3) != 0) recording.every = isfinite(options.until) ? options.until / 4 : 0.25;
     fbd_simulation *simulation = fbd_simulation_new(input->model, &options, input->errors);
     fbd_result *result = simulation ? fbd_simulation_run(simulation, &recording) : NULL;
     fbd_outcome outcome = result ? fbd_result_outcome(result) : FBD_FAILED;
@@ -234,14 +234,14 @@ static void ask_hand(const struct input *input)
 
 static void ask(struct input *input)
 {
-    unsigned what = fuzz_take(&input->choices, 3);
+    unsigned what = fuzz_take(&input->choices, 4);
     const fbd_options options = FBD_OPTIONS_DEFAULT;
     fbd_state *state = fbd_state_new(input->model);
-    if (what <= 2) ask_equations(input, state);
-    if (what == 3) ask_statics(input, state);
-    if (what == 4) ask_linearization(input, state);
-    if (what == 5) ask_hand(input);
-    if (what == 6) claim_text(input, "explanation", fbd_explain(input->model, &options));
+    if (what <= 3) ask_equations(input, state);
+    if (what == 4 || what == 5) ask_statics(input, state);
+    if (what == 6 || what == 7) ask_linearization(input, state);
+    if (what == 8) ask_hand(input);
+    if (what == 9) claim_text(input, "explanation", fbd_explain(input->model, &options));
     fbd_state_free(state);
 }
 

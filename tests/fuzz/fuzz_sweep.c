@@ -127,8 +127,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     read_plan(&plan, text, size);
     fbd_sweep *sweep = NULL;
     if (plan.plan.vary_count > 0) sweep = fbd_sweep_parse(text, size, "fuzzed.yaml", &plan.plan, errors);
-    for (size_t i = 0; i < fbd_errors_count(errors); i++)
-        claim_plain("a note", fbd_errors_get(errors, i)->message);
+    claim_notes(errors);
     if (sweep) {
         claim_plain("the header", fbd_sweep_header(sweep));
         if (!fbd_sweep_key(sweep)[0]) fuzz_fail("a sweep without a key");

@@ -3,7 +3,7 @@
  * How libFuzzer changes and crosses models: by pieces that belong together, so that what comes out is often a
  * model again. A quarter of all changes are libFuzzer's own, of bytes.
  */
-#include <ctype.h>
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -159,8 +159,8 @@ static void change_name(struct draft *draft, struct random_numbers *random)
 /* Keep the line of choices at the start, with other bits. */
 static void change_choices(struct draft *draft, struct random_numbers *random)
 {
-    char line[16];
-    int length = snprintf(line, sizeof line, "#?%08x\n", (unsigned)random_bits(random));
+    char line[24];
+    int length = snprintf(line, sizeof line, "#?%016" PRIx64 "\n", random_bits(random));
     bool there = draft->length > 2 && draft->data[0] == '#' && draft->data[1] == '?';
     draft_replace(draft, there ? piece_next(draft, piece_line, 0) : (struct piece){0, 0}, line,
                   (size_t)length);

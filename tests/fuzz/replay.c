@@ -6,6 +6,7 @@
  * not hide the others; and TIMES more, each with other choices (fuzz.h). One claim in TAP for each folder.
  */
 #include <ftw.h>
+#include <inttypes.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -59,8 +60,8 @@ static void give_all(const char *path, size_t file, unsigned long times)
     struct random_numbers random = {file};
     give(path, "");
     for (unsigned long i = 0; i < times; i++) {
-        char line[16];
-        snprintf(line, sizeof line, "#?%08x\n", (unsigned)(random_bits(&random) & 0xFFFFFFFF));
+        char line[24];
+        snprintf(line, sizeof line, "#?%016" PRIx64 "\n", random_bits(&random));
         give(path, line);
     }
 }
