@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/call.h"
 #include "base/diag.h"
@@ -60,6 +61,24 @@ static const char *limit_name(struct fbd_statics *statics, const struct rest_lim
     return arena_printf(&statics->arena, "%s.%s", model->bodies[model->loads[load].body].name, name);
 }
 
+/* Is there a limit of this name already? */
+static bool is_limit(const struct fbd_statics *statics, const char *name)
+{
+    size_t i = 0;
+    while (i < statics->limit_count && strcmp(statics->limits[i].name, name) != 0) i++;
+    return i < statics->limit_count;
+}
+
+/* One name each, since they are keys of the output: the pieces of a rope that is cut at pulleys are `cord`,
+ * `cord_2`. NULL when memory is out. */
+static const char *name_limit(struct fbd_statics *statics, const struct rest_limit *limit)
+{
+    const char *name = limit_name(statics, limit), *made = name;
+    for (int number = 2; made && is_limit(statics, made); number++)
+        made = arena_printf(&statics->arena, "%s_%d", name, number);
+    return made;
+}
+
 /* Of the force, or of a bearing's moment. */
 static const char *limit_unit(const struct fbd_model *model, const struct rest_limit *limit)
 {
@@ -80,7 +99,9 @@ static bool find_limits(struct fbd_statics *statics, const struct rest_system *s
         double slack = 2e-9 * system->force;
         bool holds =
             limit.kind == limit_friction ? limit.needed <= limit.may + slack : limit.needed >= -slack;
-        statics->limits[statics->limit_count++] = (fbd_limit){.name = limit_name(statics, &limit),
+        const char *name = name_limit(statics, &limit);
+        if (!name) return false;
+        statics->limits[statics->limit_count++] = (fbd_limit){.name = name,
                                                               .unit = limit_unit(statics->model, &limit),
                                                               .kind = (fbd_limit_kind)limit.kind,
                                                               .needed = limit.needed,

@@ -196,6 +196,28 @@ static void a_rope_does_not_push(void **unused)
     checks_end(&checks);
 }
 
+/* A rope over a pulley with friction in its axle, M_f = (T_2 - T_1) R: two pieces, each with a tension of its
+ * own, T_1 = 1 kg g and T_2 = 2 kg g. */
+static void each_piece_of_a_rope_has_a_limit_and_a_name(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    static const char text[] =
+        "fbd: 1\nbodies:\n"
+        "  a: {mass: 1 kg, motion: {slide: {along: -90 deg, through: [-1, -2]}}, forces: "
+        "[gravity]}\n"
+        "  b: {mass: 2 kg, motion: {slide: {along: -90 deg, through: [1, -2]}}, forces: "
+        "[gravity]}\n"
+        "  pulley: {shape: disc, mass: 1 kg, radius: 1 m, motion: pivot, moments: [friction: 20]}"
+        "\ncouplings: [rope: {name: cord, through: [a.G, pulley, b.G]}]\n";
+    struct rest rest = rest_of(trial_parse(text));
+    check_holds(&checks, &rest, 0);
+    check_close(&checks, "a", limit(&rest, "cord").needed, g, rounding);
+    check_close(&checks, "b", limit(&rest, "cord_2").needed, 2 * g, rounding);
+    rest_close(&rest);
+    checks_end(&checks);
+}
+
 /* ---- against dynamics, welded, refused */
 
 /* Where a scene rests and equilibrium determines all, the diagrams of dynamics are the same. */
@@ -277,6 +299,7 @@ int main(void)
         cmocka_unit_test(several_mechanisms_are_held_by_one_force_each),
         cmocka_unit_test(a_surface_that_would_have_to_pull_is_said),
         cmocka_unit_test(a_rope_does_not_push),
+        cmocka_unit_test(each_piece_of_a_rope_has_a_limit_and_a_name),
         cmocka_unit_test(reactions_at_rest_are_those_of_dynamics),
         cmocka_unit_test(a_weld_bears_what_is_beyond_it),
         cmocka_unit_test(a_start_that_does_not_fit_is_refused_with_its_coupling),
