@@ -52,7 +52,7 @@ SCENES = 100000
 SEED = 1000000
 cross-check: $(BUILD)/.tests
 	ninja -C $(BUILD)
-	$(BUILD)/tests/cross/cross_check --scenes $(SCENES) --seed $(SEED) --jobs 2
+	$(BUILD)/tests/cross/cross_check --scenes $(SCENES) --seed $(SEED) --variants 10 --jobs 2
 
 bench: $(BUILD)/.tests
 	ninja -C $(BUILD)

@@ -162,7 +162,7 @@ static void compare_instant(const struct absolute *absolute, fbd_state *state, s
 
 /* Coordinates and rates in the order of the independent assembly; false where the library has no such name.
  */
-static bool get_state(const struct scene *scene, const fbd_state *state, double *q, double *v)
+bool library_state(const struct scene *scene, const fbd_state *state, double *q, double *v)
 {
     static const char *const names[] = {"x", "y", "theta"}, *const rates[] = {"vx", "vy", "omega"};
     int k = 0;
@@ -179,7 +179,7 @@ static bool get_state(const struct scene *scene, const fbd_state *state, double 
 }
 
 /* The first event after which the modes of the start are no longer those of the run, or INFINITY. */
-static double first_change(fbd_simulation *simulation)
+double library_change(fbd_simulation *simulation)
 {
     for (size_t i = 0; i < fbd_simulation_events(simulation); i++) {
         fbd_event event = fbd_simulation_event(simulation, i);
@@ -197,7 +197,7 @@ static double motion_size(const double *q, const double *v, int count)
 
 /* What a difference of 1e-9 at the start becomes: of scenes where it grows a thousandfold nothing is asked.
  */
-static bool is_sensitive(const struct absolute *start, const struct absolute *end, double until)
+bool scene_is_sensitive(const struct absolute *start, const struct absolute *end, double until)
 {
     struct absolute other = *start;
     double most = 0;
@@ -214,7 +214,7 @@ static void compare_ends(const struct absolute *start, struct absolute *absolute
 {
     double q[3 * most_bodies], v[3 * most_bodies], our_q[3 * most_bodies], our_v[3 * most_bodies];
     int k = 0;
-    if (!get_state(scene, state, q, v)) return;
+    if (!library_state(scene, state, q, v)) return;
     absolute_coordinates(absolute, our_q, our_v);
     for (int b = 0; b < scene->body_count; b++) k += coordinate_count(scene->body[b].motion);
     double size = motion_size(our_q, our_v, k), none = 0;
@@ -222,7 +222,7 @@ static void compare_ends(const struct absolute *start, struct absolute *absolute
         if (!differ(q[i], our_q[i], size, state_tolerance, &none) &&
             !differ(v[i], our_v[i], size, state_tolerance, &none))
             continue;
-        outcome->sensitive = is_sensitive(start, absolute, outcome->until);
+        outcome->sensitive = scene_is_sensitive(start, absolute, outcome->until);
         if (outcome->sensitive) return;
         fail(outcome, states_differ,
              "coordinate %d at t = %g: library %.15g, rate %.15g; independent %.15g, rate %.15g", i,
@@ -237,7 +237,7 @@ static void compare_last_instant(const struct absolute *absolute, const struct s
 {
     struct absolute last = *absolute;
     double q[3 * most_bodies], v[3 * most_bodies];
-    if (!get_state(scene, state, q, v)) return;
+    if (!library_state(scene, state, q, v)) return;
     absolute_place(&last, outcome->until, q, v);
     absolute_solve(&last, true);
     bool good = last.consistent && last.accelerations_unique && last.condition < 1e4;
@@ -251,8 +251,8 @@ static int is_too_long(void *unused, const fbd_progress *progress)
     return progress->steps > 20000;
 }
 
-static fbd_result *run(const fbd_model *model, double until, fbd_simulation **simulation,
-                       struct outcome *outcome)
+fbd_result *library_run(const fbd_model *model, double until, fbd_simulation **simulation,
+                        struct outcome *outcome)
 {
     fbd_options options = FBD_OPTIONS_DEFAULT;
     options.until = until;
@@ -272,8 +272,8 @@ static void compare_run(const struct scene *scene, const struct absolute *start,
                         double until, struct outcome *outcome)
 {
     fbd_simulation *simulation = NULL;
-    fbd_result *result = run(model, until, &simulation, outcome);
-    double change = result ? first_change(simulation) : INFINITY;
+    fbd_result *result = library_run(model, until, &simulation, outcome);
+    double change = result ? library_change(simulation) : INFINITY;
     if (result && isfinite(change)) {
         outcome->broke_off = true;
         until = change * (1 - 1e-9); /* an impact changes velocities */
@@ -281,8 +281,10 @@ static void compare_run(const struct scene *scene, const struct absolute *start,
         fbd_simulation_free(simulation);
         result = NULL;
         if (until < 0.01) return;
-        result = run(model, until, &simulation, outcome);
+        result = library_run(model, until, &simulation, outcome);
     }
+    /* Contact may be lost a little before that. */
+    if (result) fbd_state_get(fbd_result_state(result), "t", &until);
     outcome->until = until;
     if (result) {
         struct absolute absolute = *start;
@@ -302,7 +304,7 @@ static void compare_run(const struct scene *scene, const struct absolute *start,
 
 /* ---- the whole */
 
-static fbd_model *parse(const struct scene *scene, double until, struct outcome *outcome)
+fbd_model *library_model(const struct scene *scene, double until, struct outcome *outcome)
 {
     static _Thread_local char text[text_room];
     size_t length = scene_write(scene, until > 0 ? until : 1, text);
@@ -321,7 +323,7 @@ void scene_compare(const struct scene *scene, struct absolute *absolute, double 
                    struct outcome *outcome)
 {
     memset(outcome, 0, sizeof *outcome);
-    fbd_model *model = parse(scene, until, outcome);
+    fbd_model *model = library_model(scene, until, outcome);
     if (!model) {
         fail(outcome, refused, "no model");
         return;

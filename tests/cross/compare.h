@@ -6,6 +6,7 @@
 #define CROSS_COMPARE_H
 
 #include "absolute.h"
+#include "fbd.h"
 
 enum verdict {
     agrees,
@@ -31,7 +32,16 @@ struct outcome {
 void scene_compare(const struct scene *scene, struct absolute *absolute, double until,
                    struct outcome *outcome);
 
-/* As in scene_compare, of a state of the library where `absolute` stands now. */
+/* What a difference of 1e-9 at the start becomes by then: where it grows a thousandfold nothing is asked. */
+bool scene_is_sensitive(const struct absolute *start, const struct absolute *end, double until);
+
+/* The library's part, by its public interface; failures go into `outcome`. */
+fbd_model *library_model(const struct scene *scene, double until, struct outcome *outcome);
+fbd_result *library_run(const fbd_model *model, double until, fbd_simulation **simulation,
+                        struct outcome *outcome);
+bool library_state(const struct scene *scene, const fbd_state *state, double *q, double *v);
+double library_change(fbd_simulation *simulation);
+
 const char *verdict_name(enum verdict verdict);
 
 #endif

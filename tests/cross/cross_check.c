@@ -2,7 +2,7 @@
  *
  * Random scenes by the library and by the independent assembly.
  *
- *     cross_check [--scenes N] [--seed FIRST] [--runs K] [--jobs J] [--tap]
+ *     cross_check [--scenes N] [--seed FIRST] [--runs K] [--variants K] [--jobs J] [--tap]
  *     cross_check --show SEED
  *
  * Scenes FIRST, FIRST + 1, ...; every K-th (default: each) is also run for a second. Scenes that fail are
@@ -16,17 +16,20 @@
 
 #include "compare.h"
 #include "generate.h"
+#include "invariance.h"
 #include "shrink.h"
 #include "write.h"
 
 struct counts {
     unsigned long scenes, unfit, runs, broke_off, sensitive, verdicts[verdict_count];
     double acceleration, force, state;
+    unsigned long variants[variant_count], variant_runs, variant_failures[variant_count];
+    double variant_force, variant_state; /* of those that are not moved by 1e6 m */
 };
 
 struct plan {
     uint64_t scenes, first, stride;
-    unsigned runs;
+    unsigned runs, variants;
     bool tap;
 };
 
@@ -78,6 +81,13 @@ static void print_failure(struct scene *scene, const struct outcome *outcome)
 
 /* ---- many */
 
+static unsigned long failures(const struct counts *counts)
+{
+    unsigned long sum = counts->scenes - counts->unfit - counts->verdicts[agrees];
+    for (int i = 0; i < variant_count; i++) sum += counts->variant_failures[i];
+    return sum;
+}
+
 static void check_scene(uint64_t seed, bool run, struct counts *counts)
 {
     static struct scene scene;
@@ -96,14 +106,58 @@ static void check_scene(uint64_t seed, bool run, struct counts *counts)
     counts->force = fmax(counts->force, outcome.worst_force);
     counts->state = fmax(counts->state, outcome.worst_state);
     counts->verdicts[outcome.verdict]++;
-    unsigned long failed = counts->scenes - counts->unfit - counts->verdicts[agrees];
-    if (outcome.verdict != agrees && failed <= most_printed) print_failure(&scene, &outcome);
+    if (outcome.verdict != agrees && failures(counts) <= most_printed) print_failure(&scene, &outcome);
+}
+
+struct wanted_variant {
+    enum variant variant;
+    enum verdict verdict;
+};
+
+static bool varies_alike(void *context, struct scene *scene)
+{
+    const struct wanted_variant *wanted = context;
+    static struct absolute absolute;
+    struct outcome outcome;
+    if (!scene_fit(scene, &absolute) || !scene_settle(scene, &absolute)) return false;
+    return scene_compare_variant(scene, &absolute, wanted->variant, &outcome) &&
+           outcome.verdict == wanted->verdict;
+}
+
+static void check_variants(uint64_t seed, struct counts *counts)
+{
+    static struct scene scene;
+    static struct absolute absolute;
+    for (int i = 0; i < variant_count; i++) {
+        struct outcome outcome;
+        if (!scene_generate(&scene, &absolute, seed)) return;
+        if (!scene_compare_variant(&scene, &absolute, (enum variant)i, &outcome)) continue;
+        counts->variants[i]++;
+        counts->variant_runs += outcome.ran;
+        counts->sensitive += outcome.sensitive;
+        if (i != variant_moved) {
+            counts->variant_force = fmax(counts->variant_force, outcome.worst_force);
+            counts->variant_state = fmax(counts->variant_state, outcome.worst_state);
+        }
+        if (outcome.verdict == agrees) continue;
+        counts->variant_failures[i]++;
+        if (failures(counts) > most_printed) continue;
+        struct wanted_variant wanted = {(enum variant)i, outcome.verdict};
+        printf("# seed %llu %s: %s: %s\n", (unsigned long long)seed, variant_name((enum variant)i),
+               verdict_name(outcome.verdict), outcome.what);
+        scene_shrink(&scene, varies_alike, &wanted);
+        print_scene(&scene);
+        fflush(stdout);
+    }
 }
 
 static void check_share(const struct plan *plan, uint64_t share, struct counts *counts)
 {
-    for (uint64_t i = share; i < plan->scenes; i += plan->stride)
-        check_scene(plan->first + i, plan->runs > 0 && (plan->first + i) % plan->runs == 0, counts);
+    for (uint64_t i = share; i < plan->scenes; i += plan->stride) {
+        uint64_t seed = plan->first + i;
+        check_scene(seed, plan->runs > 0 && seed % plan->runs == 0, counts);
+        if (plan->variants > 0 && seed % plan->variants == 0) check_variants(seed, counts);
+    }
 }
 
 static void add_counts(struct counts *sum, const struct counts *counts)
@@ -117,6 +171,13 @@ static void add_counts(struct counts *sum, const struct counts *counts)
     sum->acceleration = fmax(sum->acceleration, counts->acceleration);
     sum->force = fmax(sum->force, counts->force);
     sum->state = fmax(sum->state, counts->state);
+    sum->variant_runs += counts->variant_runs;
+    sum->variant_force = fmax(sum->variant_force, counts->variant_force);
+    sum->variant_state = fmax(sum->variant_state, counts->variant_state);
+    for (int i = 0; i < variant_count; i++) {
+        sum->variants[i] += counts->variants[i];
+        sum->variant_failures[i] += counts->variant_failures[i];
+    }
 }
 
 /* Each share in a process of its own, which sends its counts through a pipe. */
@@ -170,6 +231,22 @@ static void report(const struct plan *plan, const struct counts *counts)
     }
 }
 
+static void report_variants(const struct plan *plan, const struct counts *counts)
+{
+    const char *mark = plan->tap ? "# " : "";
+    if (plan->variants == 0) return;
+    printf("%svariants: %lu runs; largest differences: forces %.2g, states %.2g (not counting those moved by "
+           "1e6 m)\n",
+           mark, counts->variant_runs, counts->variant_force, counts->variant_state);
+    for (int i = 0; i < variant_count; i++)
+        if (plan->tap)
+            printf("%s %d - %lu scenes %s\n", counts->variant_failures[i] ? "not ok" : "ok",
+                   verdict_count + i, counts->variants[i], variant_name((enum variant)i));
+        else
+            printf("%lu scenes %s: %lu differ\n", counts->variants[i], variant_name((enum variant)i),
+                   counts->variant_failures[i]);
+}
+
 static int show(uint64_t seed)
 {
     static struct scene scene;
@@ -193,12 +270,14 @@ int main(int count, char **arguments)
         if (strcmp(arguments[i], "--scenes") == 0) plan.scenes = number;
         if (strcmp(arguments[i], "--seed") == 0) plan.first = number;
         if (strcmp(arguments[i], "--runs") == 0) plan.runs = (unsigned)number;
+        if (strcmp(arguments[i], "--variants") == 0) plan.variants = (unsigned)number;
         if (strcmp(arguments[i], "--jobs") == 0 && number > 0) plan.stride = number;
     }
     struct counts counts = {0};
-    if (plan.tap) printf("1..%d\n", verdict_count - 1);
+    if (plan.tap) printf("1..%d\n", verdict_count - 1 + (plan.variants > 0 ? variant_count : 0));
     fflush(stdout);
     if (!check_all(&plan, &counts)) return 2;
     report(&plan, &counts);
-    return counts.verdicts[agrees] == counts.scenes - counts.unfit ? 0 : 1;
+    report_variants(&plan, &counts);
+    return failures(&counts) == 0 ? 0 : 1;
 }

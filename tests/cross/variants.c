@@ -1,0 +1,405 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "variants.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "absolute.h"
+
+const char *variant_name(enum variant variant)
+{
+    static const char *const names[] = {"mirrored",       "turned with its gravity", "moved by 1e6 m",
+                                        "in other units", "in another order",        "split and welded",
+                                        "taken up later"};
+    return names[variant];
+}
+
+/* ---- what varies in all formulas alike: variables replaced by others */
+
+struct replacing {
+    const struct scene *scene;
+    enum variant variant;
+    double angle, later, length;
+    struct vec2 shift;
+    const double *base; /* by body: how the frame that its coordinates count from has turned */
+    const double *own;  /* what is said in its own frame has been turned by this, and the frame has not */
+};
+
+static bool is_angle(const struct scene *scene, const struct variable *v)
+{
+    return v->kind == var_angle || v->kind == var_angle_rate ||
+           ((v->kind == var_coordinate || v->kind == var_rate) &&
+            (scene->body[v->body].motion == pivot || v->index == 2));
+}
+
+/* x or y of a pair in one frame: its partner's number, or -1 for what is along a slide. */
+static bool is_of_pair(const struct scene *scene, const struct variable *v)
+{
+    if (v->kind >= var_place_x && v->kind <= var_place_vy) return true;
+    if (v->kind != var_coordinate && v->kind != var_rate) return false;
+    return coordinate_count(scene->body[v->body].motion) > 1 && v->index < 2;
+}
+
+static bool is_second(const struct variable *v)
+{
+    return v->kind == var_place_y || v->kind == var_place_vy ||
+           ((v->kind == var_coordinate || v->kind == var_rate) && v->index == 1);
+}
+
+static struct variable partner(const struct variable *v)
+{
+    struct variable other = *v;
+    if (v->kind == var_coordinate || v->kind == var_rate)
+        other.index = 1 - v->index;
+    else
+        other.kind = is_second(v) ? v->kind - 1 : v->kind + 1;
+    return other;
+}
+
+/* x = c x' + s y', y = c y' - s x'. */
+static void turn_variable(const struct replacing *r, struct summand *s, int i)
+{
+    struct variable *v = &s->variable[i];
+    bool coordinate = v->kind == var_coordinate || v->kind == var_rate;
+    if (is_angle(r->scene, v)) {
+        double angle = coordinate ? r->base[v->body] : r->angle - r->own[v->body];
+        if (v->kind == var_coordinate || v->kind == var_angle) s->shift -= v->coefficient * angle;
+        return;
+    }
+    if (!is_of_pair(r->scene, v)) return;
+    double angle = coordinate ? r->base[v->body] : r->angle, k = v->coefficient;
+    struct variable other = partner(v);
+    other.coefficient = (is_second(v) ? -1 : 1) * k * sin(angle);
+    v->coefficient = k * cos(angle);
+    s->variable[s->count++] = other;
+}
+
+static void move_variable(const struct replacing *r, struct summand *s, const struct variable *v)
+{
+    bool place = v->kind == var_place_x || v->kind == var_place_y;
+    bool free = v->kind == var_coordinate && is_of_pair(r->scene, v) && r->scene->body[v->body].on < 0;
+    if (place || free) s->shift -= v->coefficient * (is_second(v) ? r->shift.y : r->shift.x);
+}
+
+static void replace(const struct replacing *r, struct summand *s, int i)
+{
+    struct variable *v = &s->variable[i];
+    bool length = v->kind != var_time && !is_angle(r->scene, v);
+    switch (r->variant) {
+    case variant_mirrored:
+        if (is_angle(r->scene, v) || (is_of_pair(r->scene, v) && is_second(v))) v->coefficient *= -1;
+        break;
+    case variant_turned: turn_variable(r, s, i); break;
+    case variant_moved: move_variable(r, s, v); break;
+    case variant_units:
+        if (length) v->coefficient /= r->length;
+        break;
+    case variant_later:
+        if (v->kind == var_time) s->shift += v->coefficient * r->later;
+        break;
+    default: break;
+    }
+}
+
+static void replace_all(const struct replacing *r, struct formula *formula)
+{
+    for (int k = 0; k < formula->count; k++) {
+        struct summand *s = &formula->summand[k];
+        for (int i = 0, count = s->count; i < count; i++) replace(r, s, i);
+    }
+}
+
+static void replace_in_scene(const struct replacing *r, struct scene *scene)
+{
+    for (int b = 0; b < scene->body_count; b++) {
+        replace_all(r, &scene->body[b].drive);
+        for (int i = 0; i < scene->body[b].load_count; i++) {
+            replace_all(r, &scene->body[b].load[i].value);
+            replace_all(r, &scene->body[b].load[i].second);
+            replace_all(r, &scene->body[b].load[i].surface);
+        }
+    }
+}
+
+static void scale_formula(struct formula *formula, double factor)
+{
+    for (int k = 0; k < formula->count; k++) formula->summand[k].factor *= factor;
+}
+
+static void add_constant(struct formula *formula, double value)
+{
+    formula->summand[formula->count++] =
+        (struct summand){.factor = value, .parameter = -1, .function = f_one};
+}
+
+/* ---- mirrored: y, angles and moments change their sign, and left is right */
+
+static void mirror_load(struct load *load)
+{
+    load->to.y *= -1;
+    load->at.where.y *= -1;
+    load->side = load->side == left_side ? right_side : left_side;
+    if (load->kind == applied) scale_formula(&load->second, -1);
+    if (load->kind == moment_applied) scale_formula(&load->value, -1);
+    if (load->kind == moment_friction) scale_formula(&load->surface, -1);
+    if (load->kind == moment_spring) load->neutral *= -1;
+}
+
+static void mirror_body(struct body *body)
+{
+    body->along *= -1;
+    body->at.where.y *= -1;
+    body->point.where.y *= -1;
+    for (int i = 0; i < body->piece_count; i++) {
+        body->piece[i].center.y *= -1;
+        body->piece[i].angle *= -1;
+        if (body->piece[i].shape == given_inertia) body->piece[i].size[2] *= -1;
+    }
+    for (int i = 0; i < body->point_count; i++) body->points[i].y *= -1;
+    for (int i = body->motion == pivot ? 0 : 1; i < 3; i++) {
+        body->q[i] *= -1;
+        body->v[i] *= -1;
+    }
+    if (body->motion == pivot) scale_formula(&body->drive, -1);
+    for (int i = 0; i < body->load_count; i++) mirror_load(&body->load[i]);
+}
+
+static void mirror(struct scene *scene)
+{
+    scene->gravity.y *= -1;
+    for (int i = 0; i < scene->line_count; i++) {
+        scene->line[i].through.y *= -1;
+        scene->line[i].along *= -1;
+    }
+    for (int b = 0; b < scene->body_count; b++) mirror_body(&scene->body[b]);
+    for (int c = 0; c < scene->coupling_count; c++)
+        for (int k = 0; k < scene->coupling[c].count; k++) scene->coupling[c].end[k].at.where.y *= -1;
+}
+
+/* ---- turned: what is said in the world, in order of what moves on what */
+
+static void turn_load(struct load *load, enum motion motion, double world, double base, double own)
+{
+    load->to = turned(load->to, world);
+    load->at.where = turned(load->at.where, own);
+    bool turns = motion == pivot || motion == planar;
+    if (load->kind == moment_spring && turns) load->neutral += base;
+    double angle = load->follows ? own : world;
+    if (load->kind != applied || load->form == along_slide) return;
+    if (load->form == along_angle) {
+        add_constant(&load->second, angle);
+        return;
+    }
+    struct formula fx = load->value, fy = load->second;
+    load->value.count = load->second.count = 0;
+    for (int part = 0; part < 2; part++) {
+        const struct formula *from = part == 0 ? &fx : &fy;
+        for (int k = 0; k < from->count; k++) {
+            struct summand to_x = from->summand[k], to_y = from->summand[k];
+            to_x.factor *= part == 0 ? cos(angle) : -sin(angle);
+            to_y.factor *= part == 0 ? sin(angle) : cos(angle);
+            load->value.summand[load->value.count++] = to_x;
+            load->second.summand[load->second.count++] = to_y;
+        }
+    }
+}
+
+static void turn_body(struct body *body, double world, double base, double own)
+{
+    int angle = body->motion == pivot ? 0 : 2;
+    if (body->motion == slide || body->motion == weld) body->along += base;
+    body->at.where = turned(body->at.where, base);
+    body->point.where = turned(body->point.where, own);
+    if (body->motion == particle || body->motion == planar) {
+        struct vec2 q = turned((struct vec2){body->q[0], body->q[1]}, base);
+        struct vec2 v = turned((struct vec2){body->v[0], body->v[1]}, base);
+        body->q[0] = q.x;
+        body->q[1] = q.y;
+        body->v[0] = v.x;
+        body->v[1] = v.y;
+    }
+    if (body->motion == pivot || body->motion == planar) body->q[angle] += base;
+    if (body->motion == pivot && body->driven) add_constant(&body->drive, base);
+    for (int i = 0; i < body->piece_count; i++) {
+        struct piece *piece = &body->piece[i];
+        piece->center = turned(piece->center, own);
+        struct vec2 about = turned((struct vec2){piece->size[1], piece->size[2]}, own);
+        if (piece->shape == given_inertia) piece->size[1] = about.x, piece->size[2] = about.y;
+        bool has_axis =
+            piece->shape != given_inertia && piece->shape != point_shape && piece->shape != sphere_shape;
+        if (has_axis) piece->angle += own;
+    }
+    for (int i = 0; i < body->point_count; i++) body->points[i] = turned(body->points[i], own);
+    for (int i = 0; i < body->load_count; i++) turn_load(&body->load[i], body->motion, world, base, own);
+}
+
+/* A particle keeps its axes, as the ground does: what is said in them is turned. All others turn as a whole.
+ */
+static void turn(struct replacing *r, struct scene *scene, double *base, double *own)
+{
+    bool known[most_bodies] = {false};
+    for (int pass = 0; pass < scene->body_count; pass++)
+        for (int b = 0; b < scene->body_count; b++) {
+            int on = scene->body[b].on;
+            if (known[b] || (on >= 0 && !known[on])) continue;
+            base[b] = on < 0 ? r->angle : own[on];
+            own[b] = scene->body[b].motion == particle ? base[b] : 0;
+            known[b] = true;
+        }
+    replace_in_scene(r, scene);
+    scene->gravity = turned(scene->gravity, r->angle);
+    for (int i = 0; i < scene->line_count; i++) {
+        scene->line[i].through = turned(scene->line[i].through, r->angle);
+        scene->line[i].along += r->angle;
+    }
+    for (int b = 0; b < scene->body_count; b++) turn_body(&scene->body[b], r->angle, base[b], own[b]);
+    for (int c = 0; c < scene->coupling_count; c++)
+        for (int k = 0; k < scene->coupling[c].count; k++)
+            if (scene->coupling[c].end[k].body < 0)
+                scene->coupling[c].end[k].at.where = turned(scene->coupling[c].end[k].at.where, r->angle);
+}
+
+/* A roll's or rack's x axis of a particle cannot be turned with it. */
+static bool has_axis_of_particle(const struct scene *scene)
+{
+    for (int c = 0; c < scene->coupling_count; c++) {
+        const struct coupling *coupling = &scene->coupling[c];
+        if (coupling->kind != roll || coupling->line >= 0) continue;
+        if (scene->body[coupling->end[1].body].motion == particle) return true;
+    }
+    return false;
+}
+
+/* ---- moved */
+
+static void add(struct vec2 *p, struct vec2 d)
+{
+    p->x += d.x;
+    p->y += d.y;
+}
+
+static void move(struct scene *scene, struct vec2 d)
+{
+    for (int i = 0; i < scene->line_count; i++) add(&scene->line[i].through, d);
+    for (int b = 0; b < scene->body_count; b++) {
+        struct body *body = &scene->body[b];
+        for (int i = 0; i < body->load_count; i++) add(&body->load[i].to, d);
+        if (body->on >= 0) continue;
+        if (body->motion == slide || body->motion == pivot) {
+            body->at.point = at_pair;
+            add(&body->at.where, d);
+        } else {
+            body->q[0] += d.x;
+            body->q[1] += d.y;
+        }
+    }
+    for (int c = 0; c < scene->coupling_count; c++)
+        for (int k = 0; k < scene->coupling[c].count; k++)
+            if (scene->coupling[c].end[k].body < 0) add(&scene->coupling[c].end[k].at.where, d);
+}
+
+/* ---- in other units: lengths by l, forces by f, so masses by f / l */
+
+static void scale_pair(struct vec2 *p, double k)
+{
+    p->x *= k;
+    p->y *= k;
+}
+
+static void scale_by_dimension(struct formula *formula, double l, double f)
+{
+    const double factor[dimension_count] = {1, 1, l, l, 1, f, f * l, f * l};
+    scale_formula(formula, factor[formula->dimension]);
+}
+
+static void convert_load(struct load *load, double l, double f)
+{
+    bool moment = load->kind >= moment_applied;
+    scale_pair(&load->to, l);
+    scale_pair(&load->at.where, l);
+    load->stiffness *= moment ? f * l : f / l;
+    load->coefficient *= moment ? f * l : f / l;
+    load->quadratic *= f / (l * l);
+    if (!moment) load->neutral *= l;
+    scale_by_dimension(&load->value, l, f);
+    scale_by_dimension(&load->second, l, f);
+    scale_by_dimension(&load->surface, l, f);
+}
+
+static void convert_body(struct body *body, double l, double f)
+{
+    scale_pair(&body->at.where, l);
+    scale_pair(&body->point.where, l);
+    for (int i = 0; i < body->piece_count; i++) {
+        struct piece *piece = &body->piece[i];
+        piece->mass *= f / l;
+        scale_pair(&piece->center, l);
+        for (int k = 0; k < 3; k++) piece->size[k] *= piece->shape == given_inertia && k == 0 ? f * l : l;
+    }
+    for (int i = 0; i < body->point_count; i++) scale_pair(&body->points[i], l);
+    for (int i = 0; i < 3; i++) {
+        bool angle = body->motion == pivot || i == 2;
+        body->q[i] *= angle ? 1 : l;
+        body->v[i] *= angle ? 1 : l;
+    }
+    scale_by_dimension(&body->drive, l, f);
+    for (int i = 0; i < body->load_count; i++) convert_load(&body->load[i], l, f);
+}
+
+static void convert(struct scene *scene, double l, double f)
+{
+    scene->us = !scene->us;
+    scale_pair(&scene->gravity, l);
+    for (int i = 0; i < scene->line_count; i++) scale_pair(&scene->line[i].through, l);
+    for (int b = 0; b < scene->body_count; b++) convert_body(&scene->body[b], l, f);
+    for (int c = 0; c < scene->coupling_count; c++) {
+        struct coupling *coupling = &scene->coupling[c];
+        coupling->stiffness *= f / l;
+        coupling->coefficient *= f / l;
+        coupling->free_length *= l;
+        coupling->length *= l;
+        coupling->radius[0] *= l;
+        coupling->radius[1] *= l;
+        for (int k = 0; k < coupling->count; k++) scale_pair(&coupling->end[k].at.where, l);
+    }
+}
+
+/* ---- all of them */
+
+bool scene_vary(const struct scene *scene, enum variant variant, struct random *random, double later,
+                struct scene *other, struct view *view)
+{
+    double base[most_bodies] = {0}, own[most_bodies] = {0};
+    struct replacing r = {.scene = scene, .variant = variant, .later = later, .base = base, .own = own};
+    *view = (struct view){.mirror = 1, .length = 1, .force = 1, .changed = -1};
+    *other = *scene;
+    switch (variant) {
+    case variant_mirrored:
+        view->mirror = -1;
+        replace_in_scene(&r, other);
+        mirror(other);
+        return true;
+    case variant_turned:
+        if (has_axis_of_particle(scene)) return false;
+        r.angle = view->angle = random_between(random, -3, 3);
+        turn(&r, other, base, own);
+        return true;
+    case variant_moved:
+        r.shift = view->shift = (struct vec2){1e6, -1e6};
+        replace_in_scene(&r, other);
+        move(other, view->shift);
+        return true;
+    case variant_units:
+        view->length = r.length = scene->us ? 0.3048 : 1 / 0.3048;
+        view->force = scene->us ? 4.4482216152605 : 1 / 4.4482216152605;
+        replace_in_scene(&r, other);
+        convert(other, view->length, view->force);
+        return true;
+    case variant_order: vary_order(scene, random, other); return scene->body_count > 1;
+    case variant_split: return vary_split(other, random, view);
+    case variant_later: replace_in_scene(&r, other); return true;
+    case variant_count: break;
+    }
+    return false;
+}
