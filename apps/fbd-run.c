@@ -128,13 +128,12 @@ static enum exit_code show_statics(const struct options *options, fbd_state *sta
     if (options->settle && !fbd_find_equilibrium(state, errors)) return exit_failed;
     fbd_statics *statics = fbd_statics_new(state, errors);
     if (!statics) return exit_failed;
-    enum exit_code code = fbd_statics_holds(statics) ? exit_done : exit_failed;
+    enum exit_code written = exit_done, code = fbd_statics_holds(statics) ? exit_done : exit_failed;
     bool json_only = place_is_stdout(options->json);
-    if (!json_only && !options->quiet) code = print(fbd_statics_text(statics), code);
-    if (options->json && write_text(options->json, fbd_statics_json(statics)) != exit_done)
-        code = exit_failed;
+    if (!json_only && !options->quiet) written = print(fbd_statics_text(statics), exit_done);
+    if (written == exit_done && options->json) written = write_text(options->json, fbd_statics_json(statics));
     fbd_statics_free(statics);
-    return code;
+    return written == exit_done ? code : written;
 }
 
 static enum exit_code show_state(const fbd_model *model, const struct options *options, fbd_errors *errors)
