@@ -1,24 +1,37 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solve/fit.h"
 
+#include <float.h>
+
 #include "dynamics/constraint.h"
 #include "dynamics/project.h"
 #include "dynamics/tree_system.h"
 
+/* Less than this is no change of component i of a state, in a mechanism of that length: some digits of it, or
+ * the rounding of where it is. */
+static double least_change(const struct fbd_state *state, int i, double length)
+{
+    const double digits = 1e-9, rounding = 64 * DBL_EPSILON;
+    int n = state->model->plan.n;
+    if (i >= n || state->model->scene->coordinates[i].angle) return digits * fmax(1, fabs(state->y[i]));
+    return digits * length + rounding * fabs(state->y[i]);
+}
+
 /* "rod.theta = -0.7, ...": what has to change; false when that is nothing but rounding. */
-static bool list_changes(struct text *text, const struct fbd_state *from, const struct fbd_state *to)
+static bool list_changes(struct text *text, const struct fbd_state *from, const struct fbd_state *to,
+                         double length)
 {
     enum { most_listed = 6 };
     const struct fbd_model *model = from->model;
     int n = model->plan.n, listed = 0;
     for (int i = 0; i < 2 * n; i++) {
-        double size = fmax(1, fabs(from->y[i]));
-        if (fabs(to->y[i] - from->y[i]) <= 1e-9 * size) continue;
+        double least = least_change(from, i, length);
+        if (fabs(to->y[i] - from->y[i]) <= least) continue;
         if (listed++ >= most_listed) continue;
         const struct coordinate *c = &model->scene->coordinates[i % n]; /* a group has no labels */
         text_printf(text, "%s%s.%s = ", listed > 1 ? ", " : "", model->bodies[c->body].name,
                     i < n ? c->name : c->rate_name);
-        text_number(text, fabs(to->y[i]) > 1e-12 * size ? to->y[i] : 0, 9);
+        text_number(text, fabs(to->y[i]) > 1e-3 * least ? to->y[i] : 0, 9);
     }
     if (listed > most_listed) text_add(text, ", ...");
     return listed > 0;
@@ -34,19 +47,20 @@ static struct pos place_of(const struct fbd_model *model, int row)
 struct miss {
     int row;
     double off, share; /* as a share of what it may be off by */
+    double length;     /* of what it joins */
 };
 
-static void note_miss(struct miss *miss, int row, double off, double most)
+static void note_miss(struct miss *miss, int row, double off, double most, double length)
 {
     double share = off / most;
     if (off <= most || share <= miss->share) return;
-    *miss = (struct miss){row, off, isnan(share) ? HUGE_VAL : share};
+    *miss = (struct miss){row, off, isnan(share) ? HUGE_VAL : share, length};
 }
 
-/* How large, and how fast, what a tie joins is. */
+/* How large, and how fast, the trees are that a tie joins: from the first link on, wherever in the world. */
 struct size {
     const struct tie *tie;
-    double reach, speed;
+    double extent, place, speed;
 };
 
 static bool joins_the_same(const struct tie *a, const struct tie *b)
@@ -62,13 +76,28 @@ static void find_size(const struct fbd_state *state, const struct tie *tie, stru
 {
     const struct tree *tree = state->model->tree;
     if (joins_the_same(size->tie, tie)) return;
-    *size = (struct size){tie, 0, 0};
+    *size = (struct size){tie, 0, 0, 0};
     for (int k = 0; k < tie->root_count; k++)
         for (int i = tie->root[k]; i < tree->links[tie->root[k]].end; i++) {
             const struct tree_state *s = &state->tree->links[i];
-            size->reach = fmax(size->reach, fmax(vec_norm(s->p), vec_norm(s->d)));
+            struct vec from = state->tree->links[tie->root[0]].p;
+            size->extent = fmax(size->extent, vec_norm(vec_sub(s->p, from)));
+            size->place = fmax(size->place, vec_norm(s->p));
             size->speed = fmax(size->speed, fmax(vec_norm(s->v), fabs(s->omega)));
         }
+}
+
+/* What position row j is measured against: the trees, the arms at which they are joined, the length of a rod
+ * or rope. Points alone that are to be one have no size; the digits of their places are all there is. */
+static double length_of(const struct fbd_state *state, const struct tie *tie, int j, const struct size *size)
+{
+    const struct row *row = &state->tree->rows[j];
+    bool has_length = tie->kind == constraint_rod || tie->kind == constraint_rope;
+    double length = size->extent;
+    for (int k = 0; k < row->port_count; k++)
+        if (row->ports[k].link > 0) length = fmax(length, vec_norm(row->ports[k].arm));
+    if (has_length) length = fmax(length, fabs(state->tree->ties[tie - state->model->tree->ties].zero));
+    return length > 0 ? length : size->place;
 }
 
 /* The rows that are off the most, in position and in velocity. A slack rope may be too short, not too long.
@@ -76,10 +105,11 @@ static void find_size(const struct fbd_state *state, const struct tie *tie, stru
 static void find_misses(struct fbd_state *state, struct miss *position, struct miss *velocity)
 {
     const double digits = 2e-6; /* six digits in a file are meant to fit */
+    const double rounding = 64 * DBL_EPSILON;
     const struct tree *tree = state->model->tree;
     struct instant at = state_instant(state);
-    struct size size = {NULL, 0, 0};
-    *position = *velocity = (struct miss){-1, 0, 0};
+    struct size size = {NULL, 0, 0, 0};
+    *position = *velocity = (struct miss){-1, 0, 0, 0};
     state_misfit(state); /* evaluates the rows */
     for (int j = 0; j < tree->row_count; j++) {
         const struct tie *tie = &tree->ties[tree->tie_of_row[j]];
@@ -87,8 +117,9 @@ static void find_misses(struct fbd_state *state, struct miss *position, struct m
         bool held = tree_takes_part(tree, &at, j);
         if (!held && tie->kind != constraint_rope) continue;
         find_size(state, tie, &size);
-        note_miss(position, j, held ? fabs(g.x) : g.x < 0 ? 0 : g.x, digits * size.reach);
-        if (held) note_miss(velocity, j, fabs(g.x1), digits * size.speed);
+        double length = length_of(state, tie, j, &size), most = digits * length + rounding * size.place;
+        note_miss(position, j, held ? fabs(g.x) : g.x < 0 ? 0 : g.x, most, length);
+        if (held) note_miss(velocity, j, fabs(g.x1), digits * size.speed, length);
     }
 }
 
@@ -105,16 +136,17 @@ static void pull_taut(struct fbd_state *state)
 
 /* What is wrong and what is next to it; false when that differs by rounding only, as where everything is at
  * rest but for rounding and speeds have no size to go by. */
-static bool tell(const struct fbd_state *state, struct fbd_state *other, const char *name, double off,
-                 bool by_velocity, struct text *lack)
+static bool tell(const struct fbd_state *state, struct fbd_state *other, const char *name,
+                 const struct miss *miss, bool by_velocity, struct text *lack)
 {
     struct text changes = {0};
     state_copy(other, state);
     state_misfit(other);
     pull_taut(other);
-    bool closed = state_project(other, false), differs = !closed || list_changes(&changes, state, other);
+    bool closed = state_project(other, false),
+         differs = !closed || list_changes(&changes, state, other, miss->length);
     if (differs) {
-        text_printf(lack, "`%s` is off by %.3g%s. ", name, off, by_velocity ? " in velocity" : "");
+        text_printf(lack, "`%s` is off by %.3g%s. ", name, miss->off, by_velocity ? " in velocity" : "");
         if (closed)
             text_printf(lack, "Nearest is %s; or let bodies find their place, `initial: {assemble: true}`",
                         changes.failed ? "" : changes.data);
@@ -161,7 +193,7 @@ bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct pos *at, 
     if (miss->row < 0) return false;
     const char *name = tree->ties[tree->tie_of_row[miss->row]].name;
     if (at) *at = place_of(state->model, miss->row);
-    if (isfinite(miss->off)) return tell(state, other, name, miss->off, miss == &velocity, lack);
+    if (isfinite(miss->off)) return tell(state, other, name, miss, miss == &velocity, lack);
     text_printf(lack, "`%s` joins points that are at one place: it has no direction. Move them apart", name);
     return true;
 }
