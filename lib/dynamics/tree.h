@@ -39,7 +39,7 @@ struct tree_state {
     struct vec p, v;          /* of O */
     struct vec d;             /* from the parent's O */
     struct vec mr;            /* mass times the vector from O to the centre of mass */
-    struct vec e;             /* slide: direction of +x; free: that of the parent's x axis */
+    struct vec e;             /* slide: direction of +x; free: that of the x axis of the body below */
     struct acceleration A;    /* first the bias, then the acceleration */
     struct inertia_about_O I; /* with all that hangs on it */
     double D;                 /* pivot, slide: 1 / (S . I S); free: 1 / what is left of J */

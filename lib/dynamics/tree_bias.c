@@ -20,7 +20,7 @@ static struct vec joint_velocity(const struct tree_link *link, const struct tree
 {
     if (link->kind == motion_slide) return vec_scale(v[0], s->e);
     if (link->kind == motion_pivot) return (struct vec){0, 0};
-    return vec_turn(s->e, (struct vec){v[0], v[1]}); /* e is the parent's x axis */
+    return vec_turn(s->e, (struct vec){v[0], v[1]}); /* e is the x axis of the body that it moves on */
 }
 
 static void hold(const struct tree_link *link, struct tree_state *s)

@@ -138,6 +138,8 @@ static struct arrow row_arrow(const struct instant *at, const struct row *row, i
     return arrow;
 }
 
+enum { most_of_an_end = 2 };
+
 /* What a tie does at its end k: one force, or for a rolling body those along and across its line. */
 static size_t fill_end(const struct tie *tie, int k, const struct instant *at, struct arrow *arrows)
 {
@@ -216,9 +218,13 @@ static void add_needs(const struct fbd_model *model, int b, const struct instant
         if (load->body != b) arrow = opposite(arrow, arrow.name);
         add_arrow(sum, &arrow, point);
     }
-    struct arrow ties[8 * most_constraint_ends];
-    size_t count = body->arrow_count <= 8 * most_constraint_ends ? fill_ties(model, b, at, ties) : 0;
-    for (size_t i = 0; i < count; i++) add_arrow(sum, &ties[i], point);
+    for (int i = 0; i < model->tree->tie_count; i++)
+        for (int k = 0; k < model->tree->ties[i].end_count; k++)
+            if (model->tree->ties[i].end[k].body == b) {
+                struct arrow ties[most_of_an_end];
+                size_t count = fill_end(&model->tree->ties[i], k, at, ties);
+                for (size_t j = 0; j < count; j++) add_arrow(sum, &ties[j], point);
+            }
     for (int c = body->child; c >= 0; c = model->bodies[c].sibling) {
         const struct tree_state *s = link_of(&model->bodies[c], at);
         if (model->bodies[c].kind == motion_weld) continue;

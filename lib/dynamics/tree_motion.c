@@ -4,7 +4,9 @@
  *
  *     pivot   d = R at,           omega = omega_P + q',  v = v_P + omega_P k x d
  *     slide   d = R (at + q e),   omega = omega_P,       v = v_P + omega_P k x d + q' R e
- *     free    d = R (at + (x, y)) likewise, with a rate of turning of its own when it is planar
+ *     free    d = R (at + x e + y k x e) likewise, with a rate of turning of its own when it is planar
+ *
+ * e is given in the frame of the parent's link: a body that is welded into it at an angle has other axes.
  */
 #include "dynamics/tree.h"
 
@@ -28,13 +30,13 @@ static void move_free(const struct tree_link *link, const struct tree_state *par
                       struct tree_state *s)
 {
     bool turns = link->kind == motion_planar;
-    struct vec place = {joint.q[0] + link->at.x, joint.q[1] + link->at.y};
+    struct vec own = {joint.q[0], joint.q[1]}, rate = {joint.v[0], joint.v[1]};
     s->angle = parent->angle + link->along + (turns ? joint.q[2] : 0);
     s->omega = parent->omega + (turns ? joint.v[2] : 0);
     s->turn = vec_unit(s->angle);
-    s->e = parent->turn;
-    s->d = vec_turn(parent->turn, place);
-    s->v = vec_turn(parent->turn, (struct vec){joint.v[0], joint.v[1]});
+    s->e = vec_turn(parent->turn, link->e);
+    s->d = vec_turn(parent->turn, vec_add(link->at, vec_turn(link->e, own)));
+    s->v = vec_turn(s->e, rate);
 }
 
 void tree_move(const struct fbd_model *model, const struct instant *at)
@@ -98,9 +100,9 @@ void tree_move_along(const struct fbd_model *model, const struct instant *at, co
             own = vec_add(vec_scale(v[0], d->e), vec_scale(dv[0], s->e));
         } else {
             d->e = turning(dp->angle, s->e);
-            d->d = vec_add(d->d, vec_turn(parent->turn, (struct vec){dq[0], dq[1]}));
-            struct vec w = vec_turn(parent->turn, (struct vec){v[0], v[1]});
-            own = vec_add(turning(dp->angle, w), vec_turn(parent->turn, (struct vec){dv[0], dv[1]}));
+            d->d = vec_add(d->d, vec_turn(s->e, (struct vec){dq[0], dq[1]}));
+            struct vec w = vec_turn(s->e, (struct vec){v[0], v[1]});
+            own = vec_add(turning(dp->angle, w), vec_turn(s->e, (struct vec){dv[0], dv[1]}));
             if (link->kind == motion_planar) {
                 d->angle += dq[2];
                 d->omega += dv[2];

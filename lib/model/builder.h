@@ -41,7 +41,10 @@ void body_terms_finish(struct builder *builder);
 /* Refuse gears on fixed axes whose pitch circles do not touch (gear_check.c). */
 void gears_check(struct builder *builder);
 
-/* As model_compile, without labels. */
+/* Give the arrows of each diagram names that differ (arrow_names.c). False when memory is out. */
+bool arrows_name(struct fbd_model *model);
+
+/* As model_compile, with the labels left to the caller. */
 struct fbd_model *model_compile_group(struct scene *scene, fbd_errors *errors);
 
 /* Fill the plan from the bodies and loads of the model. False when memory is out. */

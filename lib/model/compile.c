@@ -164,8 +164,7 @@ static bool set_named_ties(struct builder *builder)
         source->kind = rope ? load_rope : constraint->mu_s.expr ? load_friction : load_normal;
         source->name = rope ? constraint->name : arena_printf(&model->arena, "%s.friction", constraint->name);
         source->at = constraint->at;
-        int end = constraint->body[0] >= 0 ? 0 : 1;
-        set_load(builder, &model->loads[next++], source, constraint->body[end]);
+        set_load(builder, &model->loads[next++], source, constraint_first_body(constraint));
     }
     return true;
 }
@@ -263,7 +262,7 @@ static struct fbd_model *compile(struct scene *scene, bool labels, fbd_errors *e
         if (labels) model->labels = labels_make(&model->arena, scene);
         done = (model->labels || !labels) && set_named_ties(&builder) && set_drives(&builder) &&
                set_absolutes(model) && tree_number(model) && tree_name_reactions(model) &&
-               plan_build(&builder) && classify_loads(&builder);
+               arrows_name(model) && plan_build(&builder) && classify_loads(&builder);
         set_watches(&builder);
         if (done) gears_check(&builder);
     }

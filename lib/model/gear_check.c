@@ -1,10 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Gears whose axes keep their distance: the pitch circles have to touch there.
+ * Gears whose axes keep their distance, and wheels that keep theirs from a rack: the pitch circles have to
+ * touch there.
  *
  *   distance of the axes = r_1 + r_2, and |r_1 - r_2| of a wheel inside a ring
+ *   distance of the axis from the line of the rack = r
  */
 #include "model/builder.h"
+
+static const double digits = 2e-6; /* six digits in a file are meant to fit */
 
 /* The distance of two axes that keeps as the bodies move; negative where it does not. Both turn about their
  * centres, and on the same body, or one on the other, or one on an arm about the axis of the other. */
@@ -26,10 +30,51 @@ static double axes_apart(const struct tree *tree, const struct tie *tie, double 
     return -1;
 }
 
+/* A point in the frame of a link, and the one direction in which it moves there; 0 while it does not. */
+struct seen {
+    int link;
+    struct vec point, e;
+};
+
+/* As seen from the link below; false when it moves there otherwise than by slides along that one direction.
+ */
+static bool climb(const struct tree *tree, struct seen *seen)
+{
+    const struct tree_link *link = &tree->links[seen->link];
+    struct vec turn = vec_unit(link->along), e = vec_turn(turn, seen->e);
+    if (link->kind != motion_slide || fabs(vec_cross(link->e, e)) > digits) return false;
+    *seen = (struct seen){link->parent, vec_add(link->at, vec_turn(turn, seen->point)), link->e};
+    return true;
+}
+
+/* The distance of a wheel's axis from the line of a rack that keeps as the bodies move; negative where it
+ * does not: slides along the line are all that lies between them. */
+static double line_apart(const struct tree *tree, const struct tie *tie, double close)
+{
+    const struct tree_link *wheel = &tree->links[tie->end[0].link];
+    struct seen line = {tie->end[1].link, tie->end[1].point, tie->e},
+                axis = {wheel->parent, wheel->at, {0, 0}};
+    if (wheel->kind != motion_pivot || vec_norm(tie->end[0].point) > close) return -1;
+    while (line.link != axis.link) /* the link below has the smaller number */
+        if (!climb(tree, line.link > axis.link ? &line : &axis)) return -1;
+    if (fabs(vec_cross(line.e, axis.e)) > digits) return -1;
+    return fabs(vec_cross(line.e, vec_sub(axis.point, line.point)));
+}
+
+static void check_rack(struct builder *builder, const struct tie *tie)
+{
+    const struct fbd_model *model = builder->model;
+    double R = tie->end[0].radius, apart = line_apart(model->tree, tie, digits * R);
+    if (apart < 0 || fabs(apart - R) <= digits * R) return;
+    diag_add(builder->errors, FBD_ERROR, "gear-distance", model->scene->constraints[tie->constraint].at,
+             "move the axis or the slide, change `radius`, or name a point of the rack's line, `body.P`",
+             "the axis of `%s` is %.6g from the line of `%s`, where its radius is %.6g",
+             model->bodies[tie->end[0].body].name, apart, model->bodies[tie->end[1].body].name, R);
+}
+
 static void check_gear(struct builder *builder, const struct tie *tie)
 {
     const struct fbd_model *model = builder->model;
-    const double digits = 2e-6; /* six digits in a file are meant to fit */
     double r1 = tie->end[0].radius, r2 = tie->end[1].radius, size = r1 + fabs(r2);
     double apart = axes_apart(model->tree, tie, digits * size), needed = fabs(r1 + r2);
     if (apart < 0 || fabs(apart - needed) <= digits * size) return;
@@ -44,6 +89,8 @@ static void check_gear(struct builder *builder, const struct tie *tie)
 void gears_check(struct builder *builder)
 {
     const struct tree *tree = builder->model->tree;
-    for (int i = 0; tree && i < tree->tie_count; i++)
+    for (int i = 0; tree && i < tree->tie_count; i++) {
         if (tree->ties[i].kind == constraint_gear) check_gear(builder, &tree->ties[i]);
+        if (tree->ties[i].kind == constraint_rack) check_rack(builder, &tree->ties[i]);
+    }
 }

@@ -124,11 +124,28 @@ static struct scene *copy_scene(const struct scene *from, const struct selection
     return NULL;
 }
 
+/* Those of the whole: a message out of a group names things as the file does. */
+static bool copy_labels(struct fbd_model *model, const struct fbd_model *whole,
+                        const struct selection *selection)
+{
+    struct label *labels = ARENA_ARRAY(&model->arena, (size_t)model->plan.n, struct label);
+    if (!labels) return false;
+    struct label *next = labels;
+    for (size_t i = 0; i < selection->body_count; i++) {
+        const struct model_body *body = &whole->bodies[selection->bodies[i]];
+        for (int k = 0; k < body->count; k++) *next++ = whole->labels[body->first + k];
+    }
+    model->labels = labels;
+    return true;
+}
+
 struct fbd_model *model_group(const struct fbd_model *whole, const struct selection *selection)
 {
     fbd_errors *errors = fbd_errors_new();
     struct scene *scene = errors ? copy_scene(whole->scene, selection) : NULL;
     struct fbd_model *model = scene ? model_compile_group(scene, errors) : NULL;
     fbd_errors_free(errors);
-    return model;
+    if (!model || copy_labels(model, whole, selection)) return model;
+    model_free(model);
+    return NULL;
 }

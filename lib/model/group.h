@@ -19,8 +19,7 @@ struct selection {
 };
 
 /* The model of a group whose expressions refer to its own bodies only. It refers to `whole`, which must
- * outlive it, has no labels and no hand derivations, and is freed with model_free. NULL when memory is out.
- */
+ * outlive it, has no hand derivations, and is freed with model_free. NULL when memory is out. */
 struct fbd_model *model_group(const struct fbd_model *whole, const struct selection *selection);
 
 #endif

@@ -31,7 +31,8 @@ static void plan_roll(struct builder *builder, struct tie *tie)
 static void plan_rope(struct fbd_model *model, struct tie *tie)
 {
     struct plan *plan = &model->plan;
-    int first = tie->end[0].body >= 0 ? 0 : 1;
+    int first = 0;
+    while (tie->end[first].body < 0) first++; /* a piece begins or ends at a body */
     tie->pair = (int)plan->friction_count;
     plan->frictions[plan->friction_count++] = (struct friction){.body = tie->end[first].body,
                                                                 .load = tie->load,

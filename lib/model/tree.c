@@ -91,7 +91,7 @@ static void set_link(const struct fbd_model *model, struct tree_link *link, int 
                                .kind = body->kind,
                                .coordinate = body->first,
                                .at = motion->through,
-                               .e = body->e,
+                               .e = body->kind == motion_slide ? body->e : (struct vec){1, 0},
                                .n = body->n,
                                .along = body->kind == motion_slide ? motion->along : 0,
                                .pair = -1,
@@ -100,7 +100,7 @@ static void set_link(const struct fbd_model *model, struct tree_link *link, int 
     const struct placement *parent = &model->bodies[motion->parent].place;
     link->parent = parent->link;
     link->at = placement_point(parent, motion->through);
-    link->e = vec_turn(parent->turn, body->e);
+    link->e = vec_turn(parent->turn, link->e);
     link->n = vec_turn(parent->turn, body->n);
     link->along += parent->angle;
 }

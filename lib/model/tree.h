@@ -29,7 +29,7 @@ struct tree_link {
     enum motion_kind kind;
     int coordinate;      /* the first of its coordinates */
     struct vec at;       /* pivot: the axis; slide: where x = 0; else the zero of x, y; from the parent's O */
-    struct vec e, n;     /* slide: direction of +x, and the direction that its surface pushes to */
+    struct vec e, n;     /* slide, free: direction of +x; slide: the direction that its surface pushes to */
     double along;        /* angle of the link's frame in its parent's at q = 0 */
     double mass, I_O;    /* with all that is welded to it; I_O about O */
     struct vec moment;   /* mass times the vector from O to its centre of mass */

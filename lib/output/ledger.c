@@ -59,11 +59,11 @@ static void add_powers(struct ledger *ledger, const struct group *group, const s
         const struct model_body *body = &model->bodies[b];
         bool wanted = body->place.link > 0;
         for (int i = 0; i < body->load_count; i++)
-            wanted |= ledger->integrated[group_load(ledger->model, group, body->first_load + i)];
+            wanted |= ledger->integrated[group_load(group, body->first_load + i)];
         if (!wanted) continue;
         size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, ledger->arrows);
         for (size_t i = 0; i < count; i++) {
-            int load = group_load(ledger->model, group, ledger->arrows[i].load);
+            int load = group_load(group, ledger->arrows[i].load);
             /* What acts between two bodies: its power on both. */
             if (load >= 0 && ledger->integrated[load]) work[load] += weight * ledger->arrows[i].power;
         }
@@ -73,7 +73,7 @@ static void add_powers(struct ledger *ledger, const struct group *group, const s
 bool ledger_integrates(const struct ledger *ledger, const struct group *group)
 {
     for (size_t i = 0; i < group->model->load_count; i++)
-        if (ledger->integrated[group_load(ledger->model, group, (int)i)]) return true;
+        if (ledger->integrated[group_load(group, (int)i)]) return true;
     return false;
 }
 
@@ -107,14 +107,14 @@ bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t index)
     const struct group *group = &ensemble->groups[index];
     const struct fbd_model *model = group->model;
     for (size_t i = 0; i < model->load_count; i++) {
-        int load = group_load(ledger->model, group, (int)i);
+        int load = group_load(group, (int)i);
         ledger->begin[load] = ledger->end[load];
     }
     const struct run *run = group->run;
     if (!integrate(ledger, ensemble, index, run->from, run->state->t, ledger->end)) return false;
     for (size_t i = model->coupled_count; i < model->load_count; i++)
         if (model->loads[i].source->kind == load_rope)
-            ledger->end[group_load(ledger->model, group, (int)i)] = run->impact_work[i];
+            ledger->end[group_load(group, (int)i)] = run->impact_work[i];
     return true;
 }
 
@@ -122,7 +122,7 @@ void ledger_restart(struct ledger *ledger, struct ensemble *ensemble, size_t ind
 {
     const struct group *group = &ensemble->groups[index];
     for (size_t i = 0; i < group->model->load_count; i++) {
-        int load = group_load(ledger->model, group, (int)i);
+        int load = group_load(group, (int)i);
         ledger->begin[load] = ledger->end[load] = 0;
     }
 }
@@ -133,7 +133,7 @@ bool ledger_within(struct ledger *ledger, struct ensemble *ensemble, double t, d
         const struct group *group = &ensemble->groups[g];
         bool at_end = t == group->run->state->t;
         for (size_t i = 0; i < group->model->load_count; i++) {
-            int load = group_load(ledger->model, group, (int)i);
+            int load = group_load(group, (int)i);
             work[load] = (at_end ? ledger->end : ledger->begin)[load];
         }
         if (!at_end && !integrate(ledger, ensemble, g, group->run->from, t, work)) return false;

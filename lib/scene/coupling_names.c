@@ -42,11 +42,14 @@ static bool collect(struct reader *reader, const struct coupling_name *given, si
 {
     const struct scene *scene = reader->scene;
     size_t room = reaction_count + count;
-    for (size_t b = 0; b < scene->body_count; b++) room += scene->bodies[b].load_count;
+    for (size_t b = 0; b < scene->body_count; b++) room += scene->bodies[b].load_count + 1;
     *taken = (struct taken_names){ARENA_ARRAY(reader->arena, room, struct taken), 0};
     if (!taken->names) return false;
     for (size_t i = 0; i < reaction_count; i++)
         taken->names[taken->count++] = (struct taken){reactions[i], -1};
+    for (size_t b = 0; b < scene->body_count; b++)
+        if (reader->drafts[b].motion_keys.prescribed) /* what a prescribed motion takes */
+            taken->names[taken->count++] = (struct taken){"drive", -1};
     for (size_t b = 0; b < scene->body_count; b++)
         for (size_t i = 0; i < scene->bodies[b].load_count; i++)
             taken->names[taken->count++] = (struct taken){scene->bodies[b].loads[i].name, -1};

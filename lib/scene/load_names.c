@@ -25,11 +25,30 @@ static int compare_key(const void *key, const void *element)
     return strcmp(key, ((const struct given_name *)element)->name);
 }
 
+/* Is it how the force of the body's joint is called, or what its prescribed motion takes? */
+static bool is_of_joint(const struct reader *reader, int index, const char *name)
+{
+    static const char *const forces[] = {[motion_slide] = "guide",
+                                         [motion_pivot] = "pin",
+                                         [motion_particle] = "guide",
+                                         [motion_weld] = "weld"};
+    const struct draft *draft = &reader->drafts[index];
+    enum motion_kind kind = reader->scene->bodies[index].motion.kind;
+    if (!draft->motion_known) return false;
+    if (draft->motion_keys.prescribed && strcmp(name, "drive") == 0) return true;
+    return kind != motion_planar && strcmp(name, forces[kind]) == 0;
+}
+
 /* Every load is a column of the output beside the coordinates of its body. */
-static bool check_given(struct reader *reader, const struct given_name *names, size_t count)
+static bool check_given(struct reader *reader, int index, const struct given_name *names, size_t count)
 {
     bool fine = true;
     for (size_t i = 0; i < count; i++) {
+        if (is_of_joint(reader, index, names[i].name)) {
+            diag_add(reader->errors, FBD_ERROR, "duplicate-name", names[i].at, "choose another name",
+                     "the force of the joint of this body is called `%s` already", names[i].name);
+            fine = false;
+        }
         if (name_is_reserved(names[i].name)) {
             diag_add(reader->errors, FBD_ERROR, "reserved-name", names[i].at, "choose another name",
                      "`%s` cannot name a load: it is a coordinate or the time", names[i].name);
@@ -86,7 +105,7 @@ bool body_loads_name(struct reader *reader, int index, const char *const *given,
     for (size_t i = 0; i < body->load_count; i++)
         if (given[i]) names[count++] = (struct given_name){given[i], places[i]};
     if (count > 0) qsort(names, count, sizeof *names, compare);
-    bool fine = check_given(reader, names, count);
+    bool fine = check_given(reader, index, names, count);
     int numbers[moment_potential + 1] = {0};
     for (size_t i = 0; i < body->load_count; i++) {
         struct load *load = &body->loads[i];

@@ -30,9 +30,11 @@ bool bodies_start(struct reader *reader)
 static bool check_body_name(struct reader *reader, const struct body *body)
 {
     if (!name_check(reader->errors, body->name, body->at, "a body")) return false;
-    if (strcmp(body->name, "ground") != 0) return true;
+    bool time = strcmp(body->name, "t") == 0;
+    if (!time && strcmp(body->name, "ground") != 0) return true;
     diag_add(reader->errors, FBD_ERROR, "reserved-name", body->at, "choose another name",
-             "`ground` cannot be a body: it is what does not move");
+             time ? "`t` cannot be a body: it is the time"
+                  : "`ground` cannot be a body: it is what does not move");
     return false;
 }
 

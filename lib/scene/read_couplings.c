@@ -87,14 +87,17 @@ static bool add_ends(struct reader *reader, const struct node *list, const char 
     bool fine = true;
     for (size_t i = 0; i < list->count; i++)
         if (!add_end(reader, list->items[i], constraint)) fine = false;
-    for (int k = 1; fine && k < constraint->end_count; k++)
-        if (constraint->body[k] == constraint->body[k - 1] &&
-            (constraint->body[k] != ground_body || constraint->end_count == 2)) {
-            diag_add(reader->errors, FBD_ERROR, "same-body", list->at, "name points of two bodies",
-                     "both ends are on the same body: nothing would act");
-            fine = false;
-        }
-    return fine;
+    bool moves = false, same = false;
+    for (int k = 0; k < constraint->end_count; k++) {
+        if (constraint->body[k] != ground_body) moves = true;
+        if (k > 0 && constraint->body[k] != ground_body && constraint->body[k] == constraint->body[k - 1])
+            same = true;
+    }
+    if (!fine || (moves && !same)) return fine;
+    diag_add(reader->errors, FBD_ERROR, "same-body", list->at, "name points of two bodies",
+             same || constraint->end_count == 2 ? "both ends are on the same body: nothing would act"
+                                                : "every place of it is on the ground: nothing would act");
+    return false;
 }
 
 /* The circle of a body: the first of its parts that is round. */
@@ -152,6 +155,8 @@ static bool read_gear(struct reader *reader, const struct coupling_keys *keys, s
 static bool read_rack(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
 {
     if (!add_ends(reader, keys->between, "between", 2, 2, constraint)) return false;
+    if (!strchr(keys->between->items[1]->text, '.')) /* a body alone: its x axis, not its centre of mass */
+        constraint->point[1] = (struct point){.kind = point_fixed, .at = constraint->at};
     return needs_body(reader, constraint, 0) && needs_body(reader, constraint, 1) &&
            set_circle(reader, constraint, 0, keys->radius);
 }

@@ -201,6 +201,15 @@ static inline bool constraint_has_load(const struct constraint *constraint)
     return constraint->kind == constraint_roll || constraint->kind == constraint_rope;
 }
 
+/* The first of its bodies that is not the ground: a rope may begin with points of the ground, one of its
+ * places moves. */
+static inline int constraint_first_body(const struct constraint *constraint)
+{
+    int end = 0;
+    while (constraint->body[end] < 0) end++;
+    return constraint->body[end];
+}
+
 /* A derivation by the user: an equation that must hold. */
 struct hand {
     const char *text;

@@ -24,23 +24,28 @@ static bool make_group(struct ensemble *ensemble, struct group *group)
     return group->probe != NULL;
 }
 
-/* Where the branches and friction pairs of the groups stand in the whole plan. Both plans list them body by
- * body in the same order, switches of loads first and those of user events last. */
-static bool make_maps(struct ensemble *ensemble)
+/* Room for the maps of all groups, and for the counts of what is in them while they are made. */
+static bool allocate_maps(struct ensemble *ensemble)
 {
-    const struct plan *plan = &ensemble->model->plan;
-    const struct division *division = &ensemble->division;
-    ensemble->maps =
-        calloc((size_t)plan->branches + plan->friction_count + 2 * ensemble->count + 1, sizeof(int));
-    if (!ensemble->maps) return false;
-    int *next = ensemble->maps, *branches = next + (size_t)plan->branches + plan->friction_count,
-        *pairs = branches + ensemble->count;
+    const struct fbd_model *whole = ensemble->model;
+    size_t entries = (size_t)whole->plan.branches + whole->plan.friction_count + whole->load_count;
+    int *next = ensemble->maps = calloc(entries + ensemble->count + 1, sizeof(int));
+    if (!next) return false;
     for (size_t p = 0; p < ensemble->count; p++) {
         struct group *group = &ensemble->groups[p];
         group->branch = next;
         group->pairs = next += group->model->plan.branches;
-        next += group->model->plan.friction_count;
+        group->loads = next += group->model->plan.friction_count;
+        next += group->model->load_count;
     }
+    ensemble->counts = next;
+    return true;
+}
+
+static void map_branches(struct ensemble *ensemble)
+{
+    const struct plan *plan = &ensemble->model->plan;
+    const struct division *division = &ensemble->division;
     size_t watch = 0;
     for (size_t i = 0; i < plan->kink_count; i++) {
         const struct kink *kink = &plan->kinks[i];
@@ -52,11 +57,29 @@ static bool make_maps(struct ensemble *ensemble)
             p = division->group_of_event[watch];
         }
         for (size_t k = 0; k < kink->count; k++)
-            ensemble->groups[p].branch[branches[p]++] = kink->formula.branch + (int)k;
+            ensemble->groups[p].branch[ensemble->counts[p]++] = kink->formula.branch + (int)k;
     }
-    for (size_t i = 0; i < plan->friction_count; i++) {
-        int p = division->group_of_body[plan->frictions[i].body];
-        ensemble->groups[p].pairs[pairs[p]++] = (int)i;
+}
+
+/* Where the branches, friction pairs and loads of the groups stand in the whole. The whole lists each in the
+ * same order as the groups do (loads of bodies, couplings, named ties, drives; switches of loads first and
+ * those of user events last), so what is of a group comes in its order. */
+static bool make_maps(struct ensemble *ensemble)
+{
+    const struct fbd_model *whole = ensemble->model;
+    const int *group_of_body = ensemble->division.group_of_body;
+    if (!allocate_maps(ensemble)) return false;
+    int *counts = ensemble->counts;
+    map_branches(ensemble);
+    memset(counts, 0, ensemble->count * sizeof *counts);
+    for (size_t i = 0; i < whole->plan.friction_count; i++) {
+        int p = group_of_body[whole->plan.frictions[i].body];
+        ensemble->groups[p].pairs[counts[p]++] = (int)i;
+    }
+    memset(counts, 0, ensemble->count * sizeof *counts);
+    for (size_t i = 0; i < whole->load_count; i++) {
+        int p = group_of_body[whole->loads[i].body];
+        ensemble->groups[p].loads[counts[p]++] = (int)i;
     }
     return true;
 }
@@ -149,30 +172,9 @@ int group_body(const struct group *group, int index)
     return index < 0 || !group->selection ? index : group->selection->bodies[index];
 }
 
-/* The load of the whole for the named tie `index` of a group: they follow the order of the constraints that
- * have one. */
-static int named_tie(const struct fbd_model *whole, const struct group *group, size_t index)
+int group_load(const struct group *group, int index)
 {
-    const struct constraint *parts = group->model->scene->constraints, *all = whole->scene->constraints;
-    size_t c = 0;
-    for (;; c++) {
-        if (!constraint_has_load(&parts[c])) continue;
-        if (index-- == 0) break;
-    }
-    int load = (int)whole->coupled_count;
-    for (int i = 0; i < group->selection->constraints[c]; i++) load += constraint_has_load(&all[i]);
-    return load;
-}
-
-int group_load(const struct fbd_model *whole, const struct group *group, int index)
-{
-    if (index < 0 || !group->selection) return index;
-    size_t listed = group->model->listed_count, coupled = group->model->coupled_count;
-    if ((size_t)index >= coupled) return named_tie(whole, group, (size_t)index - coupled);
-    if ((size_t)index >= listed)
-        return (int)whole->listed_count + group->selection->couplings[(size_t)index - listed];
-    int body = group->model->loads[index].body;
-    return whole->bodies[group_body(group, body)].first_load + index - group->model->bodies[body].first_load;
+    return index < 0 || !group->loads ? index : group->loads[index];
 }
 
 static bool add_event(struct ensemble *ensemble, const struct run_event *event)
@@ -206,7 +208,7 @@ void ensemble_release(struct ensemble *ensemble, size_t count)
              group->released++) {
             struct run_event event = run->events[group->released];
             event.body = group_body(group, event.body);
-            event.load = group_load(ensemble->model, group, event.load);
+            event.load = group_load(group, event.load);
             if (event.watch >= 0 && group->selection) event.watch = group->selection->events[event.watch];
             event.group = ensemble->due[i];
             event.order = group->released;

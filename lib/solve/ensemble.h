@@ -36,7 +36,8 @@ struct group {
     struct fbd_state *probe;
     bool quiet;          /* no event can happen in it */
     size_t released;     /* of run->events: taken over by the ensemble */
-    int *branch, *pairs; /* of its branches and friction pairs in the whole plan */
+    int *branch, *pairs; /* of its branches and friction pairs in the whole plan; NULL when it is the whole */
+    int *loads;          /* of its loads in the whole model; NULL when it is the whole */
 };
 
 struct ensemble;
@@ -56,6 +57,7 @@ struct ensemble {
     size_t count;
     struct group *groups;
     int *maps;     /* memory of the groups' maps */
+    int *counts;   /* scratch of their making, in `maps` */
     size_t *queue; /* heap of groups by the ends of their last steps */
     size_t queued;
     bool lazy;      /* moved by ensemble_go: quiet groups are not queued */
@@ -120,7 +122,7 @@ struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, d
 
 /* The body or load of the whole scene that is `index` in a group; -1 for -1. */
 int group_body(const struct group *group, int index);
-int group_load(const struct fbd_model *whole, const struct group *group, int index);
+int group_load(const struct group *group, int index);
 
 /* ---- for the files of the ensemble */
 
