@@ -129,6 +129,7 @@ static bool carry_on(struct going *going, struct csv *csv)
     tell_progress(going, ensemble->t);
     bool event = ensemble->event_count > events;
     bool due = csv && (!other || event || ensemble->outcome != FBD_GOING);
+    if (due || result->record) ensemble_check_balance(ensemble);
     if (due && !csv_row(csv, ensemble, event)) return false;
     if (result->record && !record_step(result->record, ensemble, from, event)) return false;
     if (result->record && result->record->odd)

@@ -8,6 +8,7 @@
 #include "dynamics/energy.h"
 #include "dynamics/project.h"
 #include "dynamics/tree_system.h"
+#include "solve/balance.h"
 #include "solve/run.h"
 
 static bool has_ties(const struct run *run)
@@ -184,4 +185,12 @@ void run_close_step(struct run *run)
              "at the end of its reach, or the tolerance is too large",
              run->state->t, tie_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0),
              misfit.position);
+}
+
+void run_check_balance(struct run *run)
+{
+    struct text lack = {0};
+    if (run->outcome == FBD_GOING && balance_lack(run->state, run->arrows, &lack))
+        run_fail(run, FBD_FAILED, "%s", lack.failed ? "" : lack.data);
+    text_free(&lack);
 }

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "solve/balance.h"
+
 /* ---- making and freeing */
 
 bool ensemble_make_run(struct ensemble *ensemble, struct group *group)
@@ -113,7 +115,8 @@ struct ensemble *ensemble_new(const struct fbd_model *model, const struct run_op
     ensemble->options = *options;
     ensemble->reason = "";
     ensemble->state = state_new(model);
-    if (!ensemble->state || !make_groups(ensemble)) {
+    ensemble->arrows = calloc(diagram_most_arrows(model), sizeof *ensemble->arrows);
+    if (!ensemble->state || !ensemble->arrows || !make_groups(ensemble)) {
         ensemble_free(ensemble);
         return NULL;
     }
@@ -139,6 +142,7 @@ void ensemble_free(struct ensemble *ensemble)
     division_free(&ensemble->division);
     free(ensemble->groups);
     free(ensemble->maps);
+    free(ensemble->arrows);
     free(ensemble->queue);
     free(ensemble->events);
     free(ensemble);
@@ -336,4 +340,12 @@ struct fbd_state *ensemble_state(struct ensemble *ensemble)
     if (!ensemble->current) ensemble_look(ensemble, ensemble->t, ensemble->state);
     ensemble->current = true;
     return ensemble->state;
+}
+
+void ensemble_check_balance(struct ensemble *ensemble)
+{
+    struct text lack = {0};
+    if (balance_lack(ensemble_state(ensemble), ensemble->arrows, &lack))
+        ensemble_spoil(ensemble, "%s", lack.failed ? "" : lack.data);
+    text_free(&lack);
 }

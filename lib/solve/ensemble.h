@@ -76,7 +76,8 @@ struct ensemble {
     size_t event_count, event_room;
     struct fbd_state *state; /* of the whole, see ensemble_state */
     bool current;
-    size_t *due; /* scratch: groups at t */
+    size_t *due;          /* scratch: groups at t */
+    struct arrow *arrows; /* scratch: the most of a diagram */
 };
 
 /* A run of the model at its start, divided if options->structure. NULL when memory is out. */
@@ -113,6 +114,9 @@ void ensemble_pass_on(const struct ensemble *ensemble, size_t index, struct fbd_
 
 /* The component of the whole (n coordinates, then n rates) that is `i` in a group. */
 size_t group_component(const struct fbd_model *whole, const struct group *group, size_t i);
+
+/* End it as failed when the forces at ensemble->t do not account for the motion (balance.h). */
+void ensemble_check_balance(struct ensemble *ensemble);
 
 /* The state at ensemble->t; stays valid until the ensemble moves on. */
 struct fbd_state *ensemble_state(struct ensemble *ensemble);

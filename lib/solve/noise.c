@@ -11,7 +11,9 @@ static void measure_turns(struct run *run, const struct instant *at)
 {
     const struct tree *tree = run->model->tree;
     double *own = run->turned, *sides = own + tree->count;
-    own[0] = 0;
+    /* Where couplings bring states back, directions have the rounding of a radian, turned or not: places are
+     * known to that share of the arms that lead to them. */
+    own[0] = tree->row_count > 0 ? 1 : 0;
     for (int i = 1; i < tree->count; i++) {
         const struct model_body *body = &run->model->bodies[tree->links[i].body];
         bool turns = body->kind == motion_pivot || body->kind == motion_planar;

@@ -467,6 +467,7 @@ fbd_outcome run_advance(struct run *run)
         run_renew_noise(run);
     }
     if (at_end) run_apply_touched(run, false);
+    if (moving || timed || at_end) run_check_balance(run);
     if (run->outcome == FBD_GOING && at_end) run->outcome = FBD_DONE;
     if (run->outcome == FBD_GOING) watchers_arm(&run->watchers, run->state);
     if (run->projected || run->model->plan.watch_count > 0) scan_forget(&run->moving);

@@ -124,6 +124,9 @@ void run_apply(struct run *run, const bool *timed, const bool *moving);
 /* Bring the end of a step back onto the couplings. */
 void run_close_step(struct run *run);
 
+/* The forces of the diagrams have to account for the motion. */
+void run_check_balance(struct run *run);
+
 /* Has the step that ends at run->y been brought back so far that its method has to start anew? */
 bool run_has_gone_astray(const struct run *run);
 

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solve/start.h"
 
+#include <stdlib.h>
+
 #include "dynamics/finite.h"
 #include "dynamics/modes.h"
 #include "dynamics/project.h"
 #include "model/model.h"
+#include "solve/balance.h"
 #include "solve/fit.h"
 #include "solve/watchers.h"
 
@@ -80,6 +83,16 @@ static bool is_solved(struct fbd_state *state, struct lack *lack)
     return false;
 }
 
+/* The forces account for the motion. */
+static bool is_balanced(struct fbd_state *state, struct lack *lack)
+{
+    struct arrow *arrows = calloc(diagram_most_arrows(state->model), sizeof *arrows);
+    bool balanced = arrows && !balance_lack(state, arrows, &lack->text);
+    if (arrows && !balanced) lack->id = "forces-unbalanced";
+    free(arrows);
+    return balanced;
+}
+
 bool start_ready(struct fbd_state *state, struct fbd_state *other, const char *what, struct lack *lack)
 {
     bool settled = modes_settle(state, NULL);
@@ -87,7 +100,7 @@ bool start_ready(struct fbd_state *state, struct fbd_state *other, const char *w
     if (settled) state_project(state, false); /* what slips is not closed */
     settled = modes_settle(state, NULL);
     return start_finite(state, lack) && is_settled(settled, lack) && rests_on_surfaces(state, lack) &&
-           is_solved(state, lack);
+           is_solved(state, lack) && is_balanced(state, lack);
 }
 
 bool start_question(struct fbd_state *state, bool modes, fbd_errors *errors)

@@ -11,7 +11,8 @@
 #include "dynamics/state.h"
 
 struct lack {
-    const char *id; /* `does-not-fit`, `not-finite`, `unsettled`, `leaves-surface`, `masses-apart`; NULL when
+    const char *id; /* `does-not-fit`, `not-finite`, `unsettled`, `leaves-surface`, `masses-apart`,
+                       `forces-unbalanced`; NULL when
                        memory is out */
     struct pos at;  /* in the file; 0 where it has no place there */
     struct text text;
