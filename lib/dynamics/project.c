@@ -96,11 +96,11 @@ double state_acceleration_misfit(const struct fbd_state *state, int *row)
     }
     for (int j = 0; j < model->tree->row_count; j++) {
         double miss = fabs(work->rows[j].g.x2);
-        if (!tree_takes_part(model->tree, &at, j) || miss <= worst) continue;
+        if (!tree_takes_part(model->tree, &at, j) || miss <= worst || isnan(worst)) continue;
         worst = miss;
         *row = j;
     }
-    return worst > 0 ? worst / fmax(size, force / mass) : 0;
+    return worst == 0 ? 0 : worst / fmax(size, force / mass);
 }
 
 struct misfit state_misfit(struct fbd_state *state)

@@ -9,6 +9,7 @@
 
 #include "dynamics/constraint.h"
 #include "dynamics/energy.h"
+#include "dynamics/finite.h"
 #include "dynamics/project.h"
 #include "dynamics/tree.h"
 #include "solve/run.h"
@@ -186,6 +187,11 @@ void run_check_contacts(struct run *run)
         struct run_event *event = note(run, FBD_EVENT_CONTACT_LOST, contact->body, contact->load, -1);
         if (event) event->force = N, event->limit = slack;
         struct text words = {0};
+        if (!isfinite(N)) {
+            run_fail(run, FBD_FAILED, "the normal force of `%s` is not finite at t = %.9g: %s",
+                     model->bodies[contact->body].name, run->state->t, not_finite_reason(N));
+            continue;
+        }
         start_contact_words(model, contact, run->state->t, N, &words);
         run_fail(run, words.failed ? FBD_OUT_OF_MEMORY : FBD_BROKEN, "%s",
                  words.failed ? "out of memory" : words.data);
