@@ -51,6 +51,16 @@ void force_balance(const struct fbd_model *model, const struct instant *given, d
     if (model->tree) tree_accelerations(model, at, slots, at->tree->a);
 }
 
+void force_balance_of(const struct fbd_model *model, int b, const struct instant *given, double *slots)
+{
+    if (model->bodies[b].place.link > 0) {
+        force_balance(model, given, slots);
+        return;
+    }
+    const struct instant at = instant_extend(model, given);
+    body_forces(model, b, &at, body_turn(model, b, &at), slots);
+}
+
 void force_balance_along(const struct fbd_model *model, const struct instant *given,
                          const struct direction *direction, const double *slots, double *slots_along)
 {

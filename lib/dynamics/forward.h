@@ -12,6 +12,9 @@
  * behind the n are those of their motion in the present modes. */
 void force_balance(const struct fbd_model *model, const struct instant *given, double *slots);
 
+/* The same in the slots of body b, for who asks body after body; of a jointed body in all. */
+void force_balance_of(const struct fbd_model *model, int b, const struct instant *given, double *slots);
+
 /* The variation of force_balance along a direction, right after it. */
 void force_balance_along(const struct fbd_model *model, const struct instant *given,
                          const struct direction *direction, const double *slots, double *slots_along);

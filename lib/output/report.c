@@ -83,10 +83,11 @@ static void write_events(const struct page *page)
 /* ---- final state and forces */
 
 /* A body that sticks says how near it is to breaking away: |F| / (mu_s N). */
-static void write_friction(struct text *text, struct fbd_state *state, const struct model_body *body)
+static void write_friction(struct text *text, struct fbd_state *state, int b)
 {
+    const struct model_body *body = &state->model->bodies[b];
     struct instant at = state_instant(state);
-    force_balance(state->model, &at, state->scratch);
+    force_balance_of(state->model, b, &at, state->scratch);
     struct friction_values values = friction_at(state->model, body->friction, &at, state->scratch);
     if (state->slip[body->friction] != stick)
         text_add(text, "   (slips)");
@@ -120,7 +121,7 @@ static void write_final(const struct page *page)
             if (page->bars) plus_minus(page, bars_component(page->bars, state, (size_t)component));
             text_printf(text, " %s", rate ? label->rate_unit : label->unit);
         }
-        if (body->friction >= 0) write_friction(text, state, body);
+        if (body->friction >= 0) write_friction(text, state, (int)b);
         text_add(text, "\n");
     }
 }

@@ -26,10 +26,11 @@ static void normal_remark(const struct fbd_state *state, const struct model_body
         snprintf(remark, term_remark_size, "acts across the guide");
 }
 
-static void friction_remark(struct fbd_state *state, const struct model_body *body, char *remark)
+static void friction_remark(struct fbd_state *state, int b, char *remark)
 {
+    const struct model_body *body = &state->model->bodies[b];
     struct instant at = state_instant(state);
-    force_balance(state->model, &at, state->scratch);
+    force_balance_of(state->model, b, &at, state->scratch);
     struct friction_values now = friction_at(state->model, body->friction, &at, state->scratch);
     bool bearing = state->model->plan.frictions[body->friction].normal_slot < 0;
     if (state->slip[body->friction] == stick)
@@ -84,7 +85,7 @@ void term_remark(struct fbd_state *state, int index, int part, char remark[stati
     switch (load->source->kind) {
     case load_normal: normal_remark(state, body, remark); return;
     case load_friction:
-    case moment_friction: friction_remark(state, body, remark); return;
+    case moment_friction: friction_remark(state, load->body, remark); return;
     case load_gravity: snprintf(remark, term_remark_size, "%s", gravity_remark(model, body, part)); return;
     default:
         snprintf(remark, term_remark_size, "%s",
