@@ -56,11 +56,9 @@ FILE *whole_file_straight(const char *path)
 
 static char *joined(const char *start, const char *end)
 {
-    size_t length = strlen(start), more = strlen(end) + 1;
-    char *text = malloc(length + more);
-    if (!text) return NULL;
-    memcpy(text, start, length);
-    memcpy(text + length, end, more);
+    size_t size = strlen(start) + strlen(end) + 1;
+    char *text = malloc(size);
+    if (text) snprintf(text, size, "%s%s", start, end);
     return text;
 }
 

@@ -46,8 +46,8 @@ static void *bdf_alloc(size_t n)
     s->jacobian = s->memory;
     s->lu = s->jacobian + n * n;
     s->divided = s->lu + n * n;
-    for (int i = 0; i < most_points; i++) s->y[i] = s->divided + (size_t)(most_points + i) * n;
-    s->dfdt = s->divided + 2 * most_points * n;
+    for (size_t i = 0; i < most_points; i++) s->y[i] = s->divided + (most_points + i) * n;
+    s->dfdt = s->divided + 2 * (size_t)most_points * n;
     s->predicted = s->dfdt + n;
     s->slope = s->predicted + n;
     s->now = s->slope + n;

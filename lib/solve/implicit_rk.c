@@ -190,7 +190,7 @@ static unsigned int order(void *state)
 
 #define STEP_TYPE(method_name, method_alloc)                                                                 \
     {                                                                                                        \
-        .name = method_name, .can_use_dydt_in = 1, .gives_exact_dydt_out = 1, .alloc = method_alloc,         \
+        .name = (method_name), .can_use_dydt_in = 1, .gives_exact_dydt_out = 1, .alloc = (method_alloc),     \
         .apply = apply, .set_driver = set_driver, .reset = reset, .order = order, .free = free               \
     }
 
