@@ -60,7 +60,7 @@ def scene(rng, off):
         far = math.hypot(3 - 3, 0.5 + 2)
         length = (math.hypot(3, 0.5) + far) * L - abs(error)
         return kind, head + particle("p", 3, -2) + (
-            f"\ncouplings: [rope: {{through: [p, ground.B, ground.A], length: {length:.17g}}}]\n") + tail
+            f"\ncouplings: [rope: {{through: [ground.A, ground.B, p], length: {length:.17g}}}]\n") + tail
     if kind == "pin":
         return kind, head + (
             f"  bar: {{shape: rod, mass: 1, length: {L:.17g}, motion: {{pivot: {{at: A, point: left}}}}, "
