@@ -362,7 +362,7 @@ struct rope_state rope_at(const struct fbd_model *model, const struct instant *a
 {
     const struct tie *rope = &model->tree->ties[tie];
     const struct row *row = &at->tree->rows[rope->first_row];
-    struct rope_state state = {row->g.x, row->g.x1, row->g.x2, -row->lambda, 0, false};
+    struct rope_state state = {row->g.x, row->g.x1, row->g.x2, -row->lambda, 0, 0, false};
     double length = fabs(at->tree->ties[tie].zero), speed = 0, reach = 0;
     for (int k = 0; k < rope->end_count; k++) {
         const struct tree_state *s = &at->tree->links[rope->end[k].link];
@@ -372,6 +372,7 @@ struct rope_state rope_at(const struct fbd_model *model, const struct instant *a
     }
     length += reach;
     state.rounding = 16 * DBL_EPSILON * length;
-    state.touches = fabs(state.excess) <= 1e-9 * length && fabs(state.rate) <= 1e-10 * speed;
+    state.near = 1e-9 * length;
+    state.touches = fabs(state.excess) <= state.near && fabs(state.rate) <= 1e-10 * speed;
     return state;
 }

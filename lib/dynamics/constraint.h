@@ -56,6 +56,7 @@ struct rope_state {
     double excess, rate, acceleration; /* of its way over its length, and how that changes */
     double tension;
     double rounding; /* of the excess */
+    double near;     /* what the place of an event leaves of it, against the size of rope and scene */
     bool touches;    /* just taut to rounding, in length and rate */
 };
 struct rope_state rope_at(const struct fbd_model *model, const struct instant *at, int tie);

@@ -87,7 +87,7 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
         if (plan->frictions[pair].rope) {
             struct rope_state rope = rope_at(model, &at, plan->frictions[pair].tie);
             if (rope.touches) continue; /* with the others that rest */
-            enum slip next = rope.rate > 0 && rope.excess > -1e-9 ? stick : slip_plus;
+            enum slip next = rope.rate > 0 && rope.excess > -rope.near ? stick : slip_plus;
             if (state->slip[pair] == stick &&
                 fabs(rope.excess) <= 1e-6 * state->tree->ties[plan->frictions[pair].tie].zero)
                 next = stick; /* taut until its tension ends */

@@ -196,10 +196,23 @@ static double start_damping(const struct place *place, double misfit)
     return fmin(1e-6, fmax(least_damping, 1e-6 * misfit / arm_length(place)));
 }
 
+/* How fast the links are, turning at the ends of the arms that rows have. */
+static double speed_of(const struct place *place)
+{
+    double length = arm_length(place), speed = 0;
+    for (int i = 1; i < place->model->tree->count; i++) {
+        const struct tree_state *s = &place->at.tree->links[i];
+        speed = fmax(speed, vec_norm(s->v) + fabs(s->omega) * length);
+    }
+    return speed;
+}
+
 bool state_project_velocity(struct fbd_state *state, bool assemble)
 {
     if (!has_ties(state->model)) return true;
     struct place place = place_of(state, assemble);
+    prepare(&place);
+    double speed = speed_of(&place);
     /* Linear: the second step mends the rounding of the first. */
     for (int pass = 0; pass < 2; pass++) {
         prepare(&place);
@@ -208,10 +221,7 @@ bool state_project_velocity(struct fbd_state *state, bool assemble)
         move(&place, true, 1);
     }
     prepare(&place);
-    double speed = 0;
-    for (int i = 1; i < state->model->tree->count; i++)
-        speed = fmax(speed, vec_norm(state->tree->links[i].v) + fabs(state->tree->links[i].omega));
-    bool there = misfit_of(&place).velocity <= 1e-9 * (1 + speed);
+    bool there = misfit_of(&place).velocity <= 1e-9 * fmax(speed, speed_of(&place));
     release(&place);
     return there;
 }

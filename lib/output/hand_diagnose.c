@@ -68,7 +68,7 @@ static bool inertia_is(const struct hand_check *check, int slip, int which)
     size_t seen = 0;
     for (size_t i = 0; i < check->count; i++) {
         const struct hand_sample *sample = &check->samples[i];
-        if (sample->slip != slip || fabs(sample->a) < 1e-9) continue;
+        if (sample->slip != slip || fabs(sample->I * sample->a) < 1e-9 * sample->size) continue;
         double used = sample->I * sample->a / sample->a_hand;
         if (!same(used, which == 0 ? sample->I_G : sample->m_L2)) return false;
         seen++;
@@ -108,7 +108,7 @@ static bool blame_inertia(const struct hand_check *check, int slip, struct text 
     double first = 0;
     for (size_t i = 0; i < check->count; i++) {
         const struct hand_sample *sample = &check->samples[i];
-        if (sample->slip != slip || fabs(sample->a) < 1e-9) continue;
+        if (sample->slip != slip || fabs(sample->I * sample->a) < 1e-9 * sample->size) continue;
         double ratio = sample->a / sample->a_hand;
         if (first == 0) first = ratio;
         if (!isfinite(ratio) || !same(ratio, first)) return false;
