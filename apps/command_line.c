@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "complain.h"
 #include "standard_streams.h"
 
 enum exit_code exit_code_for(enum exit_code code, fbd_errors *errors)
@@ -15,10 +16,16 @@ enum exit_code exit_code_for(enum exit_code code, fbd_errors *errors)
     return code;
 }
 
+static void point_to_help(const struct command_line *line)
+{
+    complain("Try `%s --help`.", line->program);
+}
+
 bool command_line_usage(const struct command_line *line, const char *message, const char *what)
 {
-    if (!line->silent)
-        fprintf(stderr, "%s: %s%s\nTry `%s --help`.\n", line->program, message, what, line->program);
+    if (line->silent) return false;
+    complain("%s: %s%s", line->program, message, what);
+    point_to_help(line);
     return false;
 }
 
@@ -61,9 +68,9 @@ bool command_line_number(const struct command_line *line, const char *option, co
     errno = 0;
     *value = strtod(text, &end);
     if (end != text && !*end && errno != ERANGE && *value >= least && *value <= most) return true;
-    if (!line->silent)
-        fprintf(stderr, "%s: --%s wants a number%s, not `%s`\nTry `%s --help`.\n", line->program, option,
-                least > 0 ? " above 0" : "", text, line->program);
+    if (line->silent) return false;
+    complain("%s: --%s wants a number%s, not `%s`", line->program, option, least > 0 ? " above 0" : "", text);
+    point_to_help(line);
     return false;
 }
 

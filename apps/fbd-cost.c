@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "complain.h"
 #include "cost_options.h"
 #include "place.h"
 #include "standard_streams.h"
@@ -15,7 +16,7 @@
 
 static enum exit_code no_memory(void)
 {
-    fputs("fbd-cost: out of memory\n", stderr);
+    complain("fbd-cost: out of memory");
     return exit_failed;
 }
 
@@ -39,7 +40,7 @@ static enum exit_code write_file(const char *path, char *text)
 {
     if (!text) return no_memory();
     bool written = whole_file_put(path, text);
-    if (!written) fprintf(stderr, "fbd-cost: cannot write `%s`: %s\n", path, strerror(errno));
+    if (!written) complain("fbd-cost: cannot write `%s`: %s", path, strerror(errno));
     free(text);
     return written ? exit_done : exit_failed;
 }
@@ -108,11 +109,11 @@ static enum exit_code judge(const fbd_cost *cost)
 {
     fbd_cost_reference reference = fbd_cost_get_reference(cost);
     if (reference.exact_differs) {
-        fprintf(stderr, "fbd-cost: %s\n", reference.says);
+        complain("fbd-cost: %s", reference.says);
         return exit_hand_differs;
     }
     if (reference.complete) return exit_done;
-    fprintf(stderr, "fbd-cost: %s\n", reference.says);
+    complain("fbd-cost: %s", reference.says);
     return exit_failed;
 }
 

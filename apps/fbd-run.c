@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "complain.h"
 #include "options.h"
 #include "outputs.h"
 #include "place.h"
@@ -15,7 +16,7 @@
 
 static enum exit_code no_memory(void)
 {
-    fputs("fbd-run: out of memory\n", stderr);
+    complain("fbd-run: out of memory");
     return exit_failed;
 }
 
@@ -34,14 +35,14 @@ static enum exit_code accurate(const fbd_result *result, const fbd_simulation *s
 {
     if (fbd_result_accurate(result)) return exit_done;
     fbd_stats stats = fbd_simulation_stats(simulation);
-    bool interrupted = interrupt && interrupt_asked(interrupt);
-    fprintf(stderr, "fbd-run: %sthe accuracy %g was not reached: ", interrupted ? "interrupted; " : "",
-            stats.accuracy);
+    const char *cut = interrupt && interrupt_asked(interrupt) ? "interrupted; " : "";
     if (isfinite(stats.error_estimate))
-        fprintf(stderr, "%.2g is the best of %lu runs, at tolerance %g\n", stats.error_estimate, stats.runs,
-                stats.tolerance);
+        complain("fbd-run: %sthe accuracy %g was not reached: %.2g is the best of %lu runs, at tolerance %g",
+                 cut, stats.accuracy, stats.error_estimate, stats.runs, stats.tolerance);
     else
-        fputs("no more accurate run comes to the end, so the error is not known\n", stderr);
+        complain("fbd-run: %sthe accuracy %g was not reached: no more accurate run comes to the end, so the "
+                 "error is not known",
+                 cut, stats.accuracy);
     return exit_inaccurate;
 }
 
@@ -73,7 +74,7 @@ static enum exit_code run_until(const fbd_model *model, const struct options *op
     if (result && to == t)
         code = !fbd_simulation_state(simulation, t, state) ? exit_failed : accurate(result, simulation, NULL);
     else if (result)
-        fprintf(stderr, "fbd-run: the run ends before t = %g: %s\n", t, fbd_simulation_reason(simulation));
+        complain("fbd-run: the run ends before t = %g: %s", t, fbd_simulation_reason(simulation));
     fbd_result_free(result);
     fbd_simulation_free(simulation);
     return code;
@@ -90,8 +91,7 @@ static enum exit_code place(const fbd_model *model, const struct options *option
         char *end;
         double t = strtod(options->at[i], &end);
         if (end == options->at[i] || *end) {
-            fprintf(stderr, "fbd-run: --at wants a time in seconds or NAME=VALUE, not `%s`\n",
-                    options->at[i]);
+            complain("fbd-run: --at wants a time in seconds or NAME=VALUE, not `%s`", options->at[i]);
             return exit_usage;
         }
         enum exit_code code = run_until(model, options, t, state, errors);
@@ -107,7 +107,7 @@ static enum exit_code write_text(const char *path, char *text)
 {
     if (!text) return no_memory();
     bool written = whole_file_put(path, text);
-    if (!written) fprintf(stderr, "fbd-run: cannot write `%s`: %s\n", path, strerror(errno));
+    if (!written) complain("fbd-run: cannot write `%s`: %s", path, strerror(errno));
     free(text);
     return written ? exit_done : exit_failed;
 }
@@ -230,7 +230,7 @@ static enum exit_code carry_and_write(fbd_simulation *simulation, const struct o
         code = accurate(result, simulation, interrupt);
     if (result && outcome != FBD_DONE && outcome != FBD_STOPPED) {
         if (!fbd_simulation_blame(simulation, errors))
-            fprintf(stderr, "fbd-run: %s\n", fbd_simulation_reason(simulation));
+            complain("fbd-run: %s", fbd_simulation_reason(simulation));
         code = exit_failed;
     }
     fbd_result_free(result);

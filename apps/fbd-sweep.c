@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "complain.h"
 #include "partial_file.h"
 #include "ranks.h"
 #include "standard_streams.h"
@@ -47,20 +48,17 @@ static bool stops(void *context)
 
 static int no_memory(void)
 {
-    fputs("fbd-sweep: out of memory\n", stderr);
+    complain("fbd-sweep: out of memory");
     return exit_failed;
 }
 
 static void summarise(const struct sweep_options *options, size_t runs, size_t rows, size_t failed)
 {
-    if (rows < runs) {
-        fprintf(stderr, "fbd-sweep: ended by a signal after %zu of %zu runs", rows, runs);
-        if (options->csv) fprintf(stderr, "; go on with --resume");
-        fputs("\n", stderr);
-    }
+    if (rows < runs)
+        complain("fbd-sweep: ended by a signal after %zu of %zu runs%s", rows, runs,
+                 options->csv ? "; go on with --resume" : "");
     if (failed && !options->quiet)
-        fprintf(stderr, "fbd-sweep: %zu of %zu runs did not end well; `status` and `reason` say why\n",
-                failed, rows);
+        complain("fbd-sweep: %zu of %zu runs did not end well; `status` and `reason` say why", failed, rows);
 }
 
 /* Make the rows that are missing. */
@@ -83,8 +81,7 @@ static int fill(const struct ranks *ranks, const fbd_sweep *sweep, const struct 
     sweep_progress_end(&progress);
     size_t rows = file->rows + counts.written, failed = file->failed + counts.failed;
     if (!partial_file_close(file, rows == runs)) {
-        fprintf(stderr, "fbd-sweep: cannot write `%s`: %s\n", options->csv ? options->csv : "-",
-                strerror(errno));
+        complain("fbd-sweep: cannot write `%s`: %s", options->csv ? options->csv : "-", strerror(errno));
         return exit_failed;
     }
     if (end == FBD_SWEEP_OUT_OF_MEMORY) return no_memory();
@@ -133,7 +130,7 @@ static int sweep_and_write(const struct ranks *ranks, const fbd_sweep *sweep,
     if (!ranks_give(ranks, text, length)) return no_memory();
     if (opening == partial_opened) return fill(ranks, sweep, options, &file);
     if (!why) return no_memory();
-    fprintf(stderr, "fbd-sweep: %s\n", why);
+    complain("fbd-sweep: %s", why);
     free(why);
     return opening == partial_refused ? exit_usage : exit_failed;
 }

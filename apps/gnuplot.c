@@ -9,6 +9,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "complain.h"
+
 extern char **environ;
 
 bool gnuplot_is_there(void)
@@ -54,17 +56,17 @@ bool gnuplot_run(const char *script, int output)
 {
     FILE *input = script_file(script);
     if (!input) {
-        fprintf(stderr, "fbd-run: cannot write the script of the plot: %s\n", strerror(errno));
+        complain("fbd-run: cannot write the script of the plot: %s", strerror(errno));
         return false;
     }
     pid_t child;
     int status = 1, failed = start(fileno(input), output, &child);
     if (failed)
-        fprintf(stderr, "fbd-run: cannot start gnuplot: %s\n", strerror(failed));
+        complain("fbd-run: cannot start gnuplot: %s", strerror(failed));
     else
         while (waitpid(child, &status, 0) < 0 && errno == EINTR) errno = 0;
     fclose(input);
     bool done = !failed && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-    if (!done && !failed) fputs("fbd-run: gnuplot failed\n", stderr);
+    if (!done && !failed) complain("fbd-run: gnuplot failed");
     return done;
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "complain.h"
 #include "gnuplot.h"
 #include "interrupt.h"
 
@@ -14,8 +15,7 @@ bool outputs_close(struct outputs *outputs, bool keep)
     for (int i = 0; i < output_count; i++) {
         struct whole_file *file = &outputs->files[i];
         if (whole_file_close(file, keep)) continue;
-        if (!interrupt_by_pipe())
-            fprintf(stderr, "fbd-run: cannot write `%s`: %s\n", file->path, strerror(errno));
+        if (!interrupt_by_pipe()) complain("fbd-run: cannot write `%s`: %s", file->path, strerror(errno));
         done = false;
     }
     return done;
@@ -29,7 +29,7 @@ bool outputs_open(struct outputs *outputs, const struct options *options)
     };
     for (int i = 0; i < output_count; i++) {
         if (!paths[i] || whole_file_open(&outputs->files[i], paths[i])) continue;
-        fprintf(stderr, "fbd-run: cannot write `%s`: %s\n", paths[i], strerror(errno));
+        complain("fbd-run: cannot write `%s`: %s", paths[i], strerror(errno));
         outputs->files[i] = (struct whole_file){0};
         outputs_close(outputs, false);
         return false;
@@ -60,7 +60,7 @@ bool outputs_write(struct outputs *outputs, const struct options *options, fbd_r
 {
     if (outputs->files[output_json].stream &&
         !put_text(&outputs->files[output_json], fbd_result_json(result))) {
-        fputs("fbd-run: out of memory\n", stderr);
+        complain("fbd-run: out of memory");
         return false;
     }
     if (outputs->files[output_html].stream &&

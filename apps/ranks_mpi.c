@@ -19,6 +19,8 @@
 #include <string.h>
 #include <time.h>
 
+#include "complain.h"
+
 enum tag { tag_ask = 1, tag_rows, tag_share };
 
 enum { questions = 2 };
@@ -49,7 +51,7 @@ bool ranks_start(struct ranks *ranks)
     MPI_Comm_rank(MPI_COMM_WORLD, &ranks->rank);
     MPI_Comm_size(MPI_COMM_WORLD, &ranks->count);
     if (level >= MPI_THREAD_FUNNELED) return true;
-    fputs("fbd-sweep: this MPI allows no threads\n", stderr);
+    complain("fbd-sweep: this MPI allows no threads");
     return false;
 }
 

@@ -4,12 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "complain.h"
+
 bool ranks_start(struct ranks *ranks)
 {
     const char *size = getenv("OMPI_COMM_WORLD_SIZE");
     *ranks = (struct ranks){0, 1};
     if (!size || strcmp(size, "1") == 0) return true;
-    fputs("fbd-sweep: started under mpirun, but built without MPI\n", stderr);
+    complain("fbd-sweep: started under mpirun, but built without MPI");
     return false;
 }
 

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "complain.h"
 #include "interrupt.h"
 
 /* The wrong way round, so that using a closed stream still is an error. */
@@ -21,7 +22,6 @@ void standard_streams_begin(void)
 bool standard_output_arrives(const char *program)
 {
     if (fflush(stdout) == 0 && !ferror(stdout)) return true;
-    if (!interrupt_by_pipe())
-        fprintf(stderr, "%s: cannot write to standard output: %s\n", program, strerror(errno));
+    if (!interrupt_by_pipe()) complain("%s: cannot write to standard output: %s", program, strerror(errno));
     return false;
 }

@@ -37,10 +37,10 @@ typedef enum fbd_severity {
 /* One thing that is wrong with a model file. Lines and columns are 1-based; 0 means that none is known. */
 typedef struct fbd_error {
     fbd_severity severity;
-    const char *id;      /* stable, for programs: "unknown-key", "wrong-dimension", ... */
-    const char *message; /* what is wrong, one line */
-    const char *hint;    /* what to write instead, or NULL */
-    const char *file;
+    const char *id;                   /* stable, for programs: "unknown-key", "wrong-dimension", ... */
+    const char *message;              /* what is wrong, one line, safe to print */
+    const char *hint;                 /* what to write instead, or NULL */
+    const char *file;                 /* as it was given: see fbd_shown before printing it */
     int line, column;                 /* where it is wrong */
     int context_line, context_column; /* what was being read there, 0 when that adds nothing */
 } fbd_error;
@@ -62,6 +62,13 @@ FBD_API const fbd_error *fbd_errors_get(fbd_errors *errors, size_t index);
 
 /* Write every note as `file:line:col: error: message` and `    hint: ...`. */
 FBD_API void fbd_errors_print(fbd_errors *errors, FILE *stream);
+
+/* A text for a person: what a terminal would obey (escape sequences), what turns the order of a text around
+ * and what nobody sees is written as `\x1b`, `\u202e`, `\U000e0001`; the rest stays. Titles, paths and
+ * whatever a user wrote should be printed so; messages and texts of the library are made so already. Fills
+ * `shown` with whole characters and a final zero, as far as there is room; returns how many bytes all of it
+ * has, without that zero. */
+FBD_API size_t fbd_shown(const char *text, char *shown, size_t room);
 
 /* ---------------------------------------------------------------- models */
 

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/diag.h"
 
+#include "base/format.h"
+#include "base/utf8.h"
+
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,11 +39,28 @@ static char *format_text(struct arena *arena, const char *format, va_list args)
 {
     va_list again;
     va_copy(again, args);
-    int length = vsnprintf(NULL, 0, format, again);
+    int length = format_list(NULL, 0, format, again);
     va_end(again);
     char *text = length < 0 ? NULL : arena_array(arena, (size_t)length + 1, 1);
-    if (text) vsnprintf(text, (size_t)length + 1, format, args);
+    if (text) format_list(text, (size_t)length + 1, format, args);
     return text;
+}
+
+/* A message on one line, without what a terminal would obey: what a file says is quoted in it. */
+static const char *shown_text(struct arena *arena, const char *text)
+{
+    bool plain = true;
+    size_t length = 0;
+    for (const char *c = text; *c;) {
+        struct utf8_shown shown = utf8_show(c);
+        plain = plain && shown.plain;
+        length += shown.length;
+        c += shown.taken;
+    }
+    if (plain) return text;
+    char *made = arena_array(arena, length + 1, 1);
+    if (made) fbd_shown(text, made, length + 1);
+    return made;
 }
 
 static void add_note(fbd_errors *errors, fbd_error note, const char *format, va_list args)
@@ -49,7 +69,9 @@ static void add_note(fbd_errors *errors, fbd_error note, const char *format, va_
     if (note.severity == FBD_ERROR) errors->errors++;
     if (errors->count >= errors->limit) return;
     struct diag_note *entry = ARENA_NEW(&errors->arena, struct diag_note);
-    char *message = entry ? format_text(&errors->arena, format, args) : NULL;
+    const char *message = entry ? format_text(&errors->arena, format, args) : NULL;
+    if (message) message = shown_text(&errors->arena, message);
+    if (message && note.hint) note.hint = shown_text(&errors->arena, note.hint);
     if (!message) {
         errors->out_of_memory = true;
         return;
@@ -249,6 +271,33 @@ const fbd_error *fbd_errors_get(fbd_errors *errors, size_t index)
     return errors->out_of_memory && index == errors->count ? &no_memory : NULL;
 }
 
+size_t fbd_shown(const char *text, char *shown, size_t room)
+{
+    size_t length = 0, put = 0;
+    bool fits = true;
+    if (!shown) room = 0;
+    while (text && *text) {
+        struct utf8_shown next = utf8_show(text);
+        fits = fits && put + next.length < room;
+        if (fits) memcpy(shown + put, next.text, next.length);
+        if (fits) put += next.length;
+        length += next.length;
+        text += next.taken;
+    }
+    if (room > 0) shown[put] = '\0';
+    return length;
+}
+
+/* The name of a file is kept as it is, so that a program can open it, and shown without harm. */
+static void print_shown(FILE *stream, const char *text)
+{
+    while (*text) {
+        struct utf8_shown next = utf8_show(text);
+        fwrite(next.text, 1, next.length, stream);
+        text += next.taken;
+    }
+}
+
 void fbd_errors_print(fbd_errors *errors, FILE *stream)
 {
     if (!stream) return;
@@ -258,7 +307,8 @@ void fbd_errors_print(fbd_errors *errors, FILE *stream)
         return;
     }
     for (size_t i = 0; (e = fbd_errors_get(errors, i)) != NULL; i++) {
-        if (e->file) fprintf(stream, "%s:", e->file);
+        if (e->file) print_shown(stream, e->file);
+        if (e->file) fputs(":", stream);
         if (e->line) fprintf(stream, "%d:%d:", e->line, e->column);
         fprintf(stream, "%s%s: %s [%s]\n", e->file || e->line ? " " : "",
                 e->severity == FBD_ERROR ? "error" : "warning", e->message, e->id);

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/text.h"
 
+#include "base/format.h"
+#include "base/utf8.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -36,6 +39,21 @@ void text_add(struct text *text, const char *string)
     text_add_bytes(text, string, strlen(string));
 }
 
+void text_shown(struct text *text, const char *string)
+{
+    while (*string) {
+        struct utf8_shown next = utf8_show(string);
+        text_add_bytes(text, next.text, next.length);
+        string += next.taken;
+    }
+}
+
+void text_heading(struct text *text, const char *title)
+{
+    text_shown(text, title);
+    if (title[0]) text_add(text, "\n\n");
+}
+
 /* Mostly there is room, and one pass is enough. */
 void text_printf(struct text *text, const char *format, ...)
 {
@@ -43,11 +61,11 @@ void text_printf(struct text *text, const char *format, ...)
     va_start(args, format);
     va_copy(again, args);
     size_t room = text->failed ? 0 : text->capacity - text->length;
-    int length = vsnprintf(room ? text->data + text->length : NULL, room, format, args);
+    int length = format_list(room ? text->data + text->length : NULL, room, format, args);
     va_end(args);
     bool fits = length >= 0 && (size_t)length < room;
     if (!fits && length >= 0 && text_reserve(text, (size_t)length)) {
-        vsnprintf(text->data + text->length, (size_t)length + 1, format, again);
+        format_list(text->data + text->length, (size_t)length + 1, format, again);
         fits = true;
     }
     if (fits)
@@ -57,26 +75,12 @@ void text_printf(struct text *text, const char *format, ...)
     va_end(again);
 }
 
-/* printf writes the decimal point of the locale, which is all in a finite number that is no digit, sign or
- * exponent. (localeconv, which knows it, must not be called from several threads.) */
-static void set_point(char *number)
-{
-    char *found = number + strspn(number, "+-0123456789");
-    if (*found == '\0' || *found == 'e' || *found == '.') return;
-    size_t width = strcspn(found, "0123456789");
-    *found = '.';
-    memmove(found + 1, found + width, strlen(found + width) + 1);
-}
-
 void text_number(struct text *text, double value, int digits)
 {
     char buffer[64];
     double shown = value == 0 ? 0.0 : value; /* -0 and 0 read the same */
-    if (snprintf(buffer, sizeof buffer, "%.*g", digits, shown) < 0) return;
-    if (isfinite(value))
-        set_point(buffer);
-    else
-        text->odd = true;
+    if (format_into(buffer, sizeof buffer, "%.*g", digits, shown) < 0) return;
+    text->odd |= !isfinite(value);
     text_add(text, buffer);
 }
 
@@ -99,21 +103,35 @@ void text_pad(struct text *text, size_t column)
     text->data[text->length] = '\0';
 }
 
+/* JSON has \uXXXX for half a pair of surrogates, and no way to keep a byte that is no UTF-8. */
+static void json_escape(struct text *text, unsigned code)
+{
+    const unsigned first = 0x10000;
+    if (code < first)
+        text_printf(text, "\\u%04x", code);
+    else
+        text_printf(text, "\\u%04x\\u%04x", 0xD800 + ((code - first) >> 10),
+                    0xDC00 + ((code - first) & 0x3FF));
+}
+
 void text_json_string(struct text *text, const char *string)
 {
+    const unsigned replacement = 0xFFFD;
     text_add(text, "\"");
-    for (const char *c = string; *c; c++) {
-        unsigned char byte = (unsigned char)*c;
-        if (byte == '"' || byte == '\\')
-            text_printf(text, "\\%c", byte);
-        else if (byte == '\n')
+    while (*string) {
+        unsigned code = replacement;
+        size_t width = utf8_decode(string, strnlen(string, 4), &code);
+        if (code == '"' || code == '\\')
+            text_printf(text, "\\%c", (int)code);
+        else if (code == '\n')
             text_add(text, "\\n");
-        else if (byte == '\t')
+        else if (code == '\t')
             text_add(text, "\\t");
-        else if (byte < 0x20 || byte == 0x7f)
-            text_printf(text, "\\u%04x", byte);
+        else if (width == 0 || !utf8_is_plain(code))
+            json_escape(text, code);
         else
-            text_add_bytes(text, c, 1);
+            text_add_bytes(text, string, width);
+        string += width ? width : 1;
     }
     text_add(text, "\"");
 }

@@ -22,6 +22,12 @@ void text_add(struct text *text, const char *string);
 void text_add_bytes(struct text *text, const char *bytes, size_t length);
 void text_printf(struct text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/* A text that somebody else wrote (a title, an expression, a path), as it is shown: base/utf8.h. */
+void text_shown(struct text *text, const char *string);
+
+/* A title above what follows, and a line between; nothing for "". */
+void text_heading(struct text *text, const char *title);
+
 /* `value` with `digits` significant digits as %g writes it, always with a decimal point. */
 void text_number(struct text *text, double value, int digits);
 

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/call.h"
+#include "base/format.h"
 #include "draw/panel.h"
 #include "output/equations.h"
 #include "output/result.h"
@@ -238,7 +239,7 @@ static void write_sheet(struct sheet *sheet)
     double top = margin + 14;
     struct vec size = lay_out(sheet, top, NULL);
     char time[64], description[200];
-    snprintf(time, sizeof time, "Free-body diagram at t = %.6g s", sheet->state->t);
+    format_into(time, sizeof time, "Free-body diagram at t = %.6g s", sheet->state->t);
     snprintf(description, sizeof description,
              "%s: each force as an arrow at the point where it acts, each moment as an arc", time);
     size.x = fmax(size.x, 2 * margin + fmax(svg_text_width(title, 4.8), svg_text_width(time, note_size)));

@@ -8,6 +8,7 @@
 
 #include "base/call.h"
 #include "base/diag.h"
+#include "base/utf8.h"
 #include "draw/record.h"
 #include "dynamics/modes.h"
 
@@ -115,13 +116,20 @@ bool fbd_model_has_columns(const fbd_model *model, const char *columns, fbd_erro
 
 /* ---- the script */
 
-/* Between single quotes gnuplot takes everything as it is, and '' for one quote. */
+/* Between single quotes gnuplot takes everything as it is, commands as well, but for a quote: it may be
+ * doubled, but not as the first character, where the text would end. So it becomes a typographic one.
+ * Gnuplot's SVG has no escape for the end of a CDATA section, which XML does not allow in a text. */
 static void quote(struct text *text, const char *string)
 {
     text_add(text, "'");
-    for (const char *c = string; *c; c++) {
-        if (*c == '\'') text_add(text, "'");
-        text_add_bytes(text, *c == '\n' ? " " : c, 1);
+    while (*string) {
+        struct utf8_shown next = utf8_show(string);
+        if (*string == '\'')
+            text_add(text, "\u2019");
+        else
+            text_add_bytes(text, next.text, next.length);
+        if (strncmp(string, "]>", 2) == 0) text_add(text, " ");
+        string += next.taken;
     }
     text_add(text, "'");
 }

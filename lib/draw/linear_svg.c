@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/format.h"
 #include "draw/labelling.h"
 #include "solve/linearize.h"
 
@@ -70,7 +71,7 @@ static void tick(struct plane *plane, double value, bool real)
     struct vec from = real ? at(plane, value, plane->low.y) : at(plane, plane->low.x, value),
                to = real ? at(plane, value, plane->high.y) : at(plane, plane->high.x, value);
     char number[40];
-    snprintf(number, sizeof number, "%.6g", value);
+    format_into(number, sizeof number, "%.6g", value);
     svg_line(text, value == 0 ? "ground" : "hatch", from, to);
     if (real)
         svg_text(text, "note", (struct vec){from.x, from.y + 4}, 2.9, number);

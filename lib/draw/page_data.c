@@ -360,7 +360,11 @@ static void write_head(struct text *text, fbd_result *result)
     const struct ensemble *run = result->simulation->ensemble;
     const struct fbd_model *model = run->model;
     fbd_stats stats = fbd_simulation_stats(result->simulation);
-    json_text_member(text, "title", model->scene->title);
+    struct text title = {0};
+    text_shown(&title, model->scene->title);
+    json_text_member(text, "title", title.data ? title.data : "");
+    text->failed |= title.failed;
+    text_free(&title);
     json_text_member(text, "reason", run->reason);
     json_number_member(text, "start", result->start->t);
     json_number_member(text, "end", run->t);

@@ -5,6 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/format.h"
+#include "base/utf8.h"
+
 const struct box box_nothing = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
 
 void box_take(struct box *box, struct vec point)
@@ -22,15 +25,16 @@ void box_join(struct box *box, const struct box *other)
 
 void svg_escape(struct text *text, const char *string)
 {
-    for (const char *c = string; *c; c++) {
-        switch (*c) {
+    while (*string) {
+        struct utf8_shown next = utf8_show(string);
+        switch (*string) {
         case '&': text_add(text, "&amp;"); break;
         case '<': text_add(text, "&lt;"); break;
         case '>': text_add(text, "&gt;"); break;
         case '"': text_add(text, "&quot;"); break;
-        default:
-            if ((unsigned char)*c >= ' ' || *c == '\t') text_add_bytes(text, c, 1);
+        default: text_add_bytes(text, next.text, next.length);
         }
+        string += next.taken;
     }
 }
 
@@ -39,7 +43,7 @@ static void write_number(struct text *text, double value)
 {
     char digits[40];
     double rounded = round(value * 1000) / 1000;
-    snprintf(digits, sizeof digits, "%.3f", rounded == 0 ? 0.0 : rounded);
+    format_into(digits, sizeof digits, "%.3f", rounded == 0 ? 0.0 : rounded);
     text->odd |= !(fabs(rounded) < 1e30); /* mm: no drawing */
     char *end = digits + strlen(digits);
     while (end[-1] == '0') end--;

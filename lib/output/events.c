@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/format.h"
 #include "output/result.h"
 
 const char *fbd_event_kind_name(fbd_event_kind kind)
@@ -40,30 +41,30 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
     const char *unit = moment ? moment_unit(model) : force_unit(model);
     switch (event->kind) {
     case FBD_EVENT_BREAKAWAY:
-        snprintf(detail, size, "%s slips with %+.6g %s; the static limit was %.6g %s", name, event->force,
-                 unit, event->limit, unit);
+        format_into(detail, size, "%s slips with %+.6g %s; the static limit was %.6g %s", name, event->force,
+                    unit, event->limit, unit);
         return;
     case FBD_EVENT_STICK:
-        snprintf(detail, size, "%s holds with %+.6g %s, %.3g %% of its static limit %.6g %s", name,
-                 event->force, unit, event->limit > 0 ? 100 * fabs(event->force) / event->limit : 0,
-                 event->limit, unit);
+        format_into(detail, size, "%s holds with %+.6g %s, %.3g %% of its static limit %.6g %s", name,
+                    event->force, unit, event->limit > 0 ? 100 * fabs(event->force) / event->limit : 0,
+                    event->limit, unit);
         return;
     case FBD_EVENT_REVERSAL:
-        snprintf(detail, size, "%s cannot hold it: slips back with %+.6g %s; the static limit is %.6g %s",
-                 name, event->force, unit, event->limit, unit);
+        format_into(detail, size, "%s cannot hold it: slips back with %+.6g %s; the static limit is %.6g %s",
+                    name, event->force, unit, event->limit, unit);
         return;
     case FBD_EVENT_CONTACT_LOST:
         /* A located loss is a rounding below zero; a jump of the forces may go straight to a pull. */
         if (event->force < -1e5 * event->limit)
-            snprintf(detail, size, "%s would have to pull with %.6g %s", name, -event->force, unit);
+            format_into(detail, size, "%s would have to pull with %.6g %s", name, -event->force, unit);
         else
             snprintf(detail, size, "%s reaches zero", name);
         return;
     case FBD_EVENT_USER: snprintf(detail, size, "%s", name); return;
     case FBD_EVENT_ROPE_SLACK: snprintf(detail, size, "%s goes slack", name); return;
     case FBD_EVENT_ROPE_TAUT:
-        snprintf(detail, size, "%s snaps taut; the impact takes %.6g %s", name, event->force,
-                 energy_unit(model));
+        format_into(detail, size, "%s snaps taut; the impact takes %.6g %s", name, event->force,
+                    energy_unit(model));
         return;
     case FBD_EVENT_SWITCH:
         snprintf(detail, size, "%s passes to another branch", name[0] ? name : "an event");

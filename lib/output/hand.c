@@ -351,7 +351,9 @@ static int check_one(struct hand_check *check, const struct document *document, 
     const struct hand *hand = &body->hands[check->index];
     check->count = 0;
     check->part = -1;
-    text_printf(text, "%s: %s\n", body->name, hand->text);
+    text_printf(text, "%s: ", body->name);
+    text_shown(text, hand->text);
+    text_add(text, "\n");
     if (diagram_arrows(model, check->body) > most_terms) {
         text_printf(text, "  not checked: more than %d forces\n", most_terms);
         return 1;

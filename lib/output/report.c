@@ -311,7 +311,7 @@ char *fbd_result_report(fbd_result *result)
     struct fbd_state *end = ensemble_state(run);
     const struct fbd_model *model = run->model;
     struct text text = {0};
-    if (model->scene->title[0]) text_printf(&text, "%s\n\n", model->scene->title);
+    text_heading(&text, model->scene->title);
     if (run->refused) { /* nothing has moved, and its equations may have no numbers */
         text_printf(&text, "The run did not start: %s.\n", run->reason);
         if (text.failed) text_free(&text);

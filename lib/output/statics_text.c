@@ -204,7 +204,7 @@ char *fbd_statics_text(const fbd_statics *statics)
 {
     if (!statics) return NULL;
     struct text text = {0};
-    if (statics->model->scene->title[0]) text_printf(&text, "%s\n\n", statics->model->scene->title);
+    text_heading(&text, statics->model->scene->title);
     write_verdict(&text, statics);
     if (fbd_statics_holds(statics)) {
         for (size_t b = 0; b < statics->model->body_count; b++) write_body(&text, statics, b);

@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 
+#include "base/format.h"
 #include "dynamics/diagram.h"
 
 /* A surface that is no guide cannot pull; less than the rounding of the weight is nothing. */
@@ -20,8 +21,8 @@ static bool normal_is_lost(const struct fbd_state *state, const struct model_bod
 static void normal_remark(const struct fbd_state *state, const struct model_body *body, char *remark)
 {
     if (body->normal_slot >= 0)
-        snprintf(remark, term_remark_size, "acts across: N = %.9g%s", -state->slots[body->normal_slot],
-                 normal_is_lost(state, body) ? " (contact is lost: it would have to pull)" : "");
+        format_into(remark, term_remark_size, "acts across: N = %.9g%s", -state->slots[body->normal_slot],
+                    normal_is_lost(state, body) ? " (contact is lost: it would have to pull)" : "");
     else
         snprintf(remark, term_remark_size, "acts across the guide");
 }
@@ -34,8 +35,8 @@ static void friction_remark(struct fbd_state *state, int b, char *remark)
     struct friction_values now = friction_at(state->model, body->friction, &at, state->scratch);
     bool bearing = state->model->plan.frictions[body->friction].normal_slot < 0;
     if (state->slip[body->friction] == stick)
-        snprintf(remark, term_remark_size, "sticks: whatever holds, up to %s = %.9g",
-                 bearing ? "M_s" : "mu_s N", now.limit_static);
+        format_into(remark, term_remark_size, "sticks: whatever holds, up to %s = %.9g",
+                    bearing ? "M_s" : "mu_s N", now.limit_static);
     else
         snprintf(remark, term_remark_size, "slips: %s%s", state->slip[body->friction] > 0 ? "-" : "+",
                  bearing ? "M_k" : "mu_k N");

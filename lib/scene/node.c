@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "base/utf8.h"
+
 const struct pair *node_find(const struct node *map, const char *key)
 {
     if (!map || map->kind != node_map) return NULL;
@@ -31,7 +33,7 @@ struct pos node_place(const struct node *scalar, size_t offset)
     for (size_t i = 0; i < offset && *text && origin < scalar->end; i++) {
         unsigned code;
         bool blank = *text == ' ' || *text == '\n';
-        size_t width = source_decode(text, strlen(text), &code);
+        size_t width = utf8_decode(text, strlen(text), &code);
         text += width;
         if (!blank) {
             origin += width;

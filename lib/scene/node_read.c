@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene/node.h"
 
+#include "base/utf8.h"
 #include "scene/scalar.h"
 #include "scene/syntax.h"
 
@@ -107,7 +108,7 @@ static void find_folded_text(struct builder *builder, struct node *node)
     const char *end = builder->source->text + builder->source->length;
     unsigned code;
     for (int column = 1; column < node->text_at.column && text < end; column++)
-        text += source_decode(text, (size_t)(end - text), &code);
+        text += utf8_decode(text, (size_t)(end - text), &code);
     node->origin = text;
     node->end = end;
 }

@@ -2,13 +2,27 @@
 #include "scene/scalar.h"
 
 #include <string.h>
-#include <strings.h>
 
 static bool is_one_of(const char *text, const char *const *words, size_t count)
 {
     for (size_t i = 0; i < count; i++)
         if (strcmp(text, words[i]) == 0) return true;
     return false;
+}
+
+static char lower(char c)
+{
+    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
+
+/* Without regard to case, in every locale: a Turkish one has no `i` for `I`. */
+static bool same_letters(const char *text, const char *word)
+{
+    while (*text && lower(*text) == *word) {
+        text++;
+        word++;
+    }
+    return *text == *word;
 }
 
 bool scalar_is_null(const char *text)
@@ -29,7 +43,7 @@ const char *scalar_boolean_word(const char *text)
     static const char *const words[][2] = {{"yes", "true"}, {"on", "true"},   {"y", "true"},
                                            {"no", "false"}, {"off", "false"}, {"n", "false"}};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strcasecmp(text, words[i][0]) == 0) return words[i][1];
+        if (same_letters(text, words[i][0])) return words[i][1];
     return NULL;
 }
 
@@ -49,7 +63,7 @@ static bool is_infinite(const char *text)
 {
     static const char *const words[] = {"inf", ".inf", "infinity", "nan", ".nan"};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strcasecmp(text, words[i]) == 0) return true;
+        if (same_letters(text, words[i])) return true;
     return false;
 }
 
@@ -102,11 +116,14 @@ bool scalar_check_number(const char *text, struct pos at, const char *what, fbd_
     return !trap;
 }
 
+bool scalar_is_word(char c)
+{
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' || is_digit(c);
+}
+
 bool scalar_is_name(const char *text)
 {
-    for (const char *c = text; *c; c++) {
-        bool letter = (*c >= 'A' && *c <= 'Z') || (*c >= 'a' && *c <= 'z') || *c == '_';
-        if (!letter && (c == text || !is_digit(*c))) return false;
-    }
-    return *text != '\0';
+    for (const char *c = text; *c; c++)
+        if (!scalar_is_word(*c)) return false;
+    return *text != '\0' && !is_digit(*text);
 }

@@ -24,6 +24,9 @@ const char *scalar_boolean_word(const char *text);
  * value in the message. */
 bool scalar_check_number(const char *text, struct pos at, const char *what, fbd_errors *errors);
 
+/* [A-Za-z0-9_], whatever the locale takes for a letter. */
+bool scalar_is_word(char c);
+
 /* [A-Za-z_][A-Za-z0-9_]* */
 bool scalar_is_name(const char *text);
 

@@ -3,28 +3,7 @@
 
 #include <string.h>
 
-size_t source_decode(const char *text, size_t length, unsigned *code)
-{
-    static const unsigned least[] = {0, 0, 0x80, 0x800, 0x10000};
-    if (length == 0) return 0;
-    unsigned lead = (unsigned char)text[0];
-    size_t width = lead < 0x80   ? 1
-                   : lead < 0xC0 ? 0
-                   : lead < 0xE0 ? 2
-                   : lead < 0xF0 ? 3
-                   : lead < 0xF8 ? 4
-                                 : 0;
-    if (width == 0 || width > length) return 0;
-    unsigned value = width == 1 ? lead : lead & (0x7Fu >> width);
-    for (size_t i = 1; i < width; i++) {
-        unsigned byte = (unsigned char)text[i];
-        if ((byte & 0xC0) != 0x80) return 0;
-        value = value << 6 | (byte & 0x3F);
-    }
-    if (value < least[width] || value > 0x10FFFF || (value >= 0xD800 && value <= 0xDFFF)) return 0;
-    *code = value;
-    return width;
-}
+#include "base/utf8.h"
 
 /* What a text file may not hold: C0 and C1 controls, the separators that libyaml takes for line ends and
  * editors do not, a byte order mark in the middle, and the two code points that are no characters. */
@@ -81,7 +60,7 @@ bool source_open(const char *text, size_t length, fbd_errors *errors, struct sou
             continue;
         }
         unsigned code;
-        size_t width = source_decode(text + i, length - i, &code);
+        size_t width = utf8_decode(text + i, length - i, &code);
         if (width == 0) {
             note_bad_byte(errors, at, (unsigned char)text[i]);
             return false;

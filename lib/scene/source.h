@@ -22,10 +22,6 @@ struct source {
  * first byte that is wrong; otherwise `*source` is what to read. */
 bool source_open(const char *text, size_t length, fbd_errors *errors, struct source *source);
 
-/* The code point at text[0..length) and its number of bytes; 0 bytes when it is not valid UTF-8 (overlong
- * forms and surrogates are not). */
-size_t source_decode(const char *text, size_t length, unsigned *code);
-
 /* True when a line ends with the byte at `text`: LF, or CR unless LF follows (CR LF is one line end). */
 static inline bool source_line_ends(const char *text, const char *end)
 {

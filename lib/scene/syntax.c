@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene/syntax.h"
 
-#include <ctype.h>
 #include <string.h>
+
+#include "base/utf8.h"
+#include "scene/scalar.h"
 
 struct pos syntax_place(yaml_mark_t mark)
 {
@@ -80,7 +82,7 @@ static size_t leading_blanks(struct source line)
 static int glued_colon(struct source line)
 {
     size_t start = leading_blanks(line), i = start;
-    while (i < line.length && (isalnum((unsigned char)line.text[i]) || line.text[i] == '_')) i++;
+    while (i < line.length && scalar_is_word(line.text[i])) i++;
     bool glued = i > start && i + 1 < line.length && line.text[i] == ':' && line.text[i + 1] != ' ';
     return glued ? (int)i + 1 : 0;
 }
@@ -122,7 +124,7 @@ static bool explain_unit_in_flow(const struct source *source, struct pos at, fbd
     unsigned code;
     size_t i = 0;
     for (int column = 1; column < at.column && i < line.length; column++)
-        i += source_decode(line.text + i, line.length - i, &code);
+        i += utf8_decode(line.text + i, line.length - i, &code);
     if (i == 0 || i >= line.length || line.text[i] != '[' || strchr(" ,[{:", line.text[i - 1])) return false;
     diag_add(errors, FBD_ERROR, "yaml-syntax", at,
              "write for example {value: \"4[N/s]*t\"}, or give the entry lines of its own",

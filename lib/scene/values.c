@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene/values.h"
 
+#include "base/utf8.h"
 #include "scene/scalar.h"
 
 #include <string.h>
@@ -17,7 +18,7 @@ const char *value_found(struct reader *reader, const struct node *node)
     size_t shown = 0;
     while (shown < node->length && shown < most_shown) {
         unsigned code;
-        shown += source_decode(node->text + shown, node->length - shown, &code);
+        shown += utf8_decode(node->text + shown, node->length - shown, &code);
     }
     const char *text =
         diag_hint(reader->errors, "`%.*s%s`", (int)shown, node->text, shown < node->length ? "..." : "");

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/format.h"
 #include "solve/ensemble.h"
 
 /* ---- the queue: a binary heap with the group that is furthest behind on top */
@@ -175,7 +176,7 @@ static void rewind_group(struct ensemble *ensemble, size_t p, double t)
 
 static void end_cut(struct ensemble *ensemble)
 {
-    snprintf(ensemble->own_reason, sizeof ensemble->own_reason, "interrupted at t = %.9g", ensemble->t);
+    format_into(ensemble->own_reason, sizeof ensemble->own_reason, "interrupted at t = %.9g", ensemble->t);
     ensemble_fail(ensemble, FBD_INTERRUPTED, ensemble->own_reason);
 }
 

@@ -6,6 +6,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "base/format.h"
 #include "solve/run.h"
 
 void run_fail(struct run *run, fbd_outcome outcome, const char *format, ...)
@@ -15,7 +16,7 @@ void run_fail(struct run *run, fbd_outcome outcome, const char *format, ...)
     va_list args;
     va_start(args, format);
     /* NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): it is, a line above */
-    vsnprintf(run->reason, sizeof run->reason, format, args);
+    format_list(run->reason, sizeof run->reason, format, args);
     va_end(args);
 }
 

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "draw/svg.h"
 #include "study/cost.h"
 
 enum { width = 960, height = 640, left = 86, right = 800, top = 74, bottom = 560, label_pitch = 17 };
@@ -70,18 +71,6 @@ static bool find_axes(const fbd_cost *cost, struct axes *axes)
 }
 
 /* ---- pieces */
-
-static void escaped(struct text *text, const char *words)
-{
-    for (const char *c = words; *c; c++) {
-        if (*c == '<')
-            text_add(text, "&lt;");
-        else if (*c == '&')
-            text_add(text, "&amp;");
-        else if ((unsigned char)*c >= 0x20)
-            text_add_bytes(text, c, 1);
-    }
-}
 
 /* A coordinate on the paper, to a hundredth. */
 static void place(struct text *text, double value)
@@ -366,7 +355,7 @@ char *fbd_cost_svg(const fbd_cost *cost)
         "<rect width=\"%d\" height=\"%d\" fill=\"#ffffff\"/>\n",
         width, height, width, height, style, width, height);
     begin_text(&text, left, 32, " class=\"title\"");
-    escaped(&text, title[0] ? title : "What accuracy costs");
+    svg_escape(&text, title[0] ? title : "What accuracy costs");
     text_add(&text, "</text>\n");
     begin_text(&text, left, 54, "");
     text_add(&text, "Error against time over ");

@@ -195,8 +195,7 @@ char *fbd_cost_text(const fbd_cost *cost)
 {
     if (!cost) return NULL;
     struct text text = {0};
-    const char *title = fbd_model_title(cost->model);
-    if (title[0]) text_printf(&text, "%s\n\n", title);
+    text_heading(&text, fbd_model_title(cost->model));
     text_printf(&text, "What accuracy costs, over %.6g s\n", cost->until);
     measure(&text, cost);
     table(&text, cost);

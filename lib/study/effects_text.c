@@ -75,8 +75,7 @@ char *fbd_effects_text(const fbd_effects *effects)
 {
     if (!effects) return NULL;
     struct text text = {0};
-    const char *title = fbd_model_title(effects->model);
-    if (title[0]) text_printf(&text, "%s\n\n", title);
+    text_heading(&text, fbd_model_title(effects->model));
     text_printf(&text, "What each effect changes and costs, over %.6g s; the scene as it is takes ",
                 effects->until);
     text_seconds(&text, effects->seconds);

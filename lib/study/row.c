@@ -2,6 +2,7 @@
  *
  * One run of a sweep, and its row.
  */
+#include "base/utf8.h"
 #include "output/finite_result.h"
 #include "solve/options.h"
 #include "study/sweep.h"
@@ -53,21 +54,22 @@ bool row_maker_set(struct row_maker *maker, uint64_t run)
 
 /* ---- pieces of a row */
 
-/* A field of CSV (RFC 4180) on one line: a row that was cut off is known by its missing end of line. */
+/* A field of CSV (RFC 4180) on one line: a row that was cut off is known by its missing end of line. What a
+ * table program would take for a formula (a file may be called `=1+1.yaml`) is marked as a text. */
 static void put_field(struct text *text, const char *field)
 {
     text_add(text, ",");
-    if (!field[strcspn(field, ",\"\r\n")]) {
-        text_add(text, field);
-        return;
+    bool formula = field[0] && strchr("=+-@", field[0]);
+    bool quoted = formula || field[strcspn(field, ",\"")];
+    if (quoted) text_add(text, "\"");
+    if (formula) text_add(text, "'");
+    while (*field) {
+        struct utf8_shown next = utf8_show(field);
+        text_add_bytes(text, next.text, next.length);
+        if (*field == '"') text_add(text, "\"");
+        field += next.taken;
     }
-    text_add(text, "\"");
-    for (const char *c = field; *c; c++) {
-        bool line = *c == '\n' || *c == '\r';
-        text_add_bytes(text, line ? " " : c, 1);
-        if (*c == '"') text_add(text, "\"");
-    }
-    text_add(text, "\"");
+    if (quoted) text_add(text, "\"");
 }
 
 static void put_start(struct row_maker *maker, uint64_t run, struct text *text)

@@ -172,7 +172,7 @@ import os, random, resource, shutil, subprocess, sys
 program, model = sys.argv[1:]
 sweep = [program, "--quiet", "--vary", "mu_k=0.1:0.6:40", "--jobs", "1", "--csv", "d.csv"]
 def run(*more, **how):
-    return subprocess.run([*sweep, *more, model], stderr=subprocess.PIPE, text=True, errors="replace", **how)
+    return subprocess.run([*sweep, *more, model], stderr=subprocess.PIPE, text=True, **how)
 run()
 whole = open("d.csv", "rb").read()
 os.remove("d.csv")

@@ -100,6 +100,11 @@ static void errors_and_models(void **state)
     ANSWERS(fbd_errors_failed, fbd_errors_failed(NULL) == 0);
     ANSWERS(fbd_errors_get, !fbd_errors_get(NULL, 0));
     ANSWERS(fbd_errors_get, !fbd_errors_get(errors, past));
+    char shown[4];
+    ENDURES(fbd_shown, assert_int_equal(fbd_shown(NULL, shown, sizeof shown), 0));
+    ENDURES(fbd_shown, assert_int_equal(fbd_shown("\x1b[", NULL, 0), 5));
+    ENDURES(fbd_shown, assert_int_equal(fbd_shown("ab\xE2\x80\xAE", shown, sizeof shown), 8));
+    assert_string_equal(shown, "ab"); /* whole characters only */
     ENDURES(fbd_errors_print, fbd_errors_print(NULL, stderr));
     ENDURES(fbd_errors_print, fbd_errors_print(errors, NULL));
     ENDURES(fbd_errors_free, fbd_errors_free(NULL));

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/format.h"
+
+#include <locale.h>
+#include <stdio.h>
+
+/* The C locale is a constant of the C library (glibc, musl): asking for it takes no memory and cannot fail.
+ * uselocale is a matter of this thread alone. */
+int format_list(char *buffer, size_t size, const char *format, va_list args)
+{
+    locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    locale_t before = plain ? uselocale(plain) : (locale_t)0;
+    int length = vsnprintf(buffer, size, format, args);
+    if (before) uselocale(before);
+    if (plain) freelocale(plain);
+    return length;
+}
+
+int format_into(char *buffer, size_t size, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    int length = format_list(buffer, size, format, args);
+    va_end(args);
+    return length;
+}
