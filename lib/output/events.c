@@ -3,7 +3,9 @@
  * Events in words, and the units of a scene.
  */
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/format.h"
 #include "output/result.h"
@@ -34,6 +36,20 @@ const char *event_name(const struct fbd_model *model, const struct run_event *ev
     return event->load >= 0 ? model->loads[event->load].source->name : "";
 }
 
+/* A located loss is a rounding below zero; a jump of the forces may go straight to a pull. The load of a
+ * `roll` is known by its friction; what is lost is its normal force. */
+static void contact_lost_detail(const struct run_event *event, const char *name, const char *unit,
+                                char *detail, size_t size)
+{
+    const char *dot = strchr(name, '.'), *of = dot ? ".normal" : "";
+    int length = (int)(dot ? dot - name : (ptrdiff_t)strlen(name));
+    if (event->force < -1e5 * event->limit)
+        format_into(detail, size, "%.*s%s would have to pull with %.6g %s", length, name, of, -event->force,
+                    unit);
+    else
+        snprintf(detail, size, "%.*s%s reaches zero", length, name, of);
+}
+
 void event_detail(const struct fbd_model *model, const struct run_event *event, char *detail, size_t size)
 {
     const char *name = event_name(model, event);
@@ -45,6 +61,12 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
                     unit, event->limit, unit);
         return;
     case FBD_EVENT_STICK:
+        if (fabs(event->force) > event->limit * (1 + 1e-6)) { /* decided before another hold */
+            format_into(detail, size,
+                        "%s is at rest; it would take %+.6g %s to hold it, where it can bear %.6g %s", name,
+                        event->force, unit, fmax(event->limit, 0), unit);
+            return;
+        }
         format_into(detail, size, "%s holds with %+.6g %s, %.3g %% of its static limit %.6g %s", name,
                     event->force, unit, event->limit > 0 ? 100 * fabs(event->force) / event->limit : 0,
                     event->limit, unit);
@@ -53,13 +75,7 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
         format_into(detail, size, "%s cannot hold it: slips back with %+.6g %s; the static limit is %.6g %s",
                     name, event->force, unit, event->limit, unit);
         return;
-    case FBD_EVENT_CONTACT_LOST:
-        /* A located loss is a rounding below zero; a jump of the forces may go straight to a pull. */
-        if (event->force < -1e5 * event->limit)
-            format_into(detail, size, "%s would have to pull with %.6g %s", name, -event->force, unit);
-        else
-            snprintf(detail, size, "%s reaches zero", name);
-        return;
+    case FBD_EVENT_CONTACT_LOST: contact_lost_detail(event, name, unit, detail, size); return;
     case FBD_EVENT_USER: snprintf(detail, size, "%s", name); return;
     case FBD_EVENT_ROPE_SLACK: snprintf(detail, size, "%s goes slack", name); return;
     case FBD_EVENT_ROPE_TAUT:

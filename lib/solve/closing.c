@@ -128,7 +128,7 @@ static bool overlong_rope(struct run *run, double most)
             run, FBD_FAILED,
             "at t = %.9g the rope `%s` is longer than it is by %.3g: the instant at which it became taut "
             "was missed. Try a smaller tolerance or step",
-            run->state->t, run->model->tree->ties[tie].name, excess);
+            run_time(run), run->model->tree->ties[tie].name, excess);
         return true;
     }
     return false;
@@ -166,7 +166,7 @@ void run_close_step(struct run *run)
             run, FBD_FAILED,
             "at t = %.9g the coupling `%s` is off by %.3g, far more than the error of a step: the mechanism "
             "moves too fast there for the tolerance or the step",
-            run->state->t, tie_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0), misfit.position);
+            run_time(run), tie_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0), misfit.position);
         return;
     }
     /* Where a mechanism can fold over to another branch (all bars in one line) a step may start to, and going
@@ -176,14 +176,14 @@ void run_close_step(struct run *run)
         run_fail(run, FBD_FAILED,
                  "at t = %.9g the couplings pass a singular position, where the mechanism could go on in "
                  "two ways, and the step cannot tell which: try another tolerance or --method dop853",
-                 run->state->t);
+                 run_time(run));
         return;
     }
     if (left.position <= 1e3 * fmax(run->options.tolerance, 1e-12) * reach) return;
     run_fail(run, FBD_FAILED,
              "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the mechanism is "
              "at the end of its reach, or the tolerance is too large",
-             run->state->t, tie_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0),
+             run_time(run), tie_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0),
              misfit.position);
 }
 

@@ -30,7 +30,7 @@ static struct run_event *note(struct run *run, fbd_event_kind kind, int body, in
         run->event_room = room;
     }
     struct run_event *event = &run->events[run->event_count++];
-    *event = (struct run_event){.t = run->state->t, .kind = kind, .body = body, .load = load, .watch = watch};
+    *event = (struct run_event){.t = run_time(run), .kind = kind, .body = body, .load = load, .watch = watch};
     return event;
 }
 
@@ -213,14 +213,12 @@ void run_apply_touched(struct run *run, bool at_event)
     }
 }
 
-static void fail_chatter(struct run *run, const char *name)
+/* `load` is what `name` names, or -1: an event of the file, or an expression in one. */
+static void fail_chatter(struct run *run, int load, const char *name)
 {
-    run_fail(
-        run, FBD_FAILED,
-        "at t = %.9g events chatter: `%s` changes its branch again and again while hardly any time passes. A "
-        "force that "
-        "jumps against the motion, as c*sign(v), is dry friction: declare it as `friction`",
-        run->state->t, name);
+    run_fail(run, FBD_FAILED,
+             "at t = %.9g events chatter: `%s` changes again and again while hardly any time passes. %s",
+             run_time(run), name, unsettled_advice(run->model, load));
 }
 
 /* A switch that has just been crossed and whose new branch already ends: the forces on both sides push back
@@ -241,33 +239,34 @@ static void refuse_sliding(struct run *run, const bool *moving)
                 back->kind == watch_kink && back->index == watcher->index && back->part == watcher->part;
             if (!same || back->end == watcher->end || !(rate[k] < 0)) continue;
             int load = run->model->plan.kinks[watcher->index].load;
-            fail_chatter(run, load >= 0 ? run->model->loads[load].source->name : "an event");
+            fail_chatter(run, load, load >= 0 ? run->model->loads[load].source->name : "an event");
         }
     }
 }
 
-/* What the last event was about. */
-static const char *name_of_last(const struct run *run)
+void run_fail_chatter(struct run *run)
 {
     static const struct run_event nothing = {.load = -1, .watch = -1};
     const struct run_event *event = run->event_count > 0 ? &run->events[run->event_count - 1] : &nothing;
-    return event->load >= 0    ? run->model->loads[event->load].source->name
-           : event->watch >= 0 ? run->model->plan.watches[event->watch].source->name
-                               : "an expression";
-}
-
-void run_fail_chatter(struct run *run)
-{
-    fail_chatter(run, name_of_last(run));
+    const char *name = event->load >= 0    ? run->model->loads[event->load].source->name
+                       : event->watch >= 0 ? run->model->plan.watches[event->watch].source->name
+                                           : "an expression";
+    fail_chatter(run, event->load, name);
 }
 
 /* Events that crowd at one instant never let time pass: a sliding mode that no friction entry declares, or an
- * infinite sequence. */
+ * infinite sequence. An instant is measured against the time that has passed and against steps of this run,
+ * for its end may be very far away; at the start, where no step has got anywhere, against the first one
+ * proposed. */
 static void count_crowd(struct run *run)
 {
     enum { most_at_once = 200 };
-    double span = 1e-12 * fmax(fabs(run->state->t), run->options.until);
-    run->crowd = run->state->t - run->last_event <= span ? run->crowd + 1 : 0;
+    const double instant = 1e-12, steps = 1e6;
+    double t = fabs(run->state->t);
+    run->longest = fmax(run->longest, run->state->t - run->from);
+    double span = instant * fmax(t, fmin(run->options.until, steps * run->longest));
+    bool crowded = run->state->t - run->last_event <= span || t <= instant * run->first_step;
+    run->crowd = crowded ? run->crowd + 1 : 0;
     run->last_event = run->state->t;
     if (run->crowd < most_at_once || run->outcome != FBD_GOING) return;
     run_fail_chatter(run);
@@ -307,11 +306,9 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
         for (size_t i = 0; crossed[s] && i < sets[s]->count; i++)
             if (crossed[s][i]) happen(run, &sets[s]->watchers[i], crossing);
     if (!modes_settle(run->state, &run->decided) && run->outcome == FBD_GOING)
-        run_fail(
-            run, FBD_FAILED,
-            "at t = %.9g no choice of branches and of stick or slip agrees with the forces. A force that "
-            "jumps against the motion, as c*sign(v), is dry friction: declare it as `friction`",
-            run->state->t);
+        run_fail(run, FBD_FAILED,
+                 "at t = %.9g no choice of branches and of stick or slip agrees with the forces. %s",
+                 run_time(run), unsettled_advice(run->model, -1));
     note_frictions(run, moving);
     refuse_sliding(run, moving);
     run_apply_touched(run, true);

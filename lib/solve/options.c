@@ -47,18 +47,21 @@ bool options_choose(const struct fbd_model *model, const fbd_options *given, str
                         : file->tolerance > 0 ? file->tolerance
                                               : default_tolerance;
     chosen->step = given->step != 0 ? given->step : file->step;
+    if (!isnan(given->until)) diag_in_file(errors, NULL); /* the file has nothing to do with it */
     if (isnan(chosen->until))
         bad_option(errors, "no-end-time", "write `simulate: {until: 2 s}` or give --until",
                    "the model has no end time");
     else if (!(chosen->until >= 0) || isinf(chosen->until))
         bad_option(errors, "bad-option", "runs start at t = 0",
                    "the end time lies before the start or is not finite");
+    diag_in_file(errors, given->tolerance != 0 ? NULL : model->scene->file);
     if (!(chosen->tolerance > 0 && chosen->tolerance <= 0.1))
         bad_option(errors, "bad-option", "1e-10 is the default",
                    "the tolerance must be above 0 and at most 0.1");
     else if (chosen->tolerance < DBL_EPSILON)
         bad_option(errors, "bad-option", "1e-13 is about what a run can keep; 1e-10 is the default",
                    "the tolerance is below what numbers resolve (2.2e-16)");
+    diag_in_file(errors, given->step != 0 ? NULL : model->scene->file);
     if (!(chosen->step >= 0) || isinf(chosen->step))
         bad_option(errors, "bad-option", NULL, "the step size must be positive");
     return fbd_errors_failed(errors) == before;

@@ -49,6 +49,18 @@ static void start(struct ensemble *ensemble, bool lazy)
 
 /* ---- steps */
 
+/* What forces do over a step is summed up from states within it; where there are none, no memory is missing.
+ */
+static void fail_within(struct ensemble *ensemble, const struct run *run)
+{
+    format_into(
+        ensemble->own_reason, sizeof ensemble->own_reason,
+        "between t = %.9g and t = %.9g the motion cannot be told: the step is a rounding of the time, or "
+        "a force has no value there",
+        run->from, run->state->t);
+    ensemble_fail(ensemble, FBD_FAILED, ensemble->own_reason);
+}
+
 /* One step of a group. A run that fails may have made none. */
 static void step(struct ensemble *ensemble, size_t p)
 {
@@ -57,7 +69,7 @@ static void step(struct ensemble *ensemble, size_t p)
     run_advance(run);
     const struct observer *observer = &ensemble->observer;
     if (observer->step && run->state->t > run->from && !observer->step(observer->context, ensemble, p))
-        ensemble_fail(ensemble, FBD_OUT_OF_MEMORY, "out of memory");
+        fail_within(ensemble, run);
     ensemble->stepping = false;
     if (run->outcome == FBD_OUT_OF_MEMORY) ensemble_fail(ensemble, run->outcome, run->reason);
 }

@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "base/format.h"
+#include "solve/fit.h"
 #include "solve/run.h"
 
 void run_fail(struct run *run, fbd_outcome outcome, const char *format, ...)
@@ -18,6 +19,12 @@ void run_fail(struct run *run, fbd_outcome outcome, const char *format, ...)
     /* NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): it is, a line above */
     format_list(run->reason, sizeof run->reason, format, args);
     va_end(args);
+}
+
+double run_time(const struct run *run)
+{
+    const double nothing = 1e-20;
+    return fabs(run->state->t) < nothing * run->first_step ? 0 : run->state->t;
 }
 
 static const char *body_of(const struct run *run, size_t element)
@@ -39,8 +46,31 @@ static size_t fastest(const struct run *run)
     return worst;
 }
 
+/* A rope that is about to lose its way to a pulley, a millionth of the run ahead: its pull has no direction
+ * there. */
+static bool explain_blocked_rope(struct run *run)
+{
+    const double ahead = 1e-6 * fmin(run->options.until, fabs(run->state->t));
+    size_t n = (size_t)run->model->plan.n;
+    struct fbd_state *next = state_new(run->model);
+    struct text why = {0};
+    if (next) {
+        state_copy(next, run->state);
+        for (size_t i = 0; i < n; i++) next->y[i] += ahead * next->y[n + i];
+    }
+    bool blocked = next && fit_blocked(next, NULL, &why) && !why.failed;
+    if (blocked)
+        run_fail(run, FBD_FAILED,
+                 "at t = %.9g a rope reaches its pulley: %s, or end the run before by an event",
+                 run_time(run), why.data);
+    text_free(&why);
+    state_free(next);
+    return blocked;
+}
+
 static void explain_not_finite(struct run *run)
 {
+    if (explain_blocked_rope(run)) return;
     size_t n = (size_t)run->model->plan.n, element = run->system.last_element % (2 * n);
     const char *what =
         isnan(run->system.last_value)
@@ -50,7 +80,7 @@ static void explain_not_finite(struct run *run)
         run, FBD_FAILED,
         "a force on `%s` is not finite at t = %.9g, just beyond the last good state at t = %.9g: %s. End the "
         "run before by an event, or restrict the expression",
-        body_of(run, element), run->system.last_time, run->state->t, what);
+        body_of(run, element), run->system.last_time, run_time(run), what);
 }
 
 void run_fail_pole(struct run *run, const struct pole *pole)
@@ -60,7 +90,7 @@ void run_fail_pole(struct run *run, const struct pole *pole)
              "at t = %.9g `%s` of `%s` divides by zero, to the rounding of the time: the force is infinite "
              "there, and how the motion goes on depends on more digits than numbers have. End the run before "
              "by an event, or bound the force",
-             run->state->t, model->loads[pole->load].source->name, model->bodies[pole->body].name);
+             run_time(run), model->loads[pole->load].source->name, model->bodies[pole->body].name);
 }
 
 void run_fail_step(struct run *run, enum stepper_status status)
@@ -79,12 +109,12 @@ void run_fail_step(struct run *run, enum stepper_status status)
             run, FBD_FAILED,
             "at t = %.9g the implicit equations of `%s` were not solved (body `%s`): the motion may run away "
             "there, or the method be at its end. Try another one",
-            run->state->t, run->options.method->name, body_of(run, fastest(run)));
+            run_time(run), run->options.method->name, body_of(run, fastest(run)));
     } else {
         run_fail(run, FBD_FAILED,
                  "the step size underflows at t = %.9g: `%s` moves ever faster, as towards a singular point, "
                  "and no step is "
                  "small enough. End the run before by an event, or look for a missing force",
-                 run->state->t, body_of(run, fastest(run)));
+                 run_time(run), body_of(run, fastest(run)));
     }
 }

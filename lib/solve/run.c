@@ -202,6 +202,7 @@ static bool restart(struct run *run)
         run_fail_step(run, stepper_bad_function);
         return false;
     }
+    if (run->first_step == 0) run->first_step = run->h;
     if (run->kind == structure_constant) run->h = run->options.until - run->state->t;
     if (run->kind == structure_linear) {
         linear_pace_start(&run->pace, &run->system, run->state->t, run->y);

@@ -58,6 +58,8 @@ struct run {
     struct fbd_state *during; /* modes of the last step; its scratch serves samples within it */
     double from;              /* start of the last step; it ends at state->t */
     double h;                 /* step size proposed */
+    double first_step;        /* the first one that was */
+    double longest;           /* step to an event so far */
     bool restart;             /* the stepper has to start anew */
     int snap_pair;            /* the rope that has just snapped taut, or -1 */
     double snap_work;         /* what that has taken (below zero) */
@@ -149,6 +151,9 @@ void run_set_noise(struct run *run);
 /* After a step without an event: from time to time how well the accelerations are known now, as the forces in
  * joints change with the motion. */
 void run_renew_noise(struct run *run);
+
+/* The time as it is told: what is nothing beside the first step is a rounding of the start. */
+double run_time(const struct run *run);
 
 /* End the run with a reason. */
 void run_fail_step(struct run *run, enum stepper_status status);

@@ -2,6 +2,7 @@
 #include "solve/start.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "dynamics/finite.h"
 #include "dynamics/modes.h"
@@ -39,13 +40,29 @@ bool start_fits(struct fbd_state *state, struct fbd_state *other, bool modes, co
     return false;
 }
 
-static bool is_settled(bool settled, struct lack *lack)
+/* Is it friction already? What rolls has its friction under the name of the coupling. */
+static bool is_friction(const struct load *load)
+{
+    return load->kind == load_friction || load->kind == moment_friction || load->kind == load_rope ||
+           strchr(load->name, '.');
+}
+
+const char *unsettled_advice(const struct fbd_model *model, int load)
+{
+    bool declared = load >= 0 ? is_friction(model->loads[load].source) : model->plan.kink_count == 0;
+    return declared
+               ? "What holds there depends on what else holds, which is decided in turn: such holds are not "
+                 "followed yet"
+               : "A force that jumps against the motion, as c*sign(v), is dry friction: declare it as "
+                 "`friction`";
+}
+
+static bool is_settled(const struct fbd_model *model, bool settled, struct lack *lack)
 {
     if (settled) return true;
     lack->id = "unsettled";
-    text_add(&lack->text,
-             "at the start no choice of branches and of stick or slip agrees with the forces. A force that "
-             "jumps against the motion, as c*sign(v), is dry friction: declare it as `friction`");
+    text_add(&lack->text, "at the start no choice of branches and of stick or slip agrees with the forces. ");
+    text_add(&lack->text, unsettled_advice(model, -1));
     return false;
 }
 
@@ -57,7 +74,10 @@ void start_contact_words(const struct fbd_model *model, const struct contact *co
     text_printf(text, " `%s` leaves its surface: the normal force would have to pull (N = ",
                 model->bodies[contact->body].name);
     text_number(text, N, 6);
-    text_add(text, "). Declare the normal force `two_sided` if it is a guide, or end the run before");
+    /* The surface of a `roll`, known by its name and not by an entry of the body, has no other side. */
+    bool listed = !strchr(model->loads[contact->load].source->name, '.');
+    text_add(text, listed ? "). Declare the normal force `two_sided` if it is a guide, or end the run before"
+                          : "). What rolls is not held to its line: end the run before, by an event");
 }
 
 /* No surface has to pull. */
@@ -99,8 +119,8 @@ bool start_ready(struct fbd_state *state, struct fbd_state *other, const char *w
     if (!start_fits(state, other, settled, what, lack)) return false;
     if (settled) state_project(state, false); /* what slips is not closed */
     settled = modes_settle(state, NULL);
-    return start_finite(state, lack) && is_settled(settled, lack) && rests_on_surfaces(state, lack) &&
-           is_solved(state, lack) && is_balanced(state, lack);
+    return start_finite(state, lack) && is_settled(state->model, settled, lack) &&
+           rests_on_surfaces(state, lack) && is_solved(state, lack) && is_balanced(state, lack);
 }
 
 bool start_question(struct fbd_state *state, bool modes, fbd_errors *errors)

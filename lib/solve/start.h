@@ -45,4 +45,8 @@ void start_contact_words(const struct fbd_model *model, const struct contact *co
 /* What is lacking, as a note in `errors`. */
 void lack_note(struct lack *lack, fbd_errors *errors);
 
+/* What to do where no choice of stick or slip lasts. `load` is the load that goes back and forth, or -1 when
+ * no one does. */
+const char *unsettled_advice(const struct fbd_model *model, int load);
+
 #endif
