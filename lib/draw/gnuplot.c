@@ -116,19 +116,21 @@ bool fbd_model_has_columns(const fbd_model *model, const char *columns, fbd_erro
 
 /* ---- the script */
 
-/* Between single quotes gnuplot takes everything as it is, commands as well, but for a quote: it may be
- * doubled, but not as the first character, where the text would end. So it becomes a typographic one.
+/* Between single quotes gnuplot takes everything as it is, commands as well, and '' for one quote; but not at
+ * the start, and not for two in a row, where the text would end. So such a quote becomes a typographic one.
  * Gnuplot's SVG has no escape for the end of a CDATA section, which XML does not allow in a text. */
 static void quote(struct text *text, const char *string)
 {
+    char before = '\'';
     text_add(text, "'");
     while (*string) {
         struct utf8_shown next = utf8_show(string);
         if (*string == '\'')
-            text_add(text, "\u2019");
+            text_add(text, before == '\'' ? "\u2019" : "''");
         else
             text_add_bytes(text, next.text, next.length);
         if (strncmp(string, "]>", 2) == 0) text_add(text, " ");
+        before = *string;
         string += next.taken;
     }
     text_add(text, "'");
