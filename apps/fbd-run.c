@@ -185,9 +185,12 @@ static enum exit_code draw_diagram(const fbd_model *model, const struct options 
     if (!options->svg) return exit_done;
     fbd_state *state = fbd_state_new(model);
     if (!state) return no_memory();
-    /* A start that cannot be has no diagram; the run that follows says why. */
-    bool refused = options->at_count == 0 && !fbd_state_close(state, NULL);
-    enum exit_code code = refused ? exit_done : place(model, options, state, errors);
+    /* A start that cannot be has no diagram; the run that follows says why, but for memory. */
+    fbd_errors *why = fbd_errors_new();
+    bool refused = options->at_count == 0 && !fbd_state_close(state, why);
+    bool lacking = !why || exit_code_for(exit_done, why) != exit_done;
+    fbd_errors_free(why);
+    enum exit_code code = lacking ? no_memory() : refused ? exit_done : place(model, options, state, errors);
     if (code == exit_done && !refused) code = draw_state(options, state, errors);
     fbd_state_free(state);
     return code;
