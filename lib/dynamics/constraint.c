@@ -366,9 +366,13 @@ struct rope_state rope_at(const struct fbd_model *model, const struct instant *a
     double length = fabs(at->tree->ties[tie].zero), speed = 0, reach = 0;
     for (int k = 0; k < rope->end_count; k++) {
         const struct tree_state *s = &at->tree->links[rope->end[k].link];
+        double arm = rope->end[k].radius + vec_norm(rope->end[k].point);
         reach = fmax(reach, vec_norm(s->p) + rope->end[k].radius);
-        speed = fmax(speed,
-                     vec_norm(s->v) + fabs(s->omega) * (rope->end[k].radius + vec_norm(rope->end[k].point)));
+        /* What stands still as one joint takes back what another does has the rounding of both. */
+        for (int l = rope->end[k].link; l > 0; l = model->tree->links[l].parent) {
+            const struct tree_state *below = &at->tree->links[l];
+            speed = fmax(speed, vec_norm(below->v) + fabs(below->omega) * arm);
+        }
     }
     length += reach;
     state.rounding = 16 * DBL_EPSILON * length;

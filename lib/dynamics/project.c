@@ -96,7 +96,10 @@ double state_acceleration_misfit(const struct fbd_state *state, int *row)
     }
     for (int j = 0; j < model->tree->row_count; j++) {
         double miss = fabs(work->rows[j].g.x2);
-        if (!tree_takes_part(model->tree, &at, j) || miss <= worst || isnan(worst)) continue;
+        if (!tree_takes_part(model->tree, &at, j)) continue;
+        for (int i = 0; i < work->rows[j].port_count; i++)
+            force = fmax(force, fabs(work->rows[j].lambda) * vec_norm(work->rows[j].ports[i].force));
+        if (miss <= worst || isnan(worst)) continue;
         worst = miss;
         *row = j;
     }

@@ -368,9 +368,47 @@ static void a_pin_on_the_axis_but_for_rounding_holds_nothing(void **unused)
     checks_end(&checks);
 }
 
+/* Where all is held and gravity does not act, what the couplings take is the size of the forces. */
+static void what_is_held_altogether_is_not_refused_for_rounding(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct trial held =
+        trial_parse("fbd: 1\ngravity: [0, 0]\nground: {points: {A: [0.474, -1.653]}}\nbodies:\n  bob:\n"
+                    "    mass: 0.962\n    shape: disc\n    radius: 1\n    center: [0.244, -0.029]\n"
+                    "    points: {P: [0.438, -0.313]}\n    motion: particle\n"
+                    "    initial: {x: 0.036, y: -1.34}\n"
+                    "    forces: [{spring: {stiffness: 18, to: [6.505, 3.459], free_length: 3.165}}]\n"
+                    "couplings: [pin: {between: [bob.P, ground.A]}]\nsimulate: {until: 1}\n");
+    trial_start(&held, NULL);
+    fbd_simulation_advance(held.simulation);
+    check_that(&checks, "its force can be told",
+               strstr(fbd_simulation_reason(held.simulation), "cannot be told") == NULL);
+    trial_close(&held);
+    checks_end(&checks);
+}
+
+/* The plate stands still but for rounding, as its joint takes back what the arm does; its rope, which the
+ * moment slackens, does not push: I_O alpha = M, with I_O = 2 * 1^2 / 2. */
+static void a_rope_on_what_two_joints_keep_at_rest_does_not_push(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct trial slack = trial_parse(
+        "fbd: 1\nground: {points: {Q: [2, 1]}}\nbodies:\n  arm: {shape: disc, mass: 1, radius: 1, motion: "
+        "pivot, initial: {omega: 1}}\n  plate:\n    shape: disc\n    mass: 2\n    radius: 1\n"
+        "    points: {P: [0, 1]}\n    motion: {pivot: {on: arm}}\n    initial: {omega: -0.9999999999999981}\n"
+        "    moments: [applied: -3]\ncouplings: [rope: {through: [plate.P, ground.Q]}]\n");
+    check_close(&checks, "alpha", trial_acceleration(&slack, "plate.theta"), -3, 1e-12);
+    trial_close(&slack);
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_held_altogether_is_not_refused_for_rounding),
+        cmocka_unit_test(a_rope_on_what_two_joints_keep_at_rest_does_not_push),
         cmocka_unit_test(a_pin_on_the_axis_but_for_rounding_holds_nothing),
         cmocka_unit_test(a_particle_held_beside_its_centre_has_the_couple_that_keeps_it_from_turning),
         cmocka_unit_test(a_parallelogram_with_a_crank_too_many_moves_and_names_what_is_too_much),
