@@ -65,6 +65,11 @@ effects: $(BUILD)/.tests
 	FBD_SOURCE_ROOT=$(CURDIR) FBD_RUN=$(BUILD)/apps/fbd-run FBD_COUNT_RHS=$(BUILD)/tests/bench/count_rhs \
 		FBD_RUN_PLAIN= tests/tools/effects --write docs/effects.md
 
+# 10,500 random scenes whose lists of events are known; takes some minutes.
+events: $(BUILD)/.tests
+	ninja -C $(BUILD) tests/unit/test_events
+	FBD_EVENT_SCENES=1500 $(BUILD)/tests/unit/test_events
+
 # The tables of docs/error-bars.md; takes some ten minutes.
 error-bars: $(BUILD)/.tests
 	ninja -C $(BUILD)
@@ -126,5 +131,5 @@ $(BUILD)-fuzz/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars failures gallery check-format format lint install clean
+.PHONY: all run test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars events failures gallery check-format format lint install clean
 .SECONDARY:

@@ -43,6 +43,7 @@
 
 #include "base/arena.h"
 #include "base/diag.h"
+#include "expr/interval.h"
 #include "expr/unit.h"
 
 /* ---- compiling */
@@ -196,6 +197,17 @@ void expr_resolve(const struct expr *expr, double t, const double *y, double dt,
 
 /* The branch on the other side of end `end` (0 lower, 1 upper) of switch `index`. */
 int expr_branch_beyond(const struct expr *expr, size_t index, int end, int branch);
+
+/* ---- enclosures */
+
+/* The range of the value and of its rate over a stretch of time, for all motions whose slots k >= 1 stay in
+ * y[k - 1]; y may be NULL for anything. Spans beyond the slots in use are not read. */
+struct enclosure expr_enclose(const struct expr *expr, const struct stretch *stretch,
+                              const struct enclosure *y, const int *branch);
+
+/* The same for expr_margins; the two margins that do not exist are the point +HUGE_VAL. */
+void expr_enclose_margins(const struct expr *expr, const struct stretch *stretch, const struct enclosure *y,
+                          const int *branch, struct enclosure *margins);
 
 /* ---- poles */
 

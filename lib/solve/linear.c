@@ -252,6 +252,12 @@ void linear_dense_eval(const gsl_odeiv2_step *step, double theta, double *y)
     leap(&part, theta * s->h, y);
 }
 
+int linear_dense_degree(const gsl_odeiv2_step *step)
+{
+    const struct linear *s = step->state;
+    return s->stepped && s->has_terms ? s->used : 0;
+}
+
 static const gsl_odeiv2_step_type linear_type = {
     .name = "linear",
     .can_use_dydt_in = 1,

@@ -41,6 +41,9 @@ void linear_set_matrix(gsl_odeiv2_step *step, const double *A, double rho);
 int linear_dense_prepare(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys);
 void linear_dense_eval(const gsl_odeiv2_step *step, double theta, double *y);
 
+/* The degree of the polynomial that the last step is, 0 where it is none. */
+int linear_dense_degree(const gsl_odeiv2_step *step);
+
 /* Dense algebra beyond this many pairs costs more than it saves. */
 enum { linear_most_pairs = 8 };
 

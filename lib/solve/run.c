@@ -89,6 +89,7 @@ static bool make_scans(struct run *run)
     const struct watcher_set *timed = &run->watchers.timed, *moving = &run->watchers.moving;
     if (!scan_init(&run->timed, timed->count, sample_timed, run)) return false;
     if (!scan_init(&run->moving, moving->count, sample_moving, run)) return false;
+    if (!run_use_enclosures(run)) return false;
     for (size_t i = 0; i < timed->count; i++) run->timed.rough[i] = timed->watchers[i].rough;
     for (size_t i = 0; i < moving->count; i++) run->moving.rough[i] = moving->watchers[i].rough;
     return true;
@@ -174,6 +175,7 @@ void run_free(struct run *run)
     scan_free(&run->timed);
     scan_free(&run->moving);
     watchers_free(&run->watchers);
+    course_free(&run->course);
     poles_free(&run->poles);
     state_free(run->state);
     state_free(run->during);
@@ -326,7 +328,9 @@ static int find_event(struct run *run, double *t)
     enum { most_dips = 8 };
     const double least_share = 1e-3;
     double start = run->from, end = *t;
+    course_start(&run->course);
     for (int dip = 0; dip < most_dips && start < end; dip++) {
+        run->moving.resumed = dip > 0;
         int found = scan_interval(&run->moving, start, end);
         if (run->moving.resolved < HUGE_VAL) run->h = fmin(run->h, run->moving.resolved);
         if (found <= 0) return found;

@@ -2,10 +2,11 @@
  *
  * Run: the loop that carries a scene through time.
  *
- * One turn of the loop: find the next event of time alone; make one accepted step, at most to there; look on
- * the step's dense output for the first other event; if there is one, go back to it by a partial step and
- * polish its time by Newton; apply all events of that instant; settle the modes; start the stepper anew.
- * Between events everything is smooth, so every method keeps its order.
+ * One turn of the loop: find the next event of time alone, with proof and however many periods ahead; make
+ * one accepted step, at most to there; look on the step's dense output for the first other event, with proof
+ * where its function has enclosures (watchers_can_enclose), else by samples; if there is one, go back to it
+ * by a partial step and polish its time by Newton; apply all events of that instant; settle the modes; start
+ * the stepper anew. Between events everything is smooth, so every method keeps its order.
  */
 #ifndef FBD_SOLVE_RUN_H
 #define FBD_SOLVE_RUN_H
@@ -14,6 +15,7 @@
 #include "dynamics/modes.h"
 #include "dynamics/rates.h"
 #include "dynamics/tree.h"
+#include "solve/course.h"
 #include "solve/linear.h"
 #include "solve/poles.h"
 #include "solve/scan.h"
@@ -76,6 +78,8 @@ struct run {
 
     struct watchers watchers;
     struct scan timed, moving;
+    struct stretch enclosed; /* that the course has been enclosed over */
+    struct course course;    /* of what moving functions with enclosures read */
     struct poles poles;
     struct switcher *stepper;
     struct linear_pace pace; /* of a linear system */
@@ -118,6 +122,9 @@ bool run_coordinates(struct run *run, double t, double *y);
 int run_panels(const struct run *run);
 
 /* ---- for the files of the loop */
+
+/* Let the scans work with enclosures (run_enclose.c). False when memory is out. */
+bool run_use_enclosures(struct run *run);
 
 /* Apply what has happened at run->state: `timed` and `moving` flag the functions of each set that have
  * crossed; NULL for none. Settles the modes. */

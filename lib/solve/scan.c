@@ -20,12 +20,15 @@ bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *cont
     *scan = (struct scan){.count = count, .sample = sample, .context = context, .known = NAN};
     scan->points = calloc(points, sizeof *scan->points);
     scan->memory = calloc(count * points * arrays + 1, sizeof *scan->memory);
-    scan->rough = calloc(2 * count + 1, sizeof *scan->rough);
+    scan->rough = calloc(4 * count + 1, sizeof *scan->rough);
     if (!scan->points || !scan->memory || !scan->rough) {
         scan_free(scan);
         return false;
     }
     scan->crossed = scan->rough + count;
+    scan->sampled = scan->crossed + count;
+    scan->chosen = scan->sampled + count;
+    for (size_t i = 0; i < count; i++) scan->sampled[i] = true;
     double *next = scan->memory;
     for (int i = 0; i < points; i++, next += arrays * count)
         scan->points[i] = (struct scan_point){0, next, next + count, next + 2 * count};
@@ -34,10 +37,30 @@ bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *cont
 
 void scan_free(struct scan *scan)
 {
+    free(scan->prover.now);
+    free(scan->prover.waiting);
     free(scan->points);
     free(scan->memory);
     free(scan->rough);
     *scan = (struct scan){0};
+}
+
+bool scan_use_enclosures(struct scan *scan, struct proof_group *groups, size_t count, proof_enclose *enclose,
+                         scan_follower *follow)
+{
+    size_t most = 0;
+    for (size_t g = 0; g < count; g++)
+        if (groups[g].count > most) most = groups[g].count;
+    scan->prover = (struct prover){.enclose = enclose,
+                                   .context = scan->context,
+                                   .now = calloc(2 * most + 1, sizeof *scan->prover.now),
+                                   .waiting = calloc(most + 1, sizeof *scan->prover.waiting)};
+    if (!scan->prover.now || !scan->prover.waiting) return false;
+    scan->prover.end = scan->prover.now + most;
+    scan->groups = groups;
+    scan->group_count = count;
+    scan->follow = follow;
+    return true;
 }
 
 /* ---- the cubic through values and rates at both ends, on s in [0, 1]: c0 + c1 s + c2 s^2 + c3 s^3 */
@@ -111,7 +134,7 @@ static bool crosses(const struct scan_point *a, const struct scan_point *b, size
 static bool any_crosses(const struct scan *scan, const struct scan_point *a, const struct scan_point *b)
 {
     for (size_t i = 0; i < scan->count; i++)
-        if (crosses(a, b, i)) return true;
+        if (scan->chosen[i] && crosses(a, b, i)) return true;
     return false;
 }
 
@@ -132,7 +155,7 @@ static bool doubtful(const struct scan_point *a, const struct scan_point *b, siz
 static bool any_doubtful(const struct scan *scan, const struct scan_point *a, const struct scan_point *b)
 {
     for (size_t i = 0; i < scan->count; i++)
-        if (doubtful(a, b, i)) return true;
+        if (scan->chosen[i] && doubtful(a, b, i)) return true;
     return false;
 }
 
@@ -156,7 +179,7 @@ static double set_doubts(const struct scan *scan, const struct scan_point *a, st
     double worst = 0;
     for (size_t i = 0; i < scan->count; i++) {
         m->doubt[i] = 0;
-        if (!scan->rough[i] || !active(a, b, i) || !(m->values[i] < HUGE_VAL)) {
+        if (!scan->chosen[i] || !scan->rough[i] || !active(a, b, i) || !(m->values[i] < HUGE_VAL)) {
             b->doubt[i] = 0;
             continue;
         }
@@ -177,7 +200,7 @@ static double first_estimate(const struct scan *scan, const struct scan_point *a
 {
     double first = 1;
     for (size_t i = 0; i < scan->count; i++) {
-        if (!crosses(a, b, i)) continue;
+        if (!scan->chosen[i] || !crosses(a, b, i)) continue;
         struct cubic c = cubic_between(a, b, i);
         double s = cubic_zero(&c);
         if (s < first) first = s;
@@ -222,7 +245,7 @@ static int locate(struct scan *scan, struct scan_point *a, struct scan_point *b,
         exchange(m, any_crosses(scan, a, m) ? b : a);
     }
     scan->t = b->t;
-    for (size_t i = 0; i < scan->count; i++) scan->crossed[i] = crosses(a, b, i);
+    for (size_t i = 0; i < scan->count; i++) scan->crossed[i] = scan->chosen[i] && crosses(a, b, i);
     return 1;
 }
 
@@ -260,23 +283,21 @@ static int take_first_sample(struct scan *scan, double from)
 void scan_forget(struct scan *scan)
 {
     scan->known = NAN;
+    for (size_t g = 0; g < scan->group_count; g++) scan->groups[g].clear = NAN;
 }
 
 /* The sampler may say something else at a start than at an end of a function that is below zero. */
 static bool none_negative(const struct scan *scan, const struct scan_point *point)
 {
     for (size_t i = 0; i < scan->count; i++)
-        if (!(point->values[i] >= 0)) return false;
+        if (scan->chosen[i] && !(point->values[i] >= 0)) return false;
     return true;
 }
 
-int scan_interval(struct scan *scan, double from, double to)
+/* One panel, by samples of the chosen functions. */
+static int look_at_panel(struct scan *scan, double from, double to)
 {
     struct scan_point *a = &scan->points[0], *b = &scan->points[1], *m = &scan->points[2];
-    scan->resolved = HUGE_VAL;
-    scan->clear = from;
-    scan->most = scan->samples + most_samples;
-    if (scan->count == 0) return 0;
     int status = take_first_sample(scan, from);
     scan->known = NAN;
     if (!status) status = take_sample(scan, b, to);
@@ -285,9 +306,144 @@ int scan_interval(struct scan *scan, double from, double to)
     if (status) return status;
     for (size_t i = 0; i < scan->count; i++) b->doubt[i] = 0;
     double off = set_doubts(scan, a, m, b);
-    if (off > 0.1) scan->resolved = (off > 2 ? 0.5 : 2) * (to - from);
+    if (off > 0.1) scan->resolved = fmin(scan->resolved, (off > 2 ? 0.5 : 2) * (to - from));
     status = look(scan, a, m, 0);
     if (!status) status = look(scan, m, b, 0);
     if (!status && none_negative(scan, b)) scan->known = to;
     return status;
+}
+
+static int look_by_samples(struct scan *scan, double from, double to)
+{
+    bool any = false;
+    for (size_t i = 0; i < scan->count; i++) any |= scan->chosen[i] = scan->sampled[i];
+    scan->clear = any ? from : to;
+    scan->most = scan->samples + most_samples;
+    double panels = scan->panels > 1 ? (double)scan->panels : 1, begin = from;
+    for (double k = 1; any && k <= panels; k++) {
+        double end = k < panels ? from + (to - from) * (k / panels) : to;
+        if (!(end > begin)) continue;
+        if (scan->samples >= scan->most) return 2;
+        int status = look_at_panel(scan, begin, end);
+        if (status) return status;
+        begin = end;
+    }
+    return 0;
+}
+
+/* ---- with enclosures */
+
+/* The zero that group g has in its bracket, in scan->t. 0 when samples say that there is none: enclosures and
+ * samples differ by roundings. */
+static int locate_in_group(struct scan *scan, struct proof_group *group)
+{
+    struct scan_point *a = &scan->points[0], *b = &scan->points[1];
+    scan->known = NAN;
+    int status = take_sample(scan, a, group->low);
+    if (!status) status = take_sample(scan, b, group->high);
+    if (status) return status;
+    for (size_t i = 0; i < scan->count; i++) {
+        scan->chosen[i] = i >= group->first && i < group->first + group->count;
+        if (a->values[i] < 0) a->values[i] = 0; /* to rounding, or where the search began */
+    }
+    if (!any_crosses(scan, a, b)) return 0;
+    status = locate(scan, a, b, &scan->points[2]);
+    group->clear = group->low = scan->points[0].t;
+    group->high = scan->points[1].t;
+    return status;
+}
+
+/* The first zero of a group at or before *limit, which it becomes then; 2 when the search ends at *limit
+ * without result. A group without bounds is left to samples. */
+static int search_group(struct scan *scan, size_t g, double from, double *limit)
+{
+    const double least_share = 1e-3;
+    struct proof_group *group = &scan->groups[g];
+    for (;;) {
+        double far = scan->follow ? *limit : fmax(*limit, scan->horizon);
+        enum proof_result result =
+            proof_search(&scan->prover, scan->groups, g, from, *limit, far, scan->resumed);
+        if (result == proof_clear) return 0;
+        if (result == proof_unfinished) {
+            bool stuck = group->clear - from < least_share * (*limit - from);
+            for (size_t i = group->first; stuck && i < group->first + group->count; i++)
+                scan->sampled[i] = true;
+            if (!stuck) *limit = group->clear;
+            return stuck ? 0 : 2;
+        }
+        if (group->low >= *limit) return 0;
+        int status = locate_in_group(scan, group);
+        if (status < 0) return status;
+        if (status == 1 && scan->t > *limit) return 0;
+        if (status == 1) {
+            *limit = scan->t;
+            scan->found_in = group;
+            return 1;
+        }
+        group->clear = group->low = group->high;
+        group->high = HUGE_VAL;
+    }
+}
+
+static int search_all(struct scan *scan, double from, double *limit)
+{
+    int found = 0;
+    for (size_t g = 0; g < scan->group_count; g++) {
+        if (!scan->groups[g].proved) continue;
+        if (scan->follow) scan->groups[g].clear = NAN, scan->groups[g].width = 0;
+        int status = search_group(scan, g, from, limit);
+        if (status < 0) return status;
+        if (status > 0) found = status;
+    }
+    return found;
+}
+
+/* What has been found, and what becomes negative at the same instant. */
+static int mark_crossed(struct scan *scan, double t)
+{
+    struct scan_point *point = &scan->points[2];
+    int status = take_sample(scan, point, t);
+    if (status) return status;
+    scan->t = t;
+    for (size_t g = 0; g < scan->group_count; g++) {
+        const struct proof_group *group = &scan->groups[g];
+        for (size_t i = group->first; i < group->first + group->count; i++)
+            scan->crossed[i] =
+                !scan->sampled[i] && point->values[i] < 0 && (group == scan->found_in || point->rates[i] < 0);
+    }
+    return 1;
+}
+
+/* Piece by piece, as far as enclosures reach. */
+static int look_by_enclosures(struct scan *scan, double from, double *limit)
+{
+    bool any = false;
+    for (size_t g = 0; g < scan->group_count; g++) {
+        any |= scan->groups[g].proved;
+        for (size_t i = scan->groups[g].first; i < scan->groups[g].first + scan->groups[g].count; i++)
+            scan->sampled[i] = !scan->groups[g].proved;
+    }
+    for (double begin = from, to = *limit; any && begin < to;) {
+        double end = scan->follow ? scan->follow(scan->context, begin, to) : to;
+        if (isnan(end)) return -1;
+        *limit = end;
+        int status = search_all(scan, begin, limit);
+        if (status) return status;
+        begin = end;
+    }
+    return 0;
+}
+
+int scan_interval(struct scan *scan, double from, double to)
+{
+    scan->resolved = HUGE_VAL;
+    scan->clear = from;
+    if (scan->count == 0) return 0;
+    double limit = to;
+    int proved = look_by_enclosures(scan, from, &limit);
+    if (proved < 0) return proved;
+    int sampled = look_by_samples(scan, from, limit);
+    if (sampled) return sampled;
+    scan->clear = limit;
+    return proved == 1 ? mark_crossed(scan, limit) : proved;
 }

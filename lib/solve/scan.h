@@ -2,12 +2,15 @@
  *
  * Scan: the first instant in an interval at which one of several smooth functions becomes negative.
  *
- * The functions are known at any t with their rates. Between two samples each is compared with its cubic
- * Hermite interpolant: a sign change brackets a zero; an interior minimum of the cubic near zero, or a
- * function that the cubic does not follow, is sampled more finely. So a function that dips below zero and
- * comes back within one step is seen (an even root as well, to the accuracy of the samples), as long as it
- * changes no faster than the samples tell. Functions marked `rough` are checked against one interior sample
- * at least in every interval.
+ * Functions that come with enclosures are searched with proof (proof.h): none of their zeros is missed or
+ * invented, however many oscillations an interval has. That is the rule: see watchers_can_enclose.
+ *
+ * The others are known at any t with their rates. Between two samples each is compared with its cubic Hermite
+ * interpolant: a sign change brackets a zero; an interior minimum of the cubic near zero, or a function that
+ * the cubic does not follow, is sampled more finely. So a function that dips below zero and comes back within
+ * one step is seen (an even root as well, to the accuracy of the samples), as long as it changes no faster
+ * than the samples tell: `panels` says into how many parts an interval has to be divided for that. Functions
+ * marked `rough` are checked against one interior sample at least in every part.
  */
 #ifndef FBD_SOLVE_SCAN_H
 #define FBD_SOLVE_SCAN_H
@@ -15,9 +18,15 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "solve/proof.h"
+
 /* Fill values[count] and rates[count] at t; +HUGE_VAL for a function that is not active. Non-zero stops the
  * scan and is returned. */
 typedef int scan_sampler(void *context, double t, double *values, double *rates);
+
+/* Enclosures are wanted from `from` on: the end up to which they are there, `to` at most; NAN where there are
+ * none. */
+typedef double scan_follower(void *context, double from, double to);
 
 struct scan {
     size_t count;
@@ -35,7 +44,25 @@ struct scan {
     double known; /* the end of the last interval, where the functions are known; NAN: they are not */
     struct scan_point *points; /* pool for the recursion */
     double *memory;
+
+    /* Set by the caller after scan_init, or left NULL for functions without enclosures. */
+    struct proof_group *groups;
+    size_t group_count;
+    proof_enclose *enclose;
+    scan_follower *follow; /* NULL: enclosures are there for all times, and searches may run ahead */
+    double horizon;        /* how far ahead at most */
+    bool resumed;          /* see proof_search */
+    size_t panels;         /* for functions without enclosures; 0 counts as 1 */
+
+    struct prover prover;
+    const struct proof_group *found_in;
+    bool *sampled, *chosen; /* count: searched by samples; located at present */
 };
+
+/* With these enclosures; `groups` are in the order of the functions and cover all of them. False when memory
+ * is out. */
+bool scan_use_enclosures(struct scan *scan, struct proof_group *groups, size_t count, proof_enclose *enclose,
+                         scan_follower *follow);
 
 /* False when memory is out. */
 bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *context);

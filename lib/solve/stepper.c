@@ -13,6 +13,8 @@
 #include "solve/first_step.h"
 #include "solve/history.h"
 #include "solve/linear.h"
+#include "solve/nystrom.h"
+#include "solve/parabola.h"
 #include "solve/rodas5p.h"
 #include "solve/stiffness.h"
 #include "solve/weights.h"
@@ -334,6 +336,26 @@ int stepper_dense(struct stepper *s, double t, double *y)
     if (own_dense(s, t, y) != GSL_SUCCESS) dense_eval_plain(s->dense, t, y);
     s->system->last_code = last_code; /* no reason for what may fail later */
     return GSL_SUCCESS;
+}
+
+/* A step of the linear method is two radians of the fastest oscillation: the Bessel function J_14(1) of its
+ * Chebyshev series is 7e-16. Where every sample is a step of an implicit method, they are few, and known no
+ * better than its equations are solved. */
+int stepper_degree(const struct stepper *s, double *negligible)
+{
+    const gsl_odeiv2_step_type *type = s->step->type;
+    bool redone = s->method->implicit && type != step_rodas5p;
+    *negligible = redone ? 1e-3 : 0;
+    if (type == step_parabola) return 2;
+    if (type == step_linear) {
+        const int most = 14;
+        int degree = linear_dense_degree(s->step);
+        if (degree >= 2 && degree <= most) return degree;
+        *negligible = 1e-13;
+        return most;
+    }
+    if (type == step_nystrom) return 12;
+    return redone ? 4 : 8;
 }
 
 int stepper_partial(struct stepper *s, double t, double *y, double *f)

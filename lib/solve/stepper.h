@@ -78,6 +78,10 @@ enum stepper_status stepper_step(struct stepper *stepper, struct counted_system 
  * without a last step or for t outside of it. */
 int stepper_dense(struct stepper *stepper, double t, double *y);
 
+/* The degree of the polynomials that stepper_dense gives; where they are none (*negligible above
+ * 0), one that follows the state to that share of its size over most steps. */
+int stepper_degree(const struct stepper *stepper, double *negligible);
+
 /* State y and slopes f at time t within the last accepted step with the full accuracy of the method:
  * one-step methods make a step from its start to t, multistep methods, and others where that fails, use
  * stepper_dense. Codes as there, or that of a right-hand side that fails at t. */

@@ -116,6 +116,11 @@ int switcher_dense(struct switcher *s, double t, double *y)
     return stepper_dense(s->steppers[s->made], t, y);
 }
 
+int switcher_degree(const struct switcher *s, double *negligible)
+{
+    return stepper_degree(s->steppers[s->made], negligible);
+}
+
 int switcher_partial(struct switcher *s, double t, double *y, double *f)
 {
     return stepper_partial(s->steppers[s->made], t, y, f);

@@ -24,6 +24,7 @@ enum stepper_status switcher_step(struct switcher *switcher, struct counted_syst
 
 /* Of the last step, whichever method made it. */
 int switcher_dense(struct switcher *switcher, double t, double *y);
+int switcher_degree(const struct switcher *switcher, double *negligible);
 int switcher_partial(struct switcher *switcher, double t, double *y, double *f);
 int switcher_walk(struct switcher *switcher, double t, double *y, double *f);
 

@@ -66,6 +66,25 @@ static void add_all(struct watchers *watchers, const struct plan *plan)
         add(&watchers->moving, (struct watcher){watch_user, (int)i, 0, 0, true});
 }
 
+/* Neighbours of the same kind and index. */
+static bool group_watchers(const struct fbd_model *model, struct watcher_set *set)
+{
+    set->groups = calloc(set->count + 1, sizeof *set->groups);
+    if (!set->groups) return false;
+    struct proof_group *group = set->groups - 1;
+    for (size_t i = 0; i < set->count; i++) {
+        const struct watcher *watcher = &set->watchers[i];
+        bool same = i > 0 && watcher->kind == watcher[-1].kind && watcher->index == watcher[-1].index;
+        if (!same)
+            *++group = (struct proof_group){.first = i,
+                                            .proved = watchers_can_enclose(model, watcher),
+                                            .clear = (double)NAN};
+        group->count++;
+    }
+    set->group_count = (size_t)(group + 1 - set->groups);
+    return true;
+}
+
 bool watchers_init(struct watchers *watchers, const struct fbd_model *model, double tolerance)
 {
     const struct plan *plan = &model->plan;
@@ -75,25 +94,31 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
     *watchers = (struct watchers){0};
     add_all(watchers, plan); /* once to count, once to fill */
     size_t timed = watchers->timed.count, moving = watchers->moving.count;
-    watchers->timed = (struct watcher_set){calloc(timed + 1, sizeof(struct watcher)), 0};
-    watchers->moving = (struct watcher_set){calloc(moving + 1, sizeof(struct watcher)), 0};
+    watchers->timed = (struct watcher_set){.watchers = calloc(timed + 1, sizeof(struct watcher))};
+    watchers->moving = (struct watcher_set){.watchers = calloc(moving + 1, sizeof(struct watcher))};
     watchers->scratch = calloc(4 * margins + 1, sizeof(double));
+    watchers->margins = calloc(2 * margins + 1, sizeof *watchers->margins);
     watchers->armed = calloc(plan->watch_count + 1, sizeof(int));
     watchers->fired = calloc(plan->watch_count + 1, sizeof(bool));
     watchers->most = calloc(2 * plan->watch_count + 1, sizeof(double));
     if (!watchers->timed.watchers || !watchers->moving.watchers || !watchers->scratch || !watchers->armed ||
-        !watchers->fired || !watchers->most) {
+        !watchers->fired || !watchers->most || !watchers->margins) {
         watchers_free(watchers);
         return false;
     }
     watchers->tolerance = tolerance;
     watchers->band = watchers->most + plan->watch_count;
     add_all(watchers, plan);
-    return true;
+    if (group_watchers(model, &watchers->timed) && group_watchers(model, &watchers->moving)) return true;
+    watchers_free(watchers);
+    return false;
 }
 
 void watchers_free(struct watchers *watchers)
 {
+    free(watchers->timed.groups);
+    free(watchers->moving.groups);
+    free(watchers->margins);
     free(watchers->timed.watchers);
     free(watchers->moving.watchers);
     free(watchers->scratch);

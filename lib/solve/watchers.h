@@ -16,6 +16,7 @@
 #define FBD_SOLVE_WATCHERS_H
 
 #include "dynamics/modes.h"
+#include "solve/proof.h"
 
 enum watcher_kind {
     watch_kink,         /* a branch of a switch ends; index: kink, part: switch, end 0 or 1 */
@@ -37,12 +38,15 @@ struct watcher {
 struct watcher_set {
     struct watcher *watchers;
     size_t count;
+    struct proof_group *groups; /* in the order of the watchers: those that enclosures see together */
+    size_t group_count;
 };
 
 struct watchers {
     struct watcher_set timed;  /* functions of t alone */
     struct watcher_set moving; /* all others */
     double *scratch;           /* margins and rates of one kink */
+    struct enclosure *margins; /* the same as enclosures */
     int *armed;                /* per user event: +1 or -1, the side where it is; 0 while it sits on zero */
     bool *fired;               /* per user event: it happened at this instant */
     double tolerance;          /* of the method */
@@ -58,6 +62,18 @@ void watchers_free(struct watchers *watchers);
  * happen in the present modes. `state` lends its modes and scratch; (t, y) may be any point of a step. */
 void watchers_evaluate(const struct watchers *watchers, const struct watcher_set *set,
                        struct fbd_state *state, double t, const double *y, double *values, double *rates);
+
+/* Are there enclosures of this function? */
+bool watchers_can_enclose(const struct fbd_model *model, const struct watcher *watcher);
+
+/* Flag the components of the extended vector (absolute.h) that enclosures of the set read. */
+void watchers_mark_used(const struct fbd_model *model, const struct watcher_set *set, bool *used);
+
+/* Enclosures of the functions of a group over a stretch of time, in the modes of `state`, for motions within
+ * the spans y of the extended vector; y may be NULL for functions of time alone. */
+void watchers_enclose(const struct watchers *watchers, const struct watcher_set *set, size_t group,
+                      const struct fbd_state *state, const struct stretch *stretch, const struct enclosure *y,
+                      struct enclosure *out);
 
 /* Arm user events that have left zero, and see which are in their band; call at the start and after each
  * accepted step. */

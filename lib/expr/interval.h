@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Intervals: interval arithmetic, with ends rounded outward.
+ *
+ * The result of an operation holds every value that the operation has for operands in their ranges. An end is
+ * moved outward by a relative amount that is more than the rounding of the operation, and more than the error
+ * of the mathematical library for the functions (4 units in the last place; glibc states at most 2 for those
+ * in use). So zero stays zero, and what is exact stays within a rounding. Not covered: results below 1e-307,
+ * whose rounding is absolute; they are zero for all purposes here.
+ *
+ * What is undefined for a part of an operand, as ln and sqrt below zero, is taken for the rest of it: there
+ * the formula itself has no value, and a run that gets there ends. What is undefined or unbounded otherwise
+ * has the range of everything.
+ *
+ * Source: R. E. Moore, R. B. Kearfott, M. J. Cloud, Introduction to Interval Analysis, SIAM 2009.
+ */
+#ifndef FBD_EXPR_INTERVAL_H
+#define FBD_EXPR_INTERVAL_H
+
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
+
+struct interval {
+    double low, high;
+};
+
+static inline struct interval interval_point(double x)
+{
+    return (struct interval){x, x};
+}
+
+static inline struct interval interval_everything(void)
+{
+    return (struct interval){-HUGE_VAL, HUGE_VAL};
+}
+
+static inline double interval_width(struct interval a)
+{
+    return a.high - a.low;
+}
+
+/* The largest size. */
+static inline double interval_size(struct interval a)
+{
+    return fmax(fabs(a.low), fabs(a.high));
+}
+
+static inline bool interval_has_zero(struct interval a)
+{
+    return a.low <= 0 && a.high >= 0;
+}
+
+/* Outward by `units` roundings; a NaN, from infinite ends, is everything. */
+static inline struct interval interval_widen(double low, double high, double units)
+{
+    low -= units * DBL_EPSILON * fabs(low);
+    high += units * DBL_EPSILON * fabs(high);
+    return (struct interval){low == low ? low : -HUGE_VAL, high == high ? high : HUGE_VAL};
+}
+
+static inline struct interval interval_negate(struct interval a)
+{
+    return (struct interval){-a.high, -a.low};
+}
+
+static inline struct interval interval_add(struct interval a, struct interval b)
+{
+    return interval_widen(a.low + b.low, a.high + b.high, 1);
+}
+
+static inline struct interval interval_subtract(struct interval a, struct interval b)
+{
+    return interval_widen(a.low - b.high, a.high - b.low, 1);
+}
+
+/* What zero is multiplied by does not matter: no value in a range is infinite, only its end. */
+static inline double interval_product(double x, double y)
+{
+    return x == 0 || y == 0 ? 0 : x * y;
+}
+
+static inline struct interval interval_multiply(struct interval a, struct interval b)
+{
+    double p = interval_product(a.low, b.low), q = interval_product(a.low, b.high);
+    double r = interval_product(a.high, b.low), s = interval_product(a.high, b.high);
+    return interval_widen(fmin(fmin(p, q), fmin(r, s)), fmax(fmax(p, q), fmax(r, s)), 1);
+}
+
+static inline struct interval interval_scale(double k, struct interval a)
+{
+    return interval_multiply(interval_point(k), a);
+}
+
+static inline struct interval interval_hull(struct interval a, struct interval b)
+{
+    return (struct interval){fmin(a.low, b.low), fmax(a.high, b.high)};
+}
+
+/* Both bounds hold. Where rounding has put them apart, a stands. */
+static inline struct interval interval_meet(struct interval a, struct interval b)
+{
+    double low = fmax(a.low, b.low), high = fmin(a.high, b.high);
+    return low <= high ? (struct interval){low, high} : a;
+}
+
+struct interval interval_divide(struct interval a, struct interval b);
+struct interval interval_whole_power(struct interval a, int n);
+struct interval interval_power(struct interval a, struct interval b);
+struct interval interval_hypot(struct interval a, struct interval b);
+struct interval interval_sin(struct interval a);
+struct interval interval_cos(struct interval a);
+struct interval interval_tan(struct interval a);
+struct interval interval_atan2(struct interval y, struct interval x);
+struct interval interval_cosh(struct interval a);
+
+/* A function that rises over all of its domain [low, high], taken for what of `a` lies there. */
+struct interval interval_rising(double (*f)(double), struct interval a, double low, double high);
+
+/* ---- functions of time */
+
+/* What is known of a function f on an interval [m - radius, m + radius] of time. The width of `middle` is a
+ * bound of the rounding of f in the numbers that a program computes. */
+struct enclosure {
+    struct interval value, rate; /* of f and of df/dt over the interval */
+    struct interval middle;      /* of f(m) */
+};
+
+/* The interval, and a point m inside near its middle. */
+struct stretch {
+    double from, to, middle;
+};
+
+static inline struct stretch stretch_between(double from, double to)
+{
+    return (struct stretch){from, to, from + (to - from) / 2};
+}
+
+static inline double stretch_radius(const struct stretch *stretch)
+{
+    return fmax(stretch->to - stretch->middle, stretch->middle - stretch->from);
+}
+
+static inline struct enclosure enclosure_point(double x)
+{
+    return (struct enclosure){interval_point(x), {0, 0}, interval_point(x)};
+}
+
+static inline struct enclosure enclosure_everything(void)
+{
+    return (struct enclosure){interval_everything(), interval_everything(), interval_everything()};
+}
+
+/* The mean value theorem: f lies in f(m) + f'([..]) [-radius, radius] as well, a bound whose excess falls
+ * with the square of the radius. */
+static inline void enclosure_centre(struct enclosure *f, double radius)
+{
+    struct interval reach = interval_multiply(f->rate, (struct interval){-radius, radius});
+    f->value = interval_meet(f->value, interval_add(f->middle, reach));
+}
+
+static inline struct enclosure enclosure_negate(struct enclosure f)
+{
+    return (struct enclosure){interval_negate(f.value), interval_negate(f.rate), interval_negate(f.middle)};
+}
+
+static inline struct enclosure enclosure_add(struct enclosure f, struct enclosure g)
+{
+    return (struct enclosure){interval_add(f.value, g.value), interval_add(f.rate, g.rate),
+                              interval_add(f.middle, g.middle)};
+}
+
+static inline struct enclosure enclosure_subtract(struct enclosure f, struct enclosure g)
+{
+    return enclosure_add(f, enclosure_negate(g));
+}
+
+static inline struct enclosure enclosure_scale(double k, struct enclosure f)
+{
+    return (struct enclosure){interval_scale(k, f.value), interval_scale(k, f.rate),
+                              interval_scale(k, f.middle)};
+}
+
+static inline struct enclosure enclosure_multiply(struct enclosure f, struct enclosure g)
+{
+    struct interval rate =
+        interval_add(interval_multiply(f.rate, g.value), interval_multiply(f.value, g.rate));
+    return (struct enclosure){interval_multiply(f.value, g.value), rate,
+                              interval_multiply(f.middle, g.middle)};
+}
+
+#endif

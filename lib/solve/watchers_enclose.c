@@ -1,0 +1,279 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Enclosures of event functions over a stretch of the motion, each as watchers.c has it at an instant.
+ *
+ * They are there for what is made of expressions: switches, user events, the speed of a pair on its surface,
+ * and the forces of a body by itself as far as they are sums of expressions, affine terms and weights.
+ */
+#include <float.h>
+
+#include "dynamics/absolute.h"
+#include "solve/watchers.h"
+
+/* What enclosures are made from. */
+struct outlook {
+    const struct fbd_state *state;
+    const struct stretch *stretch;
+    const struct enclosure *y;
+};
+
+static struct enclosure enclose_formula(const struct outlook *o, const struct formula *formula)
+{
+    if (!formula->expr) return enclosure_point(formula->constant);
+    const int *branch = formula->branch < 0 || !o->state->branch ? NULL : o->state->branch + formula->branch;
+    return expr_enclose(formula->expr, o->stretch, o->y, branch);
+}
+
+static struct enclosure centred(const struct outlook *o, struct enclosure f)
+{
+    enclosure_centre(&f, stretch_radius(o->stretch));
+    return f;
+}
+
+/* ---- sums of forces */
+
+/* Is the sum of forces in a slot of this body a sum of the terms below? Forces at points, potentials (whose
+ * rates are second derivatives) and forces that joints pass on are not. */
+static bool is_plain_sum(const struct fbd_model *model, int body)
+{
+    const struct body_terms *terms = &model->plan.bodies[body];
+    return model->bodies[body].place.link == 0 && !terms->at_points && terms->potentials.count == 0 &&
+           terms->links.count + terms->drags.count + terms->forces.count == 0 && terms->offset < 0;
+}
+
+static struct enclosure enclose_sine(const struct outlook *o, const struct sine_term *term)
+{
+    const struct enclosure *q = &o->y[term->coordinate];
+    struct interval sine = interval_sin(q->value), cosine = interval_cos(q->value);
+    struct interval slope = interval_subtract(interval_scale(term->s, cosine), interval_scale(term->c, sine));
+    return (struct enclosure){interval_add(interval_scale(term->s, sine), interval_scale(term->c, cosine)),
+                              interval_multiply(slope, q->rate),
+                              interval_add(interval_scale(term->s, interval_sin(q->middle)),
+                                           interval_scale(term->c, interval_cos(q->middle)))};
+}
+
+static double signed_square(double v)
+{
+    return fabs(v) * v;
+}
+
+/* -k |v| v, which falls with the slope -2 k |v|. */
+static struct enclosure enclose_square(const struct outlook *o, const struct square_term *term)
+{
+    const struct enclosure *v = &o->y[o->state->model->plan.n + term->coordinate];
+    struct interval size = interval_hypot(v->value, interval_point(0));
+    struct enclosure f = {interval_rising(signed_square, v->value, -HUGE_VAL, HUGE_VAL),
+                          interval_multiply(interval_scale(2, size), v->rate),
+                          interval_rising(signed_square, v->middle, -HUGE_VAL, HUGE_VAL)};
+    return enclosure_scale(-term->k, f);
+}
+
+static struct enclosure enclose_affine(const struct outlook *o, const struct affine_term *term)
+{
+    const struct enclosure *q = &o->y[term->coordinate],
+                           *v = &o->y[o->state->model->plan.n + term->coordinate];
+    struct enclosure f = enclosure_point(term->c0);
+    if (term->kq != 0) f = enclosure_subtract(f, enclosure_scale(term->kq, *q));
+    if (term->kv != 0) f = enclosure_subtract(f, enclosure_scale(term->kv, *v));
+    return f;
+}
+
+/* The sum of a slot of a body with is_plain_sum. */
+static struct enclosure enclose_slot(const struct outlook *o, int body, int slot)
+{
+    const struct plan *plan = &o->state->model->plan;
+    const struct body_terms *terms = &plan->bodies[body];
+    struct enclosure sum = enclosure_point(0);
+    for (int i = terms->affine.first; i < terms->affine.first + terms->affine.count; i++)
+        if (plan->affine[i].slot == slot) sum = enclosure_add(sum, enclose_affine(o, &plan->affine[i]));
+    for (int i = terms->across.first; i < terms->across.first + terms->across.count; i++)
+        if (plan->affine[i].slot == slot) sum = enclosure_add(sum, enclosure_point(plan->affine[i].c0));
+    for (int i = terms->sine.first; i < terms->sine.first + terms->sine.count; i++)
+        if (plan->sine[i].slot == slot) sum = enclosure_add(sum, enclose_sine(o, &plan->sine[i]));
+    for (int i = terms->square.first; i < terms->square.first + terms->square.count; i++)
+        if (plan->square[i].slot == slot) sum = enclosure_add(sum, enclose_square(o, &plan->square[i]));
+    for (int i = terms->formulas.first; i < terms->formulas.first + terms->formulas.count; i++) {
+        const struct formula_term *term = &plan->formulas[i];
+        if (term->slot != slot) continue;
+        struct enclosure value = enclose_formula(o, &term->value);
+        sum = enclosure_add(sum, enclosure_scale(term->scale, value));
+    }
+    return centred(o, sum);
+}
+
+/* ---- friction */
+
+static struct enclosure slip_stop(const struct outlook *o, int pair)
+{
+    const struct fbd_model *model = o->state->model;
+    const struct friction *friction = &model->plan.frictions[pair];
+    struct enclosure speed = enclose_formula(o, &friction->surface_speed);
+    struct enclosure slip = enclosure_subtract(o->y[model->plan.n + friction->coordinate], speed);
+    return centred(o, enclosure_scale(o->state->slip[pair], slip));
+}
+
+/* N towards the side on which the surface is. */
+static struct enclosure press_of(const struct outlook *o, int pair)
+{
+    const struct friction *friction = &o->state->model->plan.frictions[pair];
+    if (friction->normal_slot < 0) return enclosure_point(1);
+    struct enclosure sum = enclose_slot(o, friction->body, friction->normal_slot);
+    return enclosure_scale(-o->state->pull[pair], sum);
+}
+
+/* max(f, g): the rate is one of both, or lies between. */
+static struct enclosure larger_of(struct enclosure f, struct enclosure g)
+{
+    if (f.value.low >= g.value.high) return f;
+    if (g.value.low >= f.value.high) return g;
+    return (struct enclosure){{fmax(f.value.low, g.value.low), fmax(f.value.high, g.value.high)},
+                              interval_hull(f.rate, g.rate),
+                              {fmax(f.middle.low, g.middle.low), fmax(f.middle.high, g.middle.high)}};
+}
+
+static struct enclosure stick_limit(const struct outlook *o, int pair, int end)
+{
+    const struct friction *friction = &o->state->model->plan.frictions[pair];
+    struct enclosure press = larger_of(press_of(o, pair), enclosure_point(0));
+    struct enclosure at_rest = enclosure_multiply(enclose_formula(o, &friction->mu_s), press);
+    struct enclosure moving = enclosure_multiply(enclose_formula(o, &friction->mu_k), press);
+    struct enclosure limit = larger_of(centred(o, at_rest), centred(o, moving));
+    struct enclosure push = enclose_slot(o, friction->body, friction->hold_slot);
+    struct enclosure f = enclosure_add(limit, enclosure_scale(end == 0 ? 1 : -1, push));
+    /* The room for rounding that friction_rounding gives. */
+    double rounding = 8 * DBL_EPSILON * (interval_size(push.value) + interval_size(limit.value));
+    f.value.high += rounding;
+    f.middle.high += rounding;
+    return centred(o, f);
+}
+
+/* ---- by kind */
+
+bool watchers_can_enclose(const struct fbd_model *model, const struct watcher *watcher)
+{
+    const struct plan *plan = &model->plan;
+    if (watcher->kind == watch_kink || watcher->kind == watch_user) return true;
+    if (watcher->kind == watch_contact) return is_plain_sum(model, plan->contacts[watcher->index].body);
+    const struct friction *friction = &plan->frictions[watcher->index];
+    if (friction->rope || friction->tie >= 0) return false;
+    if (watcher->kind == watch_slip_stop) return true;
+    bool known = watcher->kind != watch_stick_limit || !friction->surface_speed.expr; /* its second rate */
+    return known && !friction->jointed && is_plain_sum(model, friction->body);
+}
+
+static void enclose_kink(const struct watchers *watchers, const struct watcher_set *set,
+                         const struct proof_group *group, const struct outlook *o, struct enclosure *out)
+{
+    const struct watcher *first = &set->watchers[group->first];
+    const struct kink *kink = &o->state->model->plan.kinks[first->index];
+    const int *branch = o->state->branch + kink->formula.branch;
+    expr_enclose_margins(kink->formula.expr, o->stretch, o->y, branch, watchers->margins);
+    for (size_t i = 0; i < group->count; i++) out[i] = watchers->margins[2 * first[i].part + first[i].end];
+}
+
+static struct enclosure enclose_user(const struct watchers *watchers, int index, const struct outlook *o)
+{
+    const struct watch *watch = &o->state->model->plan.watches[index];
+    int armed = watchers->armed[index];
+    if (armed == 0) return enclosure_point(HUGE_VAL);
+    struct enclosure difference =
+        enclosure_subtract(enclose_formula(o, &watch->left), enclose_formula(o, &watch->right));
+    struct enclosure band = enclosure_point(watchers->band[index]);
+    return centred(o, enclosure_add(enclosure_scale(armed, difference), band));
+}
+
+static struct enclosure enclose_one(const struct watchers *watchers, const struct watcher *watcher,
+                                    const struct outlook *o)
+{
+    const struct fbd_model *model = o->state->model;
+    int index = watcher->index;
+    switch (watcher->kind) {
+    case watch_user: return enclose_user(watchers, index, o);
+    case watch_contact: {
+        const struct contact *contact = &model->plan.contacts[index];
+        struct enclosure slack = enclosure_point(watchers_contact_slack(model, contact));
+        return centred(o, enclosure_subtract(slack, enclose_slot(o, contact->body, contact->slot)));
+    }
+    case watch_normal_turns: return press_of(o, index);
+    case watch_slip_stop:
+        return o->state->slip[index] == stick ? enclosure_point(HUGE_VAL) : slip_stop(o, index);
+    case watch_stick_limit:
+        return o->state->slip[index] != stick ? enclosure_point(HUGE_VAL)
+                                              : stick_limit(o, index, watcher->end);
+    case watch_kink:
+    case watch_rope: break;
+    }
+    return enclosure_everything();
+}
+
+void watchers_enclose(const struct watchers *watchers, const struct watcher_set *set, size_t group,
+                      const struct fbd_state *state, const struct stretch *stretch, const struct enclosure *y,
+                      struct enclosure *out)
+{
+    const struct proof_group *those = &set->groups[group];
+    const struct outlook outlook = {state, stretch, y};
+    if (set->watchers[those->first].kind == watch_kink) {
+        enclose_kink(watchers, set, those, &outlook, out);
+        return;
+    }
+    for (size_t i = 0; i < those->count; i++)
+        out[i] = enclose_one(watchers, &set->watchers[those->first + i], &outlook);
+}
+
+/* ---- what they read */
+
+static void mark_formula(const struct formula *formula, bool *used)
+{
+    const int *slots;
+    size_t count = formula->expr ? expr_variables(formula->expr, &slots) : 0;
+    for (size_t k = 0; k < count; k++) used[slots[k] - 1] = true;
+}
+
+static void mark_body(const struct plan *plan, int body, bool *used)
+{
+    const struct body_terms *terms = &plan->bodies[body];
+    for (int i = terms->affine.first; i < terms->affine.first + terms->affine.count; i++) {
+        used[plan->affine[i].coordinate] |= plan->affine[i].kq != 0;
+        used[plan->n + plan->affine[i].coordinate] |= plan->affine[i].kv != 0;
+    }
+    for (int i = terms->sine.first; i < terms->sine.first + terms->sine.count; i++)
+        used[plan->sine[i].coordinate] = true;
+    for (int i = terms->square.first; i < terms->square.first + terms->square.count; i++)
+        used[plan->n + plan->square[i].coordinate] = true;
+    for (int i = terms->formulas.first; i < terms->formulas.first + terms->formulas.count; i++)
+        mark_formula(&plan->formulas[i].value, used);
+}
+
+static void mark_friction(const struct plan *plan, const struct watcher *watcher, bool *used)
+{
+    const struct friction *friction = &plan->frictions[watcher->index];
+    if (watcher->kind == watch_slip_stop) {
+        used[plan->n + friction->coordinate] = true;
+        mark_formula(&friction->surface_speed, used);
+        return;
+    }
+    mark_formula(&friction->mu_s, used);
+    mark_formula(&friction->mu_k, used);
+    mark_body(plan, friction->body, used);
+}
+
+void watchers_mark_used(const struct fbd_model *model, const struct watcher_set *set, bool *used)
+{
+    const struct plan *plan = &model->plan;
+    for (size_t i = 0; i < set->count; i++) {
+        const struct watcher *watcher = &set->watchers[i];
+        if (!watchers_can_enclose(model, watcher)) continue;
+        switch (watcher->kind) {
+        case watch_kink: mark_formula(&plan->kinks[watcher->index].formula, used); break;
+        case watch_user:
+            mark_formula(&plan->watches[watcher->index].left, used);
+            mark_formula(&plan->watches[watcher->index].right, used);
+            break;
+        case watch_contact: mark_body(plan, plan->contacts[watcher->index].body, used); break;
+        case watch_slip_stop:
+        case watch_stick_limit:
+        case watch_normal_turns: mark_friction(plan, watcher, used); break;
+        case watch_rope: break;
+        }
+    }
+}
