@@ -8,6 +8,7 @@
 #include "solve/balance.h"
 
 #include <float.h>
+#include <math.h>
 
 #include "dynamics/tree.h"
 #include "expr/unit.h"
@@ -73,19 +74,36 @@ static void compare(struct worst *worst, int body, const char *what, bool moment
         (struct worst){body, explained > 0 ? off / explained : HUGE_VAL, is, sum, explained, what, moment};
 }
 
-/* What a force of a jointed body is right to: the largest that meets any of them, and how well directions are
- * known where the bodies are small against how far away they stand. */
-static double joined_grain(const struct fbd_state *state, struct arrow *arrows)
+/* What forces and moments of jointed bodies are right to. */
+struct grains {
+    double force, moment;
+};
+
+/* The largest that meets any of them counts, and how well directions are known where the bodies are small
+ * against how far away they stand. Accelerations are sums too, of those of the bodies below and of what their
+ * turning adds: a body on which nothing acts has m a = 0 to the rounding of m times these. */
+static struct grains joined_grain(const struct fbd_state *state, struct arrow *arrows)
 {
     const struct tree *tree = state->model->tree;
-    double force = 0, reach = 0, away = 0;
+    double force = 0, reach = 0, away = 0, mass = 0, inertia = 0, a = 0, alpha = 0, v = 0, omega = 0;
     for (int i = 0; tree && i < tree->body_count; i++) {
+        const struct model_body *body = &state->model->bodies[tree->bodies[i]];
+        const struct tree_state *link = &state->tree->links[body->place.link];
         struct sums sums = sums_of(state, tree->bodies[i], arrows);
         force = fmax(force, sums.force);
         reach = fmax(reach, sums.reach);
-        away = fmax(away, vec_norm(state->tree->links[state->model->bodies[tree->bodies[i]].place.link].p));
+        away = fmax(away, vec_norm(link->p));
+        mass = fmax(mass, body->inertia.mass);
+        inertia = fmax(inertia, body->inertia.I_G);
+        a = fmax(a, vec_norm(link->A.a));
+        alpha = fmax(alpha, fabs(link->A.alpha));
+        v = fmax(v, vec_norm(link->v));
+        omega = fmax(omega, fabs(link->omega));
     }
-    return force * (grain + (reach > 0 ? 64 * DBL_EPSILON * away / reach : 0));
+    force += mass * (a + omega * v);
+    force *= grain + (reach > 0 ? 64 * DBL_EPSILON * away / reach : 0);
+    double gyration = mass > 0 ? sqrt(inertia / mass) : 0;
+    return (struct grains){force, force * fmax(reach, gyration) + grain * inertia * (alpha + omega * omega)};
 }
 
 static void say(const struct fbd_state *state, const struct worst *worst, struct text *lack)
@@ -104,14 +122,16 @@ static void say(const struct fbd_state *state, const struct worst *worst, struct
 
 /* The equation that is farthest off; none within what rounding explains, at least `joined` for a jointed
  * body. */
-static struct worst find_worst(const struct fbd_state *state, struct arrow *arrows, double joined)
+static struct worst find_worst(const struct fbd_state *state, struct arrow *arrows, struct grains joined)
 {
     struct worst worst = {.ratio = 1};
     for (int b = 0; b < (int)state->model->body_count; b++) {
         struct sums sums = sums_of(state, b, arrows);
         double force = grain * sums.force;
-        if (state->model->bodies[b].place.link > 0) force = fmax(force, joined);
+        bool jointed = state->model->bodies[b].place.link > 0;
+        if (jointed) force = fmax(force, joined.force);
         double moment = grain * sums.moment + force * sums.reach + 64 * sums.place;
+        if (jointed) moment = fmax(moment, joined.moment);
         compare(&worst, b, "m a in x", false, sums.m_a.x, sums.f.x, force);
         compare(&worst, b, "m a in y", false, sums.m_a.y, sums.f.y, force);
         compare(&worst, b, "I alpha about G", true, sums.I_alpha, sums.M, moment);
@@ -122,7 +142,7 @@ static struct worst find_worst(const struct fbd_state *state, struct arrow *arro
 bool balance_lack(struct fbd_state *state, struct arrow *arrows, struct text *lack)
 {
     if (state->tree && !state->tree->complete) state_evaluate(state); /* others have used its scratch */
-    struct worst worst = find_worst(state, arrows, 0);
+    struct worst worst = find_worst(state, arrows, (struct grains){0, 0});
     if (!worst.what) return false; /* nearly always: what the other bodies feel is not needed */
     worst = find_worst(state, arrows, joined_grain(state, arrows));
     if (worst.what) say(state, &worst, lack);

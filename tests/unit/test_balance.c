@@ -130,10 +130,49 @@ static void what_is_not_a_number_is_off(void **unused)
     release(&subject);
 }
 
+/* A free body on a moving one has m a = 0 as a difference of accelerations that are none: what is left is
+ * their rounding, and no force of its own is there to measure that against. */
+static void free_bodies_on_moving_ones_balance(void **unused)
+{
+    (void)unused;
+    static const char *const scenes[] = {
+        "fbd: 1\ngravity: [0, 1]\nbodies:\n  a: {mass: 1, shape: rod, length: 1, motion: planar, "
+        "initial: {omega: 1}}\n  b: {mass: 1.2, shape: disc, radius: 1, motion: {planar: {on: a}}, "
+        "initial: {vy: %d}}\n",
+        "fbd: 1\ngravity: [0, 1]\nbodies:\n  a: {mass: 1, motion: {slide: {along: 1.993}}, "
+        "forces: [gravity]}\n  b:\n    parts: {p: {mass: 2}, q: {mass: 1.7, center: [0, -0.2]}}\n"
+        "    motion: {planar: {on: a}}\n    initial: {theta: -%d.3 rad, omega: 1}\n",
+    };
+    int alarms = 0;
+    for (int i = 0; i < 40; i++) {
+        char text[600];
+        snprintf(text, sizeof text, scenes[i % 2], i / 2);
+        struct reading reading = read_right(text);
+        struct subject subject = {.model = model_compile(reading.scene, reading.errors)};
+        reading.scene = NULL;
+        assert_non_null(subject.model);
+        subject.state = state_new(subject.model);
+        subject.arrows = calloc(diagram_most_arrows(subject.model), sizeof *subject.arrows);
+        assert_true(subject.state && subject.arrows);
+        for (int k = 0; k < 2 * subject.model->plan.n; k++) subject.state->y[k] += 0.1 * i;
+        modes_settle(subject.state, NULL);
+        struct text lack = {0};
+        if (balance_lack(subject.state, subject.arrows, &lack)) {
+            print_error("scene %d: %s\n", i, lack.data);
+            alarms++;
+        }
+        text_free(&lack);
+        end_reading(&reading);
+        release(&subject);
+    }
+    assert_int_equal(alarms, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_trees_balance),
+        cmocka_unit_test(free_bodies_on_moving_ones_balance),
         cmocka_unit_test(a_millionth_is_noticed),
         cmocka_unit_test(what_is_not_a_number_is_off),
     };
