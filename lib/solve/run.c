@@ -316,8 +316,7 @@ static int step_aside(struct run *run, double end, double *t)
     bool up = ((uint32_t)run->event_count * UINT32_C(2654435769)) >> 31;
     double other = nextafter(*t, up ? HUGE_VAL : 0);
     if (!(other > run->from && other < end)) return 1;
-    *t = other;
-    return cut_step(run, other) < 0 ? -1 : 1;
+    return cut_step(run, *t = other) < 0 ? -1 : 1;
 }
 
 /* Look for the first event in (from, t]; on return *t is its time, with y and f there. 1 found, 0 none, -1
