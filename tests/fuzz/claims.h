@@ -27,8 +27,8 @@ void claim_plain(const char *what, const char *text);
 /* The notes as they are printed are plain, each message one line. */
 void claim_notes(fbd_errors *errors);
 
-/* A header with different names, and rows with as many numbers as it has names; only an error may be `inf`,
- * which says that it is not known. */
+/* A header with different names, and rows with as many finite numbers as it has names; only an error may be
+ * missing, which says that it is not known. */
 void claim_table(const char *what, const char *text);
 
 /* One value of JSON (RFC 8259), no key twice in an object. */
