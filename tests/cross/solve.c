@@ -137,6 +137,11 @@ static void take(struct absolute *absolute, const struct scaling *scaling, const
         absolute->a[i] = x[i] * scaling->coordinate[i];
         absolute->acceleration_size = fmax(absolute->acceleration_size, fabs(absolute->a[i]));
     }
+    /* A bearing that slips is no unknown and in no list of forces. */
+    for (int i = 0; i < absolute->grip_count; i++)
+        if (absolute->grip[i].kind == grip_bearing && absolute->grip[i].mode != holds)
+            absolute->force_size =
+                fmax(absolute->force_size, fabs(grip_coefficient(absolute, &absolute->grip[i], true)));
     memset(absolute->lambda, 0, sizeof absolute->lambda);
     for (int k = 0; k < scaling->count; k++) {
         int j = scaling->row_of[k];
