@@ -27,29 +27,6 @@ static void bind_rates(struct run *run)
     run->system.inner.function = rates_call(run->rates, &run->system.inner.params);
 }
 
-static int sample_timed(void *context, double t, double *values, double *rate)
-{
-    struct run *run = context;
-    watchers_evaluate(&run->watchers, &run->watchers.timed, run->during, t, run->state->y, values, rate);
-    return 0;
-}
-
-/* At the start of a step no function has passed its end: one that is negative has just come from there, or
- * goes there, and is off by the rounding of the instant. Left so, one that rises would hide a zero before the
- * first sample, when the motion turns back at once, and one that falls would never be seen again, with its
- * branch on the wrong side for good. As zero the first is looked at like others and the second crosses here.
- */
-static int sample_moving(void *context, double t, double *values, double *rate)
-{
-    struct run *run = context;
-    if (switcher_dense(run->stepper, t, run->sample) != GSL_SUCCESS) return -1;
-    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, t, run->sample, values, rate);
-    if (t == run->from)
-        for (size_t i = 0; i < run->moving.count; i++)
-            if (values[i] < 0) values[i] = 0;
-    return 0;
-}
-
 /* ---- making and freeing */
 
 static bool make_stepper(struct run *run)
@@ -83,18 +60,6 @@ static bool make_decided(struct decided *decided, const struct plan *plan)
     return true;
 }
 
-static bool make_scans(struct run *run)
-{
-    if (!watchers_init(&run->watchers, run->model, run->options.tolerance)) return false;
-    const struct watcher_set *timed = &run->watchers.timed, *moving = &run->watchers.moving;
-    if (!scan_init(&run->timed, timed->count, sample_timed, run)) return false;
-    if (!scan_init(&run->moving, moving->count, sample_moving, run)) return false;
-    if (!run_use_enclosures(run)) return false;
-    for (size_t i = 0; i < timed->count; i++) run->timed.rough[i] = timed->watchers[i].rough;
-    for (size_t i = 0; i < moving->count; i++) run->moving.rough[i] = moving->watchers[i].rough;
-    return true;
-}
-
 static bool make_run(struct run *run)
 {
     const struct plan *plan = &run->model->plan;
@@ -103,7 +68,7 @@ static bool make_run(struct run *run)
     run->during = state_new(run->model);
     size_t links = run->model->tree ? (size_t)run->model->tree->count : 0;
     run->y = calloc(11 * n + 2 * links + 1, sizeof *run->y);
-    if (!run->state || !run->during || !run->y || !make_scans(run)) return false;
+    if (!run->state || !run->during || !run->y || !run_make_scans(run)) return false;
     if (run->state->tree) run->state->tree->accuracy = run->during->tree->accuracy = run->options.tolerance;
     if (!poles_init(&run->poles, run->model)) return false;
     run->f = run->y + 2 * n;

@@ -123,8 +123,8 @@ int run_panels(const struct run *run);
 
 /* ---- for the files of the loop */
 
-/* Let the scans work with enclosures (run_enclose.c). False when memory is out. */
-bool run_use_enclosures(struct run *run);
+/* Event functions and their scans (run_watch.c). False when memory is out. */
+bool run_make_scans(struct run *run);
 
 /* Apply what has happened at run->state: `timed` and `moving` flag the functions of each set that have
  * crossed; NULL for none. Settles the modes. */

@@ -339,13 +339,13 @@ int stepper_dense(struct stepper *s, double t, double *y)
 }
 
 /* A step of the linear method is two radians of the fastest oscillation: the Bessel function J_14(1) of its
- * Chebyshev series is 7e-16. Where every sample is a step of an implicit method, they are few, and known no
- * better than its equations are solved. */
+ * Chebyshev series is 7e-16. Where every sample is a step of an implicit method, it is known no better than
+ * its equations are solved. */
 int stepper_degree(const struct stepper *s, double *negligible)
 {
     const gsl_odeiv2_step_type *type = s->step->type;
     bool redone = s->method->implicit && type != step_rodas5p;
-    *negligible = redone ? 1e-3 : 0;
+    *negligible = redone ? 1e-9 : 0;
     if (type == step_parabola) return 2;
     if (type == step_linear) {
         const int most = 14;
@@ -355,7 +355,7 @@ int stepper_degree(const struct stepper *s, double *negligible)
         return most;
     }
     if (type == step_nystrom) return 12;
-    return redone ? 4 : 8;
+    return 8;
 }
 
 int stepper_partial(struct stepper *s, double t, double *y, double *f)

@@ -85,8 +85,11 @@ static bool group_watchers(const struct fbd_model *model, struct watcher_set *se
     return true;
 }
 
-bool watchers_init(struct watchers *watchers, const struct fbd_model *model, double tolerance)
+bool watchers_init(struct watchers *watchers, const struct fbd_model *model, double tolerance, bool multistep)
 {
+    /* The errors of a multistep method hang together over many steps: towards a terminal speed msadams was
+     * seen to be off by 160 tolerances inside of its steps, where one-step methods are by 5. */
+    const double tolerances = 10, together = 30;
     const struct plan *plan = &model->plan;
     size_t margins = 0;
     for (size_t i = 0; i < plan->kink_count; i++)
@@ -106,7 +109,7 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
         watchers_free(watchers);
         return false;
     }
-    watchers->tolerance = tolerance;
+    watchers->width = tolerances * (multistep ? together : 1) * tolerance;
     watchers->band = watchers->most + plan->watch_count;
     add_all(watchers, plan);
     if (group_watchers(model, &watchers->timed) && group_watchers(model, &watchers->moving)) return true;
@@ -299,7 +302,6 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
 
 void watchers_arm(struct watchers *watchers, struct fbd_state *state)
 {
-    const double tolerances = 10;
     const struct plan *plan = &state->model->plan;
     if (plan->watch_count == 0) return;
     struct view view = {.state = state, .at = state_instant(state)};
@@ -307,7 +309,7 @@ void watchers_arm(struct watchers *watchers, struct fbd_state *state)
     for (size_t i = 0; i < plan->watch_count; i++) {
         double rate, value = user_value(&plan->watches[i], &view, &rate), size = fabs(value);
         if (size > watchers->most[i] && size < HUGE_VAL) watchers->most[i] = size;
-        double width = tolerances * watchers->tolerance * watchers->most[i];
+        double width = watchers->width * watchers->most[i];
         watchers->band[i] = size <= width ? width : 0;
         if (watchers->armed[i] != 0) continue;
         double side = value != 0 ? value : rate;

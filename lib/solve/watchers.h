@@ -10,7 +10,8 @@
  * that approaches its terminal value, gets there in infinite time only, yet the numbers pass to and fro once
  * the distance is below the tolerance. So where a step starts with a difference of the sides that is within
  * 10 tolerances of the largest one so far, the event happens when the difference has left this band on the
- * other side, not within it. What crosses for good is late by as much as its time is uncertain.
+ * other side, not within it (300 tolerances for multistep methods). What crosses for good is late by as much
+ * as its time is uncertain.
  */
 #ifndef FBD_SOLVE_WATCHERS_H
 #define FBD_SOLVE_WATCHERS_H
@@ -49,13 +50,14 @@ struct watchers {
     struct enclosure *margins; /* the same as enclosures */
     int *armed;                /* per user event: +1 or -1, the side where it is; 0 while it sits on zero */
     bool *fired;               /* per user event: it happened at this instant */
-    double tolerance;          /* of the method */
+    double width;              /* of the bands of user events, relative to the largest size */
     double *most, *band; /* per user event: largest size of the difference; 0, or where a step starts in the
                             band its half width */
 };
 
 /* Build the sets for a model; false when memory is out (then all is freed). */
-bool watchers_init(struct watchers *watchers, const struct fbd_model *model, double tolerance);
+bool watchers_init(struct watchers *watchers, const struct fbd_model *model, double tolerance,
+                   bool multistep);
 void watchers_free(struct watchers *watchers);
 
 /* values[count] and rates[count] (along the motion) of a set at an instant. +HUGE_VAL and 0 for what cannot

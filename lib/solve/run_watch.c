@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What a run encloses: event functions over stretches of time, on the state along the last step.
+ * What a run watches: event functions at instants and over stretches of time, on the state along the last
+ * step.
  */
 #include <gsl/gsl_errno.h>
 #include <stdlib.h>
@@ -8,6 +9,29 @@
 
 #include "dynamics/absolute.h"
 #include "solve/run.h"
+
+static int sample_timed(void *context, double t, double *values, double *rate)
+{
+    struct run *run = context;
+    watchers_evaluate(&run->watchers, &run->watchers.timed, run->during, t, run->state->y, values, rate);
+    return 0;
+}
+
+/* At the start of a step no function has passed its end: one that is negative has just come from there, or
+ * goes there, and is off by the rounding of the instant. Left so, one that rises would hide a zero before the
+ * first sample, when the motion turns back at once, and one that falls would never be seen again, with its
+ * branch on the wrong side for good. As zero the first is looked at like others and the second crosses here.
+ */
+static int sample_moving(void *context, double t, double *values, double *rate)
+{
+    struct run *run = context;
+    if (switcher_dense(run->stepper, t, run->sample) != GSL_SUCCESS) return -1;
+    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, t, run->sample, values, rate);
+    if (t == run->from)
+        for (size_t i = 0; i < run->moving.count; i++)
+            if (values[i] < 0) values[i] = 0;
+    return 0;
+}
 
 static void enclose_timed(void *context, size_t group, const struct stretch *stretch, struct enclosure *out)
 {
@@ -64,7 +88,7 @@ static bool make_course(struct run *run)
     return made;
 }
 
-bool run_use_enclosures(struct run *run)
+static bool use_enclosures(struct run *run)
 {
     const struct watcher_set *timed = &run->watchers.timed, *moving = &run->watchers.moving;
     run->timed.horizon = run->options.until;
@@ -72,4 +96,18 @@ bool run_use_enclosures(struct run *run)
            scan_use_enclosures(&run->moving, moving->groups, moving->group_count, enclose_moving,
                                follow_course) &&
            make_course(run);
+}
+
+bool run_make_scans(struct run *run)
+{
+    double tolerance = run->options.tolerance;
+    bool multistep = run->options.method->multistep;
+    if (!watchers_init(&run->watchers, run->model, tolerance, multistep)) return false;
+    const struct watcher_set *timed = &run->watchers.timed, *moving = &run->watchers.moving;
+    if (!scan_init(&run->timed, timed->count, sample_timed, run)) return false;
+    if (!scan_init(&run->moving, moving->count, sample_moving, run)) return false;
+    if (!use_enclosures(run)) return false;
+    for (size_t i = 0; i < timed->count; i++) run->timed.rough[i] = timed->watchers[i].rough;
+    for (size_t i = 0; i < moving->count; i++) run->moving.rough[i] = moving->watchers[i].rough;
+    return true;
 }
