@@ -46,8 +46,20 @@ struct going {
     fbd_result *result;
     const fbd_recording *recording; /* or NULL */
     unsigned long steps;
-    bool whole; /* no rows, record or error bars: nothing to stop for on the way */
+    bool whole;   /* no rows, record or error bars: nothing to stop for on the way */
+    double slice; /* of the run, until groups that are interrupted have a time in common */
 };
+
+/* Groups that are interrupted go on to the end of a slice: a thousandth of the run, or less where that would
+ * take a stiff one millions of steps. Slices begin short and double while they take few steps. */
+static const double first_slice = 1e-9, longest_slice = 1e-3;
+
+static void adapt_slice(struct going *going, unsigned long made)
+{
+    const double most = 1000 * (double)going->result->simulation->ensemble->count;
+    going->slice *= (double)made > most ? most / (double)made : 2;
+    going->slice = fmin(going->slice, longest_slice);
+}
 
 /* Tell how far the run is, and end it when that is answered by a stop. */
 static void tell_progress(struct going *going, double t)
@@ -85,19 +97,18 @@ static void observe_again(void *context, struct ensemble *ensemble, size_t group
 }
 
 /* The next time at which there is something to do other than a row: a sample of the errors, the end of a step
- * for the record, or, since who watches wants to be asked, a thousandth of the run; where one group goes to
- * the end without a stop it asks after each step. */
+ * for the record, or, since who watches wants to be asked, the end of a slice; where one group goes to the
+ * end without a stop it asks after each step. */
 static double next_stop(const struct going *going)
 {
-    const double slice = 1e-3;
     const struct bars *bars = going->result->simulation->bars;
     struct ensemble *ensemble = going->result->simulation->ensemble;
     double next = bars ? bars_next(bars) : HUGE_VAL;
     if (going->result->record) next = fmin(next, ensemble_next_end(ensemble));
     bool told = going->recording && going->recording->progress;
     if (told && !(ensemble->count == 1 && going->whole))
-        next =
-            fmin(next, fmax(ensemble->t + slice * ensemble->options.until, nextafter(ensemble->t, HUGE_VAL)));
+        next = fmin(next, fmax(ensemble->t + going->slice * ensemble->options.until,
+                               nextafter(ensemble->t, HUGE_VAL)));
     return next;
 }
 
@@ -125,7 +136,9 @@ static bool carry_on(struct going *going, struct csv *csv)
     double from = ensemble->t;
     double row = csv ? csv_next(csv) : ensemble->options.until, stop = next_stop(going);
     bool other = stop < row;
+    unsigned long before = going->steps;
     go(going, other ? stop : row, csv && !other ? csv->near : 0, csv || result->record);
+    adapt_slice(going, going->steps - before);
     tell_progress(going, ensemble->t);
     bool event = ensemble->event_count > events;
     bool due = csv && (!other || event || ensemble->outcome != FBD_GOING);
@@ -154,7 +167,7 @@ static bool carry(fbd_result *result, const fbd_recording *recording, struct csv
     struct ensemble *ensemble = simulation->ensemble;
     struct bars *bars = simulation->bars;
     bool whole = !csv && !result->record && !bars;
-    struct going going = {result, recording, 0, whole};
+    struct going going = {result, recording, 0, whole, first_slice};
     if (result->ledger.any || (recording && recording->progress))
         ensemble->observer = (struct observer){&going, observe, observe_again};
     bool fine = true;

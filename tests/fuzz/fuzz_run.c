@@ -143,17 +143,6 @@ static void claim_csv(const struct text *table)
     if (table->length > 0 && table->length <= most_table) claim_table("CSV", table->data);
 }
 
-/* Groups that are independent go together from one thousandth of the run to the next and are not interrupted
- * in between: their runs are short, so that a stiff one does not make millions of steps there. */
-static fbd_simulation *start(const struct input *input, fbd_options *options)
-{
-    fbd_simulation *simulation = fbd_simulation_new(input->model, options, input->errors);
-    if (!simulation || fbd_simulation_stats(simulation).groups < 2) return simulation;
-    fbd_simulation_free(simulation);
-    options->until = 1e-3;
-    return fbd_simulation_new(input->model, options, input->errors);
-}
-
 static void run(struct input *input)
 {
     size_t steps = 0;
@@ -168,7 +157,7 @@ static void run(struct input *input)
                                .keep = which >> 2 == 1 || which >> 2 == 2,
                                .progress = watch,
                                .progress_context = &steps};
-    fbd_simulation *simulation = start(input, &options);
+    fbd_simulation *simulation = fbd_simulation_new(input->model, &options, input->errors);
     if (fuzz_take(choices, 3) != 0) recording.every = isfinite(options.until) ? options.until / 4 : 0.25;
     fbd_result *result = simulation ? fbd_simulation_run(simulation, &recording) : NULL;
     fbd_outcome outcome = result ? fbd_result_outcome(result) : FBD_FAILED;

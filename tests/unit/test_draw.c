@@ -279,6 +279,36 @@ static void an_interrupted_run_ends_where_it_was_told_to(void **unused)
     fbd_model_free(model);
 }
 
+static int stop_soon(void *context, const fbd_progress *progress)
+{
+    (void)context;
+    return progress->steps > 100;
+}
+
+/* Of two groups one makes a hundred million steps: who interrupts does not wait for a thousandth of them. */
+static void a_stiff_group_does_not_hold_up_an_interruption(void **unused)
+{
+    (void)unused;
+    static const char text[] =
+        "fbd: 1\n"
+        "bodies:\n"
+        "  a: {mass: 1, motion: slide, initial: {x: 1}, forces: [spring: {stiffness: 1e12}]}\n"
+        "  b: {mass: 1, motion: slide, initial: {x: 1}, forces: [spring: {stiffness: 1}]}\n"
+        "simulate: {until: 10 s, method: rkck}\n";
+    fbd_model *model = model_from(text);
+    fbd_errors *errors = fbd_errors_new();
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    fbd_simulation *simulation = fbd_simulation_new(model, &options, errors);
+    fbd_recording recording = {.progress = stop_soon};
+    fbd_result *result = fbd_simulation_run(simulation, &recording);
+    assert_int_equal(fbd_result_outcome(result), FBD_INTERRUPTED);
+    assert_true(fbd_simulation_stats(simulation).steps < 10000);
+    fbd_result_free(result);
+    fbd_simulation_free(simulation);
+    fbd_errors_free(errors);
+    fbd_model_free(model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -288,6 +318,7 @@ int main(void)
         cmocka_unit_test(packing_loses_nothing),
         cmocka_unit_test(what_was_not_recorded_cannot_be_shown),
         cmocka_unit_test(an_interrupted_run_ends_where_it_was_told_to),
+        cmocka_unit_test(a_stiff_group_does_not_hold_up_an_interruption),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
