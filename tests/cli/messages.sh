@@ -4,7 +4,7 @@
 # Messages that once misled: what they say is so.
 set -u
 . "$FBD_SOURCE_ROOT/tests/cli/program.sh"
-faults=$FBD_SOURCE_ROOT/tests/faults/messages
+faults=$FBD_SOURCE_ROOT/tests/cli/messages
 incline=$models/kinetics/incline.yaml
 
 never() { # never PATTERN FILE
