@@ -14,7 +14,7 @@ enum { parameter_draws = 12, states_of_a_draw = 24, tries_of_a_state = 8 };
 /* Does a sample agree? To rounding: 1e-9 of what was added up. */
 static bool agrees(const struct hand_sample *sample)
 {
-    return fabs(sample->lack) <= 1e-9 * sample->size;
+    return fabs(sample->lack) <= 1e-9 * sample->size && isfinite(sample->size);
 }
 
 /* ---- drawing */
@@ -248,6 +248,8 @@ static void take_sample(struct hand_check *check, const struct hand *hand, struc
         sample.a_hand = sample.a - (sample.left - sample.right) / slope;
         scale = sample.I / slope;
     }
+    /* Next to no inertia: side against side, since beyond the largest number nothing differs. */
+    if (!isfinite(scale * (fabs(sample.left) + fabs(sample.right)))) scale = 1;
     sample.lack = scale * (sample.left - sample.right);
     sample.size = fabs(scale) * (fabs(sample.left) + fabs(sample.right)) + DBL_MIN;
     for (size_t j = 0; jointed && j < hand->summand_count; j++)

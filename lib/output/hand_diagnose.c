@@ -38,12 +38,13 @@ static bool explains(const struct hand_check *check, int slip, candidate *value,
         top += sample->lack * T;
         bottom += T * T;
     }
-    if (!(bottom > 0)) return false;
+    if (!(bottom > 0) || !isfinite(bottom)) return false;
     *factor = top / bottom;
     for (size_t i = 0; i < check->count; i++) {
         const struct hand_sample *sample = &check->samples[i];
-        if (sample->slip == slip && fabs(sample->lack - *factor * value(sample, index)) > 1e-6 * sample->size)
-            return false;
+        if (sample->slip == slip &&
+            !(fabs(sample->lack - *factor * value(sample, index)) <= 1e-6 * sample->size))
+            return false; /* also for what is no number */
     }
     return true;
 }

@@ -58,6 +58,8 @@ static const struct slip_of_the_pen slips[] = {
     {block, "m*v_dot = f1 - m*g*cos(phi) - mu*m*g*cos(phi)*sign(v) - k*x",
      "sine and cosine are exchanged in the term `gravity`"},
     {block, "m*v_dot = f1 - mu*m*g*cos(phi)*sign(v) - k*x", "the term `gravity` is missing"},
+    {block, "m*v_dot*1e-310 = 7*f1 - m*g*sin(phi) - k*x",
+     "differs at 288"}, /* over that inertia both overflow */
     {block, "m*v_dot = f1 - m*g*sin(phi) - mu*m*g*sign(v) - k*x",
      "`friction` is not what the equation has for it, `-mu*m*g*sign(v)`|the factor cos(along) is missing"},
     {block, "m*v_dot + k*x = f1*cos(phi) - m*g*sin(phi) - mu*m*g*cos(phi)*sign(v)",
