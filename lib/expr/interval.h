@@ -74,17 +74,32 @@ static inline struct interval interval_subtract(struct interval a, struct interv
     return interval_widen(a.low - b.high, a.high - b.low, 1);
 }
 
+/* Without NaN, which fmin and fmax would look for at the price of a call. */
+static inline double interval_lesser(double x, double y)
+{
+    return x < y ? x : y;
+}
+
+static inline double interval_larger(double x, double y)
+{
+    return x > y ? x : y;
+}
+
 /* What zero is multiplied by does not matter: no value in a range is infinite, only its end. */
 static inline double interval_product(double x, double y)
 {
     return x == 0 || y == 0 ? 0 : x * y;
 }
 
+/* Operands without width, as constants have, are common. */
 static inline struct interval interval_multiply(struct interval a, struct interval b)
 {
-    double p = interval_product(a.low, b.low), q = interval_product(a.low, b.high);
-    double r = interval_product(a.high, b.low), s = interval_product(a.high, b.high);
-    return interval_widen(fmin(fmin(p, q), fmin(r, s)), fmax(fmax(p, q), fmax(r, s)), 1);
+    double p = interval_product(a.low, b.low), q = interval_product(a.high, b.high);
+    if (a.low == a.high || b.low == b.high)
+        return interval_widen(interval_lesser(p, q), interval_larger(p, q), 1);
+    double r = interval_product(a.low, b.high), s = interval_product(a.high, b.low);
+    return interval_widen(interval_lesser(interval_lesser(p, q), interval_lesser(r, s)),
+                          interval_larger(interval_larger(p, q), interval_larger(r, s)), 1);
 }
 
 static inline struct interval interval_scale(double k, struct interval a)
@@ -100,7 +115,7 @@ static inline struct interval interval_hull(struct interval a, struct interval b
 /* Both bounds hold. Where rounding has put them apart, a stands. */
 static inline struct interval interval_meet(struct interval a, struct interval b)
 {
-    double low = fmax(a.low, b.low), high = fmin(a.high, b.high);
+    double low = interval_larger(a.low, b.low), high = interval_lesser(a.high, b.high);
     return low <= high ? (struct interval){low, high} : a;
 }
 

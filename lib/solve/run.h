@@ -126,6 +126,11 @@ int run_panels(const struct run *run);
 /* Event functions and their scans (run_watch.c). False when memory is out. */
 bool run_make_scans(struct run *run);
 
+/* Into how many panels an interval is to be divided for functions that are sampled, so that no force of time
+ * alone turns by more than two radians in one; at most 256. Not a proof: what joints make of several such
+ * forces is only sampled. */
+size_t run_sample_panels(const struct run *run, double from, double to);
+
 /* Apply what has happened at run->state: `timed` and `moving` flag the functions of each set that have
  * crossed; NULL for none. Settles the modes. */
 void run_apply(struct run *run, const bool *timed, const bool *moving);

@@ -88,6 +88,48 @@ static bool make_course(struct run *run)
     return made;
 }
 
+/* Over how many radians a formula of time alone turns at most from `from` to `to`: its fastest rate against
+ * half of its range. That of a narrow peak is that of its flanks. */
+static double radians_of(const struct formula *formula, const struct fbd_state *during, double from,
+                         double to)
+{
+    const int *slots;
+    if (!formula->expr || !expr_uses_time(formula->expr) || expr_variables(formula->expr, &slots) > 0)
+        return 0;
+    const int *branch = formula->branch < 0 ? NULL : during->branch + formula->branch;
+    struct stretch stretch = stretch_between(from, to);
+    struct enclosure f = expr_enclose(formula->expr, &stretch, NULL, branch);
+    double range = interval_width(f.value), turn = interval_size(f.rate) * (to - from);
+    return turn > 0 && range > 0 ? 2 * turn / range : 0;
+}
+
+static bool has_samples(const struct watcher_set *set)
+{
+    for (size_t g = 0; g < set->group_count; g++)
+        if (!set->groups[g].proved) return true;
+    return false;
+}
+
+size_t run_sample_panels(const struct run *run, double from, double to)
+{
+    const double most = 256, each = 2;
+    const struct plan *plan = &run->model->plan;
+    double radians = 0;
+    if (!has_samples(&run->watchers.moving)) return 1;
+    for (size_t i = 0; i < run->model->load_count; i++) {
+        const struct model_load *load = &run->model->loads[i];
+        const struct formula *all[] = {&load->value, &load->angle, &load->fx, &load->fy, &load->potential};
+        for (int k = 0; k < 5; k++) radians = fmax(radians, radians_of(all[k], run->during, from, to));
+    }
+    for (size_t i = 0; i < plan->friction_count; i++) {
+        const struct friction *friction = &plan->frictions[i];
+        const struct formula *all[] = {&friction->mu_s, &friction->mu_k, &friction->surface_speed,
+                                       &friction->position};
+        for (int k = 0; k < 4; k++) radians = fmax(radians, radians_of(all[k], run->during, from, to));
+    }
+    return (size_t)fmin(fmax(1, ceil(radians / each)), most);
+}
+
 static bool use_enclosures(struct run *run)
 {
     const struct watcher_set *timed = &run->watchers.timed, *moving = &run->watchers.moving;

@@ -318,6 +318,7 @@ static int look_by_samples(struct scan *scan, double from, double to)
     bool any = false;
     for (size_t i = 0; i < scan->count; i++) any |= scan->chosen[i] = scan->sampled[i];
     scan->clear = any ? from : to;
+    if (any) scan->located = false;
     scan->most = scan->samples + most_samples;
     double panels = scan->panels > 1 ? (double)scan->panels : 1, begin = from;
     for (double k = 1; any && k <= panels; k++) {
@@ -350,6 +351,7 @@ static int locate_in_group(struct scan *scan, struct proof_group *group)
     status = locate(scan, a, b, &scan->points[2]);
     group->clear = group->low = scan->points[0].t;
     group->high = scan->points[1].t;
+    scan->located = true;
     return status;
 }
 
@@ -401,8 +403,10 @@ static int search_all(struct scan *scan, double from, double *limit)
 /* What has been found, and what becomes negative at the same instant. */
 static int mark_crossed(struct scan *scan, double t)
 {
-    struct scan_point *point = &scan->points[2];
-    int status = take_sample(scan, point, t);
+    /* The end of the bracket that was located last, or another one. */
+    bool known = scan->located && scan->points[1].t == t;
+    struct scan_point *point = &scan->points[known ? 1 : 2];
+    int status = known ? 0 : take_sample(scan, point, t);
     if (status) return status;
     scan->t = t;
     for (size_t g = 0; g < scan->group_count; g++) {
@@ -438,6 +442,7 @@ int scan_interval(struct scan *scan, double from, double to)
 {
     scan->resolved = HUGE_VAL;
     scan->clear = from;
+    scan->located = false;
     if (scan->count == 0) return 0;
     double limit = to;
     int proved = look_by_enclosures(scan, from, &limit);

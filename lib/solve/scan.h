@@ -56,6 +56,7 @@ struct scan {
 
     struct prover prover;
     const struct proof_group *found_in;
+    bool located;           /* points[1] is the end of the bracket that was located last */
     bool *sampled, *chosen; /* count: searched by samples; located at present */
 };
 

@@ -323,6 +323,13 @@ static const char narrow_peak[] =
     "kinetic: "
     "0.5}, applied: {name: u, value: \"4.921274779[N]*sin(19.303110999236644[rad/s]*t + 0.697)\"}]}\n"
     "simulate: {until: 5 s}\n";
+/* The same push on a block that lies on another one. */
+static const char joined_peak[] =
+    "fbd: 1\nbodies:\n  a: {mass: 1, motion: {slide: {along: 0}}, forces: [gravity, normal, friction: 2]}\n"
+    "  b: {mass: 1, motion: {slide: {on: a, along: 0}}, forces: [gravity, normal, friction: {static: 0.5, "
+    "kinetic: 0.5}, applied: {name: u, value: \"4.921274779[N]*sin(19.303110999236644[rad/s]*t + "
+    "0.697)\"}]}\n"
+    "simulate: {until: 5 s}\n";
 static const char branch_in_force[] =
     "fbd: 1\nbodies:\n  b: {mass: 1, motion: slide, forces: [gravity, normal, friction: {static: 0.5, "
     "kinetic: "
@@ -352,6 +359,7 @@ static void friction_gives_way_where_its_limit_is_passed(void **unused)
     const double limit = 0.5 * 9.81;
     double peak = (asin(limit / 4.921274779) - 0.697) / 19.303110999236644;
     assert_true(fabs(first_breakaway(narrow_peak) - peak) <= 1e-12);
+    assert_true(fabs(first_breakaway(joined_peak) - peak) <= 1e-12);
     /* The branch with 0.2 N more comes back where sin(w t) falls to 0.3: the 19th wave. */
     double turn = 2 * acos(-1), change = (18 * turn + turn / 2 - asin(0.3)) / 40.86053500086608;
     assert_true(1.665538212719631 * change + 0.2 > limit && 1.665538212719631 * change < limit);
