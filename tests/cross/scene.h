@@ -20,7 +20,7 @@ enum {
     most_summands = 8,
     most_variables = 4,
     most_lines = 3,
-    name_room = 12,
+    name_room = 24,
 };
 
 struct vec2 {
