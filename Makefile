@@ -70,6 +70,11 @@ events: $(BUILD)/.tests
 	ninja -C $(BUILD) tests/unit/test_events
 	FBD_EVENT_SCENES=1500 $(BUILD)/tests/unit/test_events
 
+# A million random impacts, each held against its law.
+impacts: $(BUILD)/.tests
+	ninja -C $(BUILD) tests/unit/test_impact
+	FBD_IMPACTS=1000000 $(BUILD)/tests/unit/test_impact
+
 # The tables of docs/error-bars.md; takes some ten minutes.
 error-bars: $(BUILD)/.tests
 	ninja -C $(BUILD)
@@ -131,5 +136,5 @@ $(BUILD)-fuzz/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars events failures gallery check-format format lint install clean
+.PHONY: all run test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars events impacts failures gallery check-format format lint install clean
 .SECONDARY:

@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "holds/impact.h"
+
+#include <math.h>
+
+/* A place on the way, with the work of the normal impulse so far. */
+struct place {
+    double p, tau, v_n, v_t, work;
+};
+
+/* What changes with p on a piece of the way. */
+struct slope {
+    double f, v_n, v_t;
+};
+
+static struct slope slope_with(const struct impact_point *point, double f)
+{
+    const double *W = point->W;
+    return (struct slope){f, W[0] + W[1] * f, W[1] + W[2] * f};
+}
+
+/* Where the tangent rests it sticks if friction suffices, else it goes where the normal impulse throws it. */
+static struct slope slope_at(const struct impact_point *point, const struct place *at)
+{
+    const double *W = point->W;
+    if (at->v_t != 0) return slope_with(point, at->v_t > 0 ? -point->mu : point->mu);
+    if (fabs(W[1]) > point->mu * W[2]) return slope_with(point, W[1] > 0 ? -point->mu : point->mu);
+    struct slope slope = slope_with(point, W[2] > 0 ? -W[1] / W[2] : 0);
+    slope.v_t = 0;
+    return slope;
+}
+
+/* The impulse after which the tangent rests. */
+static double until_rest(const struct place *at, const struct slope *slope)
+{
+    return at->v_t * slope->v_t < 0 ? -at->v_t / slope->v_t : HUGE_VAL;
+}
+
+static void go(struct place *at, const struct slope *slope, double dp, double rest)
+{
+    at->work += dp * (at->v_n + slope->v_n * dp / 2);
+    at->p += dp;
+    at->tau += slope->f * dp;
+    at->v_n += slope->v_n * dp;
+    at->v_t = dp >= rest ? 0 : at->v_t + slope->v_t * dp;
+}
+
+/* Slipping may first press the point on: friction that throws it against the other body. It comes to rest by
+ * that, W being positive definite, and then compression ends. */
+static void compress(const struct impact_point *point, struct place *at)
+{
+    enum { most_pieces = 3 };
+    for (int piece = 0; piece < most_pieces && at->v_n < 0; piece++) {
+        struct slope slope = slope_at(point, at);
+        double rest = until_rest(at, &slope), end = slope.v_n > 0 ? -at->v_n / slope.v_n : HUGE_VAL;
+        go(at, &slope, fmin(rest, end), rest);
+        if (end <= rest) at->v_n = 0;
+    }
+}
+
+/* The impulse that is still to come on a piece that lasts. */
+static double until_end(const struct impact_point *point, const struct place *at, const struct slope *slope,
+                        const struct place *compressed, double approach)
+{
+    double e = point->e, due;
+    switch (point->law) {
+    case impact_poisson: return (1 + e) * compressed->p - at->p;
+    case impact_newton: return (e * approach - at->v_n) / slope->v_n;
+    case impact_stronge: break;
+    }
+    due = -e * e * compressed->work - (at->work - compressed->work);
+    return due > 0 ? 2 * due / (at->v_n + sqrt(at->v_n * at->v_n + 2 * slope->v_n * due)) : 0;
+}
+
+static void restore(const struct impact_point *point, struct place *at, double approach)
+{
+    enum { most_pieces = 3 };
+    const struct place compressed = *at;
+    for (int piece = 0; piece < most_pieces; piece++) {
+        struct slope slope = slope_at(point, at);
+        double rest = until_rest(at, &slope), end = until_end(point, at, &slope, &compressed, approach);
+        if (end > 0) go(at, &slope, fmin(rest, end), rest);
+        if (end <= rest) break;
+    }
+}
+
+struct impact impact_at_point(const struct impact_point *point, double v_n, double v_t)
+{
+    struct place at = {.v_n = v_n, .v_t = v_t};
+    struct impact impact = {.v_n = v_n, .v_t = v_t};
+    if (!(v_n < 0)) return impact;
+    compress(point, &at);
+    impact.compression = at.p;
+    if (point->e > 0) restore(point, &at, -v_n);
+    impact.p = at.p;
+    impact.tau = at.tau;
+    impact.v_n = at.v_n;
+    impact.v_t = at.v_t;
+    impact.work = (at.p * (v_n + at.v_n) + at.tau * (v_t + at.v_t)) / 2;
+    impact.slip = at.v_t == 0 ? impact_sticks : at.v_t * v_t < 0 ? impact_reverses : impact_slips;
+    return impact;
+}
