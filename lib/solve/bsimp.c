@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "solve/lu.h"
+#include "numeric/lu.h"
 
 enum { rows = 7 };
 

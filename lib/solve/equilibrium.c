@@ -12,7 +12,7 @@
 #include "dynamics/rates.h"
 #include "dynamics/statics.h"
 #include "dynamics/tree.h"
-#include "solve/lu.h"
+#include "numeric/lu.h"
 #include "solve/start.h"
 
 struct balance {

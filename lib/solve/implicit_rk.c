@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "solve/lu.h"
+#include "numeric/lu.h"
 #include "solve/newton.h"
 
 enum { most_stages = 2 };

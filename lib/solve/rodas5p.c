@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "solve/lu.h"
+#include "numeric/lu.h"
 #include "solve/rodas5p_table.h"
 
 enum { dense_terms = 3 };

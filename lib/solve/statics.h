@@ -18,7 +18,7 @@
 #include "dynamics/constraint.h"
 #include "dynamics/diagram.h"
 #include "dynamics/statics.h"
-#include "solve/svd.h"
+#include "numeric/svd.h"
 
 /* The free-body diagram of one body at rest. */
 struct rest_diagram {

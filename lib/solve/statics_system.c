@@ -6,7 +6,7 @@
 #include "dynamics/constraint.h"
 #include "dynamics/friction.h"
 #include "dynamics/tree_system.h"
-#include "solve/least_distance.h"
+#include "numeric/least_distance.h"
 #include "solve/statics.h"
 
 /* ---- sizes: what zero is measured against */

@@ -14,8 +14,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "numeric/least_distance.h"
 #include "random_numbers.h"
-#include "solve/least_distance.h"
 
 static const double rounding = 1e-12; /* of numbers of size 1 */
 

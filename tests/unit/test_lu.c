@@ -13,8 +13,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "numeric/lu.h"
 #include "random_numbers.h"
-#include "solve/lu.h"
 
 enum { largest = 12 };
 

@@ -13,8 +13,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "numeric/svd.h"
 #include "random_numbers.h"
-#include "solve/svd.h"
 
 enum { most = 30 };
 

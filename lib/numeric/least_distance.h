@@ -6,8 +6,8 @@
  * rows of G as columns with h below them and f = (0, ..., 0, 1), and r = E u - f, x = -r / r_last; r = 0
  * means that there is no such point.
  */
-#ifndef FBD_SOLVE_LEAST_DISTANCE_H
-#define FBD_SOLVE_LEAST_DISTANCE_H
+#ifndef FBD_NUMERIC_LEAST_DISTANCE_H
+#define FBD_NUMERIC_LEAST_DISTANCE_H
 
 #include <stddef.h>
 

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "solve/least_distance.h"
+#include "numeric/least_distance.h"
 
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "solve/svd.h"
+#include "numeric/svd.h"
 
 /* Non-negative least squares (Lawson and Hanson, chapter 23, algorithm NNLS): m equations, n unknowns. */
 struct nnls {

@@ -5,8 +5,8 @@
  * GSL's gsl_linalg_LU_decomp takes memory on every call (2.7) and calls the error handler for a singular
  * matrix, neither of which has a place within an integration step.
  */
-#ifndef FBD_SOLVE_LU_H
-#define FBD_SOLVE_LU_H
+#ifndef FBD_NUMERIC_LU_H
+#define FBD_NUMERIC_LU_H
 
 #include <stdbool.h>
 #include <stddef.h>

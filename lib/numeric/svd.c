@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "solve/svd.h"
+#include "numeric/svd.h"
 
 #include <float.h>
 #include <math.h>

@@ -7,8 +7,8 @@
  * are turned in pairs until all are orthogonal, A V = U S. Of GSL's methods (2.7.1) two take memory without
  * looking, and its own Jacobi left the equations of a truss of a hundred rods unsolved.
  */
-#ifndef FBD_SOLVE_SVD_H
-#define FBD_SOLVE_SVD_H
+#ifndef FBD_NUMERIC_SVD_H
+#define FBD_NUMERIC_SVD_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "solve/lu.h"
+#include "numeric/lu.h"
 
 #include <math.h>
 

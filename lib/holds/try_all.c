@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * All modes one after the other: in each of them the forces are those of a linear system.
+ */
+#include "holds/holds.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "numeric/lu.h"
+
+struct trial {
+    struct hold_problem *problem;
+    int *side; /* of the guides: the sign of N */
+    double *A, *f, *first;
+    size_t *pivot;
+    int solutions;
+};
+
+static size_t choices(const struct hold *hold)
+{
+    return hold->kind == hold_one_sided ? 2 : hold->slip == 0 ? 3 : 1;
+}
+
+/* The modes of number `number`; those that hold come first. */
+static void set_modes(struct trial *trial, size_t number)
+{
+    static const int of_friction[] = {hold_keeps, hold_gives, hold_slips_back};
+    struct hold_problem *problem = trial->problem;
+    for (size_t g = 0; g < problem->guide_count; g++, number /= 2) trial->side[g] = number % 2 == 0 ? 1 : -1;
+    for (size_t i = 0; i < problem->count; i++) {
+        struct hold *hold = &problem->holds[i];
+        size_t choice = number % choices(hold);
+        number /= choices(hold);
+        hold->mode = hold->slip != 0 ? hold->slip : of_friction[choice];
+    }
+}
+
+/* f_i + slip mu P = 0, P as the side of a guide has it. */
+static void slipping_row(const struct trial *trial, size_t i, double *row, double *right)
+{
+    const struct hold_problem *problem = trial->problem;
+    const struct hold *hold = &problem->holds[i];
+    double share = hold->mode * hold->mu_k;
+    row[i] += 1;
+    if (hold->press == press_constant) *right -= share;
+    if (hold->press == press_hold) row[hold->presses] += share;
+    if (hold->press != press_guide) return;
+    const struct hold_guide *guide = &problem->guides[hold->presses];
+    int side = trial->side[hold->presses];
+    if (side < 0 && !guide->two_sided) return;
+    for (size_t j = 0; j < problem->count; j++)
+        row[j] += share * side * problem->B[(size_t)hold->presses * problem->count + j];
+    *right -= share * side * guide->free;
+}
+
+/* Forces and accelerations in the modes; false where they are not determined. A touch of give tells
+ * redundant holds apart. */
+static bool find_forces(struct trial *trial)
+{
+    const double give = 1e-10;
+    struct hold_problem *problem = trial->problem;
+    size_t n = problem->count;
+    memset(trial->A, 0, n * n * sizeof *trial->A);
+    memset(trial->f, 0, n * sizeof *trial->f);
+    for (size_t i = 0; i < n; i++) {
+        const struct hold *hold = &problem->holds[i];
+        double *row = trial->A + i * n, most = 0;
+        bool held = hold->mode == hold_keeps;
+        if (held) {
+            memcpy(row, problem->A + i * n, n * sizeof *row);
+            row[i] *= 1 + give;
+            trial->f[i] = -hold->free;
+        } else if (hold->kind == hold_one_sided) {
+            row[i] = 1;
+        } else {
+            slipping_row(trial, i, row, &trial->f[i]);
+        }
+        for (size_t j = 0; j < n; j++) most = fmax(most, fabs(row[j]));
+        if (most == 0) row[i] = most = 1; /* nothing moves it */
+        for (size_t j = 0; j < n; j++) row[j] /= most;
+        trial->f[i] /= most;
+    }
+    if (!lu_decompose(n, trial->A, trial->pivot)) return false;
+    lu_solve(n, trial->A, trial->pivot, trial->f);
+    for (size_t i = 0; i < n; i++) {
+        struct hold *hold = &problem->holds[i];
+        hold->force = trial->f[i];
+        hold->c = hold->free;
+        for (size_t j = 0; j < n; j++) hold->c += problem->A[i * n + j] * trial->f[j];
+    }
+    for (size_t g = 0; g < problem->guide_count; g++) {
+        problem->guides[g].N = problem->guides[g].free;
+        for (size_t j = 0; j < n; j++) problem->guides[g].N += problem->B[g * n + j] * trial->f[j];
+    }
+    return true;
+}
+
+/* Guides whose friction depends on their side are on the side that was assumed; of others one will do. */
+static bool sides_agree(const struct trial *trial)
+{
+    const double rounding = 1e-9;
+    const struct hold_problem *problem = trial->problem;
+    for (size_t g = 0; g < problem->guide_count; g++) {
+        double size = fabs(problem->guides[g].free);
+        for (size_t j = 0; j < problem->count; j++)
+            size = fmax(size, fabs(problem->B[g * problem->count + j] * problem->holds[j].force));
+        if (trial->side[g] * problem->guides[g].N < -rounding * size) return false;
+    }
+    return true;
+}
+
+static bool same_as_first(const struct trial *trial)
+{
+    const double near = 1e-6;
+    const struct hold_problem *problem = trial->problem;
+    double difference = 0, size = 0;
+    for (size_t i = 0; i < problem->count; i++) {
+        double own = problem->A[i * problem->count + i], weight = own > 0 ? 1 / sqrt(own) : 0;
+        difference = fmax(difference, weight * fabs(problem->holds[i].c - trial->first[i]));
+        size = fmax(size, weight * fmax(fabs(problem->holds[i].free), fabs(trial->first[i])));
+    }
+    return difference <= near * size;
+}
+
+static void keep_first(struct trial *trial, size_t *number, size_t own)
+{
+    if (trial->solutions++ > 0) return;
+    *number = own;
+    for (size_t i = 0; i < trial->problem->count; i++) trial->first[i] = trial->problem->holds[i].c;
+}
+
+static bool trial_new(struct trial *trial, struct hold_problem *problem)
+{
+    size_t n = problem->count;
+    *trial = (struct trial){.problem = problem};
+    trial->side = calloc(problem->guide_count + 1, sizeof *trial->side);
+    trial->A = calloc(n * n + 2 * n + 1, sizeof *trial->A);
+    trial->pivot = calloc(n + 1, sizeof *trial->pivot);
+    if (!trial->side || !trial->A || !trial->pivot) return false;
+    trial->f = trial->A + n * n;
+    trial->first = trial->f + n;
+    return true;
+}
+
+static void trial_free(struct trial *trial)
+{
+    free(trial->side);
+    free(trial->A);
+    free(trial->pivot);
+}
+
+int holds_try_all(struct hold_problem *problem, size_t most)
+{
+    struct trial trial;
+    size_t all = 1, best = 0;
+    for (size_t g = 0; g < problem->guide_count && all <= most; g++) all *= 2;
+    for (size_t i = 0; i < problem->count && all <= most; i++) all *= choices(&problem->holds[i]);
+    if (all > most) return -1;
+    bool made = trial_new(&trial, problem);
+    for (size_t number = 0; made && number < all; number++) {
+        set_modes(&trial, number);
+        if (!find_forces(&trial) || !sides_agree(&trial) || !holds_agree(problem)) continue;
+        if (trial.solutions == 0 || !same_as_first(&trial)) keep_first(&trial, &best, number);
+    }
+    if (made && trial.solutions > 0) {
+        set_modes(&trial, best);
+        find_forces(&trial);
+    }
+    trial_free(&trial);
+    return made ? trial.solutions : -2;
+}

@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "numeric/lcp.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "numeric/lu.h"
+
+/* The rows w - M z - z_0 = q of the basic variables. Variable k < n is w_k, n + k is z_k, 2 n is z_0. */
+struct tableau {
+    size_t n, width;
+    double *T;            /* n rows of width: the columns of all variables, then q */
+    size_t *basic;        /* of each row */
+    double *row, *column; /* n each: sizes by which rows and columns are divided */
+    double size;          /* of q */
+};
+
+/* What counts as zero among numbers of size 1. */
+static const double zero = 1e-11;
+
+static double *row_of(const struct tableau *tableau, size_t i)
+{
+    return tableau->T + i * tableau->width;
+}
+
+static void tableau_free(struct tableau *tableau)
+{
+    free(tableau->T);
+    free(tableau->basic);
+}
+
+/* Divide rows and columns by the roots of their largest entries, in turns (Ruiz 2001). */
+static void equilibrate(struct tableau *tableau, const double *M)
+{
+    enum { rounds = 6 };
+    size_t n = tableau->n;
+    for (size_t i = 0; i < n; i++) tableau->row[i] = tableau->column[i] = 1;
+    for (int round = 0; round < 2 * rounds; round++) {
+        bool rows = round % 2 == 0;
+        double *own = rows ? tableau->row : tableau->column;
+        const double *other = rows ? tableau->column : tableau->row;
+        for (size_t i = 0; i < n; i++) {
+            double most = 0;
+            for (size_t k = 0; k < n; k++)
+                most = fmax(most, fabs(rows ? M[i * n + k] : M[k * n + i]) / (own[i] * other[k]));
+            if (most > 0) own[i] *= sqrt(most);
+        }
+    }
+}
+
+static bool tableau_new(struct tableau *tableau, size_t n, const double *M, const double *q)
+{
+    *tableau = (struct tableau){.n = n, .width = 2 * n + 2};
+    tableau->T = calloc(n * tableau->width + 2 * n + 1, sizeof *tableau->T);
+    tableau->basic = calloc(n + 1, sizeof *tableau->basic);
+    if (!tableau->T || !tableau->basic) return false;
+    tableau->row = tableau->T + n * tableau->width;
+    tableau->column = tableau->row + n;
+    equilibrate(tableau, M);
+    for (size_t i = 0; i < n; i++) tableau->size = fmax(tableau->size, fabs(q[i]) / tableau->row[i]);
+    if (tableau->size == 0) tableau->size = 1;
+    for (size_t i = 0; i < n; i++) {
+        double *row = row_of(tableau, i);
+        row[i] = 1;
+        for (size_t k = 0; k < n; k++) row[n + k] = -M[i * n + k] / (tableau->row[i] * tableau->column[k]);
+        row[2 * n] = -1;
+        row[2 * n + 1] = q[i] / (tableau->row[i] * tableau->size);
+        tableau->basic[i] = i;
+    }
+    return true;
+}
+
+static void pivot(struct tableau *tableau, size_t r, size_t entering)
+{
+    double *by = row_of(tableau, r), inverse = 1 / by[entering];
+    for (size_t k = 0; k < tableau->width; k++) by[k] *= inverse;
+    by[entering] = 1;
+    for (size_t i = 0; i < tableau->n; i++) {
+        double *row = row_of(tableau, i), share = row[entering];
+        if (i == r || share == 0) continue;
+        for (size_t k = 0; k < tableau->width; k++) row[k] -= share * by[k];
+        row[entering] = 0;
+    }
+    tableau->basic[r] = entering;
+}
+
+/* Does row i come before row r in the ratios of (q, columns of w) to the entries a and b? */
+static bool is_before(const struct tableau *tableau, size_t i, double a, size_t r, double b)
+{
+    const double *own = row_of(tableau, i), *other = row_of(tableau, r);
+    size_t last = tableau->width - 1;
+    double difference = own[last] / a - other[last] / b;
+    for (size_t k = 0; fabs(difference) <= zero * (1 + fabs(other[last] / b)) && k < tableau->n; k++)
+        difference = own[k] / a - other[k] / b;
+    return difference < 0;
+}
+
+/* The row whose variable gets to zero first as the entering one grows; n for none. z_0 leaves as soon as it
+ * may, which ends it. */
+static size_t leaving_row(const struct tableau *tableau, size_t entering)
+{
+    size_t best = tableau->n, last = tableau->width - 1;
+    for (size_t i = 0; i < tableau->n; i++) {
+        double a = row_of(tableau, i)[entering];
+        if (!(a > zero)) continue;
+        if (best == tableau->n) {
+            best = i;
+            continue;
+        }
+        double b = row_of(tableau, best)[entering];
+        if (is_before(tableau, i, a, best, b)) best = i;
+    }
+    for (size_t i = 0; best < tableau->n && i < tableau->n; i++) {
+        const double *row = row_of(tableau, i), *first = row_of(tableau, best);
+        if (tableau->basic[i] != 2 * tableau->n || !(row[entering] > zero)) continue;
+        double own = row[last] / row[entering], least = first[last] / first[entering];
+        if (own <= least + zero * (1 + fabs(least))) best = i;
+    }
+    return best;
+}
+
+/* The row that is farthest below zero, or n. */
+static size_t lowest_row(const struct tableau *tableau)
+{
+    size_t best = tableau->n, last = tableau->width - 1;
+    for (size_t i = 0; i < tableau->n; i++) {
+        if (!(row_of(tableau, i)[last] < 0)) continue;
+        if (best == tableau->n || row_of(tableau, i)[last] < row_of(tableau, best)[last]) best = i;
+    }
+    return best;
+}
+
+static enum lcp run(struct tableau *tableau)
+{
+    size_t n = tableau->n, most = 100 + 50 * n, r = lowest_row(tableau);
+    if (r == n) return lcp_solved;
+    size_t entering = 2 * n;
+    for (size_t count = 0; count < most; count++) {
+        size_t left = tableau->basic[r];
+        pivot(tableau, r, entering);
+        if (left == 2 * n) return lcp_solved;
+        entering = left < n ? left + n : left - n;
+        r = leaving_row(tableau, entering);
+        if (r == n) return lcp_ray;
+    }
+    return lcp_lost;
+}
+
+/* A x = b, b becomes x; false when A is singular to rounding. */
+static bool solve(size_t n, double *A, double *b)
+{
+    const double singular = 1e-13;
+    size_t *pivot = calloc(n + 1, sizeof *pivot);
+    bool regular = pivot && lu_decompose(n, A, pivot);
+    double least = HUGE_VAL, most = 0;
+    for (size_t i = 0; i < n; i++) {
+        least = fmin(least, fabs(A[i * n + i]));
+        most = fmax(most, fabs(A[i * n + i]));
+    }
+    regular = regular && least > singular * most;
+    if (regular) lu_solve(n, A, pivot, b);
+    free(pivot);
+    return regular;
+}
+
+/* The basic solution once more, from the problem itself: pivots have rounded. */
+static bool polish(const struct tableau *tableau, const double *M, const double *q, double *z, double *w)
+{
+    size_t n = tableau->n;
+    double *A = calloc(n * n + n + 1, sizeof *A), *x = A ? A + n * n : NULL;
+    bool *is_z = calloc(n + 1, sizeof *is_z), made = A && is_z;
+    for (size_t i = 0; made && i < n; i++)
+        if (tableau->basic[i] >= n && tableau->basic[i] < 2 * n) is_z[tableau->basic[i] - n] = true;
+    for (size_t i = 0; made && i < n; i++) {
+        x[i] = q[i] / tableau->row[i];
+        for (size_t k = 0; k < n; k++)
+            A[i * n + k] = is_z[k] ? -M[i * n + k] / (tableau->row[i] * tableau->column[k]) : i == k;
+    }
+    if (made && solve(n, A, x)) {
+        for (size_t k = 0; k < n; k++) {
+            z[k] = is_z[k] ? x[k] / tableau->column[k] : 0;
+            w[k] = is_z[k] ? 0 : x[k] * tableau->row[k];
+        }
+    } else if (made) {
+        memset(z, 0, n * sizeof *z);
+        memset(w, 0, n * sizeof *w);
+        for (size_t i = 0; i < n; i++) {
+            size_t k = tableau->basic[i];
+            double value = row_of(tableau, i)[2 * n + 1] * tableau->size;
+            if (k < n) w[k] = value * tableau->row[k];
+            if (k >= n && k < 2 * n) z[k - n] = value / tableau->column[k - n];
+        }
+    }
+    free(A);
+    free(is_z);
+    return made;
+}
+
+/* Is it a solution, to rounding? */
+static bool fits(const struct tableau *tableau, const double *z, const double *w)
+{
+    const double rounding = 1e-7;
+    double most = 1;
+    for (size_t i = 0; i < tableau->n; i++)
+        most = fmax(most, fabs(z[i]) * tableau->column[i] / tableau->size);
+    for (size_t i = 0; i < tableau->n; i++) {
+        double least = fmin(z[i] * tableau->column[i], w[i] / tableau->row[i]) / tableau->size;
+        if (!(least >= -rounding * most)) return false;
+    }
+    return true;
+}
+
+enum lcp lcp_solve(size_t n, const double *M, const double *q, double *z, double *w)
+{
+    struct tableau tableau;
+    enum lcp found = lcp_no_memory;
+    if (tableau_new(&tableau, n, M, q)) found = run(&tableau);
+    if (found == lcp_solved && !polish(&tableau, M, q, z, w)) found = lcp_no_memory;
+    if (found == lcp_solved && !fits(&tableau, z, w)) found = lcp_lost;
+    tableau_free(&tableau);
+    return found;
+}
