@@ -114,6 +114,7 @@ struct ensemble *ensemble_new(const struct fbd_model *model, const struct run_op
     ensemble->model = model;
     ensemble->options = *options;
     ensemble->reason = "";
+    ensemble->next_told = HUGE_VAL;
     ensemble->state = state_new(model);
     ensemble->arrows = calloc(diagram_most_arrows(model), sizeof *ensemble->arrows);
     if (!ensemble->state || !ensemble->arrows || !make_groups(ensemble)) {

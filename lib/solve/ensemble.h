@@ -10,11 +10,12 @@
  * There are two ways to move the common time t on:
  *
  *   ensemble_advance   the group that is furthest behind makes a step, and t becomes the least of the ends of
- *                      all last steps. The last step of every group then covers [from, t], so the state is to
- *                      be had anywhere in it.
+ *                      all last steps, or an event to tell before it. The last step of every group then
+ *                      covers [from, t], so the state is to be had anywhere in it.
+ *
  *   ensemble_go        t goes to a given time, by any number of steps; the state is to be had at t only. A
- * group in which nothing can happen (no event function at all) is carried there in one go, which keeps its
- * memory in the processor's caches.
+ *                      group in which nothing can happen (no event function at all) is carried there in one
+ *                      go, which keeps its memory in the processor's caches.
  *
  * Both give the same trajectory bit for bit: a step of a group depends on nothing but the group. One
  * simulation uses one of them.
@@ -60,12 +61,14 @@ struct ensemble {
     int *counts;   /* scratch of their making, in `maps` */
     size_t *queue; /* heap of groups by the ends of their last steps */
     size_t queued;
-    bool lazy;      /* moved by ensemble_go: quiet groups are not queued */
-    bool started;   /* the queue is there */
-    bool cut;       /* it has been asked to end */
-    bool stepping;  /* a group is making a step */
-    double from, t; /* see above; with ensemble_go from == t */
-    double calm;    /* before this time no group steps, tells an event or ends: ensemble_go looks at none */
+    bool lazy;        /* moved by ensemble_go: quiet groups are not queued */
+    bool started;     /* the queue is there */
+    bool cut;         /* it has been asked to end */
+    bool stepping;    /* a group is making a step */
+    double from, t;   /* see above; with ensemble_go from == t */
+    double next_told; /* with ensemble_advance: the first event to tell that lies within the last step of a
+                         group */
+    double calm;      /* before this time no group steps, tells an event or ends: ensemble_go looks at none */
     fbd_outcome outcome;
     const char *reason; /* "" while all is well */
     char own_reason[reason_size];

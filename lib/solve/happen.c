@@ -101,18 +101,57 @@ static void rope_event(struct run *run, int pair)
     run->impact_work[run->model->plan.frictions[pair].load] += run->snap_work;
 }
 
+/* Is the way in which the event is passed now one that is asked for? */
+static bool counts_now(const struct run *run, int watch)
+{
+    int direction = run->model->plan.watches[watch].source->direction;
+    return direction == 0 || direction == -run->watchers.armed[watch];
+}
+
+static bool fired_now(const struct run *run, int watch)
+{
+    const double instant = 64 * DBL_EPSILON * fabs(run->state->t);
+    return fabs(run->watchers.fired[watch] - run->state->t) <= instant;
+}
+
 /* `touched`: the function is exactly zero and may go either way; otherwise it has passed to the other side.
  */
 static void user_event(struct run *run, int watch, bool touched)
 {
     const struct user_event *source = run->model->plan.watches[watch].source;
-    int *armed = &run->watchers.armed[watch];
-    int direction = -*armed;
-    *armed = touched ? 0 : direction;
-    run->watchers.fired[watch] = true;
-    if (source->direction != 0 && source->direction != direction) return;
+    bool counts = counts_now(run, watch);
+    run->watchers.armed[watch] = touched ? 0 : -run->watchers.armed[watch];
+    run->watchers.fired[watch] = run->state->t;
+    if (!counts) return;
     note(run, FBD_EVENT_USER, -1, -1, watch);
     if (source->stop && run->outcome == FBD_GOING) run->outcome = FBD_STOPPED;
+}
+
+/* Is one of the user events that have crossed the end of the run? */
+static bool stops(const struct run *run)
+{
+    const struct watcher_set *set = &run->watchers.moving;
+    for (size_t i = 0; i < set->count; i++) {
+        int index = set->watchers[i].index;
+        if (!run->moving.crossed[i] || set->watchers[i].kind != watch_user) continue;
+        if (run->model->plan.watches[index].source->stop && counts_now(run, index)) return true;
+    }
+    return false;
+}
+
+bool run_tell(struct run *run, double t)
+{
+    const struct watcher_set *set = &run->watchers.moving;
+    if (stops(run)) return false;
+    for (size_t i = 0; i < set->count; i++) {
+        if (!run->moving.crossed[i] || set->watchers[i].kind != watch_user) continue;
+        int watch = set->watchers[i].index;
+        struct run_event *event = counts_now(run, watch) ? note(run, FBD_EVENT_USER, -1, -1, watch) : NULL;
+        if (event) event->t = t;
+        watchers_turn(&run->watchers, watch);
+        run->watchers.fired[watch] = t;
+    }
+    return true;
 }
 
 /* `crossing`: an expression passes to another branch at the same instant. A force that reaches its limit just
@@ -135,7 +174,9 @@ static void happen(struct run *run, const struct watcher *watcher, bool crossing
         break;
     case watch_rope: rope_event(run, index); break;
     case watch_contact: break; /* run_check_contacts */
-    case watch_user: user_event(run, index, false); break;
+    case watch_user:
+        if (!fired_now(run, index)) user_event(run, index, false);
+        break;
     }
 }
 
@@ -205,11 +246,12 @@ void run_apply_touched(struct run *run, bool at_event)
     struct instant at = state_instant(run->state);
     for (size_t i = 0; i < plan->watch_count; i++) {
         int armed = run->watchers.armed[i];
+        bool fired = fired_now(run, (int)i);
         double value =
             formula_value(&plan->watches[i].left, &at) - formula_value(&plan->watches[i].right, &at);
         double band = at_event && value == 0 ? 0 : run->watchers.band[i];
-        if (armed != 0 && !run->watchers.fired[i] && armed * value + band <= 0)
-            user_event(run, (int)i, value == 0);
+        if (fired && value == 0) run->watchers.armed[i] = 0; /* it may leave on either side */
+        if (armed != 0 && !fired && armed * value + band <= 0) user_event(run, (int)i, value == 0);
     }
 }
 

@@ -66,7 +66,11 @@ static void step(struct ensemble *ensemble, size_t p)
 {
     struct run *run = ensemble->groups[p].run;
     ensemble->stepping = true;
+    size_t events = run->event_count;
     run_advance(run);
+    for (; events < run->event_count && run->events[events].t < run->state->t; events++)
+        if (run->events[events].t > run->from)
+            ensemble->next_told = fmin(ensemble->next_told, run->events[events].t);
     const struct observer *observer = &ensemble->observer;
     if (observer->step && run->state->t > run->from && !observer->step(observer->context, ensemble, p))
         fail_within(ensemble, run);
@@ -116,6 +120,28 @@ static size_t list_due(struct ensemble *ensemble, size_t i, double t, size_t cou
     return list_due(ensemble, 2 * i + 2, t, count);
 }
 
+/* Where a group has an event to tell that lies within its last step. */
+static double told_within(const struct group *group)
+{
+    const struct run *run = group->run;
+    if (group->released == run->event_count) return HUGE_VAL;
+    double t = run->events[group->released].t;
+    return t > run->from && t < run->state->t ? t : HUGE_VAL;
+}
+
+static void find_next_told(struct ensemble *ensemble)
+{
+    ensemble->next_told = HUGE_VAL;
+    for (size_t p = 0; p < ensemble->count; p++)
+        ensemble->next_told = fmin(ensemble->next_told, told_within(&ensemble->groups[p]));
+}
+
+static void arrive_all(struct ensemble *ensemble, double t)
+{
+    for (size_t p = 0; p < ensemble->count; p++) ensemble->due[p] = p;
+    arrive(ensemble, t, ensemble->count);
+}
+
 fbd_outcome ensemble_advance(struct ensemble *ensemble)
 {
     if (ensemble->outcome != FBD_GOING) return ensemble->outcome;
@@ -126,6 +152,11 @@ fbd_outcome ensemble_advance(struct ensemble *ensemble)
         step_top(ensemble);
     }
     double t = end_of(ensemble, ensemble->queue[0]);
+    if (ensemble->next_told < t) {
+        arrive_all(ensemble, ensemble->next_told);
+        find_next_told(ensemble);
+        return ensemble->outcome;
+    }
     size_t count = list_due(ensemble, 0, t, 0);
     if (count > 1) qsort(ensemble->due, count, sizeof *ensemble->due, by_number);
     arrive(ensemble, t, count);
@@ -134,13 +165,14 @@ fbd_outcome ensemble_advance(struct ensemble *ensemble)
 
 /* ---- in one go */
 
-/* The time at which the whole has to stop for this group: its end, when that is an early one or when an event
- * there is still to be told. */
+/* The time at which the whole has to stop for this group: an event that is still to be told, or its end, when
+ * that is an early one. */
 static double stop_of(const struct ensemble *ensemble, size_t p, bool pause)
 {
     const struct group *group = &ensemble->groups[p];
     bool untold = pause && group->released < group->run->event_count;
-    return untold || ended_early(group->run) ? group->run->state->t : HUGE_VAL;
+    double within = untold ? told_within(group) : HUGE_VAL;
+    return within < HUGE_VAL || !(untold || ended_early(group->run)) ? within : group->run->state->t;
 }
 
 /* Carry the queued groups on; returns the time that can be reached. */
@@ -241,10 +273,9 @@ static void go(struct ensemble *ensemble, double target, double near, bool pause
     for (size_t p = 0; p < ensemble->count; p++) {
         if (ensemble->groups[p].run->from > t) rewind_group(ensemble, p, t);
         if (ensemble->outcome != FBD_GOING) return;
-        ensemble->due[p] = p;
     }
     ensemble->from = t;
-    arrive(ensemble, t, ensemble->count);
+    arrive_all(ensemble, t);
     find_calm(ensemble);
 }
 

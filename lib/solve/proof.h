@@ -27,6 +27,7 @@ typedef void proof_enclose(void *context, size_t group, const struct stretch *st
 struct proof_group {
     size_t first, count; /* in the caller's list */
     bool proved;         /* it has enclosures */
+    bool aside;          /* searched in a turn of its own: see scan.h */
     double clear;        /* none becomes negative up to here; NAN: not searched */
     double width;        /* of stretches that have told enough */
     double low, high;    /* bracket of the zero that was found; high is HUGE_VAL where none was */

@@ -77,11 +77,14 @@ static bool make_run(struct run *run)
     run->along = run->aside + 4 * n;
     run->turned = run->along + n;
     run->values = calloc(2 * run->moving.count + 1, sizeof *run->values);
+    run->kept = calloc(4 * n + 1, sizeof *run->kept);
+    run->crossed = calloc(run->moving.count + 1, sizeof *run->crossed);
     run->anchor = calloc(4 * n + 1, sizeof *run->anchor);
     run->arrows = calloc(diagram_most_arrows(run->model), sizeof *run->arrows);
     run->impact_work = calloc(run->model->load_count + 1, sizeof *run->impact_work);
     run->snap_pair = -1;
-    if (!run->values || !run->anchor || !run->arrows || !run->impact_work) return false;
+    if (!run->values || !run->kept || !run->crossed || !run->anchor || !run->arrows || !run->impact_work)
+        return false;
     run->rates = rates_new(run->during, rates_by_rows);
     if (!run->rates) return false;
     gsl_odeiv2_system system = {.jacobian = jacobian, .dimension = 2 * n};
@@ -149,6 +152,8 @@ void run_free(struct run *run)
     free(run->events);
     free(run->y);
     free(run->values);
+    free(run->kept);
+    free(run->crossed);
     free(run->anchor);
     free(run->arrows);
     free(run->impact_work);
@@ -284,15 +289,16 @@ static int step_aside(struct run *run, double end, double *t)
     return cut_step(run, *t = other) < 0 ? -1 : 1;
 }
 
-/* Look for the first event in (from, t]; on return *t is its time, with y and f there. 1 found, 0 none, -1
- * failed. Where the event functions change so fast that the scan gives up, the step is cut to what it has
- * seen; one that is noise (it gives up at the very start) is not looked at more closely. */
-static int find_event(struct run *run, double *t)
+/* Look for the first event in (from, t] that changes the motion; on return *t is its time, with y and f
+ * there. 1 found, 0 none, -1 failed. Where the event functions change so fast that the scan gives up, the
+ * step is cut to what it has seen; one that is noise (it gives up at the very start) is not looked at more
+ * closely. */
+static int find_change(struct run *run, double *t)
 {
     enum { most_dips = 8 };
     const double least_share = 1e-3;
     double start = run->from, end = *t;
-    course_start(&run->course);
+    run->moving.aside = false;
     for (int dip = 0; dip < most_dips && start < end; dip++) {
         run->moving.resumed = dip > 0;
         run->moving.panels = run_sample_panels(run, start, end);
@@ -318,6 +324,49 @@ static int find_event(struct run *run, double *t)
     return 0;
 }
 
+/* Log the user events in (from, t]. They are looked for when it is known how far the step goes, and change
+ * nothing in it, so that a run with them has the bits of one without. One that ends the run cuts the step: 1,
+ * else 0; -1 failed. */
+static int find_told(struct run *run, double *t)
+{
+    enum { most_dips = 8 };
+    double start = run->from, end = *t;
+    run->moving.aside = true;
+    for (int dip = 0; dip < most_dips && start < end;) {
+        run->moving.resumed = dip > 0;
+        int found = scan_interval(&run->moving, start, end);
+        if (found != 1) return found < 0 ? -1 : 0;
+        double when = run->moving.t;
+        if (when < end && !polish(run, end, &when)) return -1;
+        bool passed = when >= end || goes_down(run, when, end) || is_down_at_end(run, when, end);
+        if (passed && !run_tell(run, when)) {
+            *t = when;
+            return when < end ? step_aside(run, end, t) : 1;
+        }
+        dip += !(passed && when > start);
+        start = passed ? when : fmax(when, run->moving.t);
+    }
+    return 0;
+}
+
+/* The first event in (from, t]: *t becomes its time, with y and f there. 1 found, 0 none, -1 failed. */
+static int find_event(struct run *run, double *t)
+{
+    size_t bytes = 2 * (size_t)run->model->plan.n * sizeof *run->y;
+    course_start(&run->course);
+    int change = find_change(run, t);
+    if (change < 0 || run->model->plan.watch_count == 0) return change;
+    memcpy(run->kept, run->y, bytes);
+    memcpy(run->kept + 2 * run->model->plan.n, run->f, bytes);
+    memcpy(run->crossed, run->moving.crossed, run->moving.count * sizeof *run->crossed);
+    int told = find_told(run, t);
+    if (told != 0) return told;
+    memcpy(run->y, run->kept, bytes);
+    memcpy(run->f, run->kept + 2 * run->model->plan.n, bytes);
+    memcpy(run->moving.crossed, run->crossed, run->moving.count * sizeof *run->crossed);
+    return change;
+}
+
 /* A coordinate that has grown beyond all numbers, though its rate has not; the step is not taken. */
 static bool is_beyond_numbers(struct run *run, double t)
 {
@@ -341,7 +390,6 @@ static void accept(struct run *run, double t)
     if (is_beyond_numbers(run, t)) return;
     for (size_t i = 0; i < 2 * n; i++) most[i] = fmax(most[i], fabs(run->state->y[i]));
     run->state->t = t;
-    memset(run->watchers.fired, 0, run->model->plan.watch_count * sizeof *run->watchers.fired);
     memcpy(run->state->y, run->y, 2 * n * sizeof *run->y);
     modes_hold(run->state);
     run_close_step(run);
@@ -385,14 +433,6 @@ static double apart_step(const struct run *run)
 {
     const double share = 0.3;
     return fmin(run->h, share * run->options.until);
-}
-
-int run_panels(const struct run *run)
-{
-    enum { most = 100, nystrom = 2, general = 1 }; /* a step of the Nystrom method is that much longer */
-    if (run->kind != structure_linear) return run->kind == structure_velocity_free ? nystrom : general;
-    double rate = linear_pace_rate(&run->pace, run->from), span = run->state->t - run->from;
-    return (int)fmin(fmax(1, ceil(2 * span * rate)), most);
 }
 
 fbd_outcome run_advance(struct run *run)
@@ -442,25 +482,4 @@ fbd_outcome run_advance(struct run *run)
     if (run->outcome == FBD_GOING) watchers_arm(&run->watchers, run->state);
     if (run->projected || run->model->plan.watch_count > 0) scan_forget(&run->moving);
     return run->outcome;
-}
-
-bool run_coordinates(struct run *run, double t, double *y)
-{
-    if (t == run->state->t) {
-        memcpy(y, run->state->y, 2 * (size_t)run->model->plan.n * sizeof *y);
-        return true;
-    }
-    if (switcher_dense(run->stepper, t, y) != GSL_SUCCESS) return false;
-    run_close_within(run, t, y);
-    return true;
-}
-
-bool run_look(struct run *run, double t, struct fbd_state *state)
-{
-    state_copy(state, run->during);
-    state->t = t;
-    if (!run_coordinates(run, t, state->y)) return false;
-    modes_hold(state);
-    state_evaluate(state);
-    return true;
 }

@@ -91,6 +91,8 @@ struct run {
     double *turned;            /* twice the links of the tree: see noise.c */
     unsigned long since_noise; /* steps */
     double *values;            /* moving event functions and their rates */
+    double *kept;              /* 4 n: y and f while user events are looked for */
+    bool *crossed;             /* moving: likewise */
     struct decided decided;
     struct arrow *arrows; /* of one body */
 
@@ -134,6 +136,9 @@ size_t run_sample_panels(const struct run *run, double from, double to);
 /* Apply what has happened at run->state: `timed` and `moving` flag the functions of each set that have
  * crossed; NULL for none. Settles the modes. */
 void run_apply(struct run *run, const bool *timed, const bool *moving);
+
+/* Log the user events that have crossed at t; false when one of them ends the run. */
+bool run_tell(struct run *run, double t);
 
 /* Bring the end of a step back onto the couplings. */
 void run_close_step(struct run *run);

@@ -391,7 +391,7 @@ static int search_all(struct scan *scan, double from, double *limit)
 {
     int found = 0;
     for (size_t g = 0; g < scan->group_count; g++) {
-        if (!scan->groups[g].proved) continue;
+        if (!scan->groups[g].proved || scan->groups[g].aside != scan->aside) continue;
         if (scan->follow) scan->groups[g].clear = NAN, scan->groups[g].width = 0;
         int status = search_group(scan, g, from, limit);
         if (status < 0) return status;
@@ -423,9 +423,11 @@ static int look_by_enclosures(struct scan *scan, double from, double *limit)
 {
     bool any = false;
     for (size_t g = 0; g < scan->group_count; g++) {
-        any |= scan->groups[g].proved;
-        for (size_t i = scan->groups[g].first; i < scan->groups[g].first + scan->groups[g].count; i++)
-            scan->sampled[i] = !scan->groups[g].proved;
+        const struct proof_group *group = &scan->groups[g];
+        bool turn = group->aside == scan->aside;
+        any |= turn && group->proved;
+        for (size_t i = group->first; i < group->first + group->count; i++)
+            scan->sampled[i] = turn && !group->proved;
     }
     for (double begin = from, to = *limit; any && begin < to;) {
         double end = scan->follow ? scan->follow(scan->context, begin, to) : to;

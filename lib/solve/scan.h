@@ -52,6 +52,7 @@ struct scan {
     scan_follower *follow; /* NULL: enclosures are there for all times, and searches may run ahead */
     double horizon;        /* how far ahead at most */
     bool resumed;          /* see proof_search */
+    bool aside;            /* this turn: only groups that are searched aside, else only the others */
     size_t panels;         /* for functions without enclosures; 0 counts as 1 */
 
     struct prover prover;

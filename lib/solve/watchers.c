@@ -78,6 +78,7 @@ static bool group_watchers(const struct fbd_model *model, struct watcher_set *se
         if (!same)
             *++group = (struct proof_group){.first = i,
                                             .proved = watchers_can_enclose(model, watcher),
+                                            .aside = watcher->kind == watch_user,
                                             .clear = (double)NAN};
         group->count++;
     }
@@ -102,13 +103,14 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
     watchers->scratch = calloc(4 * margins + 1, sizeof(double));
     watchers->margins = calloc(2 * margins + 1, sizeof *watchers->margins);
     watchers->armed = calloc(plan->watch_count + 1, sizeof(int));
-    watchers->fired = calloc(plan->watch_count + 1, sizeof(bool));
+    watchers->fired = calloc(plan->watch_count + 1, sizeof(double));
     watchers->most = calloc(2 * plan->watch_count + 1, sizeof(double));
     if (!watchers->timed.watchers || !watchers->moving.watchers || !watchers->scratch || !watchers->armed ||
         !watchers->fired || !watchers->most || !watchers->margins) {
         watchers_free(watchers);
         return false;
     }
+    for (size_t i = 0; i < plan->watch_count; i++) watchers->fired[i] = (double)NAN;
     watchers->width = tolerances * (multistep ? together : 1) * tolerance;
     watchers->band = watchers->most + plan->watch_count;
     add_all(watchers, plan);
@@ -315,6 +317,13 @@ void watchers_arm(struct watchers *watchers, struct fbd_state *state)
         double side = value != 0 ? value : rate;
         watchers->armed[i] = side > 0 ? 1 : side < 0 ? -1 : 0;
     }
+}
+
+/* It is at zero, thus in its band. */
+void watchers_turn(struct watchers *watchers, int watch)
+{
+    watchers->armed[watch] = -watchers->armed[watch];
+    watchers->band[watch] = watchers->width * watchers->most[watch];
 }
 
 double watchers_contact_slack(const struct fbd_model *model, const struct contact *contact)

@@ -49,7 +49,7 @@ struct watchers {
     double *scratch;           /* margins and rates of one kink */
     struct enclosure *margins; /* the same as enclosures */
     int *armed;                /* per user event: +1 or -1, the side where it is; 0 while it sits on zero */
-    bool *fired;               /* per user event: it happened at this instant */
+    double *fired;             /* per user event: when it happened last; NAN: it has not */
     double width;              /* of the bands of user events, relative to the largest size */
     double *most, *band; /* per user event: largest size of the difference; 0, or where a step starts in the
                             band its half width */
@@ -80,6 +80,9 @@ void watchers_enclose(const struct watchers *watchers, const struct watcher_set 
 /* Arm user events that have left zero, and see which are in their band; call at the start and after each
  * accepted step. */
 void watchers_arm(struct watchers *watchers, struct fbd_state *state);
+
+/* A user event has been passed within a step: it is armed on the other side. */
+void watchers_turn(struct watchers *watchers, int watch);
 
 /* A normal force is lost when it is below minus this: the rounding of the weight, so that a body that only
  * just touches is not thrown off. */

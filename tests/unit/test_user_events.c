@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * A user event changes nothing but the log: with events or without, a run makes the same steps and ends in
+ * the same bits, whatever the method, and stops to be looked at where an event is.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "fbd.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "scenes.h"
+
+enum { text_size = 4000, most_values = 8 };
+
+static const char *const methods[] = {"auto",    "dop853",  "rk8pd", "rkf45", "rk4",    "rk2",
+                                      "rodas5p", "msadams", "msbdf", "bsimp", "rk4imp", "rk2imp"};
+
+struct eventful {
+    const char *name, *values, *bodies, *until, *events;
+    size_t more; /* events than without */
+};
+
+static const struct eventful scenes[] = {
+    {"two groups, one of parabolas", "b.x b.vy p.theta p.omega",
+     "  b: {mass: 1, motion: particle, initial: {vx: 1, vy: 9}, forces: [gravity]}\n"
+     "  p: {shape: rod, mass: 1, length: 1, motion: {pivot: {at: [0, 0], point: left}}, forces: [gravity]}\n",
+     "3", "top: b.vy = 0; flat: p.theta = -90 deg; one: \"t > 0.7\"", 5},
+    {"a linear oscillator", "b.x b.v",
+     "  b: {mass: 1, motion: slide, initial: {x: 1}, forces: [spring: {stiffness: 40}, damper: 0.1]}\n", "4",
+     "zero: b.x = 0; turn: b.v = 0; kinetic: \"0.5[kg]*b.v^2 = 3[J]\"", 32},
+    {"a block that sticks and slips", "b.x b.v",
+     "  b: {mass: 1, motion: slide, initial: {x: 0.3}, forces: [gravity, normal, friction: {static: 0.4, "
+     "kinetic: 0.3}, spring: {stiffness: 30}, applied: {name: u, value: \"6[N]*sin(3[rad/s]*t)\"}]}\n",
+     "6", "middle: b.x = 0; work: \"b.x^2 = 0.01[m^2]\"", 15},
+    {"a double pendulum", "a.theta a.omega b.theta b.omega",
+     "  a: {shape: rod, mass: 1, length: 1, motion: {pivot: {at: [0, 0], point: left}}, forces: [gravity]}\n"
+     "  b: {shape: rod, mass: 1, length: 1, motion: {pivot: {on: a, at: right, point: left}}, forces: "
+     "[gravity]}\n",
+     "4", "low: a.theta = -90 deg; level: b.right.y = 0; dense: \"sin(40*a.theta) = 0.999\"", 130},
+    /* Passes positions where all bars are in one line. */
+    {"four bars", "v0.theta v0.omega h0.theta v1.theta v1.omega",
+     "  v0: {shape: rod, mass: 1, length: 1, motion: {pivot: {at: [0, 0], point: left}}, initial: {theta: 90 "
+     "deg, omega: -1}, forces: [gravity]}\n"
+     "  h0: {shape: rod, mass: 1, length: 1, motion: {pivot: {on: v0, at: right, point: left}}, initial: "
+     "{theta: -90 deg, omega: 1}, forces: [gravity]}\n"
+     "  v1: {shape: rod, mass: 1, length: 1, motion: {pivot: {at: [1, 0], point: left}}, initial: {theta: 90 "
+     "deg, omega: -1}, forces: [gravity]}\n"
+     "couplings:\n  - pin: {name: B1, between: [h0.right, v1.right]}\n",
+     "4", "flat: v0.right.y = 0; turn: v0.theta = -270 deg", 5},
+};
+
+static void write_scene(const struct eventful *scene, bool events, char *text)
+{
+    int length =
+        snprintf(text, text_size, "fbd: 1\nbodies:\n%ssimulate:\n  until: %s\n", scene->bodies, scene->until);
+    if (!events) return;
+    length += snprintf(text + length, text_size - (size_t)length, "  events:\n");
+    for (const char *at = scene->events; *at;) {
+        size_t name = strcspn(at, ":"), size = strcspn(at, ";");
+        length += snprintf(text + length, text_size - (size_t)length, "    - {name: %.*s, when: %.*s}\n",
+                           (int)name, at, (int)(size - name - 1), at + name + 1);
+        at += size + (at[size] == ';');
+        at += strspn(at, " ");
+    }
+}
+
+/* What a run ends with. */
+struct ending {
+    double t, y[most_values];
+    size_t events;
+    fbd_outcome outcome;
+};
+
+/* A run that is carried on step by step stops at each event. */
+static void advance(fbd_simulation *simulation)
+{
+    size_t told = fbd_simulation_events(simulation);
+    while (fbd_simulation_advance(simulation) == FBD_GOING) {
+        double t;
+        fbd_simulation_interval(simulation, NULL, &t);
+        for (; told < fbd_simulation_events(simulation); told++)
+            assert_true(fbd_simulation_event(simulation, told).t == t);
+    }
+}
+
+static struct ending run(const struct eventful *scene, bool events, const char *method, bool stepwise)
+{
+    char text[text_size], name[32];
+    write_scene(scene, events, text);
+    fbd_model *model = model_from(text);
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    options.method = method;
+    options.tolerance = 1e-7;
+    fbd_simulation *simulation = fbd_simulation_new(model, &options, NULL);
+    assert_non_null(simulation);
+    fbd_state *state = fbd_state_new(model);
+    fbd_recording recording = {0};
+    if (stepwise)
+        advance(simulation);
+    else
+        fbd_result_free(fbd_simulation_run(simulation, &recording));
+    struct ending ending = {.events = fbd_simulation_events(simulation),
+                            .outcome = fbd_simulation_advance(simulation)};
+    fbd_simulation_interval(simulation, NULL, &ending.t);
+    assert_true(fbd_simulation_state(simulation, ending.t, state));
+    const char *at = scene->values;
+    for (size_t k = 0, size; *at; k++, at += size + (at[size] == ' ')) {
+        size = strcspn(at, " ");
+        snprintf(name, sizeof name, "%.*s", (int)size, at);
+        assert_true(k < most_values && fbd_state_get(state, name, &ending.y[k]));
+    }
+    fbd_state_free(state);
+    fbd_simulation_free(simulation);
+    fbd_model_free(model);
+    return ending;
+}
+
+static void nothing_changes_but_the_log(void **unused)
+{
+    (void)unused;
+    size_t wrong = 0;
+    for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++)
+        for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
+            struct ending with = run(&scenes[k], true, methods[m], false);
+            struct ending step = run(&scenes[k], true, methods[m], true);
+            struct ending without = run(&scenes[k], false, methods[m], false);
+            bool same = with.t == without.t && with.outcome == without.outcome &&
+                        memcmp(with.y, without.y, sizeof with.y) == 0 &&
+                        memcmp(with.y, step.y, sizeof with.y) == 0 && with.events == step.events;
+            if (same && with.events == without.events + scenes[k].more) continue;
+            wrong++;
+            print_error("%s, %s: %zu and %zu events; ends at %.17g with %.17g instead of %.17g\n",
+                        scenes[k].name, methods[m], with.events, without.events, with.t, with.y[0],
+                        without.y[0]);
+        }
+    assert_int_equal(wrong, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nothing_changes_but_the_log),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
