@@ -3,7 +3,8 @@
 
 #include <string.h>
 
-#include "dynamics/tree.h"
+#include "dynamics/constraint.h"
+#include "dynamics/friction.h"
 
 size_t extended_size(const struct fbd_model *model)
 {
@@ -21,9 +22,47 @@ static double choose(enum absolute_kind kind, struct motion_of_point at, double 
     case absolute_angle: return angle;
     case absolute_angle_dot: return omega;
     case absolute_acceleration: break; /* output/hand.c */
+    case absolute_slip: break;
     }
     return 0;
 }
+
+/* ---- the speed of a pair on its surface
+ *
+ * slip = |v - s|, which is sigma (v - s) in the mode sigma: smooth across the end of a mode, as a step that
+ * goes beyond needs it, with the slope d slip / d v = sigma. While the pair sticks it is 0 whatever varies.
+ */
+
+static double relative_speed(const struct fbd_model *model, int pair, const struct instant *at)
+{
+    const struct friction *friction = &model->plan.frictions[pair];
+    if (friction->tie >= 0) return at->slip[pair] * tie_slip(model, at, friction->tie, false).value;
+    double v = at->y[model->plan.n + friction->coordinate];
+    return at->slip[pair] * (v - formula_value(&friction->surface_speed, at));
+}
+
+static double slip_at(const struct fbd_model *model, const struct model_absolute *slip,
+                      const struct instant *at)
+{
+    if (slip->pair < 0 || at->slip[slip->pair] == stick) return 0;
+    double speed = relative_speed(model, slip->pair, at);
+    return slip->even ? fabs(speed) : speed;
+}
+
+static double slip_along(const struct fbd_model *model, const struct model_absolute *slip,
+                         const struct instant *at, const struct direction *along)
+{
+    if (slip->pair < 0 || at->slip[slip->pair] == stick) return 0;
+    const struct friction *friction = &model->plan.frictions[slip->pair];
+    int sign = at->slip[slip->pair];
+    if (slip->even && relative_speed(model, slip->pair, at) < 0) sign = -sign;
+    if (friction->tie >= 0) return sign * tie_slip(model, at, friction->tie, true).variation;
+    double d_speed, dv = along->dy[model->plan.n + friction->coordinate];
+    formula_along(&friction->surface_speed, at, along, &d_speed);
+    return sign * (dv - d_speed);
+}
+
+/* ---- all of them */
 
 void absolutes_write(const struct fbd_model *model, const struct instant *at, double *y)
 {
@@ -31,6 +70,10 @@ void absolutes_write(const struct fbd_model *model, const struct instant *at, do
     for (size_t k = 0; k < model->absolute_count; k++) {
         const struct model_absolute *absolute = &model->absolutes[k];
         const struct model_body *body = &model->bodies[absolute->body];
+        if (absolute->kind == absolute_slip) {
+            places[k] = slip_at(model, absolute, at);
+            continue;
+        }
         struct pose pose = body_pose(body, at);
         places[k] = choose(absolute->kind, point_motion(body, &pose, absolute->point), body_angle(body, at),
                            pose.omega);
@@ -65,6 +108,7 @@ static double varied(const struct fbd_model *model, const struct model_absolute 
                      const struct instant *at, const struct direction *along)
 {
     const struct model_body *body = &model->bodies[absolute->body];
+    if (absolute->kind == absolute_slip) return slip_along(model, absolute, at, along);
     if (body->place.link > 0) {
         const struct tree_variation *d = &at->tree->variation[body->place.link];
         return choose(absolute->kind, jointed_along(body, at, absolute->point), d->angle, d->omega);

@@ -346,6 +346,15 @@ double tie_slip_velocity(const struct fbd_model *model, const struct instant *at
     return fabs(v) <= 64 * DBL_EPSILON * size ? 0 : v;
 }
 
+struct slip_rate tie_slip(const struct fbd_model *model, const struct instant *at, int index, bool varied)
+{
+    const struct tie *tie = &model->tree->ties[index];
+    struct view view = {at->tree, varied};
+    struct row along;
+    line(&view, tie, &at->tree->ties[index], NULL, &along);
+    return (struct slip_rate){along.g.x1, along.g.d1};
+}
+
 double tie_slip_acceleration(const struct fbd_model *model, const struct instant *at, int tie)
 {
     return row_along(model, at->tree, tie)->g.x2;

@@ -49,6 +49,13 @@ void constraints_start(const struct fbd_model *model, const struct instant *at);
 /* The velocity of a rolling body's point of contact against its line, and its acceleration; after
  * accelerations() at the instant. A velocity within rounding of zero is zero. */
 double tie_slip_velocity(const struct fbd_model *model, const struct instant *at, int tie);
+struct slip_rate {
+    double value, variation;
+};
+
+/* The velocity alone, from where the links are and how they move; `varied`: and how it varies with them. */
+struct slip_rate tie_slip(const struct fbd_model *model, const struct instant *at, int tie, bool varied);
+
 double tie_slip_acceleration(const struct fbd_model *model, const struct instant *at, int tie);
 
 /* A rope: how it is, after accelerations() at the instant. */

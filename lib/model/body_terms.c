@@ -4,18 +4,45 @@
  */
 #include "model/builder.h"
 
+static unsigned slot_depends(const struct model_body *body, int slot)
+{
+    int index = slot - 1;
+    bool own = index >= body->first && index < body->first + body->count;
+    bool own_rate = index >= body->first_rate && index < body->first_rate + body->count;
+    return own ? depends_place : own_rate ? depends_rate : depends_other;
+}
+
 unsigned formula_depends(const struct model_body *body, const struct formula *formula)
 {
     if (formula_is_constant(formula)) return 0;
     const int *slots;
     size_t count = expr_variables(formula->expr, &slots);
     unsigned on = expr_uses_time(formula->expr) ? depends_time : 0;
-    for (size_t i = 0; i < count; i++) {
-        int index = slots[i] - 1;
-        bool own = index >= body->first && index < body->first + body->count;
-        bool own_rate = index >= body->first_rate && index < body->first_rate + body->count;
-        on |= own ? depends_place : own_rate ? depends_rate : depends_other;
-    }
+    for (size_t i = 0; i < count; i++) on |= slot_depends(body, slots[i]);
+    return on;
+}
+
+/* Does a slot stand for how fast the body slips on its surface? */
+static bool is_own_slip(const struct fbd_model *model, const struct model_body *body, int slot)
+{
+    int first = 1 + 2 * model->plan.n + hand_slots;
+    const struct absolute *absolute = slot < first ? NULL : &model->scene->absolutes[slot - first];
+    return absolute && absolute->kind == absolute_slip && absolute->roll == 0 &&
+           &model->bodies[absolute->body] == body;
+}
+
+/* What kinetic friction changes with: where its law goes with the slip, also with what the surface does. */
+static unsigned friction_depends(const struct fbd_model *model, const struct model_body *body,
+                                 const struct friction *friction)
+{
+    if (formula_is_constant(&friction->mu_k)) return 0;
+    const int *slots;
+    size_t count = expr_variables(friction->mu_k.expr, &slots);
+    unsigned on = expr_uses_time(friction->mu_k.expr) ? depends_time : 0;
+    for (size_t i = 0; i < count; i++)
+        on |= is_own_slip(model, body, slots[i])
+                  ? depends_rate | formula_depends(body, &friction->surface_speed)
+                  : slot_depends(body, slots[i]);
     return on;
 }
 
@@ -111,15 +138,16 @@ static unsigned simple_depends(const struct plan *plan, const struct body_terms 
     return on;
 }
 
-static unsigned formula_terms_depend(const struct plan *plan, const struct model_body *body,
+static unsigned formula_terms_depend(const struct fbd_model *model, const struct model_body *body,
                                      const struct body_terms *terms)
 {
+    const struct plan *plan = &model->plan;
     unsigned on = 0;
     for (int i = terms->formulas.first; i < terms->formulas.first + terms->formulas.count; i++)
         on |= formula_depends(body, &plan->formulas[i].value);
     for (int i = terms->potentials.first; i < terms->potentials.first + terms->potentials.count; i++)
         on |= formula_depends(body, &plan->potentials[i].V);
-    if (terms->friction >= 0) on |= formula_depends(body, &plan->frictions[terms->friction].mu_k);
+    if (terms->friction >= 0) on |= friction_depends(model, body, &plan->frictions[terms->friction]);
     return on;
 }
 
@@ -177,7 +205,7 @@ void body_terms_finish(struct builder *builder)
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
         struct body_terms *terms = &plan->bodies[b];
-        terms->depends = simple_depends(plan, terms) | formula_terms_depend(plan, body, terms) |
+        terms->depends = simple_depends(plan, terms) | formula_terms_depend(model, body, terms) |
                          point_terms_depend(plan, body, terms);
         terms->turns = needs_both(plan, body, terms);
         if (terms->offset >= 0) terms->depends |= depends_place | depends_rate; /* omega^2 r */

@@ -38,6 +38,10 @@ void plan_ties(struct builder *builder);
 void body_terms_add(struct builder *builder, int b);
 void body_terms_finish(struct builder *builder);
 
+/* Find the pairs of friction whose slip is named, when the plan has them (slips.c). False when memory is out.
+ */
+bool slips_find(struct fbd_model *model);
+
 /* Refuse gears on fixed axes whose pitch circles do not touch (gear_check.c). */
 void gears_check(struct builder *builder);
 

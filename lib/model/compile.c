@@ -197,8 +197,9 @@ static bool set_absolutes(struct fbd_model *model)
     for (size_t k = 0; model->absolutes && k < model->absolute_count; k++) {
         const struct absolute *absolute = &scene->absolutes[k];
         struct vec point = resolve_point(&absolute->point, &model->bodies[absolute->body]);
-        model->absolutes[k] = (struct model_absolute){absolute->body, point, absolute->kind,
-                                                      model->bodies[absolute->body].first + absolute->part};
+        model->absolutes[k] = (struct model_absolute){
+            absolute->body, point, absolute->kind, model->bodies[absolute->body].first + absolute->part, -1,
+            false};
     }
     return model->absolutes != NULL;
 }
@@ -264,6 +265,7 @@ static struct fbd_model *compile(struct scene *scene, bool labels, fbd_errors *e
                set_absolutes(model) && tree_number(model) && tree_name_reactions(model) &&
                arrows_name(model) && plan_build(&builder) && classify_loads(&builder);
         set_watches(&builder);
+        if (done) done = slips_find(model);
         if (done) gears_check(&builder);
     }
     if (!done) diag_out_of_memory(errors);

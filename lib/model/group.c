@@ -81,6 +81,8 @@ static void copy_absolute(const struct copy *copy, const struct absolute *from)
     struct absolute *absolute = &copy->to->absolutes[copy->to->absolute_count++];
     *absolute = *from;
     absolute->body = copy->selection->local[from->body];
+    for (size_t i = 0; from->roll > 0 && i < copy->selection->constraint_count; i++)
+        if (copy->selection->constraints[i] == from->roll - 1) absolute->roll = 1 + (int)i;
 }
 
 /* Room for what is copied. */

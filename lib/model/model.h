@@ -60,6 +60,8 @@ struct model_absolute {
     struct vec point;
     enum absolute_kind kind;
     int coordinate; /* absolute_acceleration */
+    int pair;       /* absolute_slip: index into plan.frictions, or -1 when that has been left out */
+    bool even;      /* absolute_slip: stays a magnitude beyond the end of a mode, see slips.c */
 };
 
 /* A load with everything that it refers to resolved. */

@@ -27,6 +27,21 @@ static void normal_remark(const struct fbd_state *state, const struct model_body
         snprintf(remark, term_remark_size, "acts across the guide");
 }
 
+/* The speed on the surface where the law goes with it. */
+static void slip_remark(const struct fbd_state *state, int pair, char *remark)
+{
+    const struct fbd_model *model = state->model;
+    bool bearing = model->plan.frictions[pair].normal_slot < 0;
+    const char *law = bearing ? "M_k" : "mu_k N", *sign = state->slip[pair] > 0 ? "-" : "+";
+    const double *places = state->y + 2 * (size_t)model->plan.n + hand_slots;
+    for (size_t k = 0; k < model->absolute_count; k++) {
+        if (model->absolutes[k].kind != absolute_slip || model->absolutes[k].pair != pair) continue;
+        format_into(remark, term_remark_size, "slips: %s%s at slip = %.9g", sign, law, places[k]);
+        return;
+    }
+    snprintf(remark, term_remark_size, "slips: %s%s", sign, law);
+}
+
 static void friction_remark(struct fbd_state *state, int b, char *remark)
 {
     const struct model_body *body = &state->model->bodies[b];
@@ -38,8 +53,7 @@ static void friction_remark(struct fbd_state *state, int b, char *remark)
         format_into(remark, term_remark_size, "sticks: whatever holds, up to %s = %.9g",
                     bearing ? "M_s" : "mu_s N", now.limit_static);
     else
-        snprintf(remark, term_remark_size, "slips: %s%s", state->slip[body->friction] > 0 ? "-" : "+",
-                 bearing ? "M_k" : "mu_k N");
+        slip_remark(state, body->friction, remark);
 }
 
 /* Gravity on a pivot whose zero angle hangs straight down is the m g L sin(theta) of every textbook. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene/fields.h"
 
+#include "scene/slip_law.h"
 #include "scene/values.h"
 
 #include <stdio.h>
@@ -182,6 +183,15 @@ static bool read_node(struct reader *reader, const struct field *field, const st
     return true;
 }
 
+static bool read_formula(struct reader *reader, const struct field *field, const struct node *node,
+                         const struct scope *scope, void *place)
+{
+    if (!(field->flags & (slips | slips_not)))
+        return value_formula(reader, node, field->key, field->quantity, field->flags, scope, place);
+    enum slip_name slip = field->flags & slips ? slip_moving : slip_resting;
+    return slip_law_read(reader, node, field->key, field->quantity, slip, scope, place);
+}
+
 static bool read_field(struct reader *reader, const struct field *field, const struct pair *pair,
                        const struct scope *scope, void *place)
 {
@@ -193,7 +203,7 @@ static bool read_field(struct reader *reader, const struct field *field, const s
     case field_flag: return value_flag(reader, node, key, place);
     case field_choice: return value_choice(reader, node, key, field->choices, field->choice_count, place);
     case field_number: return value_number(reader, node, key, field->quantity, field->flags, place);
-    case field_value: return value_formula(reader, node, key, field->quantity, field->flags, scope, place);
+    case field_value: return read_formula(reader, field, node, scope, place);
     case field_vector: return value_vector(reader, node, key, field->quantity, place);
     case field_any:
     case field_scalar:

@@ -36,6 +36,8 @@ enum field_flag_bits {
     required = 1,
     positive = 2,     /* above zero (`out-of-range`) */
     not_negative = 4, /* zero or above */
+    slips = 8,        /* may name `slip`, */
+    slips_not = 16,   /* which is 0 here */
 };
 
 struct choice {

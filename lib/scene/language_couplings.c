@@ -66,8 +66,9 @@ static const struct field roll_fields[] = {
     FIELD_NODE(COUPLING(on), "on", field_scalar, required, NULL,
                "the line that it rolls on: of the ground, or a body on a slide"),
     FIELD_NUMBER(COUPLING(radius), "radius", a_length, positive, "its radius; default that of its shape"),
-    FIELD_VALUE(COUPLING(mu_s), "static", a_number, not_negative, "coefficient of static friction"),
-    FIELD_VALUE(COUPLING(mu_k), "kinetic", a_number, not_negative, "coefficient of kinetic friction"),
+    FIELD_VALUE(COUPLING(mu_s), "static", a_number, not_negative | slips_not,
+                "coefficient of static friction"),
+    FIELD_VALUE(COUPLING(mu_k), "kinetic", a_number, not_negative | slips, "coefficient of kinetic friction"),
 };
 static const struct group roll_group =
     COUPLING_GROUP("`roll`", roll_fields, "a round body on a line; without coefficients it never slips");

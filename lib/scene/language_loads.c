@@ -59,9 +59,9 @@ static const struct group normal_group =
     LOAD_GROUP("`normal`", NULL, normal_fields, "the force of the surface across a slide");
 
 static const struct field friction_fields[] = {
-    FIELD_VALUE(LOAD(mu_s), "static", a_number, not_negative, "coefficient of static friction"),
-    FIELD_VALUE(LOAD(mu_k), "kinetic", a_number, not_negative, "coefficient of kinetic friction"),
-    FIELD_VALUE(offsetof(struct load_keys, coefficient), "coefficient", a_number, not_negative,
+    FIELD_VALUE(LOAD(mu_s), "static", a_number, not_negative | slips_not, "coefficient of static friction"),
+    FIELD_VALUE(LOAD(mu_k), "kinetic", a_number, not_negative | slips, "coefficient of kinetic friction"),
+    FIELD_VALUE(offsetof(struct load_keys, coefficient), "coefficient", a_number, not_negative | slips,
                 "both coefficients"),
     FIELD_VALUE(LOAD(surface_speed), "surface_speed", a_velocity, 0,
                 "velocity of the surface along +x, as of a belt; default 0"),
@@ -157,10 +157,11 @@ static const struct group moment_damper_group =
                "a linear torsional damper to the ground");
 
 static const struct field moment_friction_fields[] = {
-    FIELD_VALUE(LOAD(mu_s), "static", a_moment, not_negative,
+    FIELD_VALUE(LOAD(mu_s), "static", a_moment, not_negative | slips_not,
                 "largest moment that holds the bearing at rest"),
-    FIELD_VALUE(LOAD(mu_k), "kinetic", a_moment, not_negative, "moment while it turns"),
-    FIELD_VALUE(offsetof(struct load_keys, coefficient), "coefficient", a_moment, not_negative, "both"),
+    FIELD_VALUE(LOAD(mu_k), "kinetic", a_moment, not_negative | slips, "moment while it turns"),
+    FIELD_VALUE(offsetof(struct load_keys, coefficient), "coefficient", a_moment, not_negative | slips,
+                "both"),
     FIELD_VALUE(LOAD(surface_speed), "surface_speed", an_angular_velocity, 0,
                 "angular velocity of the bearing; default 0"),
 };

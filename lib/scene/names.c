@@ -101,7 +101,7 @@ static struct symbol absolute_slot(struct reader *reader, const struct absolute 
         const struct absolute *known = &scene->absolutes[k];
         if (known->body == wanted->body && known->kind == wanted->kind && known->part == wanted->part &&
             known->point.kind == wanted->point.kind && known->point.where.x == wanted->point.where.x &&
-            known->point.where.y == wanted->point.where.y)
+            known->point.where.y == wanted->point.where.y && known->roll == wanted->roll)
             break;
     }
     if (k == most_absolutes) return unknown;
@@ -113,8 +113,8 @@ static struct symbol absolute_slot(struct reader *reader, const struct absolute 
     int derivative = wanted->kind == absolute_acceleration
                          ? 2
                          : wanted->kind == absolute_vx || wanted->kind == absolute_vy ||
-                               wanted->kind == absolute_angle_dot;
-    bool angle = wanted->kind == absolute_angle || wanted->kind == absolute_angle_dot;
+                               wanted->kind == absolute_angle_dot || wanted->kind == absolute_slip;
+    bool angle = wanted->kind == absolute_angle || wanted->kind == absolute_angle_dot || wanted->angular;
     if (wanted->kind == absolute_acceleration)
         angle = scene->coordinates[scene->bodies[wanted->body].first + wanted->part].angle;
     return variable(coordinate_dim(angle, derivative), 1 + 2 * scene->coordinate_count + hand_slots + k);
@@ -228,6 +228,33 @@ static struct symbol own_symbol(const struct names *names, const char *name)
     return coordinate_symbol(names, names->body, name);
 }
 
+/* The speed on the surface. Of a rolling body, whose coefficients are read before it is known itself
+ * (read_couplings.c), the constraint counts. */
+static struct symbol slip_symbol(struct names *names)
+{
+    struct reader *reader = names->reader;
+    bool roll = names->body == ground_body;
+    names->slip_named = true;
+    reader->varies = true; /* the same text at rest is another expression */
+    if (names->slip == slip_resting)
+        return (struct symbol){.kind = symbol_constant, .dim = coordinate_dim(names->slip_angular, 1)};
+    struct absolute slip = {.body = names->body,
+                            .point = {.kind = point_fixed},
+                            .kind = absolute_slip,
+                            .roll = roll ? 1 + (int)reader->scene->constraint_count : 0,
+                            .angular = names->slip_angular};
+    return absolute_slot(reader, &slip);
+}
+
+/* `slip` where there is none to speak of. */
+static struct symbol misplaced_slip(const struct names *names, struct pos at)
+{
+    diag_add(names->reader->errors, FBD_ERROR, "not-here", at,
+             "elsewhere name the rates, as `abs(v)` or `abs(v - belt.v)`",
+             "`slip` is known in the coefficients of dry friction alone");
+    return failed_before;
+}
+
 /* What the assembly knows: see enum hand_slot. */
 static struct symbol hand_symbol(const struct names *names, const char *name)
 {
@@ -277,7 +304,7 @@ static struct symbol other_symbol(const struct names *names, const char *name)
 
 static struct symbol look_up(void *context, const char *name, struct pos at)
 {
-    const struct names *names = context;
+    struct names *names = context;
     struct reader *reader = names->reader;
     const char *dot = strchr(name, '.');
     if (dot) return dotted_symbol(names, name, dot);
@@ -287,6 +314,7 @@ static struct symbol look_up(void *context, const char *name, struct pos at)
     const struct pair *pair = node_find(reader->parameters, name);
     if (pair) return parameter_symbol(reader, (size_t)(pair - reader->parameters->pairs), at);
     if (strcmp(name, "g") == 0) return gravity_symbol(reader, at);
+    if (strcmp(name, "slip") == 0) return names->slip ? slip_symbol(names) : misplaced_slip(names, at);
     struct symbol other = other_symbol(names, name);
     if (other.kind == symbol_constant) reader->varies = true; /* who knows what it was made of */
     return other;
@@ -326,6 +354,7 @@ static void know_all(struct names *names)
     know(names, "g");
     if (!constant) know(names, "t");
     if (names->place == place_load || names->place == place_exact) know(names, "m");
+    if (names->slip != slip_unknown) know(names, "slip");
     for (size_t i = 0; names->place == place_hand && i < sizeof of_hand / sizeof *of_hand; i++)
         if (hand_symbol(names, of_hand[i]).kind == symbol_variable) know(names, of_hand[i]);
     for (size_t i = 0; moves && i < reader->scene->body_count && names->known_count < most_known; i++)

@@ -38,10 +38,20 @@ enum place {
     place_hand,     /* also accelerations and what the assembly knows */
 };
 
+/* What `slip` is in the expression at hand. */
+enum slip_name {
+    slip_unknown,
+    slip_moving,  /* the speed on the surface: coefficients of kinetic friction */
+    slip_resting, /* 0, as at rest: coefficients of static friction */
+};
+
 struct names {
     struct reader *reader;
     enum place place;
     int body; /* whose coordinates need no prefix, or ground_body */
+    enum slip_name slip;
+    bool slip_angular; /* it is an angular speed */
+    bool slip_named;   /* it was looked up */
     const char **known;
     size_t known_count;
 };

@@ -6,6 +6,7 @@
 #include "scene/coupling_names.h"
 #include "scene/fields.h"
 #include "scene/reader.h"
+#include "scene/slip_law.h"
 #include "scene/values.h"
 
 #include <string.h>
@@ -173,6 +174,29 @@ static bool read_rope(struct reader *reader, const struct coupling_keys *keys, s
     return true;
 }
 
+/* The coefficients were read before it was known which body rolls. */
+static void place_slips(struct reader *reader, const struct constraint *constraint)
+{
+    struct scene *scene = reader->scene;
+    int roll = 1 + (int)(constraint - scene->constraints);
+    for (size_t i = 0; i < scene->absolute_count; i++)
+        if (scene->absolutes[i].roll == roll) scene->absolutes[i].body = constraint->body[0];
+}
+
+/* What is given under one key says the other coefficient as well. */
+static bool share_friction(struct reader *reader, const struct node *node, const struct scope *scope,
+                           struct coupling_keys *keys)
+{
+    const struct pair *rest = node_find(node, "static"), *moving = node_find(node, "kinetic");
+    if (moving && !rest)
+        return slip_law_share(reader, moving->value, "kinetic", a_number, slip_resting, scope, &keys->mu_k,
+                              &keys->mu_s);
+    if (rest && !moving)
+        return slip_law_share(reader, rest->value, "static", a_number, slip_moving, scope, &keys->mu_s,
+                              &keys->mu_k);
+    return true;
+}
+
 /* `on`: a line of the ground, or a body, whose x axis through its origin is the line. */
 static bool read_roll(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
 {
@@ -182,8 +206,9 @@ static bool read_roll(struct reader *reader, const struct coupling_keys *keys, s
     constraint->body[1] = ground_body;
     if (!needs_body(reader, constraint, 0) || !set_circle(reader, constraint, 0, keys->radius)) return false;
     constraint->point[1] = (struct point){.kind = point_fixed, .at = on->at};
-    constraint->mu_s = keys->mu_s.expr ? keys->mu_s : keys->mu_k;
-    constraint->mu_k = keys->mu_k.expr ? keys->mu_k : keys->mu_s;
+    constraint->mu_s = keys->mu_s;
+    constraint->mu_k = keys->mu_k;
+    place_slips(reader, constraint);
     if (node_find(reader->bodies, on->text)) return body_name_read(reader, on, "on", &constraint->body[1]);
     const struct ground_line *line = ground_line_find(reader, on);
     if (!line) return false;
@@ -223,7 +248,7 @@ static bool read_coupling(struct reader *reader, const struct node *node, struct
     bool fine = fields_read(reader, chosen.kind->group, chosen.node, chosen.at, &scope, &keys);
     *name = (struct coupling_name){keys.name, chosen.kind, chosen.at};
     if (chosen.kind->value >= coupling_constraint)
-        return fine &&
+        return fine && share_friction(reader, chosen.node, &scope, &keys) &&
                read_constraint(reader, &chosen, &keys, &scene->constraints[scene->constraint_count++]);
     struct coupling *coupling = &scene->couplings[scene->coupling_count++];
     coupling->load = (struct load){.kind = (enum load_kind)chosen.kind->value,

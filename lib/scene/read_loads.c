@@ -4,6 +4,7 @@
  */
 #include "scene/fields.h"
 #include "scene/reader.h"
+#include "scene/slip_law.h"
 #include "scene/values.h"
 
 /* One entry while it is read. */
@@ -136,6 +137,36 @@ static bool finish_link(struct entry *entry)
 
 /* ---- friction, drag */
 
+/* The text of a coefficient; a bare one stands in place of the keys. */
+static const struct node *coefficient_node(const struct entry *entry, const char *key)
+{
+    const struct pair *pair = node_find(entry->chosen.node, key);
+    return pair ? pair->value : entry->chosen.node;
+}
+
+/* What is given under one key says the other coefficient as well. */
+static bool share_coefficient(struct entry *entry, const char *key, const struct value *given,
+                              enum slip_name slip, struct value *other)
+{
+    enum quantity quantity = entry->keys.load.kind == load_friction ? a_number : a_moment;
+    return slip_law_share(entry->reader, coefficient_node(entry, key), key, quantity, slip, &entry->scope,
+                          given, other);
+}
+
+static bool share_friction(struct entry *entry, bool single)
+{
+    struct load *load = &entry->keys.load;
+    if (single) {
+        load->mu_k = entry->keys.coefficient;
+        return share_coefficient(entry, "coefficient", &load->mu_k, slip_resting, &load->mu_s);
+    }
+    if (!has(entry, "static"))
+        return share_coefficient(entry, "kinetic", &load->mu_k, slip_resting, &load->mu_s);
+    if (!has(entry, "kinetic"))
+        return share_coefficient(entry, "static", &load->mu_s, slip_moving, &load->mu_k);
+    return load->mu_s.expr && load->mu_k.expr;
+}
+
 /* One coefficient stands for both. */
 static bool finish_friction(struct entry *entry)
 {
@@ -149,10 +180,7 @@ static bool finish_friction(struct entry *entry)
              "`friction` needs `static`, `kinetic` or one `coefficient` for both");
         return false;
     }
-    if (single) load->mu_s = load->mu_k = entry->keys.coefficient;
-    if (!has(entry, "static") && !single) load->mu_s = load->mu_k;
-    if (!has(entry, "kinetic") && !single) load->mu_k = load->mu_s;
-    if (!load->mu_s.expr || !load->mu_k.expr) return false;
+    if (!share_friction(entry, single)) return false;
     bool constant = expr_is_constant(load->mu_s.expr) && expr_is_constant(load->mu_k.expr);
     if (constant && expr_value(load->mu_k.expr) > expr_value(load->mu_s.expr))
         diag_add(entry->reader->errors, FBD_WARNING, "kinetic-above-static", load->mu_k.at,
@@ -232,6 +260,7 @@ static bool read_entry(struct entry *entry, const struct kinds *kinds, const str
         return false;
     load->kind = (enum load_kind)entry->chosen.kind->value;
     load->at = entry->chosen.at;
+    ((struct names *)entry->scope.context)->slip_named = false;
     if (!check_place(entry, kinds)) return false;
     bool fine = fields_read(reader, entry->chosen.kind->group, entry->chosen.node, entry->chosen.at,
                             &entry->scope, &entry->keys);

@@ -249,8 +249,8 @@ struct body {
     struct value exact[2 * most_coordinates_of_a_body];
 };
 
-/* Where a point of a body is in the world, or how its frame is turned: an expression may name it though it is
- * no coordinate. Number k has slot 1 + 2 n + hand_slots + k. */
+/* Where a point of a body is in the world, how its frame is turned, or how fast it slips: an expression may
+ * name it though it is no coordinate. Number k has slot 1 + 2 n + hand_slots + k. */
 struct absolute {
     int body;
     struct point point;
@@ -262,8 +262,11 @@ struct absolute {
         absolute_angle,
         absolute_angle_dot,
         absolute_acceleration, /* derivations by hand: of coordinate `part` of the body */
+        absolute_slip,         /* the speed of a pair of dry friction on its surface */
     } kind;
     int part;
+    int roll; /* absolute_slip of a rolling body: 1 + index of its constraint; 0: of the body's own pair */
+    bool angular; /* absolute_slip of a bearing */
 };
 
 struct coordinate {

@@ -9,6 +9,7 @@
 #include "base/call.h"
 #include "base/diag.h"
 #include "dynamics/finite.h"
+#include "dynamics/friction.h"
 #include "dynamics/modes.h"
 #include "solve/equilibrium.h"
 #include "solve/start.h"
@@ -72,16 +73,23 @@ static bool refuse_closed(const struct fbd_state *state, fbd_errors *errors)
     return true;
 }
 
+/* What is at rest sticks to a surface at rest; under a surface that moves on it slips, and its friction is a
+ * force like others. */
 static bool refuse_sticking(const struct fbd_state *state, fbd_errors *errors)
 {
-    const struct plan *plan = &state->model->plan;
-    if (plan->friction_count == 0) return false;
     const struct fbd_model *model = state->model;
-    diag_add(errors, FBD_ERROR, "sticks", model->loads[plan->frictions[0].load].source->at,
-             "leave the friction out to see the motion about the balance of the other forces",
-             "`%s` has dry friction: at rest it sticks, and a body that sticks has no linear motion",
-             model->bodies[plan->frictions[0].body].name);
-    return true;
+    const struct plan *plan = &model->plan;
+    struct instant at = state_instant(state);
+    for (size_t i = 0; i < plan->friction_count; i++) {
+        double acceleration;
+        if (friction_surface_speed(&plan->frictions[i], &at, &acceleration) != 0) continue;
+        diag_add(errors, FBD_ERROR, "sticks", model->loads[plan->frictions[i].load].source->at,
+                 "leave the friction out to see the motion about the balance of the other forces",
+                 "`%s` has dry friction: at rest it sticks, and a body that sticks has no linear motion",
+                 model->bodies[plan->frictions[i].body].name);
+        return true;
+    }
+    return false;
 }
 
 static fbd_linearization *linearization_new(const struct fbd_model *model)
@@ -201,6 +209,8 @@ static fbd_linearization *linearize(fbd_state *state, fbd_errors *errors)
 {
     const struct fbd_model *model = state->model;
     diag_in_file(errors, model->scene->file);
+    size_t n = (size_t)model->plan.n;
+    if (model->plan.friction_count > 0) memset(state->y + n, 0, n * sizeof *state->y); /* modes of rest */
     bool settled = modes_settle(state, NULL);
     if (!start_question(state, settled, errors) || refuse_closed(state, errors) ||
         refuse_sticking(state, errors))

@@ -52,8 +52,9 @@ static void add_load(struct fbd_effects *effects, int b, int i)
 static bool same_constant(const struct value *a, const struct value *b)
 {
     if (!a->expr || !b->expr) return true;
-    return expr_is_constant(a->expr) && expr_is_constant(b->expr) &&
-           expr_value(a->expr) == expr_value(b->expr);
+    bool one_law = a->at.line == b->at.line && a->at.column == b->at.column; /* read at rest and in motion */
+    return one_law || (expr_is_constant(a->expr) && expr_is_constant(b->expr) &&
+                       expr_value(a->expr) == expr_value(b->expr));
 }
 
 static void add_friction(struct fbd_effects *effects, int b, int i)

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The pairs of dry friction whose slip a law names.
+ *
+ * A step goes a little beyond the instant at which a pair comes to rest, before that is found. There the law
+ * is continued to a slip below zero, so that a step sees no kink. A law with a root, (slip/v_s)^0.5, has no
+ * value there; it has a kink at rest anyway, and goes on with the magnitude.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "model/builder.h"
+
+/* Is the law finite at `slip`, all else as it starts? */
+static bool finite_at(const struct formula *law, double *y, size_t component, double slip)
+{
+    y[component] = slip;
+    bool finite = isfinite(expr_eval(law->expr, 0, y, NULL));
+    y[component] = 0;
+    return finite;
+}
+
+/* Has the law values at these slips, but none at their negatives? */
+static bool ends_at_rest(const struct formula *law, double *y, size_t component)
+{
+    const int lowest = -9, highest = 3; /* decades of m/s (rad/s) */
+    for (int decade = lowest; law->expr && decade <= highest; decade++) {
+        double slip = pow(10, decade);
+        if (finite_at(law, y, component, slip) && !finite_at(law, y, component, -slip)) return true;
+    }
+    return false;
+}
+
+static int pair_of(const struct fbd_model *model, const struct absolute *slip)
+{
+    if (slip->roll == 0) return model->bodies[slip->body].friction;
+    for (int i = 0; i < model->tree->tie_count; i++)
+        if (model->tree->ties[i].constraint == slip->roll - 1) return model->tree->ties[i].pair;
+    return -1;
+}
+
+bool slips_find(struct fbd_model *model)
+{
+    const struct scene *scene = model->scene;
+    size_t n = (size_t)model->plan.n;
+    if (model->absolute_count == 0) return true;
+    double *y = calloc(2 * n + hand_slots + model->absolute_count, sizeof *y);
+    if (!y) return false;
+    for (size_t i = 0; i < n; i++) {
+        y[i] = scene->coordinates[i].initial;
+        y[n + i] = scene->coordinates[i].initial_rate;
+    }
+    for (size_t k = 0; k < model->absolute_count; k++) {
+        struct model_absolute *absolute = &model->absolutes[k];
+        if (absolute->kind != absolute_slip) continue;
+        absolute->pair = pair_of(model, &scene->absolutes[k]);
+        if (absolute->pair < 0) continue;
+        const struct formula *law = &model->plan.frictions[absolute->pair].mu_k;
+        absolute->even = ends_at_rest(law, y, 2 * n + hand_slots + k);
+    }
+    free(y);
+    return true;
+}
