@@ -81,6 +81,13 @@ error-bars: $(BUILD)/.tests
 	$(BUILD)/tests/bench/bench_error_bars models/*/*.yaml
 	$(BUILD)/tests/bench/validate_error_bars models/*/*.yaml
 
+# What others have published, against what fbd says: writes docs/verification.md and its line in README.md; some
+# four minutes. SymPy is asked where it can be had (Debian's Python has it, others may not).
+verify: $(BUILD)/.tests
+	-.ci/install-packages verify
+	ninja -C $(BUILD)
+	$(or $(wildcard /usr/bin/python3),python3) tests/verify/verify.py $(BUILD)
+
 # Every allocation and every call on a file of some seventy command lines fails in turn; takes some minutes. The
 # tests do the same with fewer of them.
 failures: $(BUILD)/.tests

@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "chain.h"
 #include "timing.h"
@@ -157,11 +158,30 @@ static void heading(void)
     putchar('\n');
 }
 
-int main(void)
+/* For `make verify`: how far the accelerations of each program are from ours, for a chain of ten. */
+static int say_agreement(const struct inputs *inputs)
+{
+    const int n = 10;
+    void *chain = rivals[ours].solver->open(n), *hand = rivals[yardstick].solver->open(n);
+    if (!chain || !hand) return 1;
+    printf("%s %.2g\n", rivals[ours].solver->name, disagreement(rivals[ours].solver, chain, hand, n, inputs));
+    for (int s = yardstick + 1; s < solvers; s++) {
+        void *other = rivals[s].solver->open(n);
+        if (!other) return 1;
+        printf("%s %.2g\n", rivals[s].solver->name, disagreement(rivals[s].solver, other, hand, n, inputs));
+        rivals[s].solver->close(other);
+    }
+    rivals[ours].solver->close(chain);
+    rivals[yardstick].solver->close(hand);
+    return 0;
+}
+
+int main(int argc, char **argv)
 {
     static struct inputs inputs;
     gsl_set_error_handler_off();
     fill(&inputs);
+    if (argc > 1 && strcmp(argv[1], "--agreement") == 0) return say_agreement(&inputs);
     heading();
     bool met = true;
     double least = HUGE_VAL, most = 0;

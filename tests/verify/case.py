@@ -6,7 +6,8 @@
     # method: how the published numbers were found (default: by hand)
     # answer: NAME = VALUE UNIT +- UNCERTAINTY: EXPRESSION
     # instead: VALUE +- UNCERTAINTY: why the print of the answer above is wrong
-    # methods: none           (the answers take no integration)
+    # methods: none           (the answers take no integration; or some of them)
+    # model: another file      (a model of the gallery; then there is nothing else in this one)
     # options: of every run
 
 The expression is Python over what the programs print, and nothing else: `run()`, `static()` are the objects of --json,
@@ -22,7 +23,6 @@ import re
 import shlex
 import subprocess
 
-LIMIT = 60  # seconds for one run of the program
 NUMBER = r"[-+0-9.e]+"
 ANSWER = re.compile(rf"^(\w+) = ({NUMBER}) ?([^:]*?) \+- ({NUMBER})( %)?: (.*)$")
 INSTEAD = re.compile(rf"^({NUMBER}) \+- ({NUMBER})( %)?: (.*)$")
@@ -76,10 +76,10 @@ class Case:
 
     def __init__(self, path, programs):
         self.path, self.programs = path, programs
-        self.say = {"method": "by hand", "licence": "", "source": "", "options": "", "methods": "all"}
+        self.say = {"method": "by hand", "licence": "", "source": "", "options": "", "methods": "all", "model": ""}
         self.answers, self.question = [], []
         self.seconds, self.calls = 0.0, 0
-        self.method = None  # of every run from now on; None: the default
+        self.method, self.limit = None, 60  # of every run from now on; None: the default; seconds that one may take
         self.cache = {}
         for line in self._header():
             key, _, rest = line.partition(": ")
@@ -91,6 +91,8 @@ class Case:
                 self.say[key] = rest
             else:
                 self.question.append(line)
+
+        self.model = path.parent / self.say["model"] if self.say["model"] else path
 
     def _header(self):
         """The comment on top; an indented line goes on with the one before."""
@@ -119,7 +121,10 @@ class Case:
         return {"value": float(value), "within": float(within) * (abs(float(value)) / 100 if percent else 1), "why": why}
 
     def title(self):
-        return re.search(r"^title: (.*)$", self.path.read_text(encoding="utf-8"), re.MULTILINE)[1]
+        return re.search(r"^title: (.*)$", self.model.read_text(encoding="utf-8"), re.MULTILINE)[1]
+
+    def source(self):
+        return self.say["source"] + (f" ({self.say['licence']})" if self.say["licence"] else "")
 
     # What an expression may ask.
 
@@ -129,13 +134,13 @@ class Case:
             command += shlex.split(option)
         for name, value in values.items():
             command += ["--set", f"{name}={value!r}" if isinstance(value, float) else f"{name}={value}"]
-        command.append(self.path)
+        command.append(self.model)
         key = tuple(map(str, command))
         if key not in self.cache:
             try:
-                done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=LIMIT, check=False)
+                done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=self.limit, check=False)
             except subprocess.TimeoutExpired as late:
-                raise Refused(f"not done after {LIMIT} s") from late
+                raise Refused(f"not done after {self.limit} s") from late
             if done.returncode not in may_end:
                 raise Refused(done.stderr.decode(errors="replace").strip() or f"exit code {done.returncode}")
             self.cache[key] = done.stdout.decode()
