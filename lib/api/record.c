@@ -151,12 +151,11 @@ static bool carry_on(struct going *going, struct csv *csv)
     return !simulation->bars || bars_step(simulation->bars, ensemble);
 }
 
-/* What is shown at the end is finite, or the run has failed by what is not. False when memory is out. */
+/* What is shown of the end, of whatever kind, is finite, or the run has failed. False when memory is out. */
 static bool is_whole(fbd_result *result)
 {
     struct ensemble *ensemble = result->simulation->ensemble;
-    bool ended = ensemble->outcome == FBD_DONE || ensemble->outcome == FBD_STOPPED;
-    return !ended || result_finite(ensemble, &result->ledger, result->ledger.work) ||
+    return ensemble->outcome == FBD_FAILED || result_finite(ensemble, &result->ledger, result->ledger.work) ||
            ensemble->outcome == FBD_FAILED;
 }
 

@@ -252,7 +252,8 @@ static void write_sheet(struct sheet *sheet)
 
 /* ---- the whole */
 
-/* Lengths and forces may be finite, and yet too large for any scale: the first body with such a panel. */
+/* Lengths and forces may be finite, and yet too large or too small for any scale: the first body with such a
+ * panel. */
 static const char *body_without_scale(const struct sheet *sheet)
 {
     for (size_t i = 0; i < sheet->count; i++) {
@@ -331,8 +332,8 @@ static char *make_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *
     arena_free(&sheet.arena);
     if (odd && !sheet.text.failed) {
         diag_add(errors, FBD_ERROR, "not-finite", (struct pos){0, 0}, NULL,
-                 "the diagram of `%s` cannot be drawn at t = %.9g: a length or a force is too large for any "
-                 "scale",
+                 "the diagram of `%s` cannot be drawn at t = %.9g: a length or a force is too large or too "
+                 "small for any scale",
                  odd, state->t);
         text_free(&sheet.text);
         return NULL;

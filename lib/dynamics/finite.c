@@ -7,6 +7,7 @@
 
 #include "dynamics/diagram.h"
 #include "dynamics/energy.h"
+#include "dynamics/friction.h"
 #include "dynamics/kinematics.h"
 
 const char *not_finite_reason(double value)
@@ -117,13 +118,33 @@ static bool note_energies(const struct fbd_state *state, struct not_finite *foun
     return false;
 }
 
+/* A force within its limit may be finite while the limit, which outputs show beside it, is not. */
+static bool note_limits(const struct fbd_state *state, struct not_finite *found)
+{
+    const struct fbd_model *model = state->model;
+    const struct instant at = state_instant(state);
+    for (size_t i = 0; i < model->plan.friction_count; i++) {
+        const struct friction *friction = &model->plan.frictions[i];
+        if (friction->rope || friction->driven) continue;
+        const struct friction_values values = friction_at(model, (int)i, &at, state->slots);
+        const struct load *source = model->loads[friction->load].source;
+        const double limits[] = {values.limit_static, values.limit_kinetic};
+        for (int k = 0; k < 2; k++)
+            if (not_finite_note(found, limits[k], source->at, "the %s limit of `%s` on `%s`",
+                                k == 0 ? "static" : "kinetic", source->name,
+                                model->bodies[friction->body].name))
+                return true;
+    }
+    return false;
+}
+
 enum finite finite_check(const struct fbd_state *state, struct not_finite *found)
 {
     struct arrow *arrows = calloc(diagram_most_arrows(state->model), sizeof *arrows);
     if (!arrows) return finite_no_memory;
     bool odd = note_coordinates(state, found) || note_arrows(state, arrows, false, found) ||
                note_accelerations(state, found) || note_arrows(state, arrows, true, found) ||
-               note_energies(state, found);
+               note_limits(state, found) || note_energies(state, found);
     free(arrows);
     return odd ? finite_not : finite_all;
 }

@@ -26,7 +26,8 @@ static double tolerance_for(const struct run_options *options)
 static double sample_interval(const struct companion *companion)
 {
     enum { samples = 200 };
-    return companion->ensemble->options.until / samples;
+    return fmax(companion->ensemble->options.until / samples,
+                DBL_TRUE_MIN); /* a run may be as short as that */
 }
 
 struct companion *companion_new(const struct fbd_model *model, const struct run_options *options)

@@ -159,8 +159,7 @@ void ensemble_fail(struct ensemble *ensemble, fbd_outcome outcome, const char *r
 
 void ensemble_spoil(struct ensemble *ensemble, const char *format, ...)
 {
-    if (ensemble->outcome != FBD_GOING && ensemble->outcome != FBD_DONE && ensemble->outcome != FBD_STOPPED)
-        return;
+    if (ensemble->outcome == FBD_FAILED || ensemble->outcome == FBD_OUT_OF_MEMORY) return;
     va_list args;
     va_start(args, format);
     /* NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): it is, a line above */

@@ -13,7 +13,7 @@
 #include "scene/language.h"
 
 enum {
-    most_steps = 60,     /* of a run, then it is interrupted */
+    most_steps = 120,    /* of a run, then it is interrupted */
     most_table = 300000, /* bytes of CSV, then the writer refuses */
     most_arrows = 64,
 };
@@ -24,6 +24,19 @@ struct input {
     bool names_nan; /* it says `nan` itself, or a run failed for one: outputs may repeat that */
     uint64_t choices;
 };
+
+/* ---- how many inputs came how far */
+
+static struct {
+    size_t inputs, models, runs, ended;
+} tally;
+
+static void tell_tally(void)
+{
+    if (tally.inputs < 100) return; /* a replay */
+    fprintf(stderr, "stat::models: %zu\nstat::runs: %zu\nstat::runs_ended: %zu\n", tally.models, tally.runs,
+            tally.ended);
+}
 
 /* ---- claims on texts; each takes the text and frees it, NULL is `memory is out` */
 
@@ -72,12 +85,14 @@ static void claim_energy(fbd_energy energy)
 
 /* ---- runs */
 
-/* Tells the run to end after so many steps. */
+/* Tells the run to end after so many steps. It is asked between them too, and oftener where groups wait for
+ * each other: counted in calls no run would come to its end. */
 static int watch(void *context, const fbd_progress *progress)
 {
-    size_t *steps = context;
+    unsigned long *steps = context;
     claim_finite("time", progress->t);
-    return ++*steps > most_steps;
+    *steps = progress->steps;
+    return progress->steps > most_steps;
 }
 
 static int write_table(void *context, const char *rows, size_t length)
@@ -98,9 +113,10 @@ static fbd_options choose_options(uint64_t *choices)
     unsigned accuracy = fuzz_take(choices, 5);
     options.no_structure = fuzz_take(choices, 2) == 0;
     options.error_bars = fuzz_take(choices, 3) == 0;
-    if (accuracy == 0)
+    if (accuracy == 0) { /* its rows are kept until the accuracy is reached: of a long run too many */
         options.accuracy = 1e-6;
-    else if (accuracy <= 2)
+        if (isnan(options.until)) options.until = 1;
+    } else if (accuracy <= 2)
         options.step = 0.01;
     else
         options.tolerance = tolerances[fuzz_take(choices, 2)];
@@ -145,7 +161,7 @@ static void claim_csv(const struct text *table)
 
 static void run(struct input *input)
 {
-    size_t steps = 0;
+    unsigned long steps = 0;
     struct text table = {0};
     uint64_t *choices = &input->choices;
     fbd_options options = choose_options(choices);
@@ -158,14 +174,17 @@ static void run(struct input *input)
                                .progress = watch,
                                .progress_context = &steps};
     fbd_simulation *simulation = fbd_simulation_new(input->model, &options, input->errors);
-    if (fuzz_take(choices, 3) != 0) recording.every = isfinite(options.until) ? options.until / 4 : 0.25;
+    bool few = fuzz_take(choices, 3) != 0 || options.accuracy > 0;
+    if (few && isfinite(options.until)) recording.every = options.until / 4;
     fbd_result *result = simulation ? fbd_simulation_run(simulation, &recording) : NULL;
     fbd_outcome outcome = result ? fbd_result_outcome(result) : FBD_FAILED;
     bool ended = outcome == FBD_DONE || outcome == FBD_STOPPED || outcome == FBD_BROKEN;
-    input->names_nan =
-        input->names_nan || !ended; /* what is cut short is not looked at for its last number */
+    bool whole = ended || outcome == FBD_INTERRUPTED; /* what is shown is vouched for */
+    tally.runs += steps > 0;
+    tally.ended += ended;
+    input->names_nan = input->names_nan || !whole;
     if (result) write_outputs(input, result, recording.motion_only ? 0 : which);
-    if (ended && !recording.motion_only) {
+    if (whole && !recording.motion_only) {
         look_at_end(input, simulation, result);
         claim_csv(&table);
     }
@@ -182,7 +201,8 @@ static void ask_equations(struct input *input, fbd_state *state)
     fbd_drawing drawing = {.components = fuzz_take(&input->choices, 1)};
     if (!fbd_state_close(state, input->errors)) return;
     claim_text(input, "equations", fbd_equations_text(state));
-    claim_drawing(input, "diagram", fbd_diagram_svg(state, &drawing, input->errors));
+    char *svg = fbd_diagram_svg(state, &drawing, input->errors);
+    if (svg || fbd_errors_failed(input->errors) == 0) claim_drawing(input, "diagram", svg);
     fbd_equations *equations = fbd_assemble(state);
     for (size_t i = 0; equations && i < fbd_equations_count(equations); i++) {
         const fbd_equation *equation = fbd_equations_get(equations, i);
@@ -255,7 +275,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                           .choices = fuzz_choices(text, size)};
     fbd_model *model = fbd_model_parse(text, size, "fuzzed.yaml", NULL, 0, input.errors);
     input.model = model;
+    if (tally.inputs++ == 0) atexit(tell_tally);
     if (model) {
+        tally.models++;
         ask(&input);
         run(&input);
     }

@@ -189,7 +189,8 @@ size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsi
     struct random_numbers random = {seed};
     struct draft draft = {(char *)data, size, max_size};
     if (random_below(&random, 4) == 0) return LLVMFuzzerMutate(data, size, max_size);
-    for (size_t i = 1 + random_below(&random, most_changes); i > 0; i--) change(&draft, &random);
+    for (size_t i = 1 + random_below(&random, random_below(&random, most_changes) + 1); i > 0; i--)
+        change(&draft, &random); /* mostly one: each makes it less likely that it still is a model */
     return draft.length;
 }
 

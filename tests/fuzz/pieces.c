@@ -118,14 +118,11 @@ struct piece piece_next(const struct draft *text, enum piece_kind kind, size_t f
     return (struct piece){text->length, 0};
 }
 
+/* To list all pieces for every change would take as long as to try the input. */
 struct piece piece_any(const struct draft *text, enum piece_kind kind, struct random_numbers *random)
 {
-    struct piece any = {0, 0}, next = piece_next(text, kind, 0);
-    for (size_t count = 1; next.length > 0; count++) {
-        if (random_below(random, count) == 0) any = next;
-        next = piece_next(text, kind, next.start + 1);
-    }
-    return any;
+    struct piece next = piece_next(text, kind, random_below(random, text->length));
+    return next.length > 0 ? next : piece_next(text, kind, 0);
 }
 
 /* ---- names and sections */

@@ -35,7 +35,7 @@ enum piece_kind {
 /* The next piece of a kind that starts at `from` or later; of length 0 when there is none. */
 struct piece piece_next(const struct draft *text, enum piece_kind kind, size_t from);
 
-/* Any one of them, all alike likely. */
+/* Any one of them: the first behind any place, so that what stands behind much else is more likely. */
 struct piece piece_any(const struct draft *text, enum piece_kind kind, struct random_numbers *random);
 
 /* Below `count`. */

@@ -279,6 +279,34 @@ static void an_interrupted_run_ends_where_it_was_told_to(void **unused)
     fbd_model_free(model);
 }
 
+/* The kinetic energy m v^2 / 2 is beyond all numbers from v = 1.9e154 m/s on, which no step notices. */
+static void an_interruption_shows_no_number_that_is_not_finite(void **unused)
+{
+    (void)unused;
+    static const char text[] =
+        "fbd: 1\n"
+        "bodies: {b: {mass: 1, motion: slide, forces: [{applied: {name: push, value: 1e154}}]}}\n"
+        "simulate: {until: 10 s}\n";
+    fbd_model *model = model_from(text);
+    fbd_errors *errors = fbd_errors_new();
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    fbd_simulation *simulation = fbd_simulation_new(model, &options, errors);
+    struct stop stop = {.at = 5};
+    fbd_recording recording = {.every = 0.01,
+                               .csv = keep_row,
+                               .csv_context = &stop,
+                               .progress = stop_there,
+                               .progress_context = &stop};
+    fbd_result *result = fbd_simulation_run(simulation, &recording);
+    assert_int_equal(fbd_result_outcome(result), FBD_FAILED);
+    assert_true(stop.seen >= 5 && stop.seen < 5.1);
+    assert_non_null(strstr(fbd_simulation_reason(simulation), "is not finite at t = 5"));
+    fbd_result_free(result);
+    fbd_simulation_free(simulation);
+    fbd_errors_free(errors);
+    fbd_model_free(model);
+}
+
 static int stop_soon(void *context, const fbd_progress *progress)
 {
     (void)context;
@@ -318,6 +346,7 @@ int main(void)
         cmocka_unit_test(packing_loses_nothing),
         cmocka_unit_test(what_was_not_recorded_cannot_be_shown),
         cmocka_unit_test(an_interrupted_run_ends_where_it_was_told_to),
+        cmocka_unit_test(an_interruption_shows_no_number_that_is_not_finite),
         cmocka_unit_test(a_stiff_group_does_not_hold_up_an_interruption),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
