@@ -25,7 +25,8 @@ static const char *kind_of(const struct fbd_model *model, const struct arrow *ar
     switch (model->loads[arrow->load].source->kind) {
     case load_gravity: return "gravity";
     case load_normal:
-    case load_rope: return "reaction";
+    case load_rope:
+    case load_contact: return "reaction";
     case load_friction:
     case moment_friction: return "friction";
     case load_drive:

@@ -17,10 +17,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw/outline.h"
 #include "draw/pack.h"
 #include "draw/page.h"
 #include "draw/page_json.h"
+#include "model/outline.h"
 
 enum { most_bytes = 3600 * 1024, most_listed_events = 60000, bytes_of_event = 26, most_details = 2000 };
 

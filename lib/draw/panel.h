@@ -10,9 +10,9 @@
 #define FBD_DRAW_PANEL_H
 
 #include "draw/labelling.h"
-#include "draw/outline.h"
 #include "dynamics/diagram.h"
 #include "dynamics/state.h"
+#include "model/outline.h"
 
 /* Sizes on paper [mm]. */
 static const double label_size = 3.4, note_size = 2.9, longest_arrow = 40, shortest_arrow = 5;

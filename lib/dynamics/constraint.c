@@ -1,85 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "dynamics/constraint.h"
+#include "dynamics/constraint_view.h"
 
 #include <float.h>
-
-/* ---- points, angles and directions of links as jets */
-
-struct view {
-    const struct tree_work *work;
-    bool varied;
-};
-
-static const struct tree_variation still = {0};
-
-static const struct tree_variation *variation_of(const struct view *view, int link)
-{
-    return view->varied ? &view->work->variation[link] : &still;
-}
-
-static struct jet_vec jets(struct vec p, struct vec v, struct vec a, struct vec dp, struct vec dv,
-                           struct vec da)
-{
-    return (struct jet_vec){{p.x, v.x, a.x, dp.x, dv.x, da.x}, {p.y, v.y, a.y, dp.y, dv.y, da.y}};
-}
-
-/* A vector that turns with a link: r' = omega k x r, r'' = alpha k x r - omega^2 r. */
-static struct jet_vec turning(const struct view *view, int link, struct vec own)
-{
-    const struct tree_state *s = &view->work->links[link];
-    const struct tree_variation *d = variation_of(view, link);
-    struct vec r = vec_turn(s->turn, own), k_r = vec_perp(r), dr = vec_scale(d->angle, k_r),
-               k_dr = vec_perp(dr);
-    double w2 = s->omega * s->omega;
-    struct vec v = vec_scale(s->omega, k_r), a = vec_sub(vec_scale(s->A.alpha, k_r), vec_scale(w2, r));
-    struct vec dv = vec_add(vec_scale(d->omega, k_r), vec_scale(s->omega, k_dr));
-    struct vec da = vec_add(vec_scale(d->A.alpha, k_r), vec_scale(s->A.alpha, k_dr));
-    da = vec_sub(da, vec_add(vec_scale(2 * s->omega * d->omega, r), vec_scale(w2, dr)));
-    return jets(r, v, a, dr, dv, da);
-}
-
-static struct jet_vec origin_of(const struct view *view, int link)
-{
-    const struct tree_state *s = &view->work->links[link];
-    const struct tree_variation *d = variation_of(view, link);
-    return jets(s->p, s->v, s->A.a, d->p, d->v, d->A.a);
-}
-
-static struct jet_vec point_of(const struct view *view, const struct tie_end *end)
-{
-    struct jet_vec O = origin_of(view, end->link), r = turning(view, end->link, end->point);
-    return (struct jet_vec){jet_add(O.x, r.x), jet_add(O.y, r.y)};
-}
-
-static struct jet angle_of(const struct view *view, int link)
-{
-    const struct tree_state *s = &view->work->links[link];
-    const struct tree_variation *d = variation_of(view, link);
-    return (struct jet){s->angle, s->omega, s->A.alpha, d->angle, d->omega, d->A.alpha};
-}
-
-/* ---- ports */
-
-/* A unit multiplier means the force f at Q on the link of end k of the tie. */
-static void add_port(const struct view *view, struct row *row, const struct tie *tie, int k, struct jet_vec Q,
-                     struct jet_vec f)
-{
-    int link = tie->end[k].link;
-    struct jet_vec arm = jet_vec_sub(Q, origin_of(view, link));
-    row->ports[row->port_count++] =
-        (struct port){link, k, jet_value(arm), jet_value(f), jet_variation(arm), jet_variation(f)};
-}
-
-static struct jet_vec negative(struct jet_vec a)
-{
-    return (struct jet_vec){jet_scale(-1, a.x), jet_scale(-1, a.y)};
-}
-
-static void start_row(struct row *row, struct jet g)
-{
-    row->g = g;
-    row->port_count = 0;
-}
 
 /* ---- kinds */
 
@@ -105,13 +27,6 @@ static void rod(const struct view *view, const struct tie *tie, const struct tie
     add_port(view, row, tie, 1, B, negative(u));
 }
 
-/* The difference from the nearest multiple of `period`: the line of centres may have gone round. */
-static struct jet nearest(struct jet g, double period)
-{
-    if (period != 0) g.x -= period * round(g.x / period);
-    return g;
-}
-
 static void gear(const struct view *view, const struct tie *tie, const struct tie_state *state,
                  struct row *row)
 {
@@ -131,25 +46,9 @@ static void gear(const struct view *view, const struct tie *tie, const struct ti
     add_port(view, row, tie, 1, Q2, negative(t));
 }
 
-/* The row along the line, and with `normal` the row across it before that. */
-static void line(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                 struct row *normal, struct row *along)
+static struct at_line at_line_of(const struct tie *tie, const struct tie_state *state)
 {
-    const struct tie_end *circle = &tie->end[0], *base = &tie->end[1];
-    struct jet_vec C = point_of(view, circle), d = jet_vec_sub(C, point_of(view, base));
-    struct jet_vec e = turning(view, base->link, tie->e);
-    double s = state->side[0], R = circle->radius;
-    struct jet_vec n = jet_vec_times(jet_constant(s), jet_perp(e));
-    struct jet_vec Q = jet_vec_sub(C, jet_vec_times(jet_constant(R), n));
-    struct jet turned = jet_sub(angle_of(view, circle->link), angle_of(view, base->link));
-    struct jet g = jet_add(jet_dot(e, d), jet_scale(s * R, turned));
-    start_row(along, jet_sub(g, jet_constant(state->zero)));
-    add_port(view, along, tie, 0, Q, e);
-    add_port(view, along, tie, 1, Q, negative(e));
-    if (!normal) return;
-    start_row(normal, jet_sub(jet_dot(n, d), jet_constant(R)));
-    add_port(view, normal, tie, 0, Q, n);
-    add_port(view, normal, tie, 1, Q, negative(n));
+    return (struct at_line){0, tie->end[0], tie->end[1], tie->e, state->side[0]};
 }
 
 /* ---- ropes: a straight piece from a circle (or point) to the next, see the derivation
@@ -241,7 +140,7 @@ int rope_blocked_at(const struct fbd_model *model, const struct tree_work *work,
 {
     const struct tie *tie = &model->tree->ties[index];
     const struct tie_state *state = &work->ties[index];
-    struct view view = {work, false};
+    struct view view = {model->tree, work, false};
     int last = tie->end_count - 1;
     for (int k = 0; k < last; k++) {
         double sR1 = k == 0 ? state->side[0] * tie->end[0].radius : 0;
@@ -264,15 +163,21 @@ static void evaluate(const struct view *view, const struct tie *tie, const struc
     case constraint_rod: rod(view, tie, state, rows); break;
     case constraint_gear: gear(view, tie, state, rows); break;
     case constraint_rope: rope(view, tie, state, rows); break;
-    case constraint_roll: line(view, tie, state, &rows[0], &rows[1]); break;
-    case constraint_rack: line(view, tie, state, NULL, &rows[0]); break;
+    case constraint_roll:
+    case constraint_rack: {
+        struct at_line at = at_line_of(tie, state);
+        bool rolls = tie->kind == constraint_roll;
+        row_line(view, tie, &at, state->zero, rolls ? &rows[0] : NULL, rolls ? &rows[1] : &rows[0]);
+        break;
+    }
+    case constraint_contact: contact_rows(view, tie, state, rows); break;
     }
 }
 
 void constraints_evaluate(const struct fbd_model *model, struct tree_work *work, bool varied)
 {
     const struct tree *tree = model->tree;
-    struct view view = {work, varied};
+    struct view view = {tree, work, varied};
     for (int i = 0; i < tree->tie_count; i++)
         evaluate(&view, &tree->ties[i], &work->ties[i], &work->rows[tree->ties[i].first_row]);
 }
@@ -312,25 +217,35 @@ void constraints_start(const struct fbd_model *model, const struct instant *at)
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
-    struct view view = {work, false};
+    struct view view = {model->tree, work, false};
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
         struct tie_state *state = &work->ties[i];
         struct row *rows = &work->rows[tie->first_row];
-        *state = (struct tie_state){.side = {1, 1}};
+        *state = (struct tie_state){.side = {1, 1}, .feature = no_feature};
         if (tie->kind == constraint_roll || tie->kind == constraint_rack) {
             struct jet_vec d = jet_vec_sub(point_of(&view, &tie->end[0]), point_of(&view, &tie->end[1]));
             struct jet_vec e = turning(&view, tie->end[1].link, tie->e);
             if (vec_cross(jet_value(e), jet_value(d)) < 0) state->side[0] = -1;
         }
         if (tie->kind == constraint_rope) start_rope(model, &view, tie, state);
-        if (tie->kind == constraint_pin) continue;
+        if (tie->kind == constraint_pin || tie->kind == constraint_contact) continue;
         evaluate(&view, tie, state, rows);
         state->zero = tie->length_given ? tie->length : rows[tie->row_count - 1].g.x;
     }
 }
 
-/* ---- rolling bodies */
+/* ---- bodies that roll or rub */
+
+void tie_set_feature(const struct fbd_model *model, struct tree_work *work, int index, int feature)
+{
+    const struct tie *tie = &model->tree->ties[index];
+    struct view view = {model->tree, work, false};
+    work->ties[index].feature = feature;
+    work->ties[index].zero = 0;
+    contact_rows(&view, tie, &work->ties[index], &work->rows[tie->first_row]);
+    work->ties[index].zero = work->rows[tie->first_row + 1].g.x;
+}
 
 static const struct row *row_along(const struct fbd_model *model, const struct tree_work *work, int tie)
 {
@@ -339,19 +254,23 @@ static const struct row *row_along(const struct fbd_model *model, const struct t
 
 double tie_slip_velocity(const struct fbd_model *model, const struct instant *at, int tie)
 {
-    const struct tie_end *circle = &model->tree->ties[tie].end[0];
-    const struct tree_state *s = &at->tree->links[circle->link];
-    double v = row_along(model, at->tree, tie)->g.x1;
-    double size = vec_norm(s->v) + fabs(s->omega) * (circle->radius + vec_norm(circle->point));
+    const struct row *row = row_along(model, at->tree, tie);
+    double v = row->g.x1, size = 0;
+    for (int k = 0; k < row->port_count; k++) {
+        const struct tree_state *s = &at->tree->links[row->ports[k].link];
+        size = fmax(size, vec_norm(s->v) + fabs(s->omega) * vec_norm(row->ports[k].arm));
+    }
     return fabs(v) <= 64 * DBL_EPSILON * size ? 0 : v;
 }
 
 struct slip_rate tie_slip(const struct fbd_model *model, const struct instant *at, int index, bool varied)
 {
     const struct tie *tie = &model->tree->ties[index];
-    struct view view = {at->tree, varied};
+    const struct tie_state *state = &at->tree->ties[index];
+    struct view view = {model->tree, at->tree, varied};
+    struct at_line where = at_line_of(tie, state);
     struct row along;
-    line(&view, tie, &at->tree->ties[index], NULL, &along);
+    row_line(&view, tie, &where, state->zero, NULL, &along);
     return (struct slip_rate){along.g.x1, along.g.d1};
 }
 

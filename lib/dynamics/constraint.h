@@ -10,6 +10,9 @@
  *   rope   g = sum of the straight pieces + s_1 R_1 (psi_1 - theta_1) + s_2 R_2 (theta_2 - psi_2) - L, with
  * psi the angle of the piece that leaves or reaches a pulley, s = +1 when it runs counter-clockwise there
  *   roll   g = n . (C - P) - R, and the rack's row
+ *   contact, at a side: as roll, with the side's outward normal; of two circles:
+ *          g = |C_1 - C_2| - R_1 - R_2, and R_1 (phi - theta_1) + R_2 (phi - theta_2) along them, phi the
+ *          angle of the line of centres
  *   rack   g = e . (C - P) + s R (theta_C - theta_P), n = s k x e pointing to the side of the circle
  *
  * The rates are J v, the forces J^T: every row's ports do the work lambda g'.
@@ -41,12 +44,18 @@ struct tie_state {
     double zero;
     int side[2];
     double psi[2];
+    int feature; /* contact: at which it is; no_feature while it is open */
 };
+
+enum { no_feature = -1 };
 
 /* Set what the ties keep, from where the links are. */
 void constraints_start(const struct fbd_model *model, const struct instant *at);
 
-/* The velocity of a rolling body's point of contact against its line, and its acceleration; after
+/* Put the tie of a contact to a feature of its meeting (or to none), as the links are. */
+void tie_set_feature(const struct fbd_model *model, struct tree_work *work, int tie, int feature);
+
+/* The velocity of a rolling or rubbing body's point of contact against its line, and its acceleration; after
  * accelerations() at the instant. A velocity within rounding of zero is zero. */
 double tie_slip_velocity(const struct fbd_model *model, const struct instant *at, int tie);
 struct slip_rate {
@@ -72,7 +81,7 @@ struct rope_state rope_at(const struct fbd_model *model, const struct instant *a
  * pulley beside it, or two pulleys between which it crosses and which overlap; -1 without one. */
 int rope_blocked_at(const struct fbd_model *model, const struct tree_work *work, int tie);
 
-/* A rolling body that has slipped rolls on from where it is. */
+/* A body that has slipped rolls, or sticks, on from where it is. */
 void tie_rezero(const struct fbd_model *model, struct tree_work *work, int tie);
 
 /* Evaluate all rows where the links are, with A their accelerations. With `varied`, along the variation of

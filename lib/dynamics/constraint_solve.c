@@ -41,6 +41,13 @@ static bool is_row(const struct tree *tree, int k)
     return k < tree->row_count;
 }
 
+/* A surface takes part while it is closed, and what is along it while it sticks. */
+static bool contact_takes_part(const struct tie *tie, const struct instant *at, int k)
+{
+    if (at->slip[tie->surface] != stick) return false;
+    return k == tie->first_row || (tie->pair >= 0 && at->slip[tie->pair] == stick);
+}
+
 /* Does unknown k take part in the present modes? */
 bool tree_takes_part(const struct tree *tree, const struct instant *at, int k)
 {
@@ -49,6 +56,7 @@ bool tree_takes_part(const struct tree *tree, const struct instant *at, int k)
         return !at->tree->projecting && at->slip[tree->links[link].pair] != stick;
     }
     const struct tie *tie = &tree->ties[tree->tie_of_row[k]];
+    if (tie->kind == constraint_contact) return contact_takes_part(tie, at, k);
     bool has_mode = tie->kind == constraint_rope || (tie->pair >= 0 && k == tie->first_row + 1);
     return !has_mode || at->slip[tie->pair] == stick;
 }
@@ -90,14 +98,20 @@ static double row_answer(const struct tree_work *work, const struct tree *tree, 
     return sum;
 }
 
-/* The friction of a rolling body that slips, per normal force: -slip mu_k along its line; 0 when it does not.
+/* Does it slip on its surface, and rub? */
+static bool is_rubbing(const struct tie *tie, const struct instant *at)
+{
+    return tie_has_surface(tie) && tie->pair >= 0 && at->slip[tie->pair] != stick &&
+           (tie->surface < 0 || at->slip[tie->surface] == stick);
+}
+
+/* The friction of a body that slips on a surface, per normal force: -slip mu_k along its line; 0 when it does
+ * not.
  */
 static double rolling_share(const struct fbd_model *model, const struct instant *at, int k)
 {
     const struct tie *tie = &model->tree->ties[model->tree->tie_of_row[k]];
-    if (tie->kind != constraint_roll || at->tree->projecting || tie->pair < 0 || k != tie->first_row ||
-        at->slip[tie->pair] == stick)
-        return 0;
+    if (at->tree->projecting || k != tie->first_row || !is_rubbing(tie, at)) return 0;
     return -at->slip[tie->pair] * formula_value(&model->plan.frictions[tie->pair].mu_k, at);
 }
 
@@ -372,8 +386,7 @@ void tree_take_multipliers(const struct fbd_model *model, const struct instant *
     for (int j = 0; j < tree->row_count; j++) work->rows[j].lambda = work->z[j];
     for (int i = 0; i < tree->tie_count; i++) {
         int j = tree->ties[i].first_row;
-        if (tree->ties[i].kind != constraint_roll) continue;
-        if (tree->ties[i].pair >= 0 && at->slip[tree->ties[i].pair] != stick)
+        if (is_rubbing(&tree->ties[i], at))
             work->rows[j + 1].lambda = rolling_share(model, at, j) * work->z[j];
     }
 }
@@ -386,7 +399,7 @@ void tree_apply_variations(const struct fbd_model *model, const struct instant *
     for (int j = 0; j < tree->row_count; j++) apply_ports_along(&work->rows[j], work->x);
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
-        if (tie->kind != constraint_roll || tie->pair < 0 || at->slip[tie->pair] == stick) continue;
+        if (!is_rubbing(tie, at)) continue;
         double d_mu;
         formula_along(&model->plan.frictions[tie->pair].mu_k, at, along, &d_mu);
         row_apply(&work->rows[tie->first_row + 1],

@@ -30,7 +30,8 @@ bool arrow_is_reaction(const struct fbd_model *model, const struct arrow *arrow)
     case load_friction:
     case moment_friction:
     case load_drive:
-    case load_rope: return true;
+    case load_rope:
+    case load_contact: return true;
     default: return false;
     }
 }
@@ -108,6 +109,7 @@ static void set_arrow(const struct fbd_model *model, const struct model_body *bo
     case load_gravity: arrow->force = vec_scale(body->inertia.mass, model->scene->gravity); break;
     case load_drive:
     case load_rope:
+    case load_contact:
     case load_normal: break; /* a reaction: set from the sum of the others */
     case load_friction:
         arrow->force = vec_scale(friction_at(model, body->friction, at, slots).force, body->e);

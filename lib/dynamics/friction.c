@@ -40,7 +40,7 @@ struct friction_values friction_at(const struct fbd_model *model, int pair, cons
 {
     const struct friction *friction = &model->plan.frictions[pair];
     struct friction_values values = {0};
-    if (friction->rope) return values;
+    if (friction->rope || friction->surface) return values;
     double press = 1; /* a bearing states its limits as moments */
     if (friction->normal_slot >= 0) {
         values.N = -slots[friction->normal_slot];
@@ -61,7 +61,7 @@ struct friction_values friction_along(const struct fbd_model *model, int pair, c
 {
     const struct friction *friction = &model->plan.frictions[pair];
     struct friction_values rate = {0};
-    if (friction->rope) return rate;
+    if (friction->rope || friction->surface) return rate;
     double press = 1, d_press = 0, d_mu;
     if (friction->normal_slot >= 0) {
         rate.N = -slots_along[friction->normal_slot];

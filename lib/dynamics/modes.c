@@ -84,6 +84,7 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
         if (plan->frictions[pair].two_sided && !(decided && decided->pulls[pair]))
             state->pull[pair] = slots[plan->frictions[pair].normal_slot] > 0 ? -1 : 1;
         if (plan->frictions[pair].driven || (decided && decided->slips[pair])) continue;
+        if (plan->frictions[pair].surface) continue; /* closed by impacts; with the others that rest */
         if (plan->frictions[pair].rope) {
             struct rope_state rope = rope_at(model, &at, plan->frictions[pair].tie);
             if (rope.touches) continue; /* with the others that rest */

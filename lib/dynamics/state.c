@@ -2,6 +2,7 @@
 #include "dynamics/state.h"
 
 #include "dynamics/absolute.h"
+#include "dynamics/contact.h"
 #include "dynamics/modes.h"
 #include "dynamics/project.h"
 #include "dynamics/tree_system.h"
@@ -54,6 +55,7 @@ struct fbd_state *state_new(const struct fbd_model *model)
     modes_drive(state);
     state_start_constraints(state);
     if (model->assembles) state_project(state, true);
+    contacts_start(state);
     return state;
 }
 

@@ -141,7 +141,7 @@ void tree_accelerations_along(const struct fbd_model *model, const struct instan
     add_slots(model, at, false, slots_along);
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
-        if (tie->kind != constraint_roll) continue;
+        if (!tie_has_surface(tie)) continue;
         slots_along[tie->normal_slot] = -work->z[tie->first_row];
         if (tie->pair >= 0)
             slots_along[model->plan.frictions[tie->pair].hold_slot] = -work->z[tie->first_row + 1];

@@ -89,6 +89,7 @@ static struct arrow load_arrow(const struct fbd_model *model, int index, const s
         break;
     }
     case load_rope:
+    case load_contact:
     case load_normal: break; /* a reaction: see below */
     case load_friction:
         arrow.force = vec_scale(friction_at(model, body->friction, at, slots).force, link_of(body, at)->e);
@@ -129,12 +130,16 @@ static struct arrow opposite(struct arrow arrow, const char *name)
 static struct arrow row_arrow(const struct instant *at, const struct row *row, int k, const char *name)
 {
     struct arrow arrow = {.name = name, .load = -1};
+    double couple = 0;
     for (int i = 0; i < row->port_count; i++) {
         const struct port *port = &row->ports[i];
         if (port->end != k) continue;
         arrow.point = vec_add(at->tree->links[port->link].p, port->arm);
         arrow.force = vec_add(arrow.force, vec_scale(row->lambda, port->force));
+        couple += row->lambda * vec_cross(port->arm, port->force);
     }
+    /* The stop of a pivot: two forces that are a moment. */
+    if (arrow.force.x == 0 && arrow.force.y == 0) arrow.couple = couple;
     return arrow;
 }
 

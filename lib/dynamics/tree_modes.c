@@ -21,6 +21,7 @@ static bool is_open(const struct fbd_state *state, const struct decided *decided
     const struct friction *friction = &state->model->plan.frictions[pair];
     if (friction->driven) return false;
     if (friction->rope) return rope_at(state->model, &at, friction->tie).touches;
+    if (friction->surface) return state->tree->ties[friction->tie].feature != no_feature;
     return slip_velocity(state->model, pair, &at) == 0;
 }
 
@@ -39,6 +40,22 @@ static void evaluate(struct fbd_state *state, double *slots, double *slots_along
     force_balance_along(model, &at, &flow, slots, slots_along);
 }
 
+static const struct row *surface_row(const struct fbd_state *state, int pair)
+{
+    return &state->tree->rows[state->model->tree->ties[state->model->plan.frictions[pair].tie].first_row];
+}
+
+static double largest_acceleration(const struct fbd_state *state)
+{
+    double most = 0;
+    for (int i = 1; i < state->model->tree->count; i++) {
+        const struct tree_state *s = &state->tree->links[i];
+        most = fmax(most, vec_norm(s->A.a));
+        most = fmax(most, vec_norm(state->model->tree->links[i].force) / state->model->tree->links[i].mass);
+    }
+    return most;
+}
+
 /* Does a slipping pair turn back at once? */
 static bool turns_back(const struct fbd_state *state, int pair)
 {
@@ -46,6 +63,7 @@ static bool turns_back(const struct fbd_state *state, int pair)
     struct instant at = state_instant(state);
     double surface;
     if (friction->rope) return rope_at(state->model, &at, friction->tie).acceleration > 0;
+    if (friction->surface) return surface_row(state, pair)->g.x2 < -1e-12 * largest_acceleration(state);
     if (friction->tie >= 0)
         return state->slip[pair] * tie_slip_acceleration(state->model, &at, friction->tie) < 0;
     friction_surface_speed(friction, &at, &surface);
@@ -85,6 +103,14 @@ static bool change_one(struct fbd_state *state, const struct decided *decided, c
             which = pair;
             next = slip_plus;
             worst = -tension;
+            continue;
+        }
+        if (model->plan.frictions[pair].surface) {
+            double N = surface_row(state, pair)->lambda;
+            if (N >= -1e-12 * largest_tension(state) || (which >= 0 && -N <= worst)) continue;
+            which = pair;
+            next = slip_plus;
+            worst = -N;
             continue;
         }
         struct friction_values now = friction_at(model, pair, &at, slots);

@@ -64,6 +64,8 @@ static struct verdict judge(const struct model_body *body, const struct model_lo
     case load_drive:
         return (struct verdict){potential_none, "not conservative: whatever the prescribed motion takes"};
     case load_rope: return (struct verdict){potential_none, "does no work, except when it snaps taut"};
+    case load_contact:
+        return (struct verdict){potential_none, "not conservative: impacts and friction take energy"};
     case load_normal: return (struct verdict){potential_workless, "does no work: it acts across the motion"};
     case load_spring:
         return (struct verdict){load->linked ? potential_link : potential_spring, linear_spring};

@@ -161,8 +161,13 @@ static bool set_named_ties(struct builder *builder)
         struct load *source = ARENA_ARRAY(&model->arena, 1, struct load);
         if (!source) return false;
         bool rope = constraint->kind == constraint_rope;
-        source->kind = rope ? load_rope : constraint->mu_s.expr ? load_friction : load_normal;
-        source->name = rope ? constraint->name : arena_printf(&model->arena, "%s.friction", constraint->name);
+        bool contact = constraint->kind == constraint_contact;
+        source->kind = rope                    ? load_rope
+                       : contact               ? load_contact
+                       : constraint->mu_s.expr ? load_friction
+                                               : load_normal;
+        source->name =
+            rope || contact ? constraint->name : arena_printf(&model->arena, "%s.friction", constraint->name);
         source->at = constraint->at;
         set_load(builder, &model->loads[next++], source, constraint_first_body(constraint));
     }

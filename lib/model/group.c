@@ -74,6 +74,7 @@ static void copy_constraint(const struct copy *copy, const struct constraint *fr
         if (from->body[end] != ground_body) constraint->body[end] = copy->selection->local[from->body[end]];
     renumber(copy, &constraint->mu_s.expr);
     renumber(copy, &constraint->mu_k.expr);
+    renumber(copy, &constraint->contact.restitution.expr);
 }
 
 static void copy_absolute(const struct copy *copy, const struct absolute *from)

@@ -278,6 +278,7 @@ static void add_load(struct builder *builder, struct model_body *body, int index
     case moment_damper: add_moment_damper(builder, body, source); break;
     case load_drive:
     case load_rope:
+    case load_contact:
     case load_normal: break; /* the contact below, and the friction that needs it */
     case load_friction:
     case moment_friction: add_friction(builder, body, index); break;
@@ -333,6 +334,8 @@ static bool allocate(struct builder *builder)
     struct arena *arena = &model->arena;
     size_t loads = model->load_count, most_slots = model->scene->coordinate_count +
                                                    2 * (model->body_count + model->scene->constraint_count);
+    size_t ties = model->tree ? (size_t)model->tree->tie_count : 0;
+    most_slots += 2 * ties;
     plan->n = (int)model->scene->coordinate_count;
     plan->slots = plan->n;
     plan->inverse_inertia = ARENA_ARRAY(arena, (size_t)plan->n, double);
@@ -344,7 +347,8 @@ static bool allocate(struct builder *builder)
     plan->links = ARENA_ARRAY(arena, loads, struct link_term);
     plan->drags = ARENA_ARRAY(arena, loads, struct drag_term);
     plan->forces = ARENA_ARRAY(arena, 2 * loads, struct force_term);
-    plan->frictions = ARENA_ARRAY(arena, loads + 8 * model->scene->constraint_count, struct friction);
+    plan->frictions =
+        ARENA_ARRAY(arena, loads + 8 * model->scene->constraint_count + 2 * ties, struct friction);
     plan->contacts = ARENA_ARRAY(arena, model->body_count + model->scene->constraint_count, struct contact);
     plan->offsets = ARENA_ARRAY(arena, model->body_count, struct offset_body);
     plan->bodies = ARENA_ARRAY(arena, model->body_count, struct body_terms);

@@ -98,6 +98,7 @@ struct friction {
     bool driven;    /* no friction: it always sticks, and `position` says where */
     struct formula position;
     bool rope;    /* no friction: `stick` is taut, `slip_plus` is slack; see tie.h */
+    bool surface; /* no friction: `stick` is closed, `slip_plus` is open; see contact.h */
     bool jointed; /* between jointed bodies: the tree finds N and what holds */
 };
 

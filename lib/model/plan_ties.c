@@ -5,15 +5,12 @@
  */
 #include "model/builder.h"
 
-/* A rolling body presses on its line, and its friction, when it has coefficients, sticks or slips. */
-static void plan_roll(struct builder *builder, struct tie *tie)
+/* Dry friction along the surface of a tie. */
+static void add_rubbing(struct builder *builder, struct tie *tie)
 {
     struct plan *plan = &builder->model->plan;
     const struct constraint *source = &builder->model->scene->constraints[tie->constraint];
     int body = tie->end[0].body;
-    tie->normal_slot = plan->slots++;
-    plan->contacts[plan->contact_count++] = (struct contact){body, tie->load, tie->normal_slot};
-    if (!source->mu_s.expr) return;
     tie->pair = (int)plan->friction_count;
     plan->frictions[plan->friction_count++] =
         (struct friction){.body = body,
@@ -25,6 +22,31 @@ static void plan_roll(struct builder *builder, struct tie *tie)
                           .hold_slot = plan->slots++,
                           .tie = (int)(tie - builder->model->tree->ties),
                           .jointed = true};
+}
+
+/* A rolling body presses on its line, and its friction, when it has coefficients, sticks or slips. */
+static void plan_roll(struct builder *builder, struct tie *tie)
+{
+    struct plan *plan = &builder->model->plan;
+    tie->normal_slot = plan->slots++;
+    plan->contacts[plan->contact_count++] = (struct contact){tie->end[0].body, tie->load, tie->normal_slot};
+    if (builder->model->scene->constraints[tie->constraint].mu_s.expr) add_rubbing(builder, tie);
+}
+
+/* A contact is closed or open, and rubs while it is closed. */
+static void plan_contact(struct builder *builder, struct tie *tie)
+{
+    struct plan *plan = &builder->model->plan;
+    tie->normal_slot = plan->slots++;
+    tie->surface = (int)plan->friction_count;
+    plan->frictions[plan->friction_count++] =
+        (struct friction){.body = tie->end[0].body,
+                          .load = tie->load,
+                          .normal_slot = tie->normal_slot,
+                          .tie = (int)(tie - builder->model->tree->ties),
+                          .surface = true,
+                          .jointed = true};
+    if (builder->model->scene->constraints[tie->constraint].mu_s.expr) add_rubbing(builder, tie);
 }
 
 /* A rope is taut or slack. */
@@ -69,13 +91,16 @@ void plan_ties(struct builder *builder)
     int load = (int)model->coupled_count - 1, last = -1;
     for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
         struct tie *tie = &model->tree->ties[i];
-        bool named = tie->kind == constraint_roll || tie->kind == constraint_rope;
+        bool named = tie_has_surface(tie) || tie->kind == constraint_rope;
         if (!named) continue;
-        if (tie->constraint != last) load++; /* the pieces of a rope share one */
+        if (tie->constraint != last)
+            load++; /* the pieces of a rope share one, and the features of a contact */
         last = tie->constraint;
         tie->load = load;
         if (tie->kind == constraint_roll)
             plan_roll(builder, tie);
+        else if (tie->kind == constraint_contact)
+            plan_contact(builder, tie);
         else
             plan_rope(model, tie);
     }

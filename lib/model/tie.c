@@ -32,7 +32,8 @@ static struct tie *add_tie(struct fbd_model *model, int index, int from, int to)
     struct tree *tree = model->tree;
     const struct constraint *source = &model->scene->constraints[index];
     struct tie *tie = &tree->ties[tree->tie_count++];
-    bool double_row = source->kind == constraint_pin || source->kind == constraint_roll;
+    bool double_row = source->kind == constraint_pin || source->kind == constraint_roll ||
+                      source->kind == constraint_contact;
     *tie = (struct tie){.kind = source->kind,
                         .constraint = index,
                         .name = source->name,
@@ -41,11 +42,18 @@ static struct tie *add_tie(struct fbd_model *model, int index, int from, int to)
                         .length_given = source->length_given,
                         .length = source->length,
                         .place = from,
-                        .pair = -1};
+                        .pair = -1,
+                        .surface = -1,
+                        .meeting = -1};
     tree->row_count += tie->row_count;
     for (int k = from; k <= to; k++) tie->end[tie->end_count++] = tie_end_of(model, index, k);
     add_roots(tree, tie);
     return tie;
+}
+
+void tie_of_contact(struct fbd_model *model, int index, int meeting)
+{
+    add_tie(model, index, 0, 1)->meeting = meeting;
 }
 
 /* A rope is cut at the pulleys that it takes along; each piece is a tie. */
@@ -80,9 +88,9 @@ static void name_end(struct fbd_model *model, struct tie *tie, int k)
     struct arena *arena = &model->arena;
     struct tie_end *end = &tie->end[k];
     if (end->body == ground_body) return;
-    model->bodies[end->body].arrow_count += tie->kind == constraint_roll ? 2 : 1;
+    model->bodies[end->body].arrow_count += tie_has_surface(tie) ? 2 : 1;
     end->name[0] = tie->name;
-    if (tie->kind == constraint_roll) {
+    if (tie_has_surface(tie)) {
         end->name[0] = arena_printf(arena, "%s.normal", tie->name);
         end->name[1] = arena_printf(arena, "%s.friction", tie->name);
     } else if (tie->kind == constraint_rope && end->radius > 0) {
@@ -98,7 +106,7 @@ static void name_rows(struct arena *arena, struct tie *tie)
     if (tie->kind == constraint_pin) {
         tie->row_name[0] = arena_printf(arena, "%s in x", tie->name);
         tie->row_name[1] = arena_printf(arena, "%s in y", tie->name);
-    } else if (tie->kind == constraint_roll) {
+    } else if (tie_has_surface(tie)) {
         tie->row_name[0] = arena_printf(arena, "%s.normal", tie->name);
         tie->row_name[1] = arena_printf(arena, "%s.friction", tie->name);
     }
@@ -115,13 +123,21 @@ bool ties_build(struct fbd_model *model)
     const struct scene *scene = model->scene;
     struct tree *tree = model->tree;
     if (scene->constraint_count == 0) return true;
-    size_t most = 0;
-    for (size_t c = 0; c < scene->constraint_count; c++) most += (size_t)scene->constraints[c].end_count;
+    size_t most = 0, meetings = 0;
+    for (size_t c = 0; c < scene->constraint_count; c++) {
+        bool contact = scene->constraints[c].kind == constraint_contact;
+        size_t here = contact ? (size_t)meetings_most(model, (int)c) : 0;
+        most += contact ? 2 * here : (size_t)scene->constraints[c].end_count;
+        meetings += here;
+    }
     tree->ties = ARENA_ARRAY(&model->arena, most, struct tie);
-    if (!tree->ties) return false;
+    tree->meetings = ARENA_ARRAY(&model->arena, meetings, struct meeting);
+    if (!tree->ties || !tree->meetings) return false;
     for (size_t c = 0; c < scene->constraint_count; c++) {
         const struct constraint *source = &scene->constraints[c];
-        if (source->kind == constraint_rope)
+        if (source->kind == constraint_contact) {
+            if (!meetings_add(model, (int)c)) return false;
+        } else if (source->kind == constraint_rope)
             add_rope(model, (int)c);
         else
             set_line(model, source, add_tie(model, (int)c, 0, source->end_count - 1));

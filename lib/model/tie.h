@@ -35,7 +35,9 @@ struct tie {
     double length;
     int normal_slot; /* roll: where minus its normal force goes */
     int load;        /* roll, rope: its entry in the model's loads */
-    int pair;        /* roll: its dry friction; rope: its mode; index into plan.frictions, or -1 */
+    int pair;        /* roll, contact: its dry friction; rope: its mode; index into plan.frictions, or -1 */
+    int surface;     /* contact: its mode, closed (`stick`) or open; index into plan.frictions, else -1 */
+    int meeting;     /* contact: index into tree.meetings, else -1 */
     int root[most_constraint_ends], root_count; /* first links of the trees that it joins */
 };
 
@@ -47,6 +49,15 @@ const char *tie_row_name(const struct tree *tree, int row);
 
 /* Place `k` of constraint `index` of the scene. */
 struct tie_end tie_end_of(const struct fbd_model *model, int index, int k);
+
+/* Does it have a surface with a normal row and, behind it, one along the surface? */
+static inline bool tie_has_surface(const struct tie *tie)
+{
+    return tie->kind == constraint_roll || tie->kind == constraint_contact;
+}
+
+/* Add a tie of contact `index` of the scene for one feature of the meeting. */
+void tie_of_contact(struct fbd_model *model, int index, int meeting);
 
 /* Compile the constraints of the scene; places of the bodies are known. False when memory is out. */
 bool ties_build(struct fbd_model *model);

@@ -13,6 +13,7 @@
 #ifndef FBD_MODEL_TREE_H
 #define FBD_MODEL_TREE_H
 
+#include "model/contact.h"
 #include "model/plan.h"
 #include "model/tie.h"
 #include "scene/scene.h"
@@ -94,6 +95,8 @@ struct tree {
     int *watched;             /* their numbers */
     int tie_count, row_count; /* see tie.h */
     struct tie *ties;
+    int meeting_count; /* see contact.h */
+    struct meeting *meetings;
     /* of the unknowns of dynamics/tree_system.h, the rows and then the pairs: */
     int *tie_of_row;    /* rows alone */
     int *unknown_at;    /* the unknown that is eliminated at a place */

@@ -21,6 +21,10 @@ const char *fbd_event_kind_name(fbd_event_kind kind)
     case FBD_EVENT_ROPE_SLACK: return "rope_slack";
     case FBD_EVENT_ROPE_TAUT: return "rope_taut";
     case FBD_EVENT_SWITCH: return "switch";
+    case FBD_EVENT_IMPACT: return "impact";
+    case FBD_EVENT_CONTACT: return "contact";
+    case FBD_EVENT_LIFT_OFF: return "lift_off";
+    case FBD_EVENT_REST: return "rest";
     }
     return "";
 }
@@ -48,6 +52,18 @@ static void contact_lost_detail(const struct run_event *event, const char *name,
                     unit);
     else
         snprintf(detail, size, "%.*s%s reaches zero", length, name, of);
+}
+
+static void impact_detail(const struct fbd_model *model, const struct run_event *event, const char *name,
+                          char *detail, size_t size)
+{
+    const struct impact_record *impact = &event->impact;
+    const char *speed = model->scene->units == unit_si ? "m/s" : "ft/s", *of = force_unit(model);
+    format_into(
+        detail, size,
+        "%s strikes: v_n %.6g to %.6g %s, v_t %.6g to %.6g %s, impulses %.6g and %.6g %s*s; takes %.6g %s",
+        name, impact->v_n[0], impact->v_n[1], speed, impact->v_t[0], impact->v_t[1], speed, impact->p,
+        impact->tau, of, impact->work == 0 ? 0 : -impact->work, energy_unit(model));
 }
 
 void event_detail(const struct fbd_model *model, const struct run_event *event, char *detail, size_t size)
@@ -81,6 +97,13 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
     case FBD_EVENT_ROPE_TAUT:
         format_into(detail, size, "%s snaps taut; the impact takes %.6g %s", name, event->force,
                     energy_unit(model));
+        return;
+    case FBD_EVENT_IMPACT: impact_detail(model, event, name, detail, size); return;
+    case FBD_EVENT_CONTACT: snprintf(detail, size, "%s closes", name); return;
+    case FBD_EVENT_LIFT_OFF: snprintf(detail, size, "%s opens", name); return;
+    case FBD_EVENT_REST:
+        snprintf(detail, size, "%s is closed after %d impacts and infinitely many too small to see", name,
+                 (int)event->limit);
         return;
     case FBD_EVENT_SWITCH:
         snprintf(detail, size, "%s passes to another branch", name[0] ? name : "an event");

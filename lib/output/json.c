@@ -83,6 +83,23 @@ static void text_member(struct text *text, const char *name, const char *value, 
     if (!last) text_add(text, ", ");
 }
 
+/* Each of its velocities before and after. */
+static void write_impact(struct text *text, const struct impact_record *impact)
+{
+    member(text, "normal_impulse", impact->p, false);
+    member(text, "friction_impulse", impact->tau, false);
+    member(text, "work", impact->work, false);
+    text_add(text, "\"normal_velocity\": [");
+    text_json_number(text, impact->v_n[0]);
+    text_add(text, ", ");
+    text_json_number(text, impact->v_n[1]);
+    text_add(text, "], \"tangential_velocity\": [");
+    text_json_number(text, impact->v_t[0]);
+    text_add(text, ", ");
+    text_json_number(text, impact->v_t[1]);
+    text_add(text, "], ");
+}
+
 static void write_events(struct text *text, const fbd_simulation *simulation)
 {
     const struct ensemble *run = simulation->ensemble;
@@ -97,6 +114,8 @@ static void write_events(struct text *text, const fbd_simulation *simulation)
         text_member(text, "body", event_body(run->model, event), false);
         text_member(text, "kind", fbd_event_kind_name(event->kind), false);
         text_member(text, "name", event_name(run->model, event), false);
+        if (event->kind == FBD_EVENT_IMPACT) write_impact(text, &event->impact);
+        if (event->kind == FBD_EVENT_REST) member(text, "impacts", event->limit, false);
         text_member(text, "detail", detail, true);
         text_add(text, "}");
     }

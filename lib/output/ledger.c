@@ -17,7 +17,7 @@ bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fb
     size_t loads = model->load_count;
     *ledger = (struct ledger){.model = model};
     ledger->integrated = calloc(loads + 1, sizeof *ledger->integrated);
-    ledger->work = calloc(4 * loads + 1, sizeof *ledger->work);
+    ledger->work = calloc(5 * loads + 1, sizeof *ledger->work);
     ledger->arrows = calloc(diagram_most_arrows(model), sizeof *ledger->arrows);
     ledger->scratch = calloc(2 * (size_t)model->plan.n + 1, sizeof *ledger->scratch);
     if (!ledger->integrated || !ledger->work || !ledger->arrows || !ledger->scratch) {
@@ -27,6 +27,7 @@ bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fb
     ledger->initial_potential = ledger->work + loads;
     ledger->begin = ledger->initial_potential + loads;
     ledger->end = ledger->begin + loads;
+    ledger->struck = ledger->end + loads;
     struct instant at = state_instant(start);
     ledger->initial_kinetic = kinetic(model, &at);
     for (size_t i = 0; i < loads; i++) {
@@ -112,9 +113,12 @@ bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t index)
     }
     const struct run *run = group->run;
     if (!integrate(ledger, ensemble, index, run->from, run->state->t, ledger->end)) return false;
-    for (size_t i = model->coupled_count; i < model->load_count; i++)
-        if (model->loads[i].source->kind == load_rope)
-            ledger->end[group_load(group, (int)i)] = run->impact_work[i];
+    for (size_t i = model->coupled_count; i < model->load_count; i++) {
+        int load = group_load(group, (int)i);
+        if (!ledger->integrated[load]) continue;
+        ledger->end[load] += run->impact_work[i] - ledger->struck[load];
+        ledger->struck[load] = run->impact_work[i];
+    }
     return true;
 }
 
@@ -123,7 +127,7 @@ void ledger_restart(struct ledger *ledger, struct ensemble *ensemble, size_t ind
     const struct group *group = &ensemble->groups[index];
     for (size_t i = 0; i < group->model->load_count; i++) {
         int load = group_load(group, (int)i);
-        ledger->begin[load] = ledger->end[load] = 0;
+        ledger->begin[load] = ledger->end[load] = ledger->struck[load] = 0;
     }
 }
 

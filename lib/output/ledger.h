@@ -22,6 +22,7 @@ struct ledger {
     bool any;                  /* one of them is, and it was asked for */
     double *begin, *end;       /* per load, integrated, up to the begin and end of its group's last step */
     double *work;              /* per load, integrated, up to the end of the run */
+    double *struck;            /* per load: what impacts have taken by then */
     double *initial_potential; /* per load */
     double initial_kinetic, initial_sum;
     struct arrow *arrows;

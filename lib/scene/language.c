@@ -30,8 +30,8 @@ static const struct field scene_fields[] = {
                "what a run writes"),
     FIELD_NODE(offsetof(struct scene_keys, couplings), "couplings", field_list, 0, NULL,
                "what joins two bodies, beside what they move on"),
-    FIELD_LATER("contacts",
-                "this version has no contact between bodies: a surface is a `slide` with `normal`"),
+    FIELD_NODE(offsetof(struct scene_keys, contacts), "contacts", field_list, 0, &contact_group,
+               "bodies that meet each other or the ground, and part"),
 };
 
 const struct group scene_group = {"the file", NULL, FIELDS(scene_fields), NULL, 0, "a model"};
@@ -47,6 +47,8 @@ static const struct field ground_fields[] = {
     FIELD_NODE(offsetof(struct ground_keys, points), "points", field_map, 0, NULL, "name: [x, y]"),
     FIELD_NODE(offsetof(struct ground_keys, lines), "lines", field_map, 0, &line_group,
                "name: a line to slide on"),
+    FIELD_NODE(offsetof(struct ground_keys, polygons), "polygons", field_map, 0, NULL,
+               "name: corners [[x, y], ...] of a convex surface that contacts meet"),
 };
 
 const struct group ground_group = {"`ground`", NULL, FIELDS(ground_fields),
@@ -79,6 +81,11 @@ const struct choice method_choices[] = {
     {"rk1imp", 13, "implicit Euler"},
 };
 
+static const struct choice impact_choices[] = {
+    {"simultaneous", impacts_simultaneous, "all are compressed, and then restored, together"},
+    {"propagate", impacts_propagate, "one after the other, until all part"},
+};
+
 static const struct field simulate_fields[] = {
     FIELD_VALUE(offsetof(struct simulate_keys, until), "until", a_time, required | positive,
                 "time at which the run ends"),
@@ -92,6 +99,8 @@ static const struct field simulate_fields[] = {
                  "fixed step instead of an automatic one"),
     FIELD_NUMBER(offsetof(struct simulate_keys, every), "every", a_time, positive,
                  "the same as `output: {every: ...}`"),
+    FIELD_CHOICE(offsetof(struct simulate_keys, impacts), "impacts", impact_choices,
+                 "several impacts at one instant"),
     FIELD_NODE(offsetof(struct simulate_keys, output), "output", field_map, 0, &output_group,
                "what a run writes"),
     FIELD_NODE(offsetof(struct simulate_keys, events), "events", field_any, 0, &event_group,

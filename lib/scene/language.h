@@ -90,7 +90,7 @@ struct scene_keys {
     const char *title, *description;
     int units;
     double datum;
-    const struct node *gravity, *parameters, *ground, *bodies, *couplings, *simulate, *output;
+    const struct node *gravity, *parameters, *ground, *bodies, *couplings, *contacts, *simulate, *output;
 };
 
 struct output_keys {
@@ -98,7 +98,7 @@ struct output_keys {
 };
 
 struct ground_keys {
-    const struct node *points, *lines;
+    const struct node *points, *lines, *polygons;
 };
 
 struct line_keys {
@@ -110,6 +110,7 @@ struct simulate_keys {
     struct value until;
     double tolerance, accuracy, step, every;
     int method; /* in method_choices */
+    int impacts;
     const struct node *output, *events;
 };
 
@@ -121,6 +122,8 @@ struct event_keys {
 };
 
 enum { event_goes_on, event_stops };
+
+enum { impacts_simultaneous, impacts_propagate };
 
 /* What a part and a body without parts have in common. */
 struct part_keys {
@@ -145,7 +148,8 @@ struct inertia_keys {
 /* What every motion says of its place; each kind has some of them. */
 struct motion_keys {
     double along, angle;
-    const struct node *on, *through, *line, *at, *point, *prescribed;
+    const struct node *on, *through, *line, *at, *point, *prescribed, *low, *high;
+    double restitution; /* of the stops */
 };
 
 /* In the order of the body's coordinates. */
@@ -175,7 +179,8 @@ struct coupling_keys {
     const struct node *between, *through, *radii, *body, *on;
     double stiffness, free_length, coefficient, length, radius;
     bool inside;
-    struct value mu_s, mu_k;
+    struct value mu_s, mu_k, restitution;
+    int law;
 };
 
 /* Kinds of couplings: those of loads, and beyond them those of constraints. */
@@ -189,9 +194,11 @@ struct hand_keys {
 extern const struct choice method_choices[];
 
 extern const struct group scene_group, ground_group, line_group, simulate_group, output_group, event_group;
+extern const struct group contact_group;
 extern const struct group body_group, part_group, inertia_group, hand_group;
 extern const struct group initial_groups[], exact_groups[]; /* by enum motion_kind */
 extern const struct kinds motion_kinds, force_kinds, moment_kinds, coupling_kinds;
+extern const struct kind *const contact_kind; /* among the couplings, or in a list of its own */
 
 /* ---- how a table is written: one row for each key, `at` being the offset in the structure */
 

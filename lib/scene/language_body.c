@@ -98,6 +98,12 @@ const struct group body_group = {"a body",
 #define ON_ROW                                                                                               \
     FIELD_NODE(MOTION(on), "on", field_scalar, 0, NULL, "the body that it moves on; default the ground")
 
+#define STOP_ROWS                                                                                            \
+    FIELD_NODE(MOTION(low), "min", field_scalar, 0, NULL, "a stop: the least that the coordinate can be"),   \
+        FIELD_NODE(MOTION(high), "max", field_scalar, 0, NULL, "a stop: the most that it can be"),           \
+        FIELD_NUMBER(MOTION(restitution), "restitution", a_number, not_negative,                             \
+                     "e of an impact on a stop, 0 to 1; default 0")
+
 static const struct field slide_fields[] = {
     FIELD_NUMBER(MOTION(along), "along", an_angle, 0, "direction of +x; default 0: to the right"),
     FIELD_NODE(MOTION(through), "through", field_any, 0, NULL,
@@ -105,6 +111,7 @@ static const struct field slide_fields[] = {
     FIELD_NODE(MOTION(line), "line", field_scalar, 0, NULL,
                "a line of the ground, instead of `along` and `through`"),
     FIELD_NODE(MOTION(prescribed), "x", field_scalar, 0, NULL, "prescribed: an expression of t"),
+    STOP_ROWS,
     ON_ROW,
 };
 
@@ -117,6 +124,7 @@ static const struct field pivot_fields[] = {
     FIELD_NODE(MOTION(point), "point", field_any, 0, NULL,
                "the point of the body on the axis: a name or [x, y]; default the origin of the body frame"),
     FIELD_NODE(MOTION(prescribed), "theta", field_scalar, 0, NULL, "prescribed: an expression of t"),
+    STOP_ROWS,
     ON_ROW,
 };
 

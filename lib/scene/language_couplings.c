@@ -81,6 +81,28 @@ static const struct field rack_fields[] = {
 static const struct group rack_group =
     COUPLING_GROUP("a rack", rack_fields, "a pitch circle and a line that move along together");
 
+static const struct choice laws[] = {
+    {"stronge", 0, "the work that restitution gives back is e^2 of what compression took"},
+    {"poisson", 1, "the impulse of restitution is e times that of compression"},
+    {"newton", 2, "the normal velocity after is -e times that before"},
+};
+
+static const struct field contact_fields[] = {
+    FIELD_NAME(COUPLING(name), "name", "its name in all output; default `contact`"),
+    FIELD_NODE(COUPLING(between), "between", field_list, required, NULL,
+               "a body or body.point, and what it meets: the same of another body, or a line, polygon or "
+               "point of the ground"),
+    FIELD_VALUE(COUPLING(restitution), "restitution", a_number, not_negative,
+                "e of an impact, 0 to 1; may depend on the approach speed, `approach`; default 0"),
+    FIELD_VALUE(COUPLING(mu_s), "static", a_number, not_negative,
+                "coefficient of static friction; default that of kinetic friction"),
+    FIELD_VALUE(COUPLING(mu_k), "kinetic", a_number, not_negative,
+                "coefficient of kinetic friction; default that of static friction"),
+    FIELD_CHOICE(COUPLING(law), "law", laws, "what `restitution` is a share of"),
+};
+const struct group contact_group = {"a contact", NULL, FIELDS(contact_fields),
+                                    NULL,        0,    "two bodies, or a body and the ground, that meet"};
+
 static const struct kind kinds[] = {
     {"spring", load_spring, &spring_group, ~0u, NULL},
     {"damper", load_damper, &damper_group, ~0u, NULL},
@@ -90,6 +112,9 @@ static const struct kind kinds[] = {
     {"gear", coupling_constraint + constraint_gear, &gear_group, ~0u, NULL},
     {"rack", coupling_constraint + constraint_rack, &rack_group, ~0u, NULL},
     {"roll", coupling_constraint + constraint_roll, &roll_group, ~0u, NULL},
+    {"contact", coupling_constraint + constraint_contact, &contact_group, ~0u, NULL},
 };
+
+const struct kind *const contact_kind = &kinds[sizeof kinds / sizeof *kinds - 1];
 
 const struct kinds coupling_kinds = {"coupling", FIELDS(kinds)};

@@ -299,6 +299,8 @@ static struct symbol other_symbol(const struct names *names, const char *name)
 {
     if (names->place == place_load || names->place == place_exact) return load_symbol(names, name);
     if (names->place == place_hand) return hand_symbol(names, name);
+    if (names->place == place_contact && strcmp(name, "approach") == 0)
+        return variable(DIM_VELOCITY, 1 + 2 * names->reader->scene->coordinate_count + hand_acceleration);
     return unknown;
 }
 
@@ -355,10 +357,12 @@ static void know_all(struct names *names)
     if (!constant) know(names, "t");
     if (names->place == place_load || names->place == place_exact) know(names, "m");
     if (names->slip != slip_unknown) know(names, "slip");
+    if (names->place == place_contact) know(names, "approach");
     for (size_t i = 0; names->place == place_hand && i < sizeof of_hand / sizeof *of_hand; i++)
         if (hand_symbol(names, of_hand[i]).kind == symbol_variable) know(names, of_hand[i]);
     for (size_t i = 0; moves && i < reader->scene->body_count && names->known_count < most_known; i++)
-        if ((int)i != names->body || names->place == place_event) know_coordinates(names, (int)i, true);
+        if ((int)i != names->body || names->place == place_event || names->place == place_contact)
+            know_coordinates(names, (int)i, true);
 }
 
 static size_t list_names(void *context, const char *const **list)

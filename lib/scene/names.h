@@ -34,6 +34,7 @@ enum place {
     place_constant, /* parameters and g; t and coordinates are known, to be refused as varying */
     place_load,     /* also t, coordinates, m */
     place_event,    /* t, coordinates; those of the only body without its name */
+    place_contact,  /* also the speed of approach, in the slot of the first acceleration */
     place_exact,    /* t and m, but no coordinates: it says what these are */
     place_hand,     /* also accelerations and what the assembly knows */
 };

@@ -13,7 +13,7 @@
 
 /* ---- ends: body.point, ground.point, or a body for its centre of mass */
 
-static const struct node *part_of(struct reader *reader, const struct node *whole, size_t from, size_t length)
+const struct node *text_part(struct reader *reader, const struct node *whole, size_t from, size_t length)
 {
     struct node *part = ARENA_ARRAY(reader->arena, 1, struct node);
     char *text = arena_text(reader->arena, whole->text + from, length);
@@ -25,20 +25,20 @@ static const struct node *part_of(struct reader *reader, const struct node *whol
     return part;
 }
 
-static bool read_end(struct reader *reader, const struct node *node, int *body, struct point *point)
+bool coupling_end_read(struct reader *reader, const struct node *node, int *body, struct point *point)
 {
     if (node->kind != node_scalar)
         return value_refuse(reader, node, "between", "a point as `body.point` or `ground.point`", NULL);
     const char *dot = strchr(node->text, '.');
     size_t length = dot ? (size_t)(dot - node->text) : node->length;
-    const struct node *owner = part_of(reader, node, 0, length);
+    const struct node *owner = text_part(reader, node, 0, length);
     if (!owner || !body_name_read(reader, owner, "between", body)) return false;
     if (!dot) {
         *point = (struct point){.kind = point_G, .at = node->at};
         if (*body != ground_body) return true;
         return value_refuse(reader, node, "between", "`ground.point`: the ground has no centre", NULL);
     }
-    const struct node *name = part_of(reader, node, length + 1, node->length - length - 1);
+    const struct node *name = text_part(reader, node, length + 1, node->length - length - 1);
     if (!name) return false;
     if (*body != ground_body) return body_point_read(reader, *body, name, "between", point);
     *point = (struct point){.kind = point_fixed, .at = node->at};
@@ -53,8 +53,8 @@ static bool read_between(struct reader *reader, const struct node *list, struct 
                  "`between` needs two ends, not %zu", list->count);
         return false;
     }
-    bool first = read_end(reader, list->items[0], &coupling->body[0], &coupling->point[0]);
-    bool second = read_end(reader, list->items[1], &coupling->body[1], &coupling->point[1]);
+    bool first = coupling_end_read(reader, list->items[0], &coupling->body[0], &coupling->point[0]);
+    bool second = coupling_end_read(reader, list->items[1], &coupling->body[1], &coupling->point[1]);
     if (!first || !second) return false;
     if (coupling->body[0] != coupling->body[1]) return true;
     diag_add(reader->errors, FBD_ERROR, "same-body", list->at, "name points of two bodies",
@@ -67,7 +67,7 @@ static bool read_between(struct reader *reader, const struct node *list, struct 
 static bool add_end(struct reader *reader, const struct node *node, struct constraint *constraint)
 {
     int k = constraint->end_count++;
-    return read_end(reader, node, &constraint->body[k], &constraint->point[k]);
+    return coupling_end_read(reader, node, &constraint->body[k], &constraint->point[k]);
 }
 
 static bool refuse_count(struct reader *reader, const struct node *list, const char *what, const char *hint)
@@ -231,20 +231,24 @@ static bool read_constraint(struct reader *reader, const struct chosen *chosen,
     case constraint_rope: return read_rope(reader, keys, constraint);
     case constraint_rack: return read_rack(reader, keys, constraint);
     case constraint_roll: return read_roll(reader, keys, constraint);
+    case constraint_contact: return contact_read(reader, keys, constraint);
     }
     return false;
 }
 
 /* ---- the list */
 
-static bool read_coupling(struct reader *reader, const struct node *node, struct coupling_name *name)
+/* What stands in a list of couplings, or, as a contact, in their own. */
+static bool read_coupling(struct reader *reader, const struct node *node, bool contact,
+                          struct coupling_name *name)
 {
     struct scene *scene = reader->scene;
     struct names names = {.reader = reader, .place = place_event, .body = ground_body};
     struct scope scope = names_scope(&names);
-    struct chosen chosen;
+    struct chosen chosen = {contact_kind, node, node->at};
     struct coupling_keys keys = {0};
-    if (!kind_read(reader, &coupling_kinds, node, "couplings", &chosen)) return false;
+    if (!contact && !kind_read(reader, &coupling_kinds, node, "couplings", &chosen)) return false;
+    if (chosen.kind == contact_kind) names.place = place_contact;
     bool fine = fields_read(reader, chosen.kind->group, chosen.node, chosen.at, &scope, &keys);
     *name = (struct coupling_name){keys.name, chosen.kind, chosen.at};
     if (chosen.kind->value >= coupling_constraint)
@@ -259,17 +263,22 @@ static bool read_coupling(struct reader *reader, const struct node *node, struct
     return read_between(reader, keys.between, coupling) && fine;
 }
 
-bool couplings_read(struct reader *reader, const struct node *list)
+bool couplings_read(struct reader *reader, const struct node *couplings, const struct node *contacts)
 {
     struct scene *scene = reader->scene;
-    size_t count = list ? list->count : 0, load = 0, constraint = 0;
+    size_t first = couplings ? couplings->count : 0, count = first + (contacts ? contacts->count : 0);
+    size_t stops = stops_count(reader), load = 0, constraint = 0;
+    count += stops;
     scene->couplings = ARENA_ARRAY(reader->arena, count, struct coupling);
     scene->constraints = ARENA_ARRAY(reader->arena, count, struct constraint);
     struct coupling_name *names = ARENA_ARRAY(reader->arena, count, struct coupling_name);
     if (!scene->couplings || !scene->constraints || !names) return false;
     bool fine = true;
-    for (size_t i = 0; i < count; i++)
-        if (!read_coupling(reader, list->items[i], &names[i])) fine = false;
+    for (size_t i = 0; i < count - stops; i++) {
+        const struct node *node = i < first ? couplings->items[i] : contacts->items[i - first];
+        if (!read_coupling(reader, node, i >= first, &names[i])) fine = false;
+    }
+    if (!stops_read(reader, names + count - stops)) fine = false;
     if (!fine || !couplings_name(reader, names, count)) return false;
     for (size_t i = 0; i < count; i++) {
         bool force = names[i].kind->value < coupling_constraint;

@@ -87,12 +87,85 @@ static bool read_lines(struct reader *reader)
     return fine;
 }
 
+/* Twice the area, counter-clockwise. */
+static double area_of(const struct polygon *polygon)
+{
+    double area = 0;
+    for (size_t i = 0; i < polygon->count; i++)
+        area += vec_cross(polygon->corners[i], polygon->corners[(i + 1) % polygon->count]);
+    return area;
+}
+
+static void reverse(struct polygon *polygon)
+{
+    for (size_t i = 0, k = polygon->count - 1; i < k; i++, k--) {
+        struct vec kept = polygon->corners[i];
+        polygon->corners[i] = polygon->corners[k];
+        polygon->corners[k] = kept;
+    }
+}
+
+/* Every corner turns left, and all of them turn once round. */
+static bool is_convex(const struct polygon *polygon)
+{
+    const double round = 6.283185307179586;
+    double turned = 0;
+    for (size_t i = 0; i < polygon->count; i++) {
+        struct vec a = polygon->corners[i], b = polygon->corners[(i + 1) % polygon->count],
+                   c = polygon->corners[(i + 2) % polygon->count];
+        struct vec in = vec_sub(b, a), out = vec_sub(c, b);
+        double turn = atan2(vec_cross(in, out), vec_dot(in, out));
+        if (!(turn > 0)) return false;
+        turned += turn;
+    }
+    return turned < 1.5 * round;
+}
+
+static bool read_polygon(struct reader *reader, const struct pair *pair, struct polygon *polygon)
+{
+    const struct node *list = pair->value;
+    if (!name_check(reader->errors, pair->key, pair->at, "a polygon")) return false;
+    if (list->kind != node_list || list->count < 3)
+        return value_refuse(reader, list, pair->key, "three corners or more, [[x, y], ...]", NULL);
+    struct polygon read = {list->count, ARENA_ARRAY(reader->arena, list->count, struct vec)};
+    if (!read.corners) return false;
+    for (size_t i = 0; i < list->count; i++)
+        if (!value_vector(reader, list->items[i], pair->key, a_length, &read.corners[i])) return false;
+    if (area_of(&read) < 0) reverse(&read);
+    if (!is_convex(&read)) {
+        diag_add(reader->errors, FBD_ERROR, "not-convex", list->at,
+                 "cut it into convex ones, each with a contact of its own",
+                 "the polygon `%s` has a corner that points inwards, or corners in one line", pair->key);
+        return false;
+    }
+    *polygon = read;
+    return true;
+}
+
+static bool read_polygons(struct reader *reader)
+{
+    size_t count = reader->polygons ? reader->polygons->count : 0;
+    reader->ground_polygons = ARENA_ARRAY(reader->arena, count, struct polygon);
+    if (!reader->ground_polygons) return false;
+    bool fine = true;
+    for (size_t i = 0; i < count; i++)
+        if (!read_polygon(reader, &reader->polygons->pairs[i], &reader->ground_polygons[i])) fine = false;
+    return fine;
+}
+
+const struct polygon *ground_polygon_find(struct reader *reader, const struct node *name)
+{
+    const struct pair *pair = node_find(reader->polygons, name->text);
+    return pair ? &reader->ground_polygons[pair - reader->polygons->pairs] : NULL;
+}
+
 bool ground_read(struct reader *reader, const struct node *node, struct pos owner)
 {
     struct ground_keys keys = {0};
     bool fine = !node || fields_read(reader, &ground_group, node, owner, &reader->constants, &keys);
     reader->points = keys.points;
     reader->lines = keys.lines;
-    bool points = read_points(reader), lines = read_lines(reader);
-    return fine && points && lines;
+    reader->polygons = keys.polygons;
+    bool points = read_points(reader), lines = read_lines(reader), polygons = read_polygons(reader);
+    return fine && points && lines && polygons;
 }

@@ -158,6 +158,7 @@ static bool read_run(struct reader *reader, const struct node *map, struct pos a
                                   .accuracy = keys.accuracy,
                                   .step = keys.step,
                                   .every = keys.every,
+                                  .propagate = keys.impacts == impacts_propagate,
                                   .method = method_choices[keys.method].name};
     if (!read_output(reader, keys.output, output)) fine = false;
     return (!keys.events || read_events(reader, keys.events)) && fine;

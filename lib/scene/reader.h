@@ -62,12 +62,13 @@ struct reader {
     fbd_errors *errors;
 
     /* Mappings of the file, or NULL. Entry i of a mapping is parameter, body, point or line i. */
-    const struct node *root, *parameters, *bodies, *points, *lines;
+    const struct node *root, *parameters, *bodies, *points, *lines, *polygons;
     bool without_hands, split_hands; /* see struct document */
     struct definition *definitions;
     struct draft *drafts;
     struct ground_point *ground_points;
     struct ground_line *ground_lines;
+    struct polygon *ground_polygons; /* without corners where they are wrong */
 
     const struct node *gravity;
     enum progress gravity_progress;
@@ -143,9 +144,26 @@ bool body_hand_read(struct reader *reader, int body);
 /* The solution that the user knows (read_exact.c). */
 bool body_exact_read(struct reader *reader, int body);
 
-/* ---- couplings (read_couplings.c) */
+/* The convex polygon of the ground called `name`, or NULL; its faults are noted. */
+const struct polygon *ground_polygon_find(struct reader *reader, const struct node *name);
 
-bool couplings_read(struct reader *reader, const struct node *list);
+/* ---- couplings and contacts (read_couplings.c, read_contacts.c) */
+
+bool couplings_read(struct reader *reader, const struct node *couplings, const struct node *contacts);
+
+/* An end of a coupling: `body.point`, `ground.point`, or a body for its centre of mass. */
+bool coupling_end_read(struct reader *reader, const struct node *node, int *body, struct point *point);
+
+/* From place `from` on, `length` characters of a text, in its own place; NULL when memory is out. */
+const struct node *text_part(struct reader *reader, const struct node *whole, size_t from, size_t length);
+
+struct coupling_keys;
+bool contact_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
+
+/* Stops of coordinates are contacts of their own, behind those of the lists. */
+struct coupling_name;
+size_t stops_count(const struct reader *reader);
+bool stops_read(struct reader *reader, struct coupling_name *names);
 
 /* ---- the run (read_simulate.c) */
 

@@ -140,7 +140,7 @@ static void read_scene(struct reader *reader, const struct override *overrides, 
     if (!parameters_start(reader, overrides, override_count) || !bodies_start(reader)) return;
     read_top(reader, &keys);
     read_bodies(reader);
-    if (!is_hopeless(reader) && reader->bodies) couplings_read(reader, keys.couplings);
+    if (!is_hopeless(reader) && reader->bodies) couplings_read(reader, keys.couplings, keys.contacts);
     if (!is_hopeless(reader)) simulate_read(reader, &keys);
     if (fbd_errors_failed(reader->errors) == 0) parameters_note_unused(reader);
 }

@@ -112,8 +112,9 @@ enum load_kind {
     moment_damper,
     moment_friction,
     moment_potential,
-    load_drive, /* not listed: what a prescribed motion takes */
-    load_rope,  /* not listed: a rope under `couplings`, see struct constraint */
+    load_drive,   /* not listed: what a prescribed motion takes */
+    load_rope,    /* not listed: a rope under `couplings`, see struct constraint */
+    load_contact, /* not listed: a contact, likewise */
 };
 
 /* One entry of `forces` or `moments`. Fields that a kind does not use are zero. */
@@ -170,12 +171,30 @@ struct coupling {
 
 /* What holds points or angles of bodies together: its force is whatever that takes. */
 enum constraint_kind {
-    constraint_pin,  /* two points are one */
-    constraint_rod,  /* two points keep their distance */
-    constraint_gear, /* two circles roll on each other without slip: radii, below zero for a ring inside */
-    constraint_rope, /* the way through all points, over discs and ground points, has one length */
-    constraint_roll, /* a circle on a line of the ground or of a body */
-    constraint_rack, /* a circle and a line move along together */
+    constraint_pin,     /* two points are one */
+    constraint_rod,     /* two points keep their distance */
+    constraint_gear,    /* two circles roll on each other without slip: radii, below zero for a ring inside */
+    constraint_rope,    /* the way through all points, over discs and ground points, has one length */
+    constraint_roll,    /* a circle on a line of the ground or of a body */
+    constraint_rack,    /* a circle and a line move along together */
+    constraint_contact, /* two bodies, or a body and the ground, that meet and part */
+};
+
+/* A convex polygon of the ground, corners counter-clockwise. */
+struct polygon {
+    size_t count;
+    struct vec *corners;
+};
+
+/* How a contact meets its surface. */
+struct contact_law {
+    struct value restitution;      /* of the approach speed; expr NULL for 0 */
+    int law;                       /* enum impact_law (holds/impact.h) */
+    const struct polygon *polygon; /* its surface where that is a polygon of the ground, else NULL */
+    bool line;                     /* its surface is a line of the ground */
+    double e;                      /* of a stop, which has no expression */
+    int stop; /* no shapes: +1, body 0 cannot move on body 1 to below `limit`, -1 to beyond; else 0 */
+    double limit;
 };
 
 enum { most_constraint_ends = 8 };
@@ -190,15 +209,18 @@ struct constraint {
     double radius[most_constraint_ends]; /* gear, roll, rack; rope: of the disc at this place, else 0 */
     int side[most_constraint_ends];      /* rope: +1 when it goes counter-clockwise round the disc */
     bool length_given;
-    double length;           /* rod, rope */
-    double along;            /* roll, rack: direction of the line in the frame of end 1 */
-    struct value mu_s, mu_k; /* roll: expr NULL for rolling without slip, whatever it takes */
+    double length;              /* rod, rope */
+    double along;               /* roll, rack: direction of the line in the frame of end 1 */
+    struct value mu_s, mu_k;    /* roll: expr NULL for rolling without slip, whatever it takes; contact: expr
+                                   NULL for none */
+    struct contact_law contact; /* point_absent: the whole body */
 };
 
 /* Is its force known by name, as a load of the model: for events and its work? */
 static inline bool constraint_has_load(const struct constraint *constraint)
 {
-    return constraint->kind == constraint_roll || constraint->kind == constraint_rope;
+    return constraint->kind == constraint_roll || constraint->kind == constraint_rope ||
+           constraint->kind == constraint_contact;
 }
 
 /* The first of its bodies that is not the ground: a rope may begin with points of the ground, one of its
@@ -303,6 +325,7 @@ struct simulate {
     double accuracy;    /* global, 0 when not given; excludes tolerance and step */
     double step;        /* fixed step, 0 for automatic */
     double every;       /* output interval, 0 for the default */
+    bool propagate;     /* impacts at one instant are taken one after the other */
     const char *method; /* NULL where the file does not say how to run */
 };
 

@@ -2,6 +2,7 @@
  *
  * Couplings that close loops: a start that does not fit is refused, and every step ends on the constraints.
  */
+#include <float.h>
 #include <gsl/gsl_errno.h>
 #include <string.h>
 
@@ -174,7 +175,9 @@ void run_close_step(struct run *run)
     run->liveliest = fmax(run->liveliest, fmax(before, after));
     double reach = measure(run);
     if (overlong_rope(run, explained(run) * reach)) return;
-    if (!(misfit.position <= explained(run) * reach) && !is_rounding(run, &misfit)) {
+    /* What has come to the origin has no size of its own there: a stop at zero. */
+    bool nothing = misfit.position <= 16 * DBL_EPSILON * run->drift.reach;
+    if (!(misfit.position <= explained(run) * reach) && !nothing && !is_rounding(run, &misfit)) {
         run_fail(
             run, FBD_FAILED,
             "at t = %.9g the coupling `%s` is off by %.3g, far more than the error of a step: the mechanism "
@@ -192,7 +195,7 @@ void run_close_step(struct run *run)
                  run_time(run));
         return;
     }
-    if (left.position <= 1e3 * fmax(run->options.tolerance, 1e-12) * reach) return;
+    if (nothing || left.position <= 1e3 * fmax(run->options.tolerance, 1e-12) * reach) return;
     run_fail(run, FBD_FAILED,
              "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the mechanism is "
              "at the end of its reach, or the tolerance is too large",

@@ -17,7 +17,7 @@
 
 /* ---- the log */
 
-static struct run_event *note(struct run *run, fbd_event_kind kind, int body, int load, int watch)
+struct run_event *run_note(struct run *run, fbd_event_kind kind, int body, int load, int watch)
 {
     if (run->event_count == run->event_room) {
         size_t room = run->event_room ? 2 * run->event_room : 16;
@@ -37,7 +37,7 @@ static struct run_event *note(struct run *run, fbd_event_kind kind, int body, in
 static void note_friction(struct run *run, fbd_event_kind kind, int pair)
 {
     const struct friction *friction = &run->model->plan.frictions[pair];
-    struct run_event *event = note(run, kind, friction->body, friction->load, -1);
+    struct run_event *event = run_note(run, kind, friction->body, friction->load, -1);
     if (!event) return;
     struct instant at = state_instant(run->state);
     double *slots = run->during->scratch;
@@ -56,7 +56,7 @@ static void cross_kink(struct run *run, const struct watcher *watcher)
     int *branch = &run->state->branch[index];
     *branch = expr_branch_beyond(kink->formula.expr, (size_t)watcher->part, watcher->end, *branch);
     run->decided.branches[index] = true;
-    note(run, FBD_EVENT_SWITCH, kink->body, kink->load, -1);
+    run_note(run, FBD_EVENT_SWITCH, kink->body, kink->load, -1);
 }
 
 /* The relative velocity is zero by the event, so it is made zero exactly; settling decides what follows. */
@@ -123,7 +123,7 @@ static void user_event(struct run *run, int watch, bool touched)
     run->watchers.armed[watch] = touched ? 0 : -run->watchers.armed[watch];
     run->watchers.fired[watch] = run->state->t;
     if (!counts) return;
-    note(run, FBD_EVENT_USER, -1, -1, watch);
+    run_note(run, FBD_EVENT_USER, -1, -1, watch);
     if (source->stop && run->outcome == FBD_GOING) run->outcome = FBD_STOPPED;
 }
 
@@ -146,7 +146,8 @@ bool run_tell(struct run *run, double t)
     for (size_t i = 0; i < set->count; i++) {
         if (!run->moving.crossed[i] || set->watchers[i].kind != watch_user) continue;
         int watch = set->watchers[i].index;
-        struct run_event *event = counts_now(run, watch) ? note(run, FBD_EVENT_USER, -1, -1, watch) : NULL;
+        struct run_event *event =
+            counts_now(run, watch) ? run_note(run, FBD_EVENT_USER, -1, -1, watch) : NULL;
         if (event) event->t = t;
         watchers_turn(&run->watchers, watch);
         run->watchers.fired[watch] = t;
@@ -173,6 +174,13 @@ static void happen(struct run *run, const struct watcher *watcher, bool crossing
         run->decided.pulls[index] = true;
         break;
     case watch_rope: rope_event(run, index); break;
+    case watch_lift: {
+        run->state->slip[index] = slip_plus;
+        run->decided.slips[index] = true;
+        break;
+    }
+    case watch_gap:
+    case watch_edge: run->contacts.due = true; break;
     case watch_contact: break; /* run_check_contacts */
     case watch_user:
         if (!fired_now(run, index)) user_event(run, index, false);
@@ -186,12 +194,20 @@ static void note_rope(struct run *run, int pair, int before, int after)
 {
     const struct friction *friction = &run->model->plan.frictions[pair];
     if (before == stick && after != stick)
-        note(run, FBD_EVENT_ROPE_SLACK, friction->body, friction->load, -1);
+        run_note(run, FBD_EVENT_ROPE_SLACK, friction->body, friction->load, -1);
     bool snapped = run->snap_pair == pair;
     run->snap_pair = -1;
     if (!snapped && (before == stick || after != stick)) return;
-    struct run_event *event = note(run, FBD_EVENT_ROPE_TAUT, friction->body, friction->load, -1);
+    struct run_event *event = run_note(run, FBD_EVENT_ROPE_TAUT, friction->body, friction->load, -1);
     if (event) event->force = snapped ? -run->snap_work : 0;
+}
+
+/* Friction of a contact that has just closed or opened has no event of its own. */
+static bool rubbed_throughout(const struct run *run, int pair)
+{
+    int tie = run->model->plan.frictions[pair].tie;
+    int surface = tie >= 0 ? run->model->tree->ties[tie].surface : -1;
+    return surface < 0 || (run->during->slip[surface] == stick && run->state->slip[surface] == stick);
 }
 
 /* What each pair has done is read off its modes before and after, whichever event was the cause. */
@@ -204,6 +220,8 @@ static void note_frictions(struct run *run, const bool *moving)
         for (size_t i = 0; moving && i < set->count; i++)
             stopped |=
                 moving[i] && set->watchers[i].kind == watch_slip_stop && set->watchers[i].index == pair;
+        if (run->model->plan.frictions[pair].surface) continue; /* run_release_contacts */
+        if (!rubbed_throughout(run, pair)) continue;
         if (run->model->plan.frictions[pair].rope) {
             note_rope(run, pair, before, after);
             continue;
@@ -225,7 +243,7 @@ void run_check_contacts(struct run *run)
         const struct contact *contact = &model->plan.contacts[i];
         double N = -run->state->slots[contact->slot], slack = watchers_contact_slack(model, contact);
         if (N >= -slack) continue;
-        struct run_event *event = note(run, FBD_EVENT_CONTACT_LOST, contact->body, contact->load, -1);
+        struct run_event *event = run_note(run, FBD_EVENT_CONTACT_LOST, contact->body, contact->load, -1);
         if (event) event->force = N, event->limit = slack;
         struct text words = {0};
         if (!isfinite(N)) {
@@ -347,11 +365,14 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     for (int s = 0; s < 2; s++)
         for (size_t i = 0; crossed[s] && i < sets[s]->count; i++)
             if (crossed[s][i]) happen(run, &sets[s]->watchers[i], crossing);
+    if (run->contacts.due) run_contacts(run);
+    run->contacts.due = false;
     if (!modes_settle(run->state, &run->decided) && run->outcome == FBD_GOING)
         run_fail(run, FBD_FAILED,
                  "at t = %.9g no choice of branches and of stick or slip agrees with the forces. %s",
                  run_time(run), unsettled_advice(run->model, -1));
     note_frictions(run, moving);
+    run_release_contacts(run);
     refuse_sliding(run, moving);
     run_apply_touched(run, true);
     run_check_contacts(run);

@@ -81,6 +81,8 @@ static bool make_run(struct run *run)
     run->crossed = calloc(run->moving.count + 1, sizeof *run->crossed);
     run->anchor = calloc(4 * n + 1, sizeof *run->anchor);
     run->arrows = calloc(diagram_most_arrows(run->model), sizeof *run->arrows);
+    if (!contacts_work_init(&run->contacts, run->model)) return false;
+    run->watchers.asleep = run->contacts.asleep;
     run->impact_work = calloc(run->model->load_count + 1, sizeof *run->impact_work);
     run->snap_pair = -1;
     if (!run->values || !run->kept || !run->crossed || !run->anchor || !run->arrows || !run->impact_work)
@@ -112,10 +114,17 @@ static void start(struct run *run)
     struct lack lack;
     run->restart = true;
     run->from = run->state->t;
+    if (run->contacts.most > 0) {
+        modes_settle(run->state, NULL);
+        run_contacts(run);
+        /* Energies are counted from behind impacts of the start. */
+        memset(run->impact_work, 0, run->model->load_count * sizeof *run->impact_work);
+    }
     if (!start_ready(run->state, run->during, "the start", &lack)) {
         refuse(run, &lack);
         return;
     }
+    run_release_contacts(run);
     watchers_arm(&run->watchers, run->state);
     if (!(run->options.until > run->state->t)) run->outcome = FBD_DONE;
 }
@@ -145,6 +154,7 @@ void run_free(struct run *run)
     watchers_free(&run->watchers);
     course_free(&run->course);
     poles_free(&run->poles);
+    contacts_work_free(&run->contacts);
     state_free(run->state);
     state_free(run->during);
     rates_free(run->rates);
@@ -191,12 +201,13 @@ static bool restart(struct run *run)
 static double next_time(struct run *run, bool *found)
 {
     const double stretch = 1.02; /* the stepper may lengthen a step by 1 % to end at its limit */
-    double reach = fmin(run->options.until, run->state->t + stretch * run->h);
+    double rest = run_next_rest(run), until = fmin(run->options.until, rest);
+    double reach = fmin(until, run->state->t + stretch * run->h);
     int status = scan_interval(&run->timed, run->state->t, reach);
     *found = status == 1;
     /* Where functions of time change too fast for so long a step, it goes to where they have been seen. */
     if (status == 2 && run->timed.clear > run->state->t) return run->timed.clear;
-    return *found ? fmin(run->timed.t, run->options.until) : run->options.until;
+    return *found ? fmin(run->timed.t, until) : until;
 }
 
 /* The time that function i of the moving set still has, by its value and rate at an event; negative when it
@@ -354,6 +365,7 @@ static int find_event(struct run *run, double *t)
 {
     size_t bytes = 2 * (size_t)run->model->plan.n * sizeof *run->y;
     course_start(&run->course);
+    run_wake_contacts(run, *t);
     int change = find_change(run, t);
     if (change < 0 || run->model->plan.watch_count == 0) return change;
     memcpy(run->kept, run->y, bytes);
@@ -393,6 +405,7 @@ static void accept(struct run *run, double t)
     memcpy(run->state->y, run->y, 2 * n * sizeof *run->y);
     modes_hold(run->state);
     run_close_step(run);
+    run_check_overlap(run);
     run->restart |= run_has_gone_astray(run);
     memcpy(run->y, run->state->y, 2 * n * sizeof *run->y);
 }
@@ -476,6 +489,7 @@ fbd_outcome run_advance(struct run *run)
         state_evaluate(run->state);
         run_renew_noise(run);
     }
+    run_note_rests(run);
     if (at_end) run_apply_touched(run, false);
     if (moving || timed || at_end) run_check_balance(run);
     if (run->outcome == FBD_GOING && at_end) run->outcome = FBD_DONE;

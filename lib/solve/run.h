@@ -15,6 +15,7 @@
 #include "dynamics/modes.h"
 #include "dynamics/rates.h"
 #include "dynamics/tree.h"
+#include "solve/contacts.h"
 #include "solve/course.h"
 #include "solve/linear.h"
 #include "solve/poles.h"
@@ -33,13 +34,22 @@ struct run_options {
     bool apart;     /* where a method makes steps without error: other ones than a run without this makes */
 };
 
+/* What an impact was: impulses along normal and tangent, the work that they did, and the velocities of the
+ * point before and after. */
+struct impact_record {
+    double p, tau, work;
+    double v_n[2], v_t[2];
+};
+
 struct run_event {
     double t;
     fbd_event_kind kind;
     int body, load, watch; /* -1 where it does not apply */
     size_t group, order;   /* of an ensemble, and its place in the log of that group */
-    double force, limit;   /* friction: the force after the event (that holds or slides) and the static limit;
-                              contact: the normal force and its rounding */
+    double force,
+        limit; /* friction: the force after the event (that holds or slides) and the static limit;
+                  contact: the normal force and its rounding; rest: `limit` is the number of impacts */
+    struct impact_record impact;
 };
 
 /* The most that the rows of couplings have been off by at the end of a step: before it was brought back onto
@@ -94,6 +104,7 @@ struct run {
     double *kept;              /* 4 n: y and f while user events are looked for */
     bool *crossed;             /* moving: likewise */
     struct decided decided;
+    struct contacts_work contacts;
     struct arrow *arrows; /* of one body */
 
     struct run_event *events;
@@ -156,6 +167,9 @@ void run_close_within(struct run *run, double t, double *y);
  * happen now; within its band (watchers.h) a zero counts at an event only, which may be what stopped the
  * body. */
 void run_apply_touched(struct run *run, bool at_event);
+
+/* An entry of the log; NULL when memory is out. */
+struct run_event *run_note(struct run *run, fbd_event_kind kind, int body, int load, int watch);
 
 /* Check normal forces at run->state; ends the run when one is negative. */
 void run_check_contacts(struct run *run);

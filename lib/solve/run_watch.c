@@ -114,7 +114,7 @@ size_t run_sample_panels(const struct run *run, double from, double to)
 {
     const double most = 256, each = 2;
     const struct plan *plan = &run->model->plan;
-    double radians = 0;
+    double radians = run_contact_radians(run, to - from);
     if (!has_samples(&run->watchers.moving)) return 1;
     for (size_t i = 0; i < run->model->load_count; i++) {
         const struct model_load *load = &run->model->loads[i];

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dynamics/contact.h"
 #include "dynamics/finite.h"
 #include "dynamics/modes.h"
 #include "dynamics/project.h"
@@ -26,12 +27,27 @@ bool start_finite(const struct fbd_state *state, struct lack *lack)
     return false;
 }
 
+/* Shapes that are in each other have no side from which they could meet. */
+static bool overlap_lack(struct fbd_state *state, struct pos *at, struct text *why)
+{
+    const struct fbd_model *model = state->model;
+    double depth;
+    int meeting = contacts_overlap(state, &depth);
+    if (meeting < 0) return false;
+    const struct constraint *source = &model->scene->constraints[model->tree->meetings[meeting].constraint];
+    *at = source->at;
+    text_printf(why, "the shapes of the contact `%s` are in each other by ", source->name);
+    text_number(why, depth, 6);
+    return true;
+}
+
 bool start_fits(struct fbd_state *state, struct fbd_state *other, bool modes, const char *what,
                 struct lack *lack)
 {
     struct text why = {0};
     *lack = (struct lack){0};
-    bool fits = !fit_blocked(state, &lack->at, &why) && !(modes && fit_lack(state, other, &lack->at, &why));
+    bool fits = !fit_blocked(state, &lack->at, &why) && !overlap_lack(state, &lack->at, &why) &&
+                !(modes && fit_lack(state, other, &lack->at, &why));
     if (fits) return true;
     lack->id = "does-not-fit";
     text_printf(&lack->text, "%s does not fit: %s", what, why.failed ? "" : why.data);

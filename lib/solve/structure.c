@@ -73,6 +73,7 @@ static bool depends_on_velocity(const struct fbd_model *model, const struct load
     case load_rope:
     case load_spring:
     case moment_spring: return false;
+    case load_contact:
     case load_drive:
     case load_friction:
     case moment_friction:
@@ -213,6 +214,7 @@ static enum expr_degree degree_of_load(const struct fbd_model *model, const stru
     case moment_spring:
     case moment_damper: return expr_affine;
     case load_rope:
+    case load_contact:
     case load_drive:
     case load_potential:
     case moment_potential: break;

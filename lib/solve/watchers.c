@@ -7,6 +7,7 @@
 
 #include "dynamics/absolute.h"
 #include "dynamics/constraint.h"
+#include "dynamics/contact.h"
 
 /* ---- which functions a plan needs */
 
@@ -45,6 +46,10 @@ static void add_frictions(struct watchers *watchers, const struct plan *plan)
             add(&watchers->moving, (struct watcher){watch_rope, (int)i, 0, 0, true});
             continue;
         }
+        if (friction->surface) {
+            add(&watchers->moving, (struct watcher){watch_lift, (int)i, 0, 0, true});
+            continue;
+        }
         bool moving_surface = friction->surface_speed.expr != NULL;
         add(&watchers->moving, (struct watcher){watch_slip_stop, (int)i, 0, 0, moving_surface});
         if (!always_the_same(plan, friction))
@@ -55,10 +60,25 @@ static void add_frictions(struct watchers *watchers, const struct plan *plan)
     }
 }
 
-static void add_all(struct watchers *watchers, const struct plan *plan)
+static void add_contacts(struct watchers *watchers, const struct tree *tree)
 {
+    for (int i = 0; tree && i < tree->meeting_count; i++) {
+        const struct meeting *meeting = &tree->meetings[i];
+        for (int probe = 0; probe < meeting->probes; probe++)
+            add(&watchers->moving, (struct watcher){watch_gap, i, probe, 0, true});
+        if (meeting->shape[0].kind != contact_corners && meeting->shape[1].kind != contact_corners) continue;
+        if (meeting->shape[1].kind == contact_line) continue;
+        for (int k = 0; k < 2 * meeting->tie_count; k++)
+            add(&watchers->moving, (struct watcher){watch_edge, meeting->first_tie + k / 2, 0, k % 2, true});
+    }
+}
+
+static void add_all(struct watchers *watchers, const struct fbd_model *model)
+{
+    const struct plan *plan = &model->plan;
     add_kinks(watchers, plan);
     add_frictions(watchers, plan);
+    add_contacts(watchers, model->tree);
     for (size_t i = 0; i < plan->contact_count; i++)
         if (!plan->slot_constant[plan->contacts[i].slot])
             add(&watchers->moving, (struct watcher){watch_contact, (int)i, 0, 0, true});
@@ -96,7 +116,7 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
     for (size_t i = 0; i < plan->kink_count; i++)
         if (plan->kinks[i].count > margins) margins = plan->kinks[i].count;
     *watchers = (struct watchers){0};
-    add_all(watchers, plan); /* once to count, once to fill */
+    add_all(watchers, model); /* once to count, once to fill */
     size_t timed = watchers->timed.count, moving = watchers->moving.count;
     watchers->timed = (struct watcher_set){.watchers = calloc(timed + 1, sizeof(struct watcher))};
     watchers->moving = (struct watcher_set){.watchers = calloc(moving + 1, sizeof(struct watcher))};
@@ -113,7 +133,7 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
     for (size_t i = 0; i < plan->watch_count; i++) watchers->fired[i] = (double)NAN;
     watchers->width = tolerances * (multistep ? together : 1) * tolerance;
     watchers->band = watchers->most + plan->watch_count;
-    add_all(watchers, plan);
+    add_all(watchers, model);
     if (group_watchers(model, &watchers->timed) && group_watchers(model, &watchers->moving)) return true;
     watchers_free(watchers);
     return false;
@@ -178,12 +198,68 @@ static double rope_value(const struct watcher *watcher, const struct view *view,
     return rope.tension;
 }
 
+/* Friction of a contact that is open. */
+static bool is_open_contact(const struct fbd_model *model, const struct friction *friction,
+                            const struct instant *at)
+{
+    int surface = friction->tie >= 0 ? model->tree->ties[friction->tie].surface : -1;
+    return surface >= 0 && at->slip[surface] != stick;
+}
+
+/* A surface that only just touches is not left by a rounding: that of the weights that meet there. */
+static double lift_slack(const struct fbd_model *model, int tie)
+{
+    const double rounding = 1e-12;
+    double mass = 0;
+    for (int k = 0; k < 2; k++) {
+        int link = model->tree->ties[tie].end[k].link;
+        if (link > 0) mass += model->tree->links[link].mass;
+    }
+    return rounding * mass * vec_norm(model->scene->gravity);
+}
+
+/* While it is closed its normal force. */
+static double lift_value(const struct watcher *watcher, const struct view *view, double *rate)
+{
+    const struct fbd_model *model = view->state->model;
+    const struct friction *friction = &model->plan.frictions[watcher->index];
+    *rate = 0;
+    if (view->at.slip[watcher->index] != stick) return HUGE_VAL;
+    *rate = -view->slots_along[friction->normal_slot];
+    return lift_slack(model, friction->tie) - view->slots[friction->normal_slot];
+}
+
+/* Just after it has opened a gap is rounding, and rounding closes nothing. */
+static double gap_value(const struct watchers *watchers, const struct watcher *watcher,
+                        const struct view *view, double *rate)
+{
+    const struct fbd_model *model = view->state->model;
+    *rate = 0;
+    if (watchers->asleep && watchers->asleep[watcher->index]) return HUGE_VAL;
+    struct gap gap = meeting_probe(model, &view->at, watcher->index, watcher->part);
+    *rate = gap.rate;
+    return gap.x + meeting_rounding(model, view->state->tree, watcher->index);
+}
+
+static double edge_value(const struct watcher *watcher, const struct view *view, double *rate)
+{
+    const struct fbd_model *model = view->state->model;
+    int meeting = model->tree->ties[watcher->index].meeting;
+    struct gap gap = {HUGE_VAL, 0, no_feature};
+    if (tie_is_closed(model, &view->at, watcher->index))
+        gap = feature_end(model, view->state->tree, meeting, view->state->tree->ties[watcher->index].feature,
+                          watcher->end);
+    *rate = gap.rate;
+    return gap.x < HUGE_VAL ? gap.x + meeting_near(model, view->state->tree, meeting) : HUGE_VAL;
+}
+
 static double friction_value(const struct watcher *watcher, struct view *view, double *rate)
 {
     const struct fbd_model *model = view->state->model;
     const struct friction *friction = &model->plan.frictions[watcher->index];
     int slip = view->at.slip[watcher->index];
     *rate = 0;
+    if (is_open_contact(model, friction, &view->at)) return HUGE_VAL;
     if (watcher->kind == watch_slip_stop) {
         if (slip == stick) return HUGE_VAL;
         if (friction->tie >= 0) {
@@ -222,7 +298,10 @@ static bool asks_forces(const struct watcher *watcher, const struct fbd_state *s
     switch (watcher->kind) {
     case watch_kink:
     case watch_user:
-    case watch_slip_stop: return false;
+    case watch_slip_stop:
+    case watch_gap:
+    case watch_edge: return false;
+    case watch_lift:
     case watch_stick_limit: return state->slip[watcher->index] == stick;
     case watch_contact:
     case watch_rope:
@@ -295,6 +374,9 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
             break;
         }
         case watch_rope: values[i] = rope_value(watcher, &view, &rates[i]); break;
+        case watch_lift: values[i] = lift_value(watcher, &view, &rates[i]); break;
+        case watch_gap: values[i] = gap_value(watchers, watcher, &view, &rates[i]); break;
+        case watch_edge: values[i] = edge_value(watcher, &view, &rates[i]); break;
         case watch_slip_stop:
         case watch_stick_limit:
         case watch_normal_turns: values[i] = friction_value(watcher, &view, &rates[i]); break;

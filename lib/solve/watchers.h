@@ -27,6 +27,9 @@ enum watcher_kind {
                          */
     watch_contact,      /* a normal force reaches zero; index: contact */
     watch_rope,         /* a taut rope goes slack, a slack one becomes taut; index: pair */
+    watch_lift,         /* the normal force of a closed contact reaches zero; index: pair */
+    watch_gap,          /* shapes meet; index: meeting, part: probe (dynamics/contact.h) */
+    watch_edge,         /* what touches comes to the end of a side; index: tie, end 0 or 1 */
     watch_user,         /* a user event; index: watch */
 };
 
@@ -50,6 +53,7 @@ struct watchers {
     struct enclosure *margins; /* the same as enclosures */
     int *armed;                /* per user event: +1 or -1, the side where it is; 0 while it sits on zero */
     double *fired;             /* per user event: when it happened last; NAN: it has not */
+    bool *asleep;              /* per meeting: it is too far apart to be looked at in this step; or NULL */
     double width;              /* of the bands of user events, relative to the largest size */
     double *most, *band; /* per user event: largest size of the difference; 0, or where a step starts in the
                             band its half width */

@@ -153,6 +153,8 @@ bool watchers_can_enclose(const struct fbd_model *model, const struct watcher *w
 {
     const struct plan *plan = &model->plan;
     if (watcher->kind == watch_kink || watcher->kind == watch_user) return true;
+    if (watcher->kind == watch_lift || watcher->kind == watch_gap || watcher->kind == watch_edge)
+        return false;
     if (watcher->kind == watch_contact) return is_plain_sum(model, plan->contacts[watcher->index].body);
     const struct friction *friction = &plan->frictions[watcher->index];
     if (friction->rope || friction->tie >= 0) return false;
@@ -200,6 +202,9 @@ static struct enclosure enclose_one(const struct watchers *watchers, const struc
     case watch_stick_limit:
         return o->state->slip[index] != stick ? enclosure_point(HUGE_VAL)
                                               : stick_limit(o, index, watcher->end);
+    case watch_lift:
+    case watch_gap:
+    case watch_edge:
     case watch_kink:
     case watch_rope: break;
     }
@@ -273,6 +278,9 @@ void watchers_mark_used(const struct fbd_model *model, const struct watcher_set 
         case watch_slip_stop:
         case watch_stick_limit:
         case watch_normal_turns: mark_friction(plan, watcher, used); break;
+        case watch_lift:
+        case watch_gap:
+        case watch_edge:
         case watch_rope: break;
         }
     }

@@ -15,8 +15,8 @@
 #include <cmocka.h>
 
 #include "draw/labelling.h"
-#include "draw/outline.h"
 #include "draw/pack.h"
+#include "model/outline.h"
 #include "random_numbers.h"
 #include "scenes.h"
 

@@ -2,8 +2,8 @@
  *
  * Outline: what a body looks like, from its parts, in its own frame and in the scene's lengths.
  */
-#ifndef FBD_DRAW_OUTLINE_H
-#define FBD_DRAW_OUTLINE_H
+#ifndef FBD_MODEL_OUTLINE_H
+#define FBD_MODEL_OUTLINE_H
 
 #include "model/model.h"
 

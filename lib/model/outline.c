@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "draw/outline.h"
+#include "model/outline.h"
 
 static void set_bar(struct outline_part *outline, struct vec along, double length)
 {

@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What the files of the constraints share: links as jets, and how rows get their ports.
+ */
+#ifndef FBD_DYNAMICS_CONSTRAINT_VIEW_H
+#define FBD_DYNAMICS_CONSTRAINT_VIEW_H
+
+#include "dynamics/constraint.h"
+
+/* ---- points, angles and directions of links as jets */
+
+struct view {
+    const struct tree *tree;
+    const struct tree_work *work;
+    bool varied;
+};
+
+static const struct tree_variation still = {0};
+
+static inline const struct tree_variation *variation_of(const struct view *view, int link)
+{
+    return view->varied ? &view->work->variation[link] : &still;
+}
+
+static inline struct jet_vec jets(struct vec p, struct vec v, struct vec a, struct vec dp, struct vec dv,
+                                  struct vec da)
+{
+    return (struct jet_vec){{p.x, v.x, a.x, dp.x, dv.x, da.x}, {p.y, v.y, a.y, dp.y, dv.y, da.y}};
+}
+
+/* A vector that turns with a link: r' = omega k x r, r'' = alpha k x r - omega^2 r. */
+static inline struct jet_vec turning(const struct view *view, int link, struct vec own)
+{
+    const struct tree_state *s = &view->work->links[link];
+    const struct tree_variation *d = variation_of(view, link);
+    struct vec r = vec_turn(s->turn, own), k_r = vec_perp(r), dr = vec_scale(d->angle, k_r),
+               k_dr = vec_perp(dr);
+    double w2 = s->omega * s->omega;
+    struct vec v = vec_scale(s->omega, k_r), a = vec_sub(vec_scale(s->A.alpha, k_r), vec_scale(w2, r));
+    struct vec dv = vec_add(vec_scale(d->omega, k_r), vec_scale(s->omega, k_dr));
+    struct vec da = vec_add(vec_scale(d->A.alpha, k_r), vec_scale(s->A.alpha, k_dr));
+    da = vec_sub(da, vec_add(vec_scale(2 * s->omega * d->omega, r), vec_scale(w2, dr)));
+    return jets(r, v, a, dr, dv, da);
+}
+
+static inline struct jet_vec origin_of(const struct view *view, int link)
+{
+    const struct tree_state *s = &view->work->links[link];
+    const struct tree_variation *d = variation_of(view, link);
+    return jets(s->p, s->v, s->A.a, d->p, d->v, d->A.a);
+}
+
+static inline struct jet_vec point_of(const struct view *view, const struct tie_end *end)
+{
+    struct jet_vec O = origin_of(view, end->link), r = turning(view, end->link, end->point);
+    return (struct jet_vec){jet_add(O.x, r.x), jet_add(O.y, r.y)};
+}
+
+static inline struct jet angle_of(const struct view *view, int link)
+{
+    const struct tree_state *s = &view->work->links[link];
+    const struct tree_variation *d = variation_of(view, link);
+    return (struct jet){s->angle, s->omega, s->A.alpha, d->angle, d->omega, d->A.alpha};
+}
+
+/* ---- ports */
+
+/* A unit multiplier means the force f at Q on the link of end k of the tie. */
+static inline void add_port(const struct view *view, struct row *row, const struct tie *tie, int k,
+                            struct jet_vec Q, struct jet_vec f)
+{
+    int link = tie->end[k].link;
+    struct jet_vec arm = jet_vec_sub(Q, origin_of(view, link));
+    row->ports[row->port_count++] =
+        (struct port){link, k, jet_value(arm), jet_value(f), jet_variation(arm), jet_variation(f)};
+}
+
+static inline struct jet_vec negative(struct jet_vec a)
+{
+    return (struct jet_vec){jet_scale(-1, a.x), jet_scale(-1, a.y)};
+}
+
+static inline void start_row(struct row *row, struct jet g)
+{
+    row->g = g;
+    row->port_count = 0;
+}
+
+/* The difference from the nearest multiple of `period`: the line of centres may have gone round. */
+static inline struct jet nearest(struct jet g, double period)
+{
+    if (period != 0) g.x -= period * round(g.x / period);
+    return g;
+}
+
+/* A circle at a line: end `k` of the tie carries the circle. */
+struct at_line {
+    int k;
+    struct tie_end circle, base;
+    struct vec e; /* direction of the line, in the frame of its link */
+    double side;  /* the normal is side k x e */
+};
+
+/* The row along the line, and with `normal` the row across it before that. */
+void row_line(const struct view *view, const struct tie *tie, const struct at_line *at, double zero,
+              struct row *normal, struct row *along);
+
+/* The rows of a contact at its feature (constraint_contact.c). */
+void contact_rows(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                  struct row *rows);
+
+#endif

@@ -1,0 +1,313 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "holds/impacts.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "holds/holds.h"
+
+/* ---- energy */
+
+/* v += W P for impulses that are added, and the work that they do. */
+static double add_impulses(const struct impacts *impacts, const double *P, double *v)
+{
+    int n = 2 * impacts->count;
+    double work = 0;
+    for (int i = 0; i < n; i++) {
+        double gain = 0;
+        for (int j = 0; j < n; j++) gain += impacts->W[i * n + j] * P[j];
+        work += P[i] * (v[i] + gain / 2);
+        v[i] += gain;
+    }
+    return work;
+}
+
+/* The work of normal impulses between two velocities, the way from one to the other being straight. */
+static double normal_work(const struct impacts *impacts, const double *P, const double *before,
+                          const double *after, int point)
+{
+    (void)impacts;
+    return P[2 * point] * (before[2 * point] + after[2 * point]) / 2;
+}
+
+/* ---- one after the other */
+
+static int fastest(const struct impacts *impacts, double least)
+{
+    int best = -1;
+    for (int i = 0; i < impacts->count; i++)
+        if (impacts->v[2 * i] < -least && (best < 0 || impacts->v[2 * i] < impacts->v[2 * best])) best = i;
+    return best;
+}
+
+static struct impact_point alone(const struct impacts *impacts, int i)
+{
+    int n = 2 * impacts->count;
+    const double *W = impacts->W + 2 * i * n + 2 * i;
+    return (struct impact_point){{W[0], W[1], W[n + 1]},
+                                 impacts->points[i].mu,
+                                 impacts->points[i].e,
+                                 impacts->law};
+}
+
+/* The impact of point i; others feel it. */
+static void strike(struct impacts *impacts, int i)
+{
+    int n = 2 * impacts->count;
+    struct impact_point point = alone(impacts, i);
+    struct impact impact = impact_at_point(&point, impacts->v[2 * i], impacts->v[2 * i + 1]);
+    for (int k = 0; k < n; k++)
+        impacts->v[k] += impacts->W[k * n + 2 * i] * impact.p + impacts->W[k * n + 2 * i + 1] * impact.tau;
+    impacts->v[2 * i] = impact.v_n; /* to the digit */
+    impacts->v[2 * i + 1] = impact.v_t;
+    impacts->P[2 * i] += impact.p;
+    impacts->P[2 * i + 1] += impact.tau;
+    impacts->work += impact.work;
+}
+
+static double fastest_speed(const struct impacts *impacts)
+{
+    double most = 0;
+    for (int i = 0; i < 2 * impacts->count; i++) most = fmax(most, fabs(impacts->v[i]));
+    return most;
+}
+
+static enum impacts_end propagate(struct impacts *impacts)
+{
+    enum { most_rounds = 10000 };
+    const double rounding = 1e-13; /* of the speeds before: what closes no faster rests */
+    double least = rounding * fastest_speed(impacts);
+    for (int round = 0; round < most_rounds; round++) {
+        int i = fastest(impacts, least);
+        if (i < 0) {
+            for (int k = 0; k < impacts->count; k++)
+                if (fabs(impacts->v[2 * k]) <= least) impacts->v[2 * k] = 0;
+            return impacts_done;
+        }
+        strike(impacts, i);
+    }
+    return impacts_endless;
+}
+
+/* ---- all together */
+
+struct together {
+    const struct impacts *impacts;
+    struct hold_problem problem;
+    double *compressed; /* 2 count: velocities */
+    double *P;          /* 2 count: impulses of compression */
+    double *v, *more;   /* 2 count: velocities after restitution, its impulses */
+};
+
+static bool together_new(struct together *together, const struct impacts *impacts, bool guides)
+{
+    size_t count = (size_t)impacts->count, n = 2 * count;
+    *together = (struct together){.impacts = impacts};
+    if (!holds_new(&together->problem, n, guides ? count : 0)) return false;
+    together->compressed = calloc(4 * n + 1, sizeof(double));
+    if (!together->compressed) return false;
+    together->P = together->compressed + n;
+    together->v = together->P + n;
+    together->more = together->v + n;
+    memcpy(together->problem.A, impacts->W, n * n * sizeof(double));
+    for (size_t i = 0; i < count; i++) {
+        struct hold *along = &together->problem.holds[2 * i + 1];
+        along->kind = hold_friction;
+        along->mu_s = along->mu_k = impacts->points[i].mu;
+        along->press = guides ? press_guide : press_hold;
+        along->presses = (int)(guides ? i : 2 * i);
+        if (guides) together->problem.B[i * n + 2 * i] = 1;
+    }
+    return true;
+}
+
+static void together_free(struct together *together)
+{
+    holds_free(&together->problem);
+    free(together->compressed);
+}
+
+/* Impulses far beyond what could stop the points come from laws that contradict each other: three points of
+ * one body cannot all bounce as `newton` wants it. What they press out of each other is rounding. */
+static bool is_wild(const struct together *together)
+{
+    const double far = 1e6;
+    const struct impacts *impacts = together->impacts;
+    double most = 0, stops = 0;
+    int n = 2 * impacts->count;
+    for (int i = 0; i < n; i++) {
+        double W = impacts->W[i * n + i];
+        most = fmax(most, fabs(together->problem.holds[i].force));
+        if (W > 0) stops = fmax(stops, fabs(together->problem.holds[i].free) / W);
+    }
+    return !(most <= far * stops);
+}
+
+static enum impacts_end decide(struct together *together)
+{
+    enum holds_found found = holds_decide(&together->problem);
+    if (found == holds_no_memory) return impacts_no_memory;
+    if (is_wild(together)) return impacts_unsolvable;
+    return found == holds_decided || found == holds_several ? impacts_done : impacts_unsolvable;
+}
+
+/* What closes no more, or does not slip, has that velocity exactly. */
+static void take(const struct together *together, double *v)
+{
+    for (int i = 0; i < 2 * together->impacts->count; i++) {
+        const struct hold *hold = &together->problem.holds[i];
+        v[i] = hold->mode == hold_keeps ? 0 : hold->c;
+    }
+}
+
+/* Compression; with `newton` all of the impact. */
+static enum impacts_end compress(struct together *together)
+{
+    const struct impacts *impacts = together->impacts;
+    bool newton = impacts->law == impact_newton;
+    for (int i = 0; i < 2 * impacts->count; i++) {
+        bool bounces = newton && i % 2 == 0 && impacts->v[i] < 0;
+        together->problem.holds[i].free = (bounces ? 1 + impacts->points[i / 2].e : 1) * impacts->v[i];
+    }
+    enum impacts_end end = decide(together);
+    if (end != impacts_done) return end;
+    take(together, together->compressed);
+    for (int i = 0; i < 2 * impacts->count; i++) {
+        bool bounces = newton && i % 2 == 0 && impacts->v[i] < 0;
+        if (bounces) together->compressed[i] -= impacts->points[i / 2].e * impacts->v[i];
+        together->P[i] = together->problem.holds[i].force;
+    }
+    return impacts_done;
+}
+
+/* Restitution with `share` of e: given normal impulses, the friction that they bring, and what then holds up
+ * what would close. */
+static enum impacts_end restore(struct together *together, double share)
+{
+    const struct impacts *impacts = together->impacts;
+    int count = impacts->count, n = 2 * count;
+    double *given = together->more;
+    for (int i = 0; i < count; i++) {
+        given[2 * i] = share * impacts->points[i].e * together->P[2 * i];
+        given[2 * i + 1] = 0;
+        together->problem.guides[i].free = given[2 * i];
+    }
+    memcpy(together->v, together->compressed, (size_t)n * sizeof *together->v);
+    add_impulses(impacts, given, together->v);
+    for (int i = 0; i < n; i++) together->problem.holds[i].free = together->v[i];
+    enum impacts_end end = decide(together);
+    take(together, together->v);
+    for (int i = 0; i < n; i++) given[i] += together->problem.holds[i].force;
+    return end;
+}
+
+/* By how much restitution gives back more than it may: below zero when it is less. */
+static double excess(const struct together *together)
+{
+    const struct impacts *impacts = together->impacts;
+    double back = 0, due = 0;
+    for (int i = 0; i < impacts->count; i++) {
+        double e = impacts->points[i].e;
+        back += normal_work(impacts, together->more, together->compressed, together->v, i);
+        due -= e * e * normal_work(impacts, together->P, impacts->v, together->compressed, i);
+    }
+    return back - fmax(due, 0);
+}
+
+static double work_of(const struct impacts *impacts, const double *P, const double *before,
+                      const double *after)
+{
+    double work = 0;
+    for (int i = 0; i < 2 * impacts->count; i++) work += P[i] * (before[i] + after[i]) / 2;
+    return work;
+}
+
+static double made(const struct together *together)
+{
+    const struct impacts *impacts = together->impacts;
+    return work_of(impacts, together->P, impacts->v, together->compressed) +
+           work_of(impacts, together->more, together->compressed, together->v);
+}
+
+static double surplus(const struct together *together)
+{
+    double work = made(together);
+    return together->impacts->law == impact_stronge ? fmax(excess(together), work) : work;
+}
+
+/* The share of e at which nothing is given back too much: a zero of a function that grows with it. Without
+ * friction it is 1. */
+static enum impacts_end restore_by_law(struct together *together)
+{
+    enum { halvings = 60 };
+    const double rounding = 1e-13;
+    const struct impacts *impacts = together->impacts;
+    double size = 0, low = 0, high = 1;
+    for (int i = 0; i < impacts->count; i++) size += fabs(together->P[2 * i] * impacts->v[2 * i]);
+    enum impacts_end end = restore(together, 1);
+    bool stronge = impacts->law == impact_stronge;
+    if (end != impacts_done || fabs(surplus(together)) <= rounding * size) return end;
+    if (surplus(together) < 0 && !stronge) return end;
+    for (int k = 0; k < 10 && surplus(together) < 0 && end == impacts_done; k++) {
+        low = high;
+        high *= 2;
+        end = restore(together, high);
+    }
+    for (int k = 0; k < halvings && end == impacts_done; k++) {
+        double middle = low + (high - low) / 2;
+        end = restore(together, middle);
+        if (surplus(together) > 0)
+            high = middle;
+        else
+            low = middle;
+    }
+    return end == impacts_done ? restore(together, low) : end;
+}
+
+static bool has_restitution(const struct impacts *impacts)
+{
+    for (int i = 0; i < impacts->count; i++)
+        if (impacts->points[i].e > 0) return impacts->law != impact_newton;
+    return false;
+}
+
+static void finish(struct impacts *impacts, const double *P, const double *v)
+{
+    impacts->work += work_of(impacts, P, impacts->v, v);
+    for (int i = 0; i < 2 * impacts->count; i++) {
+        impacts->P[i] += P[i];
+        impacts->v[i] = v[i];
+    }
+}
+
+static enum impacts_end all_together(struct impacts *impacts)
+{
+    struct together first, second = {0};
+    bool made_room = together_new(&first, impacts, false);
+    enum impacts_end end = made_room ? compress(&first) : impacts_no_memory;
+    bool restores = end == impacts_done && has_restitution(impacts);
+    if (restores) {
+        end = together_new(&second, impacts, true) ? impacts_done : impacts_no_memory;
+        if (end == impacts_done) {
+            memcpy(second.compressed, first.compressed, 4 * (size_t)impacts->count * sizeof(double));
+            end = restore_by_law(&second);
+        }
+    }
+    if (end == impacts_done) finish(impacts, first.P, first.compressed);
+    if (end == impacts_done && restores) finish(impacts, second.more, second.v);
+    together_free(&second);
+    together_free(&first);
+    return end;
+}
+
+enum impacts_end impacts_solve(struct impacts *impacts)
+{
+    memset(impacts->P, 0, 2 * (size_t)impacts->count * sizeof *impacts->P);
+    impacts->work = 0;
+    if (impacts->count == 1) {
+        strike(impacts, 0);
+        return impacts_done;
+    }
+    return impacts->propagate ? propagate(impacts) : all_together(impacts);
+}

@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "model/contact.h"
+
+#include "model/model.h"
+#include "model/outline.h"
+
+int shape_sides(const struct contact_shape *shape)
+{
+    return shape->kind == contact_corners && shape->count > 1 ? shape->count : 0;
+}
+
+/* ---- features
+ *
+ * corners on a line: the corner. A disc at corners: the side, then, behind the sides, the corner. Corners at
+ * corners: first those of shape 0 on sides of shape 1, then the other way round. */
+
+int meeting_feature(const struct meeting *meeting, int moving, int corner, int side)
+{
+    const struct contact_shape *a = &meeting->shape[0], *b = &meeting->shape[1];
+    if (moving == 0) return corner * shape_sides(b) + side;
+    return a->count * shape_sides(b) + corner * shape_sides(a) + side;
+}
+
+static void set_side(struct touch *touch, const struct contact_shape *shape, int side)
+{
+    struct vec from = shape->corners[side], to = shape->corners[(side + 1) % shape->count];
+    struct vec along = vec_sub(to, from);
+    touch->base = from;
+    touch->length = vec_norm(along);
+    touch->e = vec_scale(1 / touch->length, along);
+    touch->side = -1; /* outwards is to the right of a side that runs counter-clockwise */
+}
+
+static struct touch at_line(const struct contact_shape *shape, const struct contact_shape *line, int corner)
+{
+    struct touch touch = {.base = line->center, .e = line->e, .length = HUGE_VAL};
+    touch.point = shape->kind == contact_disc ? shape->center : shape->corners[corner];
+    touch.radius = shape->kind == contact_disc ? shape->radius : 0;
+    return touch;
+}
+
+/* The disc is shape `moving`. */
+static struct touch at_disc(const struct meeting *meeting, int moving, int feature)
+{
+    const struct contact_shape *disc = &meeting->shape[moving], *other = &meeting->shape[1 - moving];
+    struct touch touch = {.moving = moving, .point = disc->center, .radius = disc->radius};
+    int sides = shape_sides(other);
+    if (other->kind == contact_corners && feature < sides) {
+        set_side(&touch, other, feature);
+        return touch;
+    }
+    touch.circles = true;
+    touch.base = other->kind == contact_disc ? other->center : other->corners[feature - sides];
+    touch.base_radius = other->kind == contact_disc ? other->radius : 0;
+    return touch;
+}
+
+struct touch meeting_touch(const struct meeting *meeting, int feature)
+{
+    const struct contact_shape *a = &meeting->shape[0], *b = &meeting->shape[1];
+    if (b->kind == contact_line) return at_line(a, b, feature);
+    if (a->kind == contact_disc) return at_disc(meeting, 0, feature);
+    if (b->kind == contact_disc) return at_disc(meeting, 1, feature);
+    int first = a->count * shape_sides(b), moving = feature < first ? 0 : 1;
+    const struct contact_shape *with = &meeting->shape[moving], *on = &meeting->shape[1 - moving];
+    int rest = moving == 0 ? feature : feature - first, sides = shape_sides(on);
+    struct touch touch = {.moving = moving, .point = with->corners[rest / sides]};
+    set_side(&touch, on, rest % sides);
+    return touch;
+}
+
+/* ---- shapes */
+
+static void set_extent(struct contact_shape *shape)
+{
+    struct vec sum = {0, 0};
+    for (int i = 0; i < shape->count; i++) sum = vec_add(sum, shape->corners[i]);
+    shape->center = vec_scale(1.0 / shape->count, sum);
+    for (int i = 0; i < shape->count; i++)
+        shape->radius = fmax(shape->radius, vec_norm(vec_sub(shape->corners[i], shape->center)));
+}
+
+/* `points` in the frame of the body (or of the ground, place NULL). */
+static bool set_corners(struct fbd_model *model, struct contact_shape *shape, const struct placement *place,
+                        const struct vec *points, int count)
+{
+    shape->kind = contact_corners;
+    shape->count = count;
+    shape->corners = ARENA_ARRAY(&model->arena, (size_t)count, struct vec);
+    if (!shape->corners) return false;
+    for (int i = 0; i < count; i++) shape->corners[i] = place ? placement_point(place, points[i]) : points[i];
+    set_extent(shape);
+    return true;
+}
+
+static bool set_part(struct fbd_model *model, struct contact_shape *shape, const struct placement *place,
+                     const struct part *part)
+{
+    struct outline_part outline = outline_of_part(part);
+    shape->link = place->link;
+    switch (outline.kind) {
+    case outline_circle:
+        shape->kind = contact_disc;
+        shape->center = placement_point(place, outline.center);
+        shape->radius = outline.radius;
+        return true;
+    case outline_polygon: return set_corners(model, shape, place, outline.corner, 4);
+    case outline_bar: return set_corners(model, shape, place, outline.corner, 2);
+    case outline_dot:
+    case outline_unknown: break;
+    }
+    return set_corners(model, shape, place, &outline.center, 1);
+}
+
+/* A part that can meet something. */
+static bool is_solid(const struct part *part)
+{
+    return part->mass > 0 && part->shape != shape_given;
+}
+
+static int shapes_of(const struct fbd_model *model, const struct constraint *source, int k)
+{
+    int b = source->body[k], count = 0;
+    if (b == ground_body || source->contact.stop != 0 || source->point[k].kind != point_absent) return 1;
+    const struct body *body = model->bodies[b].source;
+    for (size_t i = 0; i < body->part_count; i++) count += is_solid(&body->parts[i]);
+    return count;
+}
+
+static bool set_ground(struct fbd_model *model, struct contact_shape *shape, const struct constraint *source)
+{
+    const struct polygon *polygon = source->contact.polygon;
+    struct vec where = source->point[1].where;
+    if (polygon) return set_corners(model, shape, NULL, polygon->corners, (int)polygon->count);
+    if (!source->contact.line) return set_corners(model, shape, NULL, &where, 1);
+    *shape = (struct contact_shape){.kind = contact_line, .center = where, .e = vec_unit(source->along)};
+    return true;
+}
+
+/* Shape number `index` of side k. */
+static bool set_shape(struct fbd_model *model, const struct constraint *source, int k, int index,
+                      struct contact_shape *shape)
+{
+    *shape = (struct contact_shape){.kind = contact_stop};
+    if (source->contact.stop != 0) {
+        if (source->body[k] != ground_body) shape->link = model->bodies[source->body[k]].place.link;
+        return true;
+    }
+    *shape = (struct contact_shape){0};
+    if (source->body[k] == ground_body) return set_ground(model, shape, source);
+    const struct model_body *body = &model->bodies[source->body[k]];
+    shape->link = body->place.link;
+    if (source->point[k].kind != point_absent) {
+        struct vec own = source->point[k].kind == point_fixed ? source->point[k].where : body->inertia.G;
+        return set_corners(model, shape, &body->place, &own, 1);
+    }
+    const struct part *part = body->source->parts;
+    while (!is_solid(part) || index-- > 0) part++;
+    return set_part(model, shape, &body->place, part);
+}
+
+/* ---- meetings */
+
+static int ties_of(const struct meeting *meeting)
+{
+    const struct contact_shape *a = &meeting->shape[0], *b = &meeting->shape[1];
+    if (a->kind != contact_corners || b->kind == contact_disc) return 1;
+    return a->count > 1 && (b->kind == contact_line || b->count > 1) ? 2 : 1;
+}
+
+static int probes_of(const struct meeting *meeting)
+{
+    const struct contact_shape *a = &meeting->shape[0], *b = &meeting->shape[1];
+    enum { apart_or_one_neighbour_more = 3 };
+    if (a->kind != contact_corners || b->kind == contact_disc) return 1;
+    return b->kind == contact_line ? a->count : apart_or_one_neighbour_more;
+}
+
+int meetings_most(const struct fbd_model *model, int index)
+{
+    const struct constraint *source = &model->scene->constraints[index];
+    return shapes_of(model, source, 0) * shapes_of(model, source, 1);
+}
+
+/* The size of the scene as it starts: two points that meet have none of their own. */
+static double farthest_start(const struct scene *scene)
+{
+    double most = 0;
+    for (size_t i = 0; i < scene->coordinate_count; i++)
+        if (!scene->coordinates[i].angle) most = fmax(most, fabs(scene->coordinates[i].initial));
+    return most;
+}
+
+/* What distances are measured against; of a stop its limit, and of one at zero a unit. */
+static double reach_of(const struct fbd_model *model, const struct meeting *meeting)
+{
+    bool turns = meeting->stop != 0 && model->tree->links[meeting->shape[0].link].kind == motion_pivot;
+    if (turns) return 1;
+    double reach = meeting->size + fabs(meeting->limit) + farthest_start(model->scene);
+    return reach > 0 ? reach : 1;
+}
+
+bool meetings_add(struct fbd_model *model, int index)
+{
+    const struct constraint *source = &model->scene->constraints[index];
+    struct tree *tree = model->tree;
+    int count[2] = {shapes_of(model, source, 0), shapes_of(model, source, 1)};
+    for (int i = 0; i < count[0] * count[1]; i++) {
+        struct meeting *meeting = &tree->meetings[tree->meeting_count++];
+        *meeting = (struct meeting){.constraint = index,
+                                    .first_tie = tree->tie_count,
+                                    .stop = source->contact.stop,
+                                    .limit = source->contact.limit};
+        if (!set_shape(model, source, 0, i / count[1], &meeting->shape[0]) ||
+            !set_shape(model, source, 1, i % count[1], &meeting->shape[1]))
+            return false;
+        meeting->size = meeting->shape[0].radius + meeting->shape[1].radius;
+        meeting->reach = reach_of(model, meeting);
+        meeting->tie_count = ties_of(meeting);
+        meeting->probes = probes_of(meeting);
+        for (int k = 0; k < meeting->tie_count; k++) tie_of_contact(model, index, tree->meeting_count - 1);
+    }
+    return true;
+}

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Contacts: what can touch what, and how.
+ *
+ * A contact of the file is one meeting or several, each of two shapes: a line of the ground, a disc, or
+ * corners. Corners are those of a convex polygon, counter-clockwise, the two ends of a bar, or one point. Two
+ * shapes touch in features: a corner or circle on a side (or line), or two circles, of which one may be a
+ * corner. A meeting has as many ties as features can last at a time: two where corners are on a line or on
+ * each other, else one. Which feature a tie has at present is part of the state (dynamics/contact.h).
+ */
+#ifndef FBD_MODEL_CONTACT_H
+#define FBD_MODEL_CONTACT_H
+
+#include "base/vec.h"
+
+#include <stdbool.h>
+
+struct fbd_model;
+
+struct contact_shape {
+    enum contact_shape_kind {
+        contact_line,
+        contact_disc,
+        contact_corners,
+        contact_stop /* no shape: the joint of the link, or what it moves on */
+    } kind;
+    int link;             /* 0: the ground */
+    int count;            /* corners */
+    struct vec *corners;  /* in the frame of the link */
+    struct vec center, e; /* disc; line: a point of it and its direction; corners: their mean */
+    double radius;        /* disc; corners: the farthest from `center` */
+};
+
+struct meeting {
+    int constraint, first_tie, tie_count;
+    struct contact_shape shape[2];
+    double size,
+        reach; /* of the shapes; with the places where bodies start: what distances are measured against */
+    int stop;  /* of a coordinate: +1 at its least, -1 at its largest value; else 0 */
+    double limit;
+    int probes; /* functions whose zeros are new features (dynamics/contact.h) */
+};
+
+/* A feature: a point or circle of one shape at a side of the other, or two circles. */
+struct touch {
+    bool circles;
+    int moving;       /* whose point or circle it is: 0 or 1 */
+    struct vec point; /* in the frame of its link */
+    double radius;
+    struct vec base,
+        e;         /* of the other: where its side begins and its direction, or the centre of its circle */
+    double length; /* of the side; infinite for a line */
+    double base_radius;
+    double side; /* the normal is side k x e; 0 for a line of the ground: as it is at the start */
+};
+
+/* Feature number `feature` of a meeting. */
+struct touch meeting_touch(const struct meeting *meeting, int feature);
+
+/* Corner `corner` of shape `moving` on side `side` of the other. */
+int meeting_feature(const struct meeting *meeting, int moving, int corner, int side);
+
+/* How many sides: none of a point, two of a bar. */
+int shape_sides(const struct contact_shape *shape);
+
+/* Build the meetings of constraint `index` of the scene with their ties. False when memory is out. */
+bool meetings_add(struct fbd_model *model, int index);
+
+/* At most how many meetings and ties the contact will have. */
+int meetings_most(const struct fbd_model *model, int index);
+
+#endif

@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Contacts: what meets what. A body as a whole meets with all its shapes; a named point is a corner.
+ */
+#include "scene/coupling_names.h"
+#include "scene/reader.h"
+#include "scene/values.h"
+
+#include <string.h>
+
+/* A line, polygon or point of the ground. */
+static bool read_surface(struct reader *reader, const struct node *name, struct constraint *constraint)
+{
+    struct contact_law *contact = &constraint->contact;
+    constraint->body[1] = ground_body;
+    constraint->point[1] = (struct point){.kind = point_fixed, .at = name->at};
+    if (node_find(reader->polygons, name->text)) {
+        contact->polygon = ground_polygon_find(reader, name);
+        return contact->polygon->count > 0;
+    }
+    if (node_find(reader->points, name->text))
+        return ground_point_read(reader, name, "between", &constraint->point[1].where);
+    const struct ground_line *line = ground_line_find(reader, name);
+    if (!line) return false;
+    contact->line = true;
+    constraint->point[1].where = line->through;
+    constraint->along = line->along;
+    return true;
+}
+
+/* `body` or `body.point` at end k. */
+static bool read_side(struct reader *reader, const struct node *node, int k, struct constraint *constraint)
+{
+    if (node->kind == node_scalar && strchr(node->text, '.'))
+        return coupling_end_read(reader, node, &constraint->body[k], &constraint->point[k]);
+    constraint->point[k] = (struct point){.at = node->at};
+    return node->kind == node_scalar ? body_name_read(reader, node, "between", &constraint->body[k])
+                                     : value_refuse(reader, node, "between", "a body or `body.point`", NULL);
+}
+
+static bool is_ground(const struct node *node)
+{
+    return node->kind == node_scalar &&
+           (strncmp(node->text, "ground.", strlen("ground.")) == 0 || strcmp(node->text, "ground") == 0);
+}
+
+/* A whole body has to have a shape that can meet something. */
+static bool has_shape(struct reader *reader, const struct constraint *constraint, int k)
+{
+    if (constraint->body[k] == ground_body || constraint->point[k].kind != point_absent) return true;
+    const struct body *body = &reader->scene->bodies[constraint->body[k]];
+    if (!body->complete) return false;
+    for (size_t i = 0; i < body->part_count; i++)
+        if (body->parts[i].shape != shape_given && body->parts[i].mass > 0) return true;
+    diag_add(reader->errors, FBD_ERROR, "no-shape", constraint->point[k].at,
+             "give it a `shape`, or name the point that meets: `body.point`",
+             "`%s` has no shape that could meet anything", body->name);
+    return false;
+}
+
+static bool read_sides(struct reader *reader, const struct node *list, struct constraint *constraint)
+{
+    const struct node *first = list->items[0], *second = list->items[1];
+    if (is_ground(first) && is_ground(second)) {
+        diag_add(reader->errors, FBD_ERROR, "same-body", list->at, "name a body and what it meets",
+                 "both ends are on the ground: nothing would act");
+        return false;
+    }
+    if (is_ground(first)) {
+        first = list->items[1];
+        second = list->items[0];
+    }
+    if (!read_side(reader, first, 0, constraint)) return false;
+    if (!is_ground(second)) return read_side(reader, second, 1, constraint);
+    if (!strchr(second->text, '.'))
+        return value_refuse(reader, second, "between", "`ground.line`, `ground.polygon` or `ground.point`",
+                            NULL);
+    size_t skip = strlen("ground.");
+    const struct node *name = text_part(reader, second, skip, second->length - skip);
+    return name && read_surface(reader, name, constraint);
+}
+
+static bool check_restitution(struct reader *reader, const struct value *e)
+{
+    if (!e->expr || !expr_is_constant(e->expr) || expr_value(e->expr) <= 1) return true;
+    diag_add(reader->errors, FBD_ERROR, "out-of-range", e->at, "1 gives all energy back",
+             "`restitution` must be at most 1");
+    return false;
+}
+
+bool contact_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
+{
+    const struct node *list = keys->between;
+    if (list->count != 2) {
+        diag_add(reader->errors, FBD_ERROR, "wrong-type", list->at, "write [body, ground.line]",
+                 "`between` needs two ends, not %zu", list->count);
+        return false;
+    }
+    constraint->end_count = 2;
+    constraint->contact.law = keys->law;
+    constraint->contact.restitution = keys->restitution;
+    constraint->mu_s = keys->mu_s.expr ? keys->mu_s : keys->mu_k;
+    constraint->mu_k = keys->mu_k.expr ? keys->mu_k : keys->mu_s;
+    if (!check_restitution(reader, &keys->restitution) || !read_sides(reader, list, constraint)) return false;
+    if (constraint->body[0] == constraint->body[1]) {
+        diag_add(reader->errors, FBD_ERROR, "same-body", list->at, "name two bodies",
+                 "both ends are on the same body: nothing would act");
+        return false;
+    }
+    return has_shape(reader, constraint, 0) && has_shape(reader, constraint, 1);
+}
+
+/* ---- stops: `min` and `max` of a slide or pivot */
+
+static const struct node *stop_of(const struct reader *reader, size_t body, int end)
+{
+    const struct motion_keys *keys = &reader->drafts[body].motion_keys;
+    return end == 0 ? keys->low : keys->high;
+}
+
+size_t stops_count(const struct reader *reader)
+{
+    size_t count = 0;
+    for (size_t b = 0; b < reader->scene->body_count; b++)
+        for (int end = 0; end < 2; end++) count += stop_of(reader, b, end) != NULL;
+    return count;
+}
+
+/* `max` above `min`, e at most 1, and a coordinate that is free. */
+static bool check_stops(struct reader *reader, size_t b, const double limit[2])
+{
+    const struct body *body = &reader->scene->bodies[b];
+    const struct draft *draft = &reader->drafts[b];
+    const struct node *high = stop_of(reader, b, 1), *low = stop_of(reader, b, 0);
+    struct pos at = high ? high->at : low->at;
+    if (body->motion.prescribed.expr) {
+        diag_add(reader->errors, FBD_ERROR, "not-here", at, "leave it out",
+                 "the motion of `%s` is prescribed: no stop could hold it", body->name);
+        return false;
+    }
+    if (draft->motion_keys.restitution > 1) {
+        diag_add(reader->errors, FBD_ERROR, "out-of-range", at, "1 gives all energy back",
+                 "`restitution` must be at most 1");
+        return false;
+    }
+    if (!low || !high || limit[1] > limit[0]) return true;
+    diag_add(reader->errors, FBD_ERROR, "out-of-range", at, NULL, "`max` must be above `min`");
+    return false;
+}
+
+static void add_stop(struct reader *reader, size_t b, int end, double limit, struct coupling_name *name)
+{
+    struct scene *scene = reader->scene;
+    const struct body *body = &scene->bodies[b];
+    struct pos at = stop_of(reader, b, end)->at;
+    struct constraint *stop = &scene->constraints[scene->constraint_count++];
+    *stop = (struct constraint){.kind = constraint_contact,
+                                .at = at,
+                                .end_count = 2,
+                                .body = {(int)b, body->motion.parent},
+                                .contact = {.stop = end == 0 ? 1 : -1, .limit = limit}};
+    stop->contact.e = reader->drafts[b].motion_keys.restitution;
+    *name = (struct coupling_name){arena_printf(reader->arena, end == 0 ? "%s_min" : "%s_max", body->name),
+                                   contact_kind, at};
+}
+
+bool stops_read(struct reader *reader, struct coupling_name *names)
+{
+    bool fine = true;
+    for (size_t b = 0; b < reader->scene->body_count; b++) {
+        double limit[2] = {0, 0};
+        enum quantity quantity = reader->scene->bodies[b].motion.kind == motion_pivot ? an_angle : a_length;
+        bool any = false, read = true;
+        for (int end = 0; end < 2; end++) {
+            const struct node *node = stop_of(reader, b, end);
+            if (!node) continue;
+            any = true;
+            read &= value_number(reader, node, end == 0 ? "min" : "max", quantity, 0, &limit[end]);
+        }
+        if (!any) continue;
+        if (!read || !check_stops(reader, b, limit)) fine = false;
+        for (int end = 0; end < 2; end++)
+            if (stop_of(reader, b, end)) add_stop(reader, b, end, limit[end], names++);
+    }
+    return fine;
+}

@@ -1,0 +1,428 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solve/contacts.h"
+
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dynamics/contact.h"
+#include "dynamics/impulse.h"
+#include "dynamics/tree_system.h"
+#include "solve/run.h"
+
+/* ---- memory */
+
+bool contacts_work_init(struct contacts_work *work, const struct fbd_model *model)
+{
+    const struct tree *tree = model->tree;
+    *work = (struct contacts_work){0};
+    if (!tree || tree->meeting_count == 0) return true;
+    size_t most = (size_t)tree->tie_count, n = (size_t)model->plan.n, rows = 2 * most;
+    work->most = tree->tie_count;
+    work->strikers = calloc(most, sizeof *work->strikers);
+    work->points = calloc(most, sizeof *work->points);
+    work->rows = calloc(rows + model->plan.friction_count, sizeof *work->rows);
+    work->W = calloc(rows * rows + rows * n + 2 * rows + 2 * n, sizeof *work->W);
+    work->bounces = calloc((size_t)tree->meeting_count, sizeof *work->bounces);
+    work->was_closed = calloc(most, sizeof *work->was_closed);
+    work->asleep = calloc((size_t)tree->meeting_count, sizeof *work->asleep);
+    work->trial = state_new(model);
+    if (!work->asleep) return false;
+    if (!work->was_closed || !work->trial) return false;
+    if (!work->strikers || !work->points || !work->rows || !work->W || !work->bounces) return false;
+    work->modes = work->rows + rows;
+    work->answers = work->W + rows * rows;
+    work->v = work->answers + rows * n;
+    work->P = work->v + rows;
+    work->y = work->P + rows;
+    for (int i = 0; i < tree->meeting_count; i++)
+        work->bounces[i] = (struct bounces){.feature = -1, .rests_from = HUGE_VAL};
+    return true;
+}
+
+void contacts_work_free(struct contacts_work *work)
+{
+    free(work->strikers);
+    free(work->points);
+    free(work->rows);
+    free(work->W);
+    free(work->bounces);
+    free(work->was_closed);
+    free(work->asleep);
+    state_free(work->trial);
+    *work = (struct contacts_work){0};
+}
+
+/* ---- what touches */
+
+static const struct tree *tree_of(const struct run *run)
+{
+    return run->model->tree;
+}
+
+static void set_feature(struct run *run, int tie, int feature)
+{
+    struct fbd_state *state = run->state;
+    tie_set_feature(run->model, state->tree, tie, feature);
+    state->slip[tree_of(run)->ties[tie].surface] = feature == no_feature ? slip_plus : stick;
+}
+
+/* A closed feature stays while it touches, within its side. */
+static bool still_touches(const struct run *run, int meeting, int feature, double near)
+{
+    const struct fbd_model *model = run->model;
+    const struct tree_work *work = run->state->tree;
+    if (fabs(feature_gap(model, work, meeting, feature).x) > near) return false;
+    for (int end = 0; end < 2; end++)
+        if (feature_end(model, work, meeting, feature, end).x < -near) return false;
+    return true;
+}
+
+/* Two features at one place are one contact. */
+static bool same_place(const struct run *run, int meeting, int a, int b, double near)
+{
+    if (a == b) return true;
+    struct vec p = feature_place(run->model, run->state->tree, meeting, a);
+    struct vec q = feature_place(run->model, run->state->tree, meeting, b);
+    return vec_norm(vec_sub(p, q)) <= 4 * near;
+}
+
+/* Give the ties of a meeting the features that touch; those that they have stay where they can. */
+void contacts_find_touching(struct run *run, int index, double near)
+{
+    const struct meeting *meeting = &tree_of(run)->meetings[index];
+    int found[2], count = meeting_touching(run->model, run->state->tree, index, near, found);
+    for (int k = 0; k < meeting->tie_count; k++) {
+        int tie = meeting->first_tie + k, feature = run->state->tree->ties[tie].feature;
+        if (feature != no_feature && !still_touches(run, index, feature, near))
+            set_feature(run, tie, no_feature);
+    }
+    for (int i = 0; i < count; i++) {
+        bool known = false;
+        int free_tie = -1;
+        for (int k = meeting->tie_count - 1; k >= 0; k--) {
+            int feature = run->state->tree->ties[meeting->first_tie + k].feature;
+            if (feature == no_feature)
+                free_tie = meeting->first_tie + k;
+            else
+                known |= same_place(run, index, feature, found[i], near);
+        }
+        if (!known && free_tie >= 0) set_feature(run, free_tie, found[i]);
+    }
+}
+
+/* ---- who takes part */
+
+/* The speeds that a row's velocity is made of. */
+static double speed_at(const struct run *run, const struct row *row)
+{
+    double size = 0;
+    for (int k = 0; k < row->port_count; k++) {
+        const struct tree_state *s = &run->state->tree->links[row->ports[k].link];
+        size = fmax(size, vec_norm(s->v) + fabs(s->omega) * vec_norm(row->ports[k].arm));
+    }
+    return size;
+}
+
+/* A speed that is nothing: against those that it is made of, and against what the scene has seen. */
+static double no_speed(const struct run *run, const struct row *row)
+{
+    const double rounding = 1e-11, of_all = 1e-13;
+    return fmax(rounding * speed_at(run, row), of_all * run->contacts.speed);
+}
+
+static double normal_rate(const struct run *run, const struct striker *striker)
+{
+    double rate = run->state->tree->rows[tree_of(run)->ties[striker->tie].first_row].g.x1;
+    return striker->rope ? -rate : rate;
+}
+
+/* All contacts that touch, and ropes that are taut. Returns their number. */
+int contacts_find_strikers(struct run *run)
+{
+    const struct tree *tree = tree_of(run);
+    struct contacts_work *work = &run->contacts;
+    int count = 0;
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        bool touches = tie->kind == constraint_contact && run->state->tree->ties[i].feature != no_feature;
+        bool taut = tie->kind == constraint_rope && run->state->slip[tie->pair] == stick;
+        if (!touches && !taut) continue;
+        struct striker *striker = &work->strikers[count++];
+        *striker = (struct striker){.tie = i, .rope = taut};
+        const struct row *rows = &run->state->tree->rows[tie->first_row];
+        striker->v_n = normal_rate(run, striker);
+        work->speed = fmax(work->speed, speed_at(run, rows));
+        if (fabs(striker->v_n) <= no_speed(run, rows)) striker->v_n = 0;
+        striker->v_t = touches ? rows[1].g.x1 : 0;
+    }
+    return count;
+}
+
+static bool any_closes(const struct run *run, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (run->contacts.strikers[i].v_n < 0) return true;
+    return false;
+}
+
+/* ---- the impact */
+
+/* e at the speed of approach; below zero after failing the run. */
+double contacts_restitution(struct run *run, int meeting, double approach)
+{
+    const struct fbd_model *model = run->model;
+    const struct constraint *source = &model->scene->constraints[tree_of(run)->meetings[meeting].constraint];
+    const struct expr *expr = source->contact.restitution.expr;
+    if (!expr) return source->contact.e;
+    size_t n = 2 * (size_t)model->plan.n;
+    double *y = run->contacts.y;
+    memcpy(y, run->state->y, n * sizeof *y);
+    y[n] = approach;
+    double e = expr_is_constant(expr) ? expr_value(expr) : expr_eval(expr, run->state->t, y, NULL);
+    if (e >= 0 && e <= 1) return e;
+    run_fail(run, FBD_FAILED, "at t = %.9g the restitution of `%s` is %.6g: it must be between 0 and 1",
+             run_time(run), source->name, e);
+    return -1;
+}
+
+static bool set_point(struct run *run, int i)
+{
+    struct contacts_work *work = &run->contacts;
+    const struct striker *striker = &work->strikers[i];
+    const struct tie *tie = &tree_of(run)->ties[striker->tie];
+    struct instant at = state_instant(run->state);
+    work->points[i] = (struct impacts_point){0, 0};
+    if (striker->rope) return true;
+    if (tie->pair >= 0) work->points[i].mu = formula_value(&run->model->plan.frictions[tie->pair].mu_k, &at);
+    work->points[i].e = contacts_restitution(run, tie->meeting, fmax(0, -striker->v_n));
+    return work->points[i].e >= 0;
+}
+
+/* The law of the point that closes fastest. */
+static enum impact_law law_of(const struct run *run, int count)
+{
+    const struct contacts_work *work = &run->contacts;
+    int best = -1;
+    for (int i = 0; i < count; i++)
+        if (!work->strikers[i].rope && (best < 0 || work->strikers[i].v_n < work->strikers[best].v_n))
+            best = i;
+    if (best < 0) return impact_stronge;
+    const struct tie *tie = &tree_of(run)->ties[work->strikers[best].tie];
+    return (enum impact_law)run->model->scene->constraints[tie->constraint].contact.law;
+}
+
+/* Rows 2 i and 2 i + 1; a rope has one, and its normal points the other way. */
+static void set_answers(struct run *run, int count)
+{
+    struct contacts_work *work = &run->contacts;
+    int rows = 2 * count;
+    for (int i = 0; i < count; i++) {
+        int first = tree_of(run)->ties[work->strikers[i].tie].first_row;
+        work->rows[2 * i] = first;
+        work->rows[2 * i + 1] = work->strikers[i].rope ? first : first + 1;
+    }
+    impulse_answers(run->state, work->rows, rows, work->modes, work->W, work->answers);
+    for (int i = 0; i < count; i++) {
+        if (!work->strikers[i].rope) continue;
+        for (int k = 0; k < rows; k++) {
+            work->W[(2 * i) * rows + k] *= -1;
+            work->W[k * rows + 2 * i] *= -1;
+            work->W[(2 * i + 1) * rows + k] = work->W[k * rows + 2 * i + 1] = 0;
+        }
+    }
+}
+
+static void apply_impulses(struct run *run, int count)
+{
+    struct contacts_work *work = &run->contacts;
+    size_t n = (size_t)run->model->plan.n;
+    for (int i = 0; i < 2 * count; i++) {
+        const struct striker *striker = &work->strikers[i / 2];
+        double P = striker->rope ? (i % 2 == 0 ? -work->P[i] : 0) : work->P[i];
+        for (size_t k = 0; P != 0 && k < n; k++) run->state->y[n + k] += P * work->answers[(size_t)i * n + k];
+    }
+}
+
+static void fail_impact(struct run *run, enum impacts_end end)
+{
+    if (end == impacts_no_memory) {
+        run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
+        return;
+    }
+    run_fail(run, FBD_FAILED, "at t = %.9g impacts at several points %s", run_time(run),
+             end == impacts_endless
+                 ? "go on among each other without end: try `simulate: {impacts: simultaneous}`"
+                 : "have no solution by their law: with `law: stronge` they have one");
+}
+
+/* The impact of all that touches. False when it has none. */
+static bool strike(struct run *run, int count)
+{
+    struct contacts_work *work = &run->contacts;
+    for (int i = 0; i < count; i++) {
+        if (!set_point(run, i)) return false;
+        work->v[2 * i] = work->strikers[i].v_n;
+        work->v[2 * i + 1] = work->strikers[i].v_t;
+    }
+    set_answers(run, count);
+    struct impacts impacts = {.count = count,
+                              .propagate = run->model->scene->simulate.propagate,
+                              .law = law_of(run, count),
+                              .points = work->points,
+                              .W = work->W,
+                              .v = work->v,
+                              .P = work->P};
+    enum impacts_end end = impacts_solve(&impacts);
+    if (end != impacts_done) {
+        fail_impact(run, end);
+        return false;
+    }
+    apply_impulses(run, count);
+    return true;
+}
+
+/* ---- what follows */
+
+/* Does it leave its surface? */
+static bool parts(const struct run *run, int i)
+{
+    const struct striker *striker = &run->contacts.strikers[i];
+    const struct row *row = &run->state->tree->rows[tree_of(run)->ties[striker->tie].first_row];
+    return run->contacts.v[2 * i] > no_speed(run, row);
+}
+
+static void note_impact(struct run *run, int i)
+{
+    const struct contacts_work *work = &run->contacts;
+    const struct striker *striker = &work->strikers[i];
+    const struct tie *tie = &tree_of(run)->ties[striker->tie];
+    double p = work->P[2 * i], tau = work->P[2 * i + 1];
+    double taken = (p * (striker->v_n + work->v[2 * i]) + tau * (striker->v_t + work->v[2 * i + 1])) / 2;
+    run->impact_work[tie->load] += taken;
+    bool struck = striker->v_n < 0 || (p > 0 && parts(run, i));
+    if (striker->rope || !struck) return;
+    int body = tie->end[0].body;
+    struct run_event *event = run_note(run, FBD_EVENT_IMPACT, body, tie->load, -1);
+    if (!event) return;
+    event->impact = (struct impact_record){
+        p, tau, taken, {striker->v_n, work->v[2 * i]}, {striker->v_t, work->v[2 * i + 1]}};
+}
+
+/* What leaves is open; what stays slips or sticks. */
+static void open_or_close(struct run *run, int count, bool struck)
+{
+    const struct contacts_work *work = &run->contacts;
+    for (int i = 0; i < count; i++) {
+        const struct striker *striker = &work->strikers[i];
+        const struct tie *tie = &tree_of(run)->ties[striker->tie];
+        bool leaves = struck ? parts(run, i) : striker->v_n > 0;
+        if (striker->rope) {
+            if (leaves) run->state->slip[tie->pair] = slip_plus;
+            continue;
+        }
+        if (leaves) {
+            set_feature(run, striker->tie, no_feature);
+            continue;
+        }
+        if (tie->pair < 0) continue;
+        double v_t = struck ? work->v[2 * i + 1] : striker->v_t;
+        if (fabs(v_t) <= no_speed(run, &run->state->tree->rows[tie->first_row])) v_t = 0;
+        run->state->slip[tie->pair] = v_t > 0 ? slip_plus : v_t < 0 ? slip_minus : stick;
+    }
+}
+
+/* ---- which are looked at */
+
+/* The fastest link, as it turns. */
+double run_contact_radians(const struct run *run, double span)
+{
+    double most = 0;
+    if (run->contacts.most == 0) return 0;
+    for (int i = 1; i < tree_of(run)->count; i++)
+        most = fmax(most, fabs(run->contacts.trial->tree->links[i].omega));
+    return 2 * most * span; /* both shapes of a meeting may turn */
+}
+
+/* Speeds within a step are those at its ends, or not much more: a factor, and a check at the end of the step,
+ * cover it. */
+void run_wake_contacts(struct run *run, double end)
+{
+    const double speeds = 2;
+    struct contacts_work *work = &run->contacts;
+    struct fbd_state *trial = work->trial;
+    if (work->most == 0) return;
+    double span = end - run->from;
+    state_copy(trial, run->during);
+    impulse_look(trial);
+    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
+        struct distance at = meeting_distance(run->model, trial->tree, i);
+        work->asleep[i] = at.apart > speeds * span * at.speed;
+    }
+    memcpy(trial->y, run->y, 2 * (size_t)run->model->plan.n * sizeof *trial->y);
+    trial->t = end;
+    impulse_look(trial);
+    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
+        struct distance at = meeting_distance(run->model, trial->tree, i);
+        work->asleep[i] &= at.apart > speeds * span * at.speed;
+    }
+}
+
+void run_check_overlap(struct run *run)
+{
+    const double rounding = 10;
+    double depth;
+    if (run->contacts.most == 0 || run->outcome != FBD_GOING) return;
+    int meeting = contacts_overlap(run->state, &depth);
+    if (meeting < 0 || depth <= rounding * meeting_near(run->model, run->state->tree, meeting)) return;
+    run_fail(run, FBD_FAILED,
+             "at t = %.9g the shapes of the contact `%s` are in each other by %.3g: the instant at which "
+             "they met was "
+             "missed. Try a smaller tolerance or step",
+             run_time(run), run->model->scene->constraints[tree_of(run)->meetings[meeting].constraint].name,
+             depth);
+}
+
+/* ---- all of it */
+
+void run_contacts(struct run *run)
+{
+    const struct tree *tree = tree_of(run);
+    if (!tree || tree->meeting_count == 0 || run->outcome != FBD_GOING) return;
+    impulse_look(run->state);
+    for (int i = 0; i < tree->meeting_count; i++)
+        contacts_find_touching(run, i, meeting_near(run->model, run->state->tree, i));
+    impulse_look(run->state);
+    int count = contacts_find_strikers(run);
+    bool struck = any_closes(run, count);
+    if (struck) {
+        if (!strike(run, count)) return;
+        for (int i = 0; i < count; i++) note_impact(run, i);
+        impulse_look(run->state);
+    }
+    bool rests = struck && contacts_end_bounces(run, count);
+    open_or_close(run, count, struck);
+    if (rests) {
+        count = contacts_settle_down(run);
+        open_or_close(run, count, true);
+    }
+}
+
+static bool is_closed(const struct run *run, const struct fbd_state *state, int tie)
+{
+    return state->slip[tree_of(run)->ties[tie].surface] == stick;
+}
+
+void run_release_contacts(struct run *run)
+{
+    const struct tree *tree = tree_of(run);
+    for (int i = 0; tree && i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (tie->kind != constraint_contact) continue;
+        bool before = run->contacts.was_closed[i], now = is_closed(run, run->state, i);
+        run->contacts.was_closed[i] = now;
+        if (!now) run->state->tree->ties[i].feature = no_feature;
+        if (before == now) continue;
+        run_note(run, now ? FBD_EVENT_CONTACT : FBD_EVENT_LIFT_OFF, tie->end[0].body, tie->load, -1);
+    }
+}

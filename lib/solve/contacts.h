@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What a run does where shapes meet: impacts, and what closes by them.
+ *
+ * At such an instant all features that touch are found anew. Where one of them closes, all that touches and
+ * all taut ropes have an impact together (holds/impacts.h); what has no speed left stays closed, what has one
+ * opens. Whether what is closed without an impact stays so is for the modes to settle.
+ *
+ * A body that bounces with e < 1 does so infinitely often in finite time. When its bounces are lower than the
+ * tolerance sees, the rest of the series is summed up: the intervals form a geometric series, and with
+ * constant acceleration exactly that. The body then rests on its surface, and the event has the time at which
+ * the series ends, which is when an infinitely patient observer would see it come to rest.
+ */
+#ifndef FBD_SOLVE_CONTACTS_H
+#define FBD_SOLVE_CONTACTS_H
+
+#include "dynamics/state.h"
+#include "holds/impacts.h"
+
+struct run;
+
+/* The impacts of a meeting so far. */
+struct bounces {
+    int count;         /* since it was last at rest */
+    double t[4];       /* of the last ones, the latest first */
+    int feature;       /* of the last one */
+    double highest;    /* rise after an impact */
+    double rests_from; /* end of a series that is summed up; HUGE_VAL without one */
+};
+
+/* One row that takes part in an impact. */
+struct striker {
+    int tie;
+    bool rope;
+    double v_n, v_t; /* before */
+};
+
+struct contacts_work {
+    int most;                 /* strikers */
+    struct striker *strikers; /* most */
+    struct impacts_point *points;
+    int *rows, *modes;
+    double *W, *answers, *v, *P, *y;
+    struct bounces *bounces; /* of each meeting */
+    bool *asleep;            /* of each meeting: too far apart for the step */
+    bool *was_closed;        /* of each tie, when it was looked at last */
+    struct fbd_state *trial;
+    double speed; /* the largest of what has touched so far */
+    bool due;     /* shapes have met, or what touches has come to the end of a side */
+};
+
+/* False when memory is out. */
+bool contacts_work_init(struct contacts_work *work, const struct fbd_model *model);
+void contacts_work_free(struct contacts_work *work);
+
+/* Find what touches, let it have its impacts, and close what stays. To be called before the modes settle. */
+void run_contacts(struct run *run);
+
+/* Which meetings the step from run->from to the state run->y at `end` has to look at: those whose shapes
+ * could come near in it. In panels of how many radians the shapes turn. */
+void run_wake_contacts(struct run *run, double end);
+double run_contact_radians(const struct run *run, double span);
+
+/* No shapes are in each other at the end of a step; else the run ends, for it has missed an impact. */
+void run_check_overlap(struct run *run);
+
+/* ---- for bounces.c */
+
+/* Give the ties of a meeting the features that touch within `near`. */
+void contacts_find_touching(struct run *run, int meeting, double near);
+
+/* All contacts that touch, and ropes that are taut; returns their number. */
+int contacts_find_strikers(struct run *run);
+
+/* e of a meeting at a speed of approach; below zero after failing the run. */
+double contacts_restitution(struct run *run, int meeting, double approach);
+
+/* After an impact of `count` strikers: does a series of bounces end that nobody sees any more? (bounces.c) */
+bool contacts_end_bounces(struct run *run, int count);
+
+/* Put what bounces on its surface; the strikers are then those that touch. Returns their number. */
+int contacts_settle_down(struct run *run);
+
+/* ---- the loop */
+
+/* After the modes have settled: what they have opened touches no more. Notes what has closed and opened. */
+void run_release_contacts(struct run *run);
+
+/* The next end of a series of bounces; HUGE_VAL without one. And noting those that end by now. */
+double run_next_rest(const struct run *run);
+void run_note_rests(struct run *run);
+
+#endif
