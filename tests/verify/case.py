@@ -9,6 +9,7 @@
     # methods: none           (the answers take no integration; or some of them)
     # model: another file      (a model of the gallery; then there is nothing else in this one)
     # options: of every run
+    # needs: of the language  (in tests/books/waiting)
 
 The expression is Python over what the programs print, and nothing else: `run()`, `static()` are the objects of --json,
 `equations()`, `linear()` the reports, `rows()` the columns of the CSV. Each takes options as in a shell and parameters
@@ -76,7 +77,7 @@ class Case:
 
     def __init__(self, path, programs):
         self.path, self.programs = path, programs
-        self.say = {"method": "by hand", "licence": "", "source": "", "options": "", "methods": "all", "model": ""}
+        self.say = {"method": "by hand", "licence": "", "source": "", "options": "", "methods": "all", "model": "", "needs": ""}
         self.answers, self.question = [], []
         self.seconds, self.calls = 0.0, 0
         self.method, self.limit = None, 60  # of every run from now on; None: the default; seconds that one may take
@@ -122,6 +123,11 @@ class Case:
 
     def title(self):
         return re.search(r"^title: (.*)$", self.model.read_text(encoding="utf-8"), re.MULTILINE)[1]
+
+    def is_read(self):
+        """Whether the language has all that the model says."""
+        check = [self.programs / "fbd-run", "--check", self.model]
+        return subprocess.run(check, stdin=subprocess.DEVNULL, capture_output=True, check=False).returncode != 3
 
     def source(self):
         return self.say["source"] + (f" ({self.say['licence']})" if self.say["licence"] else "")
