@@ -118,7 +118,7 @@ static double reach_of(const struct fbd_model *model, const struct tree_work *wo
 
 double meeting_near(const struct fbd_model *model, const struct tree_work *work, int index)
 {
-    const double share = 1e-10;
+    const double share = 1e-12;
     return share * reach_of(model, work, index);
 }
 
@@ -218,6 +218,17 @@ static int closed_ties(const struct fbd_model *model, const struct instant *at, 
     return count;
 }
 
+double contact_slack(const struct fbd_model *model, int tie)
+{
+    const double rounding = 1e-12;
+    double mass = 0;
+    for (int k = 0; k < 2; k++) {
+        int link = model->tree->ties[tie].end[k].link;
+        if (link > 0) mass += model->tree->links[link].mass;
+    }
+    return rounding * mass * vec_norm(model->scene->gravity);
+}
+
 bool tie_is_closed(const struct fbd_model *model, const struct instant *at, int tie)
 {
     return at->slip[model->tree->ties[tie].surface] == stick;
@@ -278,6 +289,22 @@ static void consider(struct outermost *found, int feature, double foot)
     found->count++;
 }
 
+/* What is at an end of a side and leaves it is on it no more. */
+static bool is_on_side(const struct fbd_model *model, const struct tree_work *work, int index,
+                       const struct place_on_side *at, double near)
+{
+    const double share = 1e-10;
+    const struct meeting *meeting = &model->tree->meetings[index];
+    double speed = 0;
+    for (int k = 0; k < 2; k++) {
+        const struct tree_state *s = &work->links[meeting->shape[k].link];
+        speed = fmax(speed, vec_norm(s->v) + fabs(s->omega) * meeting->size);
+    }
+    if (at->foot < -near || at->foot > at->length + near) return false;
+    if (at->foot <= near && at->rate < -share * speed) return false;
+    return !(at->foot >= at->length - near && at->rate > share * speed);
+}
+
 /* Corners of shape `moving` that lie on a side of the other. */
 static void corners_on_side(const struct fbd_model *model, const struct tree_work *work, int index,
                             int moving, int side, double near, struct outermost *found)
@@ -287,7 +314,7 @@ static void corners_on_side(const struct fbd_model *model, const struct tree_wor
         int feature = meeting_feature(meeting, moving, i, side);
         struct gap gap = feature_gap(model, work, index, feature);
         struct place_on_side at = feature_foot(model, work, index, feature);
-        if (fabs(gap.x) <= near && at.foot >= -near && at.foot <= at.length + near)
+        if (fabs(gap.x) <= near && is_on_side(model, work, index, &at, near))
             consider(found, feature, at.foot);
     }
 }
@@ -423,6 +450,9 @@ static bool rests(const struct fbd_model *model, const struct tree_work *work, i
     return fabs(feature_gap(model, work, index, feature).rate) <= share * speed;
 }
 
+/* Of a start numbers are as exact as a file has them: 1e-9 of the scene. */
+static const double start_share = 1e3;
+
 static void start_meeting(struct fbd_state *state, int index)
 {
     const struct fbd_model *model = state->model;
@@ -433,7 +463,7 @@ static void start_meeting(struct fbd_state *state, int index)
         state->tree->ties[meeting->first_tie + k].feature = no_feature;
     }
     choose_side(state->tree, meeting);
-    double near = meeting_near(model, state->tree, index);
+    double near = start_share * meeting_near(model, state->tree, index);
     int features[2], count = meeting_touching(model, state->tree, index, near, features);
     for (int k = 0; k < count; k++) {
         if (!rests(model, state->tree, index, features[k])) continue;
@@ -461,7 +491,7 @@ int contacts_overlap(struct fbd_state *state, double *depth)
     tree_move(state->model, &at);
     for (int i = 0; i < tree->meeting_count; i++) {
         double deep = depth_of(state->model, &at, i);
-        if (deep <= meeting_near(state->model, state->tree, i) || deep <= *depth) continue;
+        if (deep <= start_share * meeting_near(state->model, state->tree, i) || deep <= *depth) continue;
         *depth = deep;
         worst = i;
     }

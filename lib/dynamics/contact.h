@@ -56,6 +56,10 @@ double meeting_rounding(const struct fbd_model *model, const struct tree_work *w
 struct gap feature_end(const struct fbd_model *model, const struct tree_work *work, int meeting, int feature,
                        int end);
 
+/* A force that is nothing where two bodies touch: a rounding of their weights. What only just touches is not
+ * left, and does not slip, by that. */
+double contact_slack(const struct fbd_model *model, int tie);
+
 /* The contact of tie `tie`: is it closed? */
 bool tie_is_closed(const struct fbd_model *model, const struct instant *at, int tie);
 

@@ -301,13 +301,92 @@ static enum impacts_end all_together(struct impacts *impacts)
     return end;
 }
 
-enum impacts_end impacts_solve(struct impacts *impacts)
+/* ---- parts that do not feel each other */
+
+/* Number the connected parts of the points, from 0. Returns how many. */
+static int find_parts(const struct impacts *impacts, int *part)
 {
-    memset(impacts->P, 0, 2 * (size_t)impacts->count * sizeof *impacts->P);
-    impacts->work = 0;
+    int n = 2 * impacts->count, parts = 0;
+    for (int i = 0; i < impacts->count; i++) part[i] = -1;
+    for (int first = 0; first < impacts->count; first++) {
+        if (part[first] >= 0) continue;
+        part[first] = parts;
+        for (bool grown = true; grown;) {
+            grown = false;
+            for (int k = 0; k < n * n; k++) {
+                int i = k / n / 2, j = k % n / 2;
+                if (impacts->W[k] == 0 || part[i] != parts || part[j] >= 0) continue;
+                part[j] = parts;
+                grown = true;
+            }
+        }
+        parts++;
+    }
+    return parts;
+}
+
+static enum impacts_end solve_whole(struct impacts *impacts)
+{
     if (impacts->count == 1) {
         strike(impacts, 0);
         return impacts_done;
     }
-    return impacts->propagate ? propagate(impacts) : all_together(impacts);
+    enum impacts_end end = impacts->propagate ? impacts_unsolvable : all_together(impacts);
+    /* Points that press on each other nearly along one line may be lost in rounding: one after the other
+     * their impacts are those of the same laws. */
+    bool lost = end == impacts_unsolvable && impacts->law != impact_newton;
+    return impacts->propagate || lost ? propagate(impacts) : end;
+}
+
+/* Points `member` of all; a part in which nothing closes is left as it is. */
+static enum impacts_end solve_part(struct impacts *all, const int *member, int count, double *room)
+{
+    int n = 2 * count, of = 2 * all->count;
+    double *W = room, *v = W + n * n, *P = v + n;
+    struct impacts_point *points = calloc((size_t)count, sizeof *points);
+    bool closes = false;
+    if (!points) return impacts_no_memory;
+    for (int i = 0; i < n; i++) {
+        int row = 2 * member[i / 2] + i % 2;
+        for (int j = 0; j < n; j++) W[i * n + j] = all->W[row * of + 2 * member[j / 2] + j % 2];
+        v[i] = all->v[row];
+        P[i] = 0;
+        points[i / 2] = all->points[member[i / 2]];
+        closes |= i % 2 == 0 && v[i] < 0;
+    }
+    struct impacts part = *all;
+    part.count = count;
+    part.points = points;
+    part.W = W;
+    part.v = v;
+    part.P = P;
+    part.work = 0;
+    enum impacts_end end = closes ? solve_whole(&part) : impacts_done;
+    for (int i = 0; i < n; i++) {
+        all->v[2 * member[i / 2] + i % 2] = v[i];
+        all->P[2 * member[i / 2] + i % 2] = P[i];
+    }
+    all->work += part.work;
+    free(points);
+    return end;
+}
+
+enum impacts_end impacts_solve(struct impacts *impacts)
+{
+    size_t count = (size_t)impacts->count, n = 2 * count;
+    int *part = calloc(2 * count + 1, sizeof *part), *member = part ? part + count : NULL;
+    double *room = calloc(n * n + 2 * n + 1, sizeof *room);
+    enum impacts_end end = part && room ? impacts_done : impacts_no_memory;
+    memset(impacts->P, 0, n * sizeof *impacts->P);
+    impacts->work = 0;
+    int parts = end == impacts_done ? find_parts(impacts, part) : 0;
+    for (int p = 0; p < parts && end == impacts_done; p++) {
+        int members = 0;
+        for (int i = 0; i < impacts->count; i++)
+            if (part[i] == p) member[members++] = i;
+        end = solve_part(impacts, member, members, room);
+    }
+    free(part);
+    free(room);
+    return end;
 }

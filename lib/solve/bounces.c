@@ -20,10 +20,9 @@ static const struct tree *tree_of(const struct run *run)
 
 /* The gap's acceleration where only the surfaces that stay closed act; by a trial of the modes as they are.
  */
-static double acceleration_of(struct run *run, int meeting, int feature)
+static double acceleration_of(struct run *run, int tie, int feature)
 {
     struct fbd_state *state = run->contacts.trial;
-    int tie = tree_of(run)->meetings[meeting].first_tie;
     state_copy(state, run->state);
     tie_set_feature(run->model, state->tree, tie, feature);
     state->slip[tree_of(run)->ties[tie].surface] = slip_plus;
@@ -85,6 +84,9 @@ static double leaving_speed(const struct run *run, int meeting, int count)
     return most;
 }
 
+/* Bounces that nobody sees: 1e-10 of the scene, a hundred times what counts as touching. */
+static const double low_share = 100;
+
 /* The impacts of striker i's meeting: do they end soon, in bounces that nobody sees? Then when. */
 static double end_of_series(struct run *run, int i, int count)
 {
@@ -93,19 +95,19 @@ static double end_of_series(struct run *run, int i, int count)
     int index = tree_of(run)->ties[striker->tie].meeting,
         feature = run->state->tree->ties[striker->tie].feature;
     struct bounces *bounces = &run->contacts.bounces[index];
-    double v = work->v[2 * i], near = meeting_near(run->model, run->state->tree, index);
+    double v = work->v[2 * i], unseen = low_share * meeting_near(run->model, run->state->tree, index);
     bool same = bounces->feature == feature && bounces->count > 0;
     remember(bounces, run->state->t, feature);
     double interval = bounces->t[0] - bounces->t[1], rise, left;
     if (same && v > 0) {
-        double a = -acceleration_of(run, index, feature);
+        double a = -acceleration_of(run, striker->tie, feature);
         if (!(a > 0)) return HUGE_VAL;
         rise = v * v / (2 * a);
-        if (rise > near || bounces->count < 3) return HUGE_VAL;
+        if (rise > unseen || bounces->count < 3) return HUGE_VAL;
         left = sum_of_bounces(run, index, v, a);
     } else {
         rise = leaving_speed(run, index, count) * interval;
-        if (bounces->count < 4 || rise > near) return HUGE_VAL;
+        if (bounces->count < 4 || rise > unseen) return HUGE_VAL;
         left = sum_of_rocking(bounces);
     }
     return run->state->t + left;
@@ -152,14 +154,19 @@ int contacts_settle_down(struct run *run)
 {
     const struct tree *tree = tree_of(run);
     struct contacts_work *work = &run->contacts;
-    const double wide = 10; /* a corner that is about to come down */
+    bool *was_touching = work->touching;
+    const double wide = 10 * low_share; /* a corner that is about to come down */
+    for (int i = 0; i < tree->tie_count; i++)
+        was_touching[i] = run->state->tree->ties[i].feature != no_feature;
     for (int i = 0; i < tree->meeting_count; i++) {
         double near = meeting_near(run->model, run->state->tree, i);
         contacts_find_touching(run, i, work->bounces[i].rests_from < HUGE_VAL ? wide * near : near);
     }
-    for (int i = 0; i < tree->tie_count; i++) { /* along their surfaces nothing is held */
+    for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
-        if (tie->kind == constraint_contact && tie->pair >= 0) run->state->slip[tie->pair] = slip_plus;
+        if (tie->kind != constraint_contact || tie->pair < 0) continue;
+        /* What comes down now holds nothing along its surface; what has stuck sticks. */
+        if (!was_touching[i]) run->state->slip[tie->pair] = slip_plus;
     }
     double before = kinetic(run->state);
     state_project(run->state, false);

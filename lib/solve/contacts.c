@@ -24,11 +24,12 @@ bool contacts_work_init(struct contacts_work *work, const struct fbd_model *mode
     work->rows = calloc(rows + model->plan.friction_count, sizeof *work->rows);
     work->W = calloc(rows * rows + rows * n + 2 * rows + 2 * n, sizeof *work->W);
     work->bounces = calloc((size_t)tree->meeting_count, sizeof *work->bounces);
-    work->was_closed = calloc(most, sizeof *work->was_closed);
+    work->was_closed = calloc(2 * most, sizeof *work->was_closed);
     work->asleep = calloc((size_t)tree->meeting_count, sizeof *work->asleep);
     work->trial = state_new(model);
     if (!work->asleep) return false;
     if (!work->was_closed || !work->trial) return false;
+    work->touching = work->was_closed + most;
     if (!work->strikers || !work->points || !work->rows || !work->W || !work->bounces) return false;
     work->modes = work->rows + rows;
     work->answers = work->W + rows * rows;
@@ -370,11 +371,10 @@ void run_wake_contacts(struct run *run, double end)
 
 void run_check_overlap(struct run *run)
 {
-    const double rounding = 10;
     double depth;
     if (run->contacts.most == 0 || run->outcome != FBD_GOING) return;
     int meeting = contacts_overlap(run->state, &depth);
-    if (meeting < 0 || depth <= rounding * meeting_near(run->model, run->state->tree, meeting)) return;
+    if (meeting < 0) return;
     run_fail(run, FBD_FAILED,
              "at t = %.9g the shapes of the contact `%s` are in each other by %.3g: the instant at which "
              "they met was "

@@ -43,6 +43,7 @@ struct contacts_work {
     double *W, *answers, *v, *P, *y;
     struct bounces *bounces; /* of each meeting */
     bool *asleep;            /* of each meeting: too far apart for the step */
+    bool *touching;          /* of each tie: scratch */
     bool *was_closed;        /* of each tie, when it was looked at last */
     struct fbd_state *trial;
     double speed; /* the largest of what has touched so far */

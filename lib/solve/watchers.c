@@ -206,18 +206,6 @@ static bool is_open_contact(const struct fbd_model *model, const struct friction
     return surface >= 0 && at->slip[surface] != stick;
 }
 
-/* A surface that only just touches is not left by a rounding: that of the weights that meet there. */
-static double lift_slack(const struct fbd_model *model, int tie)
-{
-    const double rounding = 1e-12;
-    double mass = 0;
-    for (int k = 0; k < 2; k++) {
-        int link = model->tree->ties[tie].end[k].link;
-        if (link > 0) mass += model->tree->links[link].mass;
-    }
-    return rounding * mass * vec_norm(model->scene->gravity);
-}
-
 /* While it is closed its normal force. */
 static double lift_value(const struct watcher *watcher, const struct view *view, double *rate)
 {
@@ -226,7 +214,7 @@ static double lift_value(const struct watcher *watcher, const struct view *view,
     *rate = 0;
     if (view->at.slip[watcher->index] != stick) return HUGE_VAL;
     *rate = -view->slots_along[friction->normal_slot];
-    return lift_slack(model, friction->tie) - view->slots[friction->normal_slot];
+    return contact_slack(model, friction->tie) - view->slots[friction->normal_slot];
 }
 
 /* Just after it has opened a gap is rounding, and rounding closes nothing. */
@@ -282,7 +270,10 @@ static double friction_value(const struct watcher *watcher, struct view *view, d
     bool kinetic = now->limit_kinetic > now->limit_static; /* as in friction_decide */
     *rate = (kinetic ? d->limit_kinetic : d->limit_static) - side * d->hold;
     /* A force that only just touches its limit does not break away by a rounding. */
-    return (kinetic ? now->limit_kinetic : now->limit_static) - side * now->hold + friction_rounding(now);
+    double slack = friction_rounding(now);
+    if (friction->tie >= 0 && model->tree->ties[friction->tie].meeting >= 0)
+        slack += contact_slack(model, friction->tie);
+    return (kinetic ? now->limit_kinetic : now->limit_static) - side * now->hold + slack;
 }
 
 static void kink_margins(const struct watchers *watchers, const struct kink *kink, const struct view *view)
