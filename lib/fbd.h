@@ -224,11 +224,13 @@ typedef enum fbd_event_kind {
     FBD_EVENT_ROPE_SLACK,   /* the tension of a rope reaches zero */
     FBD_EVENT_ROPE_TAUT,    /* a slack rope reaches its length: what that takes from the motion is a plastic
                                impact */
-    FBD_EVENT_SWITCH,       /* an expression passes from one branch to another (step, abs, if, ...) */
-    FBD_EVENT_IMPACT,       /* shapes of a contact strike each other */
-    FBD_EVENT_CONTACT,      /* they touch from now on */
-    FBD_EVENT_LIFT_OFF,     /* they part, without an impact */
-    FBD_EVENT_REST,         /* infinitely many impacts have ended: they touch from now on */
+    FBD_EVENT_LIFT_OFF, /* the normal force of what rolls or touches reaches zero, and it leaves its surface
+                         */
+    FBD_EVENT_LANDING,  /* it comes back to its line: a plastic impact (`force` is what it takes) */
+    FBD_EVENT_SWITCH,   /* an expression passes from one branch to another (step, abs, if, ...) */
+    FBD_EVENT_IMPACT,   /* shapes of a contact strike each other */
+    FBD_EVENT_CONTACT,  /* they touch from now on */
+    FBD_EVENT_REST,     /* infinitely many impacts have ended: they touch from now on */
 } fbd_event_kind;
 
 typedef struct fbd_event {
@@ -240,8 +242,8 @@ typedef struct fbd_event {
     double t_error; /* estimated error of t: NAN without error bars, INFINITY when it is not known */
 } fbd_event;
 
-/* "breakaway", "stick", "reversal", "contact_lost", "user", "rope_slack", "rope_taut", "switch", "impact",
- * "contact", "lift_off", "rest"; "" for none of them */
+/* "breakaway", "stick", "reversal", "contact_lost", "user", "rope_slack", "rope_taut", "lift_off", "landing",
+ * "switch", "impact", "contact", "rest"; "" for none of them */
 FBD_API const char *fbd_event_kind_name(fbd_event_kind kind);
 
 typedef enum fbd_outcome {

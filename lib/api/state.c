@@ -14,8 +14,11 @@ fbd_state *fbd_state_new(const fbd_model *model)
 {
     if (!model) return NULL;
     fbd_state *state = state_new(model);
-    if (state) modes_settle(state, NULL);
-    return state;
+    if (!state) return NULL;
+    modes_settle(state, NULL);
+    if (state->holds.found != holds_no_memory) return state;
+    state_free(state);
+    return NULL;
 }
 
 void fbd_state_free(fbd_state *state)
@@ -87,7 +90,7 @@ bool fbd_state_set_text(fbd_state *state, const char *name, const char *text, fb
 
 static bool close_state(fbd_state *state, fbd_errors *errors)
 {
-    if (!state->settled) modes_settle(state, NULL);
+    if (!state->settled) modes_settle(state, NULL); /* what does not settle is said by the check */
     if (state->model->assembles) state_project(state, true);
     state->settled = false;
     return start_check(state, "the state", errors);

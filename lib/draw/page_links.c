@@ -100,14 +100,54 @@ static void write_tie(struct text *text, const struct record *record, const stru
     text_printf(text, "\"side\":%d,\"force\":%d}", state->side[0], force_column(record, tie));
 }
 
+/* What contacts meet on the ground: {point, e, n} of a line, {corners} of a polygon. */
+static void write_surface(struct text *text, const struct constraint *source, int side)
+{
+    const struct polygon *polygon = source->contact.polygon;
+    struct vec e = vec_unit(source->along);
+    text_add(text, "{");
+    if (!polygon) {
+        json_vector_member(text, "point", source->point[1].where);
+        json_vector_member(text, "e", e);
+        text_add(text, "\"n\":");
+        json_vector(text, vec_scale(side, vec_perp(e)));
+    } else {
+        text_add(text, "\"corners\":[");
+        for (size_t i = 0; i < polygon->count; i++) {
+            json_comma(text, i);
+            json_vector(text, polygon->corners[i]);
+        }
+        text_add(text, "]");
+    }
+    text_add(text, "}");
+}
+
+static void write_surfaces(struct text *text, const fbd_result *result, const struct record *record)
+{
+    const struct tree *tree = record->model->tree;
+    size_t written = 0;
+    text_add(text, "\"surfaces\":[");
+    for (int i = 0; tree && i < tree->meeting_count; i++) {
+        const struct meeting *meeting = &tree->meetings[i];
+        const struct constraint *source = &record->model->scene->constraints[meeting->constraint];
+        if (!source->contact.line && !source->contact.polygon) continue;
+        json_comma(text, written++);
+        write_surface(text, source, result->start->tree->ties[meeting->first_tie].side[0]);
+    }
+    text_add(text, "],\n");
+}
+
 void page_ties_write(struct text *text, const fbd_result *result, const struct record *record)
 {
     const struct tree *tree = record->model->tree;
     int count = tree ? tree->tie_count : 0;
+    size_t written = 0;
     text_add(text, "\"ties\":[");
     for (int i = 0; i < count; i++) {
-        json_comma(text, (size_t)i);
+        if (tree->ties[i].kind == constraint_contact) continue; /* its shapes and its forces are drawn */
+        json_comma(text, written++);
         write_tie(text, record, &tree->ties[i], &result->start->tree->ties[i]);
     }
     text_add(text, "],\n");
+    write_surfaces(text, result, record);
 }

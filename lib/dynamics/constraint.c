@@ -284,27 +284,34 @@ void tie_rezero(const struct fbd_model *model, struct tree_work *work, int tie)
     work->ties[tie].zero += row_along(model, work, tie)->g.x;
 }
 
-/* ---- ropes */
+/* ---- what is one-sided */
 
-struct rope_state rope_at(const struct fbd_model *model, const struct instant *at, int tie)
+struct one_sided one_sided_at(const struct fbd_model *model, const struct instant *at, int pair)
 {
-    const struct tie *rope = &model->tree->ties[tie];
-    const struct row *row = &at->tree->rows[rope->first_row];
-    struct rope_state state = {row->g.x, row->g.x1, row->g.x2, -row->lambda, 0, 0, false};
-    double length = fabs(at->tree->ties[tie].zero), speed = 0, reach = 0;
-    for (int k = 0; k < rope->end_count; k++) {
-        const struct tree_state *s = &at->tree->links[rope->end[k].link];
-        double arm = rope->end[k].radius + vec_norm(rope->end[k].point);
-        reach = fmax(reach, vec_norm(s->p) + rope->end[k].radius);
+    const struct friction *hold = &model->plan.frictions[pair];
+    const struct tie *tie = &model->tree->ties[hold->tie];
+    const struct row *row = &at->tree->rows[tie->first_row];
+    bool rope = hold->kind == mode_rope;
+    double sign = rope ? 1 : -1, length = rope ? fabs(at->tree->ties[hold->tie].zero) : 0, reach = 0;
+    struct one_sided state = {.excess = sign * row->g.x,
+                              .rate = sign * row->g.x1,
+                              .acceleration = sign * row->g.x2,
+                              .force = -sign * row->lambda};
+    for (int k = 0; k < tie->end_count; k++) {
+        const struct tree_state *s = &at->tree->links[tie->end[k].link];
+        double arm = tie->end[k].radius + vec_norm(tie->end[k].point);
+        reach = fmax(reach, vec_norm(s->p) + tie->end[k].radius);
         /* What stands still as one joint takes back what another does has the rounding of both. */
-        for (int l = rope->end[k].link; l > 0; l = model->tree->links[l].parent) {
+        for (int l = tie->end[k].link; l > 0; l = model->tree->links[l].parent) {
             const struct tree_state *below = &at->tree->links[l];
-            speed = fmax(speed, vec_norm(below->v) + fabs(below->omega) * arm);
+            state.speed = fmax(state.speed, vec_norm(below->v) + fabs(below->omega) * arm);
         }
     }
     length += reach;
     state.rounding = 16 * DBL_EPSILON * length;
     state.near = 1e-9 * length;
-    state.touches = fabs(state.excess) <= state.near && fabs(state.rate) <= 1e-10 * speed;
+    state.touches = fabs(state.excess) <= state.near && fabs(state.rate) <= 1e-10 * state.speed;
+    state.parts = state.rate < -1e-6 * state.speed;
+    state.meets = state.rate > 1e-6 * state.speed;
     return state;
 }

@@ -67,15 +67,18 @@ struct slip_rate tie_slip(const struct fbd_model *model, const struct instant *a
 
 double tie_slip_acceleration(const struct fbd_model *model, const struct instant *at, int tie);
 
-/* A rope: how it is, after accelerations() at the instant. */
-struct rope_state {
-    double excess, rate, acceleration; /* of its way over its length, and how that changes */
-    double tension;
-    double rounding; /* of the excess */
-    double near;     /* what the place of an event leaves of it, against the size of rope and scene */
-    bool touches;    /* just taut to rounding, in length and rate */
+/* What is one-sided: how it is, after accelerations() at the instant. The excess is that of a rope's way over
+ * its length, or how far what rolls is within its line; it never is more than zero. */
+struct one_sided {
+    double excess, rate, acceleration; /* and how it changes */
+    double force;                      /* tension, or normal force */
+    double rounding;                   /* of the excess */
+    double near;       /* what the place of an event leaves of it, against the size of rope and scene */
+    double speed;      /* that the rate is made of */
+    bool touches;      /* just closed to rounding, in length and rate */
+    bool parts, meets; /* it opens, closes with a speed that is not rounding */
 };
-struct rope_state rope_at(const struct fbd_model *model, const struct instant *at, int tie);
+struct one_sided one_sided_at(const struct fbd_model *model, const struct instant *at, int pair);
 
 /* The first place of a rope's way after which it has none to the next: a point on or within the rim of the
  * pulley beside it, or two pulleys between which it crosses and which overlap; -1 without one. */

@@ -10,7 +10,7 @@
  * Dry friction of slides that slip is in the same system: tau_k + c_k N_k = 0, with N_k the normal force, on
  * which all multipliers and all other frictions bear. So it is not symmetric, and is factored as L D U in its
  * envelope (Duff, Erisman and Reid, Direct Methods for Sparse Matrices, chapter 8), without pivoting: S is
- * positive definite, and friction shifts it by less than its diagonal.
+ * positive definite, and the corrections below make up for what a small pivot of friction rounds.
  *
  * Where a row says nothing that others do not say, always or in passing (all bars of a parallelogram in one
  * line), S is singular. So what is factored is S + epsilon D, and corrections by what is left over of the
@@ -58,7 +58,9 @@ bool tree_takes_part(const struct tree *tree, const struct instant *at, int k)
     const struct tie *tie = &tree->ties[tree->tie_of_row[k]];
     if (tie->kind == constraint_contact) return contact_takes_part(tie, at, k);
     bool has_mode = tie->kind == constraint_rope || (tie->pair >= 0 && k == tie->first_row + 1);
-    return !has_mode || at->slip[tie->pair] == stick;
+    int surface = tie->surface >= 0 ? at->slip[tie->surface] : stick;
+    bool open = surface != stick && (surface != loose || k == tie->first_row); /* what only rolls, rolls on */
+    return !open && (!has_mode || at->slip[tie->pair] == stick);
 }
 
 /* ---- forces of an unknown on the links */
@@ -101,7 +103,7 @@ static double row_answer(const struct tree_work *work, const struct tree *tree, 
 /* Does it slip on its surface, and rub? */
 static bool is_rubbing(const struct tie *tie, const struct instant *at)
 {
-    return tie_has_surface(tie) && tie->pair >= 0 && at->slip[tie->pair] != stick &&
+    return tie_has_surface(tie) && tie->pair >= 0 && slip_side(at->slip[tie->pair]) != 0 &&
            (tie->surface < 0 || at->slip[tie->surface] == stick);
 }
 
@@ -205,7 +207,8 @@ static void factor_row(const struct tree *tree, struct tree_work *work, int j, d
         *lower *= work->inverse[i];
         pivot -= *lower * *upper;
     }
-    bool movable = work->diagonal[unknown] > nothing * work->most;
+    /* Of friction the diagonal is 1 and what a normal force answers to it, which may well be less than -1. */
+    bool movable = !is_row(tree, unknown) || work->diagonal[unknown] > nothing * work->most;
     work->inverse[j] = movable && pivot != 0 ? 1 / pivot : 0;
     if (is_row(tree, unknown)) work->rows[unknown].redundant = !movable || !(pivot > 10 * shift);
 }

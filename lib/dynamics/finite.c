@@ -125,7 +125,7 @@ static bool note_limits(const struct fbd_state *state, struct not_finite *found)
     const struct instant at = state_instant(state);
     for (size_t i = 0; i < model->plan.friction_count; i++) {
         const struct friction *friction = &model->plan.frictions[i];
-        if (friction->rope || friction->driven) continue;
+        if (friction->kind != mode_friction) continue;
         const struct friction_values values = friction_at(model, (int)i, &at, state->slots);
         const struct load *source = model->loads[friction->load].source;
         const double limits[] = {values.limit_static, values.limit_kinetic};

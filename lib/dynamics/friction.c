@@ -6,7 +6,7 @@
 double friction_surface_speed(const struct friction *friction, const struct instant *at, double *acceleration)
 {
     *acceleration = 0;
-    if (friction->driven) {
+    if (friction->kind == mode_drive) {
         double speed, same;
         if (!friction->position.expr) return 0;
         expr_eval_second(friction->position.expr, at->t, at->y, 0, 0,
@@ -21,7 +21,7 @@ double friction_surface_speed(const struct friction *friction, const struct inst
 double friction_surface_jerk(const struct friction *friction, const struct instant *at)
 {
     double d_a, d_b, jerk = 0;
-    if (friction->driven && friction->position.expr) {
+    if (friction->kind == mode_drive && friction->position.expr) {
         /* Expressions know two derivatives; the third only enters how accelerations vary with time. */
         double h = 1e-4 * fmax(1, fabs(at->t)), low, high;
         const int *branch = formula_branches(&friction->position, at);
@@ -40,7 +40,7 @@ struct friction_values friction_at(const struct fbd_model *model, int pair, cons
 {
     const struct friction *friction = &model->plan.frictions[pair];
     struct friction_values values = {0};
-    if (friction->rope || friction->surface) return values;
+    if (mode_is_one_sided(friction)) return values;
     double press = 1; /* a bearing states its limits as moments */
     if (friction->normal_slot >= 0) {
         values.N = -slots[friction->normal_slot];
@@ -61,7 +61,7 @@ struct friction_values friction_along(const struct fbd_model *model, int pair, c
 {
     const struct friction *friction = &model->plan.frictions[pair];
     struct friction_values rate = {0};
-    if (friction->rope || friction->surface) return rate;
+    if (mode_is_one_sided(friction)) return rate;
     double press = 1, d_press = 0, d_mu;
     if (friction->normal_slot >= 0) {
         rate.N = -slots_along[friction->normal_slot];

@@ -13,8 +13,15 @@
 
 struct tree_work;
 
-/* What a friction pair does. */
-enum slip { slip_minus = -1, stick = 0, slip_plus = 1 };
+/* What a friction pair does; what is one-sided sticks while it is closed. `loose` is for trials: neither held
+ * nor rubbing. */
+enum slip { slip_minus = -1, stick = 0, slip_plus = 1, loose = 2 };
+
+/* The side on which a pair slips: 0 when it sticks or is loose. */
+static inline int slip_side(int slip)
+{
+    return slip == loose ? 0 : slip;
+}
 
 struct instant {
     double t;

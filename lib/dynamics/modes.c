@@ -16,6 +16,13 @@ double slip_velocity(const struct fbd_model *model, int pair, const struct insta
     return fabs(v - s) <= 4 * DBL_EPSILON * fabs(s) ? 0 : v - s;
 }
 
+double settling_velocity(const struct fbd_state *state, const struct decided *decided, int pair)
+{
+    struct instant at = state_instant(state);
+    if (decided && state->slip[pair] == stick && state->model->plan.frictions[pair].jointed) return 0;
+    return slip_velocity(state->model, pair, &at);
+}
+
 void modes_drive(struct fbd_state *state)
 {
     const struct plan *plan = &state->model->plan;
@@ -23,7 +30,7 @@ void modes_drive(struct fbd_state *state)
     double acceleration;
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
         const struct friction *friction = &plan->frictions[pair];
-        if (!friction->driven) continue;
+        if (friction->kind != mode_drive) continue;
         state->y[friction->coordinate] = formula_value(&friction->position, &at);
         state->y[plan->n + friction->coordinate] = friction_surface_speed(friction, &at, &acceleration);
     }
@@ -36,7 +43,8 @@ void modes_hold(struct fbd_state *state)
     double acceleration;
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
         const struct friction *friction = &plan->frictions[pair];
-        if (friction->driven) state->y[friction->coordinate] = formula_value(&friction->position, &at);
+        if (friction->kind == mode_drive)
+            state->y[friction->coordinate] = formula_value(&friction->position, &at);
         if (state->slip[pair] == stick && friction->tie < 0)
             state->y[plan->n + friction->coordinate] = friction_surface_speed(friction, &at, &acceleration);
     }
@@ -81,24 +89,28 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
     force_balance(model, &at, slots);
     force_balance_along(model, &at, flow, slots, slots_along);
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        if (plan->frictions[pair].two_sided && !(decided && decided->pulls[pair]))
-            state->pull[pair] = slots[plan->frictions[pair].normal_slot] > 0 ? -1 : 1;
-        if (plan->frictions[pair].driven || (decided && decided->slips[pair])) continue;
-        if (plan->frictions[pair].surface) continue; /* closed by impacts; with the others that rest */
-        if (plan->frictions[pair].rope) {
-            struct rope_state rope = rope_at(model, &at, plan->frictions[pair].tie);
-            if (rope.touches) continue; /* with the others that rest */
-            enum slip next = rope.rate > 0 && rope.excess > -rope.near ? stick : slip_plus;
-            if (state->slip[pair] == stick &&
-                fabs(rope.excess) <= 1e-6 * state->tree->ties[plan->frictions[pair].tie].zero)
-                next = stick; /* taut until its tension ends */
+        const struct friction *friction = &plan->frictions[pair];
+        if (friction->two_sided && !friction->jointed && !(decided && decided->pulls[pair])) {
+            int pull = slots[friction->normal_slot] > 0 ? -1 : 1;
+            same = same && (pull == state->pull[pair] || state->slip[pair] == stick);
+            state->pull[pair] = pull;
+        }
+        if (friction->kind == mode_drive || (decided && decided->slips[pair])) continue;
+        if (friction->kind == mode_contact) continue; /* closed by impacts; with the others that rest */
+        if (mode_is_one_sided(friction)) {
+            struct one_sided now = one_sided_at(model, &at, pair);
+            bool closed = state->slip[pair] == stick;
+            if (now.touches || (decided && closed)) continue; /* with the others that rest */
+            enum slip next = now.rate > 0 && now.excess > -now.near ? stick : slip_plus;
+            bool near = fabs(now.excess) <= 1e3 * now.near && !now.parts;
+            if (closed && near) next = stick; /* closed until its force ends */
             same = same && state->slip[pair] == (int)next;
             state->slip[pair] = next;
             continue;
         }
-        double v = slip_velocity(model, pair, &at);
+        double v = settling_velocity(state, decided, pair);
         enum slip next = v > 0 ? slip_plus : slip_minus;
-        if (v == 0 && plan->frictions[pair].jointed) continue; /* all of them together */
+        if (v == 0 && friction->jointed) continue; /* all of them together */
         if (v == 0) {
             struct friction_values now = friction_at(model, pair, &at, slots);
             struct friction_values rate = friction_along(model, pair, &at, slots, flow, slots_along);
@@ -107,7 +119,7 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
         same = same && state->slip[pair] == (int)next;
         state->slip[pair] = next;
     }
-    if (model->tree && plan->friction_count > 0) same = tree_settle_slips(state, decided) && same;
+    if (model->tree && plan->friction_count > 0) same = tree_settle_holds(state, decided) && same;
     return same;
 }
 
@@ -117,12 +129,15 @@ bool modes_settle(struct fbd_state *state, const struct decided *decided)
     const struct plan *plan = &state->model->plan;
     bool first = true;
     state->settled = true;
+    if (state->holds.found == holds_no_memory) return false; /* once is for good */
+    state->holds = (struct holds_trouble){.found = holds_decided, .pair = -1};
     for (int pass = 0; pass < most_passes; pass++) {
         state_evaluate(state);
         if (plan->kink_count + plan->friction_count == 0) return true;
         struct direction flow = flow_of(state);
         bool same = settle_branches(state, decided, &flow);
         if (plan->friction_count > 0) same = settle_slips(state, decided, &flow) && same;
+        if (state->holds.found >= holds_none) return false;
         if (same && !first) {
             modes_hold(state);
             state_evaluate(state);

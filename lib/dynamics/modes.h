@@ -24,12 +24,16 @@ struct decided {
  * whose forces fight at their thresholds). */
 bool modes_settle(struct fbd_state *state, const struct decided *decided);
 
-/* Of the pairs between jointed bodies that are at rest on their surfaces: which of them stick (tree_modes.c).
- * False when that has changed state->slip. */
-bool tree_settle_slips(struct fbd_state *state, const struct decided *decided);
+/* All holds between jointed bodies together: what sticks, what is taut or presses (tree_holds.c). False when
+ * that has changed state->slip; what is in the way stands in state->holds. */
+bool tree_settle_holds(struct fbd_state *state, const struct decided *decided);
 
 /* The velocity of a pair relative to its surface. */
 double slip_velocity(const struct fbd_model *model, int pair, const struct instant *at);
+
+/* The same for settling: in a run (with `decided`) what sticks between jointed bodies is at rest, whatever
+ * rounding the constraints leave; where all comes to rest there is nothing else to measure that against. */
+double settling_velocity(const struct fbd_state *state, const struct decided *decided, int pair);
 
 /* Give the rates of sticking coordinates the exact velocity of their surface. */
 void modes_hold(struct fbd_state *state);

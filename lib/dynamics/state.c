@@ -26,7 +26,7 @@ struct fbd_state *state_new(const struct fbd_model *model)
     size_t n = (size_t)plan->n, extended = extended_size(model);
     size_t extra = model->absolute_count > 0 ? 2 * extended : 0;
     size_t doubles = extended + n + (size_t)plan->slots + scratch_size(plan) + extra;
-    size_t ints = 2 * (size_t)plan->branches + 3 * plan->friction_count;
+    size_t ints = 2 * (size_t)plan->branches + 4 * plan->friction_count;
     size_t tree = model->tree ? sizeof(struct tree_work) + tree_work_size(model) : 0;
     struct fbd_state *state = calloc(1, sizeof *state + tree + doubles * sizeof(double) + ints * sizeof(int));
     if (!state) return NULL;
@@ -47,6 +47,7 @@ struct fbd_state *state_new(const struct fbd_model *model)
     state->pull = state->slip + plan->friction_count;
     state->branch_before = state->pull + plan->friction_count;
     state->slip_before = state->branch_before + plan->branches;
+    state->slip_forced = state->slip_before + plan->friction_count;
     for (size_t i = 0; i < n; i++) {
         state->y[i] = model->scene->coordinates[i].initial;
         state->y[n + i] = model->scene->coordinates[i].initial_rate;

@@ -7,20 +7,30 @@
 #define FBD_DYNAMICS_STATE_H
 
 #include "dynamics/forward.h"
+#include "holds/holds.h"
+
+/* Why holds could not be decided, or that they could be in several ways: `pair` is a friction whose normal
+ * force answers to it, 1 N of it with `answer` N more of what presses; -1 when that is not it. */
+struct holds_trouble {
+    enum holds_found found;
+    int pair;
+    double answer;
+};
 
 struct fbd_state {
     const struct fbd_model *model;
-    bool settled; /* the modes agree with t and y */
+    bool settled;               /* the modes agree with t and y */
+    struct holds_trouble holds; /* of the last settling */
     double t;
     double *y;     /* 2 n: coordinates, then rates; then what absolute.h adds, by state_evaluate */
     double *a;     /* n: accelerations, by state_evaluate */
     double *slots; /* plan.slots: generalized forces, by state_evaluate */
-    int *branch, *slip, *pull; /* modes, see instant.h */
-    int *branch_before;        /* scratch for settling: plan.branches */
-    int *slip_before;          /* and plan.friction_count */
-    double *scratch;           /* 2 plan.slots + 3 n */
-    double *extended;          /* scratch of absolute.h */
-    struct tree_work *tree;    /* of the jointed bodies, by state_evaluate; NULL when there are none */
+    int *branch, *slip, *pull;      /* modes, see instant.h */
+    int *branch_before;             /* scratch for settling: plan.branches */
+    int *slip_before, *slip_forced; /* and plan.friction_count each */
+    double *scratch;                /* 2 plan.slots + 3 n */
+    double *extended;               /* scratch of absolute.h */
+    struct tree_work *tree;         /* of the jointed bodies, by state_evaluate; NULL when there are none */
 };
 
 /* A state at the scene's initial values, t = 0, modes not yet settled. NULL when memory is out. */

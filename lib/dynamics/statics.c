@@ -14,16 +14,16 @@
 /* -1 or +1 for a surface that moves under the body, 0 when it is at rest as well. */
 static enum slip slip_at_rest(const struct friction *friction, const struct instant *at)
 {
-    if (friction->tie >= 0 || friction->driven) return stick;
+    if (friction->tie >= 0 || friction->kind == mode_drive) return stick;
     double acceleration, speed = friction_surface_speed(friction, at, &acceleration);
     return speed > 0 ? slip_minus : speed < 0 ? slip_plus : stick;
 }
 
-static enum slip rope_at_rest(const struct fbd_state *state, int tie)
+static enum slip one_sided_at_rest(const struct fbd_state *state, int pair)
 {
     struct instant at = state_instant(state);
-    struct rope_state rope = rope_at(state->model, &at, tie);
-    return rope.touches || rope.excess > 0 ? stick : slip_plus;
+    struct one_sided now = one_sided_at(state->model, &at, pair);
+    return now.touches || now.excess > 0 ? stick : slip_plus;
 }
 
 static void stop(struct fbd_state *state)
@@ -44,8 +44,8 @@ bool rest_begin(struct fbd_state *state)
     struct instant at = state_instant(state);
     for (int pair = 0; pair < (int)model->plan.friction_count; pair++) {
         const struct friction *friction = &model->plan.frictions[pair];
-        state->slip[pair] =
-            friction->rope ? (int)rope_at_rest(state, friction->tie) : (int)slip_at_rest(friction, &at);
+        state->slip[pair] = mode_is_one_sided(friction) ? (int)one_sided_at_rest(state, pair)
+                                                        : (int)slip_at_rest(friction, &at);
     }
     if (!model->tree) return true;
     for (int i = 0; i < model->tree->count; i++) {
@@ -122,7 +122,7 @@ static void add_slipping(struct fbd_state *state, const double *slots, bool load
     struct instant at = state_instant(state);
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
         const struct friction *friction = &plan->frictions[pair];
-        if (friction->rope || state->slip[pair] == stick) continue;
+        if (friction->tie >= 0 || state->slip[pair] == stick) continue;
         double press = friction->normal_slot >= 0 ? -state->pull[pair] * slots[friction->normal_slot] : loads;
         Q[friction->coordinate] -= state->slip[pair] * formula_value(&friction->mu_k, &at) * press;
     }

@@ -146,7 +146,7 @@ static void set_joint_forces(const struct fbd_model *model, const struct instant
         const struct tree_link *link = &tree->links[tree->watched[k]];
         if (link->pair < 0 || link->kind != motion_pivot || at->slip[link->pair] == stick) continue;
         x[tree->watched[k]].g -=
-            at->slip[link->pair] * formula_value(&model->plan.frictions[link->pair].mu_k, at);
+            slip_side(at->slip[link->pair]) * formula_value(&model->plan.frictions[link->pair].mu_k, at);
     }
 }
 

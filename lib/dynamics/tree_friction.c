@@ -16,8 +16,8 @@ bool tree_slips(const struct tree *tree, const struct instant *at)
 double tree_slip_share(const struct fbd_model *model, const struct instant *at, int i)
 {
     int pair = model->tree->links[i].pair;
-    if (at->slip[pair] == stick) return 0;
-    return at->slip[pair] * at->pull[pair] * formula_value(&model->plan.frictions[pair].mu_k, at);
+    int side = slip_side(at->slip[pair]);
+    return side == 0 ? 0 : side * at->pull[pair] * formula_value(&model->plan.frictions[pair].mu_k, at);
 }
 
 struct vec tree_normal(const struct tree *tree, const struct tree_work *work, int i)

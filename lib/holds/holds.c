@@ -206,10 +206,9 @@ static double weight(const struct hold_problem *problem, size_t i)
     return own > 0 ? 1 / sqrt(own) : 0;
 }
 
-/* What counts as no acceleration: rounding, and the corrections of the multipliers, of the largest. */
-static double rounding_of(const struct hold_problem *problem)
+/* What counts as no acceleration: a share of the largest, for rounding and the corrections of multipliers. */
+static double rounding_of(const struct hold_problem *problem, double share)
 {
-    const double rounding = 1e-9;
     double most = 0;
     for (size_t i = 0; i < problem->count; i++) {
         double size = fabs(problem->holds[i].free);
@@ -217,12 +216,12 @@ static double rounding_of(const struct hold_problem *problem)
             size = fmax(size, fabs(problem->A[i * problem->count + j] * problem->holds[j].force));
         most = fmax(most, weight(problem, i) * size);
     }
-    return rounding * most;
+    return share * most;
 }
 
 static void set_modes(struct hold_problem *problem)
 {
-    double zero = rounding_of(problem);
+    double zero = rounding_of(problem, 1e-11);
     for (size_t i = 0; i < problem->count; i++) {
         struct hold *hold = &problem->holds[i];
         double c = weight(problem, i) * hold->c;
@@ -273,11 +272,13 @@ static double press_of(const struct hold_problem *problem, const struct hold *ho
 /* What counts as no force along hold i. */
 static double force_rounding(const struct hold_problem *problem, size_t i)
 {
-    const double rounding = 1e-9;
+    const double rounding = 1e-9, beside = 1e-4;
     const struct hold *hold = &problem->holds[i];
     double own = problem->A[i * problem->count + i], size = fabs(hold->force);
     if (own > 0) size = fmax(size, fabs(hold->free) / own);
     if (hold->kind == hold_friction) size = fmax(size, hold->mu_s * press_of(problem, hold));
+    /* What presses on nothing has the rounding of what presses beside it. */
+    for (size_t j = 0; j < problem->count; j++) size = fmax(size, beside * fabs(problem->holds[j].force));
     return rounding * size;
 }
 
@@ -296,7 +297,7 @@ static bool agrees(const struct hold_problem *problem, size_t i, double zero)
 
 bool holds_agree(const struct hold_problem *problem)
 {
-    double zero = rounding_of(problem);
+    double zero = rounding_of(problem, 1e-9);
     for (size_t i = 0; i < problem->count; i++)
         if (!agrees(problem, i, zero)) return false;
     return true;

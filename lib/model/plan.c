@@ -321,7 +321,7 @@ static void plan_normals(struct fbd_model *model)
         if (normal < 0 || (model->loads[normal].source->two_sided && !rubs)) continue;
         body->normal_slot = plan->slots++;
         if (!model->loads[normal].source->two_sided)
-            plan->contacts[plan->contact_count++] = (struct contact){(int)b, normal, body->normal_slot};
+            plan->contacts[plan->contact_count++] = (struct contact){(int)b, normal, body->normal_slot, -1};
     }
 }
 
@@ -349,7 +349,8 @@ static bool allocate(struct builder *builder)
     plan->forces = ARENA_ARRAY(arena, 2 * loads, struct force_term);
     plan->frictions =
         ARENA_ARRAY(arena, loads + 8 * model->scene->constraint_count + 2 * ties, struct friction);
-    plan->contacts = ARENA_ARRAY(arena, model->body_count + model->scene->constraint_count, struct contact);
+    plan->contacts =
+        ARENA_ARRAY(arena, model->body_count + model->scene->constraint_count + ties, struct contact);
     plan->offsets = ARENA_ARRAY(arena, model->body_count, struct offset_body);
     plan->bodies = ARENA_ARRAY(arena, model->body_count, struct body_terms);
     plan->slot_constant = ARENA_ARRAY(arena, most_slots, bool);

@@ -85,26 +85,39 @@ struct force_term {
     struct formula value, angle;
 };
 
-/* One friction pair: a body on its slide, or a bearing. */
+/* What a mode is the mode of. What is one-sided is closed (`stick`) or open (`slip_plus`). */
+enum mode_kind {
+    mode_friction, /* a body on its slide, what rolls, or a bearing */
+    mode_rope,     /* one-sided: taut or slack; see tie.h */
+    mode_surface,  /* one-sided: what rolls presses on its line or has left it */
+    mode_contact,  /* one-sided: shapes touch or are apart; see contact.h */
+    mode_drive     /* always sticks, and `position` says where */
+};
+
+/* One hold with a mode: dry friction, and what stands in the same list. */
 struct friction {
+    enum mode_kind kind;
     int body, load, coordinate;
     int normal_slot; /* -1 for a bearing, whose limits are moments */
     bool two_sided;  /* a guide: friction goes with |N| */
     struct formula mu_s, mu_k, surface_speed;
-    bool moving;    /* the surface moves */
-    double inertia; /* m or I_O; 0 when jointed */
-    int hold_slot;  /* the force needed to hold is inertia times acceleration minus this slot */
-    int tie;        /* of a rolling body: index into tree.ties; else -1, and `coordinate` slips */
-    bool driven;    /* no friction: it always sticks, and `position` says where */
-    struct formula position;
-    bool rope;    /* no friction: `stick` is taut, `slip_plus` is slack; see tie.h */
-    bool surface; /* no friction: `stick` is closed, `slip_plus` is open; see contact.h */
-    bool jointed; /* between jointed bodies: the tree finds N and what holds */
+    bool moving;             /* the surface moves */
+    double inertia;          /* m or I_O; 0 when jointed */
+    int hold_slot;           /* the force needed to hold is inertia times acceleration minus this slot */
+    int tie;                 /* of a rolling body: index into tree.ties; else -1, and `coordinate` slips */
+    struct formula position; /* of a drive */
+    bool jointed;            /* between jointed bodies: the tree finds N and what holds */
 };
 
-/* A normal force that must not become a pull. */
+static inline bool mode_is_one_sided(const struct friction *friction)
+{
+    return friction->kind == mode_rope || friction->kind == mode_surface || friction->kind == mode_contact;
+}
+
+/* A normal force that must not become a pull: `pair` is the mode that opens then, or -1 where the body has
+ * no freedom to leave its surface, which ends the run. */
 struct contact {
-    int body, load, slot;
+    int body, load, slot, pair;
 };
 
 /* The switches of one formula (see expr.h). */

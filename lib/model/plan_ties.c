@@ -24,28 +24,35 @@ static void add_rubbing(struct builder *builder, struct tie *tie)
                           .jointed = true};
 }
 
+/* A surface that presses or is left. */
+static void add_surface(struct builder *builder, struct tie *tie, enum mode_kind kind)
+{
+    struct plan *plan = &builder->model->plan;
+    int body = tie->end[0].body;
+    tie->normal_slot = plan->slots++;
+    tie->surface = (int)plan->friction_count;
+    plan->contacts[plan->contact_count++] = (struct contact){body, tie->load, tie->normal_slot, tie->surface};
+    plan->frictions[plan->friction_count++] =
+        (struct friction){.kind = kind,
+                          .body = body,
+                          .load = tie->load,
+                          .normal_slot = -1,
+                          .hold_slot = 0,
+                          .tie = (int)(tie - builder->model->tree->ties),
+                          .jointed = true};
+}
+
 /* A rolling body presses on its line, and its friction, when it has coefficients, sticks or slips. */
 static void plan_roll(struct builder *builder, struct tie *tie)
 {
-    struct plan *plan = &builder->model->plan;
-    tie->normal_slot = plan->slots++;
-    plan->contacts[plan->contact_count++] = (struct contact){tie->end[0].body, tie->load, tie->normal_slot};
+    add_surface(builder, tie, mode_surface);
     if (builder->model->scene->constraints[tie->constraint].mu_s.expr) add_rubbing(builder, tie);
 }
 
 /* A contact is closed or open, and rubs while it is closed. */
 static void plan_contact(struct builder *builder, struct tie *tie)
 {
-    struct plan *plan = &builder->model->plan;
-    tie->normal_slot = plan->slots++;
-    tie->surface = (int)plan->friction_count;
-    plan->frictions[plan->friction_count++] =
-        (struct friction){.body = tie->end[0].body,
-                          .load = tie->load,
-                          .normal_slot = tie->normal_slot,
-                          .tie = (int)(tie - builder->model->tree->ties),
-                          .surface = true,
-                          .jointed = true};
+    add_surface(builder, tie, mode_contact);
     if (builder->model->scene->constraints[tie->constraint].mu_s.expr) add_rubbing(builder, tie);
 }
 
@@ -56,12 +63,12 @@ static void plan_rope(struct fbd_model *model, struct tie *tie)
     int first = 0;
     while (tie->end[first].body < 0) first++; /* a piece begins or ends at a body */
     tie->pair = (int)plan->friction_count;
-    plan->frictions[plan->friction_count++] = (struct friction){.body = tie->end[first].body,
+    plan->frictions[plan->friction_count++] = (struct friction){.kind = mode_rope,
+                                                                .body = tie->end[first].body,
                                                                 .load = tie->load,
                                                                 .normal_slot = -1,
                                                                 .hold_slot = 0,
                                                                 .tie = (int)(tie - model->tree->ties),
-                                                                .rope = true,
                                                                 .jointed = true};
 }
 
@@ -73,13 +80,13 @@ static void plan_drive(struct builder *builder, struct model_body *body)
     if (body->drive < 0) return;
     body->drive_pair = (int)plan->friction_count;
     plan->frictions[plan->friction_count++] =
-        (struct friction){.body = b,
+        (struct friction){.kind = mode_drive,
+                          .body = b,
                           .load = body->drive,
                           .coordinate = body->first,
                           .normal_slot = -1,
                           .hold_slot = plan->slots++,
                           .tie = -1,
-                          .driven = true,
                           .position =
                               builder_formula(builder, &body->source->motion.prescribed, b, body->drive),
                           .jointed = true};

@@ -149,11 +149,10 @@ static enum lcp run(struct tableau *tableau)
 }
 
 /* A x = b, b becomes x; false when A is singular to rounding. */
-static bool solve(size_t n, double *A, double *b)
+static bool solve(size_t n, double *A, size_t *pivot, double *b)
 {
     const double singular = 1e-13;
-    size_t *pivot = calloc(n + 1, sizeof *pivot);
-    bool regular = pivot && lu_decompose(n, A, pivot);
+    bool regular = lu_decompose(n, A, pivot);
     double least = HUGE_VAL, most = 0;
     for (size_t i = 0; i < n; i++) {
         least = fmin(least, fabs(A[i * n + i]));
@@ -161,7 +160,6 @@ static bool solve(size_t n, double *A, double *b)
     }
     regular = regular && least > singular * most;
     if (regular) lu_solve(n, A, pivot, b);
-    free(pivot);
     return regular;
 }
 
@@ -170,7 +168,8 @@ static bool polish(const struct tableau *tableau, const double *M, const double 
 {
     size_t n = tableau->n;
     double *A = calloc(n * n + n + 1, sizeof *A), *x = A ? A + n * n : NULL;
-    bool *is_z = calloc(n + 1, sizeof *is_z), made = A && is_z;
+    size_t *pivot = calloc(n + 1, sizeof *pivot);
+    bool *is_z = calloc(n + 1, sizeof *is_z), made = A && pivot && is_z;
     for (size_t i = 0; made && i < n; i++)
         if (tableau->basic[i] >= n && tableau->basic[i] < 2 * n) is_z[tableau->basic[i] - n] = true;
     for (size_t i = 0; made && i < n; i++) {
@@ -178,7 +177,7 @@ static bool polish(const struct tableau *tableau, const double *M, const double 
         for (size_t k = 0; k < n; k++)
             A[i * n + k] = is_z[k] ? -M[i * n + k] / (tableau->row[i] * tableau->column[k]) : i == k;
     }
-    if (made && solve(n, A, x)) {
+    if (made && solve(n, A, pivot, x)) {
         for (size_t k = 0; k < n; k++) {
             z[k] = is_z[k] ? x[k] / tableau->column[k] : 0;
             w[k] = is_z[k] ? 0 : x[k] * tableau->row[k];
@@ -194,6 +193,7 @@ static bool polish(const struct tableau *tableau, const double *M, const double 
         }
     }
     free(A);
+    free(pivot);
     free(is_z);
     return made;
 }

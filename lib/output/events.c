@@ -20,10 +20,11 @@ const char *fbd_event_kind_name(fbd_event_kind kind)
     case FBD_EVENT_USER: return "user";
     case FBD_EVENT_ROPE_SLACK: return "rope_slack";
     case FBD_EVENT_ROPE_TAUT: return "rope_taut";
+    case FBD_EVENT_LIFT_OFF: return "lift_off";
+    case FBD_EVENT_LANDING: return "landing";
     case FBD_EVENT_SWITCH: return "switch";
     case FBD_EVENT_IMPACT: return "impact";
     case FBD_EVENT_CONTACT: return "contact";
-    case FBD_EVENT_LIFT_OFF: return "lift_off";
     case FBD_EVENT_REST: return "rest";
     }
     return "";
@@ -100,10 +101,19 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
         return;
     case FBD_EVENT_IMPACT: impact_detail(model, event, name, detail, size); return;
     case FBD_EVENT_CONTACT: snprintf(detail, size, "%s closes", name); return;
-    case FBD_EVENT_LIFT_OFF: snprintf(detail, size, "%s opens", name); return;
     case FBD_EVENT_REST:
         snprintf(detail, size, "%s is closed after %d impacts and infinitely many too small to see", name,
                  (int)event->limit);
+        return;
+    case FBD_EVENT_LIFT_OFF:
+        if (event->load >= 0 && model->loads[event->load].source->kind == load_contact)
+            snprintf(detail, size, "%s opens", name);
+        else
+            snprintf(detail, size, "%.*s leaves its line", (int)strcspn(name, "."), name);
+        return;
+    case FBD_EVENT_LANDING:
+        format_into(detail, size, "%.*s is on its line again; the impact takes %.6g %s",
+                    (int)strcspn(name, "."), name, event->force, energy_unit(model));
         return;
     case FBD_EVENT_SWITCH:
         snprintf(detail, size, "%s passes to another branch", name[0] ? name : "an event");

@@ -106,7 +106,8 @@ static void write_dependence(struct text *text, const struct fbd_model *model)
 static size_t watched_contacts(const struct plan *plan)
 {
     size_t count = 0;
-    for (size_t i = 0; i < plan->contact_count; i++) count += !plan->slot_constant[plan->contacts[i].slot];
+    for (size_t i = 0; i < plan->contact_count; i++)
+        count += plan->contacts[i].pair >= 0 || !plan->slot_constant[plan->contacts[i].slot];
     return count;
 }
 

@@ -72,7 +72,7 @@ static bool follow_prescribed(struct fbd_state *state)
 static bool is_driven(const struct fbd_model *model)
 {
     for (size_t k = 0; k < model->plan.friction_count; k++)
-        if (model->plan.frictions[k].driven) return true;
+        if (model->plan.frictions[k].kind == mode_drive) return true;
     return false;
 }
 
@@ -90,7 +90,7 @@ static bool draw_closed(gsl_rng *rng, struct fbd_state *state, const double *sta
     modes_drive(state);
     /* Round bodies slip as often as they roll. */
     for (size_t k = 0; k < model->plan.friction_count; k++)
-        if (model->plan.frictions[k].tie >= 0 && !model->plan.frictions[k].rope)
+        if (model->plan.frictions[k].tie >= 0 && model->plan.frictions[k].kind == mode_friction)
             state->slip[k] = between(rng, 0, 1) < 0.5 ? stick : slip_plus;
     return state_project(state, false);
 }
@@ -122,8 +122,11 @@ static bool admissible(struct fbd_state *state)
     if (!modes_settle(state, NULL)) return false;
     for (int i = 0; i < plan->n; i++)
         if (!isfinite(state->a[i])) return false;
-    for (size_t i = 0; i < plan->contact_count; i++)
-        if (-state->slots[plan->contacts[i].slot] < 0) return false;
+    for (size_t i = 0; i < plan->contact_count; i++) {
+        const struct contact *contact = &plan->contacts[i];
+        if (-state->slots[contact->slot] < 0) return false;
+        if (contact->pair >= 0 && state->slip[contact->pair] != stick) return false;
+    }
     return true;
 }
 

@@ -125,9 +125,9 @@ static bool overlong_rope(struct run *run, double most)
     const struct plan *plan = &run->model->plan;
     struct instant at = state_instant(run->state);
     for (size_t i = 0; i < plan->friction_count; i++) {
-        if (!plan->frictions[i].rope || run->state->slip[i] == stick) continue;
+        if (plan->frictions[i].kind != mode_rope || run->state->slip[i] == stick) continue;
         int tie = plan->frictions[i].tie;
-        double excess = rope_at(run->model, &at, tie).excess;
+        double excess = one_sided_at(run->model, &at, (int)i).excess;
         if (excess <= most) continue;
         run_fail(
             run, FBD_FAILED,

@@ -268,7 +268,7 @@ static void scatter_modes(const struct group *group, const struct fbd_state *par
         size_t pair = whole ? i : (size_t)group->pairs[i];
         state->slip[pair] = part->slip[i];
         state->pull[pair] = part->pull[i];
-        if (plan->frictions[i].surface) /* at which feature it is */
+        if (plan->frictions[i].kind == mode_contact) /* at which feature it is */
             state->tree->ties[state->model->plan.frictions[pair].tie] =
                 part->tree->ties[plan->frictions[i].tie];
     }

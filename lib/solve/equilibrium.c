@@ -421,14 +421,16 @@ static bool refuse(const struct fbd_state *state, fbd_errors *errors)
     const struct fbd_model *model = state->model;
     for (size_t pair = 0; pair < model->plan.friction_count; pair++) {
         const struct friction *friction = &model->plan.frictions[pair];
-        if (friction->rope || friction->tie >= 0) continue;
-        diag_add(errors, FBD_ERROR, friction->driven ? "not-independent" : "sticks",
-                 friction->driven ? model->bodies[friction->body].source->motion.at
-                                  : model->loads[friction->load].source->at,
-                 friction->driven ? "give it a place, --at, or a motion without `theta` or `x`"
-                                  : "leave the friction out to find the balance of the other forces",
-                 friction->driven ? "the motion of `%s` is prescribed: it is never at rest"
-                                  : "`%s` has dry friction: it rests in a range of places, not in one",
+        if (friction->tie >= 0) continue;
+        diag_add(errors, FBD_ERROR, friction->kind == mode_drive ? "not-independent" : "sticks",
+                 friction->kind == mode_drive ? model->bodies[friction->body].source->motion.at
+                                              : model->loads[friction->load].source->at,
+                 friction->kind == mode_drive
+                     ? "give it a place, --at, or a motion without `theta` or `x`"
+                     : "leave the friction out to find the balance of the other forces",
+                 friction->kind == mode_drive
+                     ? "the motion of `%s` is prescribed: it is never at rest"
+                     : "`%s` has dry friction: it rests in a range of places, not in one",
                  model->bodies[friction->body].name);
         return true;
     }

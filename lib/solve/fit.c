@@ -115,22 +115,24 @@ static void find_misses(struct fbd_state *state, struct miss *position, struct m
         const struct tie *tie = &tree->ties[tree->tie_of_row[j]];
         const struct jet g = state->tree->rows[j].g;
         bool held = tree_takes_part(tree, &at, j);
-        if (!held && tie->kind != constraint_rope) continue;
+        bool on_line = tie->kind == constraint_roll && j == tie->first_row; /* at the start, open or not */
+        if (!held && tie->kind != constraint_rope && !on_line) continue;
         find_size(state, tie, &size);
         double length = length_of(state, tie, j, &size), most = digits * length + rounding * size.place;
-        note_miss(position, j, held ? fabs(g.x) : g.x < 0 ? 0 : g.x, most, length);
+        note_miss(position, j, held || on_line ? fabs(g.x) : fmax(0, g.x), most, length);
         if (held) note_miss(velocity, j, fabs(g.x1), digits * size.speed, length);
     }
 }
 
-/* Ropes that are too long are pulled taut. */
+/* Ropes that are too long are pulled taut, what rolls is put on its line. */
 static void pull_taut(struct fbd_state *state)
 {
     const struct plan *plan = &state->model->plan;
     for (size_t i = 0; i < plan->friction_count; i++) {
-        const struct friction *rope = &plan->frictions[i];
-        if (rope->rope && state->tree->rows[state->model->tree->ties[rope->tie].first_row].g.x > 0)
-            state->slip[i] = stick;
+        const struct friction *hold = &plan->frictions[i];
+        if (!mode_is_one_sided(hold)) continue;
+        double g = state->tree->rows[state->model->tree->ties[hold->tie].first_row].g.x;
+        if (hold->kind == mode_surface || g > 0) state->slip[i] = stick;
     }
 }
 

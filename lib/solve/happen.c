@@ -84,9 +84,19 @@ static double kinetic(struct fbd_state *state)
     return sum;
 }
 
+/* What an impact brings to rest is at rest: what is left of its rates is rounding of those that were. */
+static void drop_rounding(struct run *run)
+{
+    const double rounding = 1e-14;
+    int n = run->model->plan.n;
+    const double *most = run->anchor + 2 * n;
+    for (int i = n; i < 2 * n; i++)
+        if (fabs(run->state->y[i]) <= rounding * most[i]) run->state->y[i] = 0;
+}
+
 /* A tension that ends is left to settling. A rope that becomes taut takes at once the velocities that would
  * lengthen it: a plastic impact, with the impulses that every other coupling needs for it. */
-static void rope_event(struct run *run, int pair)
+static void one_sided_event(struct run *run, int pair)
 {
     if (run->state->slip[pair] == stick) {
         run->state->slip[pair] = slip_plus;
@@ -96,6 +106,7 @@ static void rope_event(struct run *run, int pair)
     double before = kinetic(run->state);
     run->state->slip[pair] = stick;
     state_project_velocity(run->state, false);
+    drop_rounding(run);
     run->snap_pair = pair;
     run->snap_work = kinetic(run->state) - before;
     run->impact_work[run->model->plan.frictions[pair].load] += run->snap_work;
@@ -173,12 +184,11 @@ static void happen(struct run *run, const struct watcher *watcher, bool crossing
         run->state->pull[index] = -run->state->pull[index];
         run->decided.pulls[index] = true;
         break;
-    case watch_rope: rope_event(run, index); break;
-    case watch_lift: {
+    case watch_one_sided: one_sided_event(run, index); break;
+    case watch_lift:
         run->state->slip[index] = slip_plus;
         run->decided.slips[index] = true;
         break;
-    }
     case watch_gap:
     case watch_edge: run->contacts.due = true; break;
     case watch_contact: break; /* run_check_contacts */
@@ -190,15 +200,17 @@ static void happen(struct run *run, const struct watcher *watcher, bool crossing
 
 /* ---- after the modes have settled */
 
-static void note_rope(struct run *run, int pair, int before, int after)
+static void note_one_sided(struct run *run, int pair, int before, int after)
 {
     const struct friction *friction = &run->model->plan.frictions[pair];
+    bool rope = friction->kind == mode_rope;
     if (before == stick && after != stick)
-        run_note(run, FBD_EVENT_ROPE_SLACK, friction->body, friction->load, -1);
+        run_note(run, rope ? FBD_EVENT_ROPE_SLACK : FBD_EVENT_LIFT_OFF, friction->body, friction->load, -1);
     bool snapped = run->snap_pair == pair;
     run->snap_pair = -1;
     if (!snapped && (before == stick || after != stick)) return;
-    struct run_event *event = run_note(run, FBD_EVENT_ROPE_TAUT, friction->body, friction->load, -1);
+    struct run_event *event =
+        run_note(run, rope ? FBD_EVENT_ROPE_TAUT : FBD_EVENT_LANDING, friction->body, friction->load, -1);
     if (event) event->force = snapped ? -run->snap_work : 0;
 }
 
@@ -220,10 +232,10 @@ static void note_frictions(struct run *run, const bool *moving)
         for (size_t i = 0; moving && i < set->count; i++)
             stopped |=
                 moving[i] && set->watchers[i].kind == watch_slip_stop && set->watchers[i].index == pair;
-        if (run->model->plan.frictions[pair].surface) continue; /* run_release_contacts */
+        if (run->model->plan.frictions[pair].kind == mode_contact) continue; /* run_release_contacts */
         if (!rubbed_throughout(run, pair)) continue;
-        if (run->model->plan.frictions[pair].rope) {
-            note_rope(run, pair, before, after);
+        if (mode_is_one_sided(&run->model->plan.frictions[pair])) {
+            note_one_sided(run, pair, before, after);
             continue;
         }
         if (before == stick && after != stick) note_friction(run, FBD_EVENT_BREAKAWAY, pair);
@@ -241,6 +253,7 @@ void run_check_contacts(struct run *run)
     const struct fbd_model *model = run->model;
     for (size_t i = 0; i < model->plan.contact_count; i++) {
         const struct contact *contact = &model->plan.contacts[i];
+        if (contact->pair >= 0) continue;
         double N = -run->state->slots[contact->slot], slack = watchers_contact_slack(model, contact);
         if (N >= -slack) continue;
         struct run_event *event = run_note(run, FBD_EVENT_CONTACT_LOST, contact->body, contact->load, -1);
@@ -352,6 +365,19 @@ static void count_around(struct run *run)
     if (run->around > most_around && run->outcome == FBD_GOING) run_fail_chatter(run);
 }
 
+static void fail_unsettled(struct run *run)
+{
+    struct text when = {0}, words = {0};
+    bool memory = run->state->holds.found != holds_no_memory;
+    text_add(&when, "at t = ");
+    text_number(&when, run_time(run), 9);
+    if (memory && !when.failed) unsettled_words(run->state, when.data, &words);
+    memory = memory && !when.failed && !words.failed;
+    run_fail(run, memory ? FBD_FAILED : FBD_OUT_OF_MEMORY, "%s", memory ? words.data : "out of memory");
+    text_free(&when);
+    text_free(&words);
+}
+
 void run_apply(struct run *run, const bool *timed, const bool *moving)
 {
     const struct plan *plan = &run->model->plan;
@@ -367,10 +393,7 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
             if (crossed[s][i]) happen(run, &sets[s]->watchers[i], crossing);
     if (run->contacts.due) run_contacts(run);
     run->contacts.due = false;
-    if (!modes_settle(run->state, &run->decided) && run->outcome == FBD_GOING)
-        run_fail(run, FBD_FAILED,
-                 "at t = %.9g no choice of branches and of stick or slip agrees with the forces. %s",
-                 run_time(run), unsettled_advice(run->model, -1));
+    if (!modes_settle(run->state, &run->decided) && run->outcome == FBD_GOING) fail_unsettled(run);
     note_frictions(run, moving);
     run_release_contacts(run);
     refuse_sliding(run, moving);

@@ -73,12 +73,44 @@ const char *unsettled_advice(const struct fbd_model *model, int load)
                  "`friction`";
 }
 
-static bool is_settled(const struct fbd_model *model, bool settled, struct lack *lack)
+void unsettled_words(const struct fbd_state *state, const char *when, struct text *text)
+{
+    const struct fbd_model *model = state->model;
+    const struct holds_trouble *holds = &state->holds;
+    if (holds->found == holds_none) {
+        text_printf(
+            text, "%s no forces within the limits of what holds agree with the motion: there is no solution",
+            when);
+        if (holds->pair < 0) return;
+        const struct friction *friction = &model->plan.frictions[holds->pair];
+        text_printf(
+            text,
+            ", as in Painleve's paradox. On `%s` each newton more of the normal force brings `%s` with it "
+            "that takes ",
+            model->bodies[friction->body].name, model->loads[friction->load].source->name);
+        text_number(text, holds->answer, 4);
+        text_add(
+            text,
+            " N of it away again, or adds as much. Rigid bodies do not tell what follows: less friction, "
+            "or end the run before by an event");
+    } else if (holds->found == holds_lost) {
+        text_printf(
+            text,
+            "%s no forces were found with which all that holds agrees, and there are too many ways to "
+            "hold or give way to try them all",
+            when);
+    } else {
+        text_printf(text, "%s no choice of branches and of stick or slip agrees with the forces. %s", when,
+                    unsettled_advice(model, -1));
+    }
+}
+
+static bool is_settled(const struct fbd_state *state, bool settled, struct lack *lack)
 {
     if (settled) return true;
-    lack->id = "unsettled";
-    text_add(&lack->text, "at the start no choice of branches and of stick or slip agrees with the forces. ");
-    text_add(&lack->text, unsettled_advice(model, -1));
+    if (state->holds.found == holds_no_memory) return false;
+    lack->id = state->holds.found == holds_none ? "no-solution" : "unsettled";
+    unsettled_words(state, "at the start", &lack->text);
     return false;
 }
 
@@ -102,6 +134,7 @@ static bool rests_on_surfaces(const struct fbd_state *state, struct lack *lack)
     const struct fbd_model *model = state->model;
     for (size_t i = 0; i < model->plan.contact_count; i++) {
         const struct contact *contact = &model->plan.contacts[i];
+        if (contact->pair >= 0) continue;
         double N = -state->slots[contact->slot];
         if (N >= -watchers_contact_slack(model, contact)) continue;
         lack->id = "leaves-surface";
@@ -132,11 +165,13 @@ static bool is_balanced(struct fbd_state *state, struct lack *lack)
 bool start_ready(struct fbd_state *state, struct fbd_state *other, const char *what, struct lack *lack)
 {
     bool settled = modes_settle(state, NULL);
+    *lack = (struct lack){0};
+    if (state->holds.found == holds_no_memory) return false;
     if (!start_fits(state, other, settled, what, lack)) return false;
     if (settled) state_project(state, false); /* what slips is not closed */
     settled = modes_settle(state, NULL);
-    return start_finite(state, lack) && is_settled(state->model, settled, lack) &&
-           rests_on_surfaces(state, lack) && is_solved(state, lack) && is_balanced(state, lack);
+    return start_finite(state, lack) && is_settled(state, settled, lack) && rests_on_surfaces(state, lack) &&
+           is_solved(state, lack) && is_balanced(state, lack);
 }
 
 bool start_question(struct fbd_state *state, bool modes, fbd_errors *errors)

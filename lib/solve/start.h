@@ -45,6 +45,9 @@ void start_contact_words(const struct fbd_model *model, const struct contact *co
 /* What is lacking, as a note in `errors`. */
 void lack_note(struct lack *lack, fbd_errors *errors);
 
+/* Why the holds and branches of a state do not settle, from what its last settling found. */
+void unsettled_words(const struct fbd_state *state, const char *when, struct text *text);
+
 /* What to do where no choice of stick or slip lasts. `load` is the load that goes back and forth, or -1 when
  * no one does. */
 const char *unsettled_advice(const struct fbd_model *model, int load);

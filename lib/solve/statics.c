@@ -38,6 +38,10 @@ static bool put_to_rest(struct fbd_state *state, fbd_errors *errors)
     if (settled && !is_finite(state, errors)) return false;
     if (settled && rest_begin(state)) return true; /* once more, where the start was brought to */
     if (!is_finite(state, errors)) return false;   /* nothing settles then */
+    if (state->holds.found == holds_no_memory) {
+        diag_out_of_memory(errors);
+        return false;
+    }
     diag_add(errors, FBD_ERROR, "unsettled", (struct pos){0, 0}, "look at another state, with --at",
              "at rest no choice of branches agrees with the forces");
     return false;
@@ -95,7 +99,8 @@ static bool find_limits(struct fbd_statics *statics, const struct rest_system *s
     for (size_t i = 0; statics->limits && i < count; i++) {
         struct rest_limit limit = rest_limit_at(system, i);
         if (limit.kind != limit_normal && statics->state->slip[limit.index] != stick) continue;
-        if (limit.kind != limit_normal && statics->model->plan.frictions[limit.index].driven) continue;
+        if (limit.kind != limit_normal && !rest_has_limit(&statics->model->plan.frictions[limit.index]))
+            continue;
         double slack = 2e-9 * system->force;
         bool holds =
             limit.kind == limit_friction ? limit.needed <= limit.may + slack : limit.needed >= -slack;

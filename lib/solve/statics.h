@@ -95,6 +95,12 @@ struct rest_limit {
     double needed, may; /* normal and rope: the force, and 0; friction: |F| and its limit */
 };
 
+/* Is what the mode limits an entry of its own? What a surface may do is that of its normal force. */
+static inline bool rest_has_limit(const struct friction *friction)
+{
+    return friction->kind == mode_friction || friction->kind == mode_rope;
+}
+
 /* The number of limits, and limit `index` in the state's present slots. */
 size_t rest_limits(const struct rest_system *system);
 struct rest_limit rest_limit_at(const struct rest_system *system, size_t index);

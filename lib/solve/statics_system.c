@@ -111,8 +111,8 @@ static void limit_values(const struct rest_system *system, const double *slots, 
     for (size_t i = 0; i < plan->friction_count; i++, next += 2) {
         const struct friction *friction = &plan->frictions[i];
         next[0] = next[1] = 0;
-        if (friction->driven || system->state->slip[i] != stick) continue;
-        if (friction->rope) {
+        if (!rest_has_limit(friction) || system->state->slip[i] != stick) continue;
+        if (friction->kind == mode_rope) {
             next[0] = -lambda[system->state->model->tree->ties[friction->tie].first_row];
             continue;
         }
@@ -148,10 +148,10 @@ struct rest_limit rest_limit_at(const struct rest_system *system, size_t index)
         return (struct rest_limit){limit_normal, (int)index, -slots[plan->contacts[index].slot], 0};
     int pair = (int)(index - plan->contact_count);
     const struct friction *friction = &plan->frictions[pair];
-    struct rest_limit limit = {friction->rope ? limit_rope : limit_friction, pair, 0, 0};
-    if (friction->driven || system->state->slip[pair] != stick) return limit;
+    struct rest_limit limit = {friction->kind == mode_rope ? limit_rope : limit_friction, pair, 0, 0};
+    if (!rest_has_limit(friction) || system->state->slip[pair] != stick) return limit;
     struct instant at = state_instant(system->state);
-    if (friction->rope) {
+    if (friction->kind == mode_rope) {
         limit.needed = -system->state->tree->rows[model->tree->ties[friction->tie].first_row].lambda;
         return limit;
     }

@@ -41,13 +41,13 @@ static void add_frictions(struct watchers *watchers, const struct plan *plan)
 {
     for (size_t i = 0; i < plan->friction_count; i++) {
         const struct friction *friction = &plan->frictions[i];
-        if (friction->driven) continue;
-        if (friction->rope) {
-            add(&watchers->moving, (struct watcher){watch_rope, (int)i, 0, 0, true});
+        if (friction->kind == mode_drive) continue;
+        if (friction->kind == mode_contact) {
+            add(&watchers->moving, (struct watcher){watch_lift, (int)i, 0, 0, true});
             continue;
         }
-        if (friction->surface) {
-            add(&watchers->moving, (struct watcher){watch_lift, (int)i, 0, 0, true});
+        if (mode_is_one_sided(friction)) {
+            add(&watchers->moving, (struct watcher){watch_one_sided, (int)i, 0, 0, true});
             continue;
         }
         bool moving_surface = friction->surface_speed.expr != NULL;
@@ -80,7 +80,7 @@ static void add_all(struct watchers *watchers, const struct fbd_model *model)
     add_frictions(watchers, plan);
     add_contacts(watchers, model->tree);
     for (size_t i = 0; i < plan->contact_count; i++)
-        if (!plan->slot_constant[plan->contacts[i].slot])
+        if (plan->contacts[i].pair < 0 && !plan->slot_constant[plan->contacts[i].slot])
             add(&watchers->moving, (struct watcher){watch_contact, (int)i, 0, 0, true});
     for (size_t i = 0; i < plan->watch_count; i++)
         add(&watchers->moving, (struct watcher){watch_user, (int)i, 0, 0, true});
@@ -183,27 +183,28 @@ static double user_value(const struct watch *watch, const struct view *view, dou
     return left - right;
 }
 
-/* Taut: the tension. Slack: what is left of its length; just after it has gone slack that is rounding, and
- * rounding makes nothing taut. */
-static double rope_value(const struct watcher *watcher, const struct view *view, double *rate)
+/* Closed: the force. Open: what is left to where it closes; just after it has opened that is rounding, and
+ * rounding closes nothing. */
+static double one_sided_value(const struct watcher *watcher, const struct view *view, double *rate)
 {
     const struct fbd_model *model = view->state->model;
     int tie = model->plan.frictions[watcher->index].tie;
-    struct rope_state rope = rope_at(model, &view->at, tie);
+    struct one_sided now = one_sided_at(model, &view->at, watcher->index);
     if (view->at.slip[watcher->index] != stick) {
-        *rate = -rope.rate;
-        return rope.rounding - rope.excess;
+        *rate = -now.rate;
+        return now.rounding - now.excess;
     }
-    *rate = -view->state->tree->z[model->tree->ties[tie].first_row];
-    return rope.tension;
+    double lambda_rate = view->state->tree->z[model->tree->ties[tie].first_row];
+    *rate = model->plan.frictions[watcher->index].kind == mode_rope ? -lambda_rate : lambda_rate;
+    return now.force;
 }
 
-/* Friction of a contact that is open. */
-static bool is_open_contact(const struct fbd_model *model, const struct friction *friction,
-                            const struct instant *at)
+/* What rolls or touches has left its surface: nothing rubs. */
+static bool is_off_its_surface(const struct view *view, const struct friction *friction)
 {
-    int surface = friction->tie >= 0 ? model->tree->ties[friction->tie].surface : -1;
-    return surface >= 0 && at->slip[surface] != stick;
+    if (friction->tie < 0) return false;
+    int surface = view->state->model->tree->ties[friction->tie].surface;
+    return surface >= 0 && view->at.slip[surface] != stick;
 }
 
 /* While it is closed its normal force. */
@@ -213,8 +214,9 @@ static double lift_value(const struct watcher *watcher, const struct view *view,
     const struct friction *friction = &model->plan.frictions[watcher->index];
     *rate = 0;
     if (view->at.slip[watcher->index] != stick) return HUGE_VAL;
-    *rate = -view->slots_along[friction->normal_slot];
-    return contact_slack(model, friction->tie) - view->slots[friction->normal_slot];
+    int slot = model->tree->ties[friction->tie].normal_slot;
+    *rate = -view->slots_along[slot];
+    return contact_slack(model, friction->tie) - view->slots[slot];
 }
 
 /* Just after it has opened a gap is rounding, and rounding closes nothing. */
@@ -247,7 +249,7 @@ static double friction_value(const struct watcher *watcher, struct view *view, d
     const struct friction *friction = &model->plan.frictions[watcher->index];
     int slip = view->at.slip[watcher->index];
     *rate = 0;
-    if (is_open_contact(model, friction, &view->at)) return HUGE_VAL;
+    if (is_off_its_surface(view, friction)) return HUGE_VAL;
     if (watcher->kind == watch_slip_stop) {
         if (slip == stick) return HUGE_VAL;
         if (friction->tie >= 0) {
@@ -295,7 +297,7 @@ static bool asks_forces(const struct watcher *watcher, const struct fbd_state *s
     case watch_lift:
     case watch_stick_limit: return state->slip[watcher->index] == stick;
     case watch_contact:
-    case watch_rope:
+    case watch_one_sided:
     case watch_normal_turns: break;
     }
     return true;
@@ -364,7 +366,7 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
             rates[i] *= armed;
             break;
         }
-        case watch_rope: values[i] = rope_value(watcher, &view, &rates[i]); break;
+        case watch_one_sided: values[i] = one_sided_value(watcher, &view, &rates[i]); break;
         case watch_lift: values[i] = lift_value(watcher, &view, &rates[i]); break;
         case watch_gap: values[i] = gap_value(watchers, watcher, &view, &rates[i]); break;
         case watch_edge: values[i] = edge_value(watcher, &view, &rates[i]); break;

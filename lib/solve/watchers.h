@@ -26,7 +26,7 @@ enum watcher_kind {
     watch_normal_turns, /* the normal force of a two-sided guide with friction changes its side; index: pair
                          */
     watch_contact,      /* a normal force reaches zero; index: contact */
-    watch_rope,         /* a taut rope goes slack, a slack one becomes taut; index: pair */
+    watch_one_sided,    /* a taut rope goes slack, a slack one becomes taut; index: pair */
     watch_lift,         /* the normal force of a closed contact reaches zero; index: pair */
     watch_gap,          /* shapes meet; index: meeting, part: probe (dynamics/contact.h) */
     watch_edge,         /* what touches comes to the end of a side; index: tie, end 0 or 1 */

@@ -157,7 +157,7 @@ bool watchers_can_enclose(const struct fbd_model *model, const struct watcher *w
         return false;
     if (watcher->kind == watch_contact) return is_plain_sum(model, plan->contacts[watcher->index].body);
     const struct friction *friction = &plan->frictions[watcher->index];
-    if (friction->rope || friction->tie >= 0) return false;
+    if (friction->tie >= 0) return false;
     if (watcher->kind == watch_slip_stop) return true;
     bool known = watcher->kind != watch_stick_limit || !friction->surface_speed.expr; /* its second rate */
     return known && !friction->jointed && is_plain_sum(model, friction->body);
@@ -206,7 +206,7 @@ static struct enclosure enclose_one(const struct watchers *watchers, const struc
     case watch_gap:
     case watch_edge:
     case watch_kink:
-    case watch_rope: break;
+    case watch_one_sided: break;
     }
     return enclosure_everything();
 }
@@ -281,7 +281,7 @@ void watchers_mark_used(const struct fbd_model *model, const struct watcher_set 
         case watch_lift:
         case watch_gap:
         case watch_edge:
-        case watch_rope: break;
+        case watch_one_sided: break;
         }
     }
 }

@@ -245,6 +245,7 @@ static void compare_jacobian(uint64_t seed, bool friction, int loops)
     at.y = y;
     for (size_t j = 0; j <= size; j++) {
         double difference[2 * most_coordinates] = {0};
+        if (j >= n && j < size && fabs(subject.state->y[j]) < 1e-15) continue; /* v |v| has a kink there */
         for (int k = 0; k < 4; k++) {
             memcpy(y, subject.state->y, size * sizeof *y);
             at.t = subject.state->t + (j == size ? place[k] * h : 0);

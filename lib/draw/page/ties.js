@@ -124,6 +124,7 @@ function tiePoints(frameOf) {
     }
     if (tie.span && tie.ends[1].body >= 0) points.push(...lineEnds(tie).map((p) => place(frameOf(tie.ends[1].body), ...p)));
   }
+  for (const { corners } of run.surfaces) if (corners) points.push(...corners);
   run.bodies.forEach((body, i) => {
     for (const p of body.joints) points.push(place(frameOf(i), ...p));
     if (body.wedge) for (const p of wedgeCorners(body)) points.push(place(frameOf(i), ...p));
@@ -134,6 +135,14 @@ function tiePoints(frameOf) {
 // ---- what does not move
 
 function drawStillTies() {
+  for (const { point, e, n, corners } of run.surfaces) {
+    if (!corners) {
+      drawSurface(point, e, n, 0);
+      continue;
+    }
+    path(corners.map((corner) => toScreen(corner)), true);
+    strokeWith(view.colour.line, 1.2);
+  }
   for (const tie of run.ties) {
     if (tie.kind === "roll" && tie.ends[1].body < 0) drawSurface(tie.ends[1].point, tie.e, tie.n, 0);
     tie.ends.forEach((end, k) => {

@@ -1,0 +1,421 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The holds between jointed bodies, decided together (holds/holds.h).
+ *
+ * While the modes that there are agree with the forces nothing is solved. Else all holds that touch are let
+ * loose, and what each of them does when it pushes with one unit is found by the recursion and the system of
+ * the constraints: a column of Delassus' matrix. What slips already is let loose with the others, since its
+ * friction goes with a normal force that is still to be found.
+ *
+ * At a limit to rounding the rates of change decide: the forces do not tell.
+ */
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dynamics/constraint.h"
+#include "dynamics/contact.h"
+#include "dynamics/modes.h"
+#include "dynamics/tree_system.h"
+
+/* ---- which holds are in question */
+
+struct gathered {
+    struct fbd_state *state;
+    struct instant at; /* with all of them loose */
+    struct hold_problem problem;
+    int *pair, *hold; /* of a hold; of a pair, or -1 */
+    int *link;        /* of a guide: whose slide */
+    int *trial;       /* modes with all of them loose */
+    const int *forced;
+};
+
+static const struct friction *pair_of(const struct fbd_state *state, int pair)
+{
+    return &state->model->plan.frictions[pair];
+}
+
+/* Is the line of what rolls, if that is what the friction is on, closed or to be decided? */
+static bool is_on_surface(const struct fbd_state *state, const struct friction *friction)
+{
+    if (friction->tie < 0) return true;
+    int surface = state->model->tree->ties[friction->tie].surface;
+    struct instant at = state_instant(state);
+    if (surface >= 0 && pair_of(state, surface)->kind == mode_contact)
+        return state->tree->ties[friction->tie].feature != no_feature;
+    return surface < 0 || state->slip[surface] == stick || one_sided_at(state->model, &at, surface).touches;
+}
+
+/* `forced`: modes that rates have decided, 0 where they have not. */
+static bool is_in_question(const struct fbd_state *state, const struct decided *decided, const int *forced,
+                           int pair)
+{
+    const struct friction *hold = pair_of(state, pair);
+    struct instant at = state_instant(state);
+    if (!hold->jointed || hold->kind == mode_drive) return false;
+    if (hold->kind == mode_friction) return is_on_surface(state, hold);
+    if (forced[pair] || (decided && decided->slips[pair])) return false;
+    if (hold->kind == mode_contact) return state->tree->ties[hold->tie].feature != no_feature;
+    struct one_sided now = one_sided_at(state->model, &at, pair);
+    return now.touches || (state->slip[pair] == stick && (decided || !(now.parts || now.meets)));
+}
+
+/* The side on which a friction slips whatever the forces are, 0 for one at rest. */
+static int slips_already(const struct fbd_state *state, const struct decided *decided, const int *forced,
+                         int pair)
+{
+    if (forced[pair]) return forced[pair];
+    if (decided && decided->slips[pair]) return state->slip[pair];
+    double v = settling_velocity(state, decided, pair);
+    return v > 0 ? 1 : v < 0 ? -1 : 0;
+}
+
+/* ---- one unit of a hold, and what answers */
+
+static int link_of(const struct fbd_state *state, int pair)
+{
+    return state->model->bodies[pair_of(state, pair)->body].place.link;
+}
+
+static const struct row *row_of(const struct fbd_state *state, const struct friction *hold)
+{
+    int first = state->model->tree->ties[hold->tie].first_row;
+    return &state->tree->rows[first + (hold->kind == mode_friction)];
+}
+
+/* A rope pulls against its row. */
+static int sign_of(const struct friction *hold)
+{
+    return hold->kind == mode_rope ? -1 : 1;
+}
+
+static void apply_unit(struct fbd_state *state, int pair)
+{
+    const struct friction *hold = pair_of(state, pair);
+    memset(state->tree->x, 0, (size_t)state->model->tree->count * sizeof *state->tree->x);
+    if (hold->tie >= 0)
+        row_apply(row_of(state, hold), sign_of(hold), state->tree->x);
+    else
+        state->tree->x[link_of(state, pair)].g = 1;
+}
+
+/* Add what the accelerations in work->x and work->unit are along hold i and to the guides, to column k. */
+static void add_answers(struct gathered *all, size_t k)
+{
+    struct fbd_state *state = all->state;
+    const struct tree *tree = state->model->tree;
+    size_t count = all->problem.count;
+    for (size_t i = 0; i < count; i++) {
+        const struct friction *hold = pair_of(state, all->pair[i]);
+        all->problem.A[i * count + k] +=
+            hold->tie < 0 ? state->tree->unit[hold->coordinate]
+                          : sign_of(hold) *
+                                tree_row_answer(state->tree, (int)(row_of(state, hold) - state->tree->rows));
+    }
+    for (size_t g = 0; g < all->problem.guide_count; g++)
+        all->problem.B[g * count + k] += tree_normal_in(tree, state->tree, all->link[g]);
+}
+
+/* What the constraints alone do not let move slips by rounding only. */
+static const double immovable = 1e-12;
+
+static void hold_still(struct gathered *all, size_t k)
+{
+    struct fbd_state *state = all->state;
+    const struct friction *hold = pair_of(state, all->pair[k]);
+    double surface;
+    all->problem.holds[k].slip = 0;
+    if (hold->kind == mode_friction && hold->tie < 0)
+        state->y[state->model->plan.n + hold->coordinate] = friction_surface_speed(hold, &all->at, &surface);
+}
+
+/* The links answer, and then the constraints that do not let them. */
+static void add_column(struct gathered *all, size_t k)
+{
+    struct fbd_state *state = all->state;
+    const struct tree *tree = state->model->tree;
+    struct tree_work *work = state->tree;
+    apply_unit(state, all->pair[k]);
+    tree_inward(tree, work, 1, tree->count);
+    tree_outward(tree, work, 1, tree->count, work->unit);
+    add_answers(all, k);
+    double alone = all->problem.A[k * all->problem.count + k];
+    if (tree->tie_count == 0) return;
+    for (int j = 0; j < tree_unknowns(tree); j++)
+        work->z[j] = j < tree->row_count ? -tree_row_answer(work, j) : 0;
+    tree_system_solve(state->model, &all->at, work->z);
+    add_answers(all, k);
+    if (all->problem.A[k * all->problem.count + k] <= immovable * alone) hold_still(all, k);
+}
+
+/* Without any hold. */
+static void set_free(struct gathered *all)
+{
+    struct fbd_state *state = all->state;
+    double *slots = state->scratch, surface;
+    accelerations(state->model, &all->at, slots, state->a);
+    for (size_t i = 0; i < all->problem.count; i++) {
+        const struct friction *hold = pair_of(state, all->pair[i]);
+        double *free = &all->problem.holds[i].free;
+        if (hold->tie >= 0) {
+            *free = sign_of(hold) * row_of(state, hold)->g.x2;
+        } else {
+            friction_surface_speed(hold, &all->at, &surface);
+            *free = state->a[hold->coordinate] - surface;
+        }
+    }
+    for (size_t g = 0; g < all->problem.guide_count; g++)
+        all->problem.guides[g].free = -slots[state->model->tree->links[all->link[g]].normal_slot];
+}
+
+/* ---- the problem */
+
+static void gathered_free(struct gathered *all)
+{
+    holds_free(&all->problem);
+    free(all->pair);
+}
+
+/* What presses on friction i: a hold of the same line, or the guide of its slide, which is noted. */
+static void set_press(struct gathered *all, size_t i, size_t *guides)
+{
+    struct hold *hold = &all->problem.holds[i];
+    const struct friction *friction = pair_of(all->state, all->pair[i]);
+    hold->press = press_constant;
+    if (friction->normal_slot < 0) return;
+    if (friction->tie >= 0) {
+        hold->press = press_hold;
+        hold->presses = all->hold[all->state->model->tree->ties[friction->tie].surface];
+        return;
+    }
+    hold->press = press_guide;
+    hold->presses = (int)*guides;
+    all->link[*guides] = link_of(all->state, all->pair[i]);
+    all->problem.guides[(*guides)++].two_sided = friction->two_sided;
+}
+
+static bool gather(struct gathered *all, struct fbd_state *state, const struct decided *decided,
+                   const int *forced)
+{
+    const struct plan *plan = &state->model->plan;
+    size_t pairs = plan->friction_count, count = 0, guides = 0;
+    struct instant at = state_instant(state);
+    *all = (struct gathered){.state = state, .pair = calloc(4 * pairs + 1, sizeof *all->pair)};
+    if (!all->pair) return false;
+    all->hold = all->pair + pairs;
+    all->link = all->hold + pairs;
+    all->trial = all->link + pairs;
+    memcpy(all->trial, state->slip, pairs * sizeof *all->trial);
+    for (size_t p = 0; p < pairs; p++) {
+        all->hold[p] = -1;
+        if (!is_in_question(state, decided, forced, (int)p)) continue;
+        const struct friction *hold = &plan->frictions[p];
+        guides += hold->tie < 0 && hold->normal_slot >= 0;
+        all->hold[p] = (int)count;
+        all->pair[count++] = (int)p;
+        all->trial[p] = loose;
+    }
+    if (!holds_new(&all->problem, count, guides)) return false;
+    guides = 0;
+    for (size_t i = 0; i < count; i++) {
+        const struct friction *friction = pair_of(state, all->pair[i]);
+        struct hold *hold = &all->problem.holds[i];
+        hold->kind = friction->kind == mode_friction ? hold_friction : hold_one_sided;
+        if (hold->kind == hold_one_sided) continue;
+        hold->mu_s = formula_value(&friction->mu_s, &at);
+        hold->mu_k = formula_value(&friction->mu_k, &at);
+        hold->slip = slips_already(state, decided, forced, all->pair[i]);
+        set_press(all, i, &guides);
+    }
+    all->at = at;
+    all->at.slip = all->trial;
+    set_free(all);
+    for (size_t k = 0; k < count; k++) add_column(all, k);
+    return true;
+}
+
+/* Painleve's paradox has a friction by which its own normal force grows: the one that does so most. */
+static struct holds_trouble trouble_of(const struct gathered *all, enum holds_found found)
+{
+    struct holds_trouble trouble = {.found = found, .pair = -1};
+    const struct hold_problem *problem = &all->problem;
+    for (size_t i = 0; i < problem->count; i++) {
+        const struct hold *hold = &problem->holds[i];
+        if (hold->kind != hold_friction || hold->press == press_constant) continue;
+        double answer = 0, own = problem->A[(size_t)hold->presses * problem->count + (size_t)hold->presses];
+        if (hold->press == press_guide) answer = problem->B[(size_t)hold->presses * problem->count + i];
+        if (hold->press == press_hold && own > 0)
+            answer = -problem->A[(size_t)hold->presses * problem->count + i] / own;
+        if (fabs(answer) * hold->mu_k <= fabs(trouble.answer)) continue;
+        trouble.answer = fabs(answer) * hold->mu_k;
+        trouble.pair = all->pair[i];
+    }
+    return trouble;
+}
+
+/* The side on which a guide with two sides presses. */
+static void set_pull(struct fbd_state *state, int pair, double N)
+{
+    if (pair_of(state, pair)->two_sided) state->pull[pair] = N < 0 ? -1 : 1;
+}
+
+/* Set the modes by pivoting. */
+static enum holds_found solve(struct fbd_state *state, const struct decided *decided, const int *forced)
+{
+    struct gathered all;
+    enum holds_found found = holds_no_memory;
+    if (gather(&all, state, decided, forced)) {
+        found = holds_decide(&all.problem);
+        if (found != holds_decided) state->holds = trouble_of(&all, found);
+    }
+    for (size_t i = 0; found <= holds_several && i < all.problem.count; i++) {
+        const struct hold *hold = &all.problem.holds[i];
+        state->slip[all.pair[i]] = hold->mode;
+        if (hold->press == press_guide && !(decided && decided->pulls[all.pair[i]]))
+            set_pull(state, all.pair[i], all.problem.guides[hold->presses].N);
+    }
+    if (found == holds_no_memory) state->holds.found = found;
+    gathered_free(&all);
+    return found;
+}
+
+/* ---- do the modes agree with the forces? */
+
+/* Forces and their rates of change in the present modes. */
+static void evaluate(struct fbd_state *state, double *slots, double *slots_along)
+{
+    const struct fbd_model *model = state->model;
+    size_t n = (size_t)model->plan.n;
+    double *dy = state->scratch + 2 * (size_t)model->plan.slots;
+    struct instant at = state_instant(state);
+    accelerations(model, &at, slots, state->a);
+    memcpy(dy, state->y + n, n * sizeof *dy);
+    memcpy(dy + n, state->a, n * sizeof *dy);
+    struct direction flow = {1, dy};
+    force_balance(model, &at, slots);
+    force_balance_along(model, &at, &flow, slots, slots_along);
+}
+
+/* Does a slipping pair turn back at once? */
+static bool turns_back(const struct fbd_state *state, int pair)
+{
+    const struct friction *friction = pair_of(state, pair);
+    struct instant at = state_instant(state);
+    double surface;
+    if (friction->tie >= 0)
+        return state->slip[pair] * tie_slip_acceleration(state->model, &at, friction->tie) < 0;
+    friction_surface_speed(friction, &at, &surface);
+    double a = state->a[friction->coordinate];
+    return state->slip[pair] * (a - surface) < -8 * DBL_EPSILON * (fabs(a) + fabs(surface));
+}
+
+/* The size that forces of constraints have: what zero is measured against. */
+static double largest_force(const struct fbd_state *state)
+{
+    double most = 0;
+    for (int j = 0; j < state->model->tree->row_count; j++)
+        most = fmax(most, fabs(state->tree->rows[j].lambda));
+    for (int i = 1; i < state->model->tree->count; i++) /* what only just touches has none of its own */
+        most = fmax(most, vec_norm(state->model->tree->links[i].force));
+    return most;
+}
+
+static bool is_on_contact(const struct fbd_state *state, const struct friction *hold)
+{
+    return hold->tie >= 0 && state->model->tree->ties[hold->tie].meeting >= 0;
+}
+
+/* What a hold that is in question has to become: itself where it agrees. At its limit to rounding the rate
+ * decides, and `by_rate` is set. */
+static int next_mode(const struct fbd_state *state, const double *slots, const double *slots_along, int pair,
+                     bool *by_rate)
+{
+    const double rounding = 1e-12;
+    const struct fbd_model *model = state->model;
+    const struct friction *hold = pair_of(state, pair);
+    struct instant at = state_instant(state);
+    *by_rate = false;
+    if (mode_is_one_sided(hold)) {
+        struct one_sided now = one_sided_at(model, &at, pair);
+        double small = rounding * largest_force(state);
+        if (state->slip[pair] != stick) return now.acceleration > 0 ? stick : state->slip[pair];
+        double rate = sign_of(hold) * state->tree->z[model->tree->ties[hold->tie].first_row];
+        *by_rate = fabs(now.force) <= small && rate < 0;
+        return now.force < -small || *by_rate ? slip_plus : stick;
+    }
+    if (state->slip[pair] != stick) return turns_back(state, pair) ? stick : state->slip[pair];
+    double *dy = state->scratch + 2 * (size_t)model->plan.slots;
+    struct direction flow = {1, dy};
+    struct friction_values now = friction_at(model, pair, &at, slots);
+    struct friction_values rate = friction_along(model, pair, &at, slots, &flow, slots_along);
+    double excess = fabs(now.hold) - fmax(now.limit_static, now.limit_kinetic);
+    if (is_on_contact(state, hold) && excess <= contact_slack(model, hold->tie)) return stick;
+    *by_rate = excess <= friction_rounding(&now);
+    return friction_decide(&now, &rate);
+}
+
+/* Does a slide that rubs press the wrong way? Where it sticks a guide takes the side on which it presses. */
+static bool pulls(struct fbd_state *state, const double *slots, const struct decided *decided, int pair)
+{
+    const struct friction *hold = pair_of(state, pair);
+    if (hold->kind != mode_friction || hold->tie >= 0 || hold->normal_slot < 0) return false;
+    double N = -slots[hold->normal_slot];
+    if (!hold->two_sided) return N < 0;
+    if (decided && decided->pulls[pair]) return false;
+    if (state->slip[pair] == stick) set_pull(state, pair, N);
+    return state->pull[pair] * N < 0;
+}
+
+enum agreement { agrees, differs, at_limit };
+
+/* `at_limit`: it differs by rates alone, and `which` is to become `next`. */
+static enum agreement look(struct fbd_state *state, const struct decided *decided, const int *forced,
+                           int *which, int *next)
+{
+    double *slots = state->scratch, *slots_along = slots + state->model->plan.slots;
+    enum agreement found = agrees;
+    evaluate(state, slots, slots_along);
+    for (int pair = 0; pair < (int)state->model->plan.friction_count; pair++) {
+        bool by_rate;
+        if (!is_in_question(state, decided, forced, pair)) continue;
+        if (pulls(state, slots, decided, pair)) return differs;
+        const struct friction *hold = pair_of(state, pair);
+        if (hold->kind == mode_friction && slips_already(state, decided, forced, pair) != 0) continue;
+        int mode = next_mode(state, slots, slots_along, pair, &by_rate);
+        if (mode == state->slip[pair]) continue;
+        if (!by_rate) return differs;
+        found = at_limit;
+        *which = pair;
+        *next = mode;
+    }
+    return found;
+}
+
+/* Solve, and let rates decide what is at its limit, one after the other. */
+static void decide(struct fbd_state *state, const struct decided *decided, int *forced)
+{
+    int count = (int)state->model->plan.friction_count, which, next;
+    for (int round = 0; round <= count; round++) {
+        if (solve(state, decided, forced) >= holds_none) return;
+        if (look(state, decided, forced, &which, &next) != at_limit) return;
+        forced[which] = next;
+        state->slip[which] = next;
+    }
+}
+
+bool tree_settle_holds(struct fbd_state *state, const struct decided *decided)
+{
+    int *before = state->slip_before, which, next;
+    size_t count = state->model->plan.friction_count, bytes = count * sizeof *before;
+    int *forced = state->slip_forced;
+    memcpy(before, state->slip, bytes);
+    memset(forced, 0, bytes);
+    for (int pair = 0; pair < (int)count; pair++) {
+        if (state->slip[pair] == stick || !is_in_question(state, decided, forced, pair)) continue;
+        const struct friction *hold = pair_of(state, pair);
+        bool rests = hold->kind != mode_friction || slips_already(state, decided, forced, pair) == 0;
+        if (rests) state->slip[pair] = stick; /* tried first */
+    }
+    if (look(state, decided, forced, &which, &next) != agrees) decide(state, decided, forced);
+    return memcmp(before, state->slip, bytes) == 0;
+}
