@@ -22,6 +22,7 @@ import json
 import math
 import re
 import shlex
+import signal
 import subprocess
 
 NUMBER = r"[-+0-9.e]+"
@@ -80,7 +81,7 @@ class Case:
         self.say = {"method": "by hand", "licence": "", "source": "", "options": "", "methods": "all", "model": "", "needs": ""}
         self.answers, self.question = [], []
         self.seconds, self.calls = 0.0, 0
-        self.method, self.limit = None, 60  # of every run from now on; None: the default; seconds that one may take
+        self.method, self.limit = None, 60  # of every run from now on; None: the default; processor seconds that one may take
         self.cache = {}
         for line in self._header():
             key, _, rest = line.partition(": ")
@@ -143,10 +144,10 @@ class Case:
         command.append(self.model)
         key = tuple(map(str, command))
         if key not in self.cache:
-            try:
-                done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=self.limit, check=False)
-            except subprocess.TimeoutExpired as late:
-                raise Refused(f"not done after {self.limit} s") from late
+            limited = ["sh", "-c", 'ulimit -t "$0"; exec "$@"', str(self.limit), *command]
+            done = subprocess.run(limited, stdin=subprocess.DEVNULL, capture_output=True, check=False)
+            if -done.returncode in (signal.SIGXCPU, signal.SIGKILL):
+                raise Refused(f"not done after {self.limit} s of processor time")
             if done.returncode not in may_end:
                 raise Refused(done.stderr.decode(errors="replace").strip() or f"exit code {done.returncode}")
             self.cache[key] = done.stdout.decode()
