@@ -218,8 +218,9 @@ static void note_one_sided(struct run *run, int pair, int before, int after)
 static bool rubbed_throughout(const struct run *run, int pair)
 {
     int tie = run->model->plan.frictions[pair].tie;
-    int surface = tie >= 0 ? run->model->tree->ties[tie].surface : -1;
-    return surface < 0 || (run->during->slip[surface] == stick && run->state->slip[surface] == stick);
+    if (tie < 0 || run->model->tree->ties[tie].kind != constraint_contact) return true;
+    int surface = run->model->tree->ties[tie].surface;
+    return run->during->slip[surface] == stick && run->state->slip[surface] == stick;
 }
 
 /* What each pair has done is read off its modes before and after, whichever event was the cause. */
