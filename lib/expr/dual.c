@@ -22,6 +22,12 @@ static inline double product_rate(double a, double b, double da, double db)
     return isnan(rate) ? along(b, da) + along(a, db) : rate;
 }
 
+static inline double quotient_rate(double b, double f, double da, double db)
+{
+    double rate = (da - f * db) / b;
+    return isnan(rate) ? along(1 / b, da) + along(-f / b, db) : rate;
+}
+
 /* Values and rates of variables and constants stand in the frame already. */
 static double run_dual(const struct expr *expr, double *v, double *d, const int *branch, double *derivative)
 {
@@ -52,7 +58,7 @@ static double run_dual(const struct expr *expr, double *v, double *d, const int 
             break;
         case op_divide:
             v[i->to] = a / b;
-            d[i->to] = (da - v[i->to] * db) / b;
+            d[i->to] = quotient_rate(b, v[i->to], da, db);
             break;
         case op_jump: i += i->extra; break;
         case op_jump_unless: i += a == 0 ? i->extra : 0; break;
@@ -94,13 +100,16 @@ static void step_hyper(const struct instr *i, const int *branch, struct hyper *h
 {
     struct slopes s;
     double p[2] = {h->p[i->a], h->p[i->b]}, q[2] = {h->q[i->a], h->q[i->b]},
-           pq[2] = {h->pq[i->a], h->pq[i->b]};
+           pq[2] = {h->pq[i->a], h->pq[i->b]}, divisor = h->v[i->b]; /* `to` may be one of them */
     op_slopes(i, h->v[i->a], h->v[i->b], branch, &s);
     h->v[i->to] = s.f;
     h->p[i->to] = along(s.a, p[0]) + along(s.b, p[1]);
     h->q[i->to] = along(s.a, q[0]) + along(s.b, q[1]);
     h->pq[i->to] = along(s.a, pq[0]) + along(s.b, pq[1]) + along(s.aa, p[0] * q[0]) +
                    along(s.ab, p[0] * q[1] + q[0] * p[1]) + along(s.bb, p[1] * q[1]);
+    if (i->op != op_divide) return;
+    h->p[i->to] = quotient_rate(divisor, s.f, p[0], p[1]); /* to the bit what run_dual has */
+    h->q[i->to] = quotient_rate(divisor, s.f, q[0], q[1]);
 }
 
 double expr_eval_second(const struct expr *expr, double t, const double *y, int slot_a, int slot_b,
