@@ -231,6 +231,8 @@ typedef enum fbd_event_kind {
     FBD_EVENT_IMPACT,   /* shapes of a contact strike each other */
     FBD_EVENT_CONTACT,  /* they touch from now on */
     FBD_EVENT_REST,     /* infinitely many impacts have ended: they touch from now on */
+    FBD_EVENT_SLIDING,  /* both branches of a switch lead back to it: the motion slides along it (Filippov) */
+    FBD_EVENT_SLIDING_ENDS, /* and goes on by one of them */
 } fbd_event_kind;
 
 typedef struct fbd_event {

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "dynamics/absolute.h"
+#include "dynamics/sliding.h"
 #include "dynamics/tree.h"
 
 /* ---- planar bodies whose frame's origin O is not their centre of mass
@@ -112,7 +113,8 @@ void body_accelerations(const struct fbd_model *model, int b, const struct insta
     if (rubs && !slips) friction_surface_speed(&plan->frictions[terms->friction], at, &a[body->first]);
 }
 
-void accelerations(const struct fbd_model *model, const struct instant *given, double *slots, double *a)
+void accelerations_at_shares(const struct fbd_model *model, const struct instant *given, double *slots,
+                             double *a)
 {
     struct instant extended;
     const struct instant *at = instant_with_places(model, given, &extended);
@@ -131,9 +133,16 @@ void accelerations(const struct fbd_model *model, const struct instant *given, d
     }
 }
 
-void accelerations_along(const struct fbd_model *model, const struct instant *given,
-                         const struct direction *direction, double *slots, double *slots_along,
-                         double *a_along)
+void accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a)
+{
+    if (at->sliding) sliding_solve(model, at);
+    accelerations_at_shares(model, at, slots, a);
+    if (at->sliding) sliding_clear_rounding(at->sliding, model->plan.n, a);
+}
+
+void accelerations_along_at_shares(const struct fbd_model *model, const struct instant *given,
+                                   const struct direction *direction, double *slots, double *slots_along,
+                                   double *a_along)
 {
     const struct plan *plan = &model->plan;
     const struct instant extended = instant_extend(model, given), *at = &extended;
@@ -155,6 +164,16 @@ void accelerations_along(const struct fbd_model *model, const struct instant *gi
         double jerk = friction_surface_jerk(friction, at);
         a_along[friction->coordinate] = jerk * along->dt;
     }
+}
+
+void accelerations_along(const struct fbd_model *model, const struct instant *at,
+                         const struct direction *along, double *slots, double *slots_along, double *a_along)
+{
+    if (at->sliding) {
+        sliding_solve(model, at);
+        sliding_solve_along(model, at, along);
+    }
+    accelerations_along_at_shares(model, at, along, slots, slots_along, a_along);
 }
 
 void body_rates(const struct fbd_model *model, int b, const struct instant *at, double *slots, double *dydt)

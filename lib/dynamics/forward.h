@@ -23,6 +23,13 @@ void force_balance_along(const struct fbd_model *model, const struct instant *gi
  * (a sticking coordinate's slot has none) and the sums across slides. */
 void accelerations(const struct fbd_model *model, const struct instant *given, double *slots, double *a);
 
+/* The same with the shares of switches that are slid on as they are (sliding.h). */
+void accelerations_at_shares(const struct fbd_model *model, const struct instant *given, double *slots,
+                             double *a);
+void accelerations_along_at_shares(const struct fbd_model *model, const struct instant *given,
+                                   const struct direction *direction, double *slots, double *slots_along,
+                                   double *a_along);
+
 /* The same for body `b` alone, which is not jointed: its entries of slots and a. The instant is extended
  * already (absolute.h). */
 void body_accelerations(const struct fbd_model *model, int b, const struct instant *at, double *slots,

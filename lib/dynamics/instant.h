@@ -12,6 +12,7 @@
 #include "model/model.h"
 
 struct tree_work;
+struct sliding;
 
 /* What a friction pair does; what is one-sided sticks while it is closed. `loose` is for trials: neither held
  * nor rubbing. */
@@ -29,8 +30,9 @@ struct instant {
     const int *branch; /* plan.branches: of the switches in formulas; NULL for plain values */
     const int *slip;   /* plan.friction_count: enum slip */
     const int *pull;   /* plan.friction_count: sign of the normal force of a two-sided guide, +1 otherwise */
-    struct tree_work *tree; /* scratch and results of the jointed bodies; NULL when there are none */
-    double *extended;       /* scratch of absolute.h; NULL when no expression names a place in the world */
+    struct tree_work *tree;  /* scratch and results of the jointed bodies; NULL when there are none */
+    double *extended;        /* scratch of absolute.h; NULL when no expression names a place in the world */
+    struct sliding *sliding; /* switches that the motion slides on; NULL when there are none */
 };
 
 /* A direction in which everything varies: (dt, dy). */
@@ -44,10 +46,16 @@ static inline const int *formula_branches(const struct formula *formula, const s
     return formula->branch < 0 || !at->branch ? NULL : at->branch + formula->branch;
 }
 
+/* In a formula with switches that are slid on: sliding.h. */
+double sliding_value(const struct formula *formula, const struct instant *at);
+double sliding_value_along(const struct formula *formula, const struct instant *at,
+                           const struct direction *along, double *variation);
+
 static inline double formula_value(const struct formula *formula, const struct instant *at)
 {
     if (!formula->expr) return formula->constant;
     if (formula->expr->parts) return parts_run(formula->expr, at->t, at->y);
+    if (at->sliding && formula->branch >= 0) return sliding_value(formula, at);
     return expr_eval(formula->expr, at->t, at->y, formula_branches(formula, at));
 }
 
@@ -57,6 +65,7 @@ static inline double formula_along(const struct formula *formula, const struct i
 {
     *variation = 0;
     if (!formula->expr) return formula->constant;
+    if (at->sliding && formula->branch >= 0) return sliding_value_along(formula, at, along, variation);
     return expr_eval_along(formula->expr, at->t, at->y, along->dt, along->dy, formula_branches(formula, at),
                            variation);
 }

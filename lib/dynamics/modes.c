@@ -48,6 +48,7 @@ void modes_hold(struct fbd_state *state)
         if (state->slip[pair] == stick && friction->tie < 0)
             state->y[plan->n + friction->coordinate] = friction_surface_speed(friction, &at, &acceleration);
     }
+    if (state_sliding(state)) sliding_project(state);
 }
 
 /* The direction in which the state goes on: (1, v, a). Stored in the last 2 n entries of the scratch. */
@@ -73,7 +74,9 @@ static bool settle_branches(struct fbd_state *state, const struct decided *decid
     for (size_t i = 0; i < plan->kink_count; i++) {
         const struct kink *kink = &plan->kinks[i];
         int first = kink->formula.branch;
-        const bool *keep = decided ? decided->branches + first : NULL;
+        const bool *keep = state->sliding ? state->sliding->keep + first
+                           : decided      ? decided->branches + first
+                                          : NULL;
         expr_resolve(kink->formula.expr, state->t, state->y, flow->dt, flow->dy, keep, state->branch + first);
     }
     return memcmp(state->branch_before, state->branch, size) == 0;
@@ -86,6 +89,7 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
     double *slots = state->scratch, *slots_along = slots + plan->slots;
     struct instant at = state_instant(state);
     bool same = true;
+    if (at.sliding) sliding_solve_along(model, &at, flow);
     force_balance(model, &at, slots);
     force_balance_along(model, &at, flow, slots, slots_along);
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
@@ -123,7 +127,7 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
     return same;
 }
 
-bool modes_settle(struct fbd_state *state, const struct decided *decided)
+static bool settle(struct fbd_state *state, const struct decided *decided)
 {
     enum { most_passes = 12 };
     const struct plan *plan = &state->model->plan;
@@ -146,4 +150,13 @@ bool modes_settle(struct fbd_state *state, const struct decided *decided)
         first = false;
     }
     return false;
+}
+
+bool modes_settle(struct fbd_state *state, const struct decided *decided)
+{
+    struct sliding *sliding = state->sliding;
+    if (!sliding) return settle(state, decided);
+    for (int i = 0; i < state->model->plan.branches; i++)
+        sliding->keep[i] = sliding->slide_at[i] > 0 || (decided && decided->branches[i]);
+    return sliding_settle(state, decided, settle(state, decided), settle);
 }

@@ -108,7 +108,7 @@ static int formulas_row(double t, const double y[], double dydt[], void *params)
 {
     const struct row *row = params;
     const struct fbd_state *state = row->all->state;
-    struct instant at = {t, y, state->branch, state->slip, state->pull, state->tree, state->extended};
+    struct instant at = {t, y, state->branch, state->slip, state->pull, state->tree, state->extended, NULL};
     double q = y[row->q], v = y[row->v], sum = affine_sum(row, q, v);
     if (row->s != 0 || row->c != 0) sum += sine_sum(row, q);
     if (row->square != 0) sum -= row->square * fabs(v) * v;
@@ -140,7 +140,7 @@ static inline struct vec pulls(const struct plan *plan, const struct body_terms 
 static void add_formulas(const struct row *row, double t, const double *y, double *x_sum, double *y_sum)
 {
     const struct fbd_state *state = row->all->state;
-    struct instant at = {t, y, state->branch, state->slip, state->pull, state->tree, state->extended};
+    struct instant at = {t, y, state->branch, state->slip, state->pull, state->tree, state->extended, NULL};
     const struct formula_term *formula = row->formulas, *end = formula + row->formula_count;
     for (; formula < end; formula++)
         *(formula->slot == row->q ? x_sum : y_sum) += formula->scale * formula_value(&formula->value, &at);
@@ -176,7 +176,7 @@ static int body_row(double t, const double y[], double dydt[], void *params)
 {
     const struct row *row = params;
     const struct fbd_state *state = row->all->state;
-    struct instant at = {t, y, state->branch, state->slip, state->pull, state->tree, state->extended};
+    struct instant at = {t, y, state->branch, state->slip, state->pull, state->tree, state->extended, NULL};
     body_rates(state->model, row->q, &at, state->slots, dydt);
     return 0;
 }
@@ -185,7 +185,7 @@ static int whole_row(double t, const double y[], double dydt[], void *params)
 {
     const struct row *row = params;
     const struct fbd_state *state = row->all->state;
-    struct instant at = {t, y, state->branch, state->slip, state->pull, state->tree, state->extended};
+    struct instant at = state_instant_at(state, t, y);
     state_rates(state->model, &at, state->slots, dydt);
     return 0;
 }
@@ -340,7 +340,7 @@ void rates_bind(struct rates *rates)
 {
     const struct fbd_model *model = rates->state->model;
     rates->count = 0;
-    if (model->tree || model->absolute_count > 0) { /* bodies need each other's places */
+    if (model->tree || model->absolute_count > 0 || state_sliding(rates->state)) { /* one solution for all */
         rates->rows[rates->count++] = (struct row){.function = whole_row, .all = rates};
         return;
     }

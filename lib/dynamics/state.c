@@ -28,7 +28,9 @@ struct fbd_state *state_new(const struct fbd_model *model)
     size_t doubles = extended + n + (size_t)plan->slots + scratch_size(plan) + extra;
     size_t ints = 2 * (size_t)plan->branches + 4 * plan->friction_count;
     size_t tree = model->tree ? sizeof(struct tree_work) + tree_work_size(model) : 0;
-    struct fbd_state *state = calloc(1, sizeof *state + tree + doubles * sizeof(double) + ints * sizeof(int));
+    size_t sliding = plan->slide_count > 0 ? sizeof(struct sliding) + sliding_size(model) : 0;
+    struct fbd_state *state =
+        calloc(1, sizeof *state + tree + sliding + doubles * sizeof(double) + ints * sizeof(int));
     if (!state) return NULL;
     state->model = model;
     char *behind = (char *)(state + 1);
@@ -36,7 +38,11 @@ struct fbd_state *state_new(const struct fbd_model *model)
         state->tree = (void *)behind;
         tree_work_init(state->tree, model, behind + sizeof *state->tree);
     }
-    state->y = (void *)(behind + tree);
+    if (sliding > 0) {
+        state->sliding = (void *)(behind + tree);
+        sliding_init(state->sliding, model, behind + tree + sizeof *state->sliding);
+    }
+    state->y = (void *)(behind + tree + sliding);
     state->a = state->y + extended;
     state->slots = state->a + n;
     state->scratch = state->slots + plan->slots;
@@ -76,6 +82,7 @@ void state_copy(struct fbd_state *to, const struct fbd_state *from)
     memcpy(to->slots, from->slots, (size_t)plan->slots * sizeof *to->slots);
     memcpy(to->branch, from->branch, (size_t)plan->branches * sizeof *to->branch);
     memcpy(to->slip, from->slip, plan->friction_count * sizeof *to->slip);
+    if (to->sliding) sliding_copy(from->model, to->sliding, from->sliding);
     if (to->tree) memcpy(to->tree->ties, from->tree->ties, tie_bytes(from->model));
     memcpy(to->pull, from->pull, plan->friction_count * sizeof *to->pull);
 }

@@ -7,6 +7,7 @@
 #define FBD_DYNAMICS_STATE_H
 
 #include "dynamics/forward.h"
+#include "dynamics/sliding.h"
 #include "holds/holds.h"
 
 /* Why holds could not be decided, or that they could be in several ways: `pair` is a friction whose normal
@@ -30,6 +31,7 @@ struct fbd_state {
     int *slip_before, *slip_forced; /* and plan.friction_count each */
     double *scratch;                /* 2 plan.slots + 3 n */
     double *extended;               /* scratch of absolute.h */
+    struct sliding *sliding;        /* NULL when no switch can be slid on */
     struct tree_work *tree;         /* of the jointed bodies, by state_evaluate; NULL when there are none */
 };
 
@@ -40,10 +42,22 @@ void state_free(struct fbd_state *state);
 /* Make `to` equal to `from`; both belong to the same model. */
 void state_copy(struct fbd_state *to, const struct fbd_state *from);
 
+/* The switches that it slides on, if there are any. */
+static inline struct sliding *state_sliding(const struct fbd_state *state)
+{
+    return state->sliding && state->sliding->count > 0 ? state->sliding : NULL;
+}
+
+/* In the modes of a state, at any other point. */
+static inline struct instant state_instant_at(const struct fbd_state *state, double t, const double *y)
+{
+    return (struct instant){t,           y,           state->branch,   state->slip,
+                            state->pull, state->tree, state->extended, state_sliding(state)};
+}
+
 static inline struct instant state_instant(const struct fbd_state *state)
 {
-    return (struct instant){state->t,    state->y,    state->branch,  state->slip,
-                            state->pull, state->tree, state->extended};
+    return state_instant_at(state, state->t, state->y);
 }
 
 /* Accelerations and slots at the state, modes as they are. */

@@ -53,3 +53,21 @@ enum expr_degree expr_degree(const struct expr *expr)
     }
     return degree[expr->result];
 }
+
+/* Registers are used again: one that has been worse before counts as that. */
+enum expr_degree expr_jumps_degree(const struct expr *expr)
+{
+    enum expr_degree degree[frame_limit] = {expr_constant_between}, worst = expr_constant_between;
+    size_t first = expr->uses_time;
+    if (expr->uses_time) degree[0] = expr_nonlinear;
+    for (size_t i = 0; i < expr->variables; i++) degree[first + i] = expr_affine;
+    for (size_t i = 0; i < expr->operations; i++) {
+        const struct instr *instr = &expr->code[i];
+        if (instr->op == op_jump || instr->op == op_jump_unless) continue;
+        if (op_is_switch(instr->op) && expr_switch_jumps(expr, (size_t)instr->extra))
+            worst = larger(worst, larger(degree[instr->a], degree[instr->b]));
+        degree[instr->to] =
+            larger(degree[instr->to], degree_after(instr, degree[instr->a], degree[instr->b]));
+    }
+    return worst;
+}

@@ -195,6 +195,18 @@ void expr_margins(const struct expr *expr, double t, const double *y, double dt,
 void expr_resolve(const struct expr *expr, double t, const double *y, double dt, const double *dy,
                   const bool *keep, int *branch);
 
+/* What the active switches watch, at a point of the motion: u, its rate along (dt, dy), and the rounding of
+ * u, within which it is zero. NAN for silent switches. Each array has expr_switches entries. */
+void expr_switchings(const struct expr *expr, double t, const double *y, double dt, const double *dy,
+                     const int *branch, double *u, double *rates, double *rounding);
+
+/* Does the value jump at a switch (sign, step, comparisons), so that its branches may act against each other?
+ * Not at abs, min and max. */
+bool expr_switch_jumps(const struct expr *expr, size_t index);
+
+/* How what such switches watch varies: the worst of them. */
+enum expr_degree expr_jumps_degree(const struct expr *expr);
+
 /* The branch on the other side of end `end` (0 lower, 1 upper) of switch `index`. */
 int expr_branch_beyond(const struct expr *expr, size_t index, int end, int branch);
 

@@ -144,6 +144,44 @@ void expr_margins(const struct expr *expr, double t, const double *y, double dt,
     run(expr, branch, &motion, note_margins, &context);
 }
 
+/* ---- what they watch */
+
+struct switchings {
+    double *u, *rates, *rounding;
+};
+
+static void note_switching(void *context, const struct instr *i, const struct motion *at, struct crossing c)
+{
+    (void)at;
+    struct switchings *s = context;
+    s->u[i->extra] = c.u;
+    s->rates[i->extra] = c.rate;
+    s->rounding[i->extra] = c.tolerance;
+}
+
+void expr_switchings(const struct expr *expr, double t, const double *y, double dt, const double *dy,
+                     const int *branch, double *u, double *rates, double *rounding)
+{
+    struct motion motion;
+    struct switchings context = {u, rates, rounding};
+    for (size_t k = 0; k < expr->switches; k++) u[k] = rates[k] = rounding[k] = (double)NAN;
+    load(expr, t, y, dt, dy, &motion);
+    run(expr, branch, &motion, note_switching, &context);
+}
+
+bool expr_switch_jumps(const struct expr *expr, size_t index)
+{
+    switch (expr->switch_at[index].op) {
+    case op_sign:
+    case op_step:
+    case op_less:
+    case op_less_equal:
+    case op_greater:
+    case op_greater_equal: return true;
+    default: return false;
+    }
+}
+
 /* ---- branches */
 
 static int counted(double n)

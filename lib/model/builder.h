@@ -38,6 +38,9 @@ void plan_ties(struct builder *builder);
 void body_terms_add(struct builder *builder, int b);
 void body_terms_finish(struct builder *builder);
 
+/* Find the switches that a motion may slide on, when the plan has all else (slides.c). */
+void slides_find(struct fbd_model *model);
+
 /* Find the pairs of friction whose slip is named, when the plan has them (slips.c). False when memory is out.
  */
 bool slips_find(struct fbd_model *model);

@@ -19,7 +19,7 @@ struct formula builder_formula(struct builder *builder, const struct value *valu
     if (switches > 0) {
         formula.branch = plan->branches;
         plan->branches += (int)switches;
-        plan->kinks[plan->kink_count++] = (struct kink){formula, body, load, switches};
+        plan->kinks[plan->kink_count++] = (struct kink){formula, body, load, switches, false};
     }
     if (poles > 0 && body >= 0) plan->poles[plan->pole_count++] = (struct pole){formula, body, load, poles};
     return formula;
@@ -271,6 +271,7 @@ static struct fbd_model *compile(struct scene *scene, bool labels, fbd_errors *e
                arrows_name(model) && plan_build(&builder) && classify_loads(&builder);
         set_watches(&builder);
         if (done) done = slips_find(model);
+        if (done) slides_find(model);
         if (done) gears_check(&builder);
     }
     if (!done) diag_out_of_memory(errors);

@@ -125,6 +125,7 @@ struct kink {
     struct formula formula;
     int body, load; /* where it stands; -1 for a user event */
     size_t count;
+    bool slides; /* some of its switches may be slid on: see dynamics/sliding.h */
 };
 
 /* The divisions of one formula (see expr.h). */
@@ -197,6 +198,7 @@ struct plan {
     struct watch *watches;
 
     int branches;        /* ints that a state keeps for the kinks */
+    int slide_count;     /* switches that may be slid on */
     bool *slot_constant; /* slots: the sum never changes */
 };
 

@@ -26,6 +26,8 @@ const char *fbd_event_kind_name(fbd_event_kind kind)
     case FBD_EVENT_IMPACT: return "impact";
     case FBD_EVENT_CONTACT: return "contact";
     case FBD_EVENT_REST: return "rest";
+    case FBD_EVENT_SLIDING: return "sliding";
+    case FBD_EVENT_SLIDING_ENDS: return "sliding_ends";
     }
     return "";
 }
@@ -65,6 +67,11 @@ static void impact_detail(const struct fbd_model *model, const struct run_event 
         "%s strikes: v_n %.6g to %.6g %s, v_t %.6g to %.6g %s, impulses %.6g and %.6g %s*s; takes %.6g %s",
         name, impact->v_n[0], impact->v_n[1], speed, impact->v_t[0], impact->v_t[1], speed, impact->p,
         impact->tau, of, impact->work == 0 ? 0 : -impact->work, energy_unit(model));
+}
+
+static bool is_moment(const struct fbd_model *model, const struct run_event *event)
+{
+    return model->loads[event->load].source->kind == moment_applied;
 }
 
 void event_detail(const struct fbd_model *model, const struct run_event *event, char *detail, size_t size)
@@ -118,6 +125,14 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
     case FBD_EVENT_SWITCH:
         snprintf(detail, size, "%s passes to another branch", name[0] ? name : "an event");
         return;
+    case FBD_EVENT_SLIDING:
+        if (event->limit > 0) /* its value is one force or moment */
+            format_into(detail, size, "%s slides on its switch, with %+.6g %s", name, event->force,
+                        is_moment(model, event) ? moment_unit(model) : force_unit(model));
+        else
+            snprintf(detail, size, "%s slides on its switch", name);
+        return;
+    case FBD_EVENT_SLIDING_ENDS: snprintf(detail, size, "%s leaves its switch", name); return;
     }
 }
 

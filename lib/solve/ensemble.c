@@ -259,11 +259,31 @@ static void scatter_coordinates(const struct fbd_model *whole, const struct grou
     }
 }
 
+/* What a group slides on, with the kinks of the whole and surfaces of its own. */
+static void scatter_slides(const struct group *group, const struct fbd_state *part, struct fbd_state *state)
+{
+    if (!part->sliding || !state->sliding) return;
+    const struct plan *whole = &state->model->plan;
+    struct sliding *to = state->sliding;
+    bool all = !group->selection;
+    for (int i = 0; i < group->model->plan.branches; i++) to->slide_at[all ? i : group->branch[i]] = 0;
+    sliding_drop(to);
+    int units = to->units;
+    for (int j = 0; j < part->sliding->count; j++) {
+        const struct slide *slide = &part->sliding->slides[j];
+        int branch = all ? slide->branch : group->branch[slide->branch], kink = 0;
+        while (whole->kinks[kink].formula.branch + (int)whole->kinks[kink].count <= branch) kink++;
+        sliding_add(to, &whole->kinks[kink], kink, branch - whole->kinks[kink].formula.branch,
+                    units + slide->unit, slide->sign);
+    }
+}
+
 static void scatter_modes(const struct group *group, const struct fbd_state *part, struct fbd_state *state)
 {
     const struct plan *plan = &group->model->plan;
     bool whole = !group->selection;
     for (int i = 0; i < plan->branches; i++) state->branch[whole ? i : group->branch[i]] = part->branch[i];
+    scatter_slides(group, part, state);
     for (size_t i = 0; i < plan->friction_count; i++) {
         size_t pair = whole ? i : (size_t)group->pairs[i];
         state->slip[pair] = part->slip[i];

@@ -59,6 +59,26 @@ static void cross_kink(struct run *run, const struct watcher *watcher)
     run_note(run, FBD_EVENT_SWITCH, kink->body, kink->load, -1);
 }
 
+/* The share of a switch that is slid on is used up, and those of all on the same surface: the branch there
+ * goes on alone. */
+static void leave_surface(struct run *run, const struct watcher *watcher)
+{
+    struct sliding *s = run->state->sliding;
+    int branch = run->model->plan.kinks[watcher->index].formula.branch + watcher->part;
+    if (s->slide_at[branch] == 0) return; /* with another one */
+    const struct slide first = s->slides[s->slide_at[branch] - 1];
+    int side = (watcher->end == 0 ? -1 : 1) * first.sign;
+    for (int j = s->count - 1; j >= 0; j--) {
+        const struct slide slide = s->slides[j];
+        if (slide.unit != first.unit) continue;
+        run->state->branch[slide.branch] = side * slide.sign;
+        run->decided.branches[slide.branch] = true;
+        s->left[slide.branch] = true;
+        s->slide_at[slide.branch] = 0;
+    }
+    sliding_drop(s);
+}
+
 /* The relative velocity is zero by the event, so it is made zero exactly; settling decides what follows. */
 static void stop_slipping(struct run *run, int pair)
 {
@@ -191,6 +211,7 @@ static void happen(struct run *run, const struct watcher *watcher, bool crossing
         break;
     case watch_gap:
     case watch_edge: run->contacts.due = true; break;
+    case watch_share: leave_surface(run, watcher); break;
     case watch_contact: break; /* run_check_contacts */
     case watch_user:
         if (!fired_now(run, index)) user_event(run, index, false);
@@ -246,6 +267,34 @@ static void note_frictions(struct run *run, const bool *moving)
             note_friction(run, FBD_EVENT_STICK, pair);
         }
         if (stopped && after != stick && after != before) note_friction(run, FBD_EVENT_REVERSAL, pair);
+    }
+}
+
+/* Sliding is read off the modes before and after, too. What begins to slide has not passed to another branch,
+ * as was noted when its switch was reached: `first` is the first event of this instant. */
+static void note_slides(struct run *run, size_t first)
+{
+    const struct plan *plan = &run->model->plan;
+    for (size_t k = 0; run->state->sliding && k < plan->kink_count; k++) {
+        const struct kink *kink = &plan->kinks[k];
+        for (size_t part = 0; part < kink->count; part++) {
+            size_t branch = (size_t)kink->formula.branch + part;
+            bool before = run->during->sliding->slide_at[branch] > 0,
+                 after = run->state->sliding->slide_at[branch] > 0;
+            if (before == after) continue;
+            struct run_event *event = NULL;
+            for (size_t i = first; after && i < run->event_count; i++)
+                if (run->events[i].kind == FBD_EVENT_SWITCH && run->events[i].load == kink->load)
+                    event = &run->events[i];
+            fbd_event_kind kind = after ? FBD_EVENT_SLIDING : FBD_EVENT_SLIDING_ENDS;
+            if (!event) event = run_note(run, kind, kink->body, kink->load, -1);
+            if (!event) return;
+            event->kind = kind;
+            const struct formula *value = &run->model->loads[kink->load].value;
+            struct instant at = state_instant(run->state);
+            event->limit = value->expr && value->branch == kink->formula.branch;
+            if (event->limit > 0) event->force = formula_value(value, &at);
+        }
     }
 }
 
@@ -368,6 +417,13 @@ static void count_around(struct run *run)
 
 static void fail_unsettled(struct run *run)
 {
+    const struct sliding *s = run->state->sliding;
+    int kink = s && s->why ? s->blamed : -1, load = kink >= 0 ? run->model->plan.kinks[kink].load : -1;
+    if (load >= 0) {
+        run_fail(run, FBD_FAILED, "at t = %.9g `%s` is at its switch, and %s", run_time(run),
+                 run->model->loads[load].source->name, s->why);
+        return;
+    }
     struct text when = {0}, words = {0};
     bool memory = run->state->holds.found != holds_no_memory;
     text_add(&when, "at t = ");
@@ -389,12 +445,14 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     for (int s = 0; s < 2; s++)
         for (size_t i = 0; crossed[s] && i < sets[s]->count; i++)
             crossing |= crossed[s][i] && sets[s]->watchers[i].kind == watch_kink;
+    size_t first = run->event_count;
     for (int s = 0; s < 2; s++)
         for (size_t i = 0; crossed[s] && i < sets[s]->count; i++)
             if (crossed[s][i]) happen(run, &sets[s]->watchers[i], crossing);
     if (run->contacts.due) run_contacts(run);
     run->contacts.due = false;
     if (!modes_settle(run->state, &run->decided) && run->outcome == FBD_GOING) fail_unsettled(run);
+    note_slides(run, first);
     note_frictions(run, moving);
     run_release_contacts(run);
     refuse_sliding(run, moving);

@@ -118,7 +118,7 @@ bool poles_passed(struct poles *poles, const struct fbd_state *during, double h,
     const double too_deep = 0.2;
     const struct plan *plan = &during->model->plan;
     if (poles->count == 0) return false;
-    struct instant end = {t, y, during->branch, during->slip, during->pull, during->tree, during->extended};
+    struct instant end = state_instant_at(during, t, y);
     struct instant at = instant_extend(during->model, &end);
     const struct direction motion = {1, f}, flow = direction_extend(during->model, &at, &motion);
     divisors_at(plan, &at, &flow, poles->end, poles->end_rate);

@@ -15,7 +15,7 @@
 static int jacobian(double t, const double y[], double *dfdy, double dfdt[], void *params)
 {
     struct fbd_state *during = rates_state(params);
-    struct instant at = {t, y, during->branch, during->slip, during->pull, during->tree, during->extended};
+    struct instant at = state_instant_at(during, t, y);
     state_jacobian(during->model, &at, during->scratch, dfdy, dfdt);
     return GSL_SUCCESS;
 }
@@ -178,6 +178,7 @@ static bool restart(struct run *run)
     memcpy(run->y, run->state->y, 2 * (size_t)run->model->plan.n * sizeof *run->y);
     if (!structure_is_exact(run->kind)) run_set_noise(run);
     bind_rates(run);
+    watchers_follow(&run->watchers, run->during);
     int status = switcher_reset(run->stepper, &run->system, run->state->t, run->y, run->f, run->options.until,
                                 &run->h);
     if (status != GSL_SUCCESS) {

@@ -57,7 +57,7 @@ static int sample_course(void *context, double t, double *y)
     const struct fbd_state *during = run->during;
     if (switcher_dense(run->stepper, t, y) != GSL_SUCCESS) return -1;
     if (run->model->absolute_count == 0) return 0;
-    struct instant at = {t, y, during->branch, during->slip, during->pull, during->tree, during->extended};
+    struct instant at = state_instant_at(during, t, y);
     at = instant_extend(run->model, &at);
     memcpy(y, at.y, extended_size(run->model) * sizeof *y);
     return 0;

@@ -235,9 +235,25 @@ static enum expr_degree accelerations_vary(const struct fbd_model *model)
     return worst;
 }
 
+/* Along a switch that the motion may slide on, the accelerations are what keeps it there: linear where what
+ * it watches is. */
+static enum expr_degree slides_vary(const struct fbd_model *model)
+{
+    enum expr_degree worst = expr_constant_between;
+    for (size_t i = 0; i < model->plan.kink_count; i++) {
+        const struct expr *expr = model->plan.kinks[i].formula.expr;
+        const int *slots;
+        if (!model->plan.kinks[i].slides) continue;
+        size_t count = expr_variables(expr, &slots);
+        bool places = count > 0 && slots[count - 1] > 2 * model->plan.n;
+        worst = worse(worst, places ? expr_nonlinear : worse(expr_affine, expr_jumps_degree(expr)));
+    }
+    return worst;
+}
+
 enum structure structure_of(const struct fbd_model *model)
 {
-    enum expr_degree degree = accelerations_vary(model);
+    enum expr_degree degree = worse(accelerations_vary(model), slides_vary(model));
     if (degree == expr_constant_between) return structure_constant;
     if (degree == expr_affine && model->plan.n <= linear_most_pairs) return structure_linear;
     return velocity_free(model) ? structure_velocity_free : structure_general;

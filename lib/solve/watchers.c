@@ -30,6 +30,17 @@ static void add_kinks(struct watchers *watchers, const struct plan *plan)
     }
 }
 
+/* Whether the motion slides on a switch is not known ahead. */
+static void add_shares(struct watchers *watchers, const struct plan *plan)
+{
+    for (size_t i = 0; i < plan->kink_count; i++) {
+        const struct kink *kink = &plan->kinks[i];
+        for (size_t part = 0; kink->slides && part < kink->count; part++)
+            for (int end = 0; end < 2; end++)
+                add(&watchers->moving, (struct watcher){watch_share, (int)i, (int)part, end, true});
+    }
+}
+
 static bool always_the_same(const struct plan *plan, const struct friction *friction)
 {
     return friction->tie < 0 && plan->slot_constant[friction->coordinate] && !friction->surface_speed.expr &&
@@ -77,6 +88,7 @@ static void add_all(struct watchers *watchers, const struct fbd_model *model)
 {
     const struct plan *plan = &model->plan;
     add_kinks(watchers, plan);
+    add_shares(watchers, plan);
     add_frictions(watchers, plan);
     add_contacts(watchers, model->tree);
     for (size_t i = 0; i < plan->contact_count; i++)
@@ -278,6 +290,24 @@ static double friction_value(const struct watcher *watcher, struct view *view, d
     return (kinetic ? now->limit_kinetic : now->limit_static) - side * now->hold + slack;
 }
 
+/* The slide on the switch of a watcher; NULL when there is none. */
+static const struct slide *slide_of(const struct fbd_state *state, const struct watcher *watcher)
+{
+    if (!state_sliding(state)) return NULL;
+    int branch = state->model->plan.kinks[watcher->index].formula.branch + watcher->part;
+    int slide = state->sliding->slide_at[branch];
+    return slide > 0 ? &state->sliding->slides[slide - 1] : NULL;
+}
+
+static double share_value(const struct fbd_state *state, const struct watcher *watcher, double *rate)
+{
+    const struct slide *slide = slide_of(state, watcher);
+    *rate = 0;
+    if (!slide) return HUGE_VAL;
+    *rate = watcher->end == 0 ? slide->along : -slide->along;
+    return watcher->end == 0 ? slide->share : 1 - slide->share;
+}
+
 static void kink_margins(const struct watchers *watchers, const struct kink *kink, const struct view *view)
 {
     double *margins = watchers->scratch, *rates = margins + 2 * kink->count;
@@ -291,6 +321,7 @@ static bool asks_forces(const struct watcher *watcher, const struct fbd_state *s
     switch (watcher->kind) {
     case watch_kink:
     case watch_user:
+    case watch_share:
     case watch_slip_stop:
     case watch_gap:
     case watch_edge: return false;
@@ -323,6 +354,7 @@ static void set_flow(struct view *view, bool forces)
         view->at = instant_extend(state->model, &view->at);
         view->flow = direction_extend(state->model, &view->at, &view->flow);
     }
+    if (view->at.sliding) sliding_solve_along(state->model, &view->at, &view->flow);
     if (!forces) return;
     force_balance(state->model, &view->at, slots);
     force_balance_along(state->model, &view->at, &view->flow, slots, slots_along);
@@ -335,7 +367,7 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
 {
     const struct plan *plan = &state->model->plan;
     struct view view = {.state = state,
-                        .at = {t, y, state->branch, state->slip, state->pull, state->tree, state->extended},
+                        .at = state_instant_at(state, t, y),
                         .flow = {1, NULL},
                         .friction = -1};
     if (set != &watchers->timed) set_flow(&view, any_asks_forces(set, state));
@@ -352,6 +384,9 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
             size_t entry = 2 * (size_t)watcher->part + (size_t)watcher->end;
             values[i] = watchers->scratch[entry];
             rates[i] = watchers->scratch[2 * kink->count + entry];
+            if (!slide_of(state, watcher)) break;
+            values[i] = HUGE_VAL;
+            rates[i] = 0;
             break;
         }
         case watch_contact:
@@ -367,6 +402,7 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
             break;
         }
         case watch_one_sided: values[i] = one_sided_value(watcher, &view, &rates[i]); break;
+        case watch_share: values[i] = share_value(state, watcher, &rates[i]); break;
         case watch_lift: values[i] = lift_value(watcher, &view, &rates[i]); break;
         case watch_gap: values[i] = gap_value(watchers, watcher, &view, &rates[i]); break;
         case watch_edge: values[i] = edge_value(watcher, &view, &rates[i]); break;
@@ -404,4 +440,30 @@ void watchers_turn(struct watchers *watchers, int watch)
 double watchers_contact_slack(const struct fbd_model *model, const struct contact *contact)
 {
     return 1e-13 * model->bodies[contact->body].inertia.mass * vec_norm(model->scene->gravity);
+}
+
+/* Where the motion slides, what is made of shares is not enclosed. */
+static bool is_enclosed(const struct fbd_state *state, const struct watcher *watcher)
+{
+    bool slides = state_sliding(state) != NULL;
+    switch (watcher->kind) {
+    case watch_share: {
+        const struct kink *kink = &state->model->plan.kinks[watcher->index];
+        for (size_t part = 0; slides && part < kink->count; part++)
+            if (state->sliding->slide_at[(size_t)kink->formula.branch + part] > 0) return false;
+        return true;
+    }
+    case watch_contact:
+    case watch_stick_limit:
+    case watch_normal_turns: return !slides && watchers_can_enclose(state->model, watcher);
+    default: return watchers_can_enclose(state->model, watcher);
+    }
+}
+
+void watchers_follow(struct watchers *watchers, const struct fbd_state *state)
+{
+    struct watcher_set *set = &watchers->moving;
+    if (!state->sliding) return;
+    for (size_t g = 0; g < set->group_count; g++)
+        set->groups[g].proved = is_enclosed(state, &set->watchers[set->groups[g].first]);
 }

@@ -31,6 +31,7 @@ enum watcher_kind {
     watch_gap,          /* shapes meet; index: meeting, part: probe (dynamics/contact.h) */
     watch_edge,         /* what touches comes to the end of a side; index: tie, end 0 or 1 */
     watch_user,         /* a user event; index: watch */
+    watch_share,        /* the share of a switch that is slid on reaches an end; index: kink, part, end */
 };
 
 struct watcher {
@@ -80,6 +81,10 @@ void watchers_mark_used(const struct fbd_model *model, const struct watcher_set 
 void watchers_enclose(const struct watchers *watchers, const struct watcher_set *set, size_t group,
                       const struct fbd_state *state, const struct stretch *stretch, const struct enclosure *y,
                       struct enclosure *out);
+
+/* Say which functions have enclosures in the modes that follow: where the motion slides on switches, shares
+ * and sums of forces are samples. */
+void watchers_follow(struct watchers *watchers, const struct fbd_state *state);
 
 /* Arm user events that have left zero, and see which are in their band; call at the start and after each
  * accepted step. */

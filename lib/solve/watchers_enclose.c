@@ -152,7 +152,8 @@ static struct enclosure stick_limit(const struct outlook *o, int pair, int end)
 bool watchers_can_enclose(const struct fbd_model *model, const struct watcher *watcher)
 {
     const struct plan *plan = &model->plan;
-    if (watcher->kind == watch_kink || watcher->kind == watch_user) return true;
+    if (watcher->kind == watch_kink || watcher->kind == watch_user || watcher->kind == watch_share)
+        return true;
     if (watcher->kind == watch_lift || watcher->kind == watch_gap || watcher->kind == watch_edge)
         return false;
     if (watcher->kind == watch_contact) return is_plain_sum(model, plan->contacts[watcher->index].body);
@@ -170,7 +171,11 @@ static void enclose_kink(const struct watchers *watchers, const struct watcher_s
     const struct kink *kink = &o->state->model->plan.kinks[first->index];
     const int *branch = o->state->branch + kink->formula.branch;
     expr_enclose_margins(kink->formula.expr, o->stretch, o->y, branch, watchers->margins);
-    for (size_t i = 0; i < group->count; i++) out[i] = watchers->margins[2 * first[i].part + first[i].end];
+    for (size_t i = 0; i < group->count; i++) {
+        bool slid_on =
+            state_sliding(o->state) && o->state->sliding->slide_at[kink->formula.branch + first[i].part] > 0;
+        out[i] = slid_on ? enclosure_point(HUGE_VAL) : watchers->margins[2 * first[i].part + first[i].end];
+    }
 }
 
 static struct enclosure enclose_user(const struct watchers *watchers, int index, const struct outlook *o)
@@ -202,6 +207,7 @@ static struct enclosure enclose_one(const struct watchers *watchers, const struc
     case watch_stick_limit:
         return o->state->slip[index] != stick ? enclosure_point(HUGE_VAL)
                                               : stick_limit(o, index, watcher->end);
+    case watch_share: return enclosure_point(HUGE_VAL); /* it is not slid on: watchers_follow */
     case watch_lift:
     case watch_gap:
     case watch_edge:
@@ -281,6 +287,7 @@ void watchers_mark_used(const struct fbd_model *model, const struct watcher_set 
         case watch_lift:
         case watch_gap:
         case watch_edge:
+        case watch_share:
         case watch_one_sided: break;
         }
     }

@@ -1,0 +1,416 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dynamics/sliding.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "dynamics/absolute.h"
+#include "dynamics/forward.h"
+#include "dynamics/state.h"
+
+/* ---- memory */
+
+static size_t most_switches(const struct plan *plan)
+{
+    size_t most = 0;
+    for (size_t i = 0; i < plan->kink_count; i++)
+        if (plan->kinks[i].count > most) most = plan->kinks[i].count;
+    return most;
+}
+
+static size_t double_count(const struct fbd_model *model)
+{
+    const struct plan *plan = &model->plan;
+    size_t room = (size_t)plan->slide_count, n = (size_t)plan->n;
+    return 2 * room * room + n * room + 3 * room + 3 * most_switches(plan) + 2 * (size_t)plan->slots + 2 * n +
+           11 * n + extended_size(model) + 2 * n;
+}
+
+static size_t int_count(const struct plan *plan)
+{
+    return 4 * (size_t)plan->branches + 2 * plan->friction_count + (size_t)plan->slide_count;
+}
+
+size_t sliding_size(const struct fbd_model *model)
+{
+    const struct plan *plan = &model->plan;
+    if (plan->slide_count == 0) return 0;
+    size_t bytes = (size_t)plan->slide_count * sizeof(struct slide) + double_count(model) * sizeof(double) +
+                   int_count(plan) * sizeof(int) + 2 * (size_t)plan->branches * sizeof(bool);
+    return (bytes + sizeof(double) - 1) / sizeof(double) * sizeof(double);
+}
+
+void sliding_init(struct sliding *sliding, const struct fbd_model *model, void *memory)
+{
+    const struct plan *plan = &model->plan;
+    size_t room = (size_t)plan->slide_count, n = (size_t)plan->n, switches = most_switches(plan);
+    sliding->slides = memory;
+    double *next = (double *)(sliding->slides + room);
+    double **const parts[] = {&sliding->M,        &sliding->lu,     &sliding->B,           &sliding->c,
+                              &sliding->delta,    &sliding->step,   &sliding->u,           &sliding->rate,
+                              &sliding->rounding, &sliding->slots,  &sliding->slots_along, &sliding->a,
+                              &sliding->a_along,  &sliding->flow,   &sliding->zero,        &sliding->kept_y,
+                              &sliding->own_y,    &sliding->own_dy, &sliding->best,        &sliding->shifted};
+    const size_t sizes[] = {room * room,
+                            room * room,
+                            n * room,
+                            room,
+                            room,
+                            room,
+                            switches,
+                            switches,
+                            switches,
+                            (size_t)plan->slots,
+                            (size_t)plan->slots,
+                            n,
+                            n,
+                            2 * n,
+                            2 * n,
+                            2 * n,
+                            2 * n,
+                            2 * n,
+                            n,
+                            extended_size(model) + 2 * n};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        *parts[i] = next;
+        next += sizes[i];
+    }
+    sliding->slide_at = (int *)next;
+    sliding->branches = sliding->slide_at + plan->branches;
+    sliding->kept = sliding->branches + plan->branches;
+    sliding->pivot = sliding->kept + 2 * (size_t)plan->branches + 2 * plan->friction_count;
+    sliding->keep = (bool *)(sliding->pivot + room);
+    sliding->left = sliding->keep + plan->branches;
+}
+
+void sliding_copy(const struct fbd_model *model, struct sliding *to, const struct sliding *from)
+{
+    to->count = from->count;
+    to->units = from->units;
+    memcpy(to->slides, from->slides, (size_t)from->count * sizeof *to->slides);
+    memcpy(to->slide_at, from->slide_at, (size_t)model->plan.branches * sizeof *to->slide_at);
+}
+
+/* ---- which */
+
+void sliding_add(struct sliding *sliding, const struct kink *kink, int index, int part, int unit, int sign)
+{
+    int branch = kink->formula.branch + part;
+    sliding->slides[sliding->count++] = (struct slide){index, part, branch, unit, sign, 0.5, 0};
+    sliding->slide_at[branch] = sliding->count;
+    if (unit >= sliding->units) sliding->units = unit + 1;
+}
+
+void sliding_number(struct sliding *sliding)
+{
+    int units = 0;
+    for (int j = 0; j < sliding->count; j++) {
+        int old = sliding->slides[j].unit, first = 0;
+        while (sliding->slides[first].unit != old && sliding->slides[first].unit != -1 - old) first++;
+        if (first < j) continue;
+        for (int k = j; k < sliding->count; k++)
+            if (sliding->slides[k].unit == old) sliding->slides[k].unit = -1 - units;
+        units++;
+    }
+    for (int j = 0; j < sliding->count; j++) sliding->slides[j].unit = -1 - sliding->slides[j].unit;
+    sliding->units = units;
+}
+
+void sliding_drop(struct sliding *sliding)
+{
+    int count = 0;
+    for (int j = 0; j < sliding->count; j++) {
+        if (sliding->slide_at[sliding->slides[j].branch] == 0) continue;
+        sliding->slides[count] = sliding->slides[j];
+        sliding->slide_at[sliding->slides[count].branch] = count + 1;
+        count++;
+    }
+    sliding->count = count;
+    sliding_number(sliding);
+}
+
+/* ---- formulas */
+
+enum { most_in_a_formula = 8 };
+
+/* The slides in a formula; its branches go to the scratch. */
+static int slides_of(const struct formula *formula, const struct instant *at, const struct slide **found)
+{
+    struct sliding *sliding = at->sliding;
+    int count = 0, first = formula->branch;
+    size_t switches = expr_switches(formula->expr);
+    for (size_t k = 0; k < switches; k++) {
+        int slide = sliding->slide_at[(size_t)first + k];
+        sliding->branches[(size_t)first + k] = at->branch[(size_t)first + k];
+        if (slide > 0 && count < most_in_a_formula) found[count++] = &sliding->slides[slide - 1];
+    }
+    return count;
+}
+
+/* The weight of the vertex whose bits say which slides are on their upper branch, and its variation. */
+static double weight_of(const struct slide *const *slides, int count, unsigned vertex, double *variation)
+{
+    double weight = 1, along = 0;
+    for (int j = 0; j < count; j++) {
+        bool upper = vertex >> j & 1;
+        double w = upper ? slides[j]->share : 1 - slides[j]->share;
+        along = along * w + weight * (upper ? slides[j]->along : -slides[j]->along);
+        weight *= w;
+    }
+    *variation = along;
+    return weight;
+}
+
+static const int *vertex_branches(const struct formula *formula, const struct instant *at,
+                                  const struct slide *const *slides, int count, unsigned vertex)
+{
+    int *branches = at->sliding->branches;
+    for (int j = 0; j < count; j++) branches[slides[j]->branch] = vertex >> j & 1 ? 1 : -1;
+    return branches + formula->branch;
+}
+
+double sliding_value(const struct formula *formula, const struct instant *at)
+{
+    const struct slide *slides[most_in_a_formula];
+    int count = slides_of(formula, at, slides);
+    if (count == 0) return expr_eval(formula->expr, at->t, at->y, at->branch + formula->branch);
+    double sum = 0, unused;
+    for (unsigned vertex = 0; vertex < 1u << count; vertex++) {
+        const int *branch = vertex_branches(formula, at, slides, count, vertex);
+        sum += weight_of(slides, count, vertex, &unused) * expr_eval(formula->expr, at->t, at->y, branch);
+    }
+    return sum;
+}
+
+double sliding_value_along(const struct formula *formula, const struct instant *at,
+                           const struct direction *along, double *variation)
+{
+    const struct slide *slides[most_in_a_formula];
+    int count = slides_of(formula, at, slides);
+    double sum = 0;
+    *variation = 0;
+    for (unsigned vertex = 0; vertex < 1u << count; vertex++) {
+        const int *branch = vertex_branches(formula, at, slides, count, vertex);
+        double d_weight, d_value, weight = weight_of(slides, count, vertex, &d_weight);
+        double value = expr_eval_along(formula->expr, at->t, at->y, along->dt, along->dy, branch, &d_value);
+        sum += weight * value;
+        *variation += weight * d_value + d_weight * value;
+    }
+    return sum;
+}
+
+/* ---- the surfaces */
+
+void sliding_rates(const struct fbd_model *model, const struct instant *given, double dt, const double *dy,
+                   double *rates)
+{
+    struct sliding *s = given->sliding;
+    const struct instant at = instant_extend(model, given);
+    const struct direction own = {dt, dy}, along = direction_extend(model, &at, &own);
+    for (int j = s->count - 1; j >= 0; j--) { /* of a unit the first counts */
+        const struct kink *kink = &model->plan.kinks[s->slides[j].kink];
+        expr_switchings(kink->formula.expr, at.t, at.y, along.dt, along.dy, at.branch + kink->formula.branch,
+                        s->u, s->rate, s->rounding);
+        rates[s->slides[j].unit] = s->rate[s->slides[j].part];
+    }
+}
+
+/* The values of the surfaces, one for each unit. */
+static void surfaces(const struct fbd_model *model, const struct instant *given, double *values)
+{
+    struct sliding *s = given->sliding;
+    const struct instant at = instant_extend(model, given);
+    for (int j = s->count - 1; j >= 0; j--) {
+        const struct kink *kink = &model->plan.kinks[s->slides[j].kink];
+        expr_switchings(kink->formula.expr, at.t, at.y, 0, NULL, at.branch + kink->formula.branch, s->u,
+                        s->rate, s->rounding);
+        values[s->slides[j].unit] = s->u[s->slides[j].part];
+    }
+}
+
+/* ---- the small system M x = r, by elimination with pivots */
+
+static void factor(struct sliding *s)
+{
+    int m = s->units;
+    memcpy(s->lu, s->M, (size_t)(m * m) * sizeof *s->lu);
+    s->failed = false;
+    for (int k = 0; k < m; k++) {
+        int best = k;
+        for (int i = k + 1; i < m; i++)
+            if (fabs(s->lu[i * m + k]) > fabs(s->lu[best * m + k])) best = i;
+        s->pivot[k] = best;
+        double before = 0;
+        for (int j = 0; j < m; j++) before = fmax(before, fabs(s->M[j * m + k]));
+        if (!(fabs(s->lu[best * m + k]) > 1e-12 * before)) {
+            s->failed = true;
+            return;
+        }
+        for (int j = 0; best != k && j < m; j++) {
+            double swap = s->lu[k * m + j];
+            s->lu[k * m + j] = s->lu[best * m + j];
+            s->lu[best * m + j] = swap;
+        }
+        for (int i = k + 1; i < m; i++) {
+            double f = s->lu[i * m + k] /= s->lu[k * m + k];
+            for (int j = k + 1; j < m; j++) s->lu[i * m + j] -= f * s->lu[k * m + j];
+        }
+    }
+}
+
+static void solve(const struct sliding *s, double *x)
+{
+    int m = s->units;
+    for (int k = 0; k < m; k++) {
+        double swap = x[k];
+        x[k] = x[s->pivot[k]];
+        x[s->pivot[k]] = swap;
+    }
+    for (int k = 0; k < m; k++)
+        for (int i = k + 1; i < m; i++) x[i] -= s->lu[i * m + k] * x[k];
+    for (int k = m - 1; k >= 0; k--) {
+        for (int j = k + 1; j < m; j++) x[k] -= s->lu[k * m + j] * x[j];
+        x[k] /= s->lu[k * m + k];
+    }
+}
+
+/* ---- shares */
+
+static void set_shares(struct sliding *s)
+{
+    for (int j = 0; j < s->count; j++) {
+        s->slides[j].share = 0.5 + s->slides[j].sign * s->delta[s->slides[j].unit];
+        s->slides[j].along = 0;
+    }
+}
+
+/* c: the rates of the surfaces at the shares as they are. */
+static void residuals(const struct fbd_model *model, const struct instant *at)
+{
+    struct sliding *s = at->sliding;
+    size_t n = (size_t)model->plan.n;
+    accelerations_at_shares(model, at, s->slots, s->a);
+    memcpy(s->flow, at->y + n, n * sizeof *s->flow);
+    memcpy(s->flow + n, s->a, n * sizeof *s->flow);
+    sliding_rates(model, at, 1, s->flow, s->c);
+}
+
+/* What the share of each unit does to the accelerations, and these to the surfaces. */
+static void responses(const struct fbd_model *model, const struct instant *at)
+{
+    struct sliding *s = at->sliding;
+    size_t n = (size_t)model->plan.n;
+    const struct direction none = {0, s->zero};
+    for (int unit = 0; unit < s->units; unit++) {
+        for (int j = 0; j < s->count; j++)
+            s->slides[j].along = s->slides[j].unit == unit ? s->slides[j].sign : 0;
+        accelerations_along_at_shares(model, at, &none, s->slots, s->slots_along, s->a_along);
+        memset(s->flow, 0, n * sizeof *s->flow);
+        memcpy(s->flow + n, s->a_along, n * sizeof *s->flow);
+        memcpy(s->B + (size_t)unit * n, s->a_along, n * sizeof *s->B);
+        sliding_rates(model, at, 0, s->flow, s->step);
+        for (int i = 0; i < s->units; i++) s->M[i * s->units + unit] = s->step[i];
+    }
+    for (int j = 0; j < s->count; j++) s->slides[j].along = 0;
+    factor(s);
+}
+
+/* It starts from the middle, whatever was before, so that an instant has one answer. */
+void sliding_solve(const struct fbd_model *model, const struct instant *at)
+{
+    enum { most_steps = 12 };
+    struct sliding *s = at->sliding;
+    memset(s->delta, 0, (size_t)s->units * sizeof *s->delta);
+    set_shares(s);
+    for (int step = 0; step < most_steps; step++) {
+        residuals(model, at);
+        if (step != 1) responses(model, at); /* affine: the second step takes the rounding of the first */
+        if (s->failed) return;
+        solve(s, s->c);
+        double largest = 0;
+        for (int k = 0; k < s->units; k++) {
+            s->delta[k] -= s->c[k];
+            largest = fmax(largest, fabs(s->c[k]));
+        }
+        set_shares(s);
+        if (!(largest > 1e-15)) return;
+        if (step > 0 && largest < 1e-14) return;
+    }
+}
+
+void sliding_clear_rounding(const struct sliding *s, int n, double *a)
+{
+    for (int i = 0; i < n && !s->failed; i++) {
+        double reach = 0;
+        for (int unit = 0; unit < s->units; unit++) reach += fabs(s->B[(size_t)unit * (size_t)n + (size_t)i]);
+        if (fabs(a[i]) <= 8 * DBL_EPSILON * reach) a[i] = 0;
+    }
+}
+
+/* D^2 u [f, d] for the motion f: how the rates change with the place at which they are taken. By central
+ * differences; zero to the last bit where u is affine, as it mostly is. */
+static void add_curvature(const struct fbd_model *model, const struct instant *at,
+                          const struct direction *along, double *sum)
+{
+    struct sliding *s = at->sliding;
+    size_t n = (size_t)model->plan.n;
+    double size = fabs(along->dt), place = 1 + fabs(at->t);
+    for (size_t i = 0; i < 2 * n; i++) size = fmax(size, fabs(along->dy[i]));
+    if (size == 0) return;
+    double h = 1e-5 * place / size;
+    struct instant beside = *at;
+    beside.y = s->shifted;
+    for (int side = 1; side >= -1; side -= 2) {
+        for (size_t i = 0; i < 2 * n; i++) s->shifted[i] = at->y[i] + side * h * along->dy[i];
+        beside.t = at->t + side * h * along->dt;
+        sliding_rates(model, &beside, 1, s->flow, s->step);
+        for (int k = 0; k < s->units; k++) sum[k] += side * s->step[k] / (2 * h);
+    }
+}
+
+void sliding_solve_along(const struct fbd_model *model, const struct instant *given,
+                         const struct direction *direction)
+{
+    struct sliding *s = given->sliding;
+    size_t n = (size_t)model->plan.n;
+    for (int j = 0; j < s->count; j++) s->slides[j].along = 0;
+    if (s->failed) return;
+    /* Both may stand in the room for places, which others pass through. */
+    memcpy(s->own_y, given->y, 2 * n * sizeof *s->own_y);
+    memcpy(s->own_dy, direction->dy, 2 * n * sizeof *s->own_dy);
+    struct instant at = *given;
+    at.y = s->own_y;
+    const struct direction along = {direction->dt, s->own_dy};
+    accelerations_along_at_shares(model, &at, &along, s->slots, s->slots_along, s->a_along);
+    memcpy(s->flow, along.dy + n, n * sizeof *s->flow);
+    memcpy(s->flow + n, s->a_along, n * sizeof *s->flow);
+    sliding_rates(model, &at, 0, s->flow, s->c);
+    accelerations_at_shares(model, &at, s->slots, s->a);
+    memcpy(s->flow, at.y + n, n * sizeof *s->flow);
+    memcpy(s->flow + n, s->a, n * sizeof *s->flow);
+    add_curvature(model, &at, &along, s->c);
+    solve(s, s->c);
+    for (int j = 0; j < s->count; j++) s->slides[j].along = -s->slides[j].sign * s->c[s->slides[j].unit];
+    const struct instant extended = instant_extend(model, &at);
+    direction_extend(model, &extended, &along);
+}
+
+/* ---- back onto the surfaces */
+
+void sliding_project(struct fbd_state *state)
+{
+    enum {
+        passes = 2
+    }; /* the second takes the rounding of the first, and of u that is not linear the rest */
+    struct sliding *s = state->sliding;
+    size_t n = (size_t)state->model->plan.n;
+    for (int pass = 0; pass < passes; pass++) {
+        struct instant at = state_instant(state);
+        sliding_solve(state->model, &at);
+        if (s->failed) return;
+        surfaces(state->model, &at, s->c);
+        solve(s, s->c);
+        for (int unit = 0; unit < s->units; unit++)
+            for (size_t i = 0; i < n; i++) state->y[n + i] -= s->B[(size_t)unit * n + i] * s->c[unit];
+    }
+}

@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Sliding on a switch (A. F. Filippov, Differential Equations with Discontinuous Righthand Sides, 1988).
+ *
+ * Where the forces on both sides of a switch drive the motion back to it, u < 0 with u' > 0 and u > 0 with u'
+ * < 0, it goes on along u = 0: each formula with the switch takes a convex combination of its two branches,
+ *
+ *     F = (1 - s) F(-) + s F(+),   0 <= s <= 1,
+ *
+ * with the share s that keeps u' = 0. That is Coulomb's law for -F sign(v), and the equivalent control of a
+ * sliding mode -F sign(x + c v). It ends when s reaches 0 or 1, where one branch alone goes on from u = 0.
+ *
+ * The shares follow from the accelerations: c_j = u_j' along the motion is zero for all j at once. For forces
+ * that enter linearly c is affine in the shares, and one step of Newton's method is exact. Switches with one
+ * surface, as two forces with sign(v), are a unit: their shares are as far from 1/2 as each other, each to
+ * the side that helps, so that their forces are shared in proportion to what they can be, and a force and its
+ * reaction stay equal.
+ */
+#ifndef FBD_DYNAMICS_SLIDING_H
+#define FBD_DYNAMICS_SLIDING_H
+
+#include "dynamics/instant.h"
+
+/* A switch that the motion slides on. */
+struct slide {
+    int kink, part;
+    int branch;   /* its place in the branches of the state */
+    int unit;     /* switches with one surface share one */
+    int sign;     /* +1 or -1: the side to which its share goes with the unit's */
+    double share; /* s: of the branch u > 0 */
+    double along; /* its variation */
+};
+
+/* The switches that a motion slides on, and scratch. The most there are is plan.slide_count. */
+struct sliding {
+    int count, units;
+    struct slide *slides;
+    int *slide_at;   /* plan.branches: 1 + index of the slide, or 0 */
+    int *branches;   /* plan.branches: scratch of formulas */
+    bool *keep;      /* plan.branches: not to be chosen by the values, when modes are settled */
+    bool *left;      /* plan.branches: its share has just reached an end */
+    bool failed;     /* no shares are found: the branches do not act on the surfaces */
+    const char *why; /* when modes did not settle for a slide: "none" or "several"; else NULL */
+    int blamed;      /* then a kink */
+    double *M, *B;   /* units by units, factored in `lu`; n by units: accelerations by the unit's share */
+    double *lu, *c, *delta, *step;
+    int *pivot;
+    double *u, *rate, *rounding; /* of the switches of one formula */
+    double *slots, *slots_along, *a, *a_along, *flow, *zero, *shifted, *own_y, *own_dy, *best;
+    int *kept;      /* 2 plan.branches + 2 plan.friction_count: modes while others are tried */
+    double *kept_y; /* 2 n */
+};
+
+size_t sliding_size(const struct fbd_model *model);
+void sliding_init(struct sliding *sliding, const struct fbd_model *model, void *memory);
+void sliding_copy(const struct fbd_model *model, struct sliding *to, const struct sliding *from);
+
+/* Slide on a switch from now on, in a unit. */
+void sliding_add(struct sliding *sliding, const struct kink *kink, int index, int part, int unit, int sign);
+/* Leave those out whose branches no longer know them. */
+void sliding_drop(struct sliding *sliding);
+
+/* Number the units anew, in the order of their first slides. */
+void sliding_number(struct sliding *sliding);
+
+/* The shares at an instant; accelerations() does this. */
+void sliding_solve(const struct fbd_model *model, const struct instant *at);
+
+/* What is left of accelerations that the shares bring to zero is rounding of the forces, not motion: what
+ * rests on its switch stays exactly. After sliding_solve. */
+void sliding_clear_rounding(const struct sliding *sliding, int n, double *a);
+
+/* The variations of the shares along a direction, after sliding_solve at the instant. */
+void sliding_solve_along(const struct fbd_model *model, const struct instant *at,
+                         const struct direction *along);
+
+/* The rates of the surfaces, one for each unit, along (dt, dy); dy has 2 n. */
+void sliding_rates(const struct fbd_model *model, const struct instant *at, double dt, const double *dy,
+                   double *rates);
+
+struct fbd_state;
+
+/* Bring the velocities back onto the surfaces, by impulses of the forces that slide. */
+void sliding_project(struct fbd_state *state);
+
+struct decided;
+
+/* After the modes have been settled by `settle`, with or without success: slide where both branches of a
+ * switch lead back to it, and go on by a branch where the share is used up. False when no choice or several
+ * agree with the forces. */
+bool sliding_settle(struct fbd_state *state, const struct decided *decided, bool settled,
+                    bool (*settle)(struct fbd_state *state, const struct decided *decided));
+
+#endif

@@ -1,0 +1,259 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Which switches are slid on, decided where modes are: at the start and after each event.
+ *
+ * Asked are switches at which the motion is: those that are slid on, that have just been crossed, or whose u
+ * is zero to rounding. Each may take a branch, from whose side u' must not lead back, or be slid on, with a
+ * share between 0 and 1. Where what has been chosen without them agrees, that is it: what is crossed is
+ * crossed. Else all choices are tried, one surface a digit, and the one that agrees is taken. Choices with
+ * the same accelerations are one.
+ */
+#include <string.h>
+
+#include "dynamics/absolute.h"
+#include "dynamics/modes.h"
+
+enum { most_asked = 16, most_units = 5 };
+
+/* A switch that is asked. */
+struct asked {
+    int kink, part, branch;
+    int unit, side; /* the surface, and -1 where its u goes against that of the surface's first */
+    bool left;      /* its share has just been used up */
+};
+
+struct question {
+    struct fbd_state *state;
+    struct asked list[most_asked];
+    int count, units;
+    double most; /* of the accelerations tried: what rates are measured by */
+};
+
+/* ---- who is asked */
+
+static bool is_asked(const struct sliding *s, const struct decided *decided, int branch, int part)
+{
+    if (isnan(s->u[part])) return false; /* in a side of an `if` that is not chosen */
+    return s->slide_at[branch] > 0 || s->left[branch] || (decided && decided->branches[branch]) ||
+           fabs(s->u[part]) <= s->rounding[part];
+}
+
+/* False when there are too many. */
+static bool gather(struct question *q, const struct decided *decided)
+{
+    struct fbd_state *state = q->state;
+    struct sliding *s = state->sliding;
+    const struct plan *plan = &state->model->plan;
+    const struct instant given = state_instant(state), at = instant_extend(state->model, &given);
+    for (size_t i = 0; i < plan->kink_count; i++) {
+        const struct kink *kink = &plan->kinks[i];
+        if (!kink->slides) continue;
+        expr_switchings(kink->formula.expr, at.t, at.y, 0, NULL, at.branch + kink->formula.branch, s->u,
+                        s->rate, s->rounding);
+        for (int part = 0; part < (int)kink->count; part++) {
+            int branch = kink->formula.branch + part;
+            if (!expr_switch_jumps(kink->formula.expr, (size_t)part) ||
+                expr_switch_is_time(kink->formula.expr, (size_t)part) || !is_asked(s, decided, branch, part))
+                continue;
+            if (q->count == most_asked) return false;
+            q->list[q->count++] = (struct asked){(int)i, part, branch, -1, 1, s->left[branch]};
+        }
+    }
+    return true;
+}
+
+/* The rate of what a switch watches, along (dt, dy). */
+static double rate_along(const struct question *q, const struct asked *asked, double dt, const double *dy)
+{
+    const struct fbd_model *model = q->state->model;
+    struct sliding *s = q->state->sliding;
+    const struct kink *kink = &model->plan.kinks[asked->kink];
+    const struct instant given = state_instant(q->state), at = instant_extend(model, &given);
+    const struct direction own = {dt, dy}, along = direction_extend(model, &at, &own);
+    expr_switchings(kink->formula.expr, at.t, at.y, along.dt, along.dy, at.branch + kink->formula.branch,
+                    s->u, s->rate, s->rounding);
+    return s->rate[asked->part];
+}
+
+/* One entry of the gradient of u: with time, a coordinate, a rate. */
+static double slope(const struct question *q, const struct asked *asked, size_t i)
+{
+    double *dy = q->state->sliding->flow;
+    size_t size = 2 * (size_t)q->state->model->plan.n;
+    memset(dy, 0, size * sizeof *dy);
+    if (i > 0) dy[i - 1] = 1;
+    return rate_along(q, asked, i == 0, dy);
+}
+
+/* +1 or -1 for switches with one surface, whose gradients have one direction or opposite ones; else 0. */
+static int same_surface(const struct question *q, const struct asked *a, const struct asked *b)
+{
+    const double rounding = 1e-10;
+    size_t size = 2 * (size_t)q->state->model->plan.n;
+    double aa = 0, bb = 0, ab = 0;
+    for (size_t i = 0; i <= size; i++) {
+        double x = slope(q, a, i), y = slope(q, b, i);
+        aa += x * x;
+        bb += y * y;
+        ab += x * y;
+    }
+    if (!(ab * ab >= (1 - rounding) * aa * bb)) return 0;
+    return ab > 0 ? 1 : ab < 0 ? -1 : 0;
+}
+
+static void find_surfaces(struct question *q)
+{
+    for (int i = 0; i < q->count; i++) {
+        for (int j = 0; j < i && q->list[i].unit < 0; j++) {
+            int side = q->list[j].side * same_surface(q, &q->list[j], &q->list[i]);
+            if (side != 0) q->list[i].unit = q->list[j].unit, q->list[i].side = side;
+        }
+        if (q->list[i].unit < 0) q->list[i].unit = q->units++;
+    }
+}
+
+/* ---- does a choice agree? */
+
+/* How large a rate of u could be: to rounding it is zero against that. */
+static double size_of_rate(const struct question *q, const struct asked *asked)
+{
+    const struct fbd_state *state = q->state;
+    size_t n = (size_t)state->model->plan.n;
+    double size = fabs(slope(q, asked, 0));
+    for (size_t i = 0; i < n; i++) {
+        size += fabs(slope(q, asked, 1 + i) * state->y[n + i]);
+        size += fabs(slope(q, asked, 1 + n + i)) * q->most;
+    }
+    return size;
+}
+
+static bool agrees(struct question *q)
+{
+    const double rounding = 1e-10;
+    struct fbd_state *state = q->state;
+    struct sliding *s = state->sliding;
+    size_t n = (size_t)state->model->plan.n;
+    for (size_t i = 0; i < n; i++) q->most = fmax(q->most, fabs(state->a[i]));
+    for (int i = 0; i < q->count; i++) {
+        const struct asked *asked = &q->list[i];
+        int slide = s->slide_at[asked->branch];
+        if (slide > 0) {
+            double share = s->slides[slide - 1].share;
+            if (s->failed || !(share >= -rounding && share <= 1 + rounding)) return false;
+            continue;
+        }
+        double zero = rounding * size_of_rate(q, asked), *flow = s->flow;
+        memcpy(flow, state->y + n, n * sizeof *flow);
+        memcpy(flow + n, state->a, n * sizeof *flow);
+        double rate = rate_along(q, asked, 1, flow);
+        int branch = state->branch[asked->branch];
+        if (branch == 0 ? fabs(rate) > zero : branch * rate < -zero) return false;
+    }
+    return true;
+}
+
+/* Is a sign zero, as it is where nothing moves yet? Then the least push would end that. */
+static bool is_undecided(const struct question *q)
+{
+    for (int i = 0; i < q->count; i++)
+        if (q->state->branch[q->list[i].branch] == 0) return true;
+    return false;
+}
+
+/* ---- all choices */
+
+static void keep_modes(const struct fbd_state *state, bool back)
+{
+    const struct plan *plan = &state->model->plan;
+    struct sliding *s = state->sliding;
+    size_t branches = (size_t)plan->branches, pairs = plan->friction_count, n = (size_t)plan->n;
+    int *parts[] = {state->branch, state->slip, state->pull}, *kept = s->kept;
+    const size_t sizes[] = {branches, pairs, pairs};
+    for (int k = 0; k < 3; k++) {
+        memcpy(back ? parts[k] : kept, back ? kept : parts[k], sizes[k] * sizeof *kept);
+        kept += sizes[k];
+    }
+    memcpy(back ? state->y : s->kept_y, back ? s->kept_y : state->y, 2 * n * sizeof *state->y);
+}
+
+/* Choice number `choice`: a digit for each surface, 0 slides, 1 and 2 its sides. False for one that slides
+ * where the share is used up. */
+static bool choose(struct question *q, const struct decided *decided, int choice)
+{
+    struct fbd_state *state = q->state;
+    struct sliding *s = state->sliding;
+    int digit[most_units];
+    for (int unit = 0; unit < q->units; unit++, choice /= 3) digit[unit] = choice % 3;
+    for (int j = 0; j < s->count; j++) s->slide_at[s->slides[j].branch] = 0;
+    sliding_drop(s);
+    for (int i = 0; i < state->model->plan.branches; i++) s->keep[i] = decided && decided->branches[i];
+    for (int i = 0; i < q->count; i++) {
+        const struct asked *asked = &q->list[i];
+        int side = digit[asked->unit] == 2 ? -1 : 1;
+        if (digit[asked->unit] == 0 && asked->left) return false;
+        state->branch[asked->branch] = side * asked->side;
+        s->keep[asked->branch] = true;
+        if (digit[asked->unit] > 0) continue;
+        const struct kink *kink = &state->model->plan.kinks[asked->kink];
+        sliding_add(s, kink, asked->kink, asked->part, asked->unit, asked->side);
+    }
+    if (s->count > 0) sliding_number(s);
+    return true;
+}
+
+static bool same_accelerations(const struct question *q, const double *a)
+{
+    const double rounding = 1e-8;
+    for (int i = 0; i < q->state->model->plan.n; i++)
+        if (fabs(q->state->a[i] - a[i]) > rounding * q->most) return false;
+    return true;
+}
+
+/* The choice that agrees: its number, -1 when there is none, -2 when there are several. */
+static int find_choice(struct question *q, const struct decided *decided,
+                       bool (*settle)(struct fbd_state *state, const struct decided *decided))
+{
+    struct fbd_state *state = q->state;
+    const double *a = state->sliding->best;
+    int choices = 1, found = -1;
+    for (int unit = 0; unit < q->units; unit++) choices *= 3;
+    keep_modes(state, false);
+    for (int choice = 0; choice < choices; choice++) {
+        keep_modes(state, true);
+        if (!choose(q, decided, choice) || !settle(state, decided) || !agrees(q)) continue;
+        if (found >= 0 && !same_accelerations(q, a)) return -2;
+        if (found >= 0) continue;
+        found = choice;
+        memcpy(state->sliding->best, state->a, (size_t)state->model->plan.n * sizeof *a);
+    }
+    keep_modes(state, true);
+    return found;
+}
+
+bool sliding_settle(struct fbd_state *state, const struct decided *decided, bool settled,
+                    bool (*settle)(struct fbd_state *state, const struct decided *decided))
+{
+    struct sliding *s = state->sliding;
+    struct question q = {.state = state};
+    s->why = NULL;
+    if (state->holds.found == holds_no_memory) return false;
+    bool asked = gather(&q, decided);
+    memset(s->left, 0, (size_t)state->model->plan.branches * sizeof *s->left);
+    bool fine = asked && (q.count == 0 || (settled && agrees(&q)));
+    if (fine && !is_undecided(&q)) return settled;
+    if (asked) find_surfaces(&q);
+    s->blamed = q.count > 0 ? q.list[0].kink : -1;
+    if (!asked || q.units > most_units) {
+        s->why = "too many switches are at zero at once";
+        return false;
+    }
+    int choice = find_choice(&q, decided, settle);
+    /* A share that only just touches its end goes back. */
+    for (int i = 0; choice == -1 && i < q.count; i++) q.list[i].left = false;
+    if (choice == -1) choice = find_choice(&q, decided, settle);
+    if (choice < 0 && fine) return settle(state, decided);
+    if (choice >= 0) return choose(&q, decided, choice) && settle(state, decided);
+    s->why = choice == -1 ? "neither a branch nor a share of both agrees with what it leads to"
+                          : "several ways to go on agree with what they lead to";
+    return false;
+}

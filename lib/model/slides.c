@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Which switches a motion may slide on (dynamics/sliding.h): those at which a force jumps, or a coefficient
+ * of friction, by what goes with a velocity. Where it goes with places alone, u' is the same on both sides
+ * and u = 0 is passed.
+ */
+#include "model/builder.h"
+
+enum { most_slides = 32 };
+
+/* Is it a force, whose branches can be mixed? Directions, potentials and prescribed motions are not. */
+static bool is_force(const struct fbd_model *model, const struct kink *kink)
+{
+    int branch = kink->formula.branch;
+    if (kink->load >= 0) {
+        const struct model_load *load = &model->loads[kink->load];
+        if (load->value.branch == branch && load->value.expr) return true;
+        if (load->fx.branch == branch && load->fx.expr) return true;
+        if (load->fy.branch == branch && load->fy.expr) return true;
+    }
+    for (size_t i = 0; i < model->plan.friction_count; i++) {
+        const struct formula *mu = &model->plan.frictions[i].mu_k;
+        if (mu->expr && mu->branch == branch) return true;
+    }
+    return false;
+}
+
+/* Does it read a velocity: a rate, or one in the world? */
+static bool reads_velocity(const struct fbd_model *model, const struct expr *expr)
+{
+    const int *slots, n = model->plan.n;
+    size_t count = expr_variables(expr, &slots);
+    for (size_t i = 0; i < count; i++) {
+        if (slots[i] <= n) continue;
+        if (slots[i] <= 2 * n) return true;
+        enum absolute_kind kind = model->scene->absolutes[slots[i] - 1 - 2 * n - hand_slots].kind;
+        if (kind != absolute_x && kind != absolute_y && kind != absolute_angle) return true;
+    }
+    return false;
+}
+
+void slides_find(struct fbd_model *model)
+{
+    struct plan *plan = &model->plan;
+    for (size_t i = 0; i < plan->kink_count; i++) {
+        struct kink *kink = &plan->kinks[i];
+        int jumps = 0;
+        for (size_t part = 0; part < kink->count; part++)
+            jumps +=
+                expr_switch_jumps(kink->formula.expr, part) && !expr_switch_is_time(kink->formula.expr, part);
+        kink->slides = jumps > 0 && plan->slide_count + jumps <= most_slides && is_force(model, kink) &&
+                       reads_velocity(model, kink->formula.expr);
+        if (kink->slides) plan->slide_count += jumps;
+    }
+}
