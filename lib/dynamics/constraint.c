@@ -153,6 +153,29 @@ int rope_blocked_at(const struct fbd_model *model, const struct tree_work *work,
     return -1;
 }
 
+bool rope_goes_on(const struct tree *tree, int index)
+{
+    const struct tie *tie = &tree->ties[index];
+    if (tie->kind != constraint_rope || index + 1 >= tree->tie_count) return false;
+    return tie->end[tie->end_count - 1].radius > 0 && tie[1].constraint == tie->constraint;
+}
+
+double rope_wrap(const struct fbd_model *model, const struct tree_work *work, int index)
+{
+    const struct tie *in = &model->tree->ties[index], *out = in + 1;
+    const struct tie_state *before = &work->ties[index], *after = before + 1;
+    struct view view = {model->tree, work, false};
+    int last = in->end_count - 1;
+    double sR = before->side[1] * in->end[last].radius;
+    double sR_first = last == 1 ? before->side[0] * in->end[0].radius : 0;
+    double sR_last = out->end_count == 2 ? after->side[1] * out->end[1].radius : 0;
+    struct jet_vec C = point_of(&view, &in->end[last]);
+    struct piece reach = piece_between(point_of(&view, &in->end[last - 1]), sR_first, C, sR);
+    struct piece leave = piece_between(C, sR, point_of(&view, &out->end[1]), sR_last);
+    struct vec u = jet_value(reach.u), w = jet_value(leave.u);
+    return before->side[1] * atan2(vec_cross(u, w), vec_dot(u, w));
+}
+
 /* ---- all of them */
 
 static void evaluate(const struct view *view, const struct tie *tie, const struct tie_state *state,

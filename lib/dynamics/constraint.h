@@ -84,6 +84,13 @@ struct one_sided one_sided_at(const struct fbd_model *model, const struct instan
  * pulley beside it, or two pulleys between which it crosses and which overlap; -1 without one. */
 int rope_blocked_at(const struct fbd_model *model, const struct tree_work *work, int tie);
 
+/* Does the rope of a tie go on beyond the pulley at its end, as the next tie? */
+bool rope_goes_on(const struct tree *tree, int tie);
+
+/* The angle by which such a rope lies on the pulley, from where one piece reaches it to where the next leaves
+ * it [rad]; negative where it would have to pull the pulley along. Modulo a turn, between -pi and pi. */
+double rope_wrap(const struct fbd_model *model, const struct tree_work *work, int tie);
+
 /* A body that has slipped rolls, or sticks, on from where it is. */
 void tie_rezero(const struct fbd_model *model, struct tree_work *work, int tie);
 

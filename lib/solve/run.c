@@ -472,6 +472,7 @@ fbd_outcome run_advance(struct run *run)
         run_fail_step(run, stepper_bad_function);
         return run->outcome;
     }
+    run_watch_pulleys(run, &t);
     accept(run, t);
     if (crawls(run)) {
         if (run->crowd > 0)
