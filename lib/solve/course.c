@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { room = course_most_degree + 1 };
+enum { room = course_most_degree + 1, coarse_room = course_coarse_degree + 1 };
 
 static const double pi = 3.14159265358979323846;
 
@@ -22,7 +22,8 @@ bool course_init(struct course *course, size_t size, const bool *used)
     for (size_t i = 0; i < size; i++) course->count += used[i];
     size_t count = course->count;
     course->component = calloc(count + 1, sizeof(int));
-    course->coefficients = calloc(2 * room * count + 4 * count + size + 1, sizeof(double));
+    size_t grids = count > 0 ? coarse_room * (coarse_room + 1) + room * (room + 1) : 0;
+    course->coefficients = calloc(2 * room * count + 5 * count + size + grids + 1, sizeof(double));
     course->now = calloc(size + 1, sizeof *course->now);
     if (!course->component || !course->coefficients || !course->now) {
         course_free(course);
@@ -33,7 +34,12 @@ bool course_init(struct course *course, size_t size, const bool *used)
     course->scale = course->doubt + count;
     course->floor = course->scale + count;
     course->tail = course->floor + count;
-    course->y = course->tail + count;
+    course->noise = course->tail + count;
+    course->y = course->noise + count;
+    course->grids[0].node = course->y + size;
+    course->grids[0].matrix = course->grids[0].node + coarse_room;
+    course->grids[1].node = course->grids[0].matrix + coarse_room * coarse_room;
+    course->grids[1].matrix = course->grids[1].node + room;
     for (size_t i = 0, k = 0; i < size; i++) {
         course->now[i] = enclosure_everything();
         if (used[i]) course->component[k++] = (int)i;
@@ -78,18 +84,21 @@ static void set_powers(int degree, double power[room][room])
 static void prepare(struct course *course, int degree)
 {
     double power[room][room];
-    if (course->prepared == degree) return;
-    course->prepared = degree;
+    struct course_grid *grid = &course->grids[degree != course_coarse_degree];
+    course->degree = degree;
+    course->grid = grid;
+    if (grid->degree == degree) return;
+    grid->degree = degree;
     set_powers(degree, power);
     for (int k = 0; k <= degree; k++) {
-        course->node[k] = cosine(k, degree);
+        grid->node[k] = cosine(k, degree);
         for (int i = 0; i <= degree; i++) {
             double sum = 0;
             for (int j = i; j <= degree; j++) {
                 double half = (k == 0 || k == degree ? 0.5 : 1) * (j == 0 || j == degree ? 0.5 : 1);
                 sum += half * cosine(j * k, degree) * power[j][i];
             }
-            course->matrix[i * room + k] = 2 * sum / degree;
+            grid->matrix[i * (degree + 1) + k] = 2 * sum / degree;
         }
     }
 }
@@ -98,7 +107,7 @@ static int take_samples(struct course *course, course_sampler *sample, void *con
 {
     double radius = (course->to - course->from) / 2, middle = course->from + radius;
     for (int k = 0; k <= course->degree; k++) {
-        double t = middle + radius * course->node[k];
+        double t = middle + radius * course->grid->node[k];
         if (k == 0 || t > course->to) t = course->to;
         if (k == course->degree || t < course->from) t = course->from;
         int status = sample(context, t, course->y);
@@ -116,28 +125,48 @@ static bool all_equal(int degree, const double *sample)
     return true;
 }
 
-/* The polynomial of component i. Is what it leaves out too much? Its size is that of the last two terms c_j
- * T_j, whose leading powers are 2^(j-1) c_j. The last terms of what is smooth fall by 2^(d-1) from a piece to
- * its half; those that do not are noise. */
-static bool follow(struct course *course, size_t i, double negligible, bool halved)
+/* The polynomial of component i in powers of s; returns its size. */
+static double set_powers_of(struct course *course, size_t i)
 {
-    const double rounding = 32 * DBL_EPSILON, least_fall = 1.0 / 8;
     int degree = course->degree;
     double *c = course->coefficients + i * room, size = 0;
     const double *sample = course->samples + i * room;
-    course->doubt[i] = 0;
-    c[0] = sample[0];
-    if (all_equal(degree, sample)) return false;
     for (int j = 0; j <= degree; j++) {
-        const double *row = course->matrix + j * room;
+        const double *row = course->grid->matrix + j * (degree + 1);
         double sum = 0;
         for (int k = 0; k <= degree; k++) sum += row[k] * sample[k];
         c[j] = sum;
         size = fmax(size, fabs(sample[j]));
     }
-    double tail =
-        negligible == 0 ? 0 : ldexp(fabs(c[degree]), 1 - degree) + ldexp(fabs(c[degree - 1]), 2 - degree);
-    course->doubt[i] = rounding * size + tail;
+    return size;
+}
+
+/* The size of the last two terms c_j T_j, whose leading powers are 2^(j-1) c_j. */
+static double last_terms(const struct course *course, size_t i)
+{
+    const double *c = course->coefficients + i * room;
+    int degree = course->degree;
+    return ldexp(fabs(c[degree]), 1 - degree) + ldexp(fabs(c[degree - 1]), 2 - degree);
+}
+
+/* At rest, or moved by rounding alone. */
+static bool rests(struct course *course, size_t i)
+{
+    const double *sample = course->samples + i * room;
+    course->doubt[i] = course->noise[i];
+    course->coefficients[i * room] = sample[0];
+    return all_equal(course->degree, sample);
+}
+
+/* Is what the polynomial of component i leaves out too much? Its size is that of the last terms. Those of
+ * what is smooth fall by 2^(d-1) from a piece to its half; those that do not are noise. */
+static bool follow(struct course *course, size_t i, double negligible, bool halved)
+{
+    const double rounding = 32 * DBL_EPSILON, least_fall = 1.0 / 8;
+    if (rests(course, i)) return false;
+    double size = set_powers_of(course, i);
+    double tail = negligible == 0 ? 0 : last_terms(course, i);
+    course->doubt[i] += rounding * size + tail;
     course->scale[i] = fmax(course->scale[i], size);
     double share = tail / course->scale[i], before = course->tail[i];
     course->tail[i] = share;
@@ -150,7 +179,6 @@ int course_set(struct course *course, double from, double to, int degree, double
                course_sampler *sample, void *context)
 {
     enum { most_halvings = 20 };
-    course->degree = degree;
     course->from = from;
     course->to = to - from > 2 * course->length ? from + 2 * course->length : to;
     prepare(course, degree);
@@ -167,10 +195,32 @@ int course_set(struct course *course, double from, double to, int degree, double
     return 0;
 }
 
+/* What follows a step of any method closely enough is smooth on the scale of the step, so that terms fall
+ * from the third on; should two of them vanish by chance, T_2 tells. */
+int course_set_coarse(struct course *course, double from, double to, course_sampler *sample, void *context)
+{
+    const double rounding = 32 * DBL_EPSILON, safe = 2;
+    course->from = from;
+    course->to = to;
+    prepare(course, course_coarse_degree);
+    if (course->count == 0) return 0;
+    int status = take_samples(course, sample, context);
+    if (status) return status;
+    for (size_t i = 0; i < course->count; i++) {
+        if (rests(course, i)) continue;
+        double size = set_powers_of(course, i);
+        const double *c = course->coefficients + i * room;
+        double tail = fmax(last_terms(course, i), fabs(c[2] + c[4]) / 32);
+        course->doubt[i] += rounding * size + safe * tail;
+    }
+    return 0;
+}
+
 /* b_k of the polynomial c about s0. */
 static void shift(int degree, const double *c, double s0, double *b)
 {
     memcpy(b, c, (size_t)(degree + 1) * sizeof *b);
+    if (s0 == 0) return;
     for (int k = 0; k < degree; k++)
         for (int j = degree - 1; j >= k; j--) b[j] += s0 * b[j + 1];
 }
@@ -189,8 +239,9 @@ void course_enclose(struct course *course, const struct stretch *stretch)
         const double *c = course->coefficients + i * room;
         double doubt = course->doubt[i], bend = 0, slope = 0, power = 1;
         struct enclosure *now = &course->now[course->component[i]];
-        if (doubt == 0) {
+        if (all_equal(course->degree, course->samples + i * room)) {
             *now = enclosure_point(c[0]);
+            if (doubt > 0) now->value = now->middle = around(c[0], doubt);
             continue;
         }
         shift(course->degree, c, s0, b);

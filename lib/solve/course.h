@@ -7,7 +7,8 @@
  * polynomial of a known degree d, which d + 1 samples give to rounding. Where it is not (implicit methods
  * that redo a step, linear systems, places in the world, which are functions of coordinates), the samples
  * give a Chebyshev series, and its last two terms are the bound of what is left out: ASSUMED, not proved; the
- * step is looked at in shorter pieces until they are small.
+ * step is looked at in shorter pieces until they are small. A first look by a series of degree 4 over the
+ * whole of a step has wide bounds and costs little: it decides where nothing is near.
  */
 #ifndef FBD_SOLVE_COURSE_H
 #define FBD_SOLVE_COURSE_H
@@ -16,21 +17,28 @@
 
 #include "expr/interval.h"
 
-enum { course_most_degree = 16 };
+enum { course_most_degree = 16, course_coarse_degree = 4 };
 
 /* Fill y at t; non-zero stops. */
 typedef int course_sampler(void *context, double t, double *y);
 
+/* The samples of one degree d. */
+struct course_grid {
+    int degree;            /* 0: not made */
+    double *node, *matrix; /* d + 1 numbers; (d + 1) (d + 1): from samples to powers */
+};
+
 struct course {
-    size_t size, count;   /* of y; components that are followed */
-    int *component;       /* count */
-    int degree, prepared; /* of this piece; the one that `node` and `matrix` are for */
-    double node[course_most_degree + 1];
-    double matrix[(course_most_degree + 1) * (course_most_degree + 1)]; /* from samples to powers */
-    double from, to;                                                    /* of the present piece */
-    double length;                                                      /* of pieces that could be followed */
+    size_t size, count;          /* of y; components that are followed */
+    int *component;              /* count */
+    int degree;                  /* of this piece */
+    struct course_grid grids[2]; /* the coarse one, another one */
+    const struct course_grid *grid;
+    double from, to;       /* of the present piece */
+    double length;         /* of pieces that could be followed */
     double *coefficients;  /* count x (most_degree + 1): powers of s in [-1, 1] over the piece */
     double *doubt;         /* count: what values may be off by */
+    double *noise;         /* count: the least of that, set by the caller: what the motion itself is off by */
     double *scale;         /* count: the largest size of each component since course_start */
     double *floor;         /* count: the share of its size below which the terms of a component are noise */
     double *tail;          /* count: the share of its last terms in the present piece */
@@ -52,6 +60,9 @@ void course_start(struct course *course);
  * from the sampler. */
 int course_set(struct course *course, double from, double to, int degree, double negligible,
                course_sampler *sample, void *context);
+
+/* Follow it as far as `to` by a series of degree 4. */
+int course_set_coarse(struct course *course, double from, double to, course_sampler *sample, void *context);
 
 /* The components over a stretch of the present piece, in course->now. */
 void course_enclose(struct course *course, const struct stretch *stretch);

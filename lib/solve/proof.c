@@ -2,7 +2,7 @@
 #include "solve/proof.h"
 
 /* What one stretch tells of a function, and of all of a group: the worst. */
-enum verdict { clear_above, clear_to_rounding, unsure, negative };
+enum verdict { clear_above, clear_rising, clear_to_rounding, unsure, negative };
 
 /* The rounding of g, where its sign says nothing. */
 static double rounding_of(const struct enclosure *g)
@@ -26,7 +26,7 @@ static enum verdict judge(const struct enclosure *g, const struct stretch *stret
     double length = stretch->to - stretch->from;
     double rounding = rounding_of(g);
     if (g->value.low >= 0) return clear_above;
-    if (g->rate.low >= 0 && g->rate.high > 0) return clear_to_rounding;
+    if (g->rate.low >= 0 && g->rate.high > 0) return clear_rising;
     if (g->value.high < -rounding) return negative;
     if (-g->rate.low * length <= rounding) return clear_to_rounding;
     if (!end) return unsure;
@@ -81,7 +81,7 @@ static void see_who_waits(struct prover *prover, const struct proof_group *group
 enum proof_result proof_search(struct prover *prover, struct proof_group *groups, size_t index, double from,
                                double need, double far, bool resumed)
 {
-    enum { most_stretches = 20000, most_blind = 8 };
+    enum { most_stretches = 20000, most_blind = 8, few = 16, many = 256 };
     struct proof_group *group = &groups[index];
     if (!(group->clear >= from)) {
         group->clear = group->low = from;
@@ -91,9 +91,13 @@ enum proof_result proof_search(struct prover *prover, struct proof_group *groups
     if (group->high < HUGE_VAL) return proof_found;
     double width = group->width > 0 ? group->width : far - group->clear;
     bool grows = true;
+    double start = group->clear;
     prover->blind = 0;
     for (int k = 0; group->clear < need; k++) {
         if (k == most_stretches || prover->blind > most_blind) return proof_unfinished;
+        if (k == few && prover->strict) return proof_unfinished;
+        /* As slow as this, the end will not be reached. */
+        if (k >= many && group->clear - start < (need - start) * k / most_stretches) return proof_unfinished;
         double to = group->clear + width;
         /* A rest that is about as long goes with it, and no stretch is shorter than the time can tell. */
         if (!(group->clear + 1.5 * width < far)) to = far;
@@ -106,6 +110,7 @@ enum proof_result proof_search(struct prover *prover, struct proof_group *groups
             grows = false;
             continue;
         }
+        if (verdict == clear_to_rounding && prover->strict) return proof_unfinished;
         group->width = width;
         if (verdict == negative) {
             group->high = to;

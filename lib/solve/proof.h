@@ -28,6 +28,8 @@ struct proof_group {
     size_t first, count; /* in the caller's list */
     bool proved;         /* it has enclosures */
     bool aside;          /* searched in a turn of its own: see scan.h */
+    bool open, again;    /* still to be searched; in the next piece as well */
+    bool stuck;          /* enclosures tell nothing: left to samples until the functions are others */
     double clear;        /* none becomes negative up to here; NAN: not searched */
     double width;        /* of stretches that have told enough */
     double low, high;    /* bracket of the zero that was found; high is HUGE_VAL where none was */
@@ -39,6 +41,8 @@ struct prover {
     struct enclosure *now, *end; /* for the largest group */
     bool *waiting;               /* negative where the search began, and not seen otherwise */
     int blind;                   /* instants at which an enclosure was everything */
+    bool strict; /* bounds are wider than rounding: what hangs on that, or takes many stretches, is left
+                    unfinished */
 };
 
 enum proof_result { proof_clear, proof_found, proof_unfinished };

@@ -313,7 +313,6 @@ static int find_change(struct run *run, double *t)
     run->moving.aside = false;
     for (int dip = 0; dip < most_dips && start < end; dip++) {
         run->moving.resumed = dip > 0;
-        run->moving.panels = run_sample_panels(run, start, end);
         int found = scan_interval(&run->moving, start, end);
         if (run->moving.resolved < HUGE_VAL) run->h = fmin(run->h, run->moving.resolved);
         if (found <= 0) return found;

@@ -3,10 +3,11 @@
  * Run: the loop that carries a scene through time.
  *
  * One turn of the loop: find the next event of time alone, with proof and however many periods ahead; make
- * one accepted step, at most to there; look on the step's dense output for the first other event, with proof
- * where its function has enclosures (watchers_can_enclose), else by samples; if there is one, go back to it
- * by a partial step and polish its time by Newton; apply all events of that instant; settle the modes; start
- * the stepper anew. Between events everything is smooth, so every method keeps its order.
+ * one accepted step, at most to there; look on the step's dense output for the first other event: all zeros
+ * of its function are found, by enclosures where it has some (watchers_can_enclose), else by its Chebyshev
+ * series (series.h says what that assumes); if there is one, go back to it by a partial step and polish its
+ * time by Newton; apply all events of that instant; settle the modes; start the stepper anew. Between events
+ * everything is smooth, so every method keeps its order.
  */
 #ifndef FBD_SOLVE_RUN_H
 #define FBD_SOLVE_RUN_H
@@ -88,8 +89,10 @@ struct run {
 
     struct watchers watchers;
     struct scan timed, moving;
-    struct stretch enclosed; /* that the course has been enclosed over */
-    struct course course;    /* of what moving functions with enclosures read */
+    struct stretch enclosed;     /* that the course has been enclosed over */
+    bool paced, paced_by_motion; /* sampled functions may change as fast as formulas do, of the motion too */
+    bool follows_places;         /* the course has places in the world */
+    struct course course;        /* of what moving functions with enclosures read */
     struct poles poles;
     struct switcher *stepper;
     struct linear_pace pace; /* of a linear system */
@@ -138,11 +141,6 @@ int run_panels(const struct run *run);
 
 /* Event functions and their scans (run_watch.c). False when memory is out. */
 bool run_make_scans(struct run *run);
-
-/* Into how many panels an interval is to be divided for functions that are sampled, so that no force of time
- * alone turns by more than two radians in one; at most 256. Not a proof: what joints make of several such
- * forces is only sampled. */
-size_t run_sample_panels(const struct run *run, double from, double to);
 
 /* Apply what has happened at run->state: `timed` and `moving` flag the functions of each set that have
  * crossed; NULL for none. Settles the modes. */

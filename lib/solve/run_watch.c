@@ -3,6 +3,7 @@
  * What a run watches: event functions at instants and over stretches of time, on the state along the last
  * step.
  */
+#include <float.h>
 #include <gsl/gsl_errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,19 +18,43 @@ static int sample_timed(void *context, double t, double *values, double *rate)
     return 0;
 }
 
-/* At the start of a step no function has passed its end: one that is negative has just come from there, or
- * goes there, and is off by the rounding of the instant. Left so, one that rises would hide a zero before the
- * first sample, when the motion turns back at once, and one that falls would never be seen again, with its
- * branch on the wrong side for good. As zero the first is looked at like others and the second crosses here.
+/* Where a pair sticks its surface leads, at every instant as at the ends of steps (modes_hold): the dense
+ * output says so only to the error of the method, and a difference of the two would change its sign at
+ * random.
  */
+static bool leads(const struct run *run, size_t pair)
+{
+    const struct friction *friction = &run->model->plan.frictions[pair];
+    return friction->surface_speed.expr && friction->tie < 0 && run->during->slip[pair] == stick;
+}
+
+static bool any_leads(const struct run *run)
+{
+    for (size_t i = 0; i < run->model->plan.friction_count; i++)
+        if (leads(run, i)) return true;
+    return false;
+}
+
+/* The state along the last step. */
+static int sample_state(struct run *run, double t, double *y)
+{
+    const struct fbd_state *during = run->during;
+    const struct plan *plan = &run->model->plan;
+    if (switcher_dense(run->stepper, t, y) != GSL_SUCCESS) return -1;
+    struct instant at = state_instant_at(during, t, y);
+    double acceleration;
+    for (size_t i = 0; i < plan->friction_count; i++)
+        if (leads(run, i))
+            y[plan->n + plan->frictions[i].coordinate] =
+                friction_surface_speed(&plan->frictions[i], &at, &acceleration);
+    return 0;
+}
+
 static int sample_moving(void *context, double t, double *values, double *rate)
 {
     struct run *run = context;
-    if (switcher_dense(run->stepper, t, run->sample) != GSL_SUCCESS) return -1;
+    if (sample_state(run, t, run->sample)) return -1;
     watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, t, run->sample, values, rate);
-    if (t == run->from)
-        for (size_t i = 0; i < run->moving.count; i++)
-            if (values[i] < 0) values[i] = 0;
     return 0;
 }
 
@@ -55,26 +80,157 @@ static int sample_course(void *context, double t, double *y)
 {
     struct run *run = context;
     const struct fbd_state *during = run->during;
-    if (switcher_dense(run->stepper, t, y) != GSL_SUCCESS) return -1;
-    if (run->model->absolute_count == 0) return 0;
+    if (sample_state(run, t, y)) return -1;
+    if (!run->follows_places) return 0;
     struct instant at = state_instant_at(during, t, y);
     at = instant_extend(run->model, &at);
     memcpy(y, at.y, extended_size(run->model) * sizeof *y);
     return 0;
 }
 
-static double follow_course(void *context, double from, double to)
+/* How far the jointed bodies reach from the origin, and how fast they are over the last step. */
+static double measure(const struct run *run, double *speed)
 {
+    const struct tree *tree = run->model->tree;
+    double reach = 0;
+    *speed = 0;
+    for (int i = 1; i < tree->count; i++) {
+        const struct tree_state *link = &run->state->tree->links[i];
+        double arm = vec_norm(link->mr) / tree->links[i].mass;
+        reach = fmax(reach, vec_norm(link->p) + arm);
+        *speed = fmax(*speed, vec_norm(link->v) + fabs(link->omega) * arm);
+    }
+    double fastest = 0;
+    size_t n = (size_t)run->model->plan.n;
+    for (size_t i = 0; i < n; i++)
+        fastest = fmax(fastest, fabs(run->f[n + i]) * (run->model->scene->coordinates[i].angle ? reach : 1));
+    *speed += fastest * run->h;
+    return reach;
+}
+
+/* Couplings keep coordinates at zero, or at rest, to the rounding of the places and speeds of all that they
+ * join. The sign of such a number means nothing. */
+static void set_noise(struct run *run)
+{
+    const double roundings = 64 * DBL_EPSILON;
+    const struct scene *scene = run->model->scene;
+    size_t n = (size_t)run->model->plan.n;
+    if (!run->model->tree || run->model->tree->tie_count == 0) return;
+    double speed, reach = measure(run, &speed);
+    for (size_t k = 0; k < run->course.count && reach > 0; k++) {
+        size_t i = (size_t)run->course.component[k];
+        if (i >= 2 * n) continue;
+        double size = i < n ? reach : speed;
+        run->course.noise[k] = roundings * (scene->coordinates[i % n].angle ? size / reach : size);
+    }
+}
+
+static double follow_course(void *context, double from, double to, bool coarse)
+{
+    enum { simple = 6 };
     struct run *run = context;
     double negligible;
     int degree = switcher_degree(run->stepper, &negligible);
-    if (run->model->absolute_count > 0) { /* places are functions of coordinates, and no polynomials */
+    if (run->follows_places || any_leads(run)) { /* functions of the motion, and no polynomials */
         negligible = fmax(negligible, 1e-13);
         degree = course_most_degree;
     }
     run->enclosed.from = NAN;
-    if (course_set(&run->course, from, to, degree, negligible, sample_course, run)) return NAN;
-    return run->course.to;
+    set_noise(run);
+    coarse = coarse && degree > simple && run->options.step == 0;
+    int status = coarse ? course_set_coarse(&run->course, from, to, sample_course, run)
+                        : course_set(&run->course, from, to, degree, negligible, sample_course, run);
+    return status ? NAN : run->course.to;
+}
+
+/* ---- panels for functions that are sampled */
+
+/* Formulas of forces and frictions in turn; NULL after the last. */
+static const struct formula *paced_formula(const struct fbd_model *model, size_t index)
+{
+    size_t loads = model->load_count, frictions = model->plan.friction_count;
+    if (index < 5 * loads) {
+        const struct model_load *load = &model->loads[index / 5];
+        const struct formula *all[] = {&load->value, &load->angle, &load->fx, &load->fy, &load->potential};
+        return all[index % 5];
+    }
+    index -= 5 * loads;
+    if (index >= 4 * frictions) return NULL;
+    const struct friction *friction = &model->plan.frictions[index / 4];
+    const struct formula *all[] = {&friction->mu_s, &friction->mu_k, &friction->surface_speed,
+                                   &friction->position};
+    return all[index % 4];
+}
+
+/* Over how many radians a formula turns at most: its fastest rate against half of its range. That of a narrow
+ * peak is that of its flanks. */
+static double radians_of(const struct run *run, const struct formula *formula, const struct stretch *stretch)
+{
+    const int *branch = formula->branch < 0 ? NULL : run->during->branch + formula->branch;
+    struct enclosure f = expr_enclose(formula->expr, stretch, run->course.now, branch);
+    double range = interval_width(f.value), turn = interval_size(f.rate) * (stretch->to - stretch->from);
+    if (!(range < HUGE_VAL && turn < HUGE_VAL)) return HUGE_VAL;
+    return range > 0 ? 2 * turn / range : 0;
+}
+
+/* Where a formula has turned by three radians, `to` at most. One that turns no less in half of the time
+ * hardly varies at all: its bounds are those of a difference of what is the same. */
+static double end_of_turn(struct run *run, const struct formula *formula, double from, double to)
+{
+    enum { most_halvings = 20 };
+    const double most = 3, least_fall = 0.75;
+    double before = HUGE_VAL, first = to;
+    for (int halving = 0; halving < most_halvings; halving++) {
+        struct stretch stretch = stretch_between(from, to);
+        if (run->paced_by_motion) course_enclose(&run->course, &stretch);
+        double radians = radians_of(run, formula, &stretch);
+        if (!(radians > most) || !(stretch.middle > from)) return to;
+        if (before < HUGE_VAL && radians > least_fall * before) return first;
+        before = radians;
+        to = stretch.middle;
+    }
+    return to;
+}
+
+static bool varies(const struct formula *formula)
+{
+    const int *slots;
+    return formula->expr && (expr_uses_time(formula->expr) || expr_variables(formula->expr, &slots) > 0);
+}
+
+/* The end of the first panel in which no force or friction, and no body that may meet another,
+ * turns by more than three radians. What joints make
+ * of several of them changes no faster, but where they pass a singular position; there steps are short. */
+static double end_of_panel(void *context, double from, double to)
+{
+    const double most = 3;
+    struct run *run = context;
+    double turned = run_contact_radians(run, to - from);
+    if (turned > most) to = from + (to - from) * (most / turned);
+    if (!run->paced) return to;
+    double followed = run->paced_by_motion ? follow_course(run, from, to, false) : to;
+    if (followed < to) to = followed; /* NAN: there is no motion to ask */
+    const struct formula *formula;
+    for (size_t k = 0; (formula = paced_formula(run->model, k)); k++)
+        if (varies(formula)) to = end_of_turn(run, formula, from, to);
+    return to;
+}
+
+/* For functions that will be sampled, what forces are made of is followed as well. */
+static void mark_paced(struct run *run, bool *used)
+{
+    const struct watcher_set *set = &run->watchers.moving;
+    bool samples = false;
+    for (size_t g = 0; g < set->group_count; g++) samples |= !set->groups[g].proved;
+    const struct formula *formula;
+    for (size_t k = 0; samples && (formula = paced_formula(run->model, k)); k++) {
+        if (!varies(formula)) continue;
+        const int *slots;
+        size_t count = expr_variables(formula->expr, &slots);
+        for (size_t i = 0; i < count; i++) used[slots[i] - 1] = true;
+        run->paced = true;
+        run->paced_by_motion |= count > 0;
+    }
 }
 
 static bool make_course(struct run *run)
@@ -83,57 +239,18 @@ static bool make_course(struct run *run)
     bool *used = calloc(size + 1, sizeof *used);
     if (!used) return false;
     watchers_mark_used(run->model, &run->watchers.moving, used);
+    mark_paced(run, used);
+    for (size_t i = 2 * (size_t)run->model->plan.n; i < size; i++) run->follows_places |= used[i];
     bool made = course_init(&run->course, size, used);
     free(used);
     return made;
-}
-
-/* Over how many radians a formula of time alone turns at most from `from` to `to`: its fastest rate against
- * half of its range. That of a narrow peak is that of its flanks. */
-static double radians_of(const struct formula *formula, const struct fbd_state *during, double from,
-                         double to)
-{
-    const int *slots;
-    if (!formula->expr || !expr_uses_time(formula->expr) || expr_variables(formula->expr, &slots) > 0)
-        return 0;
-    const int *branch = formula->branch < 0 ? NULL : during->branch + formula->branch;
-    struct stretch stretch = stretch_between(from, to);
-    struct enclosure f = expr_enclose(formula->expr, &stretch, NULL, branch);
-    double range = interval_width(f.value), turn = interval_size(f.rate) * (to - from);
-    return turn > 0 && range > 0 ? 2 * turn / range : 0;
-}
-
-static bool has_samples(const struct watcher_set *set)
-{
-    for (size_t g = 0; g < set->group_count; g++)
-        if (!set->groups[g].proved) return true;
-    return false;
-}
-
-size_t run_sample_panels(const struct run *run, double from, double to)
-{
-    const double most = 256, each = 2;
-    const struct plan *plan = &run->model->plan;
-    double radians = run_contact_radians(run, to - from);
-    if (!has_samples(&run->watchers.moving)) return 1;
-    for (size_t i = 0; i < run->model->load_count; i++) {
-        const struct model_load *load = &run->model->loads[i];
-        const struct formula *all[] = {&load->value, &load->angle, &load->fx, &load->fy, &load->potential};
-        for (int k = 0; k < 5; k++) radians = fmax(radians, radians_of(all[k], run->during, from, to));
-    }
-    for (size_t i = 0; i < plan->friction_count; i++) {
-        const struct friction *friction = &plan->frictions[i];
-        const struct formula *all[] = {&friction->mu_s, &friction->mu_k, &friction->surface_speed,
-                                       &friction->position};
-        for (int k = 0; k < 4; k++) radians = fmax(radians, radians_of(all[k], run->during, from, to));
-    }
-    return (size_t)fmin(fmax(1, ceil(radians / each)), most);
 }
 
 static bool use_enclosures(struct run *run)
 {
     const struct watcher_set *timed = &run->watchers.timed, *moving = &run->watchers.moving;
     run->timed.horizon = run->options.until;
+    run->moving.panel = end_of_panel;
     return scan_use_enclosures(&run->timed, timed->groups, timed->group_count, enclose_timed, NULL) &&
            scan_use_enclosures(&run->moving, moving->groups, moving->group_count, enclose_moving,
                                follow_course) &&
@@ -149,7 +266,5 @@ bool run_make_scans(struct run *run)
     if (!scan_init(&run->timed, timed->count, sample_timed, run)) return false;
     if (!scan_init(&run->moving, moving->count, sample_moving, run)) return false;
     if (!use_enclosures(run)) return false;
-    for (size_t i = 0; i < timed->count; i++) run->timed.rough[i] = timed->watchers[i].rough;
-    for (size_t i = 0; i < moving->count; i++) run->moving.rough[i] = moving->watchers[i].rough;
     return true;
 }

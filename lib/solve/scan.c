@@ -6,57 +6,75 @@
 #include <stdlib.h>
 
 /* A function that needs more samples of one interval is too fast for it, or noise. */
-enum { most_depth = 30, most_samples = 4096 };
+enum { most_samples = 4096, spare_points = 3 };
 
 struct scan_point {
     double t;
     double *values, *rates;
-    double *doubt; /* how far the functions may be from their cubic in the interval that ends here */
 };
+
+static int take_counted(void *context, double t, double *values, double *rates)
+{
+    struct scan *scan = context;
+    scan->samples++;
+    return scan->sample(scan->context, t, values, rates);
+}
 
 bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *context)
 {
-    enum { points = most_depth + 4, arrays = 3 };
-    *scan = (struct scan){.count = count, .sample = sample, .context = context, .known = NAN};
-    scan->points = calloc(points, sizeof *scan->points);
-    scan->memory = calloc(count * points * arrays + 1, sizeof *scan->memory);
-    scan->rough = calloc(4 * count + 1, sizeof *scan->rough);
-    if (!scan->points || !scan->memory || !scan->rough) {
+    *scan = (struct scan){.count = count, .sample = sample, .context = context};
+    scan->points = calloc(spare_points, sizeof *scan->points);
+    scan->memory = calloc(2 * spare_points * count + 1, sizeof *scan->memory);
+    scan->crossed = calloc(3 * count + 1, sizeof *scan->crossed);
+    scan->lone = calloc(count + 1, sizeof *scan->lone);
+    if (!scan->points || !scan->memory || !scan->crossed || !scan->lone) {
         scan_free(scan);
         return false;
     }
-    scan->crossed = scan->rough + count;
     scan->sampled = scan->crossed + count;
     scan->chosen = scan->sampled + count;
-    for (size_t i = 0; i < count; i++) scan->sampled[i] = true;
+    for (size_t i = 0; i < count; i++) {
+        scan->sampled[i] = true;
+        scan->lone[i] = (struct proof_group){.first = i, .count = 1};
+    }
     double *next = scan->memory;
-    for (int i = 0; i < points; i++, next += arrays * count)
-        scan->points[i] = (struct scan_point){0, next, next + count, next + 2 * count};
-    return true;
+    for (int i = 0; i < spare_points; i++, next += 2 * count)
+        scan->points[i] = (struct scan_point){0, next, next + count};
+    scan->prover.now = calloc(2, sizeof *scan->prover.now);
+    scan->prover.waiting = calloc(1, sizeof *scan->prover.waiting);
+    if (scan->prover.now && scan->prover.waiting && series_init(&scan->series, count)) {
+        scan->prover.end = scan->prover.now + 1;
+        return true;
+    }
+    scan_free(scan);
+    return false;
 }
 
 void scan_free(struct scan *scan)
 {
+    series_free(&scan->series);
     free(scan->prover.now);
     free(scan->prover.waiting);
     free(scan->points);
     free(scan->memory);
-    free(scan->rough);
+    free(scan->crossed);
+    free(scan->lone);
     *scan = (struct scan){0};
 }
 
 bool scan_use_enclosures(struct scan *scan, struct proof_group *groups, size_t count, proof_enclose *enclose,
                          scan_follower *follow)
 {
-    size_t most = 0;
+    size_t most = 1;
     for (size_t g = 0; g < count; g++)
         if (groups[g].count > most) most = groups[g].count;
-    scan->prover = (struct prover){.enclose = enclose,
-                                   .context = scan->context,
-                                   .now = calloc(2 * most + 1, sizeof *scan->prover.now),
-                                   .waiting = calloc(most + 1, sizeof *scan->prover.waiting)};
+    free(scan->prover.now);
+    free(scan->prover.waiting);
+    scan->prover.now = calloc(2 * most, sizeof *scan->prover.now);
+    scan->prover.waiting = calloc(most, sizeof *scan->prover.waiting);
     if (!scan->prover.now || !scan->prover.waiting) return false;
     scan->prover.end = scan->prover.now + most;
+    scan->enclose = enclose;
     scan->groups = groups;
     scan->group_count = count;
     scan->follow = follow;
@@ -78,20 +96,6 @@ static struct cubic cubic_between(const struct scan_point *a, const struct scan_
 static double cubic_at(const struct cubic *c, double s)
 {
     return c->c0 + s * (c->c1 + s * (c->c2 + s * c->c3));
-}
-
-/* The place of the interior minimum, or -1. The minimum of a cubic is the zero of its slope where the
- * curvature is positive. */
-static double cubic_minimum(const struct cubic *c)
-{
-    double root = c->c2 * c->c2 - 3 * c->c3 * c->c1;
-    if (!(root > 0)) return -1;
-    double q = c->c2 + copysign(sqrt(root), c->c2); /* the stable form of the quadratic formula */
-    double first = q != 0 ? -c->c1 / q : -1, second = c->c3 != 0 ? -q / (3 * c->c3) : -1;
-    const double s[2] = {first, second};
-    for (int k = 0; k < 2; k++)
-        if (s[k] > 0 && s[k] < 1 && c->c2 + 3 * c->c3 * s[k] > 0) return s[k];
-    return -1;
 }
 
 /* A zero of a cubic that changes sign from + to - over [0, 1]: Newton kept inside a shrinking bracket. */
@@ -117,8 +121,7 @@ static double cubic_zero(const struct cubic *c)
 static int take_sample(struct scan *scan, struct scan_point *point, double t)
 {
     point->t = t;
-    scan->samples++;
-    return scan->sample(scan->context, t, point->values, point->rates);
+    return take_counted(scan, t, point->values, point->rates);
 }
 
 static bool active(const struct scan_point *a, const struct scan_point *b, size_t i)
@@ -136,61 +139,6 @@ static bool any_crosses(const struct scan *scan, const struct scan_point *a, con
     for (size_t i = 0; i < scan->count; i++)
         if (scan->chosen[i] && crosses(a, b, i)) return true;
     return false;
-}
-
-/* Does function i ask for a sample inside (a, b)? */
-static bool doubtful(const struct scan_point *a, const struct scan_point *b, size_t i)
-{
-    if (!active(a, b, i)) return false;
-    double doubt = b->doubt[i], size = fmax(fabs(a->values[i]), fabs(b->values[i]));
-    if (doubt > size / 16) return true; /* the cubic is not the function: nothing it says can be believed */
-    if (a->values[i] < 0 || b->values[i] < 0) return false;
-    struct cubic c = cubic_between(a, b, i);
-    double s = cubic_minimum(&c);
-    /* A minimum well above zero needs no second look; at zero itself (a start from rest) there is none
-     * inside. */
-    return s > 0 && cubic_at(&c, s) - doubt < 0;
-}
-
-static bool any_doubtful(const struct scan *scan, const struct scan_point *a, const struct scan_point *b)
-{
-    for (size_t i = 0; i < scan->count; i++)
-        if (scan->chosen[i] && doubtful(a, b, i)) return true;
-    return false;
-}
-
-/* How far function i is from its cubic at m, in value and in slope: a function that repeats itself may have
- * the right value there by chance, hardly the right slope as well. (The error K s^2 (1-s)^2 of a cubic has a
- * slope that is small beside it near the middle.) */
-static double discrepancy(const struct scan_point *a, const struct scan_point *m, const struct scan_point *b,
-                          size_t i)
-{
-    struct cubic c = cubic_between(a, b, i);
-    double h = b->t - a->t, s = (m->t - a->t) / h, slope = c.c1 + s * (2 * c.c2 + s * 3 * c.c3);
-    return fmax(fabs(m->values[i] - cubic_at(&c, s)), fabs(h * m->rates[i] - slope) / 4);
-}
-
-/* Compare the sample m with the cubics between a and b. The error of a cubic falls with the fourth power of
- * the interval; a quarter is a safe share for each half. Returns the largest doubt relative to how much its
- * function changes. */
-static double set_doubts(const struct scan *scan, const struct scan_point *a, struct scan_point *m,
-                         struct scan_point *b)
-{
-    double worst = 0;
-    for (size_t i = 0; i < scan->count; i++) {
-        m->doubt[i] = 0;
-        if (!scan->chosen[i] || !scan->rough[i] || !active(a, b, i) || !(m->values[i] < HUGE_VAL)) {
-            b->doubt[i] = 0;
-            continue;
-        }
-        double off = discrepancy(a, m, b, i);
-        double change = fabs(m->values[i] - a->values[i]) + fabs(b->values[i] - m->values[i]);
-        double size = fabs(a->values[i]) + fabs(m->values[i]) + fabs(b->values[i]);
-        if (off <= 64 * DBL_EPSILON * size) off = 0;
-        if (change > 0 && off / change > worst) worst = off / change;
-        m->doubt[i] = b->doubt[i] = off / 4;
-    }
-    return worst;
 }
 
 /* ---- the first zero between a (none negative that was not) and b (at least one negative) */
@@ -245,107 +193,32 @@ static int locate(struct scan *scan, struct scan_point *a, struct scan_point *b,
         exchange(m, any_crosses(scan, a, m) ? b : a);
     }
     scan->t = b->t;
-    for (size_t i = 0; i < scan->count; i++) scan->crossed[i] = scan->chosen[i] && crosses(a, b, i);
     return 1;
-}
-
-/* Nothing more can be learned between a and b: it is clear, or has the first zero. */
-static int conclude(struct scan *scan, struct scan_point *a, struct scan_point *b, struct scan_point *spare)
-{
-    if (any_crosses(scan, a, b)) return locate(scan, a, b, spare);
-    scan->clear = b->t;
-    return 0;
-}
-
-static int look(struct scan *scan, struct scan_point *a, struct scan_point *b, int depth)
-{
-    struct scan_point *m = &scan->points[3 + depth];
-    double t = a->t + (b->t - a->t) / 2;
-    bool deeper = depth < most_depth && t > a->t && t < b->t && any_doubtful(scan, a, b);
-    if (!deeper) return conclude(scan, a, b, m);
-    if (scan->samples >= scan->most) return 2;
-    int status = take_sample(scan, m, t);
-    if (status) return status;
-    set_doubts(scan, a, m, b);
-    status = look(scan, a, m, depth + 1);
-    return status ? status : look(scan, m, b, depth + 1);
-}
-
-/* The sample at the start of an interval, which may be the one at the end of the last. */
-static int take_first_sample(struct scan *scan, double from)
-{
-    struct scan_point *a = &scan->points[0], *b = &scan->points[1];
-    if (from != scan->known) return take_sample(scan, a, from);
-    exchange(a, b);
-    return 0;
 }
 
 void scan_forget(struct scan *scan)
 {
-    scan->known = NAN;
-    for (size_t g = 0; g < scan->group_count; g++) scan->groups[g].clear = NAN;
-}
-
-/* The sampler may say something else at a start than at an end of a function that is below zero. */
-static bool none_negative(const struct scan *scan, const struct scan_point *point)
-{
-    for (size_t i = 0; i < scan->count; i++)
-        if (scan->chosen[i] && !(point->values[i] >= 0)) return false;
-    return true;
-}
-
-/* One panel, by samples of the chosen functions. */
-static int look_at_panel(struct scan *scan, double from, double to)
-{
-    struct scan_point *a = &scan->points[0], *b = &scan->points[1], *m = &scan->points[2];
-    int status = take_first_sample(scan, from);
-    scan->known = NAN;
-    if (!status) status = take_sample(scan, b, to);
-    /* Not the middle: a periodic function would fool it most easily there. */
-    if (!status) status = take_sample(scan, m, from + 0.4690 * (to - from));
-    if (status) return status;
-    for (size_t i = 0; i < scan->count; i++) b->doubt[i] = 0;
-    double off = set_doubts(scan, a, m, b);
-    if (off > 0.1) scan->resolved = fmin(scan->resolved, (off > 2 ? 0.5 : 2) * (to - from));
-    status = look(scan, a, m, 0);
-    if (!status) status = look(scan, m, b, 0);
-    if (!status && none_negative(scan, b)) scan->known = to;
-    return status;
-}
-
-static int look_by_samples(struct scan *scan, double from, double to)
-{
-    bool any = false;
-    for (size_t i = 0; i < scan->count; i++) any |= scan->chosen[i] = scan->sampled[i];
-    scan->clear = any ? from : to;
-    if (any) scan->located = false;
-    scan->most = scan->samples + most_samples;
-    double panels = scan->panels > 1 ? (double)scan->panels : 1, begin = from;
-    for (double k = 1; any && k <= panels; k++) {
-        double end = k < panels ? from + (to - from) * (k / panels) : to;
-        if (!(end > begin)) continue;
-        if (scan->samples >= scan->most) return 2;
-        int status = look_at_panel(scan, begin, end);
-        if (status) return status;
-        begin = end;
+    series_forget(&scan->series);
+    for (size_t g = 0; g < scan->group_count; g++) {
+        scan->groups[g].clear = NAN;
+        scan->groups[g].stuck = false;
     }
-    return 0;
 }
 
-/* ---- with enclosures */
+/* ---- searching with bounds */
 
-/* The zero that group g has in its bracket, in scan->t. 0 when samples say that there is none: enclosures and
+/* The zero that a group has in its bracket, in scan->t. 0 when samples say that there is none: bounds and
  * samples differ by roundings. */
 static int locate_in_group(struct scan *scan, struct proof_group *group)
 {
     struct scan_point *a = &scan->points[0], *b = &scan->points[1];
-    scan->known = NAN;
     int status = take_sample(scan, a, group->low);
     if (!status) status = take_sample(scan, b, group->high);
     if (status) return status;
     for (size_t i = 0; i < scan->count; i++) {
         scan->chosen[i] = i >= group->first && i < group->first + group->count;
-        if (a->values[i] < 0) a->values[i] = 0; /* to rounding, or where the search began */
+        if (scan->chosen[i] && a->values[i] < 0)
+            a->values[i] = 0; /* to rounding, or where the search began */
     }
     if (!any_crosses(scan, a, b)) return 0;
     status = locate(scan, a, b, &scan->points[2]);
@@ -355,25 +228,18 @@ static int locate_in_group(struct scan *scan, struct proof_group *group)
     return status;
 }
 
-/* The first zero of a group at or before *limit, which it becomes then; 2 when the search ends at *limit
- * without result. A group without bounds is left to samples. */
-static int search_group(struct scan *scan, size_t g, double from, double *limit)
+/* The first zero of a group at or before *limit, which it becomes then: 1, else 0. Bounds that decide nothing
+ * leave the group open. */
+static int search_group(struct scan *scan, struct proof_group *groups, size_t g, double from, double *limit)
 {
-    const double least_share = 1e-3;
-    struct proof_group *group = &scan->groups[g];
-    for (;;) {
-        double far = scan->follow ? *limit : fmax(*limit, scan->horizon);
-        enum proof_result result =
-            proof_search(&scan->prover, scan->groups, g, from, *limit, far, scan->resumed);
-        if (result == proof_clear) return 0;
-        if (result == proof_unfinished) {
-            bool stuck = group->clear - from < least_share * (*limit - from);
-            for (size_t i = group->first; stuck && i < group->first + group->count; i++)
-                scan->sampled[i] = true;
-            if (!stuck) *limit = group->clear;
-            return stuck ? 0 : 2;
-        }
-        if (group->low >= *limit) return 0;
+    enum { most_refuted = 8 };
+    struct proof_group *group = &groups[g];
+    bool ahead = groups == scan->groups && !scan->follow;
+    for (int refuted = 0; refuted < most_refuted; refuted++) {
+        double far = ahead ? fmax(*limit, scan->horizon) : *limit;
+        enum proof_result result = proof_search(&scan->prover, groups, g, from, *limit, far, scan->resumed);
+        group->open = result == proof_unfinished;
+        if (result != proof_found || group->low >= *limit) return 0;
         int status = locate_in_group(scan, group);
         if (status < 0) return status;
         if (status == 1 && scan->t > *limit) return 0;
@@ -385,20 +251,185 @@ static int search_group(struct scan *scan, size_t g, double from, double *limit)
         group->clear = group->low = group->high;
         group->high = HUGE_VAL;
     }
+    group->open = true;
+    return 0;
 }
 
-static int search_all(struct scan *scan, double from, double *limit)
+/* ---- by enclosures */
+
+static void leave_to_samples(struct scan *scan, const struct proof_group *group, bool sampled)
 {
+    for (size_t i = group->first; i < group->first + group->count; i++) scan->sampled[i] = sampled;
+}
+
+/* The functions of a group that has become stuck are as good as their enclosure at an instant there. */
+static void note_rounding(struct scan *scan, size_t g)
+{
+    const struct proof_group *group = &scan->groups[g];
+    const struct stretch instant = {group->clear, group->clear, group->clear};
+    scan->enclose(scan->context, g, &instant, scan->prover.now);
+    for (size_t i = 0; i < group->count; i++) {
+        double width = interval_width(scan->prover.now[i].middle);
+        scan->series.rounding[group->first + i] = width < HUGE_VAL ? width : 0;
+    }
+}
+
+/* Search all open groups. 1 found at *limit, 0 nothing, 2: the search ends at *limit without result. What
+ * does not come on at all is left to samples. */
+static int search_open(struct scan *scan, double from, double *limit, bool strict)
+{
+    const double least_share = 1e-3;
     int found = 0;
+    scan->prover.enclose = scan->enclose;
+    scan->prover.context = scan->context;
+    scan->prover.strict = strict;
     for (size_t g = 0; g < scan->group_count; g++) {
-        if (!scan->groups[g].proved || scan->groups[g].aside != scan->aside) continue;
-        if (scan->follow) scan->groups[g].clear = NAN, scan->groups[g].width = 0;
-        int status = search_group(scan, g, from, limit);
+        struct proof_group *group = &scan->groups[g];
+        if (!group->open) continue;
+        if (scan->follow) group->clear = NAN, group->width = 0;
+        int status = search_group(scan, scan->groups, g, from, limit);
         if (status < 0) return status;
         if (status > 0) found = status;
+        if (strict || !group->open) continue;
+        if (group->clear - from >= least_share * (*limit - from)) {
+            *limit = group->clear;
+            found = 2;
+            continue;
+        }
+        group->stuck = true;
+        leave_to_samples(scan, group, true);
+        note_rounding(scan, g);
     }
     return found;
 }
+
+static bool any_open(const struct scan *scan)
+{
+    bool any = false;
+    for (size_t g = 0; g < scan->group_count; g++) any |= scan->groups[g].open;
+    return any;
+}
+
+/* In pieces that the enclosures reach over; for groups that the coarse look has left open. */
+static int look_in_pieces(struct scan *scan, double from, double *limit)
+{
+    for (double begin = from; begin < *limit;) {
+        double end = scan->follow(scan->context, begin, *limit, false), piece = end;
+        if (isnan(end)) return -1;
+        int status = search_open(scan, begin, &piece, false);
+        if (status) *limit = piece;
+        if (status) return status;
+        for (size_t g = 0; g < scan->group_count; g++) {
+            struct proof_group *group = &scan->groups[g];
+            group->open = group->aside == scan->aside && group->proved && !group->stuck && group->again;
+        }
+        begin = end;
+    }
+    return 0;
+}
+
+/* A first look, by bounds that cost little and are wide, decides where functions are far from zero or pass it
+ * steeply. */
+static int look_by_enclosures(struct scan *scan, double from, double *limit)
+{
+    for (size_t g = 0; g < scan->group_count; g++) {
+        struct proof_group *group = &scan->groups[g];
+        bool turn = group->aside == scan->aside, proved = group->proved && !group->stuck;
+        group->open = turn && proved;
+        leave_to_samples(scan, group, turn && !proved);
+    }
+    if (!any_open(scan)) return 0;
+    if (!scan->follow) return search_open(scan, from, limit, false);
+    int found = 0;
+    double end = scan->follow(scan->context, from, *limit, true);
+    if (isnan(end)) return -1;
+    if (end >= *limit) found = search_open(scan, from, limit, true);
+    for (size_t g = 0; g < scan->group_count; g++) scan->groups[g].again = scan->groups[g].open;
+    if (found < 0 || !any_open(scan)) return found;
+    int closer = look_in_pieces(scan, from, limit);
+    return closer ? closer : found;
+}
+
+/* ---- by series */
+
+static void enclose_series(void *context, size_t i, const struct stretch *stretch, struct enclosure *out)
+{
+    const struct scan *scan = context;
+    *out = series_enclose(&scan->series, i, stretch);
+}
+
+/* Look at function i with the samples of the present level; closes it when they suffice. */
+static int search_series(struct scan *scan, size_t i, double end, double *limit, bool halved)
+{
+    struct proof_group *alone = &scan->lone[i];
+    enum series_state state = series_fit(&scan->series, i, halved);
+    alone->open = state != series_inactive && !series_is_positive(&scan->series, i);
+    if (!alone->open || state == series_unresolved) return 0;
+    alone->clear = NAN;
+    alone->width = 0;
+    scan->prover.strict = state == series_rough;
+    double to = fmin(end, *limit);
+    int status = search_group(scan, scan->lone, i, scan->series.from, &to);
+    if (status == 1) *limit = to;
+    return status;
+}
+
+/* 0 done, 2 some function is not resolved; *found becomes true with a zero, at *limit. */
+static int look_at_panel(struct scan *scan, double from, double to, double *limit, bool halved, bool *found)
+{
+    bool open = true;
+    series_open(&scan->series, from, to);
+    for (size_t i = 0; i < scan->count; i++) scan->lone[i].open = scan->sampled[i];
+    for (int level = 0; level < series_levels && open; level++) {
+        int status = series_refine(&scan->series, take_counted, scan);
+        if (status) return status;
+        open = false;
+        for (size_t i = 0; i < scan->count; i++) {
+            if (!scan->lone[i].open) continue;
+            status = search_series(scan, i, to, limit, halved);
+            if (status < 0) return status;
+            *found |= status == 1;
+            open |= scan->lone[i].open;
+        }
+    }
+    return open ? 2 : 0;
+}
+
+static bool any_sampled(const struct scan *scan)
+{
+    bool any = false;
+    for (size_t i = 0; i < scan->count; i++) any |= scan->sampled[i];
+    return any;
+}
+
+/* Panel by panel. A panel whose functions are not resolved is halved; one that cannot be halved any more is
+ * passed over: there the functions are rounding. */
+static int look_by_series(struct scan *scan, double from, double *limit)
+{
+    double length = *limit - from;
+    bool halved = false, found = false;
+    if (!any_sampled(scan)) return 0;
+    scan->prover.enclose = enclose_series;
+    scan->prover.context = scan;
+    series_start(&scan->series);
+    long most = scan->samples + most_samples;
+    for (double begin = from; begin < *limit;) {
+        double end = *limit - begin > 1.5 * length ? begin + length : *limit;
+        if (scan->panel) end = scan->panel(scan->context, begin, end);
+        scan->clear = begin;
+        if (scan->samples >= most) return 2;
+        int status = look_at_panel(scan, begin, end, limit, halved, &found);
+        if (status < 0) return status;
+        double half = begin + (end - begin) / 2;
+        halved = status == 2 && half - begin > 64 * DBL_EPSILON * fabs(end);
+        length = halved ? half - begin : 2 * (end - begin);
+        if (halved) scan->resolved = fmin(scan->resolved, 16 * length);
+        if (!halved) begin = end;
+    }
+    return found;
+}
+
+/* ---- both */
 
 /* What has been found, and what becomes negative at the same instant. */
 static int mark_crossed(struct scan *scan, double t)
@@ -409,35 +440,14 @@ static int mark_crossed(struct scan *scan, double t)
     int status = known ? 0 : take_sample(scan, point, t);
     if (status) return status;
     scan->t = t;
-    for (size_t g = 0; g < scan->group_count; g++) {
-        const struct proof_group *group = &scan->groups[g];
-        for (size_t i = group->first; i < group->first + group->count; i++)
-            scan->crossed[i] =
-                !scan->sampled[i] && point->values[i] < 0 && (group == scan->found_in || point->rates[i] < 0);
+    bool ahead = scan->groups && !scan->follow;
+    for (size_t i = 0; i < scan->count; i++) {
+        size_t first = scan->found_in->first;
+        bool found = i >= first && i < first + scan->found_in->count;
+        bool falls = ahead ? point->rates[i] < 0 : known && crosses(&scan->points[0], point, i);
+        scan->crossed[i] = point->values[i] < 0 && (found || falls);
     }
     return 1;
-}
-
-/* Piece by piece, as far as enclosures reach. */
-static int look_by_enclosures(struct scan *scan, double from, double *limit)
-{
-    bool any = false;
-    for (size_t g = 0; g < scan->group_count; g++) {
-        const struct proof_group *group = &scan->groups[g];
-        bool turn = group->aside == scan->aside;
-        any |= turn && group->proved;
-        for (size_t i = group->first; i < group->first + group->count; i++)
-            scan->sampled[i] = turn && !group->proved;
-    }
-    for (double begin = from, to = *limit; any && begin < to;) {
-        double end = scan->follow ? scan->follow(scan->context, begin, to) : to;
-        if (isnan(end)) return -1;
-        *limit = end;
-        int status = search_all(scan, begin, limit);
-        if (status) return status;
-        begin = end;
-    }
-    return 0;
 }
 
 int scan_interval(struct scan *scan, double from, double to)
@@ -447,10 +457,10 @@ int scan_interval(struct scan *scan, double from, double to)
     scan->located = false;
     if (scan->count == 0) return 0;
     double limit = to;
-    int proved = look_by_enclosures(scan, from, &limit);
-    if (proved < 0) return proved;
-    int sampled = look_by_samples(scan, from, limit);
-    if (sampled) return sampled;
+    int enclosed = look_by_enclosures(scan, from, &limit);
+    if (enclosed < 0) return enclosed;
+    int sampled = look_by_series(scan, from, &limit);
+    if (sampled < 0 || sampled == 2) return sampled;
     scan->clear = limit;
-    return proved == 1 ? mark_crossed(scan, limit) : proved;
+    return sampled == 1 || enclosed == 1 ? mark_crossed(scan, limit) : enclosed;
 }

@@ -3,14 +3,14 @@
  * Scan: the first instant in an interval at which one of several smooth functions becomes negative.
  *
  * Functions that come with enclosures are searched with proof (proof.h): none of their zeros is missed or
- * invented, however many oscillations an interval has. That is the rule: see watchers_can_enclose.
+ * invented, however many oscillations an interval has. That is the rule: see watchers_can_enclose. Those
+ * along a motion are looked at by wide bounds first, which cost little; what these leave open is searched by
+ * close ones.
  *
- * The others are known at any t with their rates. Between two samples each is compared with its cubic Hermite
- * interpolant: a sign change brackets a zero; an interior minimum of the cubic near zero, or a function that
- * the cubic does not follow, is sampled more finely. So a function that dips below zero and comes back within
- * one step is seen (an even root as well, to the accuracy of the samples), as long as it changes no faster
- * than the samples tell: `panels` says into how many parts an interval has to be divided for that. Functions
- * marked `rough` are checked against one interior sample at least in every part.
+ * The others, and those whose enclosures are too wide to tell anything (a difference of two things that are
+ * the same), are sampled, with their rates, and followed by Chebyshev series (series.h) whose zeros are found
+ * likewise: three samples tell of a function that is far from zero, 17 and more of one that is near it.
+ * `panel` says over how long a stretch a series may be believed.
  */
 #ifndef FBD_SOLVE_SCAN_H
 #define FBD_SOLVE_SCAN_H
@@ -19,30 +19,30 @@
 #include <stddef.h>
 
 #include "solve/proof.h"
+#include "solve/series.h"
 
 /* Fill values[count] and rates[count] at t; +HUGE_VAL for a function that is not active. Non-zero stops the
  * scan and is returned. */
-typedef int scan_sampler(void *context, double t, double *values, double *rates);
+typedef series_sampler scan_sampler;
 
 /* Enclosures are wanted from `from` on: the end up to which they are there, `to` at most; NAN where there are
- * none. */
-typedef double scan_follower(void *context, double from, double to);
+ * none. `coarse`: wide ones will do, at once over as much as there are. */
+typedef double scan_follower(void *context, double from, double to, bool coarse);
+
+/* The end of the first panel of an interval for series, above `from`. */
+typedef double scan_paneller(void *context, double from, double to);
 
 struct scan {
     size_t count;
     scan_sampler *sample;
     void *context;
-    bool *rough;   /* count, filled by the caller */
     bool *crossed; /* count: result, which functions became negative at `t` */
     double t;      /* result: the first instant at which one is negative, within two roundings of its zero */
-    double
-        resolved; /* result: the next interval should not be longer; HUGE_VAL when the functions are smooth
-                   * over all of this one, twice its length when they change faster than the samples tell */
-    double clear; /* result: no function becomes negative up to here (meant for a return of 2) */
-    long samples; /* counted */
-    long most;    /* samples that may be counted before the scan gives up */
-    double known; /* the end of the last interval, where the functions are known; NAN: they are not */
-    struct scan_point *points; /* pool for the recursion */
+    double resolved; /* result: the next interval should not be longer, or much work is in vain; HUGE_VAL when
+                        the functions are smooth over all of this one */
+    double clear;    /* result: no function becomes negative up to here (meant for a return of 2) */
+    long samples;    /* counted */
+    struct scan_point *points; /* two ends of a bracket and a spare one */
     double *memory;
 
     /* Set by the caller after scan_init, or left NULL for functions without enclosures. */
@@ -53,9 +53,11 @@ struct scan {
     double horizon;        /* how far ahead at most */
     bool resumed;          /* see proof_search */
     bool aside;            /* this turn: only groups that are searched aside, else only the others */
-    size_t panels;         /* for functions without enclosures; 0 counts as 1 */
+    scan_paneller *panel;  /* NULL: any length will do */
 
     struct prover prover;
+    struct series series;
+    struct proof_group *lone; /* count: each function by itself, for its series */
     const struct proof_group *found_in;
     bool located;           /* points[1] is the end of the bracket that was located last */
     bool *sampled, *chosen; /* count: searched by samples; located at present */

@@ -25,7 +25,7 @@ static void add_kinks(struct watchers *watchers, const struct plan *plan)
             bool timed = expr_switch_is_time(kink->formula.expr, part);
             for (int end = 0; end < 2; end++)
                 add(timed ? &watchers->timed : &watchers->moving,
-                    (struct watcher){watch_kink, (int)i, (int)part, end, true});
+                    (struct watcher){watch_kink, (int)i, (int)part, end});
         }
     }
 }
@@ -54,20 +54,19 @@ static void add_frictions(struct watchers *watchers, const struct plan *plan)
         const struct friction *friction = &plan->frictions[i];
         if (friction->kind == mode_drive) continue;
         if (friction->kind == mode_contact) {
-            add(&watchers->moving, (struct watcher){watch_lift, (int)i, 0, 0, true});
+            add(&watchers->moving, (struct watcher){watch_lift, (int)i, 0, 0});
             continue;
         }
         if (mode_is_one_sided(friction)) {
-            add(&watchers->moving, (struct watcher){watch_one_sided, (int)i, 0, 0, true});
+            add(&watchers->moving, (struct watcher){watch_one_sided, (int)i, 0, 0});
             continue;
         }
-        bool moving_surface = friction->surface_speed.expr != NULL;
-        add(&watchers->moving, (struct watcher){watch_slip_stop, (int)i, 0, 0, moving_surface});
+        add(&watchers->moving, (struct watcher){watch_slip_stop, (int)i, 0, 0});
         if (!always_the_same(plan, friction))
             for (int end = 0; end < 2; end++)
-                add(&watchers->moving, (struct watcher){watch_stick_limit, (int)i, 0, end, true});
+                add(&watchers->moving, (struct watcher){watch_stick_limit, (int)i, 0, end});
         if (friction->two_sided && !plan->slot_constant[friction->normal_slot])
-            add(&watchers->moving, (struct watcher){watch_normal_turns, (int)i, 0, 0, true});
+            add(&watchers->moving, (struct watcher){watch_normal_turns, (int)i, 0, 0});
     }
 }
 
@@ -76,11 +75,11 @@ static void add_contacts(struct watchers *watchers, const struct tree *tree)
     for (int i = 0; tree && i < tree->meeting_count; i++) {
         const struct meeting *meeting = &tree->meetings[i];
         for (int probe = 0; probe < meeting->probes; probe++)
-            add(&watchers->moving, (struct watcher){watch_gap, i, probe, 0, true});
+            add(&watchers->moving, (struct watcher){watch_gap, i, probe, 0});
         if (meeting->shape[0].kind != contact_corners && meeting->shape[1].kind != contact_corners) continue;
         if (meeting->shape[1].kind == contact_line) continue;
         for (int k = 0; k < 2 * meeting->tie_count; k++)
-            add(&watchers->moving, (struct watcher){watch_edge, meeting->first_tie + k / 2, 0, k % 2, true});
+            add(&watchers->moving, (struct watcher){watch_edge, meeting->first_tie + k / 2, 0, k % 2});
     }
 }
 
@@ -93,9 +92,9 @@ static void add_all(struct watchers *watchers, const struct fbd_model *model)
     add_contacts(watchers, model->tree);
     for (size_t i = 0; i < plan->contact_count; i++)
         if (plan->contacts[i].pair < 0 && !plan->slot_constant[plan->contacts[i].slot])
-            add(&watchers->moving, (struct watcher){watch_contact, (int)i, 0, 0, true});
+            add(&watchers->moving, (struct watcher){watch_contact, (int)i, 0, 0});
     for (size_t i = 0; i < plan->watch_count; i++)
-        add(&watchers->moving, (struct watcher){watch_user, (int)i, 0, 0, true});
+        add(&watchers->moving, (struct watcher){watch_user, (int)i, 0, 0});
 }
 
 /* Neighbours of the same kind and index. */

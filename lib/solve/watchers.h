@@ -37,7 +37,6 @@ enum watcher_kind {
 struct watcher {
     enum watcher_kind kind;
     int index, part, end;
-    bool rough; /* not resolved by the steps of the motion alone: its course within a step is checked */
 };
 
 struct watcher_set {
