@@ -97,7 +97,7 @@ bool series_init(struct series *series, size_t count)
 {
     size_t matrices = count > 0 ? place_of_matrix(series_levels) : 0;
     *series = (struct series){.count = count};
-    series->values = calloc((3 * nodes + 7) * count + matrices + 1, sizeof(double));
+    series->values = calloc((3 * nodes + 8) * count + matrices + 1, sizeof(double));
     if (!series->values) return false;
     series->rates = series->values + nodes * count;
     series->c = series->rates + nodes * count;
@@ -108,7 +108,8 @@ bool series_init(struct series *series, size_t count)
     series->value = series->tail + count;
     series->rate = series->value + count;
     series->rounding = series->rate + count;
-    series->matrices = series->rounding + count;
+    series->off = series->rounding + count;
+    series->matrices = series->off + count;
     return true;
 }
 
@@ -233,14 +234,25 @@ static double missed(const struct series *series, const double *g, const double 
     return worst;
 }
 
-static double left_out(const struct series *series, size_t i, const double *c)
+static double last_terms(const struct series *series, const double *c)
 {
     int d = series->degree;
     double last = fabs(c[d]) + fabs(c[d - 1]);
     /* Where two vanish by chance, those before tell. */
-    if (series->level == 0) return fmax(last, (fabs(c[2]) + fabs(c[3])) / 16);
-    last = fmax(last, (fabs(c[d - 2]) + fabs(c[d - 3])) / 16);
-    return fmax(last, missed(series, series->rates + i * nodes, c));
+    return fmax(last, (fabs(c[d - 2]) + fabs(c[d - 3])) / 16);
+}
+
+/* A series that has not seen all of f has other rates. Those of a sample are as good as the motion along the
+ * step, whose places and speeds agree to the error of the method only; so small differences say nothing, nor
+ * do those that stay when the panel is halved. */
+static double unseen(struct series *series, size_t i, const double *c, bool halved)
+{
+    const double share = 0.02, least_fall = 0.5;
+    if (series->level == 0) return 0;
+    double off = missed(series, series->rates + i * nodes, c), before = series->off[i];
+    if (series->level == series_levels - 1) series->off[i] = off;
+    bool stays = halved && off > least_fall * before;
+    return off > share * series->scale[i] && !stays ? off : 0;
 }
 
 static bool all_finite(const struct series *series, size_t i, double *size)
@@ -270,7 +282,8 @@ enum series_state series_fit(struct series *series, size_t i, bool halved)
         fit_values(series, f, c);
     for (int j = 0; j <= series->degree; j++) sum += fabs(c[j]);
     series->scale[i] = fmax(series->scale[i], size);
-    double tail = left_out(series, i, c), share = series->scale[i] > 0 ? tail / series->scale[i] : 0;
+    double tail = fmax(last_terms(series, c), unseen(series, i, c, halved)),
+           share = series->scale[i] > 0 ? tail / series->scale[i] : 0;
     series->doubt[i] = safe * tail + rounding * sum + series->rounding[i];
     bool last = series->level == series_levels - 1;
     /* The last terms of what is smooth fall by 2^16 from a panel to its half; those that do not are noise. */

@@ -3,12 +3,12 @@
  * Series: functions along a stretch of time as Chebyshev series, made from samples of value and rate.
  *
  * With s in [-1, 1] over the panel, f = sum c_j T_j(s) + e. Three levels: values and rates at the ends and at
- * one place inside give degree 5; values at 9 and 17 points give degrees 8 and 16, and the rates there are
- * compared with those of the series. What is left out, e, is taken to be no more than the last terms and than
- * what the rates are off by: ASSUMED, not proved. It holds for functions that are analytic on the panel and
- * change there on no shorter scale than the samples show; so panels are no longer than what is known to vary
- * fast allows (scan.h), and a series whose last terms do not fall is not believed: the panel is halved. Given
- * that, all zeros of the function are those of the series, which proof.h finds without exception.
+ * one place inside give degree 5; values at 9 and 17 points give degrees 8 and 16, and the rates there must
+ * be those of the series. What is left out, e, is taken to be no more than the last terms: ASSUMED, not
+ * proved. It holds for functions that are analytic on the panel and change there on no shorter scale than the
+ * samples show; so panels are no longer than what is known to vary fast allows (scan.h), and a series whose
+ * last terms do not fall, or which misses the rates, is not believed: the panel is halved. Given that, all
+ * zeros of the function are those of the series, which proof.h finds without exception.
  *
  * Source: L. N. Trefethen, Approximation Theory and Approximation Practice, SIAM 2013, chapters 3, 4 and 8;
  * for events so F. Biscani, D. Izzo, MNRAS 504 (2021) 2614 (heyoka, with Taylor series).
@@ -35,6 +35,7 @@ struct series {
     double *tail;         /* count: the share of what is left out */
     double *value, *rate; /* count: one sample */
     double *rounding;     /* count, set by the caller: what is known of the rounding of each function */
+    double *off;          /* count: by how much the rates of the last panel were missed */
     double *matrices;     /* of each level: from values (and rates) at its nodes to c */
     bool prepared;        /* they are made */
 };

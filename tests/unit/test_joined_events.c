@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What joints and ropes pass on: friction gives way, a surface is left and a rope goes slack where an
+ * independent search says so, on a support that is moved by a sum of sines (waves.h).
+ *
+ * The acceleration of the support, less a threshold near or far from its extremes, is the function whose
+ * first zero is wanted. The library knows it only as a force in a joint. 60 scenes of each kind are run;
+ * FBD_EVENT_SCENES says how many instead (`make events`). A failure prints its seed, and FBD_EVENT_SEED runs
+ * that seed alone.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "fbd.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "scenes.h"
+#include "waves.h"
+
+enum { text_size = 4000 };
+
+static const double until = 6;
+
+/* x(t) of the support, and its acceleration as a switching function. */
+struct shaken {
+    struct waves x, a;
+    char text[text_size / 4];
+};
+
+static struct shaken random_shaking(struct random_numbers *numbers)
+{
+    struct shaken s = {.x = waves_random(numbers, along_time)};
+    double size = 0;
+    s.a = s.x;
+    for (int k = 0; k < s.x.count; k++) {
+        s.x.a[k] /= s.x.w[k] * s.x.w[k];
+        s.a.a[k] = -s.x.a[k] * s.x.w[k] * s.x.w[k];
+        size += fabs(s.a.a[k]);
+    }
+    waves_write(&s.x, "t", "1/s", s.text, sizeof s.text);
+    /* One wave has its extremes at its size; gaps from 1e-12 to 1. */
+    s.a.c = size * (1 - random_power(numbers, 1e-12, 0.99));
+    return s;
+}
+
+static double first_zero(struct waves h, bool *doubtful)
+{
+    static struct zeros zeros;
+    zeros.count = 0;
+    zeros.doubtful = false;
+    waves_find(&h, 0, until, &zeros);
+    *doubtful |= zeros.doubtful;
+    return zeros.count > 0 ? zeros.t[0] : HUGE_VAL;
+}
+
+static double start_of(const struct waves *h)
+{
+    double slope, most;
+    return waves_value(h, 0, &slope, &most);
+}
+
+static struct waves opposite(struct waves h)
+{
+    for (int k = 0; k < h.count; k++) h.a[k] = -h.a[k];
+    return h;
+}
+
+/* ---- scenes: each writes its text, and gives the time of the event; NAN to leave it out */
+
+typedef double make_scene(struct shaken *s, char *text);
+
+/* |a| = mu g */
+static double friction_on_a_table(struct shaken *s, char *text)
+{
+    bool doubtful = false;
+    struct waves back = opposite(s->a);
+    snprintf(text, text_size,
+             "  table: {mass: 1, motion: {slide: {x: \"1[m]*(%s)\"}}}\n"
+             "  b: {mass: 1, motion: {slide: {on: table}}, forces: [gravity, normal, friction: %.17g]}\n",
+             s->text, s->a.c);
+    double t = fmin(first_zero(s->a, &doubtful), first_zero(back, &doubtful));
+    return doubtful || start_of(&s->a) >= 0 || start_of(&back) >= 0 ? (double)NAN : t;
+}
+
+/* -a = g */
+static double block_on_a_lift(struct shaken *s, char *text)
+{
+    bool doubtful = false;
+    struct waves down = opposite(s->a);
+    snprintf(text, text_size,
+             "  lift: {mass: 1, motion: {slide: {along: 90 deg, x: \"1[m]*(%s)\"}}}\n"
+             "  b: {mass: 1, motion: {slide: {on: lift, along: -90 deg}}, forces: [gravity, normal: {side: "
+             "left}]}\n",
+             s->text);
+    double t = first_zero(down, &doubtful);
+    return doubtful || start_of(&down) >= 0 ? (double)NAN : t;
+}
+
+static double load_on_a_rope(struct shaken *s, char *text)
+{
+    bool doubtful = false;
+    double speed, most, place;
+    struct waves down = opposite(s->a), x = s->x;
+    x.c = 0;
+    place = waves_value(&x, 0, &speed, &most);
+    snprintf(
+        text, text_size,
+        "  lift: {mass: 1, motion: {slide: {along: 90 deg, x: \"1[m]*(%s)\"}}}\n"
+        "  b: {mass: 1, motion: {slide: {along: 90 deg}}, initial: {x: %.17g, v: %.17g}, forces: [gravity]}\n"
+        "couplings:\n  - rope: {name: r, through: [lift.G, b.G]}\n",
+        s->text, place - 10, speed);
+    double t = first_zero(down, &doubtful);
+    return doubtful || start_of(&down) >= 0 ? (double)NAN : t;
+}
+
+static const struct {
+    const char *name;
+    make_scene *make;
+    fbd_event_kind kind;
+    bool by_gravity; /* the threshold is g, else g is 1 */
+} kinds[] = {
+    {"friction on a table", friction_on_a_table, FBD_EVENT_BREAKAWAY, false},
+    {"a block on a lift", block_on_a_lift, FBD_EVENT_CONTACT_LOST, true},
+    {"a load on a rope", load_on_a_rope, FBD_EVENT_ROPE_SLACK, true},
+};
+
+/* ---- the comparison */
+
+static double first_event(const char *text, fbd_event_kind kind)
+{
+    fbd_model *model = model_from(text);
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    fbd_simulation *simulation = fbd_simulation_new(model, &options, NULL);
+    double t = HUGE_VAL;
+    assert_non_null(simulation);
+    for (bool going = true; going && t == HUGE_VAL;) {
+        going = fbd_simulation_advance(simulation) == FBD_GOING;
+        for (size_t i = 0; t == HUGE_VAL && i < fbd_simulation_events(simulation); i++)
+            if (fbd_simulation_event(simulation, i).kind == kind) t = fbd_simulation_event(simulation, i).t;
+    }
+    fbd_simulation_free(simulation);
+    fbd_model_free(model);
+    return t;
+}
+
+/* A zero is as good as the forces are, over the slope; where a threshold is so near an extreme that this is
+ * more than the time between zeros, none may be there. */
+static bool same(const struct waves *a, double got, double want)
+{
+    const double rounding = 1e-13;
+    double slope, most, size = fabs(a->c);
+    if (want == HUGE_VAL || got == HUGE_VAL) return got == want;
+    waves_value(a, want, &slope, &most);
+    double near = fmin(rounding * size / fabs(slope), sqrt(rounding * size / most));
+    return fabs(got - want) <= 256 * near + 64 * DBL_EPSILON * want;
+}
+
+static bool scene_agrees(size_t kind, uint64_t seed, size_t *compared)
+{
+    char scene[text_size], text[2 * text_size];
+    struct random_numbers numbers = {seed};
+    struct shaken s = random_shaking(&numbers);
+    double tolerance = random_power(&numbers, 1e-12, 1e-4);
+    double want = kinds[kind].make(&s, scene);
+    if (isnan(want) || !(s.a.c > 1e-3)) return true;
+    snprintf(text, sizeof text, "fbd: 1\ngravity: %.17g\nbodies:\n%ssimulate: {until: %g, tolerance: %g}\n",
+             kinds[kind].by_gravity ? s.a.c : 1, scene, until, tolerance);
+    ++*compared;
+    double got = first_event(text, kinds[kind].kind);
+    if (same(&s.a, got, want)) return true;
+    print_error("seed %llu: %s: at %.17g instead of %.17g\n%s", (unsigned long long)seed, kinds[kind].name,
+                got, want, text);
+    return false;
+}
+
+static uint64_t number_from(const char *name, uint64_t otherwise)
+{
+    const char *text = getenv(name);
+    return text ? strtoull(text, NULL, 10) : otherwise;
+}
+
+static void the_first_event_is_that_of_an_independent_search(void **unused)
+{
+    (void)unused;
+    uint64_t scenes = number_from("FBD_EVENT_SCENES", 60), only = number_from("FBD_EVENT_SEED", 0);
+    size_t wrong = 0, compared = 0;
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+        for (uint64_t seed = 1; seed <= scenes; seed++)
+            if (only == 0 || seed == only) wrong += !scene_agrees(k, seed, &compared);
+    print_message("%zu scenes compared, %zu wrong\n", compared, wrong);
+    assert_int_equal(wrong, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_first_event_is_that_of_an_independent_search),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
