@@ -101,8 +101,9 @@ static double cubic_at(const struct cubic *c, double s)
 /* A zero of a cubic that changes sign from + to - over [0, 1]: Newton kept inside a shrinking bracket. */
 static double cubic_zero(const struct cubic *c)
 {
+    enum { most_steps = 8 }; /* where more are needed the cubic is rounding */
     double low = 0, high = 1, s = c->c0 / (c->c0 - cubic_at(c, 1));
-    for (int i = 0; i < 60 && high - low > DBL_EPSILON; i++) {
+    for (int i = 0; i < most_steps && high - low > DBL_EPSILON; i++) {
         if (!(s > low && s < high)) s = (low + high) / 2;
         double value = cubic_at(c, s), slope = c->c1 + s * (2 * c->c2 + s * 3 * c->c3);
         if (value >= 0)
