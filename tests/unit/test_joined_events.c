@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What joints and ropes pass on: friction gives way, a surface is left and a rope goes slack where an
- * independent search says so, on a support that is moved by a sum of sines (waves.h).
+ * What joints, ropes and wheels pass on: friction gives way, a surface is left and a rope goes slack where an
+ * independent search says so, on a support that is moved by a sum of sines (waves.h), or under such a force.
  *
  * The acceleration of the support, less a threshold near or far from its extremes, is the function whose
  * first zero is wanted. The library knows it only as a force in a joint. 60 scenes of each kind are run;
@@ -121,6 +121,24 @@ static double load_on_a_rope(struct shaken *s, char *text)
     return doubtful || start_of(&down) >= 0 ? (double)NAN : t;
 }
 
+/* A disc that a force F at its centre rolls needs the friction F/3: |F/3| = mu g. */
+static double rolling_disc(struct shaken *s, char *text)
+{
+    bool doubtful = false;
+    char force[text_size / 4];
+    struct waves back = opposite(s->a);
+    waves_write(&s->a, "t", "1/s", force, sizeof force);
+    snprintf(
+        text, text_size,
+        "  b: {mass: 1, shape: disc, radius: 1, motion: planar, initial: {y: 1}, forces: [gravity, applied: "
+        "{name: u, fx: \"3[N]*(%s)\", fy: 0}]}\n"
+        "ground: {lines: {floor: {through: [0, 0], along: 0 deg}}}\n"
+        "couplings:\n  - roll: {name: tread, body: b, on: floor, static: %.17g, kinetic: %.17g}\n",
+        force, s->a.c, s->a.c);
+    double t = fmin(first_zero(s->a, &doubtful), first_zero(back, &doubtful));
+    return doubtful || start_of(&s->a) >= 0 || start_of(&back) >= 0 ? (double)NAN : t;
+}
+
 static const struct {
     const char *name;
     make_scene *make;
@@ -129,6 +147,7 @@ static const struct {
 } kinds[] = {
     {"friction on a table", friction_on_a_table, FBD_EVENT_BREAKAWAY, false},
     {"a block on a lift", block_on_a_lift, FBD_EVENT_CONTACT_LOST, true},
+    {"a disc that rolls", rolling_disc, FBD_EVENT_BREAKAWAY, false},
     {"a load on a rope", load_on_a_rope, FBD_EVENT_ROPE_SLACK, true},
 };
 
