@@ -181,8 +181,9 @@ int course_set(struct course *course, double from, double to, int degree, double
     enum { most_halvings = 20 };
     course->from = from;
     course->to = to - from > 2 * course->length ? from + 2 * course->length : to;
+    if (course->count == 0) return 0;
     prepare(course, degree);
-    for (int halving = 0; course->count > 0; halving++) {
+    for (int halving = 0;; halving++) {
         bool rough = false;
         int status = take_samples(course, sample, context);
         if (status) return status;
@@ -202,8 +203,8 @@ int course_set_coarse(struct course *course, double from, double to, course_samp
     const double rounding = 32 * DBL_EPSILON, safe = 2;
     course->from = from;
     course->to = to;
-    prepare(course, course_coarse_degree);
     if (course->count == 0) return 0;
+    prepare(course, course_coarse_degree);
     int status = take_samples(course, sample, context);
     if (status) return status;
     for (size_t i = 0; i < course->count; i++) {
