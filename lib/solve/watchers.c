@@ -37,7 +37,7 @@ static void add_shares(struct watchers *watchers, const struct plan *plan)
         const struct kink *kink = &plan->kinks[i];
         for (size_t part = 0; kink->slides && part < kink->count; part++)
             for (int end = 0; end < 2; end++)
-                add(&watchers->moving, (struct watcher){watch_share, (int)i, (int)part, end, true});
+                add(&watchers->moving, (struct watcher){watch_share, (int)i, (int)part, end});
     }
 }
 
