@@ -185,7 +185,7 @@ int contacts_settle_down(struct run *run)
 double run_next_rest(const struct run *run)
 {
     double next = HUGE_VAL;
-    int count = run->contacts.most > 0 ? tree_of(run)->meeting_count : 0;
+    int count = tree_of(run) ? tree_of(run)->meeting_count : 0;
     for (int i = 0; i < count; i++) next = fmin(next, run->contacts.bounces[i].rests_from);
     return next;
 }
@@ -193,7 +193,7 @@ double run_next_rest(const struct run *run)
 void run_note_rests(struct run *run)
 {
     const struct tree *tree = tree_of(run);
-    int count = run->contacts.most > 0 ? tree->meeting_count : 0;
+    int count = tree ? tree->meeting_count : 0;
     for (int i = 0; i < count; i++) {
         struct bounces *bounces = &run->contacts.bounces[i];
         if (bounces->rests_from > run->state->t) continue;

@@ -12,32 +12,51 @@
 
 /* ---- memory */
 
-bool contacts_work_init(struct contacts_work *work, const struct fbd_model *model)
+static bool has_meetings(const struct fbd_model *model)
+{
+    return model->tree && model->tree->meeting_count > 0;
+}
+
+static size_t most_strikers(const struct tree *tree)
+{
+    size_t count = 0;
+    for (int i = 0; i < tree->tie_count; i++)
+        count += tree->ties[i].kind == constraint_contact || tree->ties[i].kind == constraint_rope;
+    return count;
+}
+
+static bool meetings_init(struct contacts_work *work, const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
+    size_t ties = (size_t)tree->tie_count, meetings = (size_t)tree->meeting_count;
+    if (!has_meetings(model)) return true;
+    work->bounces = calloc(meetings, sizeof *work->bounces);
+    work->was_closed = calloc(2 * ties, sizeof *work->was_closed);
+    work->asleep = calloc(meetings, sizeof *work->asleep);
+    work->trial = state_new(model);
+    if (!work->bounces || !work->was_closed || !work->asleep || !work->trial) return false;
+    work->touching = work->was_closed + ties;
+    for (size_t i = 0; i < meetings; i++)
+        work->bounces[i] = (struct bounces){.feature = -1, .rests_from = HUGE_VAL};
+    return true;
+}
+
+bool contacts_work_init(struct contacts_work *work, const struct fbd_model *model)
+{
     *work = (struct contacts_work){0};
-    if (!tree || tree->meeting_count == 0) return true;
-    size_t most = (size_t)tree->tie_count, n = (size_t)model->plan.n, rows = 2 * most;
-    work->most = tree->tie_count;
+    size_t most = model->tree ? most_strikers(model->tree) : 0, n = (size_t)model->plan.n, rows = 2 * most;
+    if (most == 0) return true;
     work->strikers = calloc(most, sizeof *work->strikers);
     work->points = calloc(most, sizeof *work->points);
     work->rows = calloc(rows + model->plan.friction_count, sizeof *work->rows);
     work->W = calloc(rows * rows + rows * n + 2 * rows + 2 * n, sizeof *work->W);
-    work->bounces = calloc((size_t)tree->meeting_count, sizeof *work->bounces);
-    work->was_closed = calloc(2 * most, sizeof *work->was_closed);
-    work->asleep = calloc((size_t)tree->meeting_count, sizeof *work->asleep);
-    work->trial = state_new(model);
-    if (!work->asleep) return false;
-    if (!work->was_closed || !work->trial) return false;
-    work->touching = work->was_closed + most;
-    if (!work->strikers || !work->points || !work->rows || !work->W || !work->bounces) return false;
+    if (!meetings_init(work, model)) return false;
+    if (!work->strikers || !work->points || !work->rows || !work->W) return false;
     work->modes = work->rows + rows;
     work->answers = work->W + rows * rows;
     work->v = work->answers + rows * n;
     work->P = work->v + rows;
     work->y = work->P + rows;
-    for (int i = 0; i < tree->meeting_count; i++)
-        work->bounces[i] = (struct bounces){.feature = -1, .rests_from = HUGE_VAL};
     return true;
 }
 
@@ -310,6 +329,13 @@ static void note_impact(struct run *run, int i)
         p, tau, taken, {striker->v_n, work->v[2 * i]}, {striker->v_t, work->v[2 * i + 1]}};
 }
 
+/* What an impact has made slack is no more taut by its length. */
+static void let_slack(struct run *run, int pair)
+{
+    run->state->slip[pair] = slip_plus;
+    run->decided.slips[pair] = true;
+}
+
 /* What leaves is open; what stays slips or sticks. */
 static void open_or_close(struct run *run, int count, bool struck)
 {
@@ -319,7 +345,7 @@ static void open_or_close(struct run *run, int count, bool struck)
         const struct tie *tie = &tree_of(run)->ties[striker->tie];
         bool leaves = struck ? parts(run, i) : striker->v_n > 0;
         if (striker->rope) {
-            if (leaves) run->state->slip[tie->pair] = slip_plus;
+            if (leaves) let_slack(run, tie->pair);
             continue;
         }
         if (leaves) {
@@ -333,16 +359,41 @@ static void open_or_close(struct run *run, int count, bool struck)
     }
 }
 
+/* What stuck and has got a speed slips. */
+static void unstick(struct run *run)
+{
+    const struct fbd_model *model = run->model;
+    struct instant at = state_instant(run->state);
+    for (int pair = 0; pair < (int)model->plan.friction_count; pair++) {
+        const struct friction *friction = &model->plan.frictions[pair];
+        if (friction->kind != mode_friction || friction->tie >= 0 || run->state->slip[pair] != stick)
+            continue;
+        double v = slip_velocity(model, pair, &at),
+               before = run->anchor[3 * model->plan.n + friction->coordinate];
+        if (fabs(v) <= 1e-14 * before) continue;
+        run->state->slip[pair] = v > 0 ? slip_plus : slip_minus;
+    }
+}
+
 /* ---- which are looked at */
 
-/* The fastest link, as it turns. */
+/* The fastest link, as it turns, and how fast shapes go past each other: they are in each other no longer
+ * than it takes to go by their size. */
 double run_contact_radians(const struct run *run, double span)
 {
-    double most = 0;
-    if (run->contacts.most == 0) return 0;
-    for (int i = 1; i < tree_of(run)->count; i++)
-        most = fmax(most, fabs(run->contacts.trial->tree->links[i].omega));
-    return 2 * most * span; /* both shapes of a meeting may turn */
+    const struct contacts_work *work = &run->contacts;
+    const struct tree *tree = tree_of(run);
+    double turn = 0, pass = 0;
+    if (!has_meetings(run->model)) return 0;
+    for (int i = 1; i < tree->count; i++) turn = fmax(turn, fabs(work->trial->tree->links[i].omega));
+    for (int i = 0; i < tree->meeting_count; i++) {
+        const struct contact_shape *shapes = tree->meetings[i].shape;
+        double size = shapes[0].radius + shapes[1].radius;
+        bool flat = shapes[1].kind == contact_line; /* the gap of a line is linear in the place */
+        if (work->asleep[i] || flat || size <= 0) continue;
+        pass = fmax(pass, meeting_distance(run->model, work->trial->tree, i).speed / size);
+    }
+    return (2 * turn + 2 * pass) * span; /* both shapes of a meeting may turn */
 }
 
 /* Speeds within a step are those at its ends, or not much more: a factor, and a check at the end of the step,
@@ -352,7 +403,7 @@ void run_wake_contacts(struct run *run, double end)
     const double speeds = 2;
     struct contacts_work *work = &run->contacts;
     struct fbd_state *trial = work->trial;
-    if (work->most == 0) return;
+    if (!has_meetings(run->model)) return;
     double span = end - run->from;
     state_copy(trial, run->during);
     impulse_look(trial);
@@ -372,7 +423,7 @@ void run_wake_contacts(struct run *run, double end)
 void run_check_overlap(struct run *run)
 {
     double depth;
-    if (run->contacts.most == 0 || run->outcome != FBD_GOING) return;
+    if (!has_meetings(run->model) || run->outcome != FBD_GOING) return;
     int meeting = contacts_overlap(run->state, &depth);
     if (meeting < 0) return;
     run_fail(run, FBD_FAILED,
@@ -406,6 +457,17 @@ void run_contacts(struct run *run)
         count = contacts_settle_down(run);
         open_or_close(run, count, true);
     }
+}
+
+void run_strike_taut(struct run *run)
+{
+    impulse_look(run->state);
+    int count = contacts_find_strikers(run);
+    if (!any_closes(run, count) || !strike(run, count)) return;
+    for (int i = 0; i < count; i++) note_impact(run, i);
+    impulse_look(run->state);
+    open_or_close(run, count, true);
+    unstick(run);
 }
 
 static bool is_closed(const struct run *run, const struct fbd_state *state, int tie)

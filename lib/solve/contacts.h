@@ -36,8 +36,7 @@ struct striker {
 };
 
 struct contacts_work {
-    int most;                 /* strikers */
-    struct striker *strikers; /* most */
+    struct striker *strikers; /* room for all contacts and ropes */
     struct impacts_point *points;
     int *rows, *modes;
     double *W, *answers, *v, *P, *y;
@@ -56,6 +55,10 @@ void contacts_work_free(struct contacts_work *work);
 
 /* Find what touches, let it have its impacts, and close what stays. To be called before the modes settle. */
 void run_contacts(struct run *run);
+
+/* A rope has just got taut: it, all other taut ropes and all that touches have an impact together, in which
+ * ropes are plastic. What it makes slack is decided. */
+void run_strike_taut(struct run *run);
 
 /* Which meetings the step from run->from to the state run->y at `end` has to look at: those whose shapes
  * could come near in it. In panels of how many radians the shapes turn. */

@@ -124,12 +124,14 @@ static void one_sided_event(struct run *run, int pair)
         return;
     }
     double before = kinetic(run->state);
+    bool rope = run->model->plan.frictions[pair].kind == mode_rope;
     run->state->slip[pair] = stick;
-    state_project_velocity(run->state, false);
+    if (rope) run_strike_taut(run);
+    state_project_velocity(run->state, false); /* of a rope, rounding only */
     drop_rounding(run);
     run->snap_pair = pair;
     run->snap_work = kinetic(run->state) - before;
-    run->impact_work[run->model->plan.frictions[pair].load] += run->snap_work;
+    if (!rope) run->impact_work[run->model->plan.frictions[pair].load] += run->snap_work;
 }
 
 /* Is the way in which the event is passed now one that is asked for? */
@@ -228,7 +230,7 @@ static void note_one_sided(struct run *run, int pair, int before, int after)
     if (before == stick && after != stick)
         run_note(run, rope ? FBD_EVENT_ROPE_SLACK : FBD_EVENT_LIFT_OFF, friction->body, friction->load, -1);
     bool snapped = run->snap_pair == pair;
-    run->snap_pair = -1;
+    if (snapped) run->snap_pair = -1;
     if (!snapped && (before == stick || after != stick)) return;
     struct run_event *event =
         run_note(run, rope ? FBD_EVENT_ROPE_TAUT : FBD_EVENT_LANDING, friction->body, friction->load, -1);

@@ -114,7 +114,7 @@ static void start(struct run *run)
     struct lack lack;
     run->restart = true;
     run->from = run->state->t;
-    if (run->contacts.most > 0) {
+    if (run->model->tree && run->model->tree->meeting_count > 0) {
         modes_settle(run->state, NULL);
         run_contacts(run);
         /* Energies are counted from behind impacts of the start. */
