@@ -27,7 +27,7 @@ struct gathered {
     int *pair, *hold; /* of a hold; of a pair, or -1 */
     int *link;        /* of a guide: whose slide */
     int *trial;       /* modes with all of them loose */
-    const int *forced;
+    int *forced;
 };
 
 static const struct friction *pair_of(const struct fbd_state *state, int pair)
@@ -60,11 +60,13 @@ static bool is_in_question(const struct fbd_state *state, const struct decided *
     return now.touches || (state->slip[pair] == stick && (decided || !(now.parts || now.meets)));
 }
 
+enum { keeps_still = 2 }; /* beside the modes that rates decide: see immovable */
+
 /* The side on which a friction slips whatever the forces are, 0 for one at rest. */
 static int slips_already(const struct fbd_state *state, const struct decided *decided, const int *forced,
                          int pair)
 {
-    if (forced[pair]) return forced[pair];
+    if (forced[pair]) return forced[pair] == keeps_still ? 0 : forced[pair];
     if (decided && decided->slips[pair]) return state->slip[pair];
     double v = settling_velocity(state, decided, pair);
     return v > 0 ? 1 : v < 0 ? -1 : 0;
@@ -116,7 +118,8 @@ static void add_answers(struct gathered *all, size_t k)
         all->problem.B[g * count + k] += tree_normal_in(tree, state->tree, all->link[g]);
 }
 
-/* What the constraints alone do not let move slips by rounding only. */
+/* What the constraints alone do not let move slips by rounding only: it keeps still whatever its share of the
+ * load is, which its limits do not bound. */
 static const double immovable = 1e-12;
 
 static void hold_still(struct gathered *all, size_t k)
@@ -125,6 +128,7 @@ static void hold_still(struct gathered *all, size_t k)
     const struct friction *hold = pair_of(state, all->pair[k]);
     double surface;
     all->problem.holds[k].slip = 0;
+    if (all->forced[all->pair[k]] == 0) all->forced[all->pair[k]] = keeps_still;
     if (hold->kind == mode_friction && hold->tie < 0)
         state->y[state->model->plan.n + hold->coordinate] = friction_surface_speed(hold, &all->at, &surface);
 }
@@ -194,13 +198,13 @@ static void set_press(struct gathered *all, size_t i, size_t *guides)
     all->problem.guides[(*guides)++].two_sided = friction->two_sided;
 }
 
-static bool gather(struct gathered *all, struct fbd_state *state, const struct decided *decided,
-                   const int *forced)
+static bool gather(struct gathered *all, struct fbd_state *state, const struct decided *decided, int *forced)
 {
     const struct plan *plan = &state->model->plan;
     size_t pairs = plan->friction_count, count = 0, guides = 0;
     struct instant at = state_instant(state);
-    *all = (struct gathered){.state = state, .pair = calloc(4 * pairs + 1, sizeof *all->pair)};
+    *all =
+        (struct gathered){.state = state, .forced = forced, .pair = calloc(4 * pairs + 1, sizeof *all->pair)};
     if (!all->pair) return false;
     all->hold = all->pair + pairs;
     all->link = all->hold + pairs;
@@ -260,7 +264,7 @@ static void set_pull(struct fbd_state *state, int pair, double N)
 }
 
 /* Set the modes by pivoting. */
-static enum holds_found solve(struct fbd_state *state, const struct decided *decided, const int *forced)
+static enum holds_found solve(struct fbd_state *state, const struct decided *decided, int *forced)
 {
     struct gathered all;
     enum holds_found found = holds_no_memory;
@@ -354,13 +358,16 @@ static int next_mode(const struct fbd_state *state, const double *slots, const d
     return friction_decide(&now, &rate);
 }
 
-/* Does a slide that rubs press the wrong way? Where it sticks a guide takes the side on which it presses. */
-static bool pulls(struct fbd_state *state, const double *slots, const struct decided *decided, int pair)
+/* Does a slide that rubs press the wrong way? Where it sticks a guide takes the side on which it presses. A
+ * surface with one side that pulls is solved as one that does not press: that it is lost is for others to
+ * say. */
+static bool pulls(struct fbd_state *state, const double *slots, const struct decided *decided, bool solved,
+                  int pair)
 {
     const struct friction *hold = pair_of(state, pair);
     if (hold->kind != mode_friction || hold->tie >= 0 || hold->normal_slot < 0) return false;
     double N = -slots[hold->normal_slot];
-    if (!hold->two_sided) return N < 0;
+    if (!hold->two_sided) return N < 0 && !solved;
     if (decided && decided->pulls[pair]) return false;
     if (state->slip[pair] == stick) set_pull(state, pair, N);
     return state->pull[pair] * N < 0;
@@ -370,19 +377,21 @@ enum agreement { agrees, differs, at_limit };
 
 /* `at_limit`: it differs by rates alone, and `which` is to become `next`. */
 static enum agreement look(struct fbd_state *state, const struct decided *decided, const int *forced,
-                           int *which, int *next)
+                           bool solved, int *which, int *next)
 {
     double *slots = state->scratch, *slots_along = slots + state->model->plan.slots;
     enum agreement found = agrees;
     evaluate(state, slots, slots_along);
     for (int pair = 0; pair < (int)state->model->plan.friction_count; pair++) {
         bool by_rate;
-        if (!is_in_question(state, decided, forced, pair)) continue;
-        if (pulls(state, slots, decided, pair)) return differs;
+        if (!is_in_question(state, decided, forced, pair) || forced[pair] == keeps_still) continue;
+        if (pulls(state, slots, decided, solved, pair)) return differs;
         const struct friction *hold = pair_of(state, pair);
         if (hold->kind == mode_friction && slips_already(state, decided, forced, pair) != 0) continue;
         int mode = next_mode(state, slots, slots_along, pair, &by_rate);
         if (mode == state->slip[pair]) continue;
+        if (!by_rate && solved && hold->kind == mode_friction && state->slip[pair] == stick)
+            continue; /* its share of a load that several hold is beyond its limit, theirs together is not */
         if (!by_rate) return differs;
         found = at_limit;
         *which = pair;
@@ -391,16 +400,19 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
     return found;
 }
 
-/* Solve, and let rates decide what is at its limit, one after the other. */
-static void decide(struct fbd_state *state, const struct decided *decided, int *forced)
+/* Solve, and let rates decide what is at its limit, one after the other. False where the forces do not agree
+ * with what was solved. */
+static bool decide(struct fbd_state *state, const struct decided *decided, int *forced)
 {
     int count = (int)state->model->plan.friction_count, which, next;
     for (int round = 0; round <= count; round++) {
-        if (solve(state, decided, forced) >= holds_none) return;
-        if (look(state, decided, forced, &which, &next) != at_limit) return;
+        if (solve(state, decided, forced) >= holds_none) return false;
+        enum agreement found = look(state, decided, forced, true, &which, &next);
+        if (found != at_limit) return found == agrees;
         forced[which] = next;
         state->slip[which] = next;
     }
+    return false;
 }
 
 bool tree_settle_holds(struct fbd_state *state, const struct decided *decided)
@@ -416,6 +428,7 @@ bool tree_settle_holds(struct fbd_state *state, const struct decided *decided)
         bool rests = hold->kind != mode_friction || slips_already(state, decided, forced, pair) == 0;
         if (rests) state->slip[pair] = stick; /* tried first */
     }
-    if (look(state, decided, forced, &which, &next) != agrees) decide(state, decided, forced);
-    return memcmp(before, state->slip, bytes) == 0;
+    bool agreed =
+        look(state, decided, forced, false, &which, &next) == agrees || decide(state, decided, forced);
+    return agreed && memcmp(before, state->slip, bytes) == 0;
 }
