@@ -14,7 +14,7 @@
 bool ensemble_make_run(struct ensemble *ensemble, struct group *group)
 {
     group->run = run_new(group->model, &ensemble->options);
-    return group->run != NULL;
+    return group->run && group->run->outcome != FBD_OUT_OF_MEMORY;
 }
 
 static bool make_group(struct ensemble *ensemble, struct group *group)

@@ -85,7 +85,9 @@ static bool make(struct track *track, fbd_simulation *simulation, const struct g
         memcpy(track->end, state->y, track->size * sizeof *track->end);
     const char *reason = fbd_simulation_reason(simulation);
     if (!seen && !reason[0]) reason = "the dense output of a step cannot be had";
-    if (!seen) track->outcome = FBD_FAILED;
+    if (!seen) /* a simulation that has ended says how, again */
+        track->outcome =
+            fbd_simulation_advance(simulation) == FBD_OUT_OF_MEMORY ? FBD_OUT_OF_MEMORY : FBD_FAILED;
     track->reason = arena_text(arena, reason, strlen(reason));
     track->stats = fbd_simulation_stats(simulation);
     return track->outcome != FBD_OUT_OF_MEMORY && track->reason && keep_events(track, simulation, arena);
