@@ -173,6 +173,17 @@ static double radians_of(const struct run *run, const struct formula *formula, c
     return range > 0 ? 2 * turn / range : 0;
 }
 
+/* What varies by no more than it is in doubt stands still, as far as anybody can tell: the bounds of its rate
+ * are those of noise, over whatever stretch. */
+static void hold_noise(struct course *course)
+{
+    for (size_t k = 0; k < course->count; k++) {
+        struct enclosure *now = &course->now[course->component[k]];
+        double middle = now->middle.low + interval_width(now->middle) / 2;
+        if (interval_width(now->value) <= 2 * interval_width(now->middle)) *now = enclosure_point(middle);
+    }
+}
+
 /* Where a formula has turned by three radians, `to` at most. One that turns no less in half of the time
  * hardly varies at all: its bounds are those of a difference of what is the same. */
 static double end_of_turn(struct run *run, const struct formula *formula, double from, double to)
@@ -182,7 +193,10 @@ static double end_of_turn(struct run *run, const struct formula *formula, double
     double before = HUGE_VAL, first = to;
     for (int halving = 0; halving < most_halvings; halving++) {
         struct stretch stretch = stretch_between(from, to);
-        if (run->paced_by_motion) course_enclose(&run->course, &stretch);
+        if (run->paced_by_motion) {
+            course_enclose(&run->course, &stretch);
+            hold_noise(&run->course);
+        }
         double radians = radians_of(run, formula, &stretch);
         if (!(radians > most) || !(stretch.middle > from)) return to;
         if (before < HUGE_VAL && radians > least_fall * before) return first;
