@@ -36,6 +36,7 @@ struct row {
     struct port ports[2 * most_constraint_ends];
     double lambda;  /* the multiplier, when solved */
     bool redundant; /* it says nothing that the rows before it do not say */
+    bool weak;      /* or may say nothing new */
 };
 
 /* What a tie keeps of the start: zero of its rows, side of the line or of the way round the pulleys, and the

@@ -110,7 +110,7 @@ static bool is_rubbing(const struct tie *tie, const struct instant *at)
 /* The friction of a body that slips on a surface, per normal force: -slip mu_k along its line; 0 when it does
  * not.
  */
-static double rolling_share(const struct fbd_model *model, const struct instant *at, int k)
+double tree_rubbing_share(const struct fbd_model *model, const struct instant *at, int k)
 {
     const struct tie *tie = &model->tree->ties[model->tree->tie_of_row[k]];
     if (at->tree->projecting || k != tie->first_row || !is_rubbing(tie, at)) return 0;
@@ -126,7 +126,7 @@ static void apply_unknown(const struct fbd_model *model, const struct instant *a
         return;
     }
     row_apply(&work->rows[k], size, work->x);
-    double share = rolling_share(model, at, k);
+    double share = tree_rubbing_share(model, at, k);
     if (share != 0) row_apply(&work->rows[k + 1], share * size, work->x);
 }
 
@@ -210,7 +210,9 @@ static void factor_row(const struct tree *tree, struct tree_work *work, int j, d
     /* Of friction the diagonal is 1 and what a normal force answers to it, which may well be less than -1. */
     bool movable = !is_row(tree, unknown) || work->diagonal[unknown] > nothing * work->most;
     work->inverse[j] = movable && pivot != 0 ? 1 / pivot : 0;
-    if (is_row(tree, unknown)) work->rows[unknown].redundant = !movable || !(pivot > 10 * shift);
+    if (!is_row(tree, unknown)) return;
+    work->rows[unknown].redundant = !movable || !(pivot > 10 * shift);
+    work->rows[unknown].weak = !movable || !(pivot > 1e4 * shift); /* shifts of rows before add to it */
 }
 
 /* rest = right - S z. */
@@ -390,7 +392,7 @@ void tree_take_multipliers(const struct fbd_model *model, const struct instant *
     for (int i = 0; i < tree->tie_count; i++) {
         int j = tree->ties[i].first_row;
         if (is_rubbing(&tree->ties[i], at))
-            work->rows[j + 1].lambda = rolling_share(model, at, j) * work->z[j];
+            work->rows[j + 1].lambda = tree_rubbing_share(model, at, j) * work->z[j];
     }
 }
 

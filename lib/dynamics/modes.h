@@ -28,6 +28,19 @@ bool modes_settle(struct fbd_state *state, const struct decided *decided);
  * that has changed state->slip; what is in the way stands in state->holds. */
 bool tree_settle_holds(struct fbd_state *state, const struct decided *decided);
 
+struct arena;
+struct rest_margin;
+
+/* What is left to the limits of a load that several holds share, right after force_balance_along with the
+ * rates of change `flow`. False when none is shared, or memory is out (arena->failed). */
+bool tree_find_margin(struct fbd_state *state, const struct instant *at, const struct direction *flow,
+                      const double *slots, const double *slots_along, struct arena *arena,
+                      struct rest_margin *margin);
+
+/* A pair has come to the limit of what it shares: what gives with it gives, in state->slip, and is decided.
+ * False when it shares nothing. */
+bool tree_give_shared(struct fbd_state *state, int pair, bool *decided);
+
 /* The velocity of a pair relative to its surface. */
 double slip_velocity(const struct fbd_model *model, int pair, const struct instant *at);
 

@@ -5,6 +5,7 @@
 #include "dynamics/contact.h"
 #include "dynamics/modes.h"
 #include "dynamics/project.h"
+#include "dynamics/rest_system.h"
 #include "dynamics/tree_system.h"
 
 #include <stdlib.h>
@@ -87,10 +88,33 @@ void state_copy(struct fbd_state *to, const struct fbd_state *from)
     memcpy(to->pull, from->pull, plan->friction_count * sizeof *to->pull);
 }
 
+/* What constraints leave open. */
+static void share_out(struct fbd_state *state, double *slots)
+{
+    struct arena arena = {0};
+    struct rest_system system;
+    struct instant at = state_instant(state);
+    if (!state->tree) return;
+    state->tree->shared = true;
+    if (!rest_is_open(state->model, &at)) return;
+    if (rest_open(&system, state, &at, slots, state->a, &arena)) rest_share(&system, slots);
+    if (arena.failed) state->holds.found = holds_no_memory;
+    rest_free(&system);
+    arena_free(&arena);
+}
+
 void state_evaluate(struct fbd_state *state)
 {
     struct instant at = state_instant(state);
     accelerations(state->model, &at, state->slots, state->a);
     if (state->tree) tree_complete(state->model, state->tree);
     if (state->extended) absolutes_write(state->model, &at, state->y);
+    share_out(state, state->slots);
+}
+
+void state_balance_of(struct fbd_state *state, int b, double *slots)
+{
+    struct instant at = state_instant(state);
+    force_balance_of(state->model, b, &at, slots);
+    if (state->model->bodies[b].place.link > 0) share_out(state, slots);
 }

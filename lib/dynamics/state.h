@@ -60,7 +60,11 @@ static inline struct instant state_instant(const struct fbd_state *state)
     return state_instant_at(state, state->t, state->y);
 }
 
-/* Accelerations and slots at the state, modes as they are. */
+/* Accelerations and slots at the state, modes as they are. What constraints leave open is shared within
+ * limits (rest_system.h). */
 void state_evaluate(struct fbd_state *state);
+
+/* Right after it, force_balance_of body b, with what is shared. */
+void state_balance_of(struct fbd_state *state, int b, double *slots);
 
 #endif

@@ -57,13 +57,13 @@ bool rest_begin(struct fbd_state *state)
     return true;
 }
 
-int rest_holder(const struct fbd_state *state, int coordinate)
+int rest_holder(const struct fbd_model *model, const struct instant *at, int coordinate)
 {
-    const struct plan *plan = &state->model->plan;
+    const struct plan *plan = &model->plan;
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
         const struct friction *friction = &plan->frictions[pair];
         bool holds = friction->tie < 0 && friction->coordinate == coordinate;
-        if (holds && state->slip[pair] == stick) return pair;
+        if (holds && at->slip[pair] == stick) return pair;
     }
     return -1;
 }
@@ -116,46 +116,46 @@ static void leave_over(const struct tree_link *link, const struct tree_state *s,
 }
 
 /* A surface that moves under a body draws it along; a bearing that moves has a moment of its own. */
-static void add_slipping(struct fbd_state *state, const double *slots, bool loads, double *Q)
+static void add_slipping(const struct fbd_model *model, const struct instant *at, const double *slots,
+                         bool loads, double *Q)
 {
-    const struct plan *plan = &state->model->plan;
-    struct instant at = state_instant(state);
+    const struct plan *plan = &model->plan;
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
         const struct friction *friction = &plan->frictions[pair];
-        if (friction->tie >= 0 || state->slip[pair] == stick) continue;
-        double press = friction->normal_slot >= 0 ? -state->pull[pair] * slots[friction->normal_slot] : loads;
-        Q[friction->coordinate] -= state->slip[pair] * formula_value(&friction->mu_k, &at) * press;
+        int side = slip_side(at->slip[pair]);
+        if (friction->tie >= 0 || side == 0) continue;
+        double press = friction->normal_slot >= 0 ? -at->pull[pair] * slots[friction->normal_slot] : loads;
+        Q[friction->coordinate] -= side * formula_value(&friction->mu_k, at) * press;
     }
 }
 
 /* Bodies without joints to others: friction_at expects what holds them on a surface whose velocity changes.
  */
-static void stand_still(struct fbd_state *state, double *slots)
+static void stand_still(const struct fbd_model *model, const struct instant *at, double *slots)
 {
-    const struct plan *plan = &state->model->plan;
-    struct instant at = state_instant(state);
+    const struct plan *plan = &model->plan;
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
         const struct friction *friction = &plan->frictions[pair];
         double acceleration;
-        if (friction->jointed || state->slip[pair] != stick) continue;
-        friction_surface_speed(friction, &at, &acceleration);
+        if (friction->jointed || at->slip[pair] != stick) continue;
+        friction_surface_speed(friction, at, &acceleration);
         slots[friction->hold_slot] += friction->inertia * acceleration;
     }
 }
 
-void rest_forces(struct fbd_state *state, const double *lambda, bool loads, double *slots, double *Q)
+void rest_forces(const struct fbd_model *model, const struct instant *given, const double *lambda, bool loads,
+                 double *slots, double *Q)
 {
-    const struct fbd_model *model = state->model;
-    const struct instant given = state_instant(state), at = instant_extend(model, &given);
+    const struct instant at = instant_extend(model, given);
     memset(slots, 0, (size_t)model->plan.slots * sizeof *slots);
     if (loads) force_slots(model, &at, slots);
     memcpy(Q, slots, (size_t)model->plan.n * sizeof *Q);
     if (model->tree) {
         transmit(model, &at, lambda, loads);
         for (int i = 1; i < model->tree->count; i++)
-            leave_over(&model->tree->links[i], &state->tree->links[i], slots, Q);
+            leave_over(&model->tree->links[i], &at.tree->links[i], slots, Q);
         tree_slots(model, &at, slots);
     }
-    add_slipping(state, slots, loads, Q);
-    if (loads) stand_still(state, slots);
+    add_slipping(model, &at, slots, loads, Q);
+    if (loads) stand_still(model, &at, slots);
 }

@@ -10,7 +10,7 @@
  *
  * and what is left along a coordinate of the joint, Q = g - S . F with g the listed forces in the joint, has
  * to be zero, or is what its dry friction or its drive holds. All of this is affine in lambda:
- * solve/statics.c finds lambda.
+ * rest_system.c finds lambda.
  */
 #ifndef FBD_DYNAMICS_STATICS_H
 #define FBD_DYNAMICS_STATICS_H
@@ -25,9 +25,10 @@ bool rest_begin(struct fbd_state *state);
 /* The forces at rest with these multipliers (row_count of them), with all loads or without any: sets F of the
  * links, lambda of the rows, and slots[plan.slots] as friction_at and diagram_fill expect them; and Q[n],
  * what is left along each coordinate. */
-void rest_forces(struct fbd_state *state, const double *lambda, bool loads, double *slots, double *Q);
+void rest_forces(const struct fbd_model *model, const struct instant *at, const double *lambda, bool loads,
+                 double *slots, double *Q);
 
 /* Is the coordinate held by dry friction that sticks, or by a drive? By index of the pair, or -1. */
-int rest_holder(const struct fbd_state *state, int coordinate);
+int rest_holder(const struct fbd_model *model, const struct instant *at, int coordinate);
 
 #endif

@@ -79,6 +79,7 @@ struct tree_work {
     double damping;  /* of a projection: slopes whose square is less than this share are left alone */
     double accuracy; /* relative, of the coordinates that are projected */
     bool projecting; /* the system is set up for a projection: no friction */
+    bool shared;     /* what constraints leave open is shared in them, see rest_system.h */
     bool complete;   /* A and F of the links are final, see tree_complete */
 };
 

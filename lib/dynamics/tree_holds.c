@@ -7,7 +7,8 @@
  * the constraints: a column of Delassus' matrix. What slips already is let loose with the others, since its
  * friction goes with a normal force that is still to be found.
  *
- * At a limit to rounding the rates of change decide: the forces do not tell.
+ * At a limit to rounding the rates of change decide: the forces do not tell. Of a load that several share
+ * there is a share within all limits or not (rest_system.h); just beyond, all those that are at theirs give.
  */
 #include <float.h>
 #include <stdlib.h>
@@ -16,6 +17,7 @@
 #include "dynamics/constraint.h"
 #include "dynamics/contact.h"
 #include "dynamics/modes.h"
+#include "dynamics/rest_system.h"
 #include "dynamics/tree_system.h"
 
 /* ---- which holds are in question */
@@ -118,23 +120,25 @@ static void add_answers(struct gathered *all, size_t k)
         all->problem.B[g * count + k] += tree_normal_in(tree, state->tree, all->link[g]);
 }
 
-/* What the constraints alone do not let move slips by rounding only: it keeps still whatever its share of the
- * load is, which its limits do not bound. */
+/* What the constraints alone do not let move slips by rounding only, and no force along it moves anything. */
 static const double immovable = 1e-12;
 
 static void hold_still(struct gathered *all, size_t k)
 {
     struct fbd_state *state = all->state;
     const struct friction *hold = pair_of(state, all->pair[k]);
+    size_t count = all->problem.count;
     double surface;
     all->problem.holds[k].slip = 0;
+    all->problem.holds[k].free = 0;
+    for (size_t i = 0; i < count; i++) all->problem.A[i * count + k] = all->problem.A[k * count + i] = 0;
     if (all->forced[all->pair[k]] == 0) all->forced[all->pair[k]] = keeps_still;
     if (hold->kind == mode_friction && hold->tie < 0)
         state->y[state->model->plan.n + hold->coordinate] = friction_surface_speed(hold, &all->at, &surface);
 }
 
-/* The links answer, and then the constraints that do not let them. */
-static void add_column(struct gathered *all, size_t k)
+/* The links answer, and then the constraints that do not let them. True when these hold it still. */
+static bool add_column(struct gathered *all, size_t k)
 {
     struct fbd_state *state = all->state;
     const struct tree *tree = state->model->tree;
@@ -144,12 +148,12 @@ static void add_column(struct gathered *all, size_t k)
     tree_outward(tree, work, 1, tree->count, work->unit);
     add_answers(all, k);
     double alone = all->problem.A[k * all->problem.count + k];
-    if (tree->tie_count == 0) return;
+    if (tree->tie_count == 0) return false;
     for (int j = 0; j < tree_unknowns(tree); j++)
         work->z[j] = j < tree->row_count ? -tree_row_answer(work, j) : 0;
     tree_system_solve(state->model, &all->at, work->z);
     add_answers(all, k);
-    if (all->problem.A[k * all->problem.count + k] <= immovable * alone) hold_still(all, k);
+    return all->problem.A[k * all->problem.count + k] <= immovable * alone;
 }
 
 /* Without any hold. */
@@ -234,8 +238,16 @@ static bool gather(struct gathered *all, struct fbd_state *state, const struct d
     all->at = at;
     all->at.slip = all->trial;
     set_free(all);
-    for (size_t k = 0; k < count; k++) add_column(all, k);
-    return true;
+    bool *still = calloc(count + 1, sizeof *still);
+    for (size_t k = 0; k < count; k++) {
+        bool alone = add_column(all, k);
+        if (still) still[k] = alone;
+    }
+    for (size_t k = 0; still && k < count; k++)
+        if (still[k]) hold_still(all, k);
+    bool made = still != NULL;
+    free(still);
+    return made;
 }
 
 /* Painleve's paradox has a friction by which its own normal force grows: the one that does so most. */
@@ -375,28 +387,102 @@ static bool pulls(struct fbd_state *state, const double *slots, const struct dec
 
 enum agreement { agrees, differs, at_limit };
 
-/* `at_limit`: it differs by rates alone, and `which` is to become `next`. */
-static enum agreement look(struct fbd_state *state, const struct decided *decided, const int *forced,
-                           bool solved, int *which, int *next)
+/* ---- loads that are shared */
+
+/* What sticks on a guide that presses on either side: on which. */
+static bool choose_sides(struct fbd_state *state, const double *slots)
+{
+    struct arena arena = {0};
+    struct rest_system system;
+    struct instant at = state_instant(state);
+    bool open = rest_open(&system, state, &at, slots, state->a, &arena);
+    bool changed = open && rest_choose_sides(&system);
+    if (open) rest_restore(&system);
+    rest_free(&system);
+    arena_free(&arena);
+    return changed;
+}
+
+bool tree_find_margin(struct fbd_state *state, const struct instant *at, const struct direction *flow,
+                      const double *slots, const double *slots_along, struct arena *arena,
+                      struct rest_margin *margin)
+{
+    struct rest_system system;
+    bool found = rest_open(&system, state, at, slots, flow->dy + state->model->plan.n, arena) &&
+                 rest_find_margin(&system, slots_along, at->tree->z, flow, margin);
+    if (system.base.F) rest_restore(&system);
+    rest_free(&system);
+    if (arena->failed) state->holds.found = holds_no_memory;
+    return found && margin->value < HUGE_VAL;
+}
+
+/* All that is at its limit gives. */
+static void give(struct fbd_state *state, const struct rest_margin *margin, int *forced)
+{
+    for (size_t pair = 0; pair < state->model->plan.friction_count; pair++)
+        if (margin->gives[pair] != 0) forced[pair] = state->slip[pair] = margin->gives[pair];
+}
+
+/* Is there a share within the limits? A little beyond them it is known what gives. */
+static enum agreement judge(struct fbd_state *state, const struct rest_margin *margin, int *forced)
+{
+    const double near = 1e-9;
+    if (margin->value >= -rest_margin_slack(margin) / 2) return agrees;
+    if (margin->value < -near * margin->size) return differs;
+    give(state, margin, forced);
+    return at_limit;
+}
+
+bool tree_give_shared(struct fbd_state *state, int pair, bool *decided)
+{
+    struct arena arena = {0};
+    struct rest_margin margin;
+    double *slots = state->scratch, *slots_along = slots + state->model->plan.slots;
+    evaluate(state, slots, slots_along);
+    struct direction flow = {1, slots_along + state->model->plan.slots};
+    struct instant at = state_instant(state);
+    bool gives = tree_find_margin(state, &at, &flow, slots, slots_along, &arena, &margin) && margin.of[pair];
+    if (gives) give(state, &margin, state->slip_forced);
+    for (size_t i = 0; gives && i < state->model->plan.friction_count; i++)
+        decided[i] |= margin.gives[i] != 0;
+    arena_free(&arena);
+    return gives;
+}
+
+/* ---- all of them */
+
+/* `at_limit`: it differs by rates alone, or by next to nothing; what has to give is in `forced`, and does. */
+static enum agreement look(struct fbd_state *state, const struct decided *decided, int *forced, bool solved)
 {
     double *slots = state->scratch, *slots_along = slots + state->model->plan.slots;
     enum agreement found = agrees;
     evaluate(state, slots, slots_along);
-    for (int pair = 0; pair < (int)state->model->plan.friction_count; pair++) {
+    struct instant at = state_instant(state);
+    if (rest_is_open(state->model, &at) && choose_sides(state, slots)) evaluate(state, slots, slots_along);
+    struct arena arena = {0};
+    struct rest_margin margin = {0};
+    struct direction flow = {1, slots_along + state->model->plan.slots};
+    bool shared = tree_find_margin(state, &at, &flow, slots, slots_along, &arena, &margin);
+    int which = -1, next = 0;
+    for (int pair = 0; found != differs && pair < (int)state->model->plan.friction_count; pair++) {
         bool by_rate;
-        if (!is_in_question(state, decided, forced, pair) || forced[pair] == keeps_still) continue;
-        if (pulls(state, slots, decided, solved, pair)) return differs;
         const struct friction *hold = pair_of(state, pair);
+        if (!is_in_question(state, decided, forced, pair)) continue;
+        if (shared && margin.of[pair] && state->slip[pair] == stick) continue;
+        if (pulls(state, slots, decided, solved, pair)) {
+            found = differs;
+            continue;
+        }
         if (hold->kind == mode_friction && slips_already(state, decided, forced, pair) != 0) continue;
         int mode = next_mode(state, slots, slots_along, pair, &by_rate);
         if (mode == state->slip[pair]) continue;
-        if (!by_rate && solved && hold->kind == mode_friction && state->slip[pair] == stick)
-            continue; /* its share of a load that several hold is beyond its limit, theirs together is not */
-        if (!by_rate) return differs;
-        found = at_limit;
-        *which = pair;
-        *next = mode;
+        found = by_rate ? at_limit : differs;
+        which = pair;
+        next = mode;
     }
+    if (found == at_limit) forced[which] = state->slip[which] = next;
+    if (found == agrees && shared) found = judge(state, &margin, forced);
+    arena_free(&arena);
     return found;
 }
 
@@ -404,20 +490,18 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
  * with what was solved. */
 static bool decide(struct fbd_state *state, const struct decided *decided, int *forced)
 {
-    int count = (int)state->model->plan.friction_count, which, next;
+    int count = (int)state->model->plan.friction_count;
     for (int round = 0; round <= count; round++) {
         if (solve(state, decided, forced) >= holds_none) return false;
-        enum agreement found = look(state, decided, forced, true, &which, &next);
+        enum agreement found = look(state, decided, forced, true);
         if (found != at_limit) return found == agrees;
-        forced[which] = next;
-        state->slip[which] = next;
     }
     return false;
 }
 
 bool tree_settle_holds(struct fbd_state *state, const struct decided *decided)
 {
-    int *before = state->slip_before, which, next;
+    int *before = state->slip_before;
     size_t count = state->model->plan.friction_count, bytes = count * sizeof *before;
     int *forced = state->slip_forced;
     memcpy(before, state->slip, bytes);
@@ -428,7 +512,6 @@ bool tree_settle_holds(struct fbd_state *state, const struct decided *decided)
         bool rests = hold->kind != mode_friction || slips_already(state, decided, forced, pair) == 0;
         if (rests) state->slip[pair] = stick; /* tried first */
     }
-    bool agreed =
-        look(state, decided, forced, false, &which, &next) == agrees || decide(state, decided, forced);
+    bool agreed = look(state, decided, forced, false) == agrees || decide(state, decided, forced);
     return agreed && memcmp(before, state->slip, bytes) == 0;
 }

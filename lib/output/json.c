@@ -142,7 +142,7 @@ static void write_friction(struct text *text, struct fbd_state *state, int body,
     if (tie && pair < 0) text_add(text, ", \"mode\": \"stick\""); /* it never slips */
     if (pair < 0 || (!tie && arrow->load != model->plan.frictions[own].load)) return;
     struct instant at = state_instant(state);
-    force_balance_of(model, body, &at, state->scratch);
+    state_balance_of(state, body, state->scratch);
     struct friction_values values = friction_at(model, pair, &at, state->scratch);
     text_printf(text, ", \"mode\": \"%s\", ", state->slip[pair] == stick ? "stick" : "slip");
     member(text, "limit", values.limit_static, false);

@@ -87,7 +87,7 @@ static void write_friction(struct text *text, struct fbd_state *state, int b)
 {
     const struct model_body *body = &state->model->bodies[b];
     struct instant at = state_instant(state);
-    force_balance_of(state->model, b, &at, state->scratch);
+    state_balance_of(state, b, state->scratch);
     struct friction_values values = friction_at(state->model, body->friction, &at, state->scratch);
     if (state->slip[body->friction] != stick)
         text_add(text, "   (slips)");

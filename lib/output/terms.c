@@ -46,7 +46,7 @@ static void friction_remark(struct fbd_state *state, int b, char *remark)
 {
     const struct model_body *body = &state->model->bodies[b];
     struct instant at = state_instant(state);
-    force_balance_of(state->model, b, &at, state->scratch);
+    state_balance_of(state, b, state->scratch);
     struct friction_values now = friction_at(state->model, body->friction, &at, state->scratch);
     bool bearing = state->model->plan.frictions[body->friction].normal_slot < 0;
     if (state->slip[body->friction] == stick)

@@ -10,6 +10,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "dynamics/rest_system.h"
 #include "dynamics/tree.h"
 #include "expr/unit.h"
 
@@ -141,7 +142,9 @@ static struct worst find_worst(const struct fbd_state *state, struct arrow *arro
 
 bool balance_lack(struct fbd_state *state, struct arrow *arrows, struct text *lack)
 {
-    if (state->tree && !state->tree->complete) state_evaluate(state); /* others have used its scratch */
+    struct instant at = state_instant(state);
+    bool used = state->tree && (!state->tree->complete || (!state->tree->shared && rest_is_open(state->model, &at)));
+    if (used) state_evaluate(state); /* others have used its scratch */
     struct worst worst = find_worst(state, arrows, (struct grains){0, 0});
     if (!worst.what) return false; /* nearly always: what the other bodies feel is not needed */
     worst = find_worst(state, arrows, joined_grain(state, arrows));

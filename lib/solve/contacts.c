@@ -49,7 +49,7 @@ bool contacts_work_init(struct contacts_work *work, const struct fbd_model *mode
     work->strikers = calloc(most, sizeof *work->strikers);
     work->points = calloc(most, sizeof *work->points);
     work->rows = calloc(rows + model->plan.friction_count, sizeof *work->rows);
-    work->W = calloc(rows * rows + rows * n + 2 * rows + 2 * n, sizeof *work->W);
+    work->W = calloc(rows * rows + rows * n + 2 * rows + 2 * n + 1, sizeof *work->W);
     if (!meetings_init(work, model)) return false;
     if (!work->strikers || !work->points || !work->rows || !work->W) return false;
     work->modes = work->rows + rows;

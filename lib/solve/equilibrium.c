@@ -226,7 +226,8 @@ static bool let_down(struct balance *balance, struct newton *newton)
     for (int step = 0; step < most_steps && before > zero; step++) {
         take_coordinates(balance, newton->q);
         both(newton->q, balance, newton->f, newton->J);
-        rest_forces(balance->state, balance->lambda, true, balance->slots, balance->Q);
+        struct instant at = state_instant(balance->state);
+        rest_forces(balance->state->model, &at, balance->lambda, true, balance->slots, balance->Q);
         double most = stride(balance, newton, h);
         while (!(most <= 1) && h > 1e-300) {
             h /= 4;

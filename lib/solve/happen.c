@@ -10,6 +10,7 @@
 #include "dynamics/constraint.h"
 #include "dynamics/energy.h"
 #include "dynamics/finite.h"
+#include "dynamics/modes.h"
 #include "dynamics/project.h"
 #include "dynamics/tree.h"
 #include "solve/run.h"
@@ -197,7 +198,7 @@ static void happen(struct run *run, const struct watcher *watcher, bool crossing
     switch (watcher->kind) {
     case watch_kink: cross_kink(run, watcher); break;
     case watch_stick_limit:
-        if (crossing) break;
+        if (crossing || tree_give_shared(run->state, index, run->decided.slips)) break;
         run->state->slip[index] = watcher->end == 0 ? slip_minus : slip_plus;
         run->decided.slips[index] = true;
         break;
@@ -206,8 +207,12 @@ static void happen(struct run *run, const struct watcher *watcher, bool crossing
         run->state->pull[index] = -run->state->pull[index];
         run->decided.pulls[index] = true;
         break;
-    case watch_one_sided: one_sided_event(run, index); break;
+    case watch_one_sided:
+        if (run->state->slip[index] == stick && tree_give_shared(run->state, index, run->decided.slips)) break;
+        one_sided_event(run, index);
+        break;
     case watch_lift:
+        if (tree_give_shared(run->state, index, run->decided.slips)) break;
         run->state->slip[index] = slip_plus;
         run->decided.slips[index] = true;
         break;

@@ -173,14 +173,37 @@ static double radians_of(const struct run *run, const struct formula *formula, c
     return range > 0 ? 2 * turn / range : 0;
 }
 
-/* What varies by no more than it is in doubt stands still, as far as anybody can tell: the bounds of its rate
- * are those of noise, over whatever stretch. */
-static void hold_noise(struct course *course)
+/* The size of component i of the course, where `reach` and `speed` are those of the scene. */
+static double size_of(const struct run *run, size_t i, double reach, double speed)
 {
-    for (size_t k = 0; k < course->count; k++) {
-        struct enclosure *now = &course->now[course->component[k]];
-        double middle = now->middle.low + interval_width(now->middle) / 2;
-        if (interval_width(now->value) <= 2 * interval_width(now->middle)) *now = enclosure_point(middle);
+    const struct fbd_model *model = run->model;
+    size_t n = (size_t)model->plan.n;
+    if (i < 2 * n) {
+        double size = i < n ? reach : speed;
+        return model->scene->coordinates[i % n].angle ? size / reach : size;
+    }
+    switch (model->absolutes[i - 2 * n - hand_slots].kind) {
+    case absolute_x:
+    case absolute_y: return reach;
+    case absolute_angle: return 1;
+    case absolute_angle_dot: return speed / reach;
+    default: return speed;
+    }
+}
+
+/* What joints and couplings keep from varying has the rounding of theirs, and the bounds of its rate are those
+ * of noise over whatever stretch. */
+static void hold_noise(struct run *run)
+{
+    const double negligible = 1e-10;
+    if (!run->model->tree) return;
+    double speed, reach = measure(run, &speed);
+    if (!(reach > 0)) return;
+    for (size_t k = 0; k < run->course.count; k++) {
+        int i = run->course.component[k];
+        struct enclosure *now = &run->course.now[i];
+        double width = interval_width(now->value), middle = now->middle.low + interval_width(now->middle) / 2;
+        if (width <= negligible * size_of(run, (size_t)i, reach, speed)) *now = enclosure_point(middle);
     }
 }
 
@@ -195,7 +218,7 @@ static double end_of_turn(struct run *run, const struct formula *formula, double
         struct stretch stretch = stretch_between(from, to);
         if (run->paced_by_motion) {
             course_enclose(&run->course, &stretch);
-            hold_noise(&run->course);
+            hold_noise(run);
         }
         double radians = radians_of(run, formula, &stretch);
         if (!(radians > most) || !(stretch.middle > from)) return to;

@@ -17,8 +17,7 @@
 
 #include "dynamics/constraint.h"
 #include "dynamics/diagram.h"
-#include "dynamics/statics.h"
-#include "numeric/svd.h"
+#include "dynamics/rest_system.h"
 
 /* The free-body diagram of one body at rest. */
 struct rest_diagram {
@@ -57,53 +56,6 @@ static inline double rest_tension(const struct fbd_statics *statics, int tie)
     if (of->kind != constraint_rod && of->kind != constraint_rope) return NAN;
     return -statics->state->tree->rows[of->first_row].lambda;
 }
-
-/* The system and its solution, for the files of it. */
-struct rest_system {
-    struct fbd_state *state;
-    struct arena *arena;
-    size_t n, m, slots, reactions; /* coordinates, rows that take part, plan.slots, entries of r */
-    int *rows;                     /* m: their numbers */
-    bool *held;                    /* n */
-    double *scale;                 /* n: 1, or one over the length for an angle; 0 for what is held */
-    double *lambda;                /* row_count */
-    double *Q, *E;                 /* n; n x m, scaled */
-    double *slots0, *columns;      /* slots; slots x m */
-    double *r, *R;                 /* reactions; reactions x m */
-    double force, length;
-    struct svd svd;     /* of E */
-    double *basis;      /* m x indeterminacy: lambda for a unit of r */
-    size_t basis_count; /* indeterminacy */
-    bool within_limits;
-};
-
-/* Three entries of r for each link, then one for each row that takes part: of a pivot F_x, F_y and the moment
- * that is held; of a slide what is held along it, N and the couple. */
-static inline size_t rest_entry_of_row(const struct rest_system *system, size_t j)
-{
-    return system->reactions - system->m + j;
-}
-
-/* Set up and solve for lambda: the state is left with the reactions. False when memory is out. */
-bool rest_solve(struct rest_system *system, struct fbd_state *state, struct arena *arena);
-void rest_free(struct rest_system *system);
-
-/* A limit of what is held; the kinds in the order of fbd_limit_kind. */
-struct rest_limit {
-    enum rest_limit_kind { limit_normal, limit_friction, limit_rope } kind;
-    int index;          /* of the contact, or of the pair */
-    double needed, may; /* normal and rope: the force, and 0; friction: |F| and its limit */
-};
-
-/* Is what the mode limits an entry of its own? What a surface may do is that of its normal force. */
-static inline bool rest_has_limit(const struct friction *friction)
-{
-    return friction->kind == mode_friction || friction->kind == mode_rope;
-}
-
-/* The number of limits, and limit `index` in the state's present slots. */
-size_t rest_limits(const struct rest_system *system);
-struct rest_limit rest_limit_at(const struct rest_system *system, size_t index);
 
 /* The names of the reactions that equilibrium does not determine, into statics->undetermined. */
 bool rest_name_undetermined(struct fbd_statics *statics, const struct rest_system *system);

@@ -43,7 +43,8 @@ static const char *name_of_load(const struct fbd_model *model, const struct mode
 /* What holds the coordinate of a joint: friction or a drive. */
 static const char *holder_name(const struct fbd_statics *statics, const struct model_body *body)
 {
-    int pair = rest_holder(statics->state, body->first);
+    struct instant at = state_instant(statics->state);
+    int pair = rest_holder(statics->model, &at, body->first);
     return pair < 0 ? NULL : statics->model->loads[statics->model->plan.frictions[pair].load].source->name;
 }
 

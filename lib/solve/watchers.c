@@ -8,6 +8,7 @@
 #include "dynamics/absolute.h"
 #include "dynamics/constraint.h"
 #include "dynamics/contact.h"
+#include "dynamics/rest_system.h"
 
 /* ---- which functions a plan needs */
 
@@ -174,6 +175,9 @@ struct view {
     const double *slots, *slots_along; /* without friction */
     int friction;                      /* the pair that `now` and `along` belong to, -1 for none */
     struct friction_values now, along;
+    struct arena arena;
+    bool shared, told; /* holds share a load; a watcher has its margin already */
+    struct rest_margin margin;
 };
 
 static void look_at_friction(struct view *view, int pair)
@@ -289,6 +293,24 @@ static double friction_value(const struct watcher *watcher, struct view *view, d
     return (kinetic ? now->limit_kinetic : now->limit_static) - side * now->hold + slack;
 }
 
+/* Does the watcher watch a share of a load that several holds bear? One of them watches for all. */
+static bool watches_share(const struct watcher *watcher, const struct view *view)
+{
+    if (!view->shared) return false;
+    if (watcher->kind == watch_contact) return view->margin.contacts[watcher->index];
+    bool limit = watcher->kind == watch_stick_limit || watcher->kind == watch_normal_turns ||
+                 watcher->kind == watch_lift || watcher->kind == watch_one_sided;
+    return limit && view->at.slip[watcher->index] == stick && view->margin.of[watcher->index];
+}
+
+static double shared_value(struct view *view, const struct watcher *watcher, double *rate)
+{
+    bool told = view->told || watcher->kind == watch_normal_turns; /* where it turns nothing holds by friction */
+    view->told |= !told;
+    *rate = told ? 0 : view->margin.rate;
+    return told ? HUGE_VAL : view->margin.value + rest_margin_slack(&view->margin);
+}
+
 /* The slide on the switch of a watcher; NULL when there is none. */
 static const struct slide *slide_of(const struct fbd_state *state, const struct watcher *watcher)
 {
@@ -359,6 +381,8 @@ static void set_flow(struct view *view, bool forces)
     force_balance_along(state->model, &view->at, &view->flow, slots, slots_along);
     view->slots = slots;
     view->slots_along = slots_along;
+    if (!state->tree) return;
+    view->shared = tree_find_margin(state, &view->at, &view->flow, slots, slots_along, &view->arena, &view->margin);
 }
 
 void watchers_evaluate(const struct watchers *watchers, const struct watcher_set *set,
@@ -375,6 +399,10 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
         const struct watcher *watcher = &set->watchers[i];
         assert(view.flow.dy || watcher->kind == watch_kink); /* a function of t alone needs no flow */
         assert(view.slots || !asks_forces(watcher, state));
+        if (watches_share(watcher, &view)) {
+            values[i] = shared_value(&view, watcher, &rates[i]);
+            continue;
+        }
         switch (watcher->kind) {
         case watch_kink: {
             const struct kink *kink = &plan->kinks[watcher->index];
@@ -410,6 +438,7 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
         case watch_normal_turns: values[i] = friction_value(watcher, &view, &rates[i]); break;
         }
     }
+    arena_free(&view.arena);
 }
 
 void watchers_arm(struct watchers *watchers, struct fbd_state *state)
