@@ -333,8 +333,10 @@ struct one_sided one_sided_at(const struct fbd_model *model, const struct instan
     length += reach;
     state.rounding = 16 * DBL_EPSILON * length;
     state.near = 1e-9 * length;
-    state.touches = fabs(state.excess) <= state.near && fabs(state.rate) <= 1e-10 * state.speed;
-    state.parts = state.rate < -1e-6 * state.speed;
-    state.meets = state.rate > 1e-6 * state.speed;
+    /* Where all of it stands still there is the speed of what has fallen as far as it reaches. */
+    double slow = 64 * DBL_EPSILON * sqrt(vec_norm(model->scene->gravity) * length);
+    state.touches = fabs(state.excess) <= state.near && fabs(state.rate) <= 1e-10 * state.speed + slow;
+    state.parts = state.rate < -1e-6 * state.speed - slow;
+    state.meets = state.rate > 1e-6 * state.speed + slow;
     return state;
 }

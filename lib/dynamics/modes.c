@@ -137,7 +137,7 @@ static bool settle(struct fbd_state *state, const struct decided *decided)
     state->holds = (struct holds_trouble){.found = holds_decided, .pair = -1};
     for (int pass = 0; pass < most_passes; pass++) {
         state_evaluate(state);
-        if (plan->kink_count + plan->friction_count == 0) return true;
+        if (plan->kink_count + plan->friction_count == 0) return state->holds.found < holds_none;
         struct direction flow = flow_of(state);
         bool same = settle_branches(state, decided, &flow);
         if (plan->friction_count > 0) same = settle_slips(state, decided, &flow) && same;
@@ -145,7 +145,7 @@ static bool settle(struct fbd_state *state, const struct decided *decided)
         if (same && !first) {
             modes_hold(state);
             state_evaluate(state);
-            return true;
+            return state->holds.found < holds_none;
         }
         first = false;
     }

@@ -32,10 +32,10 @@ struct arena;
 struct rest_margin;
 
 /* What is left to the limits of a load that several holds share, right after force_balance_along with the
- * rates of change `flow`. False when none is shared, or memory is out (arena->failed). */
-bool tree_find_margin(struct fbd_state *state, const struct instant *at, const struct direction *flow,
-                      const double *slots, const double *slots_along, struct arena *arena,
-                      struct rest_margin *margin);
+ * rates of change `flow`; `guides` as in rest_find_margin. False when none is shared, or memory is out (arena->failed). */
+bool tree_find_margin(struct fbd_state *state, const struct instant *at, bool guides,
+                      const struct direction *flow, const double *slots, const double *slots_along,
+                      struct arena *arena, struct rest_margin *margin);
 
 /* A pair has come to the limit of what it shares: what gives with it gives, in state->slip, and is decided.
  * False when it shares nothing. */

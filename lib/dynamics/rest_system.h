@@ -38,13 +38,13 @@ struct rest_system {
     double *lambda;                /* row_count: what is added to those of the base */
     struct rest_base {             /* the forces as the scene moves; at rest nothing */
         bool moves;
-        double *slots, *lambda;    /* slots; row_count */
-        struct wrench *F;          /* tree.count */
+        double *slots, *lambda; /* slots; row_count */
+        struct wrench *F;       /* tree.count */
     } base;
-    double *forces;                /* slots: with the present lambda */
-    double *Q, *E;                 /* n; n x m, scaled */
-    double *slots0, *columns;      /* slots; slots x m */
-    double *r, *R;                 /* reactions; reactions x m */
+    double *forces;           /* slots: with the present lambda */
+    double *Q, *E;            /* n; n x m, scaled */
+    double *slots0, *columns; /* slots; slots x m */
+    double *r, *R;            /* reactions; reactions x m */
     double force, length;
     struct svd svd;     /* of E */
     double *least;      /* m: from the base to the least reactions, limits or not */
@@ -84,6 +84,13 @@ struct rest_limit rest_limit_at(const struct rest_system *system, size_t index);
 /* Do constraints that take part leave multipliers open, as far as the elimination tells? */
 bool rest_is_open(const struct fbd_model *model, const struct instant *at);
 
+/* All limits as functions h >= 0 at the present lambda: their number, what they are, what counts as zero; and
+ * their slopes in the basis, values x basis_count, added to G (false when memory is out). */
+size_t rest_limit_values(const struct rest_system *system);
+void rest_read_limits(const struct rest_system *system, double *values);
+double rest_limit_slack(const struct rest_system *system);
+bool rest_limit_slopes(struct rest_system *system, double *G);
+
 /* The same of a state as it moves, evaluated in its modes: false when its constraints leave nothing open, or
  * memory is out (arena->failed). */
 bool rest_open(struct rest_system *system, struct fbd_state *state, const struct instant *at,
@@ -93,8 +100,8 @@ bool rest_open(struct rest_system *system, struct fbd_state *state, const struct
  * least reactions within limits. */
 void rest_share(struct rest_system *system, double *slots);
 
-/* Let what sticks on a guide with two sides press where the least reactions do; true when that is another side
- * than before. */
+/* Let what sticks on a guide with two sides press where the least reactions do; true when that is another
+ * side than before. */
 bool rest_choose_sides(struct rest_system *system);
 
 /* Put back what rest_open found. */
@@ -102,10 +109,10 @@ void rest_restore(struct rest_system *system);
 
 /* What is left to the limits of a shared load, all together; what gives when it is used up. */
 struct rest_margin {
-    double size;        /* of the forces: zero is measured against it */
-    double value, rate; /* HUGE_VAL where no limit takes part */
+    double size;         /* of the forces: zero is measured against it */
+    double value, rate;  /* HUGE_VAL where no limit takes part */
     bool *of, *contacts; /* plan.friction_count, plan.contact_count: those that take part, in the arena */
-    int *gives;         /* plan.friction_count: the mode in which it gives, 0 for one that keeps */
+    int *gives;          /* plan.friction_count: the mode in which it gives, 0 for one that keeps */
 };
 
 /* The rounding of a margin: a load that only just reaches its limits does not break away by that. */
@@ -115,8 +122,9 @@ static inline double rest_margin_slack(const struct rest_margin *margin)
 }
 
 /* At the base, right after the rates of change of its slots and of the multipliers of the rows along `flow`.
- * False when memory is out. */
-bool rest_find_margin(struct rest_system *system, const double *slots_along, const double *lambda_along,
-                      const struct direction *flow, struct rest_margin *margin);
+ * With `guides` the normal forces of slides with one side count; without, these may pull. False when memory
+ * is out. */
+bool rest_find_margin(struct rest_system *system, bool guides, const double *slots_along,
+                      const double *lambda_along, const struct direction *flow, struct rest_margin *margin);
 
 #endif

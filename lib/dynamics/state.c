@@ -96,6 +96,7 @@ static void share_out(struct fbd_state *state, double *slots)
     struct instant at = state_instant(state);
     if (!state->tree) return;
     state->tree->shared = true;
+    state->tree->shared_size = 0;
     if (!rest_is_open(state->model, &at)) return;
     if (rest_open(&system, state, &at, slots, state->a, &arena)) rest_share(&system, slots);
     if (arena.failed) state->holds.found = holds_no_memory;

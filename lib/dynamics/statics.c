@@ -40,6 +40,7 @@ bool rest_begin(struct fbd_state *state)
     if (!modes_settle(state, NULL)) return false;
     stop(state); /* what sticks to a moving surface had its velocity */
     state_evaluate(state);
+    if (state->holds.found == holds_no_memory) return false;
     memset(state->a, 0, (size_t)model->plan.n * sizeof *state->a);
     struct instant at = state_instant(state);
     for (int pair = 0; pair < (int)model->plan.friction_count; pair++) {

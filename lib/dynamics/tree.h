@@ -80,6 +80,7 @@ struct tree_work {
     double accuracy; /* relative, of the coordinates that are projected */
     bool projecting; /* the system is set up for a projection: no friction */
     bool shared;     /* what constraints leave open is shared in them, see rest_system.h */
+    double shared_size; /* then: the largest force that was there before, which has given its rounding */
     bool complete;   /* A and F of the links are final, see tree_complete */
 };
 

@@ -17,7 +17,7 @@
 #include "dynamics/constraint.h"
 #include "dynamics/contact.h"
 #include "dynamics/modes.h"
-#include "dynamics/rest_system.h"
+#include "dynamics/tree_shared.h"
 #include "dynamics/tree_system.h"
 
 /* ---- which holds are in question */
@@ -129,9 +129,10 @@ static void hold_still(struct gathered *all, size_t k)
     const struct friction *hold = pair_of(state, all->pair[k]);
     size_t count = all->problem.count;
     double surface;
-    all->problem.holds[k].slip = 0;
     all->problem.holds[k].free = 0;
     for (size_t i = 0; i < count; i++) all->problem.A[i * count + k] = all->problem.A[k * count + i] = 0;
+    if (hold->moving) return; /* below what stands still */
+    all->problem.holds[k].slip = 0;
     if (all->forced[all->pair[k]] == 0) all->forced[all->pair[k]] = keeps_still;
     if (hold->kind == mode_friction && hold->tie < 0)
         state->y[state->model->plan.n + hold->coordinate] = friction_surface_speed(hold, &all->at, &surface);
@@ -297,21 +298,6 @@ static enum holds_found solve(struct fbd_state *state, const struct decided *dec
 
 /* ---- do the modes agree with the forces? */
 
-/* Forces and their rates of change in the present modes. */
-static void evaluate(struct fbd_state *state, double *slots, double *slots_along)
-{
-    const struct fbd_model *model = state->model;
-    size_t n = (size_t)model->plan.n;
-    double *dy = state->scratch + 2 * (size_t)model->plan.slots;
-    struct instant at = state_instant(state);
-    accelerations(model, &at, slots, state->a);
-    memcpy(dy, state->y + n, n * sizeof *dy);
-    memcpy(dy + n, state->a, n * sizeof *dy);
-    struct direction flow = {1, dy};
-    force_balance(model, &at, slots);
-    force_balance_along(model, &at, &flow, slots, slots_along);
-}
-
 /* Does a slipping pair turn back at once? */
 static bool turns_back(const struct fbd_state *state, int pair)
 {
@@ -385,70 +371,6 @@ static bool pulls(struct fbd_state *state, const double *slots, const struct dec
     return state->pull[pair] * N < 0;
 }
 
-enum agreement { agrees, differs, at_limit };
-
-/* ---- loads that are shared */
-
-/* What sticks on a guide that presses on either side: on which. */
-static bool choose_sides(struct fbd_state *state, const double *slots)
-{
-    struct arena arena = {0};
-    struct rest_system system;
-    struct instant at = state_instant(state);
-    bool open = rest_open(&system, state, &at, slots, state->a, &arena);
-    bool changed = open && rest_choose_sides(&system);
-    if (open) rest_restore(&system);
-    rest_free(&system);
-    arena_free(&arena);
-    return changed;
-}
-
-bool tree_find_margin(struct fbd_state *state, const struct instant *at, const struct direction *flow,
-                      const double *slots, const double *slots_along, struct arena *arena,
-                      struct rest_margin *margin)
-{
-    struct rest_system system;
-    bool found = rest_open(&system, state, at, slots, flow->dy + state->model->plan.n, arena) &&
-                 rest_find_margin(&system, slots_along, at->tree->z, flow, margin);
-    if (system.base.F) rest_restore(&system);
-    rest_free(&system);
-    if (arena->failed) state->holds.found = holds_no_memory;
-    return found && margin->value < HUGE_VAL;
-}
-
-/* All that is at its limit gives. */
-static void give(struct fbd_state *state, const struct rest_margin *margin, int *forced)
-{
-    for (size_t pair = 0; pair < state->model->plan.friction_count; pair++)
-        if (margin->gives[pair] != 0) forced[pair] = state->slip[pair] = margin->gives[pair];
-}
-
-/* Is there a share within the limits? A little beyond them it is known what gives. */
-static enum agreement judge(struct fbd_state *state, const struct rest_margin *margin, int *forced)
-{
-    const double near = 1e-9;
-    if (margin->value >= -rest_margin_slack(margin) / 2) return agrees;
-    if (margin->value < -near * margin->size) return differs;
-    give(state, margin, forced);
-    return at_limit;
-}
-
-bool tree_give_shared(struct fbd_state *state, int pair, bool *decided)
-{
-    struct arena arena = {0};
-    struct rest_margin margin;
-    double *slots = state->scratch, *slots_along = slots + state->model->plan.slots;
-    evaluate(state, slots, slots_along);
-    struct direction flow = {1, slots_along + state->model->plan.slots};
-    struct instant at = state_instant(state);
-    bool gives = tree_find_margin(state, &at, &flow, slots, slots_along, &arena, &margin) && margin.of[pair];
-    if (gives) give(state, &margin, state->slip_forced);
-    for (size_t i = 0; gives && i < state->model->plan.friction_count; i++)
-        decided[i] |= margin.gives[i] != 0;
-    arena_free(&arena);
-    return gives;
-}
-
 /* ---- all of them */
 
 /* `at_limit`: it differs by rates alone, or by next to nothing; what has to give is in `forced`, and does. */
@@ -456,13 +378,16 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
 {
     double *slots = state->scratch, *slots_along = slots + state->model->plan.slots;
     enum agreement found = agrees;
-    evaluate(state, slots, slots_along);
+    tree_evaluate(state, slots, slots_along);
     struct instant at = state_instant(state);
-    if (rest_is_open(state->model, &at) && choose_sides(state, slots)) evaluate(state, slots, slots_along);
+    if (!solved && rest_is_open(state->model, &at) && tree_choose_sides(state, slots))
+        tree_evaluate(state, slots, slots_along);
     struct arena arena = {0};
     struct rest_margin margin = {0};
     struct direction flow = {1, slots_along + state->model->plan.slots};
-    bool shared = tree_find_margin(state, &at, &flow, slots, slots_along, &arena, &margin);
+    bool shared = tree_find_margin(state, &at, true, &flow, slots, slots_along, &arena, &margin);
+    if (shared && margin.value < 0) /* that a slide has lost its surface is for others to say */
+        shared = tree_find_margin(state, &at, false, &flow, slots, slots_along, &arena, &margin);
     int which = -1, next = 0;
     for (int pair = 0; found != differs && pair < (int)state->model->plan.friction_count; pair++) {
         bool by_rate;
@@ -481,7 +406,7 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
         next = mode;
     }
     if (found == at_limit) forced[which] = state->slip[which] = next;
-    if (found == agrees && shared) found = judge(state, &margin, forced);
+    if (found == agrees && shared) found = tree_judge(state, &margin, forced);
     arena_free(&arena);
     return found;
 }

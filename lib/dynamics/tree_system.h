@@ -35,7 +35,8 @@ void tree_apply_variations(const struct fbd_model *model, const struct instant *
 /* Does unknown k take part in the modes of the instant? */
 bool tree_takes_part(const struct tree *tree, const struct instant *at, int k);
 
-/* What the row after row k has of its multiplier where that row's body slips on its surface and rubs, else 0. */
+/* What the row after row k has of its multiplier where that row's body slips on its surface and rubs, else 0.
+ */
 double tree_rubbing_share(const struct fbd_model *model, const struct instant *at, int k);
 
 /* After tree_system_solve of work->z: the multipliers of the rows. */

@@ -101,6 +101,7 @@ static struct grains joined_grain(const struct fbd_state *state, struct arrow *a
         v = fmax(v, vec_norm(link->v));
         omega = fmax(omega, fabs(link->omega));
     }
+    if (tree && state->tree->shared) force = fmax(force, state->tree->shared_size);
     force += mass * (a + omega * v);
     force *= grain + (reach > 0 ? 64 * DBL_EPSILON * away / reach : 0);
     double gyration = mass > 0 ? sqrt(inertia / mass) : 0;
@@ -143,7 +144,8 @@ static struct worst find_worst(const struct fbd_state *state, struct arrow *arro
 bool balance_lack(struct fbd_state *state, struct arrow *arrows, struct text *lack)
 {
     struct instant at = state_instant(state);
-    bool used = state->tree && (!state->tree->complete || (!state->tree->shared && rest_is_open(state->model, &at)));
+    bool used =
+        state->tree && (!state->tree->complete || (!state->tree->shared && rest_is_open(state->model, &at)));
     if (used) state_evaluate(state); /* others have used its scratch */
     struct worst worst = find_worst(state, arrows, (struct grains){0, 0});
     if (!worst.what) return false; /* nearly always: what the other bodies feel is not needed */

@@ -443,12 +443,16 @@ static bool find_equilibrium(fbd_state *state, fbd_errors *errors)
     diag_in_file(errors, state->model->scene->file);
     if (refuse(state, errors)) return false;
     if (!rest_begin(state)) {
-        diag_add(errors, FBD_ERROR, "unsettled", (struct pos){0, 0}, "look from another state, with --at",
-                 "at rest no choice of branches agrees with the forces");
+        if (state->holds.found == holds_no_memory)
+            diag_out_of_memory(errors);
+        else
+            diag_add(errors, FBD_ERROR, "unsettled", (struct pos){0, 0}, "look from another state, with --at",
+                     "at rest no choice of branches agrees with the forces");
         return false;
     }
     if (!start_question(state, false, errors)) return false; /* wherever it starts, it is let down */
     int found = settle(state);
+    if (state->holds.found == holds_no_memory) found = -1;
     state->settled = false;
     if (found > 0) return start_question(state, true, errors);
     if (found < 0) diag_out_of_memory(errors);

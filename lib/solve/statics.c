@@ -185,7 +185,7 @@ static fbd_statics *statics_new(const fbd_state *state, fbd_errors *errors)
     statics->model = state->model;
     state_copy(statics->state, state);
     if (put_to_rest(statics->state, errors)) {
-        bool solved = solve(statics);
+        bool solved = solve(statics) && statics->state->holds.found != holds_no_memory;
         if (!solved) diag_out_of_memory(errors);
         if (solved && is_known(statics, errors)) {
             warn(statics, errors);

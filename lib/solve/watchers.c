@@ -305,7 +305,8 @@ static bool watches_share(const struct watcher *watcher, const struct view *view
 
 static double shared_value(struct view *view, const struct watcher *watcher, double *rate)
 {
-    bool told = view->told || watcher->kind == watch_normal_turns; /* where it turns nothing holds by friction */
+    bool told =
+        view->told || watcher->kind == watch_normal_turns; /* where it turns nothing holds by friction */
     view->told |= !told;
     *rate = told ? 0 : view->margin.rate;
     return told ? HUGE_VAL : view->margin.value + rest_margin_slack(&view->margin);
@@ -382,7 +383,8 @@ static void set_flow(struct view *view, bool forces)
     view->slots = slots;
     view->slots_along = slots_along;
     if (!state->tree) return;
-    view->shared = tree_find_margin(state, &view->at, &view->flow, slots, slots_along, &view->arena, &view->margin);
+    view->shared = tree_find_margin(state, &view->at, true, &view->flow, slots, slots_along, &view->arena,
+                                    &view->margin);
 }
 
 void watchers_evaluate(const struct watchers *watchers, const struct watcher_set *set,

@@ -1,0 +1,249 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The limits of what is shared, and what is left to them.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "dynamics/friction.h"
+#include "dynamics/rest_system.h"
+#include "numeric/lcp.h"
+
+/* ---- limits */
+
+size_t rest_limits(const struct rest_system *system)
+{
+    return system->state->model->plan.contact_count + system->state->model->plan.friction_count;
+}
+
+/* Of friction both sides are limits, of others one; unused ones are empty: 0 >= 0. `slots` and `lambda` may
+ * be those of a column; without lambda those of the rows. */
+static void limit_values(const struct rest_system *system, const double *slots, size_t stride,
+                         const double *lambda, bool loads, double *values)
+{
+    const struct plan *plan = &system->state->model->plan;
+    const struct instant at = system->at;
+    double *next = values;
+    for (size_t i = 0; i < plan->contact_count; i++)
+        *next++ = -slots[(size_t)plan->contacts[i].slot * stride];
+    for (size_t i = 0; i < plan->friction_count; i++, next += 2) {
+        const struct friction *friction = &plan->frictions[i];
+        next[0] = next[1] = 0;
+        if (!rest_has_limit(friction) || at.slip[i] != stick) continue;
+        if (friction->kind == mode_rope) {
+            int row = system->state->model->tree->ties[friction->tie].first_row;
+            next[0] = -(lambda ? lambda[row] : at.tree->rows[row].lambda);
+            continue;
+        }
+        double acceleration = 0, press = loads;
+        friction_surface_speed(friction, &at, &acceleration);
+        double hold = -slots[(size_t)friction->hold_slot * stride];
+        if (loads) hold += friction->inertia * acceleration;
+        if (friction->normal_slot >= 0) press = -at.pull[i] * slots[(size_t)friction->normal_slot * stride];
+        double limit = fmax(formula_value(&friction->mu_s, &at), formula_value(&friction->mu_k, &at)) * press;
+        next[0] = limit - hold;
+        next[1] = limit + hold;
+    }
+}
+
+size_t rest_limit_values(const struct rest_system *system)
+{
+    return system->state->model->plan.contact_count + 2 * system->state->model->plan.friction_count;
+}
+
+/* Rounding, and the last digits of a coefficient in a file. */
+double rest_limit_slack(const struct rest_system *system)
+{
+    return 1e-9 * system->force;
+}
+
+struct rest_limit rest_limit_at(const struct rest_system *system, size_t index)
+{
+    const struct fbd_model *model = system->state->model;
+    const struct plan *plan = &model->plan;
+    const double *slots = system->forces;
+    if (index < plan->contact_count)
+        return (struct rest_limit){limit_normal, (int)index, -slots[plan->contacts[index].slot], 0};
+    int pair = (int)(index - plan->contact_count);
+    const struct friction *friction = &plan->frictions[pair];
+    struct rest_limit limit = {friction->kind == mode_rope ? limit_rope : limit_friction, pair, 0, 0};
+    if (!rest_has_limit(friction) || system->state->slip[pair] != stick) return limit;
+    const struct instant at = system->at;
+    if (friction->kind == mode_rope) {
+        limit.needed = -system->state->tree->rows[model->tree->ties[friction->tie].first_row].lambda;
+        return limit;
+    }
+    struct friction_values values = friction_at(model, pair, &at, slots);
+    limit.needed = fabs(values.hold);
+    limit.may = fmax(values.limit_static, values.limit_kinetic);
+    return limit;
+}
+
+/* At the present lambda. */
+void rest_read_limits(const struct rest_system *system, double *values)
+{
+    limit_values(system, system->forces, 1, NULL, true, values);
+}
+
+/* How the limits change with the coordinates of the null space: G, rest_limit_values x basis_count. */
+bool rest_limit_slopes(struct rest_system *system, double *G)
+{
+    size_t count = rest_limit_values(system), d = system->basis_count, m = system->m;
+    size_t rows = (size_t)system->state->model->tree->row_count;
+    double *one = ARENA_ARRAY(system->arena, count + 1, double);
+    double *unit = ARENA_ARRAY(system->arena, rows + 1, double);
+    if (!one || !unit) return false;
+    for (size_t j = 0; j < m; j++) {
+        unit[system->rows[j]] = 1;
+        limit_values(system, system->columns + j, m, unit, false, one);
+        unit[system->rows[j]] = 0;
+        for (size_t i = 0; i < count; i++)
+            for (size_t k = 0; k < d; k++) G[i * d + k] += one[i] * system->basis[j * d + k];
+    }
+    return true;
+}
+
+/* ---- what is left to the limits */
+
+/* Value i moves by G[i] with the null space: does it, and is it one? */
+static double slope_size(const double *G, size_t d, size_t i)
+{
+    double most = 0;
+    for (size_t k = 0; k < d; k++) most = fmax(most, fabs(G[i * d + k]));
+    return most;
+}
+
+/* The pair that limit i belongs to, -1 for the normal force of a slide. */
+static int pair_of_limit(const struct plan *plan, size_t i)
+{
+    return i < plan->contact_count ? plan->contacts[i].pair : (int)((i - plan->contact_count) / 2);
+}
+
+/* What a margin of one unit is for limit i: a force, or a moment on the length of the scene. */
+static double unit_of_limit(const struct rest_system *system, size_t i)
+{
+    const struct plan *plan = &system->state->model->plan;
+    int pair = pair_of_limit(plan, i);
+    if (i < plan->contact_count || plan->frictions[pair].kind != mode_friction) return 1;
+    return plan->frictions[pair].normal_slot < 0 ? system->length : 1;
+}
+
+static double limit_along(const struct rest_system *system, const double *slots_along,
+                          const double *lambda_along, size_t i, const struct direction *flow)
+{
+    const struct fbd_model *model = system->state->model;
+    const struct plan *plan = &model->plan;
+    if (i < plan->contact_count) return -slots_along[plan->contacts[i].slot];
+    int pair = pair_of_limit(plan, i);
+    const struct friction *friction = &plan->frictions[pair];
+    if (friction->kind == mode_rope) return -lambda_along[model->tree->ties[friction->tie].first_row];
+    struct friction_values now = friction_at(model, pair, &system->at, system->forces);
+    struct friction_values rate = friction_along(model, pair, &system->at, system->forces, flow, slots_along);
+    double limit = now.limit_kinetic > now.limit_static ? rate.limit_kinetic : rate.limit_static;
+    return (i - plan->contact_count) % 2 == 0 ? limit - rate.hold : limit + rate.hold;
+}
+
+/* The programme: most s' with unit_i s' - G_i (y' - y'') <= b_i and s' <= cap, s', y', y'' >= 0, as the
+ * complementarity of its optimality conditions. */
+struct programme {
+    size_t d, limits, unknowns; /* of y; of inequalities with the last, s' <= cap; 1 + 2 d */
+    size_t *limit;              /* limits - 1: their indices */
+    double *M, *q, *z, *w;
+};
+
+static bool programme_new(struct programme *of, const struct rest_system *system, const double *G,
+                          bool guides)
+{
+    const struct plan *plan = &system->state->model->plan;
+    struct arena *arena = system->arena;
+    size_t count = rest_limit_values(system), d = system->basis_count;
+    const double negligible = 1e-9;
+    double most = 0;
+    *of = (struct programme){.d = d, .unknowns = 1 + 2 * d};
+    of->limit = ARENA_ARRAY(arena, count + 1, size_t);
+    if (!of->limit) return false;
+    for (size_t i = 0; i < count; i++) most = fmax(most, slope_size(G, d, i));
+    for (size_t i = 0; i < count; i++) {
+        bool counts = guides || pair_of_limit(plan, i) >= 0;
+        if (counts && slope_size(G, d, i) > negligible * most) of->limit[of->limits++] = i;
+    }
+    of->limits++;
+    size_t n = of->unknowns + of->limits;
+    of->M = ARENA_ARRAY(arena, n * n, double);
+    of->q = ARENA_ARRAY(arena, 3 * n, double);
+    of->z = of->q + n;
+    of->w = of->z + n;
+    return of->M && of->q;
+}
+
+static void set_inequality(struct programme *of, size_t row, size_t column, double a)
+{
+    size_t n = of->unknowns + of->limits, i = of->unknowns + row;
+    of->M[column * n + i] = a;
+    of->M[i * n + column] = -a;
+}
+
+/* The largest margin over `size`; the multipliers are left in z. */
+static double solve_programme(struct programme *of, const struct rest_system *system, const double *G,
+                              const double *values, double size)
+{
+    double least = HUGE_VAL;
+    for (size_t k = 0; k + 1 < of->limits; k++)
+        least = fmin(least, values[of->limit[k]] / (unit_of_limit(system, of->limit[k]) * size));
+    for (size_t k = 0; k < of->limits; k++) {
+        bool cap = k + 1 == of->limits;
+        size_t i = of->limit[k];
+        double unit = cap ? 1 : unit_of_limit(system, i);
+        set_inequality(of, k, 0, 1);
+        for (size_t j = 0; j < of->d && !cap; j++) {
+            set_inequality(of, k, 1 + j, -G[i * of->d + j] / unit);
+            set_inequality(of, k, 1 + of->d + j, G[i * of->d + j] / unit);
+        }
+        of->q[of->unknowns + k] = cap ? 1 + fmax(0, -least) : values[i] / (unit * size) - least;
+    }
+    of->q[0] = -1;
+    enum lcp found = lcp_solve(of->unknowns + of->limits, of->M, of->q, of->z, of->w);
+    if (found == lcp_no_memory) system->arena->failed = true;
+    return found == lcp_solved ? least + of->z[0] : least;
+}
+
+bool rest_find_margin(struct rest_system *system, bool guides, const double *slots_along,
+                      const double *lambda_along, const struct direction *flow, struct rest_margin *margin)
+{
+    const double share = 1e-9;
+    const struct plan *plan = &system->state->model->plan;
+    struct arena *arena = system->arena;
+    size_t count = rest_limit_values(system), d = system->basis_count;
+    double *values = ARENA_ARRAY(arena, count + 1, double), *G = ARENA_ARRAY(arena, count * d + 1, double);
+    struct programme of;
+    *margin = (struct rest_margin){.size = system->force, .value = HUGE_VAL};
+    margin->of = ARENA_ARRAY(arena, plan->friction_count + 1, bool);
+    margin->contacts = ARENA_ARRAY(arena, plan->contact_count + 1, bool);
+    margin->gives = ARENA_ARRAY(arena, plan->friction_count + 1, int);
+    rest_restore(system);
+    if (!values || !G || !margin->of || !margin->contacts || !margin->gives || !rest_limit_slopes(system, G))
+        return false;
+    if (!programme_new(&of, system, G, guides)) return false;
+    if (of.limits == 1) return true;
+    rest_read_limits(system, values);
+    double sum = 0;
+    margin->value = solve_programme(&of, system, G, values, system->force) * system->force;
+    if (arena->failed) return false;
+    for (size_t k = 0; k + 1 < of.limits; k++) {
+        size_t i = of.limit[k];
+        int pair = pair_of_limit(plan, i);
+        double u = of.z[of.unknowns + k];
+        sum += u;
+        if (pair >= 0) margin->of[pair] = true;
+        if (i < plan->contact_count) margin->contacts[i] = true;
+        if (u <= share) continue;
+        margin->rate +=
+            u / unit_of_limit(system, i) * limit_along(system, slots_along, lambda_along, i, flow);
+        if (pair < 0) continue;
+        bool back = plan->frictions[pair].kind == mode_friction && (i - plan->contact_count) % 2 == 0;
+        margin->gives[pair] = back ? slip_minus : slip_plus;
+    }
+    sum += of.z[of.unknowns + of.limits - 1]; /* of the cap, which does not vary */
+    if (sum > 0) margin->rate /= sum;
+    return true;
+}

@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dynamics/tree_shared.h"
+
+#include <string.h>
+
+void tree_evaluate(struct fbd_state *state, double *slots, double *slots_along)
+{
+    const struct fbd_model *model = state->model;
+    size_t n = (size_t)model->plan.n;
+    double *dy = state->scratch + 2 * (size_t)model->plan.slots;
+    struct instant at = state_instant(state);
+    accelerations(model, &at, slots, state->a);
+    memcpy(dy, state->y + n, n * sizeof *dy);
+    memcpy(dy + n, state->a, n * sizeof *dy);
+    struct direction flow = {1, dy};
+    force_balance(model, &at, slots);
+    force_balance_along(model, &at, &flow, slots, slots_along);
+}
+
+bool tree_choose_sides(struct fbd_state *state, const double *slots)
+{
+    struct arena arena = {0};
+    struct rest_system system;
+    struct instant at = state_instant(state);
+    bool open = rest_open(&system, state, &at, slots, state->a, &arena);
+    bool changed = open && rest_choose_sides(&system);
+    if (open) rest_restore(&system);
+    if (arena.failed) state->holds.found = holds_no_memory;
+    rest_free(&system);
+    arena_free(&arena);
+    return changed;
+}
+
+bool tree_find_margin(struct fbd_state *state, const struct instant *at, bool guides,
+                      const struct direction *flow, const double *slots, const double *slots_along,
+                      struct arena *arena, struct rest_margin *margin)
+{
+    struct rest_system system;
+    bool found = rest_open(&system, state, at, slots, flow->dy + state->model->plan.n, arena) &&
+                 rest_find_margin(&system, guides, slots_along, at->tree->z, flow, margin);
+    if (system.base.F) rest_restore(&system);
+    rest_free(&system);
+    if (arena->failed) state->holds.found = holds_no_memory;
+    return found && margin->value < HUGE_VAL;
+}
+
+/* All that is at its limit gives. */
+static void give(struct fbd_state *state, const struct rest_margin *margin, int *forced)
+{
+    for (size_t pair = 0; pair < state->model->plan.friction_count; pair++)
+        if (margin->gives[pair] != 0) forced[pair] = state->slip[pair] = margin->gives[pair];
+}
+
+enum agreement tree_judge(struct fbd_state *state, const struct rest_margin *margin, int *forced)
+{
+    const double near = 1e-9;
+    if (margin->value >= -rest_margin_slack(margin) / 2) return agrees;
+    if (margin->value < -near * margin->size) return differs;
+    give(state, margin, forced);
+    return at_limit;
+}
+
+bool tree_give_shared(struct fbd_state *state, int pair, bool *decided)
+{
+    struct arena arena = {0};
+    struct rest_margin margin;
+    double *slots = state->scratch, *slots_along = slots + state->model->plan.slots;
+    tree_evaluate(state, slots, slots_along);
+    struct direction flow = {1, slots_along + state->model->plan.slots};
+    struct instant at = state_instant(state);
+    bool gives =
+        tree_find_margin(state, &at, true, &flow, slots, slots_along, &arena, &margin) && margin.of[pair];
+    if (gives) give(state, &margin, state->slip_forced);
+    for (size_t i = 0; gives && i < state->model->plan.friction_count; i++)
+        decided[i] |= margin.gives[i] != 0;
+    arena_free(&arena);
+    return gives;
+}
