@@ -279,8 +279,10 @@ size_t fbd_shown(const char *text, char *shown, size_t room)
     while (text && *text) {
         struct utf8_shown next = utf8_show(text);
         fits = fits && put + next.length < room;
-        if (fits) memcpy(shown + put, next.text, next.length);
-        if (fits) put += next.length;
+        if (fits) {
+            memcpy(shown + put, next.text, next.length);
+            put += next.length;
+        }
         length += next.length;
         text += next.taken;
     }

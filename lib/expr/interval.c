@@ -17,8 +17,11 @@ struct interval interval_divide(struct interval a, struct interval b)
 static double power_of(double x, int n)
 {
     double product = 1;
-    for (; n; n >>= 1, x *= x)
+    while (n > 0) {
         if (n & 1) product *= x;
+        n >>= 1;
+        x *= x;
+    }
     return product;
 }
 
