@@ -32,7 +32,8 @@ struct arena;
 struct rest_margin;
 
 /* What is left to the limits of a load that several holds share, right after force_balance_along with the
- * rates of change `flow`; `guides` as in rest_find_margin. False when none is shared, or memory is out (arena->failed). */
+ * rates of change `flow`; `guides` as in rest_find_margin. False when none is shared, or memory is out
+ * (arena->failed). */
 bool tree_find_margin(struct fbd_state *state, const struct instant *at, bool guides,
                       const struct direction *flow, const double *slots, const double *slots_along,
                       struct arena *arena, struct rest_margin *margin);

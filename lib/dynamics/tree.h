@@ -76,12 +76,12 @@ struct tree_work {
     double *a, *a_along;            /* n: accelerations of the last force_balance, and their variation */
     double most;                    /* the largest scale of a row */
     double *scale;                  /* unknowns: how large the diagonals could be, see constraint_solve.c */
-    double damping;  /* of a projection: slopes whose square is less than this share are left alone */
-    double accuracy; /* relative, of the coordinates that are projected */
-    bool projecting; /* the system is set up for a projection: no friction */
-    bool shared;     /* what constraints leave open is shared in them, see rest_system.h */
+    double damping;     /* of a projection: slopes whose square is less than this share are left alone */
+    double accuracy;    /* relative, of the coordinates that are projected */
+    bool projecting;    /* the system is set up for a projection: no friction */
+    bool shared;        /* what constraints leave open is shared in them, see rest_system.h */
     double shared_size; /* then: the largest force that was there before, which has given its rounding */
-    bool complete;   /* A and F of the links are final, see tree_complete */
+    bool complete;      /* A and F of the links are final, see tree_complete */
 };
 
 /* Bytes that a workspace needs (a multiple of the size of a double), and laying it out. */

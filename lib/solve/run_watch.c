@@ -191,8 +191,8 @@ static double size_of(const struct run *run, size_t i, double reach, double spee
     }
 }
 
-/* What joints and couplings keep from varying has the rounding of theirs, and the bounds of its rate are those
- * of noise over whatever stretch. */
+/* What joints and couplings keep from varying has the rounding of theirs, and the bounds of its rate are
+ * those of noise over whatever stretch. */
 static void hold_noise(struct run *run)
 {
     const double negligible = 1e-10;
