@@ -313,6 +313,7 @@ void trial_start(struct trial *trial, const fbd_options *options)
 {
     const fbd_options defaults = FBD_OPTIONS_DEFAULT;
     fbd_errors *errors = fbd_errors_new();
+    fbd_simulation_free(trial->simulation); /* of a start before */
     trial->simulation = fbd_simulation_new(trial->model, options ? options : &defaults, errors);
     if (!trial->simulation) fbd_errors_print(errors, stderr);
     fbd_errors_free(errors);
