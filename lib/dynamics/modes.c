@@ -77,7 +77,8 @@ static bool settle_branches(struct fbd_state *state, const struct decided *decid
         const bool *keep = state->sliding ? state->sliding->keep + first
                            : decided      ? decided->branches + first
                                           : NULL;
-        expr_resolve(kink->formula.expr, state->t, state->y, flow->dt, flow->dy, keep, state->branch + first);
+        expr_resolve(kink->formula.expr, state_moment(state), state->y, flow->dt, flow->dy, keep,
+                     state->branch + first);
     }
     return memcmp(state->branch_before, state->branch, size) == 0;
 }

@@ -76,7 +76,7 @@ void state_copy(struct fbd_state *to, const struct fbd_state *from)
 {
     const struct plan *plan = &from->model->plan;
     size_t n = (size_t)plan->n;
-    to->t = from->t;
+    state_set_moment(to, state_moment(from));
     to->settled = from->settled;
     memcpy(to->y, from->y, 2 * n * sizeof *to->y);
     memcpy(to->a, from->a, n * sizeof *to->a);

@@ -22,7 +22,7 @@ struct fbd_state {
     const struct fbd_model *model;
     bool settled;               /* the modes agree with t and y */
     struct holds_trouble holds; /* of the last settling */
-    double t;
+    double t, rest;             /* the time, and what its rounding leaves: see base/moment.h */
     double *y;     /* 2 n: coordinates, then rates; then what absolute.h adds, by state_evaluate */
     double *a;     /* n: accelerations, by state_evaluate */
     double *slots; /* plan.slots: generalized forces, by state_evaluate */
@@ -53,6 +53,17 @@ static inline struct instant state_instant_at(const struct fbd_state *state, dou
 {
     return (struct instant){t,           y,           state->branch,   state->slip,
                             state->pull, state->tree, state->extended, state_sliding(state)};
+}
+
+static inline struct moment state_moment(const struct fbd_state *state)
+{
+    return (struct moment){state->t, state->rest};
+}
+
+static inline void state_set_moment(struct fbd_state *state, struct moment t)
+{
+    state->t = t.t;
+    state->rest = t.rest;
 }
 
 static inline struct instant state_instant(const struct fbd_state *state)

@@ -66,11 +66,12 @@ static bool same_bits(double a, double b)
     return x == y;
 }
 
-static size_t add_constant(struct builder *b, double value)
+static size_t add_constant(struct builder *b, struct twofold value)
 {
     for (size_t i = 0; i < b->constant_count; i++)
-        if (same_bits(b->constants[i], value)) return i;
-    double *constants = grow(b, b->constants, b->constant_count, &b->constant_room, sizeof *constants);
+        if (same_bits(b->constants[i].x, value.x) && b->constants[i].rest == value.rest) return i;
+    struct twofold *constants =
+        grow(b, b->constants, b->constant_count, &b->constant_room, sizeof *constants);
     if (!constants) return 0;
     b->constants = constants;
     constants[b->constant_count] = value;
@@ -106,7 +107,9 @@ static unsigned short name_register(struct builder *b, const struct operand *ope
 {
     if (build_is_too_long(b)) return 0;
     switch (operand->place) {
-    case place_constant: return (unsigned short)(of_constant + (int)add_constant(b, operand->value));
+    case place_constant:
+        return (unsigned short)(of_constant +
+                                (int)add_constant(b, (struct twofold){operand->value, operand->rest}));
     case place_variable: return (unsigned short)(of_variable + (int)add_slot(b, operand->index));
     default: return (unsigned short)(of_temporary + operand->index);
     }
@@ -131,6 +134,34 @@ static void inherit(struct operand *whole, const struct operand *part)
     }
 }
 
+/* What is left of a sum, product or quotient of constants when it is rounded: the end of a pulse is start +
+ * width, whose digits behind those of the start would be lost. */
+static double rest_of(enum op op, const struct operand *x, const struct operand *y)
+{
+    struct twofold a = {x->value, x->rest}, b = {y->value, y->rest}, result = {0, 0};
+    switch (op) {
+    case op_negate: return -a.rest;
+    case op_add: result = twofold_add(a, b); break;
+    case op_subtract: result = twofold_subtract(a, b); break;
+    case op_multiply: result = twofold_multiply(a, b); break;
+    case op_divide: result = twofold_divide(a, b); break;
+    default: break;
+    }
+    return isfinite(result.x) ? result.rest : 0;
+}
+
+/* An operation on constants is done at once. */
+static void fold(const struct instr *instr, const struct operand *x, const struct operand *y,
+                 struct operand *result)
+{
+    result->place = place_constant;
+    result->value = op_value(instr, x->value, y->value);
+    result->rest = rest_of(instr->op, x, y);
+    if (isfinite(result->value) || result->is_broken) return;
+    result->is_broken = true;
+    result->broken = result->at;
+}
+
 struct operand build_operation(struct builder *b, int base, enum op op, int extra, const struct operand *x,
                                const struct operand *y, struct kind kind, struct pos at)
 {
@@ -140,12 +171,7 @@ struct operand build_operation(struct builder *b, int base, enum op op, int extr
     inherit(&result, second);
     struct instr instr = {.op = (unsigned char)op, .extra = extra};
     if (x->place == place_constant && second->place == place_constant) {
-        result.place = place_constant;
-        result.value = op_value(&instr, x->value, second->value);
-        if (!isfinite(result.value) && !result.is_broken) {
-            result.is_broken = true;
-            result.broken = at;
-        }
+        fold(&instr, x, second, &result);
         b->depth = base;
         return result;
     }
@@ -268,7 +294,7 @@ static struct expr *finish_constant(const struct builder *b, struct expr *expr, 
 {
     *expr = (struct expr){.constants = 1,
                           .constant = &expr->single,
-                          .single = b->constants[0],
+                          .single = b->constants[0].x,
                           .dim = result->kind.dim,
                           .bare = result->kind.free};
     return expr;
@@ -283,7 +309,7 @@ struct expr *build_finish(struct builder *b, struct arena *arena, const struct o
         return finish_constant(b, expr, result);
     struct instr *code = ARENA_ARRAY(arena, b->operations, struct instr);
     int *sorted = ARENA_ARRAY(arena, b->slot_count, int);
-    double *constants = ARENA_ARRAY(arena, b->constant_count, double);
+    double *constants = ARENA_ARRAY(arena, 2 * b->constant_count, double);
     struct expr_switch *switches = ARENA_ARRAY(arena, b->switch_count, struct expr_switch);
     if (!code || !sorted || !constants || !switches) return NULL;
     if (b->slot_count) {
@@ -291,7 +317,11 @@ struct expr *build_finish(struct builder *b, struct arena *arena, const struct o
         qsort(sorted, b->slot_count, sizeof *sorted, by_value);
     }
     locate_all(b, sorted, code);
-    if (b->constant_count) memcpy(constants, b->constants, b->constant_count * sizeof *constants);
+    double *rests = constants + b->constant_count;
+    for (size_t i = 0; i < b->constant_count; i++) {
+        constants[i] = b->constants[i].x;
+        rests[i] = b->constants[i].rest;
+    }
     if (b->switch_count) memcpy(switches, b->switches, b->switch_count * sizeof *switches);
     bool time = b->slot_count > 0 && sorted[0] == 0;
     *expr = (struct expr){.code = code,
@@ -301,6 +331,7 @@ struct expr *build_finish(struct builder *b, struct arena *arena, const struct o
                           .slots = sorted + (time ? 1 : 0),
                           .constants = b->constant_count,
                           .constant = constants,
+                          .constant_rest = rests,
                           .result = locate(b, sorted, root),
                           .switches = b->switch_count,
                           .switch_at = switches,

@@ -43,6 +43,7 @@
 
 #include "base/arena.h"
 #include "base/diag.h"
+#include "base/moment.h"
 #include "expr/interval.h"
 #include "expr/unit.h"
 
@@ -180,19 +181,21 @@ bool expr_switch_is_time(const struct expr *expr, size_t index);
 /* Two margins for each switch, positive inside the branch, negative beyond its end; +HUGE_VAL for an end that
  * does not exist. Evaluated with the given branches (so that they are smooth functions of the state).
  * `margins` has 2 * expr_switches entries, the lower end of switch i at 2 i and the upper one at 2 i + 1.
- * With `rates` not NULL, also their derivatives along (dt, dy), 0 for what does not exist. A switch in the
- * side of an `if` that is not chosen is silent: both margins are +HUGE_VAL. Margins have the unit of u, and
- * for roundings that of the branch number. */
-void expr_margins(const struct expr *expr, double t, const double *y, double dt, const double *dy,
-                  const int *branch, double *margins, double *rates);
+ * With `rates` not NULL, also their derivatives along (dt, dy), 0 for what does not exist; with `roundings`
+ * not NULL, how near to zero a margin counts as zero. A switch in the side of an `if` that is not chosen is
+ * silent: both margins are +HUGE_VAL. Margins have the unit of u, and for roundings that of the branch
+ * number. */
+void expr_margins(const struct expr *expr, struct moment t, const double *y, double dt, const double *dy,
+                  const int *branch, double *margins, double *rates, double *roundings);
 
 /* Choose the branches at a point from the values; where a switching function is zero to rounding, by its rate
  * along (dt, dy), the direction in which the motion goes on. `keep` (may be NULL) marks switches whose branch
  * in `branch` is already decided and stays. With a rate of exactly zero a switch takes the side of its plain
  * value, sign and == their branch 0. A silent switch gets branch 0. Zero to rounding means within a few
  * bounds of the rounding error of u, which is propagated through the expression; so an instant located to the
- * last bit is recognised. */
-void expr_resolve(const struct expr *expr, double t, const double *y, double dt, const double *dy,
+ * last bit is recognised. With `keep`, that of an event, the time and the constants count as exact; without,
+ * the time may be any double. */
+void expr_resolve(const struct expr *expr, struct moment t, const double *y, double dt, const double *dy,
                   const bool *keep, int *branch);
 
 /* What the active switches watch, at a point of the motion: u, its rate along (dt, dy), and the rounding of

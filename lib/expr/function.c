@@ -166,7 +166,8 @@ static struct operand build_clamp(struct builder *b, int base, const struct oper
     return build_operation(b, base, op_min, 0, &raised, &args[2], kind, at);
 }
 
-/* step(t - start) * (1 - step(t - (start + width))) */
+/* step(t - start) * (1 - step((t - start) - width)): start + width would round a short width to the digits
+ * that are left behind those of the start. */
 static struct operand build_pulse(struct builder *b, int base, const struct operand *args, struct kind kind,
                                   struct pos at)
 {
@@ -174,8 +175,7 @@ static struct operand build_pulse(struct builder *b, int base, const struct oper
     struct operand one = build_constant(1, pure, at);
     struct operand since = build_operation(b, b->depth, op_subtract, 0, &args[0], &args[1], kind, at);
     struct operand on = build_operation(b, b->depth, op_step, 0, &since, NULL, pure, at);
-    struct operand end = build_operation(b, b->depth, op_add, 0, &args[1], &args[2], kind, at);
-    struct operand after = build_operation(b, b->depth, op_subtract, 0, &args[0], &end, kind, at);
+    struct operand after = build_operation(b, b->depth, op_subtract, 0, &since, &args[2], kind, at);
     struct operand off = build_operation(b, b->depth, op_step, 0, &after, NULL, pure, at);
     struct operand not_off = build_operation(b, b->depth, op_subtract, 0, &one, &off, pure, at);
     return build_operation(b, base, op_multiply, 0, &on, &not_off, pure, at);

@@ -6,60 +6,115 @@
  * min, max and comparisons, a/b for mod, 2a for square. A switch by sign has the branches u < 0, u > 0 and,
  * for sign and ==, u = 0. A rounding has the branches n with n + offset < u < n + offset + 1.
  *
+ * Late in a run a time has few digits left behind the point, and u of a switch by time loses them: t - start,
+ * t/period - n, the phase of a sine. So values are twofold numbers: the time is a moment, sums, products and
+ * quotients keep their rounding error as a rest, and other functions pass it on by their slope,
+ *
+ *     f(x + rest) = f(x) + f'(x) rest,    which is exact to rest^2 = eps^2 x^2.
+ *
  * Whether u is zero cannot be asked of rounded numbers. With each value therefore run its rate along the
  * motion and a bound of its rounding error, by the first-order propagation
  *
- *     e(f) = |f_a| e(a) + |f_b| e(b) + eps |f|,    e(leaf) = eps |leaf|
+ *     e(f) = |f_a| e(a) + |f_b| e(b) + own |f|,    e(t) = eps^2 t,  e(y) = eps y,  e(c) = eps^2 c
  *
- * (N. Higham, Accuracy and Stability of Numerical Algorithms, ch. 3). Leaves count as rounded, because an
- * instant is located to the last bit at best, and 0.7 is not exact. Where |u| is within a few such bounds,
- * the rate decides.
+ * (N. Higham, Accuracy and Stability of Numerical Algorithms, ch. 3); own is eps^2 for what keeps its rest,
+ * else eps. Where |u| is within a few such bounds, the rate decides.
  */
 #include <float.h>
 #include <math.h>
 
 #include "expr/frame.h"
 
+/* Value and rest, the rate of the value, and the bound of its error. */
 struct motion {
-    double value[frame_limit], rate[frame_limit], error[frame_limit];
+    double value[frame_limit], rest[frame_limit], rate[frame_limit], error[frame_limit];
 };
+
+static const double twofold_rounding = DBL_EPSILON * DBL_EPSILON;
 
 /* The function that a switch watches, at one point of the motion. */
 struct crossing {
+    struct twofold exact;
     double u, rate, tolerance;
 };
 
 /* Called at each active switch in order, before it is evaluated. */
 typedef void visit(void *context, const struct instr *i, const struct motion *at, struct crossing crossing);
 
-static void load(const struct expr *expr, double t, const double *y, double dt, const double *dy,
-                 struct motion *m)
+/* `rounding` is that of the time and of constants. */
+static void load(const struct expr *expr, struct moment t, const double *y, double dt, const double *dy,
+                 double rounding, struct motion *m)
 {
-    size_t leaves = (expr->uses_time ? 1 : 0) + expr->variables + expr->constants;
-    frame_values(expr, t, y, m->value);
+    size_t n = 0;
+    frame_values(expr, t.t, y, m->value);
     frame_rates(expr, dt, dy, m->rate);
-    for (size_t k = 0; k < leaves; k++) m->error[k] = DBL_EPSILON * fabs(m->value[k]);
+    if (expr->uses_time) {
+        m->rest[n] = t.rest;
+        m->error[n++] = rounding * fabs(t.t);
+    }
+    for (size_t k = 0; k < expr->variables; k++, n++) {
+        m->rest[n] = 0;
+        m->error[n] = DBL_EPSILON * fabs(m->value[n]);
+    }
+    for (size_t k = 0; k < expr->constants; k++, n++) {
+        m->rest[n] = expr->constant_rest[k];
+        m->error[n] = rounding * fabs(m->value[n]);
+    }
+}
+
+static struct twofold number_of(const struct motion *m, size_t reg)
+{
+    return (struct twofold){m->value[reg], m->rest[reg]};
 }
 
 static struct crossing crossing_at(const struct instr *i, const struct motion *m)
 {
-    double a = m->value[i->a], b = m->value[i->b];
-    double u = a, rate = m->rate[i->a], error = m->error[i->a];
+    struct twofold a = number_of(m, i->a), b = number_of(m, i->b), u = a;
+    double rate = m->rate[i->a], error = m->error[i->a];
     if (op_is_by_difference(i->op)) {
-        u = a - b;
+        u = twofold_subtract(a, b);
         rate -= m->rate[i->b];
-        error += m->error[i->b];
+        error += m->error[i->b] + twofold_rounding * (fabs(a.x) + fabs(b.x));
     } else if (i->op == op_mod) {
-        u = a / b;
-        rate = (rate - u * m->rate[i->b]) / b;
-        error = (error + fabs(u) * m->error[i->b]) / fabs(b) + DBL_EPSILON * fabs(u);
+        u = twofold_divide(a, b);
+        rate = (rate - u.x * m->rate[i->b]) / b.x;
+        error = (error + fabs(u.x) * m->error[i->b]) / fabs(b.x) + twofold_rounding * fabs(u.x);
     } else if (i->op == op_square) {
-        u = 2 * a;
+        u = (struct twofold){2 * a.x, 2 * a.rest};
         rate *= 2;
         error *= 2;
     }
     /* The bounds are of first order, so a few of them; never zero, so that u = 0 lies inside. */
-    return (struct crossing){u, rate, 4 * error + DBL_MIN};
+    return (struct crossing){u, twofold_value(u), rate, 4 * error + DBL_MIN};
+}
+
+/* The rest of what an instruction makes, f its rounded value; false for one that keeps none. */
+static bool keep_rest(const struct instr *i, const struct motion *m, const int *branch, double f,
+                      struct twofold *result)
+{
+    struct twofold a = number_of(m, i->a), b = number_of(m, i->b);
+    double n;
+    switch (i->op) {
+    case op_add: *result = twofold_add(a, b); break;
+    case op_subtract: *result = twofold_subtract(a, b); break;
+    case op_multiply: *result = twofold_multiply(a, b); break;
+    case op_divide: *result = twofold_divide(a, b); break;
+    case op_mod:
+    case op_sawtooth:
+        n = switch_branch(i, a.x, b.x, branch);
+        if (n == 0) return false;
+        b = i->op == op_sawtooth ? (struct twofold){1, 0} : b;
+        *result = twofold_subtract(a, twofold_multiply((struct twofold){n, 0}, b));
+        break;
+    default: return false;
+    }
+    return isfinite(f) && isfinite(result->x + result->rest);
+}
+
+/* Does the operation give its operand, or a whole number, as it is? */
+static bool is_without_rounding(unsigned op)
+{
+    return op == op_copy || op == op_negate || (op >= op_and && op <= op_not) || op_is_switch(op);
 }
 
 static void step_motion(const struct instr *i, const int *branch, struct motion *m)
@@ -67,12 +122,18 @@ static void step_motion(const struct instr *i, const int *branch, struct motion 
     struct slopes s;
     op_slopes(i, m->value[i->a], m->value[i->b], branch, &s);
     double rate = along(s.a, m->rate[i->a]) + along(s.b, m->rate[i->b]);
-    double own = DBL_EPSILON * fabs(s.f);
-    double error = along(fabs(s.a), m->error[i->a]) + along(fabs(s.b), m->error[i->b]) + own;
-    m->value[i->to] = s.f;
+    double rest = along(s.a, m->rest[i->a]) + along(s.b, m->rest[i->b]);
+    double error = along(fabs(s.a), m->error[i->a]) + along(fabs(s.b), m->error[i->b]);
+    struct twofold kept;
+    bool keeps = keep_rest(i, m, branch, s.f, &kept);
+    double own = (keeps || is_without_rounding(i->op) ? twofold_rounding : DBL_EPSILON) * fabs(s.f);
+    if (keeps && (i->op == op_add || i->op == op_subtract || i->op == op_mod))
+        own += twofold_rounding * fabs(m->value[i->a]);
+    m->value[i->to] = keeps ? kept.x : s.f;
+    m->rest[i->to] = keeps ? kept.rest : isfinite(rest) ? rest : 0;
     m->rate[i->to] = rate;
     /* At an infinite slope (sqrt at 0) the first order says nothing. */
-    m->error[i->to] = isfinite(error) ? error : own;
+    m->error[i->to] = isfinite(error) ? error + own : own;
 }
 
 static void run(const struct expr *expr, const int *branch, struct motion *m, visit *visit_switch,
@@ -101,13 +162,14 @@ static double offset_of(unsigned op)
 
 struct margins {
     const int *branch;
-    double *margins, *rates;
+    double *margins, *rates, *roundings;
 };
 
-static void set_margin(struct margins *m, int index, double margin, double rate)
+static void set_margin(struct margins *m, int index, double margin, struct crossing c, double sign)
 {
     m->margins[index] = margin;
-    if (m->rates) m->rates[index] = rate;
+    if (m->rates) m->rates[index] = sign * c.rate;
+    if (m->roundings) m->roundings[index] = c.tolerance;
 }
 
 static void note_margins(void *context, const struct instr *i, const struct motion *at, struct crossing c)
@@ -118,29 +180,30 @@ static void note_margins(void *context, const struct instr *i, const struct moti
     if (!op_is_by_sign(i->op)) {
         if (n >= branch_limit || n <= -branch_limit) return;
         double low = n + offset_of(i->op);
-        set_margin(m, lower, c.u - low, c.rate);
-        set_margin(m, upper, low + 1 - c.u, -c.rate);
+        set_margin(m, lower, (c.exact.x - low) + c.exact.rest, c, 1);
+        set_margin(m, upper, (low + 1 - c.exact.x) - c.exact.rest, c, -1);
     } else if (n == 0 && (i->op == op_sign || i->op == op_equal)) {
-        set_margin(m, lower, c.tolerance + c.u, c.rate);
-        set_margin(m, upper, c.tolerance - c.u, -c.rate);
+        set_margin(m, lower, c.tolerance + c.u, c, 1);
+        set_margin(m, upper, c.tolerance - c.u, c, -1);
     } else if (n < 0) {
-        set_margin(m, upper, -c.u, -c.rate);
+        set_margin(m, upper, -c.u, c, -1);
     } else {
-        set_margin(m, lower, c.u, c.rate);
+        set_margin(m, lower, c.u, c, 1);
     }
 }
 
-void expr_margins(const struct expr *expr, double t, const double *y, double dt, const double *dy,
-                  const int *branch, double *margins, double *rates)
+void expr_margins(const struct expr *expr, struct moment t, const double *y, double dt, const double *dy,
+                  const int *branch, double *margins, double *rates, double *roundings)
 {
     if (!expr->switches) return;
     struct motion motion;
-    struct margins context = {.branch = branch, .margins = margins, .rates = rates};
+    struct margins context = {.branch = branch, .margins = margins, .rates = rates, .roundings = roundings};
     for (size_t k = 0; k < 2 * expr->switches; k++) {
         margins[k] = HUGE_VAL;
         if (rates) rates[k] = 0;
+        if (roundings) roundings[k] = 0;
     }
-    load(expr, t, y, dt, dy, &motion);
+    load(expr, t, y, dt, dy, twofold_rounding, &motion);
     run(expr, branch, &motion, note_margins, &context);
 }
 
@@ -190,24 +253,33 @@ static int counted(double n)
     return n >= branch_limit ? branch_limit : n <= -branch_limit ? -branch_limit : (int)n;
 }
 
+static int plain_branch(const struct instr *i, const struct motion *at)
+{
+    return counted(op_plain_branch(i->op, at->value[i->a], at->value[i->b]));
+}
+
 static int branch_by_sign(const struct instr *i, const struct motion *at, struct crossing c)
 {
-    if (isfinite(c.u) && fabs(c.u) <= c.tolerance) {
+    if (!isfinite(c.u)) return plain_branch(i, at);
+    if (fabs(c.u) <= c.tolerance) {
         if (c.rate > 0) return 1;
         if (c.rate < 0) return -1;
         if (i->op == op_sign || i->op == op_equal) return 0;
     }
-    return counted(op_plain_branch(i->op, at->value[i->a], at->value[i->b]));
+    return counted(op_plain_branch(i->op, c.u, 0));
 }
 
 static int branch_by_rounding(const struct instr *i, const struct motion *at, struct crossing c)
 {
-    double above = c.u - offset_of(i->op), nearest = round(above);
-    if (c.tolerance < 0.5 && fabs(above - nearest) <= c.tolerance) {
+    if (!(isfinite(c.u) && c.tolerance < 0.5)) return plain_branch(i, at);
+    double above = c.exact.x - offset_of(i->op), nearest = round(above);
+    double beyond = (above - nearest) + c.exact.rest;
+    if (fabs(beyond) <= c.tolerance) {
         if (c.rate > 0) return counted(nearest);
         if (c.rate < 0) return counted(nearest - 1);
+        return plain_branch(i, at);
     }
-    return counted(op_plain_branch(i->op, at->value[i->a], at->value[i->b]));
+    return counted(beyond < 0 ? nearest - 1 : nearest);
 }
 
 struct resolution {
@@ -222,7 +294,7 @@ static void choose_branch(void *context, const struct instr *i, const struct mot
     r->branch[i->extra] = op_is_by_sign(i->op) ? branch_by_sign(i, at, c) : branch_by_rounding(i, at, c);
 }
 
-void expr_resolve(const struct expr *expr, double t, const double *y, double dt, const double *dy,
+void expr_resolve(const struct expr *expr, struct moment t, const double *y, double dt, const double *dy,
                   const bool *keep, int *branch)
 {
     if (!expr->switches) return;
@@ -230,7 +302,8 @@ void expr_resolve(const struct expr *expr, double t, const double *y, double dt,
     struct resolution context = {keep, branch};
     for (size_t k = 0; k < expr->switches; k++)
         if (!keep || !keep[k]) branch[k] = 0;
-    load(expr, t, y, dt, dy, &motion);
+    /* Who asks without an event means 0.7 by the double next to it, and so where three times that is. */
+    load(expr, t, y, dt, dy, keep ? twofold_rounding : DBL_EPSILON, &motion);
     run(expr, branch, &motion, choose_branch, &context);
 }
 

@@ -118,6 +118,7 @@ static struct operand parse_name(struct parser *p)
     if (p->token.kind == token_open) return function_call(p, name);
     if (lex_is(&p->lexer, &name, "pi")) {
         struct operand pi = build_constant(3.14159265358979323846, (struct kind){.free = true}, name.at);
+        pi.rest = 1.2246467991473531772e-16;
         pi.pi = true;
         return pi;
     }

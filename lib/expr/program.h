@@ -102,8 +102,9 @@ struct expr {
     const int *slots; /* of the variables, ascending */
     size_t constants;
     const double *constant;
-    double single; /* where `constant` points to when the program is one number */
-    size_t result; /* its register */
+    const double *constant_rest; /* what is left of them (base/twofold.h); NULL without instructions */
+    double single;               /* where `constant` points to when the program is one number */
+    size_t result;               /* its register */
     size_t switches;
     const struct expr_switch *switch_at;
 

@@ -79,8 +79,8 @@ bool ledger_integrates(const struct ledger *ledger, const struct group *group)
 }
 
 /* Add the integral of power over [from, to] of a group's last step. */
-static bool integrate(struct ledger *ledger, struct ensemble *ensemble, size_t group, double from, double to,
-                      double *work)
+static bool integrate(struct ledger *ledger, struct ensemble *ensemble, size_t group, struct moment from,
+                      struct moment to, double *work)
 {
     /* Gauss-Legendre, five points on [-1, 1]: x = 0, sqrt(5 -+ 2 sqrt(10/7)) / 3 (Abramowitz & Stegun,
      * table 25.4). */
@@ -90,13 +90,14 @@ static bool integrate(struct ledger *ledger, struct ensemble *ensemble, size_t g
                                0.568888888888888888888888888889, 0.478628670499366468041291514836,
                                0.236926885056189087514264040720};
     const struct group *of = &ensemble->groups[group];
-    if (!(to > from) || !ledger_integrates(ledger, of)) return true;
+    double length = moment_since(to, from);
+    if (!(length > 0) || !ledger_integrates(ledger, of)) return true;
     int panels = run_panels(of->run);
-    double half = (to - from) / (2 * panels);
+    double half = length / (2 * panels);
     for (int i = 0; i < 5 * panels; i++) {
         int panel = i / 5;
-        double middle = from + half * (2 * panel + 1);
-        const struct fbd_state *state = ensemble_look_group(ensemble, group, middle + half * x[i % 5]);
+        struct moment t = moment_after(from, half * (2 * panel + 1 + x[i % 5]));
+        const struct fbd_state *state = ensemble_look_group(ensemble, group, t);
         if (!state) return false;
         add_powers(ledger, of, state, half * w[i % 5], work);
     }
@@ -112,7 +113,7 @@ bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t index)
         ledger->begin[load] = ledger->end[load];
     }
     const struct run *run = group->run;
-    if (!integrate(ledger, ensemble, index, run->from, run->state->t, ledger->end)) return false;
+    if (!integrate(ledger, ensemble, index, run_start(run), run_end(run), ledger->end)) return false;
     for (size_t i = model->coupled_count; i < model->load_count; i++) {
         int load = group_load(group, (int)i);
         if (!ledger->integrated[load]) continue;
@@ -140,7 +141,8 @@ bool ledger_within(struct ledger *ledger, struct ensemble *ensemble, double t, d
             int load = group_load(group, (int)i);
             work[load] = (at_end ? ledger->end : ledger->begin)[load];
         }
-        if (!at_end && !integrate(ledger, ensemble, g, group->run->from, t, work)) return false;
+        if (!at_end && !integrate(ledger, ensemble, g, run_start(group->run), moment_at(t), work))
+            return false;
     }
     return true;
 }

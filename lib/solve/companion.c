@@ -89,7 +89,7 @@ static bool go_beyond(struct ensemble *own, double t, struct fbd_state *state)
         state->y[i] += s * (state->y[n + i] + s / 2 * state->a[i]);
         state->y[n + i] += s * state->a[i];
     }
-    state->t = t;
+    state_set_moment(state, moment_at(t));
     state_evaluate(state);
     return true;
 }

@@ -74,7 +74,8 @@ struct dense {
     size_t pairs, extra;
     int level;
     bool prepared;
-    double t0, t1, h;
+    struct moment t0, t1;
+    double h;
     const double *y0, *f0, *y1, *f1;
     const double *error; /* see dense_set_errors; or NULL */
     const gsl_odeiv2_system *sys;
@@ -121,14 +122,15 @@ static int level_for(int order, size_t pairs, size_t extra)
     return order == 5 && (pairs == 0 || extra == 0) ? 1 : 2;
 }
 
-void dense_set(struct dense *d, int order, double t0, const double *y0, const double *f0, double t1,
-               const double *y1, const double *f1, const gsl_odeiv2_system *sys, gsl_odeiv2_step *step)
+void dense_set(struct dense *d, int order, struct moment t0, const double *y0, const double *f0,
+               struct moment t1, const double *y1, const double *f1, const gsl_odeiv2_system *sys,
+               gsl_odeiv2_step *step)
 {
     d->level = level_for(order, d->pairs, d->extra);
     d->prepared = false;
     d->t0 = t0;
     d->t1 = t1;
-    d->h = t1 - t0;
+    d->h = moment_since(t1, t0);
     d->y0 = y0;
     d->f0 = f0;
     d->y1 = y1;
@@ -190,7 +192,7 @@ static void eval_all(const struct dense *d, double theta, double *y)
 static int inner_slopes(struct dense *d, double s, double *f)
 {
     eval_all(d, s + 0.5, d->y);
-    return GSL_ODEIV_FN_EVAL(d->sys, d->t0 + (s + 0.5) * d->h, d->y, f);
+    return GSL_ODEIV_FN_EVAL(d->sys, d->t0.t + (s + 0.5) * d->h, d->y, f);
 }
 
 /* The slope at s, d/dtheta, of a cubic with this difference of its ends and the coefficients s1, s2. */
@@ -287,18 +289,19 @@ static int prepare(struct dense *d)
     return code;
 }
 
-int dense_eval(struct dense *d, double t, double *y)
+int dense_eval(struct dense *d, struct moment t, double *y)
 {
     size_t size = 2 * d->pairs + d->extra;
-    if (t == d->t0 || t == d->t1) {
-        memcpy(y, t == d->t0 ? d->y0 : d->y1, size * sizeof *y);
+    bool start = moment_equal(t, d->t0);
+    if (start || moment_equal(t, d->t1)) {
+        memcpy(y, start ? d->y0 : d->y1, size * sizeof *y);
         return GSL_SUCCESS;
     }
     if (!d->prepared) {
         int code = prepare(d);
         if (code != GSL_SUCCESS) return code;
     }
-    double theta = (t - d->t0) / d->h;
+    double theta = moment_since(t, d->t0) / d->h;
     if (d->own)
         d->own->eval(d->step, theta, y);
     else
@@ -306,9 +309,9 @@ int dense_eval(struct dense *d, double t, double *y)
     return GSL_SUCCESS;
 }
 
-void dense_eval_plain(struct dense *d, double t, double *y)
+void dense_eval_plain(struct dense *d, struct moment t, double *y)
 {
     d->prepared = false;
     from_ends(d);
-    eval_all(d, (t - d->t0) / d->h, y);
+    eval_all(d, moment_since(t, d->t0) / d->h, y);
 }

@@ -36,6 +36,7 @@
 
 #include <gsl/gsl_odeiv2.h>
 
+#include "base/moment.h"
 #include "solve/layout.h"
 
 struct dense;
@@ -44,12 +45,13 @@ struct dense;
 struct dense *dense_alloc(const struct layout *layout);
 void dense_free(struct dense *dense);
 
-/* Stand for the step from (t0, y0) with slopes f0 to (t1, y1) with slopes f1, t1 != t0, made by a method of
- * order `order`. `step` is the stepper that made it, used if it has a dense output of its own (dop853 and the
- * methods of structure.h), or NULL. Nothing is computed or copied: all arguments have to stay as they are
+/* Stand for the step from (t0, y0) with slopes f0 to (t1, y1) with slopes f1, t1 after t0, made by a method
+ * of order `order`. `step` is the stepper that made it, used if it has a dense output of its own (dop853 and
+ * the methods of structure.h), or NULL. Nothing is computed or copied: all arguments have to stay as they are
  * until the next dense_set. */
-void dense_set(struct dense *dense, int order, double t0, const double *y0, const double *f0, double t1,
-               const double *y1, const double *f1, const gsl_odeiv2_system *sys, gsl_odeiv2_step *step);
+void dense_set(struct dense *dense, int order, struct moment t0, const double *y0, const double *f0,
+               struct moment t1, const double *y1, const double *f1, const gsl_odeiv2_system *sys,
+               gsl_odeiv2_step *step);
 
 /* For steps of a multistep method, whose errors of q and v are independent of each other: `errors`, to stay
  * where they are, hold those of y1 from now on. */
@@ -57,9 +59,9 @@ void dense_set_errors(struct dense *dense, const double *errors);
 
 /* y at time t; bit for bit y0 at t0 and y1 at t1. GSL_SUCCESS, or the code of a right-hand side that failed
  * inside of the step; then y is not touched. */
-int dense_eval(struct dense *dense, double t, double *y);
+int dense_eval(struct dense *dense, struct moment t, double *y);
 
 /* The same at level 0, whatever the method: what is left when evaluations inside of the step fail. */
-void dense_eval_plain(struct dense *dense, double t, double *y);
+void dense_eval_plain(struct dense *dense, struct moment t, double *y);
 
 #endif

@@ -231,18 +231,32 @@ void ensemble_release(struct ensemble *ensemble, size_t count)
 
 typedef bool look_at_run(struct run *run, double t, struct fbd_state *state);
 
-static bool look_run(struct run *run, double t, struct fbd_state *state)
+static bool look_at_end(struct run *run, struct fbd_state *state)
 {
-    if (t != run->state->t) return t >= run->from && t < run->state->t && run_look(run, t, state);
     state_copy(state, run->state);
     state_evaluate(state);
     return true;
 }
 
-struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, double t)
+static bool look_run(struct run *run, double t, struct fbd_state *state)
+{
+    if (t == run->state->t) return look_at_end(run, state);
+    return t >= run->from && t < run->state->t && run_look(run, moment_at(t), state);
+}
+
+/* The double next to the end of a step is the end, whose rest it has not. */
+static bool look_run_before(struct run *run, double t, struct fbd_state *state)
+{
+    return run_look(run, t == run->state->t ? run_end(run) : moment_at(t), state);
+}
+
+struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, struct moment t)
 {
     struct group *group = &ensemble->groups[index];
-    return look_run(group->run, t, group->probe) ? group->probe : NULL;
+    struct run *run = group->run;
+    bool at_end = moment_equal(t, run_end(run)), within = t.t >= run->from && t.t <= run->state->t;
+    bool seen = at_end ? look_at_end(run, group->probe) : within && run_look(run, t, group->probe);
+    return seen ? group->probe : NULL;
 }
 
 /* Put coordinates and rates of a group in their places among those of the whole. */
@@ -306,12 +320,17 @@ static bool run_covers(const struct run *run, double t)
     return t == run->state->t || (t >= run->from && t < run->state->t);
 }
 
+static bool coordinates_of(struct run *run, double t, double *y)
+{
+    return run_coordinates(run, t == run->state->t ? run_end(run) : moment_at(t), y);
+}
+
 bool ensemble_coordinates(struct ensemble *ensemble, double t, double *y)
 {
     for (size_t p = 0; p < ensemble->count; p++) {
         struct group *group = &ensemble->groups[p];
         double *part = ensemble->count == 1 ? y : group->probe->y;
-        if (!run_covers(group->run, t) || !run_coordinates(group->run, t, part)) return false;
+        if (!run_covers(group->run, t) || !coordinates_of(group->run, t, part)) return false;
         if (ensemble->count > 1) scatter_coordinates(ensemble->model, group, y);
     }
     return true;
@@ -343,7 +362,7 @@ static bool look(struct ensemble *ensemble, double t, look_at_run *look_at, stru
         if (!look_at(ensemble->groups[p].run, t, ensemble->groups[p].probe)) return false;
         scatter(ensemble->model, &ensemble->groups[p], state);
     }
-    state->t = t;
+    state_set_moment(state, moment_at(t));
     state->settled = true;
     state_evaluate(state);
     return true;
@@ -356,7 +375,7 @@ bool ensemble_look(struct ensemble *ensemble, double t, struct fbd_state *state)
 
 bool ensemble_look_before(struct ensemble *ensemble, double t, struct fbd_state *state)
 {
-    return look(ensemble, t, run_look, state);
+    return look(ensemble, t, look_run_before, state);
 }
 
 struct fbd_state *ensemble_state(struct ensemble *ensemble)

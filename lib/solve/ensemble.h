@@ -124,8 +124,9 @@ void ensemble_check_balance(struct ensemble *ensemble);
 /* The state at ensemble->t; stays valid until the ensemble moves on. */
 struct fbd_state *ensemble_state(struct ensemble *ensemble);
 
-/* Group `index` at t as by ensemble_look, in its own coordinates: its probe, or NULL. */
-struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, double t);
+/* Group `index` at t, within its last step or at the end of it, as by ensemble_look, in its own coordinates:
+ * its probe, or NULL. */
+struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, struct moment t);
 
 /* The body or load of the whole scene that is `index` in a group; -1 for -1. */
 int group_body(const struct group *group, int index);

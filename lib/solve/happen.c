@@ -359,7 +359,7 @@ static void refuse_sliding(struct run *run, const bool *moving)
     const struct watcher_set *set = &run->watchers.moving;
     if (!moving || run->outcome != FBD_GOING) return;
     double *values = run->values, *rate = values + set->count;
-    watchers_evaluate(&run->watchers, set, run->state, run->state->t, run->state->y, values, rate);
+    watchers_evaluate(&run->watchers, set, run->state, state_moment(run->state), run->state->y, values, rate);
     for (size_t i = 0; i < set->count; i++) {
         const struct watcher *watcher = &set->watchers[i];
         if (!moving[i] || watcher->kind != watch_kink) continue;
@@ -467,6 +467,9 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     run_apply_touched(run, true);
     run_check_contacts(run);
     run->restart = true;
+    run->interval[1] = run->interval[0];
+    run->interval[0] = moment_since(run_end(run), run->event);
+    run->event = run_end(run);
     if (run->outcome == FBD_GOING) count_crowd(run);
     if (moving) count_around(run);
 }

@@ -81,12 +81,13 @@ static void changes(struct run *run, const struct instant *at, double *along)
 
 /* A coordinate or rate that is exactly zero has no size that an error could be compared with, and a method of
  * low order needs one (Euler's first step from rest errs by all that the body moves). What the acceleration
- * does in a thousandth of the run is small, and enough. */
-static void set_floors(struct run *run, int i)
+ * does in a thousandth of the run is small, and enough; of the time for which it lasts, for a force that is
+ * switched on may be large and short. */
+static void set_floors(struct run *run, int i, double lasts)
 {
+    const double share = 1e-3;
     size_t position = (size_t)i, rate = position + (size_t)run->model->plan.n;
-    double tau = 1e-3 * (run->options.until - run->state->t), v = fabs(run->state->y[rate]),
-           a = fabs(run->state->a[i]);
+    double tau = share * lasts, v = fabs(run->state->y[rate]), a = fabs(run->state->a[i]);
     if (run->state->y[position] == 0) switcher_set_floor(run->stepper, position, v * tau + a * tau * tau);
     if (v == 0) switcher_set_floor(run->stepper, rate, a * tau);
 }
@@ -127,8 +128,12 @@ static void set_noise(struct run *run)
 
 void run_set_noise(struct run *run)
 {
+    const int n = run->model->plan.n;
+    bool any = false;
     set_noise(run);
-    for (int i = 0; i < run->model->plan.n; i++) set_floors(run, i);
+    for (int i = 0; i < 2 * n; i++) any |= run->state->y[i] == 0;
+    double lasts = any ? run_time_to_switch(run) : 0;
+    for (int i = 0; any && i < n; i++) set_floors(run, i, lasts);
     run->since_noise = 0;
 }
 

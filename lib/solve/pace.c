@@ -72,7 +72,8 @@ static void step(struct ensemble *ensemble, size_t p)
         if (run->events[events].t > run->from)
             ensemble->next_told = fmin(ensemble->next_told, run->events[events].t);
     const struct observer *observer = &ensemble->observer;
-    if (observer->step && run->state->t > run->from && !observer->step(observer->context, ensemble, p))
+    if (observer->step && moment_since(run_end(run), run_start(run)) > 0 &&
+        !observer->step(observer->context, ensemble, p))
         fail_within(ensemble, run);
     ensemble->stepping = false;
     if (run->outcome == FBD_OUT_OF_MEMORY) ensemble_fail(ensemble, run->outcome, run->reason);

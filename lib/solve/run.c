@@ -3,7 +3,6 @@
 
 #include <float.h>
 #include <gsl/gsl_errno.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -76,7 +75,8 @@ static bool make_run(struct run *run)
     run->aside = run->sample + 2 * n;
     run->along = run->aside + 4 * n;
     run->turned = run->along + n;
-    run->values = calloc(2 * run->moving.count + 1, sizeof *run->values);
+    size_t functions = 2 * run->moving.count, timed = 3 * run->timed.count;
+    run->values = calloc((functions > timed ? functions : timed) + 1, sizeof *run->values);
     run->kept = calloc(4 * n + 1, sizeof *run->kept);
     run->crossed = calloc(run->moving.count + 1, sizeof *run->crossed);
     run->anchor = calloc(4 * n + 1, sizeof *run->anchor);
@@ -176,11 +176,13 @@ void run_free(struct run *run)
 static bool restart(struct run *run)
 {
     memcpy(run->y, run->state->y, 2 * (size_t)run->model->plan.n * sizeof *run->y);
+    scan_forget(&run->timed);
+    scan_forget(&run->moving);
     if (!structure_is_exact(run->kind)) run_set_noise(run);
     bind_rates(run);
     watchers_follow(&run->watchers, run->during);
-    int status = switcher_reset(run->stepper, &run->system, run->state->t, run->y, run->f, run->options.until,
-                                &run->h);
+    int status = switcher_reset(run->stepper, &run->system, run_end(run), run->y, run->f,
+                                moment_at(run->options.until), &run->h);
     if (status != GSL_SUCCESS) {
         run_fail_step(run, stepper_bad_function);
         return false;
@@ -192,14 +194,12 @@ static bool restart(struct run *run)
         const struct linear_modes *modes = run->pace.now;
         if (modes && isfinite(modes->rho)) switcher_set_linear(run->stepper, modes->A, modes->rho);
     }
-    scan_forget(&run->timed);
-    scan_forget(&run->moving);
     run->restart = false;
     return true;
 }
 
 /* The next event of time alone within reach of a step, or the end of the run. */
-static double next_time(struct run *run, bool *found)
+static struct moment next_time(struct run *run, bool *found)
 {
     const double stretch = 1.02; /* the stepper may lengthen a step by 1 % to end at its limit */
     double rest = run_next_rest(run), until = fmin(run->options.until, rest);
@@ -207,8 +207,9 @@ static double next_time(struct run *run, bool *found)
     int status = scan_interval(&run->timed, run->state->t, reach);
     *found = status == 1;
     /* Where functions of time change too fast for so long a step, it goes to where they have been seen. */
-    if (status == 2 && run->timed.clear > run->state->t) return run->timed.clear;
-    return *found ? fmin(run->timed.t, until) : until;
+    if (status == 2 && run->timed.clear > run->state->t) return moment_at(run->timed.clear);
+    struct moment end = moment_at(until);
+    return *found ? moment_earlier(run_pin_timed(run), end) : end;
 }
 
 /* The time that function i of the moving set still has, by its value and rate at an event; negative when it
@@ -221,20 +222,22 @@ static double time_left(const struct run *run, size_t i)
 
 /* Go back to the event that the scan has found and improve its time: the partial step has the full accuracy
  * of the method, the dense output may have less. Newton on the function that reaches zero first; y and f are
- * left at the result. */
-static bool polish(struct run *run, double step_end, double *t)
+ * left at the result, which is at *t + *move, the move being of the size of a rounding where it has
+ * converged.
+ */
+static bool polish(struct run *run, double step_end, double *t, double *move)
 {
     enum { most_steps = 4 };
     const struct scan *scan = &run->moving;
     for (int step = 0;; step++) {
-        if (switcher_partial(run->stepper, *t, run->y, run->f) != GSL_SUCCESS) return false;
-        watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, *t, run->y, run->values,
-                          run->values + scan->count);
-        double move = HUGE_VAL;
+        if (switcher_partial(run->stepper, moment_at(*t), run->y, run->f) != GSL_SUCCESS) return false;
+        watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, moment_at(*t), run->y,
+                          run->values, run->values + scan->count);
+        *move = HUGE_VAL;
         for (size_t i = 0; i < scan->count; i++)
-            if (scan->crossed[i]) move = fmin(move, time_left(run, i));
-        double next = *t + move;
-        bool there = !(next > run->from && next < step_end) || fabs(move) <= 4 * DBL_EPSILON * fabs(next);
+            if (scan->crossed[i]) *move = fmin(*move, time_left(run, i));
+        double next = *t + *move;
+        bool there = !(next > run->from && next < step_end) || fabs(*move) <= 4 * DBL_EPSILON * fabs(next);
         if (there || step == most_steps) break;
         *t = next;
     }
@@ -264,52 +267,41 @@ static bool is_down_at_end(struct run *run, double t, double end)
 {
     double *values = run->values, *rates = values + run->moving.count;
     bool down = false;
-    if (switcher_partial(run->stepper, end, run->y, run->f) != GSL_SUCCESS) return true;
-    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, end, run->y, values, rates);
+    if (switcher_partial(run->stepper, moment_at(end), run->y, run->f) != GSL_SUCCESS) return true;
+    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, moment_at(end), run->y, values,
+                      rates);
     for (size_t i = 0; i < run->moving.count; i++) down |= run->moving.crossed[i] && values[i] < 0;
-    return switcher_partial(run->stepper, t, run->y, run->f) == GSL_SUCCESS && down;
+    return switcher_partial(run->stepper, moment_at(t), run->y, run->f) == GSL_SUCCESS && down;
 }
 
 /* Cut the step to t, where nothing happens. 0, or -1 when that fails. */
-static int cut_step(struct run *run, double t)
+static int cut_step(struct run *run, struct moment t)
 {
     return switcher_partial(run->stepper, t, run->y, run->f) == GSL_SUCCESS ? 0 : -1;
 }
 
 /* The longest share of a step that is believed when it has passed a pole: where that was is not asked. */
-static int stay_before_poles(struct run *run, double *t)
+static int stay_before_poles(struct run *run, struct moment *t)
 {
     const double share = 0.25;
-    double h = *t - run->from, cut = run->from + share * h;
+    double h = moment_since(*t, run_start(run)), cut = run->from + share * h;
     if (run->options.step > 0 || !(cut > run->from)) return 0;
-    if (!poles_passed(&run->poles, run->during, h, *t, run->y, run->f)) return 0;
-    *t = cut;
+    if (!poles_passed(&run->poles, run->during, h, t->t, run->y, run->f)) return 0;
+    *t = moment_at(cut);
     run->h = share * h;
     run->restart = true;
-    return cut_step(run, cut);
-}
-
-/* Where steps have no error, two runs of the same motion find the same number for the time of an event, and
- * share its rounding. One that is to be apart takes a neighbour, up or down by a fixed hash (perturbed last
- * bits: Vignes, Math. Comput. Simul. 35 (1993) 233). */
-static int step_aside(struct run *run, double end, double *t)
-{
-    if (!run->options.apart || !structure_is_exact(run->kind)) return 1;
-    bool up = ((uint32_t)run->event_count * UINT32_C(2654435769)) >> 31;
-    double other = nextafter(*t, up ? HUGE_VAL : 0);
-    if (!(other > run->from && other < end)) return 1;
-    return cut_step(run, *t = other) < 0 ? -1 : 1;
+    return cut_step(run, *t);
 }
 
 /* Look for the first event in (from, t] that changes the motion; on return *t is its time, with y and f
  * there. 1 found, 0 none, -1 failed. Where the event functions change so fast that the scan gives up, the
  * step is cut to what it has seen; one that is noise (it gives up at the very start) is not looked at more
  * closely. */
-static int find_change(struct run *run, double *t)
+static int find_change(struct run *run, struct moment *t)
 {
     enum { most_dips = 8 };
     const double least_share = 1e-3;
-    double start = run->from, end = *t;
+    double start = run->from, end = t->t;
     run->moving.aside = false;
     for (int dip = 0; dip < most_dips && start < end; dip++) {
         run->moving.resumed = dip > 0;
@@ -318,18 +310,18 @@ static int find_change(struct run *run, double *t)
         if (found <= 0) return found;
         if (found == 2) {
             if (run->moving.clear - run->from < least_share * (end - run->from)) return 0;
-            *t = run->moving.clear;
+            *t = moment_at(run->moving.clear);
             run->restart = true;
             return cut_step(run, *t);
         }
-        double when = run->moving.t;
+        double when = run->moving.t, move;
         if (when >= end) return 1;
-        if (!polish(run, end, &when)) return -1;
+        if (!polish(run, end, &when, &move)) return -1;
         if (goes_down(run, when, end) || is_down_at_end(run, when, end)) {
-            *t = when;
-            return step_aside(run, end, t);
+            *t = run_pin_moving(run, when, move, *t);
+            return 1;
         }
-        if (cut_step(run, end) < 0) return -1;
+        if (cut_step(run, *t) < 0) return -1;
         start = fmax(when, run->moving.t);
     }
     return 0;
@@ -338,21 +330,21 @@ static int find_change(struct run *run, double *t)
 /* Log the user events in (from, t]. They are looked for when it is known how far the step goes, and change
  * nothing in it, so that a run with them has the bits of one without. One that ends the run cuts the step: 1,
  * else 0; -1 failed. */
-static int find_told(struct run *run, double *t)
+static int find_told(struct run *run, struct moment *t)
 {
     enum { most_dips = 8 };
-    double start = run->from, end = *t;
+    double start = run->from, end = t->t;
     run->moving.aside = true;
     for (int dip = 0; dip < most_dips && start < end;) {
         run->moving.resumed = dip > 0;
         int found = scan_interval(&run->moving, start, end);
         if (found != 1) return found < 0 ? -1 : 0;
-        double when = run->moving.t;
-        if (when < end && !polish(run, end, &when)) return -1;
+        double when = run->moving.t, move = 0;
+        if (when < end && !polish(run, end, &when, &move)) return -1;
         bool passed = when >= end || goes_down(run, when, end) || is_down_at_end(run, when, end);
         if (passed && !run_tell(run, when)) {
-            *t = when;
-            return when < end ? step_aside(run, end, t) : 1;
+            if (when < end) *t = run_pin_moving(run, when, move, *t);
+            return 1;
         }
         dip += !(passed && when > start);
         start = passed ? when : fmax(when, run->moving.t);
@@ -361,7 +353,7 @@ static int find_told(struct run *run, double *t)
 }
 
 /* The first event in (from, t]: *t becomes its time, with y and f there. 1 found, 0 none, -1 failed. */
-static int find_event(struct run *run, double *t)
+static int find_event(struct run *run, struct moment *t)
 {
     size_t bytes = 2 * (size_t)run->model->plan.n * sizeof *run->y;
     course_start(&run->course);
@@ -395,13 +387,13 @@ static bool is_beyond_numbers(struct run *run, double t)
     return false;
 }
 
-static void accept(struct run *run, double t)
+static void accept(struct run *run, struct moment t)
 {
     size_t n = (size_t)run->model->plan.n;
     double *most = run->anchor + 2 * n;
-    if (is_beyond_numbers(run, t)) return;
+    if (is_beyond_numbers(run, t.t)) return;
     for (size_t i = 0; i < 2 * n; i++) most[i] = fmax(most[i], fabs(run->state->y[i]));
-    run->state->t = t;
+    state_set_moment(run->state, t);
     memcpy(run->state->y, run->y, 2 * n * sizeof *run->y);
     modes_hold(run->state);
     run_close_step(run);
@@ -415,7 +407,7 @@ static void accept(struct run *run, double t)
 static bool crawls(struct run *run)
 {
     enum { most_steps = 100 };
-    bool tiny = run->state->t - run->from <= 8 * DBL_EPSILON * fabs(run->state->t);
+    bool tiny = moment_since(run_end(run), run_start(run)) <= 8 * DBL_EPSILON * fabs(run->state->t);
     run->crawl = tiny ? run->crawl + 1 : 0;
     return run->crawl > most_steps;
 }
@@ -441,25 +433,20 @@ static void set_linear_step(struct run *run)
     if (resolved > 0) run->h = fmin(run->h, resolved);
 }
 
-/* A parabola is one step; this makes some of it, which round anew. */
-static double apart_step(const struct run *run)
-{
-    const double share = 0.3;
-    return fmin(run->h, share * run->options.until);
-}
-
 fbd_outcome run_advance(struct run *run)
 {
     if (run->outcome != FBD_GOING) return run->outcome;
     run->from = run->state->t;
+    run->from_rest = run->state->rest;
     state_copy(run->during, run->state);
     if (run->restart && !restart(run)) return run->outcome;
     if (run->crawl == 0) run->not_finite = switcher_counts(run->stepper).rejected[rejected_not_finite];
     if (run->kind == structure_linear) set_linear_step(run);
-    if (run->kind == structure_constant && run->options.apart) run->h = apart_step(run);
+    run_part_before(run);
     if (run->options.step == 0 && !heed_poles(run)) return run->outcome;
     bool timed;
-    double limit = next_time(run, &timed), t = run->from;
+    struct moment limit = next_time(run, &timed), t = run_start(run);
+    run_part_from(run, limit);
     enum stepper_status status =
         switcher_step(run->stepper, &run->system, &t, run->y, run->f, &run->h, limit);
     if (status != stepper_ok) {
@@ -481,9 +468,9 @@ fbd_outcome run_advance(struct run *run)
         return run->outcome;
     }
     if (run->outcome != FBD_GOING) return run->outcome;
-    if (run->projected) counted_system_rhs(&run->system, t, run->y, run->f);
-    timed = timed && t == limit;
-    bool at_end = t >= run->options.until;
+    if (run->projected) counted_system_rhs(&run->system, t.t, run->y, run->f);
+    timed = timed && moment_equal(t, limit);
+    bool at_end = t.t >= run->options.until;
     if (moving || timed)
         run_apply(run, timed ? run->timed.crossed : NULL, moving ? run->moving.crossed : NULL);
     else {

@@ -8,6 +8,10 @@
  * series (series.h says what that assumes); if there is one, go back to it by a partial step and polish its
  * time by Newton; apply all events of that instant; settle the modes; start the stepper anew. Between events
  * everything is smooth, so every method keeps its order.
+ *
+ * Searches run over doubles. What they find is pinned down to a moment (base/moment.h) where it is applied:
+ * within a rounding of the time every function is linear, so that its value and rate at a double next to the
+ * event tell the rest.
  */
 #ifndef FBD_SOLVE_RUN_H
 #define FBD_SOLVE_RUN_H
@@ -32,7 +36,7 @@ struct run_options {
     const struct method *method;
     bool automatic; /* switch to the stiff method and back as the motion demands */
     bool structure; /* use what the plan shows: see structure.h; with `automatic` it may choose the method */
-    bool apart;     /* where a method makes steps without error: other ones than a run without this makes */
+    bool apart;     /* a companion's: other steps than a run without this makes, where events set them */
 };
 
 /* What an impact was: impulses along normal and tangent, the work that they did, and the velocities of the
@@ -69,7 +73,7 @@ struct run {
     enum structure kind;      /* in use: general unless options.structure and options.automatic */
     struct fbd_state *state;  /* at the end of the last step, modes for what follows */
     struct fbd_state *during; /* modes of the last step; its scratch serves samples within it */
-    double from;              /* start of the last step; it ends at state->t */
+    double from, from_rest;   /* start of the last step; it ends at state->t and its rest */
     double h;                 /* step size proposed */
     double first_step;        /* the first one that was */
     double longest;           /* step to an event so far */
@@ -103,7 +107,7 @@ struct run {
     double *along;             /* n: how the accelerations change along the motion, when the noise was set */
     double *turned;            /* twice the links of the tree: see noise.c */
     unsigned long since_noise; /* steps */
-    double *values;            /* moving event functions and their rates */
+    double *values;            /* event functions of a set, their rates, the roundings of timed ones */
     double *kept;              /* 4 n: y and f while user events are looked for */
     bool *crossed;             /* moving: likewise */
     struct decided decided;
@@ -114,6 +118,8 @@ struct run {
     size_t event_count, event_room;
     double last_event; /* time of the last one; events that crowd at one instant are counted */
     int crowd;
+    struct moment event; /* the start, or when events happened last */
+    double interval[2];  /* between the last three of these; 0 where there are none */
     double *anchor; /* 4 n: the state around which events have happened lately; the largest |y_i| before the
                        last step */
     int around;     /* how many */
@@ -128,10 +134,22 @@ fbd_outcome run_advance(struct run *run);
 
 /* The state at t in [from, state->t] of the last step, with the modes of that step; evaluated (accelerations
  * are there). */
-bool run_look(struct run *run, double t, struct fbd_state *state);
+bool run_look(struct run *run, struct moment t, struct fbd_state *state);
 
 /* Only coordinates and rates there, 2 n, without evaluating anything but the dense output. */
-bool run_coordinates(struct run *run, double t, double *y);
+bool run_coordinates(struct run *run, struct moment t, double *y);
+
+/* The ends of the last step. */
+static inline struct moment run_start(const struct run *run)
+{
+    return (struct moment){run->from, run->from_rest};
+}
+
+static inline struct moment run_end(const struct run *run)
+{
+    return state_moment(run->state);
+}
+
 /* Into how many panels the last step is to be divided for Gauss's rule with five points, so that the error of
  * an integral of powers is below that of the motion. For linear systems: half a radian or a fall by 1/sqrt(e)
  * of the fastest mode each (4e-13, Abramowitz & Stegun 25.4.30). */
@@ -141,6 +159,21 @@ int run_panels(const struct run *run);
 
 /* Event functions and their scans (run_watch.c). False when memory is out. */
 bool run_make_scans(struct run *run);
+
+/* The moment of the timed events that the scan has found, those that happen at it flagged in
+ * run->timed.crossed. (run_moment.c) */
+struct moment run_pin_timed(struct run *run);
+
+/* How long it is to the next event of time alone, or to the end of the run. */
+double run_time_to_switch(struct run *run);
+
+/* Bring y with slopes f from the double t to the moment of an event that is `move` away, a few roundings at
+ * most; nothing happens where that is not within the step that ends at `end`. */
+struct moment run_pin_moving(struct run *run, double t, double move, struct moment end);
+
+/* What options.apart asks for: see run_moment.c. Before a limit is known, and when it is. */
+void run_part_before(struct run *run);
+void run_part_from(struct run *run, struct moment limit);
 
 /* Apply what has happened at run->state: `timed` and `moving` flag the functions of each set that have
  * crossed; NULL for none. Settles the modes. */

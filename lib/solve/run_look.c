@@ -15,21 +15,21 @@ int run_panels(const struct run *run)
     return (int)fmin(fmax(1, ceil(2 * span * rate)), most);
 }
 
-bool run_coordinates(struct run *run, double t, double *y)
+bool run_coordinates(struct run *run, struct moment t, double *y)
 {
-    if (t == run->state->t) {
+    if (moment_equal(t, run_end(run))) {
         memcpy(y, run->state->y, 2 * (size_t)run->model->plan.n * sizeof *y);
         return true;
     }
     if (switcher_dense(run->stepper, t, y) != GSL_SUCCESS) return false;
-    run_close_within(run, t, y);
+    run_close_within(run, t.t, y);
     return true;
 }
 
-bool run_look(struct run *run, double t, struct fbd_state *state)
+bool run_look(struct run *run, struct moment t, struct fbd_state *state)
 {
     state_copy(state, run->during);
-    state->t = t;
+    state_set_moment(state, t);
     if (!run_coordinates(run, t, state->y)) return false;
     modes_hold(state);
     state_evaluate(state);

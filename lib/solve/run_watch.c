@@ -14,7 +14,8 @@
 static int sample_timed(void *context, double t, double *values, double *rate)
 {
     struct run *run = context;
-    watchers_evaluate(&run->watchers, &run->watchers.timed, run->during, t, run->state->y, values, rate);
+    watchers_evaluate(&run->watchers, &run->watchers.timed, run->during, moment_at(t), run->state->y, values,
+                      rate);
     return 0;
 }
 
@@ -40,7 +41,7 @@ static int sample_state(struct run *run, double t, double *y)
 {
     const struct fbd_state *during = run->during;
     const struct plan *plan = &run->model->plan;
-    if (switcher_dense(run->stepper, t, y) != GSL_SUCCESS) return -1;
+    if (switcher_dense(run->stepper, moment_at(t), y) != GSL_SUCCESS) return -1;
     struct instant at = state_instant_at(during, t, y);
     double acceleration;
     for (size_t i = 0; i < plan->friction_count; i++)
@@ -54,7 +55,8 @@ static int sample_moving(void *context, double t, double *values, double *rate)
 {
     struct run *run = context;
     if (sample_state(run, t, run->sample)) return -1;
-    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, t, run->sample, values, rate);
+    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, moment_at(t), run->sample, values,
+                      rate);
     return 0;
 }
 

@@ -37,7 +37,7 @@ struct stepper {
     double rate;      /* fastest rate that dop853 has seen lately */
     bool stepped;     /* a last step stands in the following */
     struct counted_system *system;
-    double t0, t1;
+    struct moment t0, t1;
     double *y0, *f0, *y1, *f1;
     double *yerr, *work; /* n and 3 n */
     double memory[];
@@ -118,48 +118,65 @@ void stepper_free(struct stepper *s)
     free(s);
 }
 
-int stepper_reset(struct stepper *s, struct counted_system *system, double t, const double *y, double *f,
-                  double t_limit, double *h)
+int stepper_reset(struct stepper *s, struct counted_system *system, struct moment t, const double *y,
+                  double *f, struct moment t_limit, double *h)
 {
-    double room = t_limit - t;
+    double room = moment_since(t_limit, t);
     s->stepped = false;
     s->stable_h = s->rate = 0;
     if (!(room > 0)) return GSL_EINVAL;
     gsl_odeiv2_step_reset(s->step);
     if (s->redo) gsl_odeiv2_step_reset(s->redo); /* rodas5p remembers a Jacobian */
-    int code = counted_system_rhs(system, t, y, f);
+    int code = counted_system_rhs(system, t.t, y, f);
     if (code != GSL_SUCCESS) return code;
     weights_update(s->control, y, f);
     if (s->history) {
         history_clear(s->history);
-        history_add(s->history, t, y);
+        history_add(s->history, t.t, y);
     }
     if (s->h_fixed > 0 || s->method->exact) {
         *h = s->h_fixed > 0 ? s->h_fixed : fmin(room, s->h_max);
         return GSL_SUCCESS;
     }
     int first_order = s->method->multistep ? 1 : s->method->order;
-    return first_step(system, &s->layout, s->control, first_order, t, y, f, fmin(room, s->h_max), s->work, h);
+    return first_step(system, &s->layout, s->control, first_order, t.t, y, f, fmin(room, s->h_max), s->work,
+                      h);
 }
 
 /* A step to be tried. */
 struct plan {
-    double asked; /* its size before t1 was rounded: what shrinks from retry to retry */
-    double h, t1; /* its size and end */
-    bool cut;     /* t_limit had a say in it */
+    double asked;     /* its size before t1 was rounded: what shrinks from retry to retry */
+    double h;         /* its size */
+    struct moment t1; /* and end */
+    bool cut;         /* t_limit had a say in it */
 };
 
-static struct plan plan_step(const struct stepper *s, double t, double h, double t_limit)
+/* Is there room for some doubles only? Steps within a pulse between them end where they have to. */
+static bool is_between_doubles(struct moment t, double room)
 {
-    double room = t_limit - t;
+    const double roundings = 64;
+    return room <= roundings * DBL_EPSILON * fabs(t.t);
+}
+
+static struct plan plan_step(const struct stepper *s, struct moment t, double h, struct moment t_limit)
+{
+    double room = moment_since(t_limit, t);
     if (1.01 * h >= room) return (struct plan){room, room, t_limit, true};
-    if (s->h_fixed > 0) return (struct plan){h, h, t + h, false};
+    if (s->h_fixed > 0) return (struct plan){h, h, moment_at(t.t + h), false};
     bool half = 2 * h > room;
     if (half) h = room / 2;
-    double t1 = t + h;
+    if (is_between_doubles(t, room)) return (struct plan){h, h, moment_after(t, h), half};
+    struct moment t1 = moment_at(t.t + h);
     /* The size that t1 really has, so that t and the stages agree. A multistep method would rather see a
      * constant step. */
-    return (struct plan){h, s->method->multistep ? h : t1 - t, t1, half};
+    return (struct plan){h, s->method->multistep ? h : moment_since(t1, t), t1, half};
+}
+
+/* Has a step become so short that no time passes? Where there is next to no room, or t = 0, there are always
+ * shorter ones. */
+static bool is_nothing(const struct plan *plan, struct moment t, double room)
+{
+    return (!is_between_doubles(t, room) && t.t + plan->h == t.t) || plan->h < 1e-30 * room;
 }
 
 /* What became of an attempt. */
@@ -238,8 +255,8 @@ static struct outcome judge(const struct stepper *s, double h, const double *y, 
     return (struct outcome){false, finite ? rejected_iteration : rejected_not_finite, factor};
 }
 
-static void keep(struct stepper *s, struct counted_system *system, double t0, double t1, const double *y,
-                 const double *f)
+static void keep(struct stepper *s, struct counted_system *system, struct moment t0, struct moment t1,
+                 const double *y, const double *f)
 {
     s->t0 = t0;
     s->t1 = t1;
@@ -247,7 +264,7 @@ static void keep(struct stepper *s, struct counted_system *system, double t0, do
     memcpy(s->f1, f, s->n * sizeof *f);
     weights_update(s->control, y, f);
     dense_set(s->dense, s->method->order, t0, s->y0, s->f0, t1, s->y1, s->f1, &system->gsl, s->step);
-    if (s->history) history_add(s->history, t1, y);
+    if (s->history) history_add(s->history, t1.t, y);
     s->system = system;
     s->stepped = true;
     s->counts.accepted++;
@@ -269,10 +286,11 @@ static void count_rejection(struct stepper *s, enum rejection why, bool again)
     if (!again || !telling || why == rejected_rhs || why == rejected_not_finite) s->counts.last = why;
 }
 
-enum stepper_status stepper_step(struct stepper *s, struct counted_system *system, double *t, double *y,
-                                 double *f, double *h, double t_limit)
+enum stepper_status stepper_step(struct stepper *s, struct counted_system *system, struct moment *t,
+                                 double *y, double *f, double *h, struct moment t_limit)
 {
-    double t0 = *t, room = t_limit - t0;
+    struct moment t0 = *t;
+    double room = moment_since(t_limit, t0);
     if (!(room > 0) || !(*h > 0) || system->gsl.dimension != s->n) return stepper_misuse;
     if (s->method->implicit && !system->gsl.jacobian) return stepper_misuse;
     s->stepped = false;
@@ -282,14 +300,13 @@ enum stepper_status stepper_step(struct stepper *s, struct counted_system *syste
     bool rejected = false;
     for (;;) {
         struct plan plan = plan_step(s, t0, proposal, t_limit);
-        /* The second condition ends the retries at t = 0, where there is always a smaller number. */
-        if (t0 + plan.h == t0 || plan.h < 1e-30 * room) return give_up(s, y, f, stepper_underflow);
+        if (is_nothing(&plan, t0, room)) return give_up(s, y, f, stepper_underflow);
         system->last_code = GSL_SUCCESS;
-        int code = gsl_odeiv2_step_apply(s->step, t0, plan.h, y, s->yerr, s->f0, f, &system->gsl);
+        int code = gsl_odeiv2_step_apply(s->step, t0.t, plan.h, y, s->yerr, s->f0, f, &system->gsl);
         if (code == GSL_EBADFUNC) return give_up(s, y, f, stepper_bad_function);
         struct outcome outcome = code == GSL_SUCCESS ? judge(s, plan.h, y, f) : judge_failure(s, system);
         outcome = keep_stable(s, plan.h, y, outcome);
-        outcome = guard_stability(s, system, plan.h, plan.t1, y, outcome);
+        outcome = guard_stability(s, system, plan.h, plan.t1.t, y, outcome);
         if (outcome.accepted) {
             double next = plan.h * (rejected ? fmin(outcome.factor, 1) : outcome.factor);
             *h = fmin(plan.cut ? fmax(next, proposal) : next, s->h_max);
@@ -306,32 +323,45 @@ enum stepper_status stepper_step(struct stepper *s, struct counted_system *syste
 }
 
 /* The state at t of a step of the same method from the start of the last one. */
-static int redo(struct stepper *s, double t, double *y, double *f)
+static int redo(struct stepper *s, struct moment t, double *y, double *f)
 {
+    double h = moment_since(t, s->t0);
     memcpy(y, s->y0, s->n * sizeof *y);
-    return gsl_odeiv2_step_apply(s->redo, s->t0, t - s->t0, y, s->yerr, s->f0, f, &s->system->gsl);
+    return gsl_odeiv2_step_apply(s->redo, s->t0.t, h, y, s->yerr, s->f0, f, &s->system->gsl);
 }
 
 /* What the method itself says of the inside. */
-static int own_dense(struct stepper *s, double t, double *y)
+static int own_dense(struct stepper *s, struct moment t, double *y)
 {
     if (!s->method->implicit) return dense_eval(s->dense, t, y);
     if (s->step->type == step_rodas5p) {
         int code = rodas5p_dense_prepare(s->step);
-        if (code == GSL_SUCCESS) rodas5p_dense_eval(s->step, (t - s->t0) / (s->t1 - s->t0), y);
+        double share = moment_since(t, s->t0) / moment_since(s->t1, s->t0);
+        if (code == GSL_SUCCESS) rodas5p_dense_eval(s->step, share, y);
         return code;
     }
     if (!s->history) return redo(s, t, y, s->work);
-    history_eval(s->history, (int)gsl_odeiv2_step_order(s->step), t, y);
+    history_eval(s->history, (int)gsl_odeiv2_step_order(s->step), t.t, y);
     return GSL_SUCCESS;
+}
+
+/* Is there a last step, and t within? A double next to an end of it may lie a rest outside. */
+static bool find_within(const struct stepper *s, struct moment *t)
+{
+    if (!s->stepped || !(t->t >= s->t0.t && t->t <= s->t1.t)) return false;
+    if (moment_since(*t, s->t0) <= 0)
+        *t = s->t0;
+    else if (moment_since(s->t1, *t) <= 0)
+        *t = s->t1;
+    return true;
 }
 
 /* An implicit method may succeed in a step and fail in a part of it; then the ends alone have to do, as a
  * step that is accepted has an inside. */
-int stepper_dense(struct stepper *s, double t, double *y)
+int stepper_dense(struct stepper *s, struct moment t, double *y)
 {
-    if (!s->stepped || !(t >= s->t0 && t <= s->t1)) return GSL_EINVAL;
-    if (t == s->t0 || t == s->t1) return dense_eval(s->dense, t, y);
+    if (!find_within(s, &t)) return GSL_EINVAL;
+    if (moment_equal(t, s->t0) || moment_equal(t, s->t1)) return dense_eval(s->dense, t, y);
     int last_code = s->system->last_code;
     if (own_dense(s, t, y) != GSL_SUCCESS) dense_eval_plain(s->dense, t, y);
     s->system->last_code = last_code; /* no reason for what may fail later */
@@ -358,33 +388,36 @@ int stepper_degree(const struct stepper *s, double *negligible)
     return 8;
 }
 
-int stepper_partial(struct stepper *s, double t, double *y, double *f)
+int stepper_partial(struct stepper *s, struct moment t, double *y, double *f)
 {
-    if (s->stepped && (t == s->t0 || t == s->t1)) {
-        memcpy(y, t == s->t0 ? s->y0 : s->y1, s->n * sizeof *y);
-        memcpy(f, t == s->t0 ? s->f0 : s->f1, s->n * sizeof *f);
+    if (!find_within(s, &t)) return GSL_EINVAL;
+    bool start = moment_equal(t, s->t0);
+    if (start || moment_equal(t, s->t1)) {
+        memcpy(y, start ? s->y0 : s->y1, s->n * sizeof *y);
+        memcpy(f, start ? s->f0 : s->f1, s->n * sizeof *f);
         return GSL_SUCCESS;
     }
-    if (!s->stepped || !(t > s->t0 && t < s->t1)) return GSL_EINVAL;
     if (s->redo && redo(s, t, y, f) == GSL_SUCCESS && all_finite(s->n, y, f)) return GSL_SUCCESS;
     int code = stepper_dense(s, t, y);
-    return code == GSL_SUCCESS ? counted_system_rhs(s->system, t, y, f) : code;
+    return code == GSL_SUCCESS ? counted_system_rhs(s->system, t.t, y, f) : code;
 }
 
-int stepper_walk(struct stepper *s, double t, double *y, double *f)
+int stepper_walk(struct stepper *s, struct moment t, double *y, double *f)
 {
     enum { most_steps = 500 };
     const double longer = 1.5, shorter = 0.4, room = 0.1;
-    if (!s->stepped || !s->redo || !(t > s->t0 && t < s->t1)) return GSL_EINVAL;
+    if (!s->redo || !find_within(s, &t) || moment_equal(t, s->t0) || moment_equal(t, s->t1))
+        return GSL_EINVAL;
     size_t bytes = s->n * sizeof *y;
-    double *y1 = s->work, *f1 = s->work + s->n, now = s->t0, h = t - now;
+    double *y1 = s->work, *f1 = s->work + s->n, end = moment_since(t, s->t0), now = 0, h = end;
     memcpy(y, s->y0, bytes);
     memcpy(f, s->f0, bytes);
     for (int k = 0; k < most_steps && now + h > now; k++) {
-        double next = now + h < t ? now + h : t, ratio = INFINITY;
+        double next = now + h < end ? now + h : end, ratio = INFINITY;
         memcpy(y1, y, bytes);
         gsl_odeiv2_step_reset(s->redo);
-        int code = gsl_odeiv2_step_apply(s->redo, now, next - now, y1, s->yerr, f, f1, &s->system->gsl);
+        int code =
+            gsl_odeiv2_step_apply(s->redo, s->t0.t + now, next - now, y1, s->yerr, f, f1, &s->system->gsl);
         if (code == GSL_SUCCESS && all_finite(s->n, y1, f1))
             ratio = weights_ratio(s->control, next - now, y1, s->yerr, f1);
         h = ratio <= room ? longer * h : ratio <= 1 ? h : shorter * h;
@@ -392,7 +425,7 @@ int stepper_walk(struct stepper *s, double t, double *y, double *f)
         memcpy(y, y1, bytes);
         memcpy(f, f1, bytes);
         now = next;
-        if (now == t) return GSL_SUCCESS;
+        if (now == end) return GSL_SUCCESS;
     }
     return GSL_EFAILED;
 }

@@ -13,6 +13,7 @@
 #ifndef FBD_SOLVE_STEPPER_H
 #define FBD_SOLVE_STEPPER_H
 
+#include "base/moment.h"
 #include "solve/layout.h"
 #include "solve/method.h"
 #include "solve/system.h"
@@ -57,8 +58,8 @@ void stepper_free(struct stepper *stepper);
 /* Forget all steps, evaluate f = f(t, y) and choose the size *h of the first step towards t_limit (one more
  * evaluation). The scales of the error measure are kept and take in y. GSL_SUCCESS, GSL_EINVAL for t_limit
  * <= t, or the code of the right-hand side; then *h is not set. */
-int stepper_reset(struct stepper *stepper, struct counted_system *system, double t, const double *y,
-                  double *f, double t_limit, double *h);
+int stepper_reset(struct stepper *stepper, struct counted_system *system, struct moment t, const double *y,
+                  double *f, struct moment t_limit, double *h);
 
 /* Make one accepted step from (*t, y) with slopes f = f(*t, y), not beyond t_limit. On stepper_ok *t, y and
  * f are those of its end, and *h is the size proposed for the next one. On any other status *t, y and f are
@@ -66,17 +67,17 @@ int stepper_reset(struct stepper *stepper, struct counted_system *system, double
  *
  * *h is the size to try first. A step that would end within 1 % of t_limit ends there, *t == t_limit
  * exactly; one that would leave less than its own length is made half the way. Such a cut does not shrink
- * the proposal. */
-enum stepper_status stepper_step(struct stepper *stepper, struct counted_system *system, double *t, double *y,
-                                 double *f, double *h, double t_limit);
+ * the proposal. Other steps end at doubles, unless they are as short as those are apart. */
+enum stepper_status stepper_step(struct stepper *stepper, struct counted_system *system, struct moment *t,
+                                 double *y, double *f, double *h, struct moment t_limit);
 
 /* State at time t within the last accepted step, t0 <= t <= t1, bit for bit that of the step at its ends.
  * Explicit methods and msadams have the interpolants of dense.h, msbdf the polynomial of its last points
  * (history.h). Implicit one-step methods redo the step up to t: slopes are of no use over a stiff step, and
  * bsimp makes steps longer than any interpolant follows. Where that fails, the ends have to do
  * (dense_eval_plain). The system of that step is used and has to be there still. GSL_SUCCESS, or GSL_EINVAL
- * without a last step or for t outside of it. */
-int stepper_dense(struct stepper *stepper, double t, double *y);
+ * without a last step or for t outside of it, where a double next to an end counts as that. */
+int stepper_dense(struct stepper *stepper, struct moment t, double *y);
 
 /* The degree of the polynomials that stepper_dense gives; where they are none (*negligible above
  * 0), one that follows the state to that share of its size over most steps. */
@@ -85,11 +86,11 @@ int stepper_degree(const struct stepper *stepper, double *negligible);
 /* State y and slopes f at time t within the last accepted step with the full accuracy of the method:
  * one-step methods make a step from its start to t, multistep methods, and others where that fails, use
  * stepper_dense. Codes as there, or that of a right-hand side that fails at t. */
-int stepper_partial(struct stepper *stepper, double t, double *y, double *f);
+int stepper_partial(struct stepper *stepper, struct moment t, double *y, double *f);
 
 /* The same by as many steps as the tolerance asks for. GSL_EFAILED when that does not come to t, GSL_EINVAL
  * for a multistep method. The last step stays what it was. */
-int stepper_walk(struct stepper *stepper, double t, double *y, double *f);
+int stepper_walk(struct stepper *stepper, struct moment t, double *y, double *f);
 
 /* Try a step of size h from (t, y) with slopes f and throw it away: its largest error in units of what is
  * allowed (at most 1 would be accepted), infinite where it cannot be made, or by a multistep method. The last

@@ -58,8 +58,8 @@ void switcher_free(struct switcher *s)
     free(s);
 }
 
-int switcher_reset(struct switcher *s, struct counted_system *system, double t, const double *y, double *f,
-                   double t_limit, double *h)
+int switcher_reset(struct switcher *s, struct counted_system *system, struct moment t, const double *y,
+                   double *f, struct moment t_limit, double *h)
 {
     stiffness_forget(&s->stiffness);
     if (s->steppers[1]) stepper_note(s->steppers[!s->now], y, f);
@@ -76,12 +76,14 @@ static double last_rate(struct switcher *s)
 
 /* Let the other method try the step that has just been made, and go on with it if it is the better one from
  * here. */
-static enum stepper_status consider(struct switcher *s, struct counted_system *system, double t0, double t,
-                                    const double *y, double *f, double *h, double t_limit)
+static enum stepper_status consider(struct switcher *s, struct counted_system *system, struct moment t0,
+                                    struct moment t, const double *y, double *f, double *h,
+                                    struct moment t_limit)
 {
     int other = !s->now;
-    double ratio = stepper_attempt(s->steppers[other], system, t0, s->y0, s->f0, t - t0);
-    double h_rate = s->now == 1 ? (t - t0) * last_rate(s) : 0;
+    double made = moment_since(t, t0);
+    double ratio = stepper_attempt(s->steppers[other], system, t0.t, s->y0, s->f0, made);
+    double h_rate = s->now == 1 ? made * last_rate(s) : 0;
     if (!stiffness_decide(&s->stiffness, ratio, s->methods[other]->estimate_order, h_rate)) return stepper_ok;
     /* The counters of the system, not of the step, take the evaluations; a reset that fails leaves things as
      * they were. */
@@ -91,14 +93,14 @@ static enum stepper_status consider(struct switcher *s, struct counted_system *s
         return stepper_ok;
     }
     s->now = other;
-    *h = fmax(first, t - t0); /* it could have made this step at least */
+    *h = fmax(first, made); /* it could have made this step at least */
     return stepper_ok;
 }
 
-enum stepper_status switcher_step(struct switcher *s, struct counted_system *system, double *t, double *y,
-                                  double *f, double *h, double t_limit)
+enum stepper_status switcher_step(struct switcher *s, struct counted_system *system, struct moment *t,
+                                  double *y, double *f, double *h, struct moment t_limit)
 {
-    double t0 = *t;
+    struct moment t0 = *t;
     if (s->steppers[1]) {
         memcpy(s->y0, y, s->n * sizeof *y);
         memcpy(s->f0, f, s->n * sizeof *f);
@@ -107,11 +109,12 @@ enum stepper_status switcher_step(struct switcher *s, struct counted_system *sys
     s->made = s->now;
     if (status != stepper_ok || !s->steppers[1]) return status;
     stepper_note(s->steppers[!s->now], y, f);
-    if (*t < t_limit && stiffness_due(&s->stiffness)) return consider(s, system, t0, *t, y, f, h, t_limit);
+    if (moment_since(t_limit, *t) > 0 && stiffness_due(&s->stiffness))
+        return consider(s, system, t0, *t, y, f, h, t_limit);
     return status;
 }
 
-int switcher_dense(struct switcher *s, double t, double *y)
+int switcher_dense(struct switcher *s, struct moment t, double *y)
 {
     return stepper_dense(s->steppers[s->made], t, y);
 }
@@ -121,12 +124,12 @@ int switcher_degree(const struct switcher *s, double *negligible)
     return stepper_degree(s->steppers[s->made], negligible);
 }
 
-int switcher_partial(struct switcher *s, double t, double *y, double *f)
+int switcher_partial(struct switcher *s, struct moment t, double *y, double *f)
 {
     return stepper_partial(s->steppers[s->made], t, y, f);
 }
 
-int switcher_walk(struct switcher *s, double t, double *y, double *f)
+int switcher_walk(struct switcher *s, struct moment t, double *y, double *f)
 {
     return stepper_walk(s->steppers[s->made], t, y, f);
 }

@@ -16,17 +16,17 @@ struct switcher;
 struct switcher *switcher_alloc(const struct stepper_options *options, const struct method *stiff);
 void switcher_free(struct switcher *switcher);
 
-int switcher_reset(struct switcher *switcher, struct counted_system *system, double t, const double *y,
-                   double *f, double t_limit, double *h);
+int switcher_reset(struct switcher *switcher, struct counted_system *system, struct moment t, const double *y,
+                   double *f, struct moment t_limit, double *h);
 
-enum stepper_status switcher_step(struct switcher *switcher, struct counted_system *system, double *t,
-                                  double *y, double *f, double *h, double t_limit);
+enum stepper_status switcher_step(struct switcher *switcher, struct counted_system *system, struct moment *t,
+                                  double *y, double *f, double *h, struct moment t_limit);
 
 /* Of the last step, whichever method made it. */
-int switcher_dense(struct switcher *switcher, double t, double *y);
+int switcher_dense(struct switcher *switcher, struct moment t, double *y);
 int switcher_degree(const struct switcher *switcher, double *negligible);
-int switcher_partial(struct switcher *switcher, double t, double *y, double *f);
-int switcher_walk(struct switcher *switcher, double t, double *y, double *f);
+int switcher_partial(struct switcher *switcher, struct moment t, double *y, double *f);
+int switcher_walk(struct switcher *switcher, struct moment t, double *y, double *f);
 
 /* Counts of both methods together. */
 struct stepper_counts switcher_counts(const struct switcher *switcher);

@@ -132,7 +132,7 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
     size_t timed = watchers->timed.count, moving = watchers->moving.count;
     watchers->timed = (struct watcher_set){.watchers = calloc(timed + 1, sizeof(struct watcher))};
     watchers->moving = (struct watcher_set){.watchers = calloc(moving + 1, sizeof(struct watcher))};
-    watchers->scratch = calloc(4 * margins + 1, sizeof(double));
+    watchers->scratch = calloc(6 * margins + 1, sizeof(double));
     watchers->margins = calloc(2 * margins + 1, sizeof *watchers->margins);
     watchers->armed = calloc(plan->watch_count + 1, sizeof(int));
     watchers->fired = calloc(plan->watch_count + 1, sizeof(double));
@@ -171,6 +171,7 @@ void watchers_free(struct watchers *watchers)
 struct view {
     struct fbd_state *state;
     struct instant at;
+    double rest; /* of the time */
     struct direction flow;
     const double *slots, *slots_along; /* without friction */
     int friction;                      /* the pair that `now` and `along` belong to, -1 for none */
@@ -333,8 +334,9 @@ static double share_value(const struct fbd_state *state, const struct watcher *w
 static void kink_margins(const struct watchers *watchers, const struct kink *kink, const struct view *view)
 {
     double *margins = watchers->scratch, *rates = margins + 2 * kink->count;
-    expr_margins(kink->formula.expr, view->at.t, view->at.y, view->flow.dt, view->flow.dy,
-                 formula_branches(&kink->formula, &view->at), margins, rates);
+    struct moment t = {view->at.t, view->rest};
+    expr_margins(kink->formula.expr, t, view->at.y, view->flow.dt, view->flow.dy,
+                 formula_branches(&kink->formula, &view->at), margins, rates, rates + 2 * kink->count);
 }
 
 /* Does the function ask for more than the state and its rates of change, in the present modes? */
@@ -388,11 +390,13 @@ static void set_flow(struct view *view, bool forces)
 }
 
 void watchers_evaluate(const struct watchers *watchers, const struct watcher_set *set,
-                       struct fbd_state *state, double t, const double *y, double *values, double *rates)
+                       struct fbd_state *state, struct moment t, const double *y, double *values,
+                       double *rates)
 {
     const struct plan *plan = &state->model->plan;
     struct view view = {.state = state,
-                        .at = state_instant_at(state, t, y),
+                        .at = state_instant_at(state, t.t, y),
+                        .rest = t.rest,
                         .flow = {1, NULL},
                         .friction = -1};
     if (set != &watchers->timed) set_flow(&view, any_asks_forces(set, state));
@@ -441,6 +445,25 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
         }
     }
     arena_free(&view.arena);
+}
+
+void watchers_evaluate_timed(const struct watchers *watchers, struct fbd_state *state, struct moment t,
+                             double *values, double *rates, double *roundings)
+{
+    const struct watcher_set *set = &watchers->timed;
+    struct view view = {.state = state, .at = state_instant(state), .rest = t.rest, .flow = {1, NULL}};
+    view.at.t = t.t;
+    int last_kink = -1;
+    for (size_t i = 0; i < set->count; i++) {
+        const struct watcher *watcher = &set->watchers[i];
+        const struct kink *kink = &state->model->plan.kinks[watcher->index];
+        if (watcher->index != last_kink) kink_margins(watchers, kink, &view);
+        last_kink = watcher->index;
+        size_t entry = 2 * (size_t)watcher->part + (size_t)watcher->end;
+        values[i] = watchers->scratch[entry];
+        rates[i] = watchers->scratch[2 * kink->count + entry];
+        roundings[i] = watchers->scratch[4 * kink->count + entry];
+    }
 }
 
 void watchers_arm(struct watchers *watchers, struct fbd_state *state)

@@ -49,7 +49,7 @@ struct watcher_set {
 struct watchers {
     struct watcher_set timed;  /* functions of t alone */
     struct watcher_set moving; /* all others */
-    double *scratch;           /* margins and rates of one kink */
+    double *scratch;           /* margins, rates and roundings of one kink */
     struct enclosure *margins; /* the same as enclosures */
     int *armed;                /* per user event: +1 or -1, the side where it is; 0 while it sits on zero */
     double *fired;             /* per user event: when it happened last; NAN: it has not */
@@ -65,9 +65,15 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
 void watchers_free(struct watchers *watchers);
 
 /* values[count] and rates[count] (along the motion) of a set at an instant. +HUGE_VAL and 0 for what cannot
- * happen in the present modes. `state` lends its modes and scratch; (t, y) may be any point of a step. */
+ * happen in the present modes. `state` lends its modes and scratch; (t, y) may be any point of a step. Kinks
+ * read the moment, all else its double. */
 void watchers_evaluate(const struct watchers *watchers, const struct watcher_set *set,
-                       struct fbd_state *state, double t, const double *y, double *values, double *rates);
+                       struct fbd_state *state, struct moment t, const double *y, double *values,
+                       double *rates);
+
+/* The same for functions of t alone, with how near to zero each counts as zero. */
+void watchers_evaluate_timed(const struct watchers *watchers, struct fbd_state *state, struct moment t,
+                             double *values, double *rates, double *roundings);
 
 /* Are there enclosures of this function? */
 bool watchers_can_enclose(const struct fbd_model *model, const struct watcher *watcher);

@@ -62,7 +62,8 @@ static inline void start_with(struct run *run, struct scene *scene, const struct
     run->t = t;
     run->y[0] = q;
     run->y[1] = v;
-    assert_int_equal(stepper_reset(run->stepper, &run->system, t, run->y, run->f, t_limit, &run->h),
+    assert_int_equal(stepper_reset(run->stepper, &run->system, moment_at(t), run->y, run->f,
+                                   moment_at(t_limit), &run->h),
                      GSL_SUCCESS);
 }
 
@@ -75,7 +76,12 @@ static inline void start(struct run *run, struct scene *scene, const struct meth
 
 static inline enum stepper_status step(struct run *run, double t_limit)
 {
-    return stepper_step(run->stepper, &run->system, &run->t, run->y, run->f, &run->h, t_limit);
+    struct moment t = moment_at(run->t);
+    enum stepper_status status =
+        stepper_step(run->stepper, &run->system, &t, run->y, run->f, &run->h, moment_at(t_limit));
+    assert_true(t.rest == 0);
+    run->t = t.t;
+    return status;
 }
 
 static inline void run_to(struct run *run, double t_limit)

@@ -34,9 +34,9 @@ static void every_method_reaches_its_accuracy_at_the_ends_and_within(void **stat
             ends = fmax(ends, deviation(run.y, run.t));
             for (int k = 1; k < 4; k++) {
                 double t = t0 + (run.t - t0) * k / 4;
-                assert_int_equal(stepper_dense(run.stepper, t, y), GSL_SUCCESS);
+                assert_int_equal(stepper_dense(run.stepper, moment_at(t), y), GSL_SUCCESS);
                 within = fmax(within, deviation(y, t));
-                assert_int_equal(stepper_partial(run.stepper, t, y, f), GSL_SUCCESS);
+                assert_int_equal(stepper_partial(run.stepper, moment_at(t), y, f), GSL_SUCCESS);
                 partial = fmax(partial, deviation(y, t));
                 assert_true(f[0] == y[1]);
             }
@@ -86,9 +86,10 @@ static void a_pendulum_keeps_its_energy(void **state)
                                           .layout = {1, 0, angle},
                                           .tolerance = tolerance_for(method_at(m))};
         struct stepper *stepper = stepper_alloc(&options);
-        double t = 0, h, y[2] = {2, 0}, f[2];
-        assert_int_equal(stepper_reset(stepper, &system, t, y, f, 10, &h), GSL_SUCCESS);
-        while (t < 10) assert_int_equal(stepper_step(stepper, &system, &t, y, f, &h, 10), stepper_ok);
+        struct moment t = moment_at(0), end = moment_at(10);
+        double h, y[2] = {2, 0}, f[2];
+        assert_int_equal(stepper_reset(stepper, &system, t, y, f, end, &h), GSL_SUCCESS);
+        while (t.t < 10) assert_int_equal(stepper_step(stepper, &system, &t, y, f, &h, end), stepper_ok);
         double gain = y[1] * y[1] / 2 - 9.81 * (cos(y[0]) - cos(2));
         unsigned long steps = stepper_get_counts(stepper)->accepted;
         assert_true(fabs(gain) < 40 * options.tolerance * (double)steps);
@@ -109,14 +110,17 @@ static void multistep_methods_go_on_after_a_reset(void **state)
             /* An impact: to another solution and, after the next reset, back. */
             run.y[1] += i % 2 ? 1 : 0;
             double q = forced_q(run.t), v = forced_v(run.t);
-            assert_int_equal(stepper_reset(run.stepper, &run.system, run.t, run.y, run.f, 20, &run.h),
+            assert_int_equal(stepper_reset(run.stepper, &run.system, moment_at(run.t), run.y, run.f,
+                                           moment_at(20), &run.h),
                              GSL_SUCCESS);
             if (i % 2 == 0) {
                 /* One period of time 1 of the kicked oscillator: dq = sin 1, dv = cos 1. */
                 assert_true(fabs(run.y[0] - q - sin(1)) < 1e-5 && fabs(run.y[1] - v - cos(1)) < 1e-5);
                 run.y[0] = q;
                 run.y[1] = v;
-                assert_int_equal(stepper_reset(run.stepper, &run.system, run.t, run.y, run.f, 20, &run.h), 0);
+                assert_int_equal(stepper_reset(run.stepper, &run.system, moment_at(run.t), run.y, run.f,
+                                               moment_at(20), &run.h),
+                                 0);
             }
         }
         stepper_free(run.stepper);
@@ -265,14 +269,16 @@ static void looking_into_steps_changes_none(void **state)
             assert_true(quiet.t == watched.t && quiet.h == watched.h);
             assert_memory_equal(quiet.y, watched.y, sizeof quiet.y);
             for (int k = 0; k <= 4; k++) {
-                assert_int_equal(stepper_dense(watched.stepper, t0 + (watched.t - t0) * k / 4, y),
+                assert_int_equal(stepper_dense(watched.stepper, moment_at(t0 + (watched.t - t0) * k / 4), y),
                                  GSL_SUCCESS);
-                assert_int_equal(stepper_partial(watched.stepper, t0 + (watched.t - t0) * k / 4, y, f),
+                assert_int_equal(stepper_partial(watched.stepper, moment_at(t0 + (watched.t - t0) * k / 4), y,
+                                                 f),
                                  GSL_SUCCESS);
             }
             assert_memory_equal(y, watched.y, sizeof y);
             assert_memory_equal(f, watched.f, sizeof f);
-            assert_int_equal(stepper_dense(watched.stepper, nextafter(watched.t, 1e9), y), GSL_EINVAL);
+            assert_int_equal(stepper_dense(watched.stepper, moment_at(nextafter(watched.t, 1e9)), y),
+                             GSL_EINVAL);
         }
         stepper_free(quiet.stepper);
         stepper_free(watched.stepper);

@@ -82,7 +82,7 @@ static void trouble_leaves_the_state_bit_for_bit(void **state)
                 assert_int_equal(stepper_get_counts(run.stepper)->last, cases[c].why);
                 assert_true(1 - t < 1e-10); /* as near as the numbers allow */
             }
-            assert_int_equal(stepper_dense(run.stepper, t, y), GSL_EINVAL);
+            assert_int_equal(stepper_dense(run.stepper, moment_at(t), y), GSL_EINVAL);
             stepper_free(run.stepper);
         }
     }
@@ -116,13 +116,14 @@ static void a_blow_up_ends_in_underflow_at_its_time(void **state)
                                           .layout = {.extra = 1},
                                           .tolerance = 1e-9};
         struct stepper *stepper = stepper_alloc(&options);
-        double t = 0, h, y = 1, f, before = 1;
-        assert_int_equal(stepper_reset(stepper, &system, t, &y, &f, 2, &h), GSL_SUCCESS);
+        struct moment t = moment_at(0), end = moment_at(2);
+        double h, y = 1, f, before = 1;
+        assert_int_equal(stepper_reset(stepper, &system, t, &y, &f, end, &h), GSL_SUCCESS);
         enum stepper_status status;
-        while ((status = stepper_step(stepper, &system, &t, &y, &f, &h, 2)) == stepper_ok) before = y;
+        while ((status = stepper_step(stepper, &system, &t, &y, &f, &h, end)) == stepper_ok) before = y;
         assert_int_equal(status, stepper_underflow);
         assert_true(y == before && isfinite(y) && y > 1e6);
-        assert_true(fabs(t - 1) < 1e-6);
+        assert_true(fabs(t.t - 1) < 1e-6);
         stepper_free(stepper);
     }
 }
@@ -188,7 +189,7 @@ static void stiff_steps_can_be_looked_into(void **state)
             ends = fmax(ends, fabs(run.y[0] - cos(2 * (run.t - 2e-4))));
             for (int k = 1; k < 8; k++) {
                 double t = t0 + (run.t - t0) * k / 8;
-                assert_int_equal(stepper_dense(run.stepper, t, y), GSL_SUCCESS);
+                assert_int_equal(stepper_dense(run.stepper, moment_at(t), y), GSL_SUCCESS);
                 within = fmax(within, fabs(y[0] - cos(2 * (t - 2e-4))));
             }
         }
@@ -206,13 +207,15 @@ static void misuse_is_refused(void **state)
     struct run run;
     start(&run, &scene, method_find("dop853"), 1e-6, 1, 0, 1);
     double y[2], f[2];
-    assert_int_equal(stepper_dense(run.stepper, 0, y), GSL_EINVAL);
-    assert_int_equal(stepper_partial(run.stepper, 0, y, f), GSL_EINVAL);
+    assert_int_equal(stepper_dense(run.stepper, moment_at(0), y), GSL_EINVAL);
+    assert_int_equal(stepper_partial(run.stepper, moment_at(0), y, f), GSL_EINVAL);
     assert_int_equal(step(&run, 0), stepper_misuse);
     assert_int_equal(step(&run, -1), stepper_misuse);
     run.h = NAN;
     assert_int_equal(step(&run, 1), stepper_misuse);
-    assert_int_equal(stepper_reset(run.stepper, &run.system, 1, run.y, run.f, 1, &run.h), GSL_EINVAL);
+    assert_int_equal(stepper_reset(run.stepper, &run.system, moment_at(1), run.y, run.f, moment_at(1),
+                                   &run.h),
+                     GSL_EINVAL);
     stepper_free(run.stepper);
 
     start(&run, &scene, method_find("msbdf"), 1e-6, 1, 0, 1);
