@@ -100,6 +100,21 @@ verify: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	$(or $(wildcard /usr/bin/python3),python3) tests/verify/verify.py $(BUILD)
 
+# The table of error bars of random scenes that are rich in events (docs/error-bars.md); takes some minutes.
+event-bars: $(BUILD)/.tests
+	ninja -C $(BUILD) tests/bench/validate_event_bars
+	$(BUILD)/tests/bench/validate_event_bars 400 21
+
+# Short pulses and phases late in a run, 10,000 random scenes each, and a million switches.
+late-times: $(BUILD)/.tests
+	ninja -C $(BUILD) tests/unit/test_late_times
+	FBD_LATE_SCENES=10000 FBD_MANY_SWITCHES=1000000 $(BUILD)/tests/unit/test_late_times
+
+# The implicit methods beside GSL's own; takes some minutes.
+implicit: $(BUILD)/.tests
+	ninja -C $(BUILD) tests/bench/bench_implicit
+	$(BUILD)/tests/bench/bench_implicit models/*/*.yaml
+
 # Every allocation and every call on a file of some seventy command lines fails in turn; takes some minutes. The
 # tests do the same with fewer of them.
 failures: $(BUILD)/.tests
@@ -159,5 +174,5 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars events impacts failures gallery check-format format lint install clean
+.PHONY: all run test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars event-bars events late-times implicit impacts failures gallery check-format format lint install clean
 .SECONDARY:

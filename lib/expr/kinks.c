@@ -228,7 +228,7 @@ void expr_switchings(const struct expr *expr, double t, const double *y, double 
     struct motion motion;
     struct switchings context = {u, rates, rounding};
     for (size_t k = 0; k < expr->switches; k++) u[k] = rates[k] = rounding[k] = (double)NAN;
-    load(expr, t, y, dt, dy, &motion);
+    load(expr, moment_at(t), y, dt, dy, DBL_EPSILON, &motion);
     run(expr, branch, &motion, note_switching, &context);
 }
 

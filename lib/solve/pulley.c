@@ -33,21 +33,21 @@ static bool is_taut(const struct run *run, const struct tie *tie)
 }
 
 /* Cut the step back to where the rope is just still on its pulley: halved as long as numbers can tell. */
-static bool cut_step(struct run *run, int tie, double *t)
+static bool cut_step(struct run *run, int tie, struct moment *t)
 {
-    double on = run->from, off = *t;
+    double on = run->from, off = t->t;
     for (double middle = on + (off - on) / 2; middle > on && middle < off; middle = on + (off - on) / 2) {
-        if (switcher_partial(run->stepper, middle, run->y, run->f) != 0) return false;
+        if (switcher_partial(run->stepper, moment_at(middle), run->y, run->f) != 0) return false;
         if (is_off(wrap_now(run, tie)))
             off = middle;
         else
             on = middle;
     }
-    *t = on > run->from ? on : off;
+    *t = moment_at(on > run->from ? on : off);
     return switcher_partial(run->stepper, *t, run->y, run->f) == 0;
 }
 
-void run_watch_pulleys(struct run *run, double *t)
+void run_watch_pulleys(struct run *run, struct moment *t)
 {
     const struct fbd_model *model = run->model;
     const struct tree *tree = model->tree;
@@ -59,6 +59,6 @@ void run_watch_pulleys(struct run *run, double *t)
             run, FBD_BROKEN,
             "at t = %.9g the rope `%s` comes off its pulley `%s`: its two sides are one straight line there. "
             "End the run before, by an event, or let the rope run past the pulley",
-            *t, tie->name, model->bodies[tie->end[tie->end_count - 1].body].name);
+            t->t, tie->name, model->bodies[tie->end[tie->end_count - 1].body].name);
     }
 }

@@ -209,6 +209,7 @@ static struct moment next_time(struct run *run, bool *found)
     /* Where functions of time change too fast for so long a step, it goes to where they have been seen. */
     if (status == 2 && run->timed.clear > run->state->t) return moment_at(run->timed.clear);
     struct moment end = moment_at(until);
+    if (moment_since(end, run_end(run)) <= 0) end.t = nextafter(end.t, HUGE_VAL); /* rests in no time */
     return *found ? moment_earlier(run_pin_timed(run), end) : end;
 }
 
@@ -357,7 +358,7 @@ static int find_event(struct run *run, struct moment *t)
 {
     size_t bytes = 2 * (size_t)run->model->plan.n * sizeof *run->y;
     course_start(&run->course);
-    run_wake_contacts(run, *t);
+    run_wake_contacts(run, t->t);
     int change = find_change(run, t);
     if (change < 0 || run->model->plan.watch_count == 0) return change;
     memcpy(run->kept, run->y, bytes);

@@ -190,7 +190,7 @@ void run_check_balance(struct run *run);
 
 /* Where a taut rope comes off a pulley within the step that ends at *t, cut the step there and end the run.
  */
-void run_watch_pulleys(struct run *run, double *t);
+void run_watch_pulleys(struct run *run, struct moment *t);
 
 /* Has the step that ends at run->y been brought back so far that its method has to start anew? */
 bool run_has_gone_astray(const struct run *run);

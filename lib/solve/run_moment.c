@@ -10,6 +10,15 @@
 /* What a double may be away from a zero that has been searched for, in roundings. */
 static const double near = 64;
 
+/* A moment before the end of the run, that the double next to it may be: what is told of it has to come
+ * before. */
+static struct moment before_end(struct moment t, double until)
+{
+    if (t.t < until) return t;
+    double before = nextafter(until, -HUGE_VAL);
+    return (struct moment){before, moment_since(t, moment_at(before))};
+}
+
 /* The first moment after this one: what happens where a step begins has to wait for time to pass. */
 static struct moment at_once(struct moment start)
 {
@@ -33,14 +42,14 @@ struct moment run_pin_timed(struct run *run)
         if (!(fabs(move) <= near * DBL_EPSILON * fabs(scan->t))) break;
         struct moment next = moment_after(t, move);
         if (moment_since(next, start) <= 0) next = at_once(start);
-        if (next.t >= run->options.until) return moment_at(run->options.until);
         t = next;
     }
+    if (moment_since(moment_at(run->options.until), t) <= 0) t = moment_at(run->options.until);
     /* Those that are zero at the same moment, to the rounding of their values, happen together. */
     watchers_evaluate_timed(&run->watchers, run->during, t, values, rates, roundings);
     for (size_t i = 0; i < scan->count; i++)
         if (scan->crossed[i] && rates[i] < 0 && values[i] > roundings[i]) scan->crossed[i] = false;
-    return t;
+    return t.t == run->options.until && t.rest == 0 ? t : before_end(t, run->options.until);
 }
 
 double run_time_to_switch(struct run *run)
@@ -54,11 +63,11 @@ double run_time_to_switch(struct run *run)
 struct moment run_pin_moving(struct run *run, double t, double move, struct moment end)
 {
     struct moment there = moment_after(moment_at(t), move);
-    bool is_near = fabs(move) <= near * DBL_EPSILON * fabs(t) && there.t < run->options.until;
+    bool is_near = fabs(move) <= near * DBL_EPSILON * fabs(t);
     if (!is_near || !(moment_since(there, run_start(run)) > 0 && moment_since(end, there) > 0))
         return moment_at(t);
     for (size_t i = 0; i < 2 * (size_t)run->model->plan.n; i++) run->y[i] += move * run->f[i];
-    return there;
+    return before_end(there, run->options.until);
 }
 
 /* ---- apart

@@ -183,11 +183,56 @@ static void waves_keep_their_phase_late_in_a_run(void **unused)
     assert_int_equal(wrong, 0);
 }
 
+/* ---- many switches: FBD_MANY_SWITCHES of them (`make late-times`: a million) */
+
+/* Up and down by a square wave, v = a p or a (T - p), in each period of which x grows by a T^2/4. */
+static void a_block_is_where_many_switches_have_brought_it(void **unused)
+{
+    (void)unused;
+    const long double T = (long double)0.7, a = (long double)1.1 / 3;
+    double until = (double)number_from("FBD_MANY_SWITCHES", 20000) * 0.35 + 0.1;
+    char text[text_size];
+    snprintf(text, sizeof text,
+             "fbd: 1\nbodies:\n  b: {mass: 3, motion: slide, forces: [applied: {name: u, value: "
+             "\"1.1[N]*square(t/0.7[s])\"}]}\nsimulate: {until: %.17g s}\n",
+             until);
+    long double n = floorl((long double)until / T), p = (long double)until - n * T, rest = T - p;
+    bool rises = p < T / 2;
+    long double x = n * a * T * T / 4 + (rises ? a * p * p / 2 : a * T * T / 4 - a * rest * rest / 2);
+    struct end got = end_of(text);
+    assert_true(near("v", got.v, (double)(rises ? a * p : a * rest), 1e-12, text));
+    assert_true(near("x", got.x, (double)x, 1e-12 * (double)x, text));
+}
+
+/* Each half period of the wave turns the state about +1 or -1 by half a radian. */
+static void an_oscillator_is_where_many_switches_have_brought_it(void **unused)
+{
+    (void)unused;
+    uint64_t switches = number_from("FBD_MANY_SWITCHES", 20000);
+    char text[text_size];
+    snprintf(
+        text, sizeof text,
+        "fbd: 1\nbodies:\n  b: {mass: 1, motion: slide, forces: [spring: {stiffness: 1}, applied: {name: u, "
+        "value: \"1[N]*square(t/1[s])\"}]}\nsimulate: {until: %.17g s}\n",
+        0.5 * (double)switches);
+    const long double c = cosl(0.5L), s = sinl(0.5L);
+    long double x = 0, v = 0, F = 1;
+    for (uint64_t k = 0; k < switches; k++, F = -F) {
+        long double d = x - F;
+        x = F + d * c + v * s;
+        v = v * c - d * s;
+    }
+    struct end got = end_of(text);
+    assert_true(near("x", got.x, (double)x, 1e-12, text) & near("v", got.v, (double)v, 1e-12, text));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(short_pulses_are_whole_late_in_a_run),
         cmocka_unit_test(waves_keep_their_phase_late_in_a_run),
+        cmocka_unit_test(a_block_is_where_many_switches_have_brought_it),
+        cmocka_unit_test(an_oscillator_is_where_many_switches_have_brought_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
