@@ -53,8 +53,8 @@ enum { no_feature = -1 };
 /* Set what the ties keep, from where the links are. */
 void constraints_start(const struct fbd_model *model, const struct instant *at);
 
-/* Put the tie of a contact to a feature of its meeting (or to none), as the links are. */
-void tie_set_feature(const struct fbd_model *model, struct tree_work *work, int tie, int feature);
+/* Put tie `index`, of a contact, to a feature of its meeting (or to none), as the links are. */
+void tie_set_feature(const struct fbd_model *model, struct tree_work *work, int index, int feature);
 
 /* The velocity of a rolling or rubbing body's point of contact against its line, and its acceleration; after
  * accelerations() at the instant. A velocity within rounding of zero is zero. */
@@ -64,7 +64,7 @@ struct slip_rate {
 };
 
 /* The velocity alone, from where the links are and how they move; `varied`: and how it varies with them. */
-struct slip_rate tie_slip(const struct fbd_model *model, const struct instant *at, int tie, bool varied);
+struct slip_rate tie_slip(const struct fbd_model *model, const struct instant *at, int index, bool varied);
 
 double tie_slip_acceleration(const struct fbd_model *model, const struct instant *at, int tie);
 
@@ -83,14 +83,14 @@ struct one_sided one_sided_at(const struct fbd_model *model, const struct instan
 
 /* The first place of a rope's way after which it has none to the next: a point on or within the rim of the
  * pulley beside it, or two pulleys between which it crosses and which overlap; -1 without one. */
-int rope_blocked_at(const struct fbd_model *model, const struct tree_work *work, int tie);
+int rope_blocked_at(const struct fbd_model *model, const struct tree_work *work, int index);
 
 /* Does the rope of a tie go on beyond the pulley at its end, as the next tie? */
-bool rope_goes_on(const struct tree *tree, int tie);
+bool rope_goes_on(const struct tree *tree, int index);
 
 /* The angle by which such a rope lies on the pulley, from where one piece reaches it to where the next leaves
  * it [rad]; negative where it would have to pull the pulley along. Modulo a turn, between -pi and pi. */
-double rope_wrap(const struct fbd_model *model, const struct tree_work *work, int tie);
+double rope_wrap(const struct fbd_model *model, const struct tree_work *work, int index);
 
 /* A body that has slipped rolls, or sticks, on from where it is. */
 void tie_rezero(const struct fbd_model *model, struct tree_work *work, int tie);

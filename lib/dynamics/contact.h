@@ -20,40 +20,40 @@ struct gap {
     int feature;
 };
 
-/* Of one feature. */
-struct gap feature_gap(const struct fbd_model *model, const struct tree_work *work, int meeting, int feature);
+/* Of one feature of the meeting `index`, as all that follows. */
+struct gap feature_gap(const struct fbd_model *model, const struct tree_work *work, int index, int feature);
 
 /* Where the moving point of a feature is along its side, from 0 to `length`; circles: nothing. */
 struct place_on_side {
     double foot, rate, length;
 };
-struct place_on_side feature_foot(const struct fbd_model *model, const struct tree_work *work, int meeting,
+struct place_on_side feature_foot(const struct fbd_model *model, const struct tree_work *work, int index,
                                   int feature);
 
 /* What a probe of the meeting sees: a function of the motion that reaches zero with a feature that is not
  * there yet. HUGE_VAL where the ones that are there leave none. `slip` are the modes. */
-struct gap meeting_probe(const struct fbd_model *model, const struct instant *at, int meeting, int probe);
+struct gap meeting_probe(const struct fbd_model *model, const struct instant *at, int index, int probe);
 
 /* The features within `near` of touching that two shapes can have at a time; returns their number. Of more on
  * one side the outermost. */
-int meeting_touching(const struct fbd_model *model, const struct tree_work *work, int meeting, double near,
+int meeting_touching(const struct fbd_model *model, const struct tree_work *work, int index, double near,
                      int features[2]);
 
 /* How far features are apart that count as touching: the rounding of the places that they are made of. */
-double meeting_near(const struct fbd_model *model, const struct tree_work *work, int meeting);
+double meeting_near(const struct fbd_model *model, const struct tree_work *work, int index);
 
 /* How far apart the circles round both shapes are, and how fast they move against each other. */
 struct distance {
     double apart, speed;
 };
-struct distance meeting_distance(const struct fbd_model *model, const struct tree_work *work, int meeting);
+struct distance meeting_distance(const struct fbd_model *model, const struct tree_work *work, int index);
 
 /* What a gap may be off by. */
-double meeting_rounding(const struct fbd_model *model, const struct tree_work *work, int meeting);
+double meeting_rounding(const struct fbd_model *model, const struct tree_work *work, int index);
 
 /* A closed feature may end at an edge: a function for each of two ends that is positive until it does;
  * HUGE_VAL without. */
-struct gap feature_end(const struct fbd_model *model, const struct tree_work *work, int meeting, int feature,
+struct gap feature_end(const struct fbd_model *model, const struct tree_work *work, int index, int feature,
                        int end);
 
 /* A force that is nothing where two bodies touch: a rounding of their weights. What only just touches is not
@@ -64,8 +64,7 @@ double contact_slack(const struct fbd_model *model, int tie);
 bool tie_is_closed(const struct fbd_model *model, const struct instant *at, int tie);
 
 /* Where a feature is, in the world. */
-struct vec feature_place(const struct fbd_model *model, const struct tree_work *work, int meeting,
-                         int feature);
+struct vec feature_place(const struct fbd_model *model, const struct tree_work *work, int index, int feature);
 
 /* Close what touches and rests on each other at the start, and open all else. */
 void contacts_start(struct fbd_state *state);

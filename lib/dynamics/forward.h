@@ -21,7 +21,7 @@ void force_balance_along(const struct fbd_model *model, const struct instant *gi
 
 /* a[n] at an instant. On return slots[plan.slots] hold the generalized forces with kinetic friction included
  * (a sticking coordinate's slot has none) and the sums across slides. */
-void accelerations(const struct fbd_model *model, const struct instant *given, double *slots, double *a);
+void accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a);
 
 /* The same with the shares of switches that are slid on as they are (sliding.h). */
 void accelerations_at_shares(const struct fbd_model *model, const struct instant *given, double *slots,
@@ -37,9 +37,8 @@ void body_accelerations(const struct fbd_model *model, int b, const struct insta
 
 /* The variation of the accelerations along a direction. `slots` and `slots_along` (plan.slots each) are
  * scratch. */
-void accelerations_along(const struct fbd_model *model, const struct instant *given,
-                         const struct direction *direction, double *slots, double *slots_along,
-                         double *a_along);
+void accelerations_along(const struct fbd_model *model, const struct instant *at,
+                         const struct direction *along, double *slots, double *slots_along, double *a_along);
 
 /* dydt[2 n] for an integrator. A sticking coordinate moves with its surface. */
 void state_rates(const struct fbd_model *model, const struct instant *at, double *slots, double *dydt);

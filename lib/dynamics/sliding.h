@@ -71,11 +71,11 @@ void sliding_solve(const struct fbd_model *model, const struct instant *at);
 void sliding_clear_rounding(const struct sliding *sliding, int n, double *a);
 
 /* The variations of the shares along a direction, after sliding_solve at the instant. */
-void sliding_solve_along(const struct fbd_model *model, const struct instant *at,
-                         const struct direction *along);
+void sliding_solve_along(const struct fbd_model *model, const struct instant *given,
+                         const struct direction *direction);
 
 /* The rates of the surfaces, one for each unit, along (dt, dy); dy has 2 n. */
-void sliding_rates(const struct fbd_model *model, const struct instant *at, double dt, const double *dy,
+void sliding_rates(const struct fbd_model *model, const struct instant *given, double dt, const double *dy,
                    double *rates);
 
 struct fbd_state;

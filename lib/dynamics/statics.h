@@ -25,7 +25,7 @@ bool rest_begin(struct fbd_state *state);
 /* The forces at rest with these multipliers (row_count of them), with all loads or without any: sets F of the
  * links, lambda of the rows, and slots[plan.slots] as friction_at and diagram_fill expect them; and Q[n],
  * what is left along each coordinate. */
-void rest_forces(const struct fbd_model *model, const struct instant *at, const double *lambda, bool loads,
+void rest_forces(const struct fbd_model *model, const struct instant *given, const double *lambda, bool loads,
                  double *slots, double *Q);
 
 /* Is the coordinate held by dry friction that sticks, or by a drive? By index of the pair, or -1. */

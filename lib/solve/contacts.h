@@ -70,8 +70,8 @@ void run_check_overlap(struct run *run);
 
 /* ---- for bounces.c */
 
-/* Give the ties of a meeting the features that touch within `near`. */
-void contacts_find_touching(struct run *run, int meeting, double near);
+/* Give the ties of meeting `index` the features that touch within `near`. */
+void contacts_find_touching(struct run *run, int index, double near);
 
 /* All contacts that touch, and ropes that are taut; returns their number. */
 int contacts_find_strikers(struct run *run);
