@@ -27,24 +27,30 @@ static double add_impulses(const struct impacts *impacts, const double *P, doubl
 static double normal_work(const struct impacts *impacts, const double *P, const double *before,
                           const double *after, int point)
 {
+    int row = 2 * point;
     (void)impacts;
-    return P[2 * point] * (before[2 * point] + after[2 * point]) / 2;
+    return P[row] * (before[row] + after[row]) / 2;
 }
 
 /* ---- one after the other */
 
 static int fastest(const struct impacts *impacts, double least)
 {
+    double most = -least;
     int best = -1;
-    for (int i = 0; i < impacts->count; i++)
-        if (impacts->v[2 * i] < -least && (best < 0 || impacts->v[2 * i] < impacts->v[2 * best])) best = i;
+    for (int i = 0; i < impacts->count; i++) {
+        double v = impacts->v[(ptrdiff_t)2 * i];
+        if (!(v < most)) continue;
+        most = v;
+        best = i;
+    }
     return best;
 }
 
 static struct impact_point alone(const struct impacts *impacts, int i)
 {
-    int n = 2 * impacts->count;
-    const double *W = impacts->W + 2 * i * n + 2 * i;
+    int n = 2 * impacts->count, row = 2 * i;
+    const double *W = &impacts->W[row * n + row];
     return (struct impact_point){{W[0], W[1], W[n + 1]},
                                  impacts->points[i].mu,
                                  impacts->points[i].e,
@@ -54,15 +60,15 @@ static struct impact_point alone(const struct impacts *impacts, int i)
 /* The impact of point i; others feel it. */
 static void strike(struct impacts *impacts, int i)
 {
-    int n = 2 * impacts->count;
+    int n = 2 * impacts->count, row = 2 * i;
     struct impact_point point = alone(impacts, i);
-    struct impact impact = impact_at_point(&point, impacts->v[2 * i], impacts->v[2 * i + 1]);
+    struct impact impact = impact_at_point(&point, impacts->v[row], impacts->v[row + 1]);
     for (int k = 0; k < n; k++)
-        impacts->v[k] += impacts->W[k * n + 2 * i] * impact.p + impacts->W[k * n + 2 * i + 1] * impact.tau;
-    impacts->v[2 * i] = impact.v_n; /* to the digit */
-    impacts->v[2 * i + 1] = impact.v_t;
-    impacts->P[2 * i] += impact.p;
-    impacts->P[2 * i + 1] += impact.tau;
+        impacts->v[k] += impacts->W[k * n + row] * impact.p + impacts->W[k * n + row + 1] * impact.tau;
+    impacts->v[row] = impact.v_n; /* to the digit */
+    impacts->v[row + 1] = impact.v_t;
+    impacts->P[row] += impact.p;
+    impacts->P[row + 1] += impact.tau;
     impacts->work += impact.work;
 }
 
@@ -81,8 +87,8 @@ static enum impacts_end propagate(struct impacts *impacts)
     for (int round = 0; round < most_rounds; round++) {
         int i = fastest(impacts, least);
         if (i < 0) {
-            for (int k = 0; k < impacts->count; k++)
-                if (fabs(impacts->v[2 * k]) <= least) impacts->v[2 * k] = 0;
+            for (int row = 0; row < 2 * impacts->count; row += 2)
+                if (fabs(impacts->v[row]) <= least) impacts->v[row] = 0;
             return impacts_done;
         }
         strike(impacts, i);
@@ -189,9 +195,10 @@ static enum impacts_end restore(struct together *together, double share)
     int count = impacts->count, n = 2 * count;
     double *given = together->more;
     for (int i = 0; i < count; i++) {
-        given[2 * i] = share * impacts->points[i].e * together->P[2 * i];
-        given[2 * i + 1] = 0;
-        together->problem.guides[i].free = given[2 * i];
+        int row = 2 * i;
+        given[row] = share * impacts->points[i].e * together->P[row];
+        given[row + 1] = 0;
+        together->problem.guides[i].free = given[row];
     }
     memcpy(together->v, together->compressed, (size_t)n * sizeof *together->v);
     add_impulses(impacts, given, together->v);
@@ -244,7 +251,7 @@ static enum impacts_end restore_by_law(struct together *together)
     const double rounding = 1e-13;
     const struct impacts *impacts = together->impacts;
     double size = 0, low = 0, high = 1;
-    for (int i = 0; i < impacts->count; i++) size += fabs(together->P[2 * i] * impacts->v[2 * i]);
+    for (int row = 0; row < 2 * impacts->count; row += 2) size += fabs(together->P[row] * impacts->v[row]);
     enum impacts_end end = restore(together, 1);
     bool stronge = impacts->law == impact_stronge;
     if (end != impacts_done || fabs(surplus(together)) <= rounding * size) return end;
@@ -342,8 +349,8 @@ static enum impacts_end solve_whole(struct impacts *impacts)
 static enum impacts_end solve_part(struct impacts *all, const int *member, int count, double *room)
 {
     int n = 2 * count, of = 2 * all->count;
-    double *W = room, *v = W + n * n, *P = v + n;
-    struct impacts_point *points = calloc((size_t)count, sizeof *points);
+    double *W = room, *v = W + (size_t)n * (size_t)n, *P = v + n;
+    struct impacts_point *points = calloc((size_t)count + 1, sizeof *points);
     bool closes = false;
     if (!points) return impacts_no_memory;
     for (int i = 0; i < n; i++) {

@@ -77,10 +77,10 @@ static void remember(struct bounces *bounces, double t, int feature)
 /* The largest speed with which a meeting's features open after an impact. */
 static double leaving_speed(const struct run *run, int meeting, int count)
 {
+    const double *v = run->contacts.v;
     double most = 0;
-    for (int i = 0; i < count; i++)
-        if (tree_of(run)->ties[run->contacts.strikers[i].tie].meeting == meeting)
-            most = fmax(most, run->contacts.v[2 * i]);
+    for (int i = 0; i < count; i++, v += 2)
+        if (tree_of(run)->ties[run->contacts.strikers[i].tie].meeting == meeting) most = fmax(most, *v);
     return most;
 }
 
@@ -95,7 +95,8 @@ static double end_of_series(struct run *run, int i, int count)
     int index = tree_of(run)->ties[striker->tie].meeting,
         feature = run->state->tree->ties[striker->tie].feature;
     struct bounces *bounces = &run->contacts.bounces[index];
-    double v = work->v[2 * i], unseen = low_share * meeting_near(run->model, run->state->tree, index);
+    double v = work->v[(ptrdiff_t)2 * i],
+           unseen = low_share * meeting_near(run->model, run->state->tree, index);
     bool same = bounces->feature == feature && bounces->count > 0;
     remember(bounces, run->state->t, feature);
     double interval = bounces->t[0] - bounces->t[1], rise, left;
@@ -174,8 +175,9 @@ int contacts_settle_down(struct run *run)
     int count = contacts_find_strikers(run), last = last_at_rest(run);
     run->impact_work[tree->ties[tree->meetings[last].first_tie].load] += kinetic(run->state) - before;
     for (int i = 0; i < count; i++) {
-        work->v[2 * i] = 0;
-        work->v[2 * i + 1] = work->strikers[i].v_t;
+        double *v = work->v + (ptrdiff_t)2 * i;
+        v[0] = 0;
+        v[1] = work->strikers[i].v_t;
     }
     return count;
 }

@@ -239,8 +239,9 @@ static void set_answers(struct run *run, int count)
     int rows = 2 * count;
     for (int i = 0; i < count; i++) {
         int first = tree_of(run)->ties[work->strikers[i].tie].first_row;
-        work->rows[2 * i] = first;
-        work->rows[2 * i + 1] = work->strikers[i].rope ? first : first + 1;
+        int *row = work->rows + (ptrdiff_t)2 * i;
+        row[0] = first;
+        row[1] = work->strikers[i].rope ? first : first + 1;
     }
     impulse_answers(run->state, work->rows, rows, work->modes, work->W, work->answers);
     for (int i = 0; i < count; i++) {
@@ -282,8 +283,9 @@ static bool strike(struct run *run, int count)
     struct contacts_work *work = &run->contacts;
     for (int i = 0; i < count; i++) {
         if (!set_point(run, i)) return false;
-        work->v[2 * i] = work->strikers[i].v_n;
-        work->v[2 * i + 1] = work->strikers[i].v_t;
+        double *v = work->v + (ptrdiff_t)2 * i;
+        v[0] = work->strikers[i].v_n;
+        v[1] = work->strikers[i].v_t;
     }
     set_answers(run, count);
     struct impacts impacts = {.count = count,
@@ -309,7 +311,7 @@ static bool parts(const struct run *run, int i)
 {
     const struct striker *striker = &run->contacts.strikers[i];
     const struct row *row = &run->state->tree->rows[tree_of(run)->ties[striker->tie].first_row];
-    return run->contacts.v[2 * i] > no_speed(run, row);
+    return run->contacts.v[(ptrdiff_t)2 * i] > no_speed(run, row);
 }
 
 static void note_impact(struct run *run, int i)
@@ -317,16 +319,16 @@ static void note_impact(struct run *run, int i)
     const struct contacts_work *work = &run->contacts;
     const struct striker *striker = &work->strikers[i];
     const struct tie *tie = &tree_of(run)->ties[striker->tie];
-    double p = work->P[2 * i], tau = work->P[2 * i + 1];
-    double taken = (p * (striker->v_n + work->v[2 * i]) + tau * (striker->v_t + work->v[2 * i + 1])) / 2;
+    const double *v = work->v + (ptrdiff_t)2 * i, *P = work->P + (ptrdiff_t)2 * i;
+    double p = P[0], tau = P[1];
+    double taken = (p * (striker->v_n + v[0]) + tau * (striker->v_t + v[1])) / 2;
     run->impact_work[tie->load] += taken;
     bool struck = striker->v_n < 0 || (p > 0 && parts(run, i));
     if (striker->rope || !struck) return;
     int body = tie->end[0].body;
     struct run_event *event = run_note(run, FBD_EVENT_IMPACT, body, tie->load, -1);
     if (!event) return;
-    event->impact = (struct impact_record){
-        p, tau, taken, {striker->v_n, work->v[2 * i]}, {striker->v_t, work->v[2 * i + 1]}};
+    event->impact = (struct impact_record){p, tau, taken, {striker->v_n, v[0]}, {striker->v_t, v[1]}};
 }
 
 /* What an impact has made slack is no more taut by its length. */

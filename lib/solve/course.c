@@ -22,8 +22,8 @@ bool course_init(struct course *course, size_t size, const bool *used)
     for (size_t i = 0; i < size; i++) course->count += used[i];
     size_t count = course->count;
     course->component = calloc(count + 1, sizeof(int));
-    size_t grids = count > 0 ? coarse_room * (coarse_room + 1) + room * (room + 1) : 0;
-    course->coefficients = calloc(2 * room * count + 5 * count + size + grids + 1, sizeof(double));
+    size_t grids = count > 0 ? (size_t)coarse_room * (coarse_room + 1) + (size_t)room * (room + 1) : 0;
+    course->coefficients = calloc((size_t)2 * room * count + 5 * count + size + grids + 1, sizeof(double));
     course->now = calloc(size + 1, sizeof *course->now);
     if (!course->component || !course->coefficients || !course->now) {
         course_free(course);
@@ -38,7 +38,7 @@ bool course_init(struct course *course, size_t size, const bool *used)
     course->y = course->noise + count;
     course->grids[0].node = course->y + size;
     course->grids[0].matrix = course->grids[0].node + coarse_room;
-    course->grids[1].node = course->grids[0].matrix + coarse_room * coarse_room;
+    course->grids[1].node = course->grids[0].matrix + (size_t)coarse_room * coarse_room;
     course->grids[1].matrix = course->grids[1].node + room;
     for (size_t i = 0, k = 0; i < size; i++) {
         course->now[i] = enclosure_everything();
@@ -130,9 +130,8 @@ static double set_powers_of(struct course *course, size_t i)
 {
     int degree = course->degree;
     double *c = course->coefficients + i * room, size = 0;
-    const double *sample = course->samples + i * room;
-    for (int j = 0; j <= degree; j++) {
-        const double *row = course->grid->matrix + j * (degree + 1);
+    const double *sample = course->samples + i * room, *row = course->grid->matrix;
+    for (int j = 0; j <= degree; j++, row += degree + 1) {
         double sum = 0;
         for (int k = 0; k <= degree; k++) sum += row[k] * sample[k];
         c[j] = sum;

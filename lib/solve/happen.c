@@ -109,9 +109,9 @@ static double kinetic(struct fbd_state *state)
 static void drop_rounding(struct run *run)
 {
     const double rounding = 1e-14;
-    int n = run->model->plan.n;
+    size_t n = (size_t)run->model->plan.n;
     const double *most = run->anchor + 2 * n;
-    for (int i = n; i < 2 * n; i++)
+    for (size_t i = n; i < 2 * n; i++)
         if (fabs(run->state->y[i]) <= rounding * most[i]) run->state->y[i] = 0;
 }
 

@@ -356,18 +356,18 @@ static int find_told(struct run *run, struct moment *t)
 /* The first event in (from, t]: *t becomes its time, with y and f there. 1 found, 0 none, -1 failed. */
 static int find_event(struct run *run, struct moment *t)
 {
-    size_t bytes = 2 * (size_t)run->model->plan.n * sizeof *run->y;
+    size_t size = 2 * (size_t)run->model->plan.n, bytes = size * sizeof *run->y;
     course_start(&run->course);
     run_wake_contacts(run, t->t);
     int change = find_change(run, t);
     if (change < 0 || run->model->plan.watch_count == 0) return change;
     memcpy(run->kept, run->y, bytes);
-    memcpy(run->kept + 2 * run->model->plan.n, run->f, bytes);
+    memcpy(run->kept + size, run->f, bytes);
     memcpy(run->crossed, run->moving.crossed, run->moving.count * sizeof *run->crossed);
     int told = find_told(run, t);
     if (told != 0) return told;
     memcpy(run->y, run->kept, bytes);
-    memcpy(run->f, run->kept + 2 * run->model->plan.n, bytes);
+    memcpy(run->f, run->kept + size, bytes);
     memcpy(run->moving.crossed, run->crossed, run->moving.count * sizeof *run->crossed);
     return change;
 }
