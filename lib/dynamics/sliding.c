@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/sliding.h"
 
+#include <assert.h>
 #include <float.h>
 #include <string.h>
 
@@ -75,7 +76,8 @@ void sliding_init(struct sliding *sliding, const struct fbd_model *model, void *
         *parts[i] = next;
         next += sizes[i];
     }
-    sliding->slide_at = (int *)next;
+    void *behind = next;
+    sliding->slide_at = behind;
     sliding->branches = sliding->slide_at + plan->branches;
     sliding->kept = sliding->branches + plan->branches;
     sliding->pivot = sliding->kept + 2 * (size_t)plan->branches + 2 * plan->friction_count;
@@ -320,6 +322,7 @@ void sliding_solve(const struct fbd_model *model, const struct instant *at)
 {
     enum { most_steps = 12 };
     struct sliding *s = at->sliding;
+    assert(s); /* the motion slides */
     memset(s->delta, 0, (size_t)s->units * sizeof *s->delta);
     set_shares(s);
     for (int step = 0; step < most_steps; step++) {

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "model/contact.h"
 
+#include <assert.h>
+
 #include "model/model.h"
 #include "model/outline.h"
 
@@ -64,6 +66,7 @@ struct touch meeting_touch(const struct meeting *meeting, int feature)
     int first = a->count * shape_sides(b), moving = feature < first ? 0 : 1;
     const struct contact_shape *with = &meeting->shape[moving], *on = &meeting->shape[1 - moving];
     int rest = moving == 0 ? feature : feature - first, sides = shape_sides(on);
+    assert(sides > 0); /* a feature of corners at corners has a side */
     struct touch touch = {.moving = moving, .point = with->corners[rest / sides]};
     set_side(&touch, on, rest % sides);
     return touch;
@@ -204,7 +207,7 @@ bool meetings_add(struct fbd_model *model, int index)
 {
     const struct constraint *source = &model->scene->constraints[index];
     struct tree *tree = model->tree;
-    int count[2] = {shapes_of(model, source, 0), shapes_of(model, source, 1)};
+    const int count[2] = {shapes_of(model, source, 0), shapes_of(model, source, 1)};
     for (int i = 0; i < count[0] * count[1]; i++) {
         struct meeting *meeting = &tree->meetings[tree->meeting_count++];
         *meeting = (struct meeting){.constraint = index,

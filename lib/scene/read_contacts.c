@@ -6,6 +6,7 @@
 #include "scene/reader.h"
 #include "scene/values.h"
 
+#include <assert.h>
 #include <string.h>
 
 /* A line, polygon or point of the ground. */
@@ -132,7 +133,9 @@ static bool check_stops(struct reader *reader, size_t b, const double limit[2])
     const struct body *body = &reader->scene->bodies[b];
     const struct draft *draft = &reader->drafts[b];
     const struct node *high = stop_of(reader, b, 1), *low = stop_of(reader, b, 0);
-    struct pos at = high ? high->at : low->at;
+    const struct node *told = high ? high : low;
+    assert(told); /* it has a stop */
+    struct pos at = told->at;
     if (body->motion.prescribed.expr) {
         diag_add(reader->errors, FBD_ERROR, "not-here", at, "leave it out",
                  "the motion of `%s` is prescribed: no stop could hold it", body->name);

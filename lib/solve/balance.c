@@ -7,6 +7,7 @@
  */
 #include "solve/balance.h"
 
+#include <assert.h>
 #include <float.h>
 #include <math.h>
 
@@ -86,10 +87,12 @@ struct grains {
 static struct grains joined_grain(const struct fbd_state *state, struct arrow *arrows)
 {
     const struct tree *tree = state->model->tree;
+    const struct tree_work *work = state->tree;
+    assert(!tree || work);
     double force = 0, reach = 0, away = 0, mass = 0, inertia = 0, a = 0, alpha = 0, v = 0, omega = 0;
     for (int i = 0; tree && i < tree->body_count; i++) {
         const struct model_body *body = &state->model->bodies[tree->bodies[i]];
-        const struct tree_state *link = &state->tree->links[body->place.link];
+        const struct tree_state *link = &work->links[body->place.link];
         struct sums sums = sums_of(state, tree->bodies[i], arrows);
         force = fmax(force, sums.force);
         reach = fmax(reach, sums.reach);
@@ -101,7 +104,7 @@ static struct grains joined_grain(const struct fbd_state *state, struct arrow *a
         v = fmax(v, vec_norm(link->v));
         omega = fmax(omega, fabs(link->omega));
     }
-    if (tree && state->tree->shared) force = fmax(force, state->tree->shared_size);
+    if (tree && work->shared) force = fmax(force, work->shared_size);
     force += mass * (a + omega * v);
     force *= grain + (reach > 0 ? 64 * DBL_EPSILON * away / reach : 0);
     double gyration = mass > 0 ? sqrt(inertia / mass) : 0;

@@ -9,6 +9,7 @@
  */
 #include "solve/series.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -25,6 +26,7 @@ static const int strides[series_levels] = {0, 2, 1};
 static int node_of(int level, int k)
 {
     static const int first[] = {0, 6, 16};
+    assert(level >= 0 && level < series_levels);
     return level == 0 ? first[k] : k * strides[level];
 }
 
@@ -32,6 +34,7 @@ static int node_of(int level, int k)
 static size_t place_of_matrix(int level)
 {
     size_t place = 0;
+    assert(level <= series_levels);
     for (int k = 0; k < level; k++) place += (size_t)((degrees[k] + 1) * (degrees[k] + 1));
     return place;
 }
@@ -186,8 +189,8 @@ int series_refine(struct series *series, series_sampler *sample, void *context)
 
 static void fit_rates(const struct series *series, const double *f, const double *g, double *c)
 {
-    for (int j = 0; j < 6; j++) {
-        const double *row = series->matrices + 6 * j;
+    const double *row = series->matrices;
+    for (int j = 0; j < 6; j++, row += 6) {
         c[j] = 0;
         for (int k = 0; k < 3; k++) c[j] += row[k] * f[node_of(0, k)] + row[k + 3] * g[node_of(0, k)];
     }

@@ -77,6 +77,7 @@ static double lift_value(const struct watcher *watcher, const struct view *view,
     *rate = 0;
     if (view->at.slip[watcher->index] != stick) return HUGE_VAL;
     int slot = model->tree->ties[friction->tie].normal_slot;
+    assert(view->slots && view->slots_along);
     *rate = -view->slots_along[slot];
     return contact_slack(model, friction->tie) - view->slots[slot];
 }
@@ -144,6 +145,7 @@ static double friction_value(const struct watcher *watcher, struct view *view, d
 static bool watches_share(const struct watcher *watcher, const struct view *view)
 {
     if (!view->shared) return false;
+    assert(view->margin.contacts && view->margin.of); /* of a load that is shared */
     if (watcher->kind == watch_contact) return view->margin.contacts[watcher->index];
     bool limit = watcher->kind == watch_stick_limit || watcher->kind == watch_normal_turns ||
                  watcher->kind == watch_lift || watcher->kind == watch_one_sided;
