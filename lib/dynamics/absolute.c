@@ -21,7 +21,7 @@ static double choose(enum absolute_kind kind, struct motion_of_point at, double 
     case absolute_vy: return at.v.y;
     case absolute_angle: return angle;
     case absolute_angle_dot: return omega;
-    case absolute_acceleration: break; /* output/hand.c */
+    case absolute_acceleration: /* output/hand.c */
     case absolute_slip: break;
     }
     return 0;

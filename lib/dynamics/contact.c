@@ -192,7 +192,7 @@ struct pairing {
 
 static struct pairing pairing_of(const struct meeting *meeting, int feature)
 {
-    int sides[2] = {shape_sides(&meeting->shape[0]), shape_sides(&meeting->shape[1])};
+    const int sides[2] = {shape_sides(&meeting->shape[0]), shape_sides(&meeting->shape[1])};
     int first = meeting->shape[0].count * sides[1];
     if (feature < first) return (struct pairing){0, feature / sides[1], feature % sides[1]};
     feature -= first;

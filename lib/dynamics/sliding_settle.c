@@ -182,7 +182,7 @@ static bool choose(struct question *q, const struct decided *decided, int choice
 {
     struct fbd_state *state = q->state;
     struct sliding *s = state->sliding;
-    int digit[most_units];
+    int digit[most_units] = {0};
     for (int unit = 0; unit < q->units; unit++, choice /= 3) digit[unit] = choice % 3;
     for (int j = 0; j < s->count; j++) s->slide_at[s->slides[j].branch] = 0;
     sliding_drop(s);

@@ -271,8 +271,10 @@ static struct fbd_model *compile(struct scene *scene, bool labels, fbd_errors *e
                arrows_name(model) && plan_build(&builder) && classify_loads(&builder);
         set_watches(&builder);
         if (done) done = slips_find(model);
-        if (done) slides_find(model);
-        if (done) gears_check(&builder);
+        if (done) {
+            slides_find(model);
+            gears_check(&builder);
+        }
     }
     if (!done) diag_out_of_memory(errors);
     if (fbd_errors_failed(errors) > 0) {

@@ -243,12 +243,13 @@ static bool read_coupling(struct reader *reader, const struct node *node, bool c
                           struct coupling_name *name)
 {
     struct scene *scene = reader->scene;
-    struct names names = {.reader = reader, .place = place_event, .body = ground_body};
-    struct scope scope = names_scope(&names);
     struct chosen chosen = {contact_kind, node, node->at};
     struct coupling_keys keys = {0};
     if (!contact && !kind_read(reader, &coupling_kinds, node, "couplings", &chosen)) return false;
-    if (chosen.kind == contact_kind) names.place = place_contact;
+    struct names names = {.reader = reader,
+                          .place = chosen.kind == contact_kind ? place_contact : place_event,
+                          .body = ground_body};
+    struct scope scope = names_scope(&names);
     bool fine = fields_read(reader, chosen.kind->group, chosen.node, chosen.at, &scope, &keys);
     *name = (struct coupling_name){keys.name, chosen.kind, chosen.at};
     if (chosen.kind->value >= coupling_constraint)

@@ -36,7 +36,9 @@ static bool is_taut(const struct run *run, const struct tie *tie)
 static bool cut_step(struct run *run, int tie, struct moment *t)
 {
     double on = run->from, off = t->t;
-    for (double middle = on + (off - on) / 2; middle > on && middle < off; middle = on + (off - on) / 2) {
+    for (;;) {
+        double middle = on + (off - on) / 2;
+        if (!(middle > on && middle < off)) break;
         if (switcher_partial(run->stepper, moment_at(middle), run->y, run->f) != 0) return false;
         if (is_off(wrap_now(run, tie)))
             off = middle;

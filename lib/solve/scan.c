@@ -24,7 +24,7 @@ bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *cont
 {
     *scan = (struct scan){.count = count, .sample = sample, .context = context};
     scan->points = calloc(spare_points, sizeof *scan->points);
-    scan->memory = calloc(2 * spare_points * count + 1, sizeof *scan->memory);
+    scan->memory = calloc((size_t)2 * spare_points * count + 1, sizeof *scan->memory);
     scan->crossed = calloc(3 * count + 1, sizeof *scan->crossed);
     scan->lone = calloc(count + 1, sizeof *scan->lone);
     if (!scan->points || !scan->memory || !scan->crossed || !scan->lone) {
@@ -318,8 +318,10 @@ static int look_in_pieces(struct scan *scan, double from, double *limit)
         double end = scan->follow(scan->context, begin, *limit, false), piece = end;
         if (isnan(end)) return -1;
         int status = search_open(scan, begin, &piece, false);
-        if (status) *limit = piece;
-        if (status) return status;
+        if (status) {
+            *limit = piece;
+            return status;
+        }
         for (size_t g = 0; g < scan->group_count; g++) {
             struct proof_group *group = &scan->groups[g];
             group->open = group->aside == scan->aside && group->proved && !group->stuck && group->again;
