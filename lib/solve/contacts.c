@@ -357,6 +357,9 @@ static void open_or_close(struct run *run, int count, bool struck)
         if (tie->pair < 0) continue;
         double v_t = struck ? work->v[2 * i + 1] : striker->v_t;
         if (fabs(v_t) <= no_speed(run, &run->state->tree->rows[tie->first_row])) v_t = 0;
+        /* What sticks from here on does so where it is. */
+        if (v_t == 0 && run->state->slip[tie->pair] != stick)
+            tie_rezero(run->model, run->state->tree, striker->tie);
         run->state->slip[tie->pair] = v_t > 0 ? slip_plus : v_t < 0 ? slip_minus : stick;
     }
 }
