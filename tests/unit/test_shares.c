@@ -14,6 +14,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "gallery.h"
 #include "random_numbers.h"
 
@@ -139,6 +140,110 @@ static void two_feet_share_and_give_together(void **unused)
     checks_end(&checks);
 }
 
+/* ---- three or four feet: what presses on each is not determined either
+ *
+ * N_i >= 0 with sum N_i = m g + k w and their moment about the centre of mass that of the push: the most that
+ * friction can bear is at a corner of these, where all but two feet press on nothing. */
+
+enum { most_feet = 4 };
+
+struct row_of_feet {
+    int count;
+    double x[most_feet], mu[most_feet]; /* x from the centre of mass */
+    double mass, foot, h, push;
+};
+
+static struct row_of_feet draw_row(struct random_numbers *numbers)
+{
+    struct row_of_feet row = {.count = 3 + (int)(random_bits(numbers) % 2),
+                              .mass = random_between(numbers, 2, 20),
+                              .foot = random_between(numbers, 0.01, 0.5),
+                              .h = random_between(numbers, 0, 0.4),
+                              .push = random_between(numbers, 5, 50)};
+    for (int i = 0; i < row.count; i++) {
+        row.x[i] = -1 + 2.0 * i / (row.count - 1) + random_between(numbers, -0.2, 0.2);
+        row.mu[i] = random_between(numbers, 0.05, 0.8);
+    }
+    return row;
+}
+
+/* The most that friction bears against the push P; below zero when the row tips over. */
+static double most_friction(const struct row_of_feet *row, double P)
+{
+    double most = -1, w = row->foot * g;
+    for (int i = 0; i < row->count; i++)
+        for (int j = i + 1; j < row->count; j++) {
+            double total = row->mass * g + row->count * w, moment = P * row->h, d = row->x[j] - row->x[i];
+            for (int k = 0; k < row->count; k++) moment += w * row->x[k]; /* the feet's own weights */
+            double right = (moment - total * row->x[i]) / d, left = total - right;
+            if (left < 0 || right < 0) continue;
+            most = fmax(most, row->mu[i] * left + row->mu[j] * right);
+        }
+    return most;
+}
+
+static double gives_at(const struct row_of_feet *row)
+{
+    double low = 0, high = 1e4;
+    for (int k = 0; k < 200; k++) {
+        double middle = (low + high) / 2;
+        if (most_friction(row, middle) >= middle)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low / row->push;
+}
+
+static void write_row(const struct row_of_feet *row, double until, struct text *text)
+{
+    text_printf(
+        text, "fbd: 1\nbodies:\n  block:\n    mass: %.17g\n    inertia: 1\n    motion: planar\n    points: {",
+        row->mass);
+    for (int i = 0; i < row->count; i++) text_printf(text, "L%d: [%.17g, 0], ", i, row->x[i]);
+    text_printf(
+        text,
+        "A: [0, %.17g]}\n    forces: [gravity, applied: {name: push, value: \"%.17g[N/s]*t\", angle: 0, "
+        "at: A}]\n",
+        row->h, row->push);
+    for (int i = 0; i < row->count; i++)
+        text_printf(
+            text,
+            "  f%d: {mass: %.17g, motion: slide, initial: {x: %.17g}, forces: [gravity, normal, friction: "
+            "%.17g]}\n",
+            i, row->foot, row->x[i], row->mu[i]);
+    text_add(text, "couplings:\n");
+    for (int i = 0; i < row->count; i++) text_printf(text, "  - pin: {between: [block.L%d, f%d]}\n", i, i);
+    text_printf(text, "simulate: {until: %.17g s}\n", until);
+}
+
+static void many_feet_give_when_no_share_is_left(void **unused)
+{
+    (void)unused;
+    enum { draws = 60, seed = 2217 };
+    struct checks checks = {0};
+    struct random_numbers numbers = {seed};
+    int gave = 0;
+    printf("# seed %d\n", seed);
+    for (int draw = 0; draw < draws && !checks.failed; draw++) {
+        struct row_of_feet row = draw_row(&numbers);
+        double t = gives_at(&row);
+        if (most_friction(&row, (1 + 1e-6) * t * row.push) < 0) continue; /* it tips first */
+        struct text text = {0};
+        write_row(&row, 1.02 * t, &text);
+        struct trial trial = trial_parse(text.data);
+        trial_start(&trial, NULL);
+        trial_finish(&trial);
+        check_close(&checks, "gives", trial_event(&trial, FBD_EVENT_BREAKAWAY, NULL, 0), t, 1e-9 * t);
+        gave++;
+        if (checks.failed) print_message("# draw %d\n%s", draw, text.data);
+        text_free(&text);
+        trial_close(&trial);
+    }
+    check_that(&checks, "most of them are tried", gave > draws / 2);
+    checks_end(&checks);
+}
+
 /* ---- a block with friction that a rod holds: it stands whatever pushes it */
 
 static void what_a_rod_holds_stands(void **unused)
@@ -183,6 +288,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(two_feet_share_and_give_together),
+        cmocka_unit_test(many_feet_give_when_no_share_is_left),
         cmocka_unit_test(what_a_rod_holds_stands),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
