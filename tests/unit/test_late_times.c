@@ -111,8 +111,8 @@ static bool a_pulse_is_whole(uint64_t seed)
         start, width, form, loads[kind], until);
     struct end got = end_of(text), want = pulsed(kind, after, width);
     double room = kind == dragged ? 1e-10 : 8 * DBL_EPSILON * (1 + after), work = 0.25;
-    bool good =
-        near("v", got.v, want.v, room + 2 * DBL_EPSILON, text) & near("x", got.x, want.x, 8 * room, text);
+    bool good = near("v", got.v, want.v, room + 2 * DBL_EPSILON, text);
+    good = near("x", got.x, want.x, 8 * room, text) && good;
     /* Half of the work is done in the second half of the pulse: looked at with its own digits. */
     return near("work", got.work, work, (kind == oscillator ? width * width : 1e-8) + 1e-13, text) && good;
 }
@@ -170,7 +170,8 @@ static bool a_wave_keeps_its_phase(uint64_t seed)
     double room =
         3 * w * (8 * DBL_EPSILON / sqrt(1 - (double)(c * c)) / w + 2 * (double)LDBL_EPSILON * late) +
         64 * DBL_EPSILON;
-    return near("v", got.v, (double)v, room, text) & near("x", got.x, (double)x, room * span, text);
+    bool speed = near("v", got.v, (double)v, room, text);
+    return near("x", got.x, (double)x, room * span, text) && speed;
 }
 
 static void waves_keep_their_phase_late_in_a_run(void **unused)
@@ -223,7 +224,8 @@ static void an_oscillator_is_where_many_switches_have_brought_it(void **unused)
         v = v * c - d * s;
     }
     struct end got = end_of(text);
-    assert_true(near("x", got.x, (double)x, 1e-12, text) & near("v", got.v, (double)v, 1e-12, text));
+    bool place = near("x", got.x, (double)x, 1e-12, text);
+    assert_true(near("v", got.v, (double)v, 1e-12, text) && place);
 }
 
 int main(void)
