@@ -353,6 +353,9 @@ bool rest_open(struct rest_system *system, struct fbd_state *state, const struct
                                    .slots = (size_t)plan->slots};
     if (!rest_is_open(state->model, at)) return false;
     if (!allocate(system) || !keep_base(system, slots) || !find_sizes(system)) return false;
+    for (size_t j = 0; system->force == 0 && j < system->m; j++) /* of what turns without a load */
+        system->force = fabs(system->base.lambda[system->rows[j]]);
+    if (system->force == 0) return false; /* there is nothing to share */
     set_scales(system);
     set_columns(system);
     double *least = ARENA_ARRAY(arena, system->m + 1, double);
