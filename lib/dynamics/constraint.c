@@ -333,8 +333,11 @@ struct one_sided one_sided_at(const struct fbd_model *model, const struct instan
     length += reach;
     state.rounding = 16 * DBL_EPSILON * length;
     state.near = 1e-9 * length;
-    /* Where all of it stands still there is the speed of what has fallen as far as it reaches. */
-    double slow = 64 * DBL_EPSILON * sqrt(vec_norm(model->scene->gravity) * length);
+    /* Where all of it stands still there is the rounding of what it is joined to, by whatever way, and the
+     * speed of what has fallen as far as it reaches. */
+    double fast = sqrt(vec_norm(model->scene->gravity) * length);
+    for (int l = 1; l < model->tree->count; l++) fast = fmax(fast, vec_norm(at->tree->links[l].v));
+    double slow = 64 * DBL_EPSILON * fast;
     state.touches = fabs(state.excess) <= state.near && fabs(state.rate) <= 1e-10 * state.speed + slow;
     state.parts = state.rate < -1e-6 * state.speed - slow;
     state.meets = state.rate > 1e-6 * state.speed + slow;
