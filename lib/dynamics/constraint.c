@@ -316,6 +316,8 @@ struct one_sided one_sided_at(const struct fbd_model *model, const struct instan
     const struct row *row = &at->tree->rows[tie->first_row];
     bool rope = hold->kind == mode_rope;
     double sign = rope ? 1 : -1, length = rope ? fabs(at->tree->ties[hold->tie].zero) : 0, reach = 0;
+    double size = 0;
+    for (int j = 0; j < tie->row_count; j++) size = fmax(size, fabs(row[j].lambda));
     struct one_sided state = {.excess = sign * row->g.x,
                               .rate = sign * row->g.x1,
                               .acceleration = sign * row->g.x2,
@@ -324,6 +326,8 @@ struct one_sided one_sided_at(const struct fbd_model *model, const struct instan
         const struct tree_state *s = &at->tree->links[tie->end[k].link];
         double arm = tie->end[k].radius + vec_norm(tie->end[k].point);
         reach = fmax(reach, vec_norm(s->p) + tie->end[k].radius);
+        size = fmax(size, vec_norm(model->tree->links[tie->end[k].link].force));
+        state.turning = fmax(state.turning, fabs(s->omega));
         /* What stands still as one joint takes back what another does has the rounding of both. */
         for (int l = tie->end[k].link; l > 0; l = model->tree->links[l].parent) {
             const struct tree_state *below = &at->tree->links[l];
@@ -331,6 +335,7 @@ struct one_sided one_sided_at(const struct fbd_model *model, const struct instan
         }
     }
     length += reach;
+    state.slack = 1e-12 * size;
     state.rounding = 16 * DBL_EPSILON * length;
     state.near = 1e-9 * length;
     /* Where all of it stands still there is the rounding of what it is joined to, by whatever way, and the

@@ -342,7 +342,8 @@ static int next_mode(const struct fbd_state *state, const double *slots, const d
         double small = rounding * largest_force(state);
         if (state->slip[pair] != stick) return now.acceleration > 0 ? stick : state->slip[pair];
         double rate = sign_of(hold) * state->tree->z[model->tree->ties[hold->tie].first_row];
-        *by_rate = fabs(now.force) <= small && rate < 0;
+        double least = now.force < -now.slack / 2 ? 0 : now.slack * now.turning;
+        *by_rate = fabs(now.force) <= fmax(small, now.slack) && rate < -least;
         return now.force < -small || *by_rate ? slip_plus : stick;
     }
     if (state->slip[pair] != stick) return turns_back(state, pair) ? stick : state->slip[pair];

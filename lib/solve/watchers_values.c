@@ -58,7 +58,7 @@ static double one_sided_value(const struct watcher *watcher, const struct view *
     }
     double lambda_rate = view->state->tree->z[model->tree->ties[tie].first_row];
     *rate = model->plan.frictions[watcher->index].kind == mode_rope ? -lambda_rate : lambda_rate;
-    return now.force;
+    return now.force + now.slack;
 }
 
 /* What rolls or touches has left its surface: nothing rubs. */
