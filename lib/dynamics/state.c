@@ -104,12 +104,17 @@ static void share_out(struct fbd_state *state, double *slots)
     arena_free(&arena);
 }
 
-void state_evaluate(struct fbd_state *state)
+void state_evaluate_unshared(struct fbd_state *state)
 {
     struct instant at = state_instant(state);
     accelerations(state->model, &at, state->slots, state->a);
     if (state->tree) tree_complete(state->model, state->tree);
     if (state->extended) absolutes_write(state->model, &at, state->y);
+}
+
+void state_evaluate(struct fbd_state *state)
+{
+    state_evaluate_unshared(state);
     share_out(state, state->slots);
 }
 

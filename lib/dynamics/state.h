@@ -75,6 +75,9 @@ static inline struct instant state_instant(const struct fbd_state *state)
  * limits (rest_system.h). */
 void state_evaluate(struct fbd_state *state);
 
+/* The same with what constraints leave open as it falls out: where no force is looked at. */
+void state_evaluate_unshared(struct fbd_state *state);
+
 /* Right after it, force_balance_of body b, with what is shared. */
 void state_balance_of(struct fbd_state *state, int b, double *slots);
 

@@ -86,7 +86,7 @@ static struct rounding rounding_of_step(struct run *run)
     const double share = 1e-12;
     const struct tree *tree = run->model->tree;
     double mass = 0, most = 0, time = run->state->t - run->from;
-    state_evaluate(run->state);
+    state_evaluate_unshared(run->state);
     for (int i = 1; i < tree->count; i++) {
         mass += tree->links[i].mass;
         most = fmax(most, vec_norm(run->state->tree->links[i].F.force) / tree->links[i].mass);
