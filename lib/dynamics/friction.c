@@ -51,6 +51,7 @@ struct friction_values friction_at(const struct fbd_model *model, int pair, cons
     double acceleration;
     friction_surface_speed(friction, at, &acceleration);
     values.hold = friction->inertia * acceleration - slots[friction->hold_slot];
+    values.limit = fmax(values.limit_static, values.limit_kinetic);
     values.force = at->slip[pair] == stick ? values.hold : -at->slip[pair] * values.limit_kinetic;
     return values;
 }
@@ -80,14 +81,14 @@ struct friction_values friction_along(const struct fbd_model *model, int pair, c
 
 double friction_rounding(const struct friction_values *now)
 {
-    return 8 * DBL_EPSILON * (fabs(now->hold) + fmax(now->limit_static, now->limit_kinetic));
+    return 8 * DBL_EPSILON * (fabs(now->hold) + now->limit);
 }
 
 enum slip friction_decide(const struct friction_values *now, const struct friction_values *rate)
 {
     /* With mu_k > mu_s (nobody's friction, but anybody's file) slipping would start against itself: then the
      * larger one holds. */
-    double limit = fmax(now->limit_static, now->limit_kinetic);
+    double limit = now->limit;
     double excess = fabs(now->hold) - limit;
     if (fabs(excess) <= friction_rounding(now)) {
         double d_limit = now->limit_static >= now->limit_kinetic ? rate->limit_static : rate->limit_kinetic;

@@ -23,6 +23,7 @@ struct friction_values {
     double N;             /* signed normal force [N]; 0 for a bearing */
     double limit_static;  /* mu_s |N| or the static moment */
     double limit_kinetic; /* mu_k |N| or the kinetic moment */
+    double limit;         /* what holds takes up to this: the larger of the two */
     double hold;          /* H: the friction that would hold the body on its surface */
     double force;         /* the friction force (moment) along +x in the present mode */
 };

@@ -75,7 +75,7 @@ struct rest_limit rest_limit_at(const struct rest_system *system, size_t index)
     }
     struct friction_values values = friction_at(model, pair, &at, slots);
     limit.needed = fabs(values.hold);
-    limit.may = fmax(values.limit_static, values.limit_kinetic);
+    limit.may = values.limit;
     return limit;
 }
 

@@ -351,7 +351,7 @@ static int next_mode(const struct fbd_state *state, const double *slots, const d
     struct direction flow = {1, dy};
     struct friction_values now = friction_at(model, pair, &at, slots);
     struct friction_values rate = friction_along(model, pair, &at, slots, &flow, slots_along);
-    double excess = fabs(now.hold) - fmax(now.limit_static, now.limit_kinetic);
+    double excess = fabs(now.hold) - now.limit;
     if (is_on_contact(state, hold) && excess <= contact_slack(model, hold->tie)) return stick;
     *by_rate = excess <= friction_rounding(&now);
     return friction_decide(&now, &rate);

@@ -46,7 +46,7 @@ static void check_inertia(const struct model_body *body, fbd_errors *errors)
     struct pos at = body->source->at;
     bool turns = body->kind == motion_pivot || body->kind == motion_planar;
     double least = body->kind == motion_pivot ? body->I_O : inertia->I_G;
-    if (!isfinite(inertia->mass) || !isfinite(inertia->I_G))
+    if (!isfinite(inertia->mass) || !isfinite(inertia->I_G) || (turns && !isfinite(least)))
         diag_add(errors, FBD_ERROR, "bad-inertia", at, "check for quantities near the limits of a double",
                  "the mass or moment of inertia of `%s` is not finite", body->name);
     else if (inertia->mass <= 0)

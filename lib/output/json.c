@@ -145,8 +145,9 @@ static void write_friction(struct text *text, struct fbd_state *state, int body,
     state_balance_of(state, body, state->scratch);
     struct friction_values values = friction_at(model, pair, &at, state->scratch);
     text_printf(text, ", \"mode\": \"%s\", ", state->slip[pair] == stick ? "stick" : "slip");
-    member(text, "limit", values.limit_static, false);
-    member(text, "margin", values.limit_static > 0 ? fabs(values.force) / values.limit_static : NAN, true);
+    double margin = fabs(values.force) / values.limit; /* of next to nothing it is not a number of any use */
+    member(text, "limit", values.limit, false);
+    member(text, "margin", isfinite(margin) ? margin : NAN, true);
 }
 
 /* Where moments are taken about: the axis of a pivot, else the centre of mass. */

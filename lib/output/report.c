@@ -89,11 +89,11 @@ static void write_friction(struct text *text, struct fbd_state *state, int b)
     struct instant at = state_instant(state);
     state_balance_of(state, b, state->scratch);
     struct friction_values values = friction_at(state->model, body->friction, &at, state->scratch);
+    double percent = 100 * fabs(values.force) / values.limit;
     if (state->slip[body->friction] != stick)
         text_add(text, "   (slips)");
-    else if (values.limit_static > 0)
-        text_printf(text, "   (sticks, at %.3g %% of the limit)",
-                    100 * fabs(values.force) / values.limit_static);
+    else if (isfinite(percent))
+        text_printf(text, "   (sticks, at %.3g %% of the limit)", percent);
     else
         text_add(text, "   (sticks)");
 }

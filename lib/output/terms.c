@@ -49,9 +49,10 @@ static void friction_remark(struct fbd_state *state, int b, char *remark)
     state_balance_of(state, b, state->scratch);
     struct friction_values now = friction_at(state->model, body->friction, &at, state->scratch);
     bool bearing = state->model->plan.frictions[body->friction].normal_slot < 0;
+    bool kinetic = now.limit_kinetic > now.limit_static; /* warned of by the reader */
     if (state->slip[body->friction] == stick)
-        format_into(remark, term_remark_size, "sticks: whatever holds, up to %s = %.9g",
-                    bearing ? "M_s" : "mu_s N", now.limit_static);
+        format_into(remark, term_remark_size, "sticks: whatever holds, up to %s_%c%s = %.9g",
+                    bearing ? "M" : "mu", kinetic ? 'k' : 's', bearing ? "" : " N", now.limit);
     else
         slip_remark(state, body->friction, remark);
 }

@@ -45,7 +45,7 @@ static void note_friction(struct run *run, fbd_event_kind kind, int pair)
     force_balance(run->model, &at, slots);
     struct friction_values values = friction_at(run->model, pair, &at, slots);
     event->force = values.force;
-    event->limit = values.limit_static;
+    event->limit = values.limit;
 }
 
 /* ---- events by kind */

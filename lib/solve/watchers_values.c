@@ -138,7 +138,7 @@ static double friction_value(const struct watcher *watcher, struct view *view, d
     double slack = friction_rounding(now);
     if (friction->tie >= 0 && model->tree->ties[friction->tie].meeting >= 0)
         slack += contact_slack(model, friction->tie);
-    return (kinetic ? now->limit_kinetic : now->limit_static) - side * now->hold + slack;
+    return now->limit - side * now->hold + slack;
 }
 
 /* Does the watcher watch a share of a load that several holds bear? One of them watches for all. */
