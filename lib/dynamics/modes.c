@@ -135,7 +135,7 @@ static bool settle(struct fbd_state *state, const struct decided *decided)
     bool first = true;
     state->settled = true;
     if (state->holds.found == holds_no_memory) return false; /* once is for good */
-    state->holds = (struct holds_trouble){.found = holds_decided, .pair = -1};
+    state->holds = (struct holds_trouble){.found = holds_decided, .pair = -1, .contradicts = -1};
     for (int pass = 0; pass < most_passes; pass++) {
         state_evaluate(state);
         if (plan->kink_count + plan->friction_count == 0) return state->holds.found < holds_none;

@@ -16,6 +16,7 @@ struct holds_trouble {
     enum holds_found found;
     int pair;
     double answer;
+    int contradicts; /* what neither holds nor gives as was decided, by the forces that follow; or -1 */
 };
 
 struct fbd_state {

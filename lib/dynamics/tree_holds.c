@@ -254,7 +254,7 @@ static bool gather(struct gathered *all, struct fbd_state *state, const struct d
 /* Painleve's paradox has a friction by which its own normal force grows: the one that does so most. */
 static struct holds_trouble trouble_of(const struct gathered *all, enum holds_found found)
 {
-    struct holds_trouble trouble = {.found = found, .pair = -1};
+    struct holds_trouble trouble = {.found = found, .pair = -1, .contradicts = -1};
     const struct hold_problem *problem = &all->problem;
     for (size_t i = 0; i < problem->count; i++) {
         const struct hold *hold = &problem->holds[i];
@@ -397,6 +397,7 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
         if (shared && margin.of[pair] && state->slip[pair] == stick) continue;
         if (pulls(state, slots, decided, solved, pair)) {
             found = differs;
+            which = pair;
             continue;
         }
         if (hold->kind == mode_friction && slips_already(state, decided, forced, pair) != 0) continue;
@@ -407,6 +408,7 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
         next = mode;
     }
     if (found == at_limit) forced[which] = state->slip[which] = next;
+    if (found == differs && solved) state->holds.contradicts = which;
     if (found == agrees && shared) found = tree_judge(state, &margin, forced);
     arena_free(&arena);
     return found;

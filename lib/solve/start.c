@@ -66,11 +66,30 @@ static bool is_friction(const struct load *load)
 const char *unsettled_advice(const struct fbd_model *model, int load)
 {
     bool declared = load >= 0 ? is_friction(model->loads[load].source) : model->plan.kink_count == 0;
-    return declared
-               ? "What holds there depends on what else holds, which is decided in turn: such holds are not "
-                 "followed yet"
-               : "A force that jumps against the motion, as c*sign(v), is dry friction: declare it as "
-                 "`friction`";
+    return declared ? "Several of them depend on each other in a way that no way to hold or give satisfies"
+                    : "A force that jumps against the motion, as c*sign(v), is dry friction: declare it as "
+                      "`friction`";
+}
+
+/* A roll without limits has a friction that no normal force goes with: it could hold itself down. */
+static void contradiction_words(const struct fbd_model *model, int pair, const char *when, struct text *text)
+{
+    const struct friction *hold = &model->plan.frictions[pair];
+    bool couples = hold->kind == mode_surface || hold->kind == mode_rope;
+    const char *name = couples ? model->scene->constraints[model->tree->ties[hold->tie].constraint].name
+                       : hold->load >= 0 ? model->loads[hold->load].source->name
+                                         : "a hold";
+    bool unlimited = hold->kind == mode_surface && model->tree->ties[hold->tie].pair < 0;
+    text_printf(
+        text,
+        "%s neither way agrees with the forces for `%s` of `%s`: while it holds it would have to give, "
+        "and when it gives, to hold. ",
+        when, name, model->bodies[hold->body].name);
+    text_add(text, unlimited
+                       ? "It rolls without a limit, so that its friction alone could hold it down: give "
+                         "it `static` and `kinetic`"
+                       : "What else holds there decides with it: less friction, or end the run before by "
+                         "an event");
 }
 
 void unsettled_words(const struct fbd_state *state, const char *when, struct text *text)
@@ -99,6 +118,8 @@ void unsettled_words(const struct fbd_state *state, const char *when, struct tex
             "%s no forces were found with which all that holds agrees, and there are too many ways to "
             "hold or give way to try them all",
             when);
+    } else if (holds->contradicts >= 0) {
+        contradiction_words(model, holds->contradicts, when, text);
     } else {
         text_printf(text, "%s no choice of branches and of stick or slip agrees with the forces. %s", when,
                     unsettled_advice(model, -1));
