@@ -443,6 +443,7 @@ fbd_outcome run_advance(struct run *run)
     if (run->restart && !restart(run)) return run->outcome;
     if (run->crawl == 0) run->not_finite = switcher_counts(run->stepper).rejected[rejected_not_finite];
     if (run->kind == structure_linear) set_linear_step(run);
+    if (run->kind == structure_constant) run->h = run->options.until - run->from;
     run_part_before(run);
     if (run->options.step == 0 && !heed_poles(run)) return run->outcome;
     bool timed;
