@@ -51,6 +51,28 @@ void modes_hold(struct fbd_state *state)
     if (state_sliding(state)) sliding_project(state);
 }
 
+/* What begins to slip at the limit of its friction has no acceleration against its surface yet: that is
+ * rounding, by which expressions in its speed would go on on either side. It goes on where it slips. */
+static void lean(const struct fbd_state *state, double *dy)
+{
+    const double little = 1e-9;
+    const struct fbd_model *model = state->model;
+    const struct plan *plan = &model->plan;
+    struct instant at = state_instant(state);
+    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
+        const struct friction *friction = &plan->frictions[pair];
+        bool begins = friction->kind == mode_friction && friction->tie < 0 && state->slip[pair] != stick &&
+                      slip_velocity(model, pair, &at) == 0;
+        if (!begins) continue;
+        double *slots = state->scratch, surface, *a = &dy[plan->n + friction->coordinate];
+        friction_surface_speed(friction, &at, &surface);
+        force_balance(model, &at, slots);
+        double limit = friction->jointed ? 0 : friction_at(model, pair, &at, slots).limit / friction->inertia;
+        double least = little * fmax(fmax(fabs(*a), fabs(surface)), limit);
+        if (fabs(*a - surface) <= least) *a = surface + slip_side(state->slip[pair]) * least;
+    }
+}
+
 /* The direction in which the state goes on: (1, v, a). Stored in the last 2 n entries of the scratch. */
 static struct direction flow_of(struct fbd_state *state)
 {
@@ -59,6 +81,7 @@ static struct direction flow_of(struct fbd_state *state)
     double *dy = state->scratch + 2 * (size_t)plan->slots;
     memcpy(dy, state->y + n, n * sizeof *dy);
     memcpy(dy + n, state->a, n * sizeof *dy);
+    if (plan->kink_count > 0) lean(state, dy);
     struct direction flow = {1, dy};
     if (!state->extended) return flow;
     struct instant at = state_instant(state), extended = instant_extend(state->model, &at);

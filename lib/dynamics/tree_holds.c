@@ -29,6 +29,7 @@ struct gathered {
     int *pair, *hold; /* of a hold; of a pair, or -1 */
     int *link;        /* of a guide: whose slide */
     int *trial;       /* modes with all of them loose */
+    int *still;       /* of a hold: the constraints alone let nothing move along it */
     int *forced;
 };
 
@@ -37,12 +38,16 @@ static const struct friction *pair_of(const struct fbd_state *state, int pair)
     return &state->model->plan.frictions[pair];
 }
 
-/* Is the line of what rolls, if that is what the friction is on, closed or to be decided? */
-static bool is_on_surface(const struct fbd_state *state, const struct friction *friction)
+/* Is the surface that the friction is on, if it is on one, closed or to be decided? */
+static bool is_on_surface(const struct fbd_state *state, const struct decided *decided, const int *forced,
+                          const struct friction *friction)
 {
     if (friction->tie < 0) return true;
     int surface = state->model->tree->ties[friction->tie].surface;
     struct instant at = state_instant(state);
+    if (surface >= 0 && (forced[surface] || (decided && decided->slips[surface])) &&
+        state->slip[surface] != stick)
+        return false;
     if (surface >= 0 && pair_of(state, surface)->kind == mode_contact)
         return state->tree->ties[friction->tie].feature != no_feature;
     return surface < 0 || state->slip[surface] == stick || one_sided_at(state->model, &at, surface).touches;
@@ -55,7 +60,7 @@ static bool is_in_question(const struct fbd_state *state, const struct decided *
     const struct friction *hold = pair_of(state, pair);
     struct instant at = state_instant(state);
     if (!hold->jointed || hold->kind == mode_drive) return false;
-    if (hold->kind == mode_friction) return is_on_surface(state, hold);
+    if (hold->kind == mode_friction) return is_on_surface(state, decided, forced, hold);
     if (forced[pair] || (decided && decided->slips[pair])) return false;
     if (hold->kind == mode_contact) return state->tree->ties[hold->tie].feature != no_feature;
     struct one_sided now = one_sided_at(state->model, &at, pair);
@@ -193,8 +198,15 @@ static void set_press(struct gathered *all, size_t i, size_t *guides)
     hold->press = press_constant;
     if (friction->normal_slot < 0) return;
     if (friction->tie >= 0) {
+        int surface = all->state->model->tree->ties[friction->tie].surface;
         hold->press = press_hold;
-        hold->presses = all->hold[all->state->model->tree->ties[friction->tie].surface];
+        hold->presses = all->hold[surface];
+        if (hold->presses >= 0) return;
+        /* Closed already: with the force that it has, and look() says whether it keeps that. */
+        double N = fmax(0, one_sided_at(all->state->model, &all->at, surface).force);
+        hold->press = press_constant;
+        hold->mu_s *= N;
+        hold->mu_k *= N;
         return;
     }
     hold->press = press_guide;
@@ -208,12 +220,15 @@ static bool gather(struct gathered *all, struct fbd_state *state, const struct d
     const struct plan *plan = &state->model->plan;
     size_t pairs = plan->friction_count, count = 0, guides = 0;
     struct instant at = state_instant(state);
-    *all =
-        (struct gathered){.state = state, .forced = forced, .pair = calloc(4 * pairs + 1, sizeof *all->pair)};
+    *all = (struct gathered){.state = state,
+                             .at = at,
+                             .forced = forced,
+                             .pair = calloc(5 * pairs + 1, sizeof *all->pair)};
     if (!all->pair) return false;
     all->hold = all->pair + pairs;
     all->link = all->hold + pairs;
     all->trial = all->link + pairs;
+    all->still = all->trial + pairs;
     memcpy(all->trial, state->slip, pairs * sizeof *all->trial);
     for (size_t p = 0; p < pairs; p++) {
         all->hold[p] = -1;
@@ -236,19 +251,12 @@ static bool gather(struct gathered *all, struct fbd_state *state, const struct d
         hold->slip = slips_already(state, decided, forced, all->pair[i]);
         set_press(all, i, &guides);
     }
-    all->at = at;
     all->at.slip = all->trial;
     set_free(all);
-    bool *still = calloc(count + 1, sizeof *still);
-    for (size_t k = 0; k < count; k++) {
-        bool alone = add_column(all, k);
-        if (still) still[k] = alone;
-    }
-    for (size_t k = 0; still && k < count; k++)
-        if (still[k]) hold_still(all, k);
-    bool made = still != NULL;
-    free(still);
-    return made;
+    for (size_t k = 0; k < count; k++) all->still[k] = add_column(all, k);
+    for (size_t k = 0; k < count; k++)
+        if (all->still[k]) hold_still(all, k);
+    return true;
 }
 
 /* Painleve's paradox has a friction by which its own normal force grows: the one that does so most. */

@@ -22,7 +22,8 @@ bool course_init(struct course *course, size_t size, const bool *used)
     for (size_t i = 0; i < size; i++) course->count += used[i];
     size_t count = course->count;
     course->component = calloc(count + 1, sizeof(int));
-    size_t grids = count > 0 ? (size_t)coarse_room * (coarse_room + 1) + (size_t)room * (room + 1) : 0;
+    size_t grids =
+        count > 0 ? (size_t)coarse_room * (2 * coarse_room + 1) + (size_t)room * (2 * room + 1) : 0;
     course->coefficients = calloc((size_t)2 * room * count + 5 * count + size + grids + 1, sizeof(double));
     course->now = calloc(size + 1, sizeof *course->now);
     if (!course->component || !course->coefficients || !course->now) {
@@ -36,10 +37,12 @@ bool course_init(struct course *course, size_t size, const bool *used)
     course->tail = course->floor + count;
     course->noise = course->tail + count;
     course->y = course->noise + count;
-    course->grids[0].node = course->y + size;
-    course->grids[0].matrix = course->grids[0].node + coarse_room;
-    course->grids[1].node = course->grids[0].matrix + (size_t)coarse_room * coarse_room;
-    course->grids[1].matrix = course->grids[1].node + room;
+    double *behind = course->y + size;
+    for (size_t i = 0; i < 2; i++) {
+        size_t own = i == 0 ? coarse_room : room;
+        course->grids[i] = (struct course_grid){0, behind, behind + own, behind + own * (own + 1)};
+        behind += own * (2 * own + 1);
+    }
     for (size_t i = 0, k = 0; i < size; i++) {
         course->now[i] = enclosure_everything();
         if (used[i]) course->component[k++] = (int)i;
@@ -70,35 +73,31 @@ static double cosine(int k, int degree)
 }
 
 /* Row j of the powers of T_0 .. T_d: T_{j+1} = 2 s T_j - T_{j-1}. */
-static void set_powers(int degree, double power[room][room])
+static void set_powers(int degree, double *power)
 {
-    memset(power, 0, room * sizeof *power);
-    power[0][0] = power[1][1] = 1;
-    for (int j = 1; j < degree; j++)
-        for (int k = 0; k <= j + 1; k++)
-            power[j + 1][k] = (k > 0 ? 2 * power[j][k - 1] : 0) - power[j - 1][k];
+    size_t width = (size_t)degree + 1;
+    memset(power, 0, width * width * sizeof *power);
+    power[0] = power[width + 1] = 1;
+    for (size_t j = 1; j + 1 < width; j++, power += width)
+        for (size_t k = 0; k <= j + 1; k++)
+            power[2 * width + k] = (k > 0 ? 2 * power[width + k - 1] : 0) - power[k];
 }
 
 /* The coefficients of the Chebyshev series are c_j = (2/d) sum_k f_k cos(pi j k/d), where the first and last
- * of both sums count half; the matrix goes on to powers of s. */
+ * of both sums count half. */
 static void prepare(struct course *course, int degree)
 {
-    double power[room][room];
     struct course_grid *grid = &course->grids[degree != course_coarse_degree];
     course->degree = degree;
     course->grid = grid;
     if (grid->degree == degree) return;
     grid->degree = degree;
-    set_powers(degree, power);
+    set_powers(degree, grid->power);
     for (int k = 0; k <= degree; k++) {
         grid->node[k] = cosine(k, degree);
-        for (int i = 0; i <= degree; i++) {
-            double sum = 0;
-            for (int j = i; j <= degree; j++) {
-                double half = (k == 0 || k == degree ? 0.5 : 1) * (j == 0 || j == degree ? 0.5 : 1);
-                sum += half * cosine(j * k, degree) * power[j][i];
-            }
-            grid->matrix[i * (degree + 1) + k] = 2 * sum / degree;
+        for (int j = 0; j <= degree; j++) {
+            double half = (k == 0 || k == degree ? 0.5 : 1) * (j == 0 || j == degree ? 0.5 : 1);
+            grid->series[j * (degree + 1) + k] = 2 * half * cosine(j * k, degree) / degree;
         }
     }
 }
@@ -125,27 +124,29 @@ static bool all_equal(int degree, const double *sample)
     return true;
 }
 
-/* The polynomial of component i in powers of s; returns its size. */
-static double set_powers_of(struct course *course, size_t i)
+/* The polynomial of component i in powers of s; returns its size. Terms that are roundings of the samples are
+ * left to the doubt: in powers they would be 2^(d-1) times as large. */
+static double set_powers_of(struct course *course, size_t i, double *series)
 {
-    int degree = course->degree;
+    const double rounding = DBL_EPSILON;
+    int width = course->degree + 1;
     double *c = course->coefficients + i * room, size = 0;
-    const double *sample = course->samples + i * room, *row = course->grid->matrix;
-    for (int j = 0; j <= degree; j++, row += degree + 1) {
-        double sum = 0;
-        for (int k = 0; k <= degree; k++) sum += row[k] * sample[k];
-        c[j] = sum;
-        size = fmax(size, fabs(sample[j]));
+    const double *sample = course->samples + i * room, *row = course->grid->series,
+                 *power = course->grid->power;
+    for (int k = 0; k < width; k++) size = fmax(size, fabs(sample[k]));
+    memset(c, 0, room * sizeof *c);
+    for (int j = 0; j < width; j++, row += width, power += width) {
+        series[j] = 0;
+        for (int k = 0; k < width; k++) series[j] += row[k] * sample[k];
+        if (j > 0 && fabs(series[j]) <= rounding * size) continue;
+        for (int k = j % 2; k <= j; k += 2) c[k] += series[j] * power[k];
     }
     return size;
 }
 
-/* The size of the last two terms c_j T_j, whose leading powers are 2^(j-1) c_j. */
-static double last_terms(const struct course *course, size_t i)
+static double last_terms(const struct course *course, const double *series)
 {
-    const double *c = course->coefficients + i * room;
-    int degree = course->degree;
-    return ldexp(fabs(c[degree]), 1 - degree) + ldexp(fabs(c[degree - 1]), 2 - degree);
+    return fabs(series[course->degree]) + fabs(series[course->degree - 1]);
 }
 
 /* At rest, or moved by rounding alone. */
@@ -163,8 +164,8 @@ static bool follow(struct course *course, size_t i, double negligible, bool halv
 {
     const double rounding = 32 * DBL_EPSILON, least_fall = 1.0 / 8;
     if (rests(course, i)) return false;
-    double size = set_powers_of(course, i);
-    double tail = negligible == 0 ? 0 : last_terms(course, i);
+    double series[room], size = set_powers_of(course, i, series);
+    double tail = negligible == 0 ? 0 : last_terms(course, series);
     course->doubt[i] += rounding * size + tail;
     course->scale[i] = fmax(course->scale[i], size);
     double share = tail / course->scale[i], before = course->tail[i];
@@ -208,9 +209,8 @@ int course_set_coarse(struct course *course, double from, double to, course_samp
     if (status) return status;
     for (size_t i = 0; i < course->count; i++) {
         if (rests(course, i)) continue;
-        double size = set_powers_of(course, i);
-        const double *c = course->coefficients + i * room;
-        double tail = fmax(last_terms(course, i), fabs(c[2] + c[4]) / 32);
+        double series[room], size = set_powers_of(course, i, series);
+        double tail = fmax(last_terms(course, series), fabs(series[2]) / 16);
         course->doubt[i] += rounding * size + safe * tail;
     }
     return 0;

@@ -24,8 +24,8 @@ typedef int course_sampler(void *context, double t, double *y);
 
 /* The samples of one degree d. */
 struct course_grid {
-    int degree;            /* 0: not made */
-    double *node, *matrix; /* d + 1 numbers; (d + 1) (d + 1): from samples to powers */
+    int degree;                    /* 0: not made */
+    double *node, *series, *power; /* d + 1 numbers; (d + 1) (d + 1): from samples to c, from c to powers */
 };
 
 struct course {

@@ -193,19 +193,19 @@ static double size_of(const struct run *run, size_t i, double reach, double spee
     }
 }
 
-/* What joints and couplings keep from varying has the rounding of theirs, and the bounds of its rate are
- * those of noise over whatever stretch. */
+/* What varies by no more than its rounding, or what joints and couplings keep from varying but for theirs, has
+ * bounds of its rate that are those of noise over whatever stretch. */
 static void hold_noise(struct run *run)
 {
-    const double negligible = 1e-10;
-    if (!run->model->tree) return;
-    double speed, reach = measure(run, &speed);
-    if (!(reach > 0)) return;
+    const double negligible = 1e-10, roundings = 4;
+    double speed, reach = run->model->tree ? measure(run, &speed) : 0;
     for (size_t k = 0; k < run->course.count; k++) {
         int i = run->course.component[k];
         struct enclosure *now = &run->course.now[i];
         double width = interval_width(now->value), middle = now->middle.low + interval_width(now->middle) / 2;
-        if (width <= negligible * size_of(run, (size_t)i, reach, speed)) *now = enclosure_point(middle);
+        double noise = roundings * run->course.doubt[k];
+        if (reach > 0) noise = fmax(noise, negligible * size_of(run, (size_t)i, reach, speed));
+        if (width <= noise) *now = enclosure_point(middle);
     }
 }
 

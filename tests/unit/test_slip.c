@@ -14,6 +14,7 @@
 #include "gallery.h"
 #include "random_numbers.h"
 #include "scenes.h"
+#include "thorough.h"
 
 #include <string.h>
 
@@ -232,6 +233,55 @@ static void steady_slip_is_linearised(void **unused)
     checks_end(&checks);
 }
 
+/* ---- the same law written in the velocities, by hand */
+
+/* A block on a shaken belt, a spring and a damper; what presses it varies. With `slip`, or with abs(v - s):
+ * then a switch of the law stands where the block sticks, stops and breaks away. */
+static struct trial shaken_belt(uint64_t seed, bool by_slip)
+{
+    char s[200], law[300], text[1200];
+    struct random_numbers numbers = {seed};
+    double mu_d = random_between(&numbers, 0.15, 0.3), more = random_between(&numbers, 0.02, 0.3);
+    snprintf(s, sizeof s, "%.3g[m/s] + %.3g[m/s]*sin(%.3g[rad/s]*t)", random_between(&numbers, 0.05, 0.3),
+             random_between(&numbers, 0.05, 0.4), random_between(&numbers, 1, 5));
+    snprintf(law, sizeof law, by_slip ? "slip" : "abs(v - (%s))", s);
+    snprintf(text, sizeof text,
+             "fbd: 1\nbodies:\n  b:\n    mass: %.3g\n    motion: slide\n    initial: {x: 0.1, v: %.2g}\n"
+             "    forces:\n      - gravity\n      - normal\n      - spring: {stiffness: %.3g}\n"
+             "      - damper: {coefficient: %.3g}\n"
+             "      - applied: {name: press, value: [\"0[N]\", \"-%.3g[N]*sin(%.3g[rad/s]*t)\"]}\n"
+             "      - friction: {static: %.17g, kinetic: \"%.17g + %.17g*exp(-%s/%.3g[m/s])\", "
+             "surface_speed: \"%s\"}\nsimulate: {until: 4 s, tolerance: %.2g}\n",
+             random_between(&numbers, 0.5, 3), random_between(&numbers, -0.5, 0.5),
+             random_between(&numbers, 20, 150), random_between(&numbers, 0, 0.5),
+             random_between(&numbers, 0, 4), random_between(&numbers, 2, 9), mu_d + more, mu_d, more, law,
+             random_between(&numbers, 0.05, 0.3), s, pow(10, random_between(&numbers, -12, -6)));
+    struct trial trial = trial_parse(text);
+    trial_start(&trial, NULL);
+    trial_finish(&trial);
+    return trial;
+}
+
+static void a_law_written_by_hand_is_the_same(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    int sticks = 0;
+    for (uint64_t seed = 1; seed <= (thorough() ? 200 : 20); seed++) {
+        struct trial by_hand = shaken_belt(seed, false), by_slip = shaken_belt(seed, true);
+        char name[60];
+        snprintf(name, sizeof name, "seed %d: x at the end", (int)seed);
+        check_close(&checks, name, trial_get(&by_hand, "x"), trial_get(&by_slip, "x"), 1e-5);
+        snprintf(name, sizeof name, "seed %d: v at the end", (int)seed);
+        check_close(&checks, name, trial_get(&by_hand, "v"), trial_get(&by_slip, "v"), 1e-4);
+        sticks += isfinite(trial_event(&by_slip, FBD_EVENT_STICK, NULL, 0));
+        trial_close(&by_hand);
+        trial_close(&by_slip);
+    }
+    check_that(&checks, "some stick", sticks > 10);
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -241,6 +291,7 @@ int main(void)
         cmocka_unit_test(a_kink_in_the_slip_is_an_event),
         cmocka_unit_test(a_law_with_a_root_stops_as_well),
         cmocka_unit_test(steady_slip_is_linearised),
+        cmocka_unit_test(a_law_written_by_hand_is_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
