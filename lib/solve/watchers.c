@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dynamics/absolute.h"
+
 /* ---- which functions a plan needs */
 
 static void add(struct watcher_set *set, struct watcher watcher)
@@ -127,12 +129,16 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
     watchers->timed = (struct watcher_set){.watchers = calloc(timed + 1, sizeof(struct watcher))};
     watchers->moving = (struct watcher_set){.watchers = calloc(moving + 1, sizeof(struct watcher))};
     watchers->scratch = calloc(6 * margins + 1, sizeof(double));
+    watchers->held = calloc((size_t)plan->branches + 1, sizeof *watchers->held);
+    watchers->zeros = calloc((size_t)plan->branches + 1, sizeof *watchers->zeros);
+    watchers->place = calloc(2 * extended_size(model) + 1, sizeof(double));
     watchers->margins = calloc(2 * margins + 1, sizeof *watchers->margins);
     watchers->armed = calloc(plan->watch_count + 1, sizeof(int));
     watchers->fired = calloc(plan->watch_count + 1, sizeof(double));
     watchers->most = calloc(2 * plan->watch_count + 1, sizeof(double));
     if (!watchers->timed.watchers || !watchers->moving.watchers || !watchers->scratch || !watchers->armed ||
-        !watchers->fired || !watchers->most || !watchers->margins) {
+        !watchers->fired || !watchers->most || !watchers->margins || !watchers->held || !watchers->zeros ||
+        !watchers->place) {
         watchers_free(watchers);
         return false;
     }
@@ -150,6 +156,9 @@ void watchers_free(struct watchers *watchers)
     free(watchers->timed.groups);
     free(watchers->moving.groups);
     free(watchers->margins);
+    free(watchers->held);
+    free(watchers->zeros);
+    free(watchers->place);
     free(watchers->timed.watchers);
     free(watchers->moving.watchers);
     free(watchers->scratch);
@@ -187,6 +196,7 @@ static bool is_enclosed(const struct fbd_state *state, const struct watcher *wat
 void watchers_follow(struct watchers *watchers, const struct fbd_state *state)
 {
     struct watcher_set *set = &watchers->moving;
+    watchers_hold(watchers, state);
     if (!state->sliding) return;
     for (size_t g = 0; g < set->group_count; g++)
         set->groups[g].proved = is_enclosed(state, &set->watchers[set->groups[g].first]);

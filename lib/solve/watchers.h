@@ -55,6 +55,9 @@ struct watchers {
     double *fired;             /* per user event: when it happened last; NAN: it has not */
     bool *asleep;              /* per meeting: it is too far apart to be looked at in this step; or NULL */
     double width;              /* of the bands of user events, relative to the largest size */
+    bool *held;                /* per branch: a stick holds the switch at zero; it is not watched */
+    int *zeros;                /* scratch for that: places where it is zero */
+    double *place;             /* such a place, and as many zeros */
     double *most, *band; /* per user event: largest size of the difference; 0, or where a step starts in the
                             band its half width */
 };
@@ -90,6 +93,9 @@ void watchers_enclose(const struct watchers *watchers, const struct watcher_set 
 /* Say which functions have enclosures in the modes that follow: where the motion slides on switches, shares
  * and sums of forces are samples. */
 void watchers_follow(struct watchers *watchers, const struct fbd_state *state);
+
+/* A part of it: set `held`. */
+void watchers_hold(struct watchers *watchers, const struct fbd_state *state);
 
 /* Arm user events that have left zero, and see which are in their band; call at the start and after each
  * accepted step. */

@@ -174,7 +174,9 @@ static void enclose_kink(const struct watchers *watchers, const struct watcher_s
     for (size_t i = 0; i < group->count; i++) {
         bool slid_on =
             state_sliding(o->state) && o->state->sliding->slide_at[kink->formula.branch + first[i].part] > 0;
-        out[i] = slid_on ? enclosure_point(HUGE_VAL) : watchers->margins[2 * first[i].part + first[i].end];
+        bool held = watchers->held[kink->formula.branch + first[i].part];
+        out[i] =
+            slid_on || held ? enclosure_point(HUGE_VAL) : watchers->margins[2 * first[i].part + first[i].end];
     }
 }
 

@@ -275,7 +275,8 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
             size_t entry = 2 * (size_t)watcher->part + (size_t)watcher->end;
             values[i] = watchers->scratch[entry];
             rates[i] = watchers->scratch[2 * kink->count + entry];
-            if (!slide_of(state, watcher)) break;
+            bool held = watchers->held[kink->formula.branch + watcher->part];
+            if (!held && !slide_of(state, watcher)) break;
             values[i] = HUGE_VAL;
             rates[i] = 0;
             break;

@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Switches that a stick holds at zero.
+ *
+ * A law may say abs(v - s) with s the velocity of the surface. While the body sticks there this is zero
+ * throughout and no function that passes zero: its sign is rounding. Whether it is so is asked of the
+ * function itself: at states taken at random among those that stick as this one does, what is not zero
+ * throughout is zero with probability nought (the test of identities by J. T. Schwartz, J. ACM 27 (1980)
+ * 701).
+ */
+#include <math.h>
+#include <string.h>
+
+#include "dynamics/absolute.h"
+#include "solve/watchers.h"
+
+/* Numbers between -1 and 1 that follow no rule of a scene: multiples of the golden section. */
+static double next_number(unsigned *count)
+{
+    const double golden = 0.61803398874989484820;
+    double whole;
+    return 2 * modf(++*count * golden, &whole) - 1;
+}
+
+/* Another time and another state, with what sticks on its surface. */
+static double move_away(const struct fbd_state *state, unsigned *count, double *y)
+{
+    const double second = 1;
+    const struct plan *plan = &state->model->plan;
+    size_t n = (size_t)plan->n;
+    double t = state->t + second * (2 + next_number(count)), acceleration;
+    for (size_t i = 0; i < 2 * n; i++) y[i] = state->y[i] + next_number(count);
+    struct instant at = state_instant_at(state, t, y);
+    for (size_t pair = 0; pair < plan->friction_count; pair++) {
+        const struct friction *friction = &plan->frictions[pair];
+        if (friction->kind == mode_friction && state->slip[pair] == stick)
+            y[n + (size_t)friction->coordinate] = friction_surface_speed(friction, &at, &acceleration);
+    }
+    return t;
+}
+
+/* Add to `zeros` for each switch of the kink that is zero at (t, y). */
+static void count_zeros(const struct watchers *watchers, const struct fbd_state *state,
+                        const struct kink *kink, double t, const double *y, int *zeros)
+{
+    struct instant at = state_instant_at(state, t, y);
+    if (state->model->absolute_count > 0) at = instant_extend(state->model, &at);
+    double *margins = watchers->scratch, *roundings = margins + 4 * kink->count;
+    const double *still = watchers->place + extended_size(state->model);
+    expr_margins(kink->formula.expr, moment_at(t), at.y, 0, still, state->branch + kink->formula.branch,
+                 margins, margins + 2 * kink->count, roundings);
+    for (size_t part = 0; part < kink->count; part++)
+        for (size_t end = 2 * part; end < 2 * part + 2; end++)
+            if (fabs(margins[end]) <= 4 * roundings[end]) {
+                zeros[part]++;
+                break;
+            }
+}
+
+static bool any_sticks(const struct fbd_state *state)
+{
+    const struct plan *plan = &state->model->plan;
+    for (size_t pair = 0; pair < plan->friction_count; pair++)
+        if (plan->frictions[pair].kind == mode_friction && state->slip[pair] == stick) return true;
+    return false;
+}
+
+/* The links of jointed bodies cannot be put anywhere. */
+void watchers_hold(struct watchers *watchers, const struct fbd_state *state)
+{
+    enum { places = 3 };
+    const struct fbd_model *model = state->model;
+    const struct plan *plan = &model->plan;
+    bool asked = !model->tree && plan->kink_count > 0 && any_sticks(state);
+    memset(watchers->zeros, 0, (size_t)plan->branches * sizeof *watchers->zeros);
+    unsigned count = 0;
+    for (int place = 0; asked && place < places; place++) {
+        double t = place == 0 ? state->t : move_away(state, &count, watchers->place);
+        if (place == 0) memcpy(watchers->place, state->y, 2 * (size_t)plan->n * sizeof *watchers->place);
+        for (size_t i = 0; i < plan->kink_count; i++)
+            count_zeros(watchers, state, &plan->kinks[i], t, watchers->place,
+                        watchers->zeros + plan->kinks[i].formula.branch);
+    }
+    for (int i = 0; i < plan->branches; i++) watchers->held[i] = asked && watchers->zeros[i] == places;
+}
