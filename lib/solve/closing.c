@@ -65,15 +65,6 @@ void run_close_within(struct run *run, double t, double *y)
         memcpy(y, other, 2 * n * sizeof *y);
 }
 
-/* A multistep method goes on from what it remembers, which a return to the constraints does not change. When
- * that has gone far it starts anew: near a singular position being off grows. */
-bool run_has_gone_astray(const struct run *run)
-{
-    const double far = 10;
-    if (!run->projected || !run->options.method->multistep) return false;
-    return tolerances_apart(run, run->y, run->state->y) > far;
-}
-
 /* What rounding may do in the last step: in a scene at rest accelerations are what is left of forces that
  * cancel, 1e-12 of what one of the forces alone would do, which is some thousand roundings. */
 struct rounding {
@@ -94,6 +85,31 @@ static struct rounding rounding_of_step(struct run *run)
     }
     double speed = share * most * time;
     return (struct rounding){speed, speed * time, mass * speed * speed / 2};
+}
+
+/* Has the return to the constraints moved nothing but rounding, of a scene at rest say? */
+static bool is_moved_by_rounding(struct run *run)
+{
+    const double roundings = 64 * DBL_EPSILON;
+    const struct coordinate *coordinates = run->model->scene->coordinates;
+    size_t n = (size_t)run->model->plan.n;
+    struct rounding rounding = rounding_of_step(run);
+    double reach = run->drift.reach, speed = run->drift.speed;
+    double least[] = {rounding.way + roundings * reach, rounding.speed + roundings * speed};
+    for (size_t i = 0; i < 2 * n; i++) {
+        double moved = fabs(run->y[i] - run->state->y[i]) * (coordinates[i % n].angle ? reach : 1);
+        if (!(moved <= least[i / n])) return false;
+    }
+    return true;
+}
+
+/* A multistep method goes on from what it remembers, which a return to the constraints does not change. When
+ * that has gone far it starts anew: near a singular position being off grows. */
+bool run_has_gone_astray(struct run *run)
+{
+    const double far = 10;
+    if (!run->projected || !run->options.method->multistep) return false;
+    return tolerances_apart(run, run->y, run->state->y) > far && !is_moved_by_rounding(run);
 }
 
 /* Note how large the mechanism is and how fast; returns its present size. */

@@ -193,7 +193,7 @@ void run_check_balance(struct run *run);
 void run_watch_pulleys(struct run *run, struct moment *t);
 
 /* Has the step that ends at run->y been brought back so far that its method has to start anew? */
-bool run_has_gone_astray(const struct run *run);
+bool run_has_gone_astray(struct run *run);
 
 /* Bring y[2n] at a time within the last step back to the couplings. */
 void run_close_within(struct run *run, double t, double *y);
