@@ -186,6 +186,7 @@ void tree_accelerations(const struct fbd_model *model, const struct instant *at,
         tree_outward(tree, work, 1, tree->count, a);
     }
     work->complete = work->shared = false;
+    work->fastest = -1;
     if (tree->watched_count + tree->tie_count == 0) return;
     tree_complete(model, work);
     if (tree->tie_count > 0 || tree_slips(tree, at)) close_system(model, at, a);
