@@ -164,7 +164,7 @@ static bool follow(struct course *course, size_t i, double negligible, bool halv
 {
     const double rounding = 32 * DBL_EPSILON, least_fall = 1.0 / 8;
     if (rests(course, i)) return false;
-    double series[room], size = set_powers_of(course, i, series);
+    double series[room] = {0}, size = set_powers_of(course, i, series);
     double tail = negligible == 0 ? 0 : last_terms(course, series);
     course->doubt[i] += rounding * size + tail;
     course->scale[i] = fmax(course->scale[i], size);
@@ -209,7 +209,7 @@ int course_set_coarse(struct course *course, double from, double to, course_samp
     if (status) return status;
     for (size_t i = 0; i < course->count; i++) {
         if (rests(course, i)) continue;
-        double series[room], size = set_powers_of(course, i, series);
+        double series[room] = {0}, size = set_powers_of(course, i, series);
         double tail = fmax(last_terms(course, series), fabs(series[2]) / 16);
         course->doubt[i] += rounding * size + safe * tail;
     }

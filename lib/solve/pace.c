@@ -192,16 +192,18 @@ static double go_queued(struct ensemble *ensemble, double target, double near, b
     return stop <= target + near ? stop : target;
 }
 
-/* Carry the quiet groups on; returns the time that can be reached, less than `target` when one fails. */
+/* Carry the quiet groups on; returns the time that can be reached, less than `target` when one fails or is
+ * interrupted: a stiff one may have any number of steps to make. What others have gone beyond is made again.
+ */
 static double go_quiet(struct ensemble *ensemble, double target)
 {
     for (size_t p = 0; p < ensemble->count && ensemble->outcome == FBD_GOING; p++) {
         const struct group *group = &ensemble->groups[p];
         if (!group->quiet) continue;
-        bool alone = ensemble->count == 1; /* several are carried on to one time */
-        while (group->run->outcome == FBD_GOING && end_of(ensemble, p) < target && !(alone && ensemble->cut))
+        bool alone = ensemble->count == 1; /* several are carried on to one time, if they can be */
+        while (group->run->outcome == FBD_GOING && end_of(ensemble, p) < target && !ensemble->cut)
             step(ensemble, p);
-        if (ended_early(group->run) || alone) target = fmin(target, end_of(ensemble, p));
+        if (ended_early(group->run) || alone || ensemble->cut) target = fmin(target, end_of(ensemble, p));
     }
     return target;
 }

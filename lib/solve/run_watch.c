@@ -193,12 +193,12 @@ static double size_of(const struct run *run, size_t i, double reach, double spee
     }
 }
 
-/* What varies by no more than its rounding, or what joints and couplings keep from varying but for theirs, has
- * bounds of its rate that are those of noise over whatever stretch. */
+/* What varies by no more than its rounding, or what joints and couplings keep from varying but for theirs,
+ * has bounds of its rate that are those of noise over whatever stretch. */
 static void hold_noise(struct run *run)
 {
     const double negligible = 1e-10, roundings = 4;
-    double speed, reach = run->model->tree ? measure(run, &speed) : 0;
+    double speed = 0, reach = run->model->tree ? measure(run, &speed) : 0;
     for (size_t k = 0; k < run->course.count; k++) {
         int i = run->course.component[k];
         struct enclosure *now = &run->course.now[i];

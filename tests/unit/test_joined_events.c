@@ -220,8 +220,8 @@ static void the_first_event_is_that_of_an_independent_search(void **unused)
 
 /* A cart that stands still is pushed to where its rope is fixed, without weight; a disc rolls on it. The rope
  * goes slack at once, though all that its speed is measured against is the rounding of the start's
- * projection, and the disc stays on the cart, though nothing presses it there but rounding. Its friction takes
- * m/3 of it along: F = (M + m/3) a. */
+ * projection, and the disc stays on the cart, though nothing presses it there but rounding. Its friction
+ * takes m/3 of it along: F = (M + m/3) a. */
 static bool light_cart_agrees(uint64_t seed)
 {
     struct random_numbers numbers = {seed};
