@@ -306,9 +306,20 @@ static enum holds_found solve(struct fbd_state *state, const struct decided *dec
 
 /* ---- do the modes agree with the forces? */
 
+/* What the friction of a joint alone does to its body: an acceleration that is left of sums of such sizes. */
+static double accelerated(const struct fbd_state *state, int pair)
+{
+    const struct tree_link *link = &state->model->tree->links[link_of(state, pair)];
+    const struct friction *friction = pair_of(state, pair);
+    struct instant at = state_instant(state);
+    double inertia = friction->normal_slot >= 0 ? link->mass : link->I_O;
+    return inertia > 0 ? friction_at(state->model, pair, &at, state->scratch).limit / inertia : 0;
+}
+
 /* Does a slipping pair turn back at once? */
 static bool turns_back(const struct fbd_state *state, int pair)
 {
+    const double rounding = 64 * DBL_EPSILON;
     const struct friction *friction = pair_of(state, pair);
     struct instant at = state_instant(state);
     double surface;
@@ -316,7 +327,8 @@ static bool turns_back(const struct fbd_state *state, int pair)
         return state->slip[pair] * tie_slip_acceleration(state->model, &at, friction->tie) < 0;
     friction_surface_speed(friction, &at, &surface);
     double a = state->a[friction->coordinate];
-    return state->slip[pair] * (a - surface) < -8 * DBL_EPSILON * (fabs(a) + fabs(surface));
+    double least = 8 * DBL_EPSILON * (fabs(a) + fabs(surface)) + rounding * accelerated(state, pair);
+    return slip_side(state->slip[pair]) * (a - surface) < -least;
 }
 
 /* The size that forces of constraints have: what zero is measured against. */

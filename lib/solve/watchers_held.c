@@ -22,6 +22,13 @@ static double next_number(unsigned *count)
     return 2 * modf(++*count * golden, &whole) - 1;
 }
 
+/* Does friction hold a coordinate? What rolls has none of its own. */
+static bool is_held_by(const struct fbd_state *state, size_t pair)
+{
+    const struct friction *friction = &state->model->plan.frictions[pair];
+    return friction->kind == mode_friction && friction->tie < 0 && state->slip[pair] == stick;
+}
+
 /* Another time and another state, with what sticks on its surface. */
 static double move_away(const struct fbd_state *state, unsigned *count, double *y)
 {
@@ -33,7 +40,7 @@ static double move_away(const struct fbd_state *state, unsigned *count, double *
     struct instant at = state_instant_at(state, t, y);
     for (size_t pair = 0; pair < plan->friction_count; pair++) {
         const struct friction *friction = &plan->frictions[pair];
-        if (friction->kind == mode_friction && state->slip[pair] == stick)
+        if (is_held_by(state, pair))
             y[n + (size_t)friction->coordinate] = friction_surface_speed(friction, &at, &acceleration);
     }
     return t;
@@ -44,7 +51,7 @@ static void count_zeros(const struct watchers *watchers, const struct fbd_state 
                         const struct kink *kink, double t, const double *y, int *zeros)
 {
     struct instant at = state_instant_at(state, t, y);
-    if (state->model->absolute_count > 0) at = instant_extend(state->model, &at);
+    if (state->model->absolute_count > 0 && !state->model->tree) at = instant_extend(state->model, &at);
     double *margins = watchers->scratch, *roundings = margins + 4 * kink->count;
     const double *still = watchers->place + extended_size(state->model);
     expr_margins(kink->formula.expr, moment_at(t), at.y, 0, still, state->branch + kink->formula.branch,
@@ -57,29 +64,39 @@ static void count_zeros(const struct watchers *watchers, const struct fbd_state 
             }
 }
 
+/* Does it read the motion, and no more than its coordinates where the links of jointed bodies would have to
+ * be moved for that? */
+static bool can_be_asked(const struct fbd_model *model, const struct kink *kink)
+{
+    const int *slots;
+    size_t count = expr_variables(kink->formula.expr, &slots);
+    return count > 0 && (!model->tree || slots[count - 1] <= 2 * model->plan.n);
+}
+
 static bool any_sticks(const struct fbd_state *state)
 {
     const struct plan *plan = &state->model->plan;
     for (size_t pair = 0; pair < plan->friction_count; pair++)
-        if (plan->frictions[pair].kind == mode_friction && state->slip[pair] == stick) return true;
+        if (is_held_by(state, pair)) return true;
     return false;
 }
 
-/* The links of jointed bodies cannot be put anywhere. */
+/* Couplings may hold more than is asked for here: what is zero without them is zero with them. */
 void watchers_hold(struct watchers *watchers, const struct fbd_state *state)
 {
     enum { places = 3 };
     const struct fbd_model *model = state->model;
     const struct plan *plan = &model->plan;
-    bool asked = !model->tree && plan->kink_count > 0 && any_sticks(state);
+    bool asked = plan->kink_count > 0 && any_sticks(state);
     memset(watchers->zeros, 0, (size_t)plan->branches * sizeof *watchers->zeros);
     unsigned count = 0;
     for (int place = 0; asked && place < places; place++) {
         double t = place == 0 ? state->t : move_away(state, &count, watchers->place);
         if (place == 0) memcpy(watchers->place, state->y, 2 * (size_t)plan->n * sizeof *watchers->place);
         for (size_t i = 0; i < plan->kink_count; i++)
-            count_zeros(watchers, state, &plan->kinks[i], t, watchers->place,
-                        watchers->zeros + plan->kinks[i].formula.branch);
+            if (can_be_asked(model, &plan->kinks[i]))
+                count_zeros(watchers, state, &plan->kinks[i], t, watchers->place,
+                            watchers->zeros + plan->kinks[i].formula.branch);
     }
     for (int i = 0; i < plan->branches; i++) watchers->held[i] = asked && watchers->zeros[i] == places;
 }

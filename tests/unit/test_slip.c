@@ -235,27 +235,35 @@ static void steady_slip_is_linearised(void **unused)
 
 /* ---- the same law written in the velocities, by hand */
 
-/* A block on a shaken belt, a spring and a damper; what presses it varies. With `slip`, or with abs(v - s):
- * then a switch of the law stands where the block sticks, stops and breaks away. */
+/* A block on a shaken belt, which may lie on a shaken table, a spring and a damper; what presses it varies.
+ * With `slip`, or with abs(v - s): then a switch of the law stands where the block sticks, stops and breaks
+ * away. */
 static struct trial shaken_belt(uint64_t seed, bool by_slip)
 {
-    char s[200], law[300], text[1200];
+    char s[200], law[300], table[200] = "", text[1500];
     struct random_numbers numbers = {seed};
     double mu_d = random_between(&numbers, 0.15, 0.3), more = random_between(&numbers, 0.02, 0.3);
     snprintf(s, sizeof s, "%.3g[m/s] + %.3g[m/s]*sin(%.3g[rad/s]*t)", random_between(&numbers, 0.05, 0.3),
              random_between(&numbers, 0.05, 0.4), random_between(&numbers, 1, 5));
+    bool jointed = random_bits(&numbers) % 2;
+    if (jointed)
+        snprintf(table, sizeof table,
+                 "  table: {mass: 1, motion: {slide: {x: \"0.2[m]*sin(%.3g[rad/s]*t)\"}}}\n",
+                 random_between(&numbers, 1, 5));
     snprintf(law, sizeof law, by_slip ? "slip" : "abs(v - (%s))", s);
-    snprintf(text, sizeof text,
-             "fbd: 1\nbodies:\n  b:\n    mass: %.3g\n    motion: slide\n    initial: {x: 0.1, v: %.2g}\n"
-             "    forces:\n      - gravity\n      - normal\n      - spring: {stiffness: %.3g}\n"
-             "      - damper: {coefficient: %.3g}\n"
-             "      - applied: {name: press, value: [\"0[N]\", \"-%.3g[N]*sin(%.3g[rad/s]*t)\"]}\n"
-             "      - friction: {static: %.17g, kinetic: \"%.17g + %.17g*exp(-%s/%.3g[m/s])\", "
-             "surface_speed: \"%s\"}\nsimulate: {until: 4 s, tolerance: %.2g}\n",
-             random_between(&numbers, 0.5, 3), random_between(&numbers, -0.5, 0.5),
-             random_between(&numbers, 20, 150), random_between(&numbers, 0, 0.5),
-             random_between(&numbers, 0, 4), random_between(&numbers, 2, 9), mu_d + more, mu_d, more, law,
-             random_between(&numbers, 0.05, 0.3), s, pow(10, random_between(&numbers, -12, -6)));
+    snprintf(
+        text, sizeof text,
+        "fbd: 1\nbodies:\n%s  b:\n    mass: %.3g\n    motion: {slide: {%s}}\n    initial: {x: 0.1, v: %.2g}\n"
+        "    forces:\n      - gravity\n      - normal\n      - spring: {stiffness: %.3g}\n"
+        "      - damper: {coefficient: %.3g}\n"
+        "      - applied: {name: press, value: [\"0[N]\", \"-%.3g[N]*sin(%.3g[rad/s]*t)\"]}\n"
+        "      - friction: {static: %.17g, kinetic: \"%.17g + %.17g*exp(-%s/%.3g[m/s])\", "
+        "surface_speed: \"%s\"}\nsimulate: {until: 4 s, tolerance: %.2g}\n",
+        table, random_between(&numbers, 0.5, 3), jointed ? "on: table" : "",
+        random_between(&numbers, -0.5, 0.5), random_between(&numbers, 20, 150),
+        random_between(&numbers, 0, 0.5), random_between(&numbers, 0, 4), random_between(&numbers, 2, 9),
+        mu_d + more, mu_d, more, law, random_between(&numbers, 0.05, 0.3), s,
+        pow(10, random_between(&numbers, -12, -6)));
     struct trial trial = trial_parse(text);
     trial_start(&trial, NULL);
     trial_finish(&trial);
