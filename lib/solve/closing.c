@@ -95,7 +95,7 @@ static bool is_moved_by_rounding(struct run *run)
     size_t n = (size_t)run->model->plan.n;
     struct rounding rounding = rounding_of_step(run);
     double reach = run->drift.reach, speed = run->drift.speed;
-    double least[] = {rounding.way + roundings * reach, rounding.speed + roundings * speed};
+    const double least[] = {rounding.way + roundings * reach, rounding.speed + roundings * speed};
     for (size_t i = 0; i < 2 * n; i++) {
         double moved = fabs(run->y[i] - run->state->y[i]) * (coordinates[i % n].angle ? reach : 1);
         if (!(moved <= least[i / n])) return false;
