@@ -74,12 +74,11 @@ struct one_sided {
     double excess, rate, acceleration; /* and how it changes */
     double force;                      /* tension, or normal force */
     double rounding;                   /* of the excess */
-    double near;  /* what the place of an event leaves of it, against the size of rope and scene */
-    double speed; /* that the rate is made of */
-    double slack; /* of the force: a force that is zero throughout is rounding, which opens nothing */
-    double
-        turning;  /* rate [1/s] at which forces turn with what is there: times the slack, that of its rate */
-    bool touches; /* just closed to rounding, in length and rate */
+    double near;       /* what the place of an event leaves of it, against the size of rope and scene */
+    double speed;      /* that the rate is made of */
+    double slack;      /* of the force: a force that is zero throughout is rounding, which opens nothing */
+    double turning;    /* the largest angular velocity there [rad/s]: times the slack, that of its rate */
+    bool touches;      /* just closed to rounding, in length and rate */
     bool parts, meets; /* it opens, closes with a speed that is not rounding */
 };
 struct one_sided one_sided_at(const struct fbd_model *model, const struct instant *at, int pair);

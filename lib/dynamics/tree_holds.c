@@ -348,7 +348,7 @@ static bool is_on_contact(const struct fbd_state *state, const struct friction *
 }
 
 /* What a hold that is in question has to become: itself where it agrees. At its limit to rounding the rate
- * decides, and `by_rate` is set. */
+ * decides, and `by_rate` is set: there what is solved is as likely to have it hold as to have it give. */
 static int next_mode(const struct fbd_state *state, const double *slots, const double *slots_along, int pair,
                      bool *by_rate)
 {
@@ -373,7 +373,7 @@ static int next_mode(const struct fbd_state *state, const double *slots, const d
     struct friction_values rate = friction_along(model, pair, &at, slots, &flow, slots_along);
     double excess = fabs(now.hold) - now.limit;
     if (is_on_contact(state, hold) && excess <= contact_slack(model, hold->tie)) return stick;
-    *by_rate = excess <= friction_rounding(&now);
+    *by_rate = excess <= rounding * (fabs(now.hold) + now.limit);
     return friction_decide(&now, &rate);
 }
 

@@ -352,19 +352,6 @@ static void fail_chatter(struct run *run, int load, const char *name)
              run_time(run), name, unsettled_advice(run->model, load));
 }
 
-/* What has come to stick where the switch is stays there but for rounding: it goes no farther in many steps.
- */
-static bool is_held(struct run *run, const struct watcher *watcher, double rate)
-{
-    const double steps = 64;
-    size_t n = (size_t)run->model->plan.n;
-    double *dy = run->sample;
-    memcpy(dy, run->state->y + n, n * sizeof *dy);
-    memcpy(dy + n, run->state->a, n * sizeof *dy);
-    double rounding = watchers_kink_rounding(&run->watchers, watcher, run->state, dy);
-    return fabs(rate) * run->longest <= steps * rounding;
-}
-
 /* A switch that has just been crossed and whose new branch already ends: the forces on both sides push back
  * to it. The motion would slide along the switch, which no branch describes. */
 static void refuse_sliding(struct run *run, const bool *moving)
@@ -385,7 +372,6 @@ static void refuse_sliding(struct run *run, const bool *moving)
             bool same =
                 back->kind == watch_kink && back->index == watcher->index && back->part == watcher->part;
             if (!same || back->end == watcher->end || !(rate[k] < 0)) continue;
-            if (is_held(run, back, rate[k])) continue;
             int load = run->model->plan.kinks[watcher->index].load;
             fail_chatter(run, load, load >= 0 ? run->model->loads[load].source->name : "an event");
         }

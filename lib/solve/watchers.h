@@ -104,10 +104,6 @@ void watchers_arm(struct watchers *watchers, struct fbd_state *state);
 /* A user event has been passed within a step: it is armed on the other side. */
 void watchers_turn(struct watchers *watchers, int watch);
 
-/* How near to zero a watcher of a switch counts as zero, at the state with (1, v, a) as dy. */
-double watchers_kink_rounding(const struct watchers *watchers, const struct watcher *watcher,
-                              const struct fbd_state *state, const double *dy);
-
 /* A normal force is lost when it is below minus this: the rounding of the weight, so that a body that only
  * just touches is not thrown off. */
 double watchers_contact_slack(const struct fbd_model *model, const struct contact *contact);

@@ -29,14 +29,19 @@ static bool is_held_by(const struct fbd_state *state, size_t pair)
     return friction->kind == mode_friction && friction->tie < 0 && state->slip[pair] == stick;
 }
 
+/* Another number, however large this one is. */
+static double other_than(double x, unsigned *count)
+{
+    return x + (1 + fabs(x)) * next_number(count);
+}
+
 /* Another time and another state, with what sticks on its surface. */
 static double move_away(const struct fbd_state *state, unsigned *count, double *y)
 {
-    const double second = 1;
     const struct plan *plan = &state->model->plan;
     size_t n = (size_t)plan->n;
-    double t = state->t + second * (2 + next_number(count)), acceleration;
-    for (size_t i = 0; i < 2 * n; i++) y[i] = state->y[i] + next_number(count);
+    double t = other_than(state->t, count), acceleration;
+    for (size_t i = 0; i < 2 * n; i++) y[i] = other_than(state->y[i], count);
     struct instant at = state_instant_at(state, t, y);
     for (size_t pair = 0; pair < plan->friction_count; pair++) {
         const struct friction *friction = &plan->frictions[pair];

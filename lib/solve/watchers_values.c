@@ -187,16 +187,6 @@ static void kink_margins(const struct watchers *watchers, const struct kink *kin
                  formula_branches(&kink->formula, &view->at), margins, rates, rates + 2 * kink->count);
 }
 
-double watchers_kink_rounding(const struct watchers *watchers, const struct watcher *watcher,
-                              const struct fbd_state *state, const double *dy)
-{
-    const struct kink *kink = &state->model->plan.kinks[watcher->index];
-    double *margins = watchers->scratch, *roundings = margins + 4 * kink->count;
-    expr_margins(kink->formula.expr, state_moment(state), state->y, 1, dy,
-                 state->branch + kink->formula.branch, margins, margins + 2 * kink->count, roundings);
-    return roundings[2 * watcher->part + watcher->end];
-}
-
 /* Does the function ask for more than the state and its rates of change, in the present modes? */
 static bool asks_forces(const struct watcher *watcher, const struct fbd_state *state)
 {

@@ -206,7 +206,7 @@ for case in range(int(cases)):
         os.remove("d.csv")
     ends[done.returncode] = ends.get(done.returncode, 0) + 1
 print(ends)
-assert min(ends.get(0, 0), ends.get(2, 0)) > 0
+assert min(ends.get(0, 0), ends.get(2, 0)) > int(cases) // 30
 END
 
 # ---- ranks

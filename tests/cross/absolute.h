@@ -153,8 +153,8 @@ double absolute_excess(const struct absolute *absolute);
 /* Nearest state (in the sense of the masses) that fits: velocities, and with `positions` these before. */
 bool absolute_project(struct absolute *absolute, bool positions);
 
-/* The largest gap of a condition on positions. */
-double absolute_gap(struct absolute *absolute);
+/* The largest gap of a condition on positions, or in its rate. */
+double absolute_gap(struct absolute *absolute, bool position);
 
 /* Integrate to time t, the modes as they are. False where that takes too many steps, or where what a rope
  * holds comes to its pulley. */

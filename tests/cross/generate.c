@@ -165,11 +165,11 @@ bool scene_settle(const struct scene *scene, struct absolute *absolute)
 bool scene_fit(struct scene *scene, struct absolute *absolute)
 {
     absolute_start(absolute, scene);
-    if (absolute_gap(absolute) > 1e-9) return false;
+    if (absolute_gap(absolute, true) > 1e-9) return false;
     absolute_project(absolute, false);
     keep_start(scene, absolute);
     absolute_start(absolute, scene);
-    return true;
+    return absolute_gap(absolute, false) <= 1e-9; /* drives may leave no way to move */
 }
 
 bool scene_generate(struct scene *scene, struct absolute *absolute, uint64_t seed)

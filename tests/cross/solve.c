@@ -203,13 +203,13 @@ static bool is_condition(const struct absolute *absolute, int j)
     return absolute->active[j] && (grip < 0 || absolute->grip[grip].kind == grip_rope);
 }
 
-double absolute_gap(struct absolute *absolute)
+double absolute_gap(struct absolute *absolute, bool position)
 {
     double most = 0;
     absolute_seed(absolute, seed_motion);
     set_active(absolute);
     for (int j = 0; j < absolute->row_count; j++)
-        if (is_condition(absolute, j)) most = fmax(most, fabs(row_gap(absolute, j, true)));
+        if (is_condition(absolute, j)) most = fmax(most, fabs(row_gap(absolute, j, position)));
     return most;
 }
 

@@ -43,8 +43,7 @@ static void check_structures(double until, double way)
     checks_end(&checks);
 }
 
-/* Multistep methods began anew at each step, for what a projection takes back of rounding, and never ended.
- */
+/* Multistep methods began anew at each step, for the rounding that a projection takes back. */
 static void it_stays_there_by_every_method(void **unused)
 {
     (void)unused;

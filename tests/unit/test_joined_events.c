@@ -22,6 +22,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "gallery.h"
 #include "scenes.h"
 #include "waves.h"
 
@@ -240,23 +241,17 @@ static bool light_cart_agrees(uint64_t seed)
              "  - roll: {name: roll, body: disc, on: cart}\nsimulate: {until: 0.5}\n",
              40 * cos(phi), 40 * sin(phi), M, phi, F, m, r, s * cos(phi) - r * sin(phi),
              s * sin(phi) + r * cos(phi), theta, v * cos(phi), v * sin(phi), -v / r);
-    fbd_model *model = model_from(text);
-    fbd_state *end = fbd_state_new(model);
-    fbd_options options = FBD_OPTIONS_DEFAULT;
-    fbd_simulation *simulation = fbd_simulation_new(model, &options, NULL);
-    if (!simulation) fail_msg("seed %llu does not start:\n%s", (unsigned long long)seed, text);
-    fbd_outcome outcome = FBD_GOING;
-    while (outcome == FBD_GOING) outcome = fbd_simulation_advance(simulation);
-    double x = NAN, want = F / (M + m / 3) / 8;
-    bool agrees = outcome == FBD_DONE && fbd_simulation_events(simulation) == 0 &&
-                  fbd_simulation_state(simulation, 0.5, end) && fbd_state_get(end, "cart.x", &x) &&
+    struct trial trial = trial_parse(text);
+    trial_start(&trial, NULL);
+    trial_finish(&trial);
+    double x = trial_get(&trial, "cart.x"), want = F / (M + m / 3) / 8;
+    bool agrees = trial.outcome == FBD_DONE && fbd_simulation_events(trial.simulation) == 0 &&
                   fabs(x - want) < 1e-9 * want;
     if (!agrees)
         print_error("seed %llu: outcome %d, %zu events, x = %.17g instead of %.17g\n%s",
-                    (unsigned long long)seed, (int)outcome, fbd_simulation_events(simulation), x, want, text);
-    fbd_simulation_free(simulation);
-    fbd_state_free(end);
-    fbd_model_free(model);
+                    (unsigned long long)seed, (int)trial.outcome, fbd_simulation_events(trial.simulation), x,
+                    want, text);
+    trial_close(&trial);
     return agrees;
 }
 
