@@ -157,15 +157,14 @@ static bool programme_new(struct programme *of, const struct rest_system *system
     const struct plan *plan = &system->state->model->plan;
     struct arena *arena = system->arena;
     size_t count = rest_limit_values(system), d = system->basis_count;
-    const double negligible = 1e-9;
-    double most = 0;
+    const double negligible = 1e-9; /* of a unit of the reactions */
     *of = (struct programme){.d = d, .unknowns = 1 + 2 * d};
     of->limit = ARENA_ARRAY(arena, count + 1, size_t);
     if (!of->limit) return false;
-    for (size_t i = 0; i < count; i++) most = fmax(most, slope_size(G, d, i));
     for (size_t i = 0; i < count; i++) {
         bool counts = guides || pair_of_limit(plan, i) >= 0;
-        if (counts && slope_size(G, d, i) > negligible * most) of->limit[of->limits++] = i;
+        if (counts && slope_size(G, d, i) > negligible * unit_of_limit(system, i))
+            of->limit[of->limits++] = i;
     }
     of->limits++;
     size_t n = of->unknowns + of->limits;

@@ -83,6 +83,14 @@ static struct rounding rounding_of_step(struct run *run)
         most = fmax(most, vec_norm(run->state->tree->links[i].F.force) / tree->links[i].mass);
         most = fmax(most, vec_norm(tree->links[i].force) / tree->links[i].mass);
     }
+    for (int k = 0; k < tree->tie_count; k++) { /* what couplings do, no joint passes on */
+        const struct tie *tie = &tree->ties[k];
+        for (int j = 0; j < tie->row_count * tie->end_count; j++) {
+            const struct tree_link *link = &tree->links[tie->end[j / tie->row_count].link];
+            double force = run->state->tree->rows[tie->first_row + j % tie->row_count].lambda;
+            if (link->mass > 0) most = fmax(most, fabs(force) / link->mass);
+        }
+    }
     double speed = share * most * time;
     return (struct rounding){speed, speed * time, mass * speed * speed / 2};
 }
@@ -112,15 +120,26 @@ bool run_has_gone_astray(struct run *run)
     return tolerances_apart(run, run->y, run->state->y) > far && !is_moved_by_rounding(run);
 }
 
-/* Note how large the mechanism is and how fast; returns its present size. */
+/* Note how large the mechanism is and how fast, with the points that couplings take; returns its present
+ * size.
+ */
 static double measure(struct run *run)
 {
+    const struct tree *tree = run->model->tree;
     double reach = 0, speed = 0;
-    for (int i = 1; i < run->model->tree->count; i++) {
+    for (int i = 1; i < tree->count; i++) {
         const struct tree_state *s = &run->state->tree->links[i];
         reach = fmax(reach, vec_norm(s->p));
         speed = fmax(speed, vec_norm(s->v));
     }
+    for (int k = 0; k < tree->tie_count; k++)
+        for (int j = 0; j < tree->ties[k].end_count; j++) {
+            const struct tie_end *end = &tree->ties[k].end[j];
+            const struct tree_state *s = &run->state->tree->links[end->link];
+            double arm = end->radius + vec_norm(end->point);
+            reach = fmax(reach, vec_norm(s->p) + arm);
+            speed = fmax(speed, vec_norm(s->v) + fabs(s->omega) * arm);
+        }
     run->drift.reach = fmax(run->drift.reach, reach);
     run->drift.speed = fmax(run->drift.speed, speed);
     return reach;

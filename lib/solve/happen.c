@@ -312,7 +312,8 @@ void run_check_contacts(struct run *run)
     for (size_t i = 0; i < model->plan.contact_count; i++) {
         const struct contact *contact = &model->plan.contacts[i];
         if (contact->pair >= 0) continue;
-        double N = -run->state->slots[contact->slot], slack = watchers_contact_slack(model, contact);
+        double N = -run->state->slots[contact->slot],
+               slack = watchers_contact_slack(model, run->state->tree, contact);
         if (N >= -slack) continue;
         struct run_event *event = run_note(run, FBD_EVENT_CONTACT_LOST, contact->body, contact->load, -1);
         if (event) event->force = N, event->limit = slack;

@@ -159,7 +159,7 @@ static bool rests_on_surfaces(const struct fbd_state *state, struct lack *lack)
         const struct contact *contact = &model->plan.contacts[i];
         if (contact->pair >= 0) continue;
         double N = -state->slots[contact->slot];
-        if (N >= -watchers_contact_slack(model, contact)) continue;
+        if (N >= -watchers_contact_slack(model, state->tree, contact)) continue;
         lack->id = "leaves-surface";
         lack->at = model->loads[contact->load].source->at;
         start_contact_words(model, contact, state->t, N, &lack->text);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "dynamics/absolute.h"
+#include "dynamics/tree.h"
 
 /* ---- which functions a plan needs */
 
@@ -170,9 +171,16 @@ void watchers_free(struct watchers *watchers)
 
 /* ---- sizes, and what is enclosed */
 
-double watchers_contact_slack(const struct fbd_model *model, const struct contact *contact)
+double watchers_contact_slack(const struct fbd_model *model, const struct tree_work *tree,
+                              const struct contact *contact)
 {
-    return 1e-13 * model->bodies[contact->body].inertia.mass * vec_norm(model->scene->gravity);
+    const struct model_body *body = &model->bodies[contact->body];
+    double size = body->inertia.mass * vec_norm(model->scene->gravity);
+    for (int i = 1; tree && body->place.link > 0 && i < model->tree->count; i++) {
+        size = fmax(size, vec_norm(tree->links[i].F.force));
+        size = fmax(size, vec_norm(model->tree->links[i].force));
+    }
+    return 1e-13 * size;
 }
 
 /* Where the motion slides, what is made of shares is not enclosed. */

@@ -200,7 +200,7 @@ static struct enclosure enclose_one(const struct watchers *watchers, const struc
     case watch_user: return enclose_user(watchers, index, o);
     case watch_contact: {
         const struct contact *contact = &model->plan.contacts[index];
-        struct enclosure slack = enclosure_point(watchers_contact_slack(model, contact));
+        struct enclosure slack = enclosure_point(watchers_contact_slack(model, NULL, contact));
         return centred(o, enclosure_subtract(slack, enclose_slot(o, contact->body, contact->slot)));
     }
     case watch_normal_turns: return press_of(o, index);

@@ -272,7 +272,7 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
             break;
         }
         case watch_contact:
-            values[i] = watchers_contact_slack(state->model, &plan->contacts[watcher->index]) -
+            values[i] = watchers_contact_slack(state->model, view.at.tree, &plan->contacts[watcher->index]) -
                         view.slots[plan->contacts[watcher->index].slot];
             rates[i] = -view.slots_along[plan->contacts[watcher->index].slot];
             break;

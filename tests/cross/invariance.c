@@ -211,6 +211,14 @@ static void start_there(struct scene *scene, const struct answers *one)
         }
 }
 
+/* Seen from there a rope may turn on the other side of its pulley: that is another scene. */
+static bool fits_there(const struct scene *scene)
+{
+    static struct absolute start;
+    absolute_start(&start, scene);
+    return absolute_gap(&start, false) <= 1e-9;
+}
+
 bool scene_compare_variant(const struct scene *scene, const struct absolute *absolute, enum variant variant,
                            struct outcome *outcome)
 {
@@ -225,6 +233,7 @@ bool scene_compare_variant(const struct scene *scene, const struct absolute *abs
     ask(scene, later ? taken_up : 0, run_length, &one, outcome);
     if (later && (!one.ended || isfinite(one.change))) return false;
     if (later) start_there(&other, &one);
+    if (later && !fits_there(&other)) return false;
     ask(&other, 0, later ? run_length - taken_up : run_length, &two, outcome);
     if (outcome->verdict != agrees) return true;
     compare_forces(absolute, scene, &one, &other, &two, &view, tolerance_of(variant, false), outcome);

@@ -284,12 +284,103 @@ static void what_a_rod_holds_stands(void **unused)
     checks_end(&checks);
 }
 
+/* ---- two blocks on a table that one condition too many keeps at rest
+ *
+ * What holds the blocks takes no part in what is shared below them. Along the table, F_i being the forces
+ * there, a rope over a fixed point gets longer by k_i for a way of one: it has the tension
+ *
+ *     T = (k_1 F_1/m_1 + k_2 F_2/m_2) / (k_1^2/m_1 + k_2^2/m_2),  or none where that is negative,
+ *
+ * and friction holds where |F| <= mu N. */
+
+struct blocks {
+    double slope, O[2], Q[2], m[2], F[2][2], x[2], mu[2];
+};
+
+static struct blocks draw_blocks(struct random_numbers *numbers)
+{
+    struct blocks blocks = {.slope = random_between(numbers, -3, 3)};
+    for (int k = 0; k < 2; k++) {
+        blocks.O[k] = random_between(numbers, -2, 2);
+        blocks.Q[k] = random_between(numbers, -2, 2);
+        blocks.m[k] = random_between(numbers, 0.5, 3);
+        blocks.x[k] = random_between(numbers, -2, 2);
+        blocks.mu[k] = random_between(numbers, 0.1, 1.5);
+        for (int i = 0; i < 2; i++) blocks.F[k][i] = random_between(numbers, -9, 9);
+    }
+    return blocks;
+}
+
+static void write_blocks(const struct blocks *blocks, bool rope, char *text, size_t size)
+{
+    char block[2][400];
+    for (int k = 0; k < 2; k++) {
+        char friction[100] = "";
+        if (!rope)
+            snprintf(friction, sizeof friction, ", friction: {static: %.17g, kinetic: %.17g}", blocks->mu[k],
+                     blocks->mu[k]);
+        snprintf(
+            block[k], sizeof block[k],
+            "{mass: %.17g, motion: {slide: {on: table}}, initial: {x: %.17g}, forces: [normal: {two_sided: "
+            "true}, applied: {name: F, fx: %.17g, fy: %.17g}%s]}",
+            blocks->m[k], blocks->x[k], blocks->F[k][0], blocks->F[k][1], friction);
+    }
+    snprintf(text, size,
+             "fbd: 1\nground: {points: {O: [%.17g, %.17g], Q: [%.17g, %.17g]}}\nbodies:\n"
+             "  table: {mass: 1, motion: {slide: {along: %.17g, through: [%.17g, %.17g]}}}\n"
+             "  b1: %s\n  b2: %s\ncouplings:\n%s  - pin: {between: [table, ground.O]}\n",
+             blocks->O[0], blocks->O[1], blocks->Q[0], blocks->Q[1], blocks->slope, blocks->O[0],
+             blocks->O[1], block[0], block[1], rope ? "  - rope: {through: [b1, ground.Q, b2]}\n" : "");
+}
+
+/* Accelerations along the table. */
+static void move_blocks(const struct blocks *blocks, bool rope, double *a)
+{
+    double c = cos(blocks->slope), s = sin(blocks->slope), k[2], pull = 0, ease = 0;
+    for (int i = 0; i < 2; i++) {
+        double dx = blocks->O[0] + blocks->x[i] * c - blocks->Q[0],
+               dy = blocks->O[1] + blocks->x[i] * s - blocks->Q[1], m = blocks->m[i];
+        double along = blocks->F[i][0] * c + blocks->F[i][1] * s,
+               N = fabs(blocks->F[i][1] * c - blocks->F[i][0] * s);
+        k[i] = (dx * c + dy * s) / hypot(dx, dy);
+        pull += k[i] * along / m;
+        ease += k[i] * k[i] / m;
+        a[i] = along / m;
+        if (!rope) a[i] = copysign(fmax(0, fabs(along) - blocks->mu[i] * N), along) / m;
+    }
+    for (int i = 0; rope && i < 2; i++) a[i] -= fmax(0, pull / ease) * k[i] / blocks->m[i];
+}
+
+static void what_has_no_part_in_a_share_decides_for_itself(void **unused)
+{
+    (void)unused;
+    enum { draws = 200, seed = 1048 };
+    struct checks checks = {0};
+    struct random_numbers numbers = {seed};
+    printf("# seed %d\n", seed);
+    for (int draw = 0; draw < draws && !checks.failed; draw++) {
+        bool rope = draw % 2;
+        double a[2];
+        char text[1500];
+        struct blocks blocks = draw_blocks(&numbers);
+        write_blocks(&blocks, rope, text, sizeof text);
+        move_blocks(&blocks, rope, a);
+        struct trial trial = trial_parse(text);
+        check_close(&checks, "the first", trial_acceleration(&trial, "b1.x"), a[0], 1e-11);
+        check_close(&checks, "the second", trial_acceleration(&trial, "b2.x"), a[1], 1e-11);
+        if (checks.failed) print_message("# draw %d\n%s", draw, text);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(two_feet_share_and_give_together),
         cmocka_unit_test(many_feet_give_when_no_share_is_left),
         cmocka_unit_test(what_a_rod_holds_stands),
+        cmocka_unit_test(what_has_no_part_in_a_share_decides_for_itself),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
