@@ -55,6 +55,7 @@ static double by_quadrature(const struct fbd_model *model, const struct model_lo
     memset(scratch, 0, 2 * (size_t)model->plan.n * sizeof *scratch);
     integrand.at.y = scratch;
     integrand.at.branch = NULL; /* plain values: the integral crosses kinks */
+    integrand.at.sliding = NULL;
     gsl_function function = {force_at, &integrand};
     gsl_integration_workspace *workspace = gsl_integration_workspace_alloc(intervals);
     if (!workspace) return NAN;

@@ -259,6 +259,24 @@ static void what_is_passed_is_no_slide(void **unused)
     checks_end(&checks);
 }
 
+/* A potential that is found by quadrature, of a body beside the one that slides on its switch. */
+static void energy_beside_a_slide_is_that_of_plain_values(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct trial trial = trial_parse(
+        "fbd: 1\nbodies:\n"
+        "  a: {mass: 1, motion: slide, initial: {x: 0.1}, forces: [applied: \"-2*sign(x + 1[s]*v)\"]}\n"
+        "  b: {mass: 1, motion: slide, initial: {x: 0.1}, forces: [applied: \"-3[N/m^2]*x*abs(x)\"]}\n"
+        "simulate: {until: 5 s}\n");
+    trial_run(&trial, NULL);
+    fbd_energy energy = fbd_result_energy(trial.result);
+    check_close(&checks, "V at the start, F/3 x^3", energy.initial_potential, 1e-3, 1e-15);
+    check_close(&checks, "residual", energy.residual, 0, 1e-12);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -268,6 +286,7 @@ int main(void)
         cmocka_unit_test(the_jacobian_of_a_slide_is_that_of_differences),
         cmocka_unit_test(it_rests_until_the_push_is_too_large),
         cmocka_unit_test(what_is_passed_is_no_slide),
+        cmocka_unit_test(energy_beside_a_slide_is_that_of_plain_values),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
