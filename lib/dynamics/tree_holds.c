@@ -17,6 +17,7 @@
 #include "dynamics/constraint.h"
 #include "dynamics/contact.h"
 #include "dynamics/modes.h"
+#include "dynamics/tree_driven.h"
 #include "dynamics/tree_shared.h"
 #include "dynamics/tree_system.h"
 
@@ -132,12 +133,16 @@ static void hold_still(struct gathered *all, size_t k)
 {
     struct fbd_state *state = all->state;
     const struct friction *hold = pair_of(state, all->pair[k]);
+    struct hold *still = &all->problem.holds[k];
     size_t count = all->problem.count;
-    double surface;
-    all->problem.holds[k].free = 0;
+    double surface, driven = tree_driven(state, all->trial, all->pair[k]);
+    still->free = still->kind == hold_one_sided ? driven : 0;
     for (size_t i = 0; i < count; i++) all->problem.A[i * count + k] = all->problem.A[k * count + i] = 0;
-    if (hold->moving) return; /* below what stands still */
-    all->problem.holds[k].slip = 0;
+    if (driven != 0) still->slip = driven > 0 ? 1 : -1;
+    if (driven != 0 && hold->kind == mode_friction)
+        all->forced[all->pair[k]] = state->slip_driven[all->pair[k]] = still->slip;
+    if (hold->moving || driven != 0) return; /* below what stands still */
+    still->slip = 0;
     if (all->forced[all->pair[k]] == 0) all->forced[all->pair[k]] = keeps_still;
     if (hold->kind == mode_friction && hold->tie < 0)
         state->y[state->model->plan.n + hold->coordinate] = friction_surface_speed(hold, &all->at, &surface);
@@ -166,18 +171,10 @@ static bool add_column(struct gathered *all, size_t k)
 static void set_free(struct gathered *all)
 {
     struct fbd_state *state = all->state;
-    double *slots = state->scratch, surface;
+    double *slots = state->scratch;
     accelerations(state->model, &all->at, slots, state->a);
-    for (size_t i = 0; i < all->problem.count; i++) {
-        const struct friction *hold = pair_of(state, all->pair[i]);
-        double *free = &all->problem.holds[i].free;
-        if (hold->tie >= 0) {
-            *free = sign_of(hold) * row_of(state, hold)->g.x2;
-        } else {
-            friction_surface_speed(hold, &all->at, &surface);
-            *free = state->a[hold->coordinate] - surface;
-        }
-    }
+    for (size_t i = 0; i < all->problem.count; i++)
+        all->problem.holds[i].free = tree_hold_acceleration(state, &all->at, all->pair[i]);
     for (size_t g = 0; g < all->problem.guide_count; g++)
         all->problem.guides[g].free = -slots[state->model->tree->links[all->link[g]].normal_slot];
 }
@@ -254,8 +251,10 @@ static bool gather(struct gathered *all, struct fbd_state *state, const struct d
     all->at.slip = all->trial;
     set_free(all);
     for (size_t k = 0; k < count; k++) all->still[k] = add_column(all, k);
-    for (size_t k = 0; k < count; k++)
+    for (size_t k = 0; k < count; k++) {
+        state->slip_driven[all->pair[k]] = 0;
         if (all->still[k]) hold_still(all, k);
+    }
     return true;
 }
 
@@ -428,7 +427,7 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
         next = mode;
     }
     if (found == at_limit) forced[which] = state->slip[which] = next;
-    if (found == differs && solved) state->holds.contradicts = which;
+    if (found == differs && solved && which >= 0) state->holds.contradicts = which;
     if (found == agrees && shared) found = tree_judge(state, &margin, forced);
     arena_free(&arena);
     return found;
@@ -447,6 +446,26 @@ static bool decide(struct fbd_state *state, const struct decided *decided, int *
     return false;
 }
 
+/* Does friction hold what drives move, whatever the forces are? No friction is enough for that. */
+static bool holds_what_is_driven(struct fbd_state *state, const struct decided *decided, int *forced)
+{
+    struct gathered all;
+    struct instant at = state_instant(state);
+    bool may = false, moves = false;
+    for (int pair = 0; pair < (int)state->model->plan.friction_count; pair++)
+        may |= state->slip[pair] == stick && is_in_question(state, decided, forced, pair);
+    if (!may || !tree_has_drives(state->model)) return false;
+    state_evaluate_unshared(state);
+    if (!rest_is_open(state->model, &at)) return false;
+    bool gathered = gather(&all, state, decided, forced);
+    if (!gathered) state->holds.found = holds_no_memory;
+    for (size_t i = 0; gathered && i < all.problem.count; i++)
+        moves |= all.still[i] && all.problem.holds[i].slip != 0 && state->slip[all.pair[i]] == stick;
+    memset(forced, 0, state->model->plan.friction_count * sizeof *forced);
+    gathered_free(&all);
+    return moves;
+}
+
 bool tree_settle_holds(struct fbd_state *state, const struct decided *decided)
 {
     int *before = state->slip_before;
@@ -460,6 +479,8 @@ bool tree_settle_holds(struct fbd_state *state, const struct decided *decided)
         bool rests = hold->kind != mode_friction || slips_already(state, decided, forced, pair) == 0;
         if (rests) state->slip[pair] = stick; /* tried first */
     }
-    bool agreed = look(state, decided, forced, false) == agrees || decide(state, decided, forced);
+    bool agreed =
+        !holds_what_is_driven(state, decided, forced) && look(state, decided, forced, false) == agrees;
+    agreed = agreed || decide(state, decided, forced);
     return agreed && memcmp(before, state->slip, bytes) == 0;
 }

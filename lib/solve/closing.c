@@ -66,7 +66,8 @@ void run_close_within(struct run *run, double t, double *y)
 }
 
 /* What rounding may do in the last step: in a scene at rest accelerations are what is left of forces that
- * cancel, 1e-12 of what one of the forces alone would do, which is some thousand roundings. */
+ * cancel, 1e-12 of what one of the forces alone would do, which is some thousand roundings; and as a drive
+ * starts, velocities that are made of positions. */
 struct rounding {
     double speed, way; /* made by that in the time of the step: [m/s], [m] */
     double energy;     /* of all that moves so fast */
@@ -91,7 +92,8 @@ static struct rounding rounding_of_step(struct run *run)
             if (link->mass > 0) most = fmax(most, fabs(force) / link->mass);
         }
     }
-    double speed = share * most * time;
+    double unseen = 16 * DBL_EPSILON * run->drift.reach; /* a way that changes no digit of a position */
+    double speed = share * most * time + (time > 0 ? unseen / time : 0);
     return (struct rounding){speed, speed * time, mass * speed * speed / 2};
 }
 

@@ -87,7 +87,8 @@ static void set_floors(struct run *run, int i, double lasts)
 {
     const double share = 1e-3;
     size_t position = (size_t)i, rate = position + (size_t)run->model->plan.n;
-    double tau = share * lasts, v = fabs(run->state->y[rate]), a = fabs(run->state->a[i]);
+    double tau = share * lasts, v = fabs(run->state->y[rate]), jerk = fabs(run->along[i]);
+    double a = fmax(fabs(run->state->a[i]), isfinite(jerk) ? tau * jerk : 0); /* drives start without one */
     if (run->state->y[position] == 0) switcher_set_floor(run->stepper, position, v * tau + a * tau * tau);
     if (v == 0) switcher_set_floor(run->stepper, rate, a * tau);
 }

@@ -125,7 +125,7 @@ static void start(struct run *run)
         return;
     }
     run_release_contacts(run);
-    watchers_arm(&run->watchers, run->state);
+    watchers_arm(&run->watchers, run->state, 0);
     if (!(run->options.until > run->state->t)) run->outcome = FBD_DONE;
 }
 
@@ -484,7 +484,7 @@ fbd_outcome run_advance(struct run *run)
     if (at_end) run_apply_touched(run, false);
     if (moving || timed || at_end) run_check_balance(run);
     if (run->outcome == FBD_GOING && at_end) run->outcome = FBD_DONE;
-    if (run->outcome == FBD_GOING) watchers_arm(&run->watchers, run->state);
+    if (run->outcome == FBD_GOING) watchers_arm(&run->watchers, run->state, run->state->t - run->from);
     if (run->projected || run->model->plan.watch_count > 0) scan_forget(&run->moving);
     return run->outcome;
 }

@@ -137,15 +137,17 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
     watchers->armed = calloc(plan->watch_count + 1, sizeof(int));
     watchers->fired = calloc(plan->watch_count + 1, sizeof(double));
     watchers->most = calloc(2 * plan->watch_count + 1, sizeof(double));
+    watchers->fast = calloc(2 * plan->friction_count + 1, sizeof(double));
     if (!watchers->timed.watchers || !watchers->moving.watchers || !watchers->scratch || !watchers->armed ||
         !watchers->fired || !watchers->most || !watchers->margins || !watchers->held || !watchers->zeros ||
-        !watchers->place) {
+        !watchers->place || !watchers->fast) {
         watchers_free(watchers);
         return false;
     }
     for (size_t i = 0; i < plan->watch_count; i++) watchers->fired[i] = (double)NAN;
     watchers->width = tolerances * (multistep ? together : 1) * tolerance;
     watchers->band = watchers->most + plan->watch_count;
+    watchers->quiet = watchers->fast + plan->friction_count;
     add_all(watchers, model);
     if (group_watchers(model, &watchers->timed) && group_watchers(model, &watchers->moving)) return true;
     watchers_free(watchers);
@@ -166,6 +168,7 @@ void watchers_free(struct watchers *watchers)
     free(watchers->armed);
     free(watchers->fired);
     free(watchers->most);
+    free(watchers->fast);
     *watchers = (struct watchers){0};
 }
 

@@ -58,6 +58,8 @@ struct watchers {
     bool *held;                /* per branch: a stick holds the switch at zero; it is not watched */
     int *zeros;                /* scratch for that: places where it is zero */
     double *place;             /* such a place, and as many zeros */
+    double *fast, *quiet;      /* per pair that drives alone make slip: its largest speed; 0, or where a step
+                                  starts with next to none how fast it may seem to turn back */
     double *most, *band; /* per user event: largest size of the difference; 0, or where a step starts in the
                             band its half width */
 };
@@ -97,9 +99,9 @@ void watchers_follow(struct watchers *watchers, const struct fbd_state *state);
 /* A part of it: set `held`. */
 void watchers_hold(struct watchers *watchers, const struct fbd_state *state);
 
-/* Arm user events that have left zero, and see which are in their band; call at the start and after each
- * accepted step. */
-void watchers_arm(struct watchers *watchers, struct fbd_state *state);
+/* Arm user events that have left zero, and see which are in their band, and what drives make slip with next
+ * to no speed; call at the start and after each accepted step, of the length `step` [s], 0 at the start. */
+void watchers_arm(struct watchers *watchers, struct fbd_state *state, double step);
 
 /* A user event has been passed within a step: it is armed on the other side. */
 void watchers_turn(struct watchers *watchers, int watch);

@@ -8,7 +8,9 @@
 #include "dynamics/absolute.h"
 #include "dynamics/constraint.h"
 #include "dynamics/contact.h"
+#include "dynamics/friction.h"
 #include "dynamics/rest_system.h"
+#include "dynamics/tree_driven.h"
 #include "solve/watchers.h"
 
 /* ---- their values */
@@ -106,7 +108,8 @@ static double edge_value(const struct watcher *watcher, const struct view *view,
     return gap.x < HUGE_VAL ? gap.x + meeting_near(model, view->state->tree, meeting) : HUGE_VAL;
 }
 
-static double friction_value(const struct watcher *watcher, struct view *view, double *rate)
+static double friction_value(const struct watchers *watchers, const struct watcher *watcher,
+                             struct view *view, double *rate)
 {
     const struct fbd_model *model = view->state->model;
     const struct friction *friction = &model->plan.frictions[watcher->index];
@@ -117,12 +120,13 @@ static double friction_value(const struct watcher *watcher, struct view *view, d
         if (slip == stick) return HUGE_VAL;
         if (friction->tie >= 0) {
             *rate = slip * tie_slip_acceleration(model, &view->at, friction->tie);
-            return slip * tie_slip_velocity(model, &view->at, friction->tie);
+            return slip * tie_slip_velocity(model, &view->at, friction->tie) +
+                   watchers->quiet[watcher->index];
         }
         double acceleration, speed = friction_surface_speed(friction, &view->at, &acceleration);
         int index = model->plan.n + friction->coordinate;
         *rate = slip * (view->flow.dy[index] - acceleration);
-        return slip * (view->at.y[index] - speed);
+        return slip * (view->at.y[index] - speed) + watchers->quiet[watcher->index];
     }
     if (watcher->kind == watch_stick_limit && slip != stick) return HUGE_VAL;
     look_at_friction(view, watcher->index);
@@ -290,7 +294,7 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
         case watch_edge: values[i] = edge_value(watcher, &view, &rates[i]); break;
         case watch_slip_stop:
         case watch_stick_limit:
-        case watch_normal_turns: values[i] = friction_value(watcher, &view, &rates[i]); break;
+        case watch_normal_turns: values[i] = friction_value(watchers, watcher, &view, &rates[i]); break;
         }
     }
     arena_free(&view.arena);
@@ -315,9 +319,28 @@ void watchers_evaluate_timed(const struct watchers *watchers, struct fbd_state *
     }
 }
 
-void watchers_arm(struct watchers *watchers, struct fbd_state *state)
+/* What drives bring to rest smoothly and take on again has a speed of rounding for a while. */
+static void calm_driven(struct watchers *watchers, const struct fbd_state *state, double step)
+{
+    const double near = 10;
+    for (size_t i = 0; i < state->model->plan.friction_count; i++) {
+        watchers->quiet[i] = 0;
+        if (state->slip_driven[i] == 0) continue;
+        struct instant at = state_instant(state);
+        int side = slip_side(state->slip[i]);
+        double v = side * slip_velocity(state->model, (int)i, &at);
+        bool rests = v == 0 && !(side * tree_hold_acceleration(state, &at, (int)i) > 0);
+        watchers->fast[i] = fmax(watchers->fast[i], v);
+        double band =
+            rests ? HUGE_VAL : fmax(watchers->width * watchers->fast[i], tree_unseen_speed(state, step));
+        if (fabs(v) <= near * band) watchers->quiet[i] = band;
+    }
+}
+
+void watchers_arm(struct watchers *watchers, struct fbd_state *state, double step)
 {
     const struct plan *plan = &state->model->plan;
+    if (state->tree) calm_driven(watchers, state, step);
     if (plan->watch_count == 0) return;
     struct view view = {.state = state, .at = state_instant(state)};
     set_flow(&view, false);

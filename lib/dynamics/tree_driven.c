@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * A drive that starts from rest, and a mechanism in a dead centre, have neither velocity nor acceleration
+ * there, and more rates may be zero. So it is seen where the drives have taken it a little later, first a
+ * very little and then more, until there is a velocity that is more than rounding.
+ */
+#include "dynamics/tree_driven.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "dynamics/constraint.h"
+#include "dynamics/friction.h"
+#include "dynamics/project.h"
+
+static const struct friction *pair_of(const struct fbd_state *state, int pair)
+{
+    return &state->model->plan.frictions[pair];
+}
+
+static const struct row *row_of(const struct fbd_state *state, const struct friction *hold)
+{
+    int row = state->model->tree->ties[hold->tie].first_row + (hold->kind == mode_friction);
+    return &state->tree->rows[row];
+}
+
+/* A rope pulls against its row. */
+static int sign_of(const struct friction *hold)
+{
+    return hold->kind == mode_rope ? -1 : 1;
+}
+
+double tree_hold_acceleration(const struct fbd_state *state, const struct instant *at, int pair)
+{
+    const struct friction *hold = pair_of(state, pair);
+    double surface;
+    if (hold->tie >= 0) return sign_of(hold) * row_of(state, hold)->g.x2;
+    friction_surface_speed(hold, at, &surface);
+    return state->a[hold->coordinate] - surface;
+}
+
+bool tree_has_drives(const struct fbd_model *model)
+{
+    for (size_t i = 0; i < model->plan.friction_count; i++)
+        if (model->plan.frictions[i].kind == mode_drive) return true;
+    return false;
+}
+
+static double reach_of(const struct fbd_state *state)
+{
+    double reach = 0;
+    for (int i = 1; i < state->model->tree->count; i++)
+        reach = fmax(reach, vec_norm(state->tree->links[i].p));
+    return reach;
+}
+
+double tree_unseen_speed(const struct fbd_state *state, double time)
+{
+    const double share = 1e-12, roundings = 64 * DBL_EPSILON;
+    double fastest = 0;
+    for (int i = 1; i < state->model->tree->count; i++)
+        fastest = fmax(fastest, vec_norm(state->tree->links[i].v));
+    return fmax(share * fastest, time > 0 ? roundings * reach_of(state) / time : 0);
+}
+
+/* The velocity along a hold, 0 for what may well be rounding. */
+static double velocity_along(const struct fbd_state *state, int pair, double dt)
+{
+    const struct friction *hold = pair_of(state, pair);
+    struct instant at = state_instant(state);
+    bool angle = hold->tie < 0 && state->model->scene->coordinates[hold->coordinate].angle;
+    double reach = reach_of(state), arm = angle && reach > 0 ? reach : 1;
+    double v = hold->kind == mode_friction ? slip_velocity(state->model, pair, &at)
+                                           : sign_of(hold) * row_of(state, hold)->g.x1;
+    return fabs(v) * arm > tree_unseen_speed(state, dt) ? v : 0;
+}
+
+double tree_driven(struct fbd_state *state, const int *slip, int pair)
+{
+    const double soonest = 1e-12, latest = 1e3, next = 10; /* [s], [s], ratio */
+    size_t n = (size_t)state->model->plan.n, pairs = state->model->plan.friction_count;
+    if (!tree_has_drives(state->model)) return 0;
+    double v = pair_of(state, pair)->kind == mode_friction ? velocity_along(state, pair, 0) : 0;
+    struct fbd_state *then = v == 0 ? state_new(state->model) : NULL;
+    if (v == 0 && !then) state->holds.found = holds_no_memory;
+    for (double dt = soonest; then && v == 0 && dt <= latest; dt *= next) {
+        state_copy(then, state);
+        memcpy(then->slip, slip, pairs * sizeof *slip);
+        state_set_moment(then, moment_at(state->t + dt));
+        for (size_t i = 0; i < n; i++) then->y[i] += dt * then->y[n + i];
+        modes_hold(then);
+        if (!state_project(then, false)) break;
+        v = velocity_along(then, pair, dt);
+    }
+    state_free(then);
+    return v;
+}

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Holds of mechanisms that drives move, whatever the forces are: what slips there never sticks, and what
+ * opens is not held.
+ */
+#ifndef FBD_DYNAMICS_TREE_DRIVEN_H
+#define FBD_DYNAMICS_TREE_DRIVEN_H
+
+#include "dynamics/modes.h"
+
+/* The acceleration along a hold, evaluated at this instant: of what slips along its surface, of what is
+ * one-sided away from it. */
+double tree_hold_acceleration(const struct fbd_state *state, const struct instant *at, int pair);
+
+/* A speed [m/s] that may well be rounding: of the other speeds, and of the places between which it was made
+ * in so much time (0: at once), as that of a drive that starts from rest is. */
+double tree_unseen_speed(const struct fbd_state *state, double time);
+
+/* Does anything move by a law of the time? */
+bool tree_has_drives(const struct fbd_model *model);
+
+/* How drives move hold `pair`, along which no force moves anything, with the holds loose in the modes `slip`
+ * (plan.friction_count): the velocity along it, else, by its sign alone, what that becomes as soon as it is
+ * more than rounding; 0 where it stays at rest. Sets state->holds.found when memory is out. */
+double tree_driven(struct fbd_state *state, const int *slip, int pair);
+
+#endif

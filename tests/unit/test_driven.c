@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Mechanisms that drives move altogether, with friction: it never holds them, turns where they turn, and
+ * rests where they rest.
+ *
+ * A crank of the length R that is driven by theta(t) takes along a slider by a rod of the length L. With q =
+ * R sin theta - e, the height of the crank's end over the slider's line, and p = sqrt(L^2 - q^2),
+ *
+ *     x = R cos theta + p,    p' = -q q'/p,    p'' = -(q'^2 + q q'' + p'^2)/p
+ *
+ * and with the tension S of the rod, m a = -S p/L - mu |N| sgn x' and N = m g - S q/L.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "gallery.h"
+#include "random_numbers.h"
+#include "thorough.h"
+
+static const double g = 9.81, pi = 3.14159265358979323846;
+
+enum law { accelerated, swinging, from_rest, cycloid, delayed, rise_and_return, rise_345, law_count };
+
+struct crank {
+    enum law law;
+    double R, e, L, m, mu_s, mu_k, theta_0;
+    double A, W, t_0, T; /* of the law: angle, frequency, delay, time of a rise */
+    int power;
+};
+
+/* An angle and its two rates. */
+struct motion {
+    double at, rate, second;
+};
+
+static struct crank draw_crank(struct random_numbers *numbers)
+{
+    static const double dead_centres[] = {0, 1, 0.5};
+    struct crank crank = {.law = (enum law)(random_bits(numbers) % law_count),
+                          .R = random_between(numbers, 0.2, 1),
+                          .m = random_between(numbers, 0.5, 2),
+                          .mu_k = random_between(numbers, 0, 0.4),
+                          .W = random_between(numbers, 1, 6),
+                          .t_0 = random_between(numbers, 0.3, 1.5),
+                          .T = random_between(numbers, 0.5, 1.2),
+                          .power = 2 + (int)(random_bits(numbers) % 3)};
+    crank.A = random_between(numbers, 0.5, 6) * (random_bits(numbers) % 2 ? 1 : -1);
+    crank.mu_s = crank.mu_k * random_between(numbers, 1, 1.5);
+    crank.e = random_bits(numbers) % 2 ? 0 : random_between(numbers, -0.1, 0.1);
+    crank.L = (crank.R + fabs(crank.e)) * random_between(numbers, 1.6, 4);
+    int centre = (int)(random_bits(numbers) % 4);
+    crank.theta_0 = centre < 3 ? dead_centres[centre] * pi : random_between(numbers, -3, 3);
+    return crank;
+}
+
+static struct motion cycloid_at(double s, double T)
+{
+    double w = 2 * pi / T;
+    return (struct motion){s / T - sin(w * s) / (2 * pi), (1 - cos(w * s)) / T, w * sin(w * s) / T};
+}
+
+static struct motion scaled(double A, struct motion motion)
+{
+    return (struct motion){A * motion.at, A * motion.rate, A * motion.second};
+}
+
+static struct motion law_at(const struct crank *crank, double t)
+{
+    double A = crank->A, W = crank->W, T = crank->T, s = fmin(t / T, 1), d = fmax(0, t - crank->t_0);
+    int n = crank->power;
+    switch (crank->law) {
+    case accelerated: return (struct motion){A * t + W * t * t, A + 2 * W * t, 2 * W};
+    case swinging: return (struct motion){A * sin(W * t), A * W * cos(W * t), -A * W * W * sin(W * t)};
+    case from_rest: return (struct motion){A * (1 - cos(W * t)), A * W * sin(W * t), A * W * W * cos(W * t)};
+    case cycloid: return scaled(A * 2 * pi / W, cycloid_at(t, 2 * pi / W));
+    case delayed:
+        return scaled(A, (struct motion){pow(d, n), n * pow(d, n - 1), n * (n - 1) * pow(d, n - 2)});
+    case rise_and_return:
+        if (t < T) return scaled(A, cycloid_at(t, T));
+        if (t < 1.5 * T) return (struct motion){A, 0, 0};
+        struct motion back = scaled(-A, cycloid_at(t - 1.5 * T, T));
+        return (struct motion){A + back.at, back.rate, back.second};
+    default:
+        if (t >= T) return (struct motion){A, 0, 0};
+        return (struct motion){A * s * s * s * (10 + s * (6 * s - 15)),
+                               A / T * 30 * s * s * (1 - s) * (1 - s),
+                               A / (T * T) * 60 * s * (1 - s) * (1 - 2 * s)};
+    }
+}
+
+static void write_law(const struct crank *crank, char *text, size_t size)
+{
+    double A = crank->A, W = crank->W, T = crank->T, w = 2 * pi / T;
+    switch (crank->law) {
+    case accelerated: snprintf(text, size, "%.17g*t/1[s] + %.17g*(t/1[s])^2", A, W); break;
+    case swinging: snprintf(text, size, "%.17g*sin(%.17g*t/1[s])", A, W); break;
+    case from_rest: snprintf(text, size, "%.17g*(1 - cos(%.17g*t/1[s]))", A, W); break;
+    case cycloid: snprintf(text, size, "%.17g*(t/1[s] - sin(%.17g*t/1[s])/%.17g)", A, W, W); break;
+    case delayed: snprintf(text, size, "%.17g*max(0, t/1[s] - %.17g)^%d", A, crank->t_0, crank->power); break;
+    case rise_and_return:
+        snprintf(text, size,
+                 "%.17g*if(t < %.17g[s], t/%.17g[s] - sin(%.17g*t/1[s])/(2*pi), if(t < %.17g[s], 1, "
+                 "1 - (t/%.17g[s] - 1.5 - sin(%.17g*(t/1[s] - %.17g))/(2*pi))))",
+                 A, T, T, w, 1.5 * T, T, w, 1.5 * T);
+        break;
+    default:
+        snprintf(text, size,
+                 "%.17g*min(t/%.17g[s], 1)^3*(10 - 15*min(t/%.17g[s], 1) + 6*min(t/%.17g[s], 1)^2)", A, T, T,
+                 T);
+    }
+}
+
+/* Where the slider is, and how it moves. */
+static struct motion slider_at(const struct crank *crank, double t, double *q, double *p)
+{
+    struct motion theta = law_at(crank, t);
+    double c = crank->R * cos(crank->theta_0 + theta.at), s = crank->R * sin(crank->theta_0 + theta.at);
+    double rate = theta.rate, second = theta.second;
+    *q = s - crank->e;
+    *p = sqrt(crank->L * crank->L - *q * *q);
+    double dq = c * rate, d2q = c * second - s * rate * rate, dp = -*q * dq / *p;
+    double d2p = -(dq * dq + *q * d2q + dp * dp) / *p;
+    return (struct motion){c + *p, -s * rate + dp, -c * rate * rate - s * second + d2p};
+}
+
+/* The tension of the rod, for the side on which the guide presses. */
+static double tension(const struct crank *crank, struct motion x, double q, double p, double *N)
+{
+    for (int press = 1;; press = -1) {
+        double mu = crank->mu_k * press * (x.rate > 0 ? 1 : -1), weight = crank->m * g;
+        double S = -(crank->m * x.second + mu * weight) * crank->L / (p - mu * q);
+        *N = weight - S * q / crank->L;
+        if (*N * press >= 0 || press < 0) return S;
+    }
+}
+
+static struct trial parse_crank(const struct crank *crank, double until)
+{
+    char law[400], text[1500];
+    double q, p;
+    write_law(crank, law, sizeof law);
+    snprintf(text, sizeof text,
+             "fbd: 1\nbodies:\n"
+             "  slider:\n    mass: %.17g\n    motion: {slide: {through: [0, %.17g]}}\n"
+             "    initial: {assemble: true, x: %.17g}\n"
+             "    forces: [gravity, normal: {two_sided: true}, friction: {static: %.17g, kinetic: %.17g}]\n"
+             "  crank: {mass: 1, shape: rod, length: %.17g, points: {A: [%.17g, 0]}, motion: {pivot: {theta: "
+             "\"%.17g + %s\"}}}\n"
+             "couplings: [rod: {name: rod, between: [crank.A, slider], length: %.17g}]\nsimulate: {until: "
+             "%.17g}\n",
+             crank->m, crank->e, slider_at(crank, 0, &q, &p).at, crank->mu_s, crank->mu_k, 2 * crank->R,
+             crank->R, crank->theta_0, law, crank->L, until);
+    return trial_parse(text);
+}
+
+static void check_crank(struct checks *checks, const struct crank *crank, struct random_numbers *numbers)
+{
+    enum { looks = 5 };
+    const double until = 2.9;
+    struct trial trial = parse_crank(crank, until);
+    trial_start(&trial, NULL);
+    double fastest = fabs(crank->A) * 6 * crank->R;
+    for (int i = 0; i < looks; i++) {
+        double t = until * (i + random_between(numbers, 0, 1)) / looks, q, p, N;
+        trial_to(&trial, t);
+        struct motion x = slider_at(crank, t, &q, &p);
+        check_close(checks, "x", trial_get(&trial, "slider.x"), x.at, 1e-8 * (1 + fastest));
+        check_close(checks, "v", trial_get(&trial, "slider.v"), x.rate, 1e-8 * (1 + fastest));
+        if (fabs(x.rate) < 1e-3 * fastest) continue;
+        double S = tension(crank, x, q, p, &N);
+        fbd_arrow rod = trial_arrow(&trial, "rod"), rub = trial_arrow(&trial, "friction");
+        double size = fabs(S) + crank->m * g;
+        check_close(checks, "tension", -rod.fx, S * p / crank->L, 1e-6 * size);
+        check_close(checks, "friction", rub.fx, -copysign(crank->mu_k * fabs(N), x.rate), 1e-6 * size);
+    }
+    trial_finish(&trial);
+    check_that(checks, "it runs to the end", trial.outcome == FBD_DONE);
+    trial_close(&trial);
+}
+
+static void friction_does_not_hold_what_is_driven(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct random_numbers numbers = {1012258};
+    int draws = thorough() ? 2000 : 200;
+    printf("# seed %d\n", 1012258);
+    for (int draw = 0; draw < draws && !checks.failed; draw++) {
+        struct crank crank = draw_crank(&numbers);
+        check_crank(&checks, &crank, &numbers);
+        if (checks.failed) print_message("# draw %d, law %d\n", draw, (int)crank.law);
+    }
+    checks_end(&checks);
+}
+
+/* Its reversals are those of the crank: theta = A sin(W t) from a place beside the dead centres. */
+static void it_turns_where_the_drive_turns(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct crank crank = {.law = swinging, .R = 0.3, .L = 1, .m = 1, .mu_s = 0.3, .mu_k = 0.2};
+    crank.theta_0 = 1.2, crank.A = 0.5, crank.W = 2;
+    struct trial trial = parse_crank(&crank, 6);
+    trial_start(&trial, NULL);
+    trial_finish(&trial);
+    for (int k = 0; k < 4; k++)
+        check_close(&checks, "reversal", trial_event(&trial, FBD_EVENT_REVERSAL, "friction", k),
+                    (k + 0.5) * pi / crank.W, 1e-8);
+    check_that(&checks, "no others", isnan(trial_event(&trial, FBD_EVENT_REVERSAL, "friction", 4)));
+    check_that(&checks, "it never sticks", isnan(trial_event(&trial, FBD_EVENT_STICK, NULL, 0)));
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+/* A start at which the laws of drives have switches is assembled where they are. */
+static void a_drive_with_switches_is_assembled(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct trial trial =
+        trial_parse("fbd: 1\nbodies:\n  crank: {mass: 1, shape: rod, length: 2, points: {A: [1, 0]}, motion: "
+                    "{pivot: {theta: \"if(t < 1[s], 0.5, 0.7)\"}}}\n"
+                    "  slider: {mass: 1, motion: slide, initial: {assemble: true, x: 2}}\n"
+                    "couplings: [rod: {between: [crank.A, slider], length: 2}]\n");
+    check_close(&checks, "x", trial_get(&trial, "slider.x"), cos(0.5) + sqrt(4 - sin(0.5) * sin(0.5)), 1e-12);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(friction_does_not_hold_what_is_driven),
+        cmocka_unit_test(it_turns_where_the_drive_turns),
+        cmocka_unit_test(a_drive_with_switches_is_assembled),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
