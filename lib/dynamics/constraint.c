@@ -309,13 +309,18 @@ void tie_rezero(const struct fbd_model *model, struct tree_work *work, int tie)
 
 /* ---- what is one-sided */
 
-/* The largest speed of a link, found once for each evaluation. */
-static double fastest(const struct tree *tree, struct tree_work *work)
+/* The largest speed of a link, and of what turns with one at the distance `arm`; found once for each
+ * evaluation. */
+static double fastest(const struct tree *tree, struct tree_work *work, double arm)
 {
-    if (work->fastest >= 0) return work->fastest;
-    work->fastest = 0;
-    for (int i = 1; i < tree->count; i++) work->fastest = fmax(work->fastest, vec_norm(work->links[i].v));
-    return work->fastest;
+    if (work->fastest < 0) {
+        work->fastest = work->spin = 0;
+        for (int i = 1; i < tree->count; i++) {
+            work->fastest = fmax(work->fastest, vec_norm(work->links[i].v));
+            work->spin = fmax(work->spin, fabs(work->links[i].omega));
+        }
+    }
+    return fmax(work->fastest, work->spin * arm);
 }
 
 struct one_sided one_sided_at(const struct fbd_model *model, const struct instant *at, int pair)
@@ -349,7 +354,8 @@ struct one_sided one_sided_at(const struct fbd_model *model, const struct instan
     state.near = 1e-9 * length;
     /* Where all of it stands still there is the rounding of what it is joined to, by whatever way, and the
      * speed of what has fallen as far as it reaches. */
-    double fast = fmax(sqrt(vec_norm(model->scene->gravity) * length), fastest(model->tree, at->tree));
+    double fast =
+        fmax(sqrt(vec_norm(model->scene->gravity) * length), fastest(model->tree, at->tree, length));
     double slow = 64 * DBL_EPSILON * fast;
     state.touches = fabs(state.excess) <= state.near && fabs(state.rate) <= 1e-10 * state.speed + slow;
     state.parts = state.rate < -1e-6 * state.speed - slow;

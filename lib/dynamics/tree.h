@@ -82,7 +82,8 @@ struct tree_work {
     bool shared;        /* what constraints leave open is shared in them, see rest_system.h */
     double shared_size; /* then: the largest force that was there before, which has given its rounding */
     bool complete;      /* A and F of the links are final, see tree_complete */
-    double fastest;     /* the speed of the fastest link; negative: to be found, see constraint.c */
+    double fastest;     /* the speed of the fastest link; negative: to be found, see constraint.c; */
+    double spin;        /* then with the largest angular speed */
 };
 
 /* Bytes that a workspace needs (a multiple of the size of a double), and laying it out. */

@@ -195,18 +195,23 @@ static double motion_size(const double *q, const double *v, int count)
     return size;
 }
 
-/* What a difference of 1e-9 at the start becomes: of scenes where it grows a thousandfold nothing is asked.
- */
+static double distance(const struct absolute *one, const struct absolute *other)
+{
+    double most = 0;
+    for (int i = 0; i < one->n; i++)
+        most = fmax(most, fabs(other->x[i] - one->x[i]) + fabs(other->v[i] - one->v[i]));
+    return most;
+}
+
+/* What a difference of 1e-9 at the start becomes, and what the errors of the steps up to `end` have become:
+ * of scenes where the one grows a thousandfold, or the other to 1e-8, nothing is asked. */
 bool scene_is_sensitive(const struct absolute *start, const struct absolute *end, double until)
 {
-    struct absolute other = *start;
-    double most = 0;
+    struct absolute other = *start, closer = *start;
     for (int i = 0; i < other.n; i++) other.v[i] *= 1 + 1e-9 * (i % 2 ? 1 : -1);
     absolute_project(&other, false);
-    if (!absolute_integrate(&other, until, 1e-11)) return true;
-    for (int i = 0; i < other.n; i++)
-        most = fmax(most, fabs(other.x[i] - end->x[i]) + fabs(other.v[i] - end->v[i]));
-    return most > 1e-6;
+    if (!absolute_integrate(&other, until, 1e-11) || distance(&other, end) > 1e-6) return true;
+    return !absolute_integrate(&closer, until, 1e-13) || distance(&closer, end) > 1e-8;
 }
 
 static void compare_ends(const struct absolute *start, struct absolute *absolute, const struct scene *scene,

@@ -404,11 +404,28 @@ static void a_rope_on_what_two_joints_keep_at_rest_does_not_push(void **unused)
     checks_end(&checks);
 }
 
+/* Without gravity only the disc's turning tells what its speed is the rounding of: its rope, which the force
+ * pulls, holds. */
+static void a_rope_on_what_only_turns_holds(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct trial taut = trial_parse(
+        "fbd: 1\ngravity: [0, 0]\nground: {points: {Q: [0, 0]}}\nbodies:\n  disc:\n    shape: disc\n    "
+        "mass: 2\n"
+        "    radius: 0.1\n    motion: planar\n    initial: {x: 1, vx: -1e-21, omega: 0.9}\n"
+        "    forces: [applied: {fx: 3, fy: 0}]\ncouplings: [rope: {through: [disc, ground.Q]}]\n");
+    check_close(&checks, "a_x", trial_acceleration(&taut, "disc.G.x"), 0, 1e-12);
+    trial_close(&taut);
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_held_altogether_is_not_refused_for_rounding),
         cmocka_unit_test(a_rope_on_what_two_joints_keep_at_rest_does_not_push),
+        cmocka_unit_test(a_rope_on_what_only_turns_holds),
         cmocka_unit_test(a_pin_on_the_axis_but_for_rounding_holds_nothing),
         cmocka_unit_test(a_particle_held_beside_its_centre_has_the_couple_that_keeps_it_from_turning),
         cmocka_unit_test(a_parallelogram_with_a_crank_too_many_moves_and_names_what_is_too_much),
