@@ -77,13 +77,15 @@ static double velocity_along(const struct fbd_state *state, int pair, double dt)
 
 double tree_driven(struct fbd_state *state, const int *slip, int pair)
 {
-    const double soonest = 1e-12, latest = 1e3, next = 10; /* [s], [s], ratio */
+    enum { decades = 15 };
+    const double soonest = 1e-12, next = 10; /* [s]; ratio */
     size_t n = (size_t)state->model->plan.n, pairs = state->model->plan.friction_count;
     if (!tree_has_drives(state->model)) return 0;
     double v = pair_of(state, pair)->kind == mode_friction ? velocity_along(state, pair, 0) : 0;
     struct fbd_state *then = v == 0 ? state_new(state->model) : NULL;
     if (v == 0 && !then) state->holds.found = holds_no_memory;
-    for (double dt = soonest; then && v == 0 && dt <= latest; dt *= next) {
+    double dt = soonest;
+    for (int k = 0; then && v == 0 && k <= decades; k++) {
         state_copy(then, state);
         memcpy(then->slip, slip, pairs * sizeof *slip);
         state_set_moment(then, moment_at(state->t + dt));
@@ -91,6 +93,7 @@ double tree_driven(struct fbd_state *state, const int *slip, int pair)
         modes_hold(then);
         if (!state_project(then, false)) break;
         v = velocity_along(then, pair, dt);
+        dt *= next;
     }
     state_free(then);
     return v;
