@@ -30,12 +30,11 @@ struct fbd_state {
     int *branch, *slip, *pull;      /* modes, see instant.h */
     int *branch_before;             /* scratch for settling: plan.branches */
     int *slip_before, *slip_forced; /* and plan.friction_count each */
-    int *
-        slip_driven; /* plan.friction_count: the side on which drives alone make it slip; 0 where forces do */
-    double *scratch; /* 2 plan.slots + 3 n */
-    double *extended;        /* scratch of absolute.h */
-    struct sliding *sliding; /* NULL when no switch can be slid on */
-    struct tree_work *tree;  /* of the jointed bodies, by state_evaluate; NULL when there are none */
+    int *slip_driven;               /* and: the side on which drives alone make it slip, 0 where forces do */
+    double *scratch;                /* 2 plan.slots + 3 n */
+    double *extended;               /* scratch of absolute.h */
+    struct sliding *sliding;        /* NULL when no switch can be slid on */
+    struct tree_work *tree;         /* of the jointed bodies, by state_evaluate; NULL when there are none */
 };
 
 /* A state at the scene's initial values, t = 0, modes not yet settled. NULL when memory is out. */

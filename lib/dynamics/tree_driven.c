@@ -18,23 +18,11 @@ static const struct friction *pair_of(const struct fbd_state *state, int pair)
     return &state->model->plan.frictions[pair];
 }
 
-static const struct row *row_of(const struct fbd_state *state, const struct friction *hold)
-{
-    int row = state->model->tree->ties[hold->tie].first_row + (hold->kind == mode_friction);
-    return &state->tree->rows[row];
-}
-
-/* A rope pulls against its row. */
-static int sign_of(const struct friction *hold)
-{
-    return hold->kind == mode_rope ? -1 : 1;
-}
-
 double tree_hold_acceleration(const struct fbd_state *state, const struct instant *at, int pair)
 {
     const struct friction *hold = pair_of(state, pair);
     double surface;
-    if (hold->tie >= 0) return sign_of(hold) * row_of(state, hold)->g.x2;
+    if (hold->tie >= 0) return hold_sign(hold) * hold_row(state, hold)->g.x2;
     friction_surface_speed(hold, at, &surface);
     return state->a[hold->coordinate] - surface;
 }
@@ -71,7 +59,7 @@ static double velocity_along(const struct fbd_state *state, int pair, double dt)
     bool angle = hold->tie < 0 && state->model->scene->coordinates[hold->coordinate].angle;
     double reach = reach_of(state), arm = angle && reach > 0 ? reach : 1;
     double v = hold->kind == mode_friction ? slip_velocity(state->model, pair, &at)
-                                           : sign_of(hold) * row_of(state, hold)->g.x1;
+                                           : hold_sign(hold) * hold_row(state, hold)->g.x1;
     return fabs(v) * arm > tree_unseen_speed(state, dt) ? v : 0;
 }
 

@@ -6,7 +6,21 @@
 #ifndef FBD_DYNAMICS_TREE_DRIVEN_H
 #define FBD_DYNAMICS_TREE_DRIVEN_H
 
+#include "dynamics/constraint.h"
 #include "dynamics/modes.h"
+
+/* The row along which a hold of a tie acts. */
+static inline const struct row *hold_row(const struct fbd_state *state, const struct friction *hold)
+{
+    int first = state->model->tree->ties[hold->tie].first_row;
+    return &state->tree->rows[first + (hold->kind == mode_friction)];
+}
+
+/* A rope pulls against its row. */
+static inline int hold_sign(const struct friction *hold)
+{
+    return hold->kind == mode_rope ? -1 : 1;
+}
 
 /* The acceleration along a hold, evaluated at this instant: of what slips along its surface, of what is
  * one-sided away from it. */

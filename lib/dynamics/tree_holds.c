@@ -87,24 +87,12 @@ static int link_of(const struct fbd_state *state, int pair)
     return state->model->bodies[pair_of(state, pair)->body].place.link;
 }
 
-static const struct row *row_of(const struct fbd_state *state, const struct friction *hold)
-{
-    int first = state->model->tree->ties[hold->tie].first_row;
-    return &state->tree->rows[first + (hold->kind == mode_friction)];
-}
-
-/* A rope pulls against its row. */
-static int sign_of(const struct friction *hold)
-{
-    return hold->kind == mode_rope ? -1 : 1;
-}
-
 static void apply_unit(struct fbd_state *state, int pair)
 {
     const struct friction *hold = pair_of(state, pair);
     memset(state->tree->x, 0, (size_t)state->model->tree->count * sizeof *state->tree->x);
     if (hold->tie >= 0)
-        row_apply(row_of(state, hold), sign_of(hold), state->tree->x);
+        row_apply(hold_row(state, hold), hold_sign(hold), state->tree->x);
     else
         state->tree->x[link_of(state, pair)].g = 1;
 }
@@ -118,9 +106,10 @@ static void add_answers(struct gathered *all, size_t k)
     for (size_t i = 0; i < count; i++) {
         const struct friction *hold = pair_of(state, all->pair[i]);
         all->problem.A[i * count + k] +=
-            hold->tie < 0 ? state->tree->unit[hold->coordinate]
-                          : sign_of(hold) *
-                                tree_row_answer(state->tree, (int)(row_of(state, hold) - state->tree->rows));
+            hold->tie < 0
+                ? state->tree->unit[hold->coordinate]
+                : hold_sign(hold) *
+                      tree_row_answer(state->tree, (int)(hold_row(state, hold) - state->tree->rows));
     }
     for (size_t g = 0; g < all->problem.guide_count; g++)
         all->problem.B[g * count + k] += tree_normal_in(tree, state->tree, all->link[g]);
@@ -360,7 +349,7 @@ static int next_mode(const struct fbd_state *state, const double *slots, const d
         struct one_sided now = one_sided_at(model, &at, pair);
         double small = rounding * largest_force(state);
         if (state->slip[pair] != stick) return now.acceleration > 0 ? stick : state->slip[pair];
-        double rate = sign_of(hold) * state->tree->z[model->tree->ties[hold->tie].first_row];
+        double rate = hold_sign(hold) * state->tree->z[model->tree->ties[hold->tie].first_row];
         double least = now.force < -now.slack / 2 ? 0 : now.slack * now.turning;
         *by_rate = fabs(now.force) <= fmax(small, now.slack) && rate < -least;
         return now.force < -small || *by_rate ? slip_plus : stick;

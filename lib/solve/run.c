@@ -476,8 +476,8 @@ fbd_outcome run_advance(struct run *run)
     if (moving || timed)
         run_apply(run, timed ? run->timed.crossed : NULL, moving ? run->moving.crossed : NULL);
     else {
-        state_evaluate_unshared(
-            run->state); /* who shows forces shares them out: run_look, run_check_balance */
+        /* Who shows forces shares them out: run_look, run_check_balance. */
+        state_evaluate_unshared(run->state);
         run_renew_noise(run);
     }
     run_note_rests(run);

@@ -67,8 +67,7 @@ const char *unsettled_advice(const struct fbd_model *model, int load)
 {
     bool declared = load >= 0 ? is_friction(model->loads[load].source) : model->plan.kink_count == 0;
     return declared ? "There what holds has to give at once, and what gives to hold. In a law of friction "
-                      "write the speed "
-                      "over the own surface as `slip`; or end the run before by an event"
+                      "write the speed over the own surface as `slip`; or end the run before by an event"
                     : "A force that jumps against the motion, as c*sign(v), is dry friction: declare it as "
                       "`friction`";
 }

@@ -107,8 +107,7 @@ void watchers_arm(struct watchers *watchers, struct fbd_state *state, double ste
 void watchers_turn(struct watchers *watchers, int watch);
 
 /* A normal force is lost when it is below minus this: the rounding of the weight, and of what the joints of
- * `tree` pass on now (NULL: they are not known), so that a body that only
- * just touches is not thrown off. */
+ * `tree` pass on now (NULL: they are not known), so that a body that only just touches is not thrown off. */
 double watchers_contact_slack(const struct fbd_model *model, const struct tree_work *tree,
                               const struct contact *contact);
 
