@@ -62,7 +62,7 @@ static void adapt_slice(struct going *going, unsigned long made)
 }
 
 /* Tell how far the run is, and end it when that is answered by a stop. */
-static void tell_progress(struct going *going, double t)
+static void tell_progress(const struct going *going, double t)
 {
     const fbd_recording *recording = going->recording;
     struct ensemble *ensemble = going->result->simulation->ensemble;
@@ -72,6 +72,14 @@ static void tell_progress(struct going *going, double t)
                              .steps = going->steps,
                              .events = ensemble->event_count};
     if (recording->progress(recording->progress_context, &progress) != 0) ensemble_interrupt(ensemble);
+}
+
+static bool is_ended(void *context)
+{
+    const struct going *going = context;
+    const struct ensemble *ensemble = going->result->simulation->ensemble;
+    if (ensemble->outcome == FBD_GOING) tell_progress(going, ensemble->t);
+    return ensemble->outcome == FBD_INTERRUPTED;
 }
 
 /* The ledger looks at every step; its time is not that of the run. */
@@ -169,12 +177,18 @@ static bool carry(fbd_result *result, const fbd_recording *recording, struct csv
     struct going going = {result, recording, 0, whole, first_slice};
     if (result->ledger.any || (recording && recording->progress))
         ensemble->observer = (struct observer){&going, observe, observe_again};
+    if (bars && recording && recording->progress) {
+        bars->is_ended = is_ended;
+        bars->watcher = &going;
+    }
     bool fine = true;
     while (fine && ensemble->outcome == FBD_GOING) fine = carry_on(&going, csv);
     fine = fine && ensemble->outcome != FBD_OUT_OF_MEMORY &&
            ledger_at(&result->ledger, ensemble, result->ledger.work) && is_whole(result);
     ensemble->observer = (struct observer){0};
-    return fine && (!bars || (bars_finish(bars, ensemble) && simulation_match_events(simulation)));
+    fine = fine && (!bars || (bars_finish(bars, ensemble) && simulation_match_events(simulation)));
+    if (bars) bars->is_ended = NULL;
+    return fine;
 }
 
 static bool begin_record(fbd_result *result, const fbd_recording *recording)

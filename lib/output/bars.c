@@ -9,6 +9,7 @@
 static bool account(void *context, struct ensemble *ensemble, size_t group)
 {
     struct bars *bars = context;
+    if (bars->is_ended && bars->is_ended(bars->watcher)) ensemble_interrupt(ensemble);
     return !bars->ledger.any || ledger_step(&bars->ledger, ensemble, group);
 }
 

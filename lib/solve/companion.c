@@ -83,7 +83,9 @@ static bool go_beyond(struct ensemble *own, double t, struct fbd_state *state)
     const double most = 0.1; /* of the time so far */
     size_t n = (size_t)own->model->plan.n;
     double s = t - own->t;
-    if (own->outcome == FBD_FAILED || own->outcome == FBD_OUT_OF_MEMORY || !(s <= most * t)) return false;
+    if (own->outcome == FBD_FAILED || own->outcome == FBD_OUT_OF_MEMORY || own->outcome == FBD_INTERRUPTED ||
+        !(s <= most * t))
+        return false;
     if (!ensemble_look(own, own->t, state)) return false;
     for (size_t i = 0; i < n; i++) {
         state->y[i] += s * (state->y[n + i] + s / 2 * state->a[i]);

@@ -219,6 +219,7 @@ static double first_h(const struct newton *newton)
 static bool let_down(struct balance *balance, struct newton *newton)
 {
     enum { most_steps = 2000 };
+    const double shortest = 1e-300, longest = 1e300; /* a step that is infinite is never halved */
     take_coordinates(balance, newton->q);
     both(newton->q, balance, newton->f, newton->J);
     double zero = balance->zero, before = imbalance(newton->f);
@@ -229,7 +230,7 @@ static bool let_down(struct balance *balance, struct newton *newton)
         struct instant at = state_instant(balance->state);
         rest_forces(balance->state->model, &at, balance->lambda, true, balance->slots, balance->Q);
         double most = stride(balance, newton, h);
-        while (!(most <= 1) && h > 1e-300) {
+        while (!(most <= 1) && h > shortest) {
             h /= 4;
             most = stride(balance, newton, h);
         }
@@ -239,7 +240,7 @@ static bool let_down(struct balance *balance, struct newton *newton)
         forces(newton->q, balance, newton->f);
         double after = imbalance(newton->f);
         if (after <= 1e4 * zero && after >= before) return true; /* rounding keeps it from getting better */
-        h *= fmin(4, 0.6 / most);
+        h = fmin(h * fmin(4, 0.6 / most), longest);
         before = after;
     }
     return before <= 1e4 * zero;

@@ -12,6 +12,7 @@
 #include "solve/dop853.h"
 #include "solve/first_step.h"
 #include "solve/history.h"
+#include "solve/inside.h"
 #include "solve/linear.h"
 #include "solve/nystrom.h"
 #include "solve/parabola.h"
@@ -30,6 +31,7 @@ struct stepper {
     gsl_odeiv2_driver driver; /* GSL's steppers ask it for its control only */
     struct dense *dense;      /* of explicit methods and msadams */
     struct history *history;  /* of msbdf, else NULL */
+    struct inside *inside;    /* of implicit methods without an interpolant, else NULL */
     struct stepper_counts counts;
     double *jacobian; /* n n + 3 n, for the limit of stability; NULL where that is not looked after */
     double stable_h;  /* the largest step within that limit, when last looked after */
@@ -93,12 +95,14 @@ struct stepper *stepper_alloc(const struct stepper_options *options)
     s->dense = dense_alloc(&options->layout);
     s->step = step_alloc(method, s->n, &s->driver);
     bool redo = !method->multistep && !method->exact, history = method->multistep && method->implicit;
+    bool inside = redo && method->implicit && *method->type != step_rodas5p;
     if (redo) s->redo = step_alloc(method, s->n, &s->driver);
     if (history) s->history = history_alloc(s->n);
+    if (inside) s->inside = inside_alloc(s->n);
     bool guarded = method->stable > 0 && s->n <= most_guarded;
     if (guarded) s->jacobian = malloc((s->n * s->n + 3 * s->n) * sizeof(double));
     if (!s->control || !s->dense || !s->step || (redo && !s->redo) || (history && !s->history) ||
-        (guarded && !s->jacobian)) {
+        (inside && !s->inside) || (guarded && !s->jacobian)) {
         stepper_free(s);
         return NULL;
     }
@@ -114,6 +118,7 @@ void stepper_free(struct stepper *s)
     if (s->control) gsl_odeiv2_control_free(s->control);
     dense_free(s->dense);
     history_free(s->history);
+    inside_free(s->inside);
     free(s->jacobian);
     free(s);
 }
@@ -138,9 +143,8 @@ int stepper_reset(struct stepper *s, struct counted_system *system, struct momen
         *h = s->h_fixed > 0 ? s->h_fixed : fmin(room, s->h_max);
         return GSL_SUCCESS;
     }
-    int first_order = s->method->multistep ? 1 : s->method->order;
-    return first_step(system, &s->layout, s->control, first_order, t.t, y, f, fmin(room, s->h_max), s->work,
-                      h);
+    int order = s->method->multistep ? 1 : s->method->order; /* at first */
+    return first_step(system, &s->layout, s->control, order, t.t, y, f, fmin(room, s->h_max), s->work, h);
 }
 
 /* A step to be tried. */
@@ -264,6 +268,7 @@ static void keep(struct stepper *s, struct counted_system *system, struct moment
     memcpy(s->f1, f, s->n * sizeof *f);
     weights_update(s->control, y, f);
     dense_set(s->dense, s->method->order, t0, s->y0, s->f0, t1, s->y1, s->f1, &system->gsl, s->step);
+    if (s->inside) inside_set(s->inside, s->y0, s->y1);
     if (s->history && t1.t > t0.t) history_add(s->history, t1.t, y);
     s->system = system;
     s->stepped = true;
@@ -341,25 +346,38 @@ enum stepper_status stepper_step(struct stepper *s, struct counted_system *syste
     }
 }
 
-/* The state at t of a step of the same method from the start of the last one. */
-static int redo(struct stepper *s, struct moment t, double *y, double *f)
+/* The state at the end of a step of size h by the same method from the start of the last one. */
+static int redo(struct stepper *s, double h, double *y, double *f)
 {
-    double h = moment_since(t, s->t0);
     memcpy(y, s->y0, s->n * sizeof *y);
     return gsl_odeiv2_step_apply(s->redo, s->t0.t, h, y, s->yerr, s->f0, f, &s->system->gsl);
+}
+
+static bool redo_share(void *context, double share, double *y)
+{
+    struct stepper *s = context;
+    return redo(s, share * moment_since(s->t1, s->t0), y, s->work) == GSL_SUCCESS;
+}
+
+static double excess(void *context, const double *error)
+{
+    const struct stepper *s = context;
+    return weights_ratio(s->control, moment_since(s->t1, s->t0), s->y1, error, s->f1);
 }
 
 /* What the method itself says of the inside. */
 static int own_dense(struct stepper *s, struct moment t, double *y)
 {
     if (!s->method->implicit) return dense_eval(s->dense, t, y);
+    double share = moment_since(t, s->t0) / moment_since(s->t1, s->t0);
     if (s->step->type == step_rodas5p) {
         int code = rodas5p_dense_prepare(s->step);
-        double share = moment_since(t, s->t0) / moment_since(s->t1, s->t0);
         if (code == GSL_SUCCESS) rodas5p_dense_eval(s->step, share, y);
         return code;
     }
-    if (!s->history) return redo(s, t, y, s->work);
+    const struct inside_source source = {s, redo_share, excess};
+    if (s->inside && inside_eval(s->inside, &source, share, y)) return GSL_SUCCESS;
+    if (!s->history) return redo(s, moment_since(t, s->t0), y, s->work);
     history_eval(s->history, (int)gsl_odeiv2_step_order(s->step), t.t, y);
     return GSL_SUCCESS;
 }
@@ -368,10 +386,7 @@ static int own_dense(struct stepper *s, struct moment t, double *y)
 static bool find_within(const struct stepper *s, struct moment *t)
 {
     if (!s->stepped || !(t->t >= s->t0.t && t->t <= s->t1.t)) return false;
-    if (moment_since(*t, s->t0) <= 0)
-        *t = s->t0;
-    else if (moment_since(s->t1, *t) <= 0)
-        *t = s->t1;
+    *t = moment_since(*t, s->t0) <= 0 ? s->t0 : moment_since(s->t1, *t) <= 0 ? s->t1 : *t;
     return true;
 }
 
@@ -388,13 +403,11 @@ int stepper_dense(struct stepper *s, struct moment t, double *y)
 }
 
 /* A step of the linear method is two radians of the fastest oscillation: the Bessel function J_14(1) of its
- * Chebyshev series is 7e-16. Where every sample is a step of an implicit method, it is known no better than
- * its equations are solved. */
+ * Chebyshev series is 7e-16. Implicit methods know their states as their equations are solved. */
 int stepper_degree(const struct stepper *s, double *negligible)
 {
     const gsl_odeiv2_step_type *type = s->step->type;
-    bool redone = s->method->implicit && type != step_rodas5p;
-    *negligible = redone ? 1e-9 : 0;
+    *negligible = s->inside || s->history ? 1e-9 : 0;
     if (type == step_parabola) return 2;
     if (type == step_linear) {
         const int most = 14;
@@ -416,7 +429,8 @@ int stepper_partial(struct stepper *s, struct moment t, double *y, double *f)
         memcpy(f, start ? s->f0 : s->f1, s->n * sizeof *f);
         return GSL_SUCCESS;
     }
-    if (s->redo && redo(s, t, y, f) == GSL_SUCCESS && all_finite(s->n, y, f)) return GSL_SUCCESS;
+    if (s->redo && redo(s, moment_since(t, s->t0), y, f) == GSL_SUCCESS && all_finite(s->n, y, f))
+        return GSL_SUCCESS;
     int code = stepper_dense(s, t, y);
     return code == GSL_SUCCESS ? counted_system_rhs(s->system, t.t, y, f) : code;
 }

@@ -5,6 +5,7 @@
  */
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "base/text.h"
 #include "claims.h"
@@ -14,6 +15,7 @@
 
 enum {
     most_steps = 120,    /* of a run, then it is interrupted */
+    most_seconds = 2,    /* ... too: who presses Ctrl-C is obeyed */
     most_table = 300000, /* bytes of CSV, then the writer refuses */
     most_arrows = 64,
 };
@@ -85,14 +87,20 @@ static void claim_energy(fbd_energy energy)
 
 /* ---- runs */
 
-/* Tells the run to end after so many steps. It is asked between them too, and oftener where groups wait for
- * each other: counted in calls no run would come to its end. */
+struct patience {
+    unsigned long steps;
+    clock_t from;
+};
+
+/* Tells the run to end after so many steps, or so long a time: of a belt of 1e15 rad/s a stretch without a
+ * step is any number of steps of its companion. It is asked between them too, and oftener where groups wait
+ * for each other: counted in calls no run would come to its end. */
 static int watch(void *context, const fbd_progress *progress)
 {
-    unsigned long *steps = context;
+    struct patience *patience = context;
     claim_finite("time", progress->t);
-    *steps = progress->steps;
-    return progress->steps > most_steps;
+    patience->steps = progress->steps;
+    return progress->steps > most_steps || clock() - patience->from > most_seconds * CLOCKS_PER_SEC;
 }
 
 static int write_table(void *context, const char *rows, size_t length)
@@ -161,7 +169,7 @@ static void claim_csv(const struct text *table)
 
 static void run(struct input *input)
 {
-    unsigned long steps = 0;
+    struct patience patience = {0, clock()};
     struct text table = {0};
     uint64_t *choices = &input->choices;
     fbd_options options = choose_options(choices);
@@ -172,7 +180,7 @@ static void run(struct input *input)
                                .motion_only = fuzz_take(choices, 3) == 0,
                                .keep = which >> 2 == 1 || which >> 2 == 2,
                                .progress = watch,
-                               .progress_context = &steps};
+                               .progress_context = &patience};
     fbd_simulation *simulation = fbd_simulation_new(input->model, &options, input->errors);
     bool few = fuzz_take(choices, 3) != 0 || options.accuracy > 0;
     if (few && isfinite(options.until)) recording.every = options.until / 4;
@@ -180,7 +188,7 @@ static void run(struct input *input)
     fbd_outcome outcome = result ? fbd_result_outcome(result) : FBD_FAILED;
     bool ended = outcome == FBD_DONE || outcome == FBD_STOPPED || outcome == FBD_BROKEN;
     bool whole = ended || outcome == FBD_INTERRUPTED; /* what is shown is vouched for */
-    tally.runs += steps > 0;
+    tally.runs += patience.steps > 0;
     tally.ended += ended;
     input->names_nan = input->names_nan || !whole;
     if (result) write_outputs(input, result, recording.motion_only ? 0 : which);

@@ -235,12 +235,37 @@ static void a_drive_with_switches_is_assembled(void **unused)
     checks_end(&checks);
 }
 
+/* A place that never changes is a law as well. With every other law beside it, which has an expression. */
+static void a_drive_at_a_constant_place_holds(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct trial trial =
+        trial_parse("fbd: 1\nbodies:\n  crank: {mass: 1, shape: rod, length: 2, points: {A: [1, 0]}, motion: "
+                    "{pivot: {theta: 0.5}}}\n"
+                    "  block: {mass: 2, motion: {slide: {x: 3}}, forces: [gravity, normal]}\n"
+                    "  slider: {mass: 1, motion: slide, initial: {assemble: true, x: 2}}\n"
+                    "  moved: {mass: 1, motion: {slide: {x: \"1[m]*sin(t/1[s])\"}}}\n"
+                    "couplings: [rod: {between: [crank.A, slider], length: 2}]\nsimulate: {until: 2}\n");
+    trial_start(&trial, NULL);
+    trial_finish(&trial);
+    check_close(&checks, "theta", trial_get(&trial, "crank.theta"), 0.5, 0);
+    check_close(&checks, "x", trial_get(&trial, "block.x"), 3, 0);
+    check_close(&checks, "v", trial_get(&trial, "block.v"), 0, 0);
+    check_close(&checks, "slider", trial_get(&trial, "slider.x"), cos(0.5) + sqrt(4 - sin(0.5) * sin(0.5)),
+                1e-12);
+    check_close(&checks, "moved", trial_get(&trial, "moved.x"), sin(2), 1e-12);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(friction_does_not_hold_what_is_driven),
         cmocka_unit_test(it_turns_where_the_drive_turns),
         cmocka_unit_test(a_drive_with_switches_is_assembled),
+        cmocka_unit_test(a_drive_at_a_constant_place_holds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
