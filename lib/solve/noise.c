@@ -66,15 +66,31 @@ static void add_gross_forces(struct run *run, int b, const struct instant *at, d
     }
 }
 
-/* How fast the accelerations change along the motion: what an error of the time does to them. `along` has n
- * entries. */
-static void changes(struct run *run, const struct instant *at, double *along)
+/* What moves with the time and not by the integration: coordinates that are prescribed. */
+static void take_driven(const struct run *run, double *dy)
+{
+    const struct plan *plan = &run->model->plan;
+    size_t n = (size_t)plan->n;
+    memset(dy, 0, 2 * n * sizeof *dy);
+    for (size_t pair = 0; pair < plan->friction_count; pair++) {
+        if (plan->frictions[pair].kind != mode_drive) continue;
+        size_t i = (size_t)plan->frictions[pair].coordinate;
+        dy[i] = run->state->y[n + i];
+        dy[n + i] = run->state->a[i];
+    }
+}
+
+/* How fast the accelerations change: along the motion, or by the time alone, which is what its rounding does
+ * to them: where no force names it, and nothing is prescribed, nothing, as steps have the size that they say.
+ * `along` has n entries. */
+static void changes(struct run *run, const struct instant *at, bool by_time, double *along)
 {
     const struct plan *plan = &run->model->plan;
     size_t n = (size_t)plan->n;
     double *slots = run->state->scratch, *slots_along = slots + plan->slots, *dy = run->sample;
     memcpy(dy, run->state->y + n, n * sizeof *dy);
     memcpy(dy + n, run->state->a, n * sizeof *dy);
+    if (by_time) take_driven(run, dy);
     struct direction flow = {1, dy};
     accelerations_along(run->model, at, &flow, slots, slots_along, along);
 }
@@ -110,7 +126,7 @@ static void set_noise(struct run *run)
     const struct plan *plan = &run->model->plan;
     struct instant here = state_instant(run->state);
     const struct instant *at = &here;
-    changes(run, at, run->along);
+    changes(run, at, true, run->along);
     if (run->model->tree) measure_turns(run, at);
     for (size_t b = 0; b < run->model->body_count; b++) {
         const struct model_body *body = &run->model->bodies[b];
@@ -134,6 +150,8 @@ void run_set_noise(struct run *run)
     set_noise(run);
     for (int i = 0; i < 2 * n; i++) any |= run->state->y[i] == 0;
     double lasts = any ? run_time_to_switch(run) : 0;
+    struct instant at = state_instant(run->state);
+    if (any) changes(run, &at, false, run->along);
     for (int i = 0; any && i < n; i++) set_floors(run, i, lasts);
     run->since_noise = 0;
 }
@@ -141,7 +159,8 @@ void run_set_noise(struct run *run)
 void run_renew_noise(struct run *run)
 {
     const unsigned long steps = 64; /* costs a hundredth of them */
-    if (!run->model->tree || ++run->since_noise < steps) return;
+    bool due = run->model->tree && ++run->since_noise >= steps;
+    if (!due && !switcher_noise_counts(run->stepper, run->h)) return;
     set_noise(run);
     run->since_noise = 0;
 }

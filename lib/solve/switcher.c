@@ -161,6 +161,11 @@ void switcher_set_noise(struct switcher *s, size_t pair, double noise)
         if (s->steppers[k]) weights_set_noise(stepper_control(s->steppers[k]), pair, noise);
 }
 
+bool switcher_noise_counts(const struct switcher *s, double h)
+{
+    return weights_noise_counts(stepper_control(s->steppers[s->made]), h);
+}
+
 void switcher_set_floor(struct switcher *s, size_t component, double floor)
 {
     if (!(floor > 0 && floor < INFINITY)) return;

@@ -42,4 +42,7 @@ void switcher_set_linear(struct switcher *switcher, const double *A, double rho)
 void switcher_set_floor(struct switcher *switcher, size_t component, double floor);
 void switcher_set_noise(struct switcher *switcher, size_t pair, double noise);
 
+/* weights_noise_counts for the method that makes the steps. */
+bool switcher_noise_counts(const struct switcher *switcher, double h);
+
 #endif

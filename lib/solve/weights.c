@@ -62,10 +62,15 @@ static inline double level(const struct weights *w, double scale, double y, doub
     return larger(larger(w->tolerance * scale, DBL_EPSILON * (fabs(y) + moved)), hidden);
 }
 
+static inline double allowed_by_noise(const struct weights *w, size_t i, double h)
+{
+    return 4 * w->noise[i] * fabs(h);
+}
+
 /* What rounding of q_i, and of the acceleration, hides in v_i within a step. */
 static inline double hidden_in_v(const struct weights *w, size_t i, double h, double q)
 {
-    return larger(DBL_EPSILON * smaller(fabs(q), w->cap[i]) / fabs(h), 4 * w->noise[i] * fabs(h));
+    return larger(DBL_EPSILON * smaller(fabs(q), w->cap[i]) / fabs(h), allowed_by_noise(w, i, h));
 }
 
 /* An error that rounding of the accelerations explains, `noise`, says nothing of the step size. Counted by a
@@ -168,6 +173,14 @@ void weights_set_noise(gsl_odeiv2_control *control, size_t i, double noise)
 {
     struct weights *w = control->state;
     w->noise[i] = noise;
+}
+
+bool weights_noise_counts(const gsl_odeiv2_control *control, double h)
+{
+    const struct weights *w = control->state;
+    for (size_t i = 0; i < w->pairs; i++)
+        if (allowed_by_noise(w, i, h) > w->tolerance * w->scale[w->pairs + i]) return true;
+    return false;
 }
 
 double weights_tolerance(const gsl_odeiv2_control *control)

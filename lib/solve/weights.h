@@ -39,6 +39,7 @@
 #define FBD_SOLVE_WEIGHTS_H
 
 #include <gsl/gsl_odeiv2.h>
+#include <stdbool.h>
 
 #include "solve/layout.h"
 
@@ -68,6 +69,11 @@ void weights_set_floor(gsl_odeiv2_control *control, size_t i, double floor);
  * is allowed. Without it a body that starts to move out of a balance of large forces would be followed, noise
  * and all, with ever smaller steps. */
 void weights_set_noise(gsl_odeiv2_control *control, size_t i, double noise);
+
+/* Does that allow a rate more, in a step of size h, than the tolerance does? Then it has to be that of here:
+ * a light cart whose pole passes the vertical has 1e9 times the forces, and noise, that it has a step later.
+ */
+bool weights_noise_counts(const gsl_odeiv2_control *control, double h);
 
 /* Take an accepted state y with f = f(t, y) into the running maxima. */
 void weights_update(gsl_odeiv2_control *control, const double *y, const double *f);
