@@ -73,10 +73,11 @@ enum stepper_status stepper_step(struct stepper *stepper, struct counted_system 
 
 /* State at time t within the last accepted step, t0 <= t <= t1, bit for bit that of the step at its ends.
  * Explicit methods and msadams have the interpolants of dense.h, msbdf the polynomial of its last points
- * (history.h), rodas5p its own. Other implicit one-step methods redo the step, up to Chebyshev points or, where
- * no polynomial follows it, up to t (inside.h): slopes are of no use over a stiff step, and bsimp makes steps
- * longer than an interpolant follows. Where that fails, the ends have to do (dense_eval_plain). The system of that step is used and has to be there still. GSL_SUCCESS, or GSL_EINVAL
- * without a last step or for t outside of it, where a double next to an end counts as that. */
+ * (history.h), rodas5p its own. Other implicit one-step methods redo the step, up to Chebyshev points or,
+ * where no polynomial follows it, up to t (inside.h): slopes are of no use over a stiff step, and bsimp makes
+ * steps longer than an interpolant follows. Where that fails, the ends have to do (dense_eval_plain). The
+ * system of that step is used and has to be there still. GSL_SUCCESS, or GSL_EINVAL without a last step or
+ * for t outside of it, where a double next to an end counts as that. */
 int stepper_dense(struct stepper *stepper, struct moment t, double *y);
 
 /* The degree of the polynomials that stepper_dense gives; where they are none (*negligible above
