@@ -57,7 +57,8 @@ static void add_gross_forces(struct run *run, int b, const struct instant *at, d
     const struct model_body *body = &run->model->bodies[b];
     size_t count = diagram_fill(run->model, b, at, run->state->a, run->state->slots, run->arrows);
     int link = body->place.link;
-    double angle = link > 0 ? run->turned[run->model->tree->count + link] : 0;
+    const struct tree *tree = run->model->tree;
+    double angle = tree && link > 0 ? run->turned[tree->count + link] : 0;
     for (size_t i = 0; i < count; i++) {
         if (link > 0)
             add_jointed(body, &at->tree->links[link], angle, &run->arrows[i], gross);

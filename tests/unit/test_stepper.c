@@ -324,49 +324,52 @@ static void work_is_counted_honestly(void **state)
 }
 
 /* Over every step 400 samples: what they cost, and how far they are from the steps that end there, of which
- * they are known to a hundredth of the tolerance. */
+ * they are known to a hundredth of the tolerance. The stiff scene begins with a layer that its first step
+ * leaps over: no polynomial follows that. */
+static void sample_steps(const struct method *method, bool stiff)
+{
+    enum { samples = 400, most_points = 32 };
+    const double force[] = {1, 0}, omega[] = {1, 1e4}, damping[] = {0, 2e4}, fixed[] = {0, 0.1};
+    struct scene scene = {.omega = omega[stiff], .c = damping[stiff], .force = force[stiff]};
+    struct run run;
+    double tolerance = tolerance_for(method), worst = 0, v_most = 1;
+    long most = 0;
+    const struct stepper_options options = {.method = method,
+                                            .layout = {.pairs = 1},
+                                            .tolerance = tolerance,
+                                            .h_fixed = fixed[stiff]};
+    start_with(&run, &scene, &options, 0, 1, 0, 1);
+    for (int k = 0; k < 30 && run.t < 1; k++) {
+        double t0 = run.t, y[2], exact[2], f[2];
+        assert_int_equal(step(&run, 1), stepper_ok);
+        v_most = fmax(v_most, fabs(run.y[1]));
+        long before = scene.calls, redone = 0;
+        for (int i = 0; i < samples; i++) {
+            struct moment t = moment_at(t0 + (run.t - t0) * (i + 0.37) / samples);
+            assert_int_equal(stepper_dense(run.stepper, t, y), GSL_SUCCESS);
+            if (i % 40 != 0) continue;
+            long calls = scene.calls;
+            assert_int_equal(stepper_partial(run.stepper, t, exact, f), GSL_SUCCESS);
+            redone += scene.calls - calls;
+            worst = fmax(worst, fmax(fabs(y[0] - exact[0]), fabs(y[1] - exact[1]) / v_most));
+        }
+        most = (long)fmax((double)most, (double)(scene.calls - before - redone) / ((double)redone / 10));
+    }
+    print_message("# %-7s %-6s samples cost %ld steps at most, off by %.1g tolerances\n", method->name,
+                  stiff ? "stiff" : "smooth", most, worst / tolerance);
+    assert_true(worst <= 0.02 * tolerance);
+    assert_true(stiff ? most >= samples : most <= most_points);
+    stepper_free(run.stepper);
+}
+
 static void samples_of_an_implicit_step_are_no_steps(void **state)
 {
     (void)state;
-    enum { samples = 400, most_points = 32 };
-    /* The other one begins with a layer that its first step leaps over: no polynomial follows that. */
-    const double force[] = {1, 0}, omega[] = {1, 1e4}, damping[] = {0, 2e4}, fixed[] = {0, 0.1};
     for (size_t m = 0; method_at(m); m++) {
         const struct method *method = method_at(m);
         if (!method->implicit || method->multistep || strcmp(method->name, "rodas5p") == 0) continue;
-        for (int stiff = 0; stiff < 2; stiff++) {
-            struct scene scene = {.omega = omega[stiff], .c = damping[stiff], .force = force[stiff]};
-            struct run run;
-            double tolerance = tolerance_for(method), worst = 0, v_most = 1;
-            long most = 0;
-            const struct stepper_options options = {.method = method,
-                                                    .layout = {.pairs = 1},
-                                                    .tolerance = tolerance,
-                                                    .h_fixed = fixed[stiff]};
-            start_with(&run, &scene, &options, 0, 1, 0, 1);
-            for (int k = 0; k < 30 && run.t < 1; k++) {
-                double t0 = run.t, y[2], exact[2], f[2];
-                assert_int_equal(step(&run, 1), stepper_ok);
-                v_most = fmax(v_most, fabs(run.y[1]));
-                long before = scene.calls, redone = 0;
-                for (int i = 0; i < samples; i++) {
-                    struct moment t = moment_at(t0 + (run.t - t0) * (i + 0.37) / samples);
-                    assert_int_equal(stepper_dense(run.stepper, t, y), GSL_SUCCESS);
-                    if (i % 40 != 0) continue;
-                    long calls = scene.calls;
-                    assert_int_equal(stepper_partial(run.stepper, t, exact, f), GSL_SUCCESS);
-                    redone += scene.calls - calls;
-                    worst = fmax(worst, fmax(fabs(y[0] - exact[0]), fabs(y[1] - exact[1]) / v_most));
-                }
-                most =
-                    (long)fmax((double)most, (double)(scene.calls - before - redone) / ((double)redone / 10));
-            }
-            print_message("# %-7s %-6s samples cost %ld steps at most, off by %.1g tolerances\n",
-                          method->name, stiff ? "stiff" : "smooth", most, worst / tolerance);
-            assert_true(worst <= 0.02 * tolerance);
-            assert_true(stiff ? most >= samples : most <= most_points);
-            stepper_free(run.stepper);
-        }
+        sample_steps(method, false);
+        sample_steps(method, true);
     }
 }
 
