@@ -117,7 +117,7 @@ static void set_floors(struct run *run, int i, double lasts)
 static double roundings_of(const struct fbd_model *model, int link)
 {
     const double single = 2, jointed = 16, few = 16;
-    if (link == 0) return single;
+    if (link == 0 || !model->tree) return single;
     double links = model->tree->count - 1;
     return jointed * (1 + fmax(0, log2(links / few)));
 }
