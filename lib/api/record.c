@@ -61,25 +61,33 @@ static void adapt_slice(struct going *going, unsigned long made)
     going->slice = fmin(going->slice, longest_slice);
 }
 
-/* Tell how far the run is, and end it when that is answered by a stop. */
-static void tell_progress(const struct going *going, double t)
+/* Tell how far the run is; is it to end? */
+static bool tell(const struct going *going, double t)
 {
     const fbd_recording *recording = going->recording;
-    struct ensemble *ensemble = going->result->simulation->ensemble;
-    if (!recording || !recording->progress || ensemble->outcome != FBD_GOING) return;
+    const struct ensemble *ensemble = going->result->simulation->ensemble;
+    if (!recording || !recording->progress) return false;
     fbd_progress progress = {.t = t,
                              .until = ensemble->options.until,
                              .steps = going->steps,
                              .events = ensemble->event_count};
-    if (recording->progress(recording->progress_context, &progress) != 0) ensemble_interrupt(ensemble);
+    return recording->progress(recording->progress_context, &progress) != 0;
 }
 
+static void tell_progress(const struct going *going, double t)
+{
+    struct ensemble *ensemble = going->result->simulation->ensemble;
+    if (ensemble->outcome == FBD_GOING && tell(going, t)) ensemble_interrupt(ensemble);
+}
+
+/* The companion may still be on its way when the run itself is done. */
 static bool is_ended(void *context)
 {
     const struct going *going = context;
-    const struct ensemble *ensemble = going->result->simulation->ensemble;
-    if (ensemble->outcome == FBD_GOING) tell_progress(going, ensemble->t);
-    return ensemble->outcome == FBD_INTERRUPTED;
+    struct ensemble *ensemble = going->result->simulation->ensemble;
+    bool ended = ensemble->outcome == FBD_INTERRUPTED || tell(going, ensemble->t);
+    if (ended && ensemble->outcome == FBD_GOING) ensemble_interrupt(ensemble);
+    return ended;
 }
 
 /* The ledger looks at every step; its time is not that of the run. */

@@ -31,8 +31,8 @@ void modes_drive(struct fbd_state *state)
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
         const struct friction *friction = &plan->frictions[pair];
         if (friction->kind != mode_drive) continue;
-        if (!formula_is_constant(
-                &friction->position)) /* of the time alone: the rates of the state do not matter */
+        /* Of the time alone: the rates of the state do not matter. */
+        if (!formula_is_constant(&friction->position))
             expr_resolve(friction->position.expr, state_moment(state), state->y, 1, state->y, NULL,
                          state->branch + friction->position.branch);
         state->y[friction->coordinate] = formula_value(&friction->position, &at);

@@ -20,9 +20,9 @@ struct bars {
     struct fbd_state *state; /* the companion at the time looked at */
     bool known;              /* ... which is there */
     bool behind;             /* the last step of the first run has not been looked at: see bars_catch_up */
-    bool (*is_ended)(
-        void *watcher); /* asked after each step of the companion, which may need far more of them
-                           than the first run; true interrupts it, and nothing is known from there */
+    /* Asked after each step of the companion, which may need far more of them than the first run; true
+     * interrupts it, and nothing is known from there. May be NULL. */
+    bool (*is_ended)(void *watcher);
     void *watcher;
 };
 

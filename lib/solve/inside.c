@@ -20,9 +20,18 @@ struct inside {
     enum belief belief;
     int stride; /* between the points that are used */
     const double *y0, *y1;
-    double *tail; /* n */
+    double share[nodes]; /* of the step: where the points are */
+    double *tail;        /* n */
     double points[];
 };
+
+/* sin^2 keeps the digits of a small share. */
+static double share_of(int k)
+{
+    const double pi = 3.14159265358979323846;
+    double half = sin(pi * k / (2 * finest));
+    return half * half;
+}
 
 struct inside *inside_alloc(size_t n)
 {
@@ -31,6 +40,7 @@ struct inside *inside_alloc(size_t n)
     if (!inside) return NULL;
     inside->n = n;
     inside->tail = inside->points + nodes * n;
+    for (int k = 0; k < nodes; k++) inside->share[k] = share_of(k);
     return inside;
 }
 
@@ -46,21 +56,13 @@ void inside_set(struct inside *inside, const double *y0, const double *y1)
     inside->belief = untried;
 }
 
-/* sin^2 keeps the digits of a small share. */
-static double share_of(int k)
-{
-    const double pi = 3.14159265358979323846;
-    double half = sin(pi * k / (2 * finest));
-    return half * half;
-}
-
 /* The points that no coarser stride has. */
 static bool take_points(struct inside *inside, const struct inside_source *source, int stride)
 {
     for (int k = stride; k < finest; k += stride) {
         if (stride < finest / coarsest && k % (2 * stride) == 0) continue;
         double *y = inside->points + (size_t)k * inside->n;
-        if (!source->sample(source->context, share_of(k), y)) return false;
+        if (!source->sample(source->context, inside->share[k], y)) return false;
         for (size_t i = 0; i < inside->n; i++)
             if (!isfinite(y[i])) return false;
     }
@@ -105,7 +107,7 @@ static void interpolate(const struct inside *inside, double share, double *y)
     memset(y, 0, inside->n * sizeof *y);
     for (int k = 0; k <= finest; k += inside->stride) {
         const double *point = inside->points + (size_t)k * inside->n;
-        double from = share - share_of(k);
+        double from = share - inside->share[k];
         if (from == 0) {
             memcpy(y, point, inside->n * sizeof *y);
             return;

@@ -5,7 +5,6 @@
  */
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/text.h"
 #include "claims.h"
@@ -15,7 +14,7 @@
 
 enum {
     most_steps = 120,    /* of a run, then it is interrupted */
-    most_seconds = 2,    /* ... too: who presses Ctrl-C is obeyed */
+    most_waits = 20000,  /* questions between two steps, then too: who presses Ctrl-C is obeyed */
     most_table = 300000, /* bytes of CSV, then the writer refuses */
     most_arrows = 64,
 };
@@ -88,19 +87,19 @@ static void claim_energy(fbd_energy energy)
 /* ---- runs */
 
 struct patience {
-    unsigned long steps;
-    clock_t from;
+    unsigned long steps, waits;
 };
 
-/* Tells the run to end after so many steps, or so long a time: of a belt of 1e15 rad/s a stretch without a
- * step is any number of steps of its companion. It is asked between them too, and oftener where groups wait
- * for each other: counted in calls no run would come to its end. */
+/* Tells the run to end after so many steps, or so many questions without one: of a belt of 1e15 rad/s a
+ * stretch without a step is any number of steps of its companion. It is asked between them too, and oftener
+ * where groups wait for each other: counted in calls alone no run would come to its end. */
 static int watch(void *context, const fbd_progress *progress)
 {
     struct patience *patience = context;
     claim_finite("time", progress->t);
+    patience->waits = progress->steps == patience->steps ? patience->waits + 1 : 0;
     patience->steps = progress->steps;
-    return progress->steps > most_steps || clock() - patience->from > most_seconds * CLOCKS_PER_SEC;
+    return progress->steps > most_steps || patience->waits > most_waits;
 }
 
 static int write_table(void *context, const char *rows, size_t length)
@@ -169,7 +168,7 @@ static void claim_csv(const struct text *table)
 
 static void run(struct input *input)
 {
-    struct patience patience = {0, clock()};
+    struct patience patience = {0};
     struct text table = {0};
     uint64_t *choices = &input->choices;
     fbd_options options = choose_options(choices);
