@@ -191,11 +191,12 @@ static void write_limits(struct text *text, const struct fbd_statics *statics)
         text_add(text, any ? "" : "\nFriction\n");
         any = true;
         text_printf(text, "  %s holds ", limit->name);
-        text_number(text, without_rounding(statics, limit->needed, 1), digits);
+        double needed = without_rounding(statics, limit->needed, 1);
+        text_number(text, needed, digits);
         text_add(text, " of at most ");
         text_number(text, limit->limit, digits);
         text_printf(text, " %s", limit->unit);
-        if (limit->limit > 0) text_printf(text, " (%.3g %%)", 100 * limit->needed / limit->limit);
+        if (limit->limit > 0) text_printf(text, " (%.3g %%)", 100 * (needed / limit->limit));
         text_add(text, "\n");
     }
 }

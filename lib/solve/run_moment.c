@@ -19,10 +19,12 @@ static struct moment before_end(struct moment t, double until)
     return (struct moment){before, moment_since(t, moment_at(before))};
 }
 
-/* The first moment after this one: what happens where a step begins has to wait for time to pass. */
+/* The first moment after this one: what happens where a step begins has to wait for time to pass. As long as
+ * two doubles can tell, and so that implicit methods can divide by it. */
 static struct moment at_once(struct moment start)
 {
-    return (struct moment){start.t, nextafter(start.rest + DBL_MIN, HUGE_VAL)};
+    double least = start.t == 0 ? DBL_MIN / DBL_EPSILON : DBL_EPSILON * DBL_EPSILON * fabs(start.t);
+    return (struct moment){start.t, nextafter(start.rest + least, HUGE_VAL)};
 }
 
 /* The moment at which the first of the functions that crossed is zero, by Newton from a double: the values

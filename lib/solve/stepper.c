@@ -180,7 +180,7 @@ static struct plan plan_step(const struct stepper *s, struct moment t, double h,
  * shorter ones. */
 static bool is_nothing(const struct plan *plan, struct moment t, double room)
 {
-    return (!is_between_doubles(t, room) && t.t + plan->h == t.t) || plan->h < 1e-30 * room;
+    return (!is_between_doubles(t, room) && t.t + plan->h == t.t) || !(plan->h > 1e-30 * room);
 }
 
 /* What became of an attempt. */

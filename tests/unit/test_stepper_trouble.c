@@ -200,6 +200,30 @@ static void stiff_steps_can_be_looked_into(void **state)
     }
 }
 
+/* A limit as near as two doubles can tell (the start of a pulse of 1e-15 s at t = 8 s), and as DBL_MIN, over
+ * which an implicit method cannot divide: the step is made or given up, after some halvings. */
+static void a_limit_next_to_nothing_away_ends_the_step(void **state)
+{
+    (void)state;
+    const double rooms[] = {8 * DBL_EPSILON, 1e-20, 8 * DBL_EPSILON * DBL_EPSILON, 1e-300, DBL_MIN};
+    for (size_t m = 0; method_at(m); m++)
+        for (size_t k = 0; k < sizeof rooms / sizeof *rooms; k++) {
+            const struct method *method = method_at(m);
+            struct scene scene = {.omega = 1, .force = 1};
+            struct run run;
+            start(&run, &scene, method, tolerance_for(method), 1, 0, 9);
+            run_to(&run, 8);
+            struct moment t = moment_at(run.t), limit = {run.t, rooms[k]};
+            double q = run.y[0];
+            enum stepper_status status =
+                stepper_step(run.stepper, &run.system, &t, run.y, run.f, &run.h, limit);
+            bool resolved = rooms[k] >= 8 * DBL_EPSILON * DBL_EPSILON;
+            assert_true(status == stepper_ok || (status == stepper_underflow && !resolved));
+            assert_true(fabs(run.y[0] - q) <= 1e-12);
+            stepper_free(run.stepper);
+        }
+}
+
 static void misuse_is_refused(void **state)
 {
     (void)state;
@@ -242,6 +266,7 @@ int main(void)
         cmocka_unit_test(a_fixed_step_that_fails_is_not_made_smaller),
         cmocka_unit_test(a_body_in_balance_costs_few_steps),
         cmocka_unit_test(stiff_steps_can_be_looked_into),
+        cmocka_unit_test(a_limit_next_to_nothing_away_ends_the_step),
         cmocka_unit_test(misuse_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
