@@ -75,12 +75,14 @@ class Row:
 
     def cells(self):
         printed, got = self.answers()
-        default_time = milliseconds(self.default.seconds) if self.default.seconds else ""
+        default_time = milliseconds(self.default.seconds)
         path = self.case.path.relative_to(SOURCE)
         return [f"[{self.case.path.stem}](../{path})", printed, got, f"{self.default.ratio:.2g}", default_time, self.best(), self.status()]
 
 
 def milliseconds(seconds):
+    if seconds < 1e-3:
+        return "< 1 ms"  # less than some clocks tell
     return f"{seconds * 1e3:.2g} ms" if seconds < 0.0995 else f"{seconds * 1e3:.0f} ms"
 
 
