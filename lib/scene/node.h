@@ -15,7 +15,7 @@
 
 enum {
     node_most_depth = 64,
-    node_most_nodes = 10000000, /* written in the file */
+    node_most_nodes = 5000000,  /* written in the file */
     node_most_aliased = 100000, /* added by aliases */
     node_most_anchors = 1000,
     node_longest_key = 128, /* bytes */

@@ -61,8 +61,9 @@ void run_close_within(struct run *run, double t, double *y)
      * error estimate covers what it is made of. Steps that end at t have one. */
     size_t n = (size_t)run->model->plan.n;
     double *other = run->aside, *f = other + 2 * n;
-    if (switcher_walk(run->stepper, moment_at(t), other, f) == GSL_SUCCESS && close_at(run, t, other) < moved)
-        memcpy(y, other, 2 * n * sizeof *y);
+    int code = switcher_walk(run->stepper, moment_at(t), other, f);
+    if (code == GSL_ENOMEM) run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
+    if (code == GSL_SUCCESS && close_at(run, t, other) < moved) memcpy(y, other, 2 * n * sizeof *y);
 }
 
 /* What rounding may do in the last step: in a scene at rest accelerations are what is left of forces that

@@ -18,6 +18,7 @@
 #include "solve/parabola.h"
 #include "solve/rodas5p.h"
 #include "solve/stiffness.h"
+#include "solve/walk.h"
 #include "solve/weights.h"
 
 struct stepper {
@@ -32,6 +33,7 @@ struct stepper {
     struct dense *dense;      /* of explicit methods and msadams */
     struct history *history;  /* of msbdf, else NULL */
     struct inside *inside;    /* of implicit methods without an interpolant, else NULL */
+    struct walk *walk;        /* of one-step methods, else NULL */
     struct stepper_counts counts;
     double *jacobian; /* n n + 3 n, for the limit of stability; NULL where that is not looked after */
     double stable_h;  /* the largest step within that limit, when last looked after */
@@ -97,11 +99,12 @@ struct stepper *stepper_alloc(const struct stepper_options *options)
     bool redo = !method->multistep && !method->exact, history = method->multistep && method->implicit;
     bool inside = redo && method->implicit && *method->type != step_rodas5p;
     if (redo) s->redo = step_alloc(method, s->n, &s->driver);
+    s->walk = redo ? walk_alloc(s->n) : NULL;
     if (history) s->history = history_alloc(s->n);
     if (inside) s->inside = inside_alloc(s->n);
     bool guarded = method->stable > 0 && s->n <= most_guarded;
     if (guarded) s->jacobian = malloc((s->n * s->n + 3 * s->n) * sizeof(double));
-    if (!s->control || !s->dense || !s->step || (redo && !s->redo) || (history && !s->history) ||
+    if (!s->control || !s->dense || !s->step || (redo && !(s->redo && s->walk)) || (history && !s->history) ||
         (inside && !s->inside) || (guarded && !s->jacobian)) {
         stepper_free(s);
         return NULL;
@@ -119,6 +122,7 @@ void stepper_free(struct stepper *s)
     dense_free(s->dense);
     history_free(s->history);
     inside_free(s->inside);
+    walk_free(s->walk);
     free(s->jacobian);
     free(s);
 }
@@ -269,6 +273,7 @@ static void keep(struct stepper *s, struct counted_system *system, struct moment
     weights_update(s->control, y, f);
     dense_set(s->dense, s->method->order, t0, s->y0, s->f0, t1, s->y1, s->f1, &system->gsl, s->step);
     if (s->inside) inside_set(s->inside, s->y0, s->y1);
+    if (s->walk) walk_forget(s->walk);
     if (s->history && t1.t > t0.t) history_add(s->history, t1.t, y);
     s->system = system;
     s->stepped = true;
@@ -435,32 +440,25 @@ int stepper_partial(struct stepper *s, struct moment t, double *y, double *f)
     return code == GSL_SUCCESS ? counted_system_rhs(s->system, t.t, y, f) : code;
 }
 
+static double walk_part(void *context, double from, double h, double *y, double *f)
+{
+    struct stepper *s = context;
+    double *y1 = s->work, *f1 = s->work + s->n;
+    memcpy(y1, y, s->n * sizeof *y);
+    gsl_odeiv2_step_reset(s->redo);
+    int code = gsl_odeiv2_step_apply(s->redo, s->t0.t + from, h, y1, s->yerr, f, f1, &s->system->gsl);
+    if (code != GSL_SUCCESS || !all_finite(s->n, y1, f1)) return INFINITY;
+    memcpy(y, y1, s->n * sizeof *y);
+    memcpy(f, f1, s->n * sizeof *f);
+    return weights_ratio(s->control, h, y, s->yerr, f);
+}
+
 int stepper_walk(struct stepper *s, struct moment t, double *y, double *f)
 {
-    enum { most_steps = 500 };
-    const double longer = 1.5, shorter = 0.4, room = 0.1;
-    if (!s->redo || !find_within(s, &t) || moment_equal(t, s->t0) || moment_equal(t, s->t1))
+    if (!s->walk || !find_within(s, &t) || moment_equal(t, s->t0) || moment_equal(t, s->t1))
         return GSL_EINVAL;
-    size_t bytes = s->n * sizeof *y;
-    double *y1 = s->work, *f1 = s->work + s->n, end = moment_since(t, s->t0), now = 0, h = end;
-    memcpy(y, s->y0, bytes);
-    memcpy(f, s->f0, bytes);
-    for (int k = 0; k < most_steps && now + h > now; k++) {
-        double next = now + h < end ? now + h : end, ratio = INFINITY;
-        memcpy(y1, y, bytes);
-        gsl_odeiv2_step_reset(s->redo);
-        int code =
-            gsl_odeiv2_step_apply(s->redo, s->t0.t + now, next - now, y1, s->yerr, f, f1, &s->system->gsl);
-        if (code == GSL_SUCCESS && all_finite(s->n, y1, f1))
-            ratio = weights_ratio(s->control, next - now, y1, s->yerr, f1);
-        h = ratio <= room ? longer * h : ratio <= 1 ? h : shorter * h;
-        if (!(ratio <= 1)) continue;
-        memcpy(y, y1, bytes);
-        memcpy(f, f1, bytes);
-        now = next;
-        if (now == end) return GSL_SUCCESS;
-    }
-    return GSL_EFAILED;
+    const struct walk_source source = {s, walk_part};
+    return walk_to(s->walk, &source, moment_since(s->t1, s->t0), s->y0, s->f0, moment_since(t, s->t0), y, f);
 }
 
 double stepper_attempt(struct stepper *s, struct counted_system *system, double t, const double *y,

@@ -89,8 +89,8 @@ int stepper_degree(const struct stepper *stepper, double *negligible);
  * stepper_dense. Codes as there, or that of a right-hand side that fails at t. */
 int stepper_partial(struct stepper *stepper, struct moment t, double *y, double *f);
 
-/* The same by as many steps as the tolerance asks for. GSL_EFAILED when that does not come to t, GSL_EINVAL
- * for a multistep method. The last step stays what it was. */
+/* The same by as many steps as the tolerance asks for (walk.h). GSL_EFAILED when that does not come to t,
+ * GSL_ENOMEM, GSL_EINVAL for a multistep method. The last step stays what it was. */
 int stepper_walk(struct stepper *stepper, struct moment t, double *y, double *f);
 
 /* Try a step of size h from (t, y) with slopes f and throw it away: its largest error in units of what is

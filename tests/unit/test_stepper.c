@@ -373,6 +373,49 @@ static void samples_of_an_implicit_step_are_no_steps(void **state)
     }
 }
 
+/* One step over a third of a period, of fixed size, walked through at 50 places, forwards and then backwards:
+ * as exact as the tolerance asks for, whatever that step is, and the same bits both times, where the second
+ * time a place costs no more than a step. */
+static void a_step_is_walked_through_once(void **state)
+{
+    (void)state;
+    enum { places = 50, dearest = 300 };
+    for (size_t m = 0; method_at(m); m++) {
+        const struct method *method = method_at(m);
+        struct scene scene = {.omega = 1, .force = 1};
+        double tolerance = method->order == 1 ? 1e-2 : tolerance_for(method), first[places][2], worst = 0;
+        const struct stepper_options options = {.method = method,
+                                                .layout = {.pairs = 1},
+                                                .tolerance = tolerance,
+                                                .h_fixed = 2};
+        struct run run;
+        start_with(&run, &scene, &options, 0, 1, 0, 2);
+        double y[2], f[2];
+        if (step(&run, 2) != stepper_ok || method->multistep) {
+            assert_int_equal(stepper_walk(run.stepper, moment_at(1), y, f), GSL_EINVAL);
+            stepper_free(run.stepper);
+            continue;
+        }
+        for (int i = 0; i < places; i++) {
+            double t = run.t * (i + 0.5) / places;
+            assert_int_equal(stepper_walk(run.stepper, moment_at(t), first[i], f), GSL_SUCCESS);
+            worst = fmax(worst, deviation(first[i], t));
+        }
+        long calls = scene.calls;
+        for (int i = places - 1; i >= 0; i--) {
+            assert_int_equal(stepper_walk(run.stepper, moment_at(run.t * (i + 0.5) / places), y, f),
+                             GSL_SUCCESS);
+            assert_memory_equal(y, first[i], sizeof y);
+            assert_true(f[0] == y[1]);
+        }
+        print_message("# %-7s off by %.1g tolerances, %ld calls a place\n", method->name, worst / tolerance,
+                      (scene.calls - calls) / places);
+        assert_true(worst <= 50 * tolerance);
+        assert_true(scene.calls - calls <= (long)places * dearest);
+        stepper_free(run.stepper);
+    }
+}
+
 static int decay(double t, const double y[], double dydt[], void *rate)
 {
     (void)t;
@@ -438,6 +481,7 @@ int main(void)
         cmocka_unit_test(an_angle_stays_accurate_over_a_million_revolutions),
         cmocka_unit_test(work_is_counted_honestly),
         cmocka_unit_test(samples_of_an_implicit_step_are_no_steps),
+        cmocka_unit_test(a_step_is_walked_through_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
