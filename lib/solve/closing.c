@@ -212,6 +212,7 @@ void run_close_step(struct run *run)
     double after = kinetic(run->state);
     run->liveliest = fmax(run->liveliest, fmax(before, after));
     double reach = measure(run);
+    mechanisms_give_floors(&run->mechanisms, run->state, run->stepper);
     if (overlong_rope(run, explained(run) * reach)) return;
     /* What has come to the origin has no size of its own there: a stop at zero. */
     bool nothing = misfit.position <= 16 * DBL_EPSILON * run->drift.reach;

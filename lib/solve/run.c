@@ -70,6 +70,7 @@ static bool make_run(struct run *run)
     if (!run->state || !run->during || !run->y || !run_make_scans(run)) return false;
     if (run->state->tree) run->state->tree->accuracy = run->during->tree->accuracy = run->options.tolerance;
     if (!poles_init(&run->poles, run->model)) return false;
+    if (!mechanisms_init(&run->mechanisms, run->model)) return false;
     run->f = run->y + 2 * n;
     run->sample = run->f + 2 * n;
     run->aside = run->sample + 2 * n;
@@ -154,6 +155,7 @@ void run_free(struct run *run)
     watchers_free(&run->watchers);
     course_free(&run->course);
     poles_free(&run->poles);
+    mechanisms_free(&run->mechanisms);
     contacts_work_free(&run->contacts);
     state_free(run->state);
     state_free(run->during);
@@ -179,6 +181,7 @@ static bool restart(struct run *run)
     scan_forget(&run->timed);
     scan_forget(&run->moving);
     if (!structure_is_exact(run->kind)) run_set_noise(run);
+    mechanisms_join(&run->mechanisms, run->state);
     bind_rates(run);
     watchers_follow(&run->watchers, run->during);
     int status = switcher_reset(run->stepper, &run->system, run_end(run), run->y, run->f,

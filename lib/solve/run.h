@@ -23,6 +23,7 @@
 #include "solve/contacts.h"
 #include "solve/course.h"
 #include "solve/linear.h"
+#include "solve/mechanisms.h"
 #include "solve/poles.h"
 #include "solve/scan.h"
 #include "solve/structure.h"
@@ -98,6 +99,7 @@ struct run {
     bool follows_places;         /* the course has places in the world */
     struct course course;        /* of what moving functions with enclosures read */
     struct poles poles;
+    struct mechanisms mechanisms;
     struct switcher *stepper;
     struct linear_pace pace; /* of a linear system */
     struct counted_system system;

@@ -11,8 +11,7 @@ struct weights {
     size_t pairs, size; /* of the layout: number of q, number of all components */
     double tolerance;
     struct step_law law;
-    double *scale;        /* size: running maximum of |y|, at least the floor */
-    double *floor;        /* size */
+    double *scale;        /* size: running maximum of |y| and of the floors given */
     double *cap;          /* pairs: 1 rad for angles, no bound for others */
     double *acceleration; /* pairs: |a| of the last accepted state */
     double *noise;        /* pairs: rounding error of a */
@@ -165,7 +164,6 @@ void weights_update(gsl_odeiv2_control *control, const double *y, const double *
 void weights_set_floor(gsl_odeiv2_control *control, size_t i, double floor)
 {
     struct weights *w = control->state;
-    w->floor[i] = floor;
     w->scale[i] = larger(w->scale[i], floor);
 }
 
@@ -295,13 +293,12 @@ static struct weights *weights_state(const struct layout *layout)
 {
     size_t pairs = layout->pairs, size = layout_size(layout);
     if (size == 0 || size > (SIZE_MAX - sizeof(struct weights)) / (4 * sizeof(double))) return NULL;
-    struct weights *w = calloc(1, sizeof *w + (2 * size + 3 * pairs) * sizeof(double));
+    struct weights *w = calloc(1, sizeof *w + (size + 3 * pairs) * sizeof(double));
     if (!w) return NULL;
     w->pairs = pairs;
     w->size = size;
     w->scale = w->memory;
-    w->floor = w->scale + size;
-    w->cap = w->floor + size;
+    w->cap = w->scale + size;
     w->acceleration = w->cap + pairs;
     w->noise = w->acceleration + pairs;
     for (size_t i = 0; i < pairs; i++) w->cap[i] = layout->angle && layout->angle[i] ? 1.0 : INFINITY;

@@ -21,7 +21,7 @@ static void forty_windows_keep_their_energy(void **unused)
 {
     (void)unused;
     struct checks checks = {0};
-    const struct row_of_windows row = {40, 1, 1, 0, 1};
+    const struct row_of_windows row = {40, 1, 1, 0, 1, false};
     const double fall = g * (41 * 1 + 40 * 2);
     static const double tolerances[] = {1e-6, 1e-7, 1e-10};
     for (size_t i = 0; i < (thorough() ? sizeof tolerances / sizeof *tolerances : 1); i++) {

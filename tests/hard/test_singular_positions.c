@@ -13,7 +13,8 @@
 #include "windows.h"
 
 static const struct row_of_windows rows[] = {
-    {1, 1, 1, 0, 1}, {8, 1, 1, 0, 1}, {8, 1, 1, 0.3, 1}, {3, 0.5, 2, 0, 3}, {4, 1, 0.7, 1.1, 8},
+    {1, 1, 1, 0, 1, false},     {8, 1, 1, 0, 1, false}, {8, 1, 1, 0.3, 1, false}, {3, 0.5, 2, 0, 3, false},
+    {4, 1, 0.7, 1.1, 8, false}, {2, 1, 1, 0, 1, true},  {3, 0.5, 2, 0, 3, true},
 };
 
 static void rows_of_windows_turn_with_every_method(void **unused)

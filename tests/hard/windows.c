@@ -15,13 +15,37 @@
 
 static const double pi = 3.14159265358979323846, g = 9.81;
 
-char *windows_text(const struct row_of_windows *row)
+/* Couplers stay level: their angles are zero all the time, but for rounding. */
+static void add_planar(FILE *out, const struct row_of_windows *row)
 {
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) return NULL;
-    fprintf(out, "fbd: 1\nbodies:\n");
+    const char *pin = "  - pin: {name: %s%d, between: [%s%d.%s, %s%d.%s]}\n";
+    fprintf(out, "ground: {points: {");
+    for (int i = 0; i <= row->windows; i++)
+        fprintf(out, "%sO%d: [%.17g, 0]", i > 0 ? ", " : "", i, i * row->L);
+    fprintf(out, "}}\nbodies:\n");
+    for (int i = 0; i <= row->windows; i++) {
+        fprintf(out, "  v%d: {shape: rod, mass: 1, length: %.17g, motion: planar, forces: [gravity], ", i,
+                row->a);
+        fprintf(out, "initial: {x: %.17g, y: %.17g, theta: 90 deg, vx: %.17g, omega: %.17g}}\n", i * row->L,
+                row->a / 2, row->omega * row->a / 2, -row->omega);
+        if (i == row->windows) break;
+        fprintf(out, "  h%d: {shape: rod, mass: 1, length: %.17g, motion: planar, forces: [gravity], ", i,
+                row->L);
+        fprintf(out, "initial: {x: %.17g, y: %.17g, vx: %.17g}}\n", (i + 0.5) * row->L, row->a,
+                row->omega * row->a);
+    }
+    fprintf(out, "couplings:\n");
+    for (int i = 0; i <= row->windows; i++)
+        fprintf(out, "  - pin: {name: o%d, between: [v%d.left, ground.O%d]}\n", i, i, i);
+    for (int i = 0; i < row->windows; i++) {
+        fprintf(out, pin, "l", i, "v", i, "right", "h", i, "left");
+        fprintf(out, pin, "r", i, "v", i + 1, "right", "h", i, "right");
+    }
+}
+
+static void add_jointed(FILE *out, const struct row_of_windows *row)
+{
+    fprintf(out, "bodies:\n");
     for (int i = 0; i <= row->windows; i++) {
         fprintf(out, "  v%d: {shape: rod, mass: 1, length: %.17g, motion: {pivot: {at: [%.17g, %.17g], ", i,
                 row->a, i * row->L * cos(row->phi), i * row->L * sin(row->phi));
@@ -36,6 +60,19 @@ char *windows_text(const struct row_of_windows *row)
     fprintf(out, "couplings:\n");
     for (int i = 0; i < row->windows; i++)
         fprintf(out, "  - pin: {name: p%d, between: [h%d.right, v%d.right]}\n", i, i, i + 1);
+}
+
+char *windows_text(const struct row_of_windows *row)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) return NULL;
+    fprintf(out, "fbd: 1\n");
+    if (row->planar)
+        add_planar(out, row);
+    else
+        add_jointed(out, row);
     fprintf(out, "simulate: {until: 10 s}\n");
     fclose(out);
     return text;
@@ -59,7 +96,8 @@ static void look(const struct trial *trial, const struct row_of_windows *row, st
         snprintf(v, sizeof v, "v%d.theta", i);
         snprintf(h, sizeof h, "h%d.theta", i);
         snprintf(next, sizeof next, "v%d.theta", i + 1);
-        double a = trial_get(trial, v), b = a + trial_get(trial, h), c = trial_get(trial, next);
+        double a = trial_get(trial, v), b = (row->planar ? 0 : a) + trial_get(trial, h),
+               c = trial_get(trial, next);
         double x = row->a * (cos(a) - cos(c)) + row->L * (cos(b) - cos(row->phi));
         double y = row->a * (sin(a) - sin(c)) + row->L * (sin(b) - sin(row->phi));
         worst->gap = fmax(worst->gap, hypot(x, y));
@@ -91,6 +129,8 @@ void windows_turn(struct checks *checks, const struct row_of_windows *row, const
     const double magnified = 100;
     hard_case(checks, &trial, "speed", worst.speed,
               magnified * fmax(hard_promise(&trial), sqrt(DBL_EPSILON)));
+    /* Nor does a coordinate that stays zero but for rounding set the pace. */
+    if (!method->name) check_that(checks, "few steps", fbd_simulation_stats(trial.simulation).steps < 20000);
     trial_close(&trial);
     free(text);
 }

@@ -19,6 +19,7 @@
 struct row_of_windows {
     int windows;
     double a, L, phi, omega;
+    bool planar; /* every rod by itself in x, y and theta, every joint a pin; phi is 0 */
 };
 
 /* Its model file; the caller frees it. */
