@@ -91,13 +91,34 @@ static struct piece piece_between(struct jet_vec C1, double sR1, struct jet_vec 
     return piece;
 }
 
-/* The angle of u, counted from psi. */
-static struct jet angle_from(double psi, struct jet_vec u)
+/* How far u has turned at that end since the start, whole turns with it. */
+static struct jet turned_at(const struct tie_state *state, int end, struct jet_vec u)
 {
-    double c = cos(psi), s = sin(psi);
-    struct jet_vec turned = {jet_add(jet_scale(c, u.x), jet_scale(s, u.y)),
-                             jet_sub(jet_scale(c, u.y), jet_scale(s, u.x))};
-    return jet_angle(turned);
+    const double turn = 6.283185307179586;
+    double c = cos(state->psi[end]), s = sin(state->psi[end]);
+    struct jet_vec relative = {jet_add(jet_scale(c, u.x), jet_scale(s, u.y)),
+                               jet_sub(jet_scale(c, u.y), jet_scale(s, u.x))};
+    struct jet angle = jet_angle(relative);
+    double turns = round((state->turned[end] - angle.x) / turn);
+    if (turns != 0) angle.x += turns * turn;
+    return angle;
+}
+
+/* Piece k of a rope. */
+static struct piece piece_of(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                             int k)
+{
+    const struct tie_end *from = &tie->end[k], *to = &tie->end[k + 1];
+    double sR1 = k == 0 ? state->side[0] * from->radius : 0;
+    double sR2 = k + 1 == tie->end_count - 1 ? state->side[1] * to->radius : 0;
+    return piece_between(point_of(view, from), sR1, point_of(view, to), sR2);
+}
+
+/* The first or the last. */
+static struct piece piece_at(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                             int end)
+{
+    return piece_of(view, tie, state, end == 0 ? 0 : tie->end_count - 2);
 }
 
 /* A taut rope pulls along its pieces: where one of them is a point that has no direction, and no force. */
@@ -118,15 +139,15 @@ static void rope(const struct view *view, const struct tie *tie, const struct ti
         const struct tie_end *from = &tie->end[k], *to = &tie->end[k + 1];
         double sR1 = k == 0 ? state->side[0] * from->radius : 0;
         double sR2 = k + 1 == last ? state->side[1] * to->radius : 0;
-        struct piece piece = piece_between(point_of(view, from), sR1, point_of(view, to), sR2);
+        struct piece piece = piece_of(view, tie, state, k);
         length = jet_add(length, piece.t);
         shrunk |= piece.shrunk;
         if (sR1 != 0) {
-            struct jet round = jet_sub(angle_from(state->psi[0], piece.u), angle_of(view, from->link));
+            struct jet round = jet_sub(turned_at(state, 0, piece.u), angle_of(view, from->link));
             length = jet_add(length, jet_scale(sR1, round));
         }
         if (sR2 != 0) {
-            struct jet round = jet_sub(angle_of(view, to->link), angle_from(state->psi[1], piece.u));
+            struct jet round = jet_sub(angle_of(view, to->link), turned_at(state, 1, piece.u));
             length = jet_add(length, jet_scale(sR2, round));
         }
         add_port(view, row, tie, k, piece.Q1, negative(piece.u));
@@ -160,20 +181,31 @@ bool rope_goes_on(const struct tree *tree, int index)
     return tie->end[tie->end_count - 1].radius > 0 && tie[1].constraint == tie->constraint;
 }
 
+static double turned_now(const struct fbd_model *model, const struct tree_work *work, int index, int end)
+{
+    struct view view = {model->tree, work, false};
+    const struct tie_state *state = &work->ties[index];
+    return turned_at(state, end, piece_at(&view, &model->tree->ties[index], state, end).u).x;
+}
+
 double rope_wrap(const struct fbd_model *model, const struct tree_work *work, int index)
 {
-    const struct tie *in = &model->tree->ties[index], *out = in + 1;
     const struct tie_state *before = &work->ties[index], *after = before + 1;
-    struct view view = {model->tree, work, false};
-    int last = in->end_count - 1;
-    double sR = before->side[1] * in->end[last].radius;
-    double sR_first = last == 1 ? before->side[0] * in->end[0].radius : 0;
-    double sR_last = out->end_count == 2 ? after->side[1] * out->end[1].radius : 0;
-    struct jet_vec C = point_of(&view, &in->end[last]);
-    struct piece reach = piece_between(point_of(&view, &in->end[last - 1]), sR_first, C, sR);
-    struct piece leave = piece_between(C, sR, point_of(&view, &out->end[1]), sR_last);
-    struct vec u = jet_value(reach.u), w = jet_value(leave.u);
-    return before->side[1] * atan2(vec_cross(u, w), vec_dot(u, w));
+    double in = before->psi[1] + turned_now(model, work, index, 1);
+    double out = after->psi[0] + turned_now(model, work, index + 1, 0);
+    return before->side[1] * (out - in);
+}
+
+void constraints_follow(const struct fbd_model *model, struct tree_work *work)
+{
+    const struct tree *tree = model->tree;
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        struct tie_state *state = &work->ties[i];
+        if (tie->kind != constraint_rope) continue;
+        for (int end = 0; end < 2; end++)
+            if (state->side[end] != 0) state->turned[end] = turned_now(model, work, i, end);
+    }
 }
 
 /* ---- all of them */
@@ -227,13 +259,20 @@ static void start_rope(const struct fbd_model *model, const struct view *view, c
     state->side[0] = tie->end[0].radius > 0 ? side_at(model, view, tie, tie->place) : 0;
     state->side[1] = tie->end[last].radius > 0 ? side_at(model, view, tie, tie->place + last) : 0;
     for (int end = 0; end < 2; end++) {
-        int k = end == 0 ? 0 : last - 1;
-        double sR1 = k == 0 ? state->side[0] * tie->end[0].radius : 0;
-        double sR2 = k + 1 == last ? state->side[1] * tie->end[last].radius : 0;
-        struct piece piece =
-            piece_between(point_of(view, &tie->end[k]), sR1, point_of(view, &tie->end[k + 1]), sR2);
-        state->psi[end] = atan2(piece.u.y.x, piece.u.x.x);
+        struct jet_vec u = piece_at(view, tie, state, end).u;
+        state->psi[end] = atan2(u.y.x, u.x.x);
     }
+}
+
+/* At the start a rope goes round its pulley by three quarters of a turn at most, and may be off it by less
+ * than the fourth: the directions before and behind are told apart by so much. */
+static void start_wrap(const struct tree *tree, struct tree_work *work, int index)
+{
+    const double turn = 6.283185307179586;
+    if (!rope_goes_on(tree, index)) return;
+    struct tie_state *before = &work->ties[index], *after = before + 1;
+    double wrap = before->side[1] * (after->psi[0] - before->psi[1]);
+    after->psi[0] -= before->side[1] * turn * floor(wrap / turn + 0.25);
 }
 
 void constraints_start(const struct fbd_model *model, const struct instant *at)
@@ -256,6 +295,7 @@ void constraints_start(const struct fbd_model *model, const struct instant *at)
         evaluate(&view, tie, state, rows);
         state->zero = tie->length_given ? tie->length : rows[tie->row_count - 1].g.x;
     }
+    for (int i = 0; i < tree->tie_count; i++) start_wrap(tree, work, i);
 }
 
 /* ---- bodies that roll or rub */

@@ -44,14 +44,20 @@ struct row {
 struct tie_state {
     double zero;
     int side[2];
-    double psi[2];
-    int feature; /* contact: at which it is; no_feature while it is open */
+    double psi[2];    /* of a rope: the directions of its first and last piece at the start */
+    double turned[2]; /* and how far they have turned since, by constraints_follow */
+    int feature;      /* contact: at which it is; no_feature while it is open */
 };
 
 enum { no_feature = -1 };
 
 /* Set what the ties keep, from where the links are. */
 void constraints_start(const struct fbd_model *model, const struct instant *at);
+
+/* Note how far the pieces of ropes have turned, where the links are: a rope may wind itself round a pulley
+ * any number of times, and an angle by itself does not tell how often. From there on they may turn by less
+ * than half a turn before it is noted again. */
+void constraints_follow(const struct fbd_model *model, struct tree_work *work);
 
 /* Put tie `index`, of a contact, to a feature of its meeting (or to none), as the links are. */
 void tie_set_feature(const struct fbd_model *model, struct tree_work *work, int index, int feature);

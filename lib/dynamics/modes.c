@@ -133,7 +133,7 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
             struct one_sided now = one_sided_at(model, &at, pair);
             bool closed = state->slip[pair] == stick;
             if (now.touches || (decided && closed)) continue; /* with the others that rest */
-            enum slip next = now.rate > 0 && now.excess > -now.near ? stick : slip_plus;
+            enum slip next = now.rate > 0 && now.excess > -now.rounding ? stick : slip_plus;
             bool near = fabs(now.excess) <= 1e3 * now.near && !now.parts;
             if (closed && near) next = stick; /* closed until its force ends */
             same = same && state->slip[pair] == (int)next;

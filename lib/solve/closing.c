@@ -210,6 +210,7 @@ void run_close_step(struct run *run)
     double before = kinetic(run->state);
     struct misfit left = bring_back(run, &misfit);
     double after = kinetic(run->state);
+    constraints_follow(run->model, run->state->tree);
     run->liveliest = fmax(run->liveliest, fmax(before, after));
     double reach = measure(run);
     mechanisms_give_floors(&run->mechanisms, run->state, run->stepper);

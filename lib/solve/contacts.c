@@ -467,6 +467,7 @@ void run_contacts(struct run *run)
 void run_strike_taut(struct run *run)
 {
     impulse_look(run->state);
+    run_take_in_ropes(run);
     int count = contacts_find_strikers(run);
     if (!any_closes(run, count) || !strike(run, count)) return;
     for (int i = 0; i < count; i++) note_impact(run, i);

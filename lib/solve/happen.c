@@ -470,6 +470,7 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     refuse_sliding(run, moving);
     run_apply_touched(run, true);
     run_check_contacts(run);
+    run_check_pulleys(run);
     run->restart = true;
     run->interval[1] = run->interval[0];
     run->interval[0] = moment_since(run_end(run), run->event);

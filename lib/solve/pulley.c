@@ -2,7 +2,8 @@
  *
  * A rope runs round a pulley as long as it presses on it. When the angle between its two pieces there has
  * come down to zero they are one straight line, and the rope comes off: the scene is no longer true, since
- * what pulls goes on to pull the pulley along with it.
+ * what pulls goes on to pull the pulley along with it. While one of the two is slack nothing presses, and the
+ * rope may lie where it likes; it must be back when it gets taut.
  */
 #include <math.h>
 #include <string.h>
@@ -11,25 +12,25 @@
 #include "dynamics/project.h"
 #include "solve/run.h"
 
-/* The angle at pulley `tie` at the end of the step as it stands in run->y. */
-static double wrap_now(struct run *run, int tie)
+/* The angle at pulley `tie` at y. */
+static double wrap_at(struct run *run, int tie, const double *y)
 {
     struct fbd_state *state = run->during;
-    memcpy(state->y, run->y, 2 * (size_t)run->model->plan.n * sizeof *state->y);
+    memcpy(state->y, y, 2 * (size_t)run->model->plan.n * sizeof *state->y);
     state_misfit(state); /* puts the links in their places */
     return rope_wrap(run->model, state->tree, tie);
 }
 
-/* Off its pulley by more than rounding; from a quarter turn on it has gone round the other way. */
+/* Off its pulley by more than rounding. */
 static bool is_off(double wrap)
 {
-    const double rounding = 1e-12, quarter = 1.5707963267948966;
-    return wrap < -rounding && wrap > -quarter;
+    const double rounding = 1e-12;
+    return wrap < -rounding;
 }
 
-static bool is_taut(const struct run *run, const struct tie *tie)
+static bool is_taut(const struct fbd_state *state, const struct tie *tie)
 {
-    return run->during->slip[tie->pair] == stick;
+    return state->slip[tie->pair] == stick;
 }
 
 /* Cut the step back to where the rope is just still on its pulley: halved as long as numbers can tell. */
@@ -40,7 +41,7 @@ static bool cut_step(struct run *run, int tie, struct moment *t)
         double middle = on + (off - on) / 2;
         if (!(middle > on && middle < off)) break;
         if (switcher_partial(run->stepper, moment_at(middle), run->y, run->f) != 0) return false;
-        if (is_off(wrap_now(run, tie)))
+        if (is_off(wrap_at(run, tie, run->y)))
             off = middle;
         else
             on = middle;
@@ -49,18 +50,49 @@ static bool cut_step(struct run *run, int tie, struct moment *t)
     return switcher_partial(run->stepper, *t, run->y, run->f) == 0;
 }
 
+static const char *pulley_of(const struct run *run, int tie)
+{
+    const struct tie *rope = &run->model->tree->ties[tie];
+    return run->model->bodies[rope->end[rope->end_count - 1].body].name;
+}
+
 void run_watch_pulleys(struct run *run, struct moment *t)
 {
-    const struct fbd_model *model = run->model;
-    const struct tree *tree = model->tree;
+    const struct tree *tree = run->model->tree;
     for (int i = 0; tree && i + 1 < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
-        if (!rope_goes_on(tree, i) || !(is_taut(run, tie) || is_taut(run, tie + 1))) continue;
-        if (!is_off(wrap_now(run, i)) || !cut_step(run, i, t)) continue;
+        if (!rope_goes_on(tree, i) || !is_taut(run->during, tie) || !is_taut(run->during, tie + 1)) continue;
+        if (!is_off(wrap_at(run, i, run->y)) || !cut_step(run, i, t)) continue;
         run_fail(
             run, FBD_BROKEN,
             "at t = %.9g the rope `%s` comes off its pulley `%s`: its two sides are one straight line there. "
             "End the run before, by an event, or let the rope run past the pulley",
-            t->t, tie->name, model->bodies[tie->end[tie->end_count - 1].body].name);
+            t->t, tie->name, pulley_of(run, i));
+    }
+}
+
+void run_check_pulleys(struct run *run)
+{
+    const struct tree *tree = run->model->tree;
+    for (int i = 0; tree && i + 1 < tree->tie_count && run->outcome == FBD_GOING; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (!rope_goes_on(tree, i) || !is_taut(run->state, tie) || !is_taut(run->state, tie + 1)) continue;
+        if (!is_off(wrap_at(run, i, run->state->y))) continue;
+        run_fail(run, FBD_BROKEN,
+                 "at t = %.9g the rope `%s` is taut beside its pulley `%s`, which it came off while it was "
+                 "slack. End the run before, by an event, or let the rope run past the pulley",
+                 run_time(run), tie->name, pulley_of(run, i));
+    }
+}
+
+void run_take_in_ropes(struct run *run)
+{
+    const struct tree *tree = run->model->tree;
+    const struct instant at = state_instant(run->state);
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (tie->kind != constraint_rope || run->state->slip[tie->pair] == stick) continue;
+        struct one_sided rope = one_sided_at(run->model, &at, tie->pair);
+        if (rope.excess >= -rope.rounding) run->state->slip[tie->pair] = stick;
     }
 }
