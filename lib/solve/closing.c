@@ -202,6 +202,46 @@ static bool is_rounding(struct run *run, const struct misfit *misfit)
     return true;
 }
 
+static bool is_driven(const struct plan *plan)
+{
+    for (size_t pair = 0; pair < plan->friction_count; pair++)
+        if (plan->frictions[pair].kind == mode_drive) return true;
+    return false;
+}
+
+/* Does what is prescribed go to where the couplings cannot be closed? Some steps later it is beyond by some
+ * steps' ways, while a position that is only passed lies behind. Nothing is seen of a way that is rounding:
+ * steps next to such a position are short. `during` is free. */
+static bool ends_reach(struct run *run)
+{
+    struct fbd_state *later = run->during;
+    double after = fmax(10 * (run->state->t - run->from), 1e-3 * run->first_step);
+    if (!is_driven(&run->model->plan)) return false;
+    for (int looks = 0; looks < 3; looks++, after *= 10) {
+        state_copy(later, run->state);
+        later->t = run->state->t + after;
+        later->rest = 0;
+        modes_hold(later);
+        if (state_project(later, false)) return false;
+    }
+    return true;
+}
+
+static void fail_singular(struct run *run)
+{
+    if (ends_reach(run))
+        run_fail(
+            run, FBD_BROKEN,
+            "at t = %.9g the mechanism is at the end of its reach: what is prescribed goes on to where the "
+            "couplings cannot be closed",
+            run_time(run));
+    else
+        run_fail(run, FBD_FAILED,
+                 "at t = %.9g the couplings pass a singular position, where the mechanism could go on in "
+                 "two ways, and the step cannot tell which: try another tolerance or --method dop853",
+                 run_time(run));
+}
+
 void run_close_step(struct run *run)
 {
     if (!has_ties(run)) return;
@@ -229,10 +269,7 @@ void run_close_step(struct run *run)
      * back takes the energy with it: that is no rounding any more. */
     if (!(fabs(after - before) <= 1e4 * fmax(run->options.tolerance, 1e-12) * run->liveliest) &&
         !(fabs(after - before) <= rounding_of_step(run).energy)) {
-        run_fail(run, FBD_FAILED,
-                 "at t = %.9g the couplings pass a singular position, where the mechanism could go on in "
-                 "two ways, and the step cannot tell which: try another tolerance or --method dop853",
-                 run_time(run));
+        fail_singular(run);
         return;
     }
     if (nothing || left.position <= 1e3 * fmax(run->options.tolerance, 1e-12) * reach) return;

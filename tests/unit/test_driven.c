@@ -259,6 +259,37 @@ static void a_drive_at_a_constant_place_holds(void **unused)
     checks_end(&checks);
 }
 
+/* A crank longer than its rod, turned on: the slider cannot follow from r sin(theta) = l on. */
+static void a_drive_beyond_its_reach_ends_the_run_by_name(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    static const double tolerances[] = {1e-6, 1e-9, 1e-12};
+    for (int i = 0; i < 30; i++) {
+        double r = 0.5 + 0.05 * i, l = r * (0.3 + 0.02 * i), rate = 0.5 + 0.3 * i;
+        double when = (asin(l / r) - 0.1) / rate;
+        char text[900];
+        snprintf(text, sizeof text,
+                 "fbd: 1\nbodies:\n"
+                 "  crank: {mass: 1, shape: rod, length: %.17g, motion: {pivot: {at: [0, 0], point: left, "
+                 "theta: \"0.1 + %.17g[rad/s]*t\"}}, forces: [gravity]}\n"
+                 "  rod: {mass: %d, shape: rod, length: %.17g, motion: {pivot: {on: crank, at: right, "
+                 "point: left}}, initial: {theta: -0.3, assemble: true}, forces: [gravity]}\n"
+                 "  slider: {mass: 1, motion: slide, initial: {x: %.17g, assemble: true}}\n"
+                 "couplings: [pin: {name: p, between: [rod.right, slider]}]\nsimulate: {until: %.17g}\n",
+                 r, rate, 1 + i % 3, l, r + l, 2 * when);
+        struct trial trial = trial_parse(text);
+        trial_start(&trial, &(fbd_options){.until = NAN, .tolerance = tolerances[i % 3]});
+        trial_finish(&trial);
+        check_that(&checks, "it ends", trial.outcome == FBD_BROKEN);
+        check_that(&checks, "by name",
+                   strstr(fbd_simulation_reason(trial.simulation), "end of its reach") != NULL);
+        check_close(&checks, "when", trial_get(&trial, "t"), when, 1e-4 * when);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -266,6 +297,7 @@ int main(void)
         cmocka_unit_test(it_turns_where_the_drive_turns),
         cmocka_unit_test(a_drive_with_switches_is_assembled),
         cmocka_unit_test(a_drive_at_a_constant_place_holds),
+        cmocka_unit_test(a_drive_beyond_its_reach_ends_the_run_by_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
