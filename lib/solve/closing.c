@@ -217,9 +217,10 @@ static bool ends_reach(struct run *run)
     struct fbd_state *later = run->during;
     double after = fmax(10 * (run->state->t - run->from), 1e-3 * run->first_step);
     if (!is_driven(&run->model->plan)) return false;
-    for (int looks = 0; looks < 3; looks++, after *= 10) {
+    for (int looks = 0; looks < 3; looks++) {
         state_copy(later, run->state);
         later->t = run->state->t + after;
+        after *= 10;
         later->rest = 0;
         modes_hold(later);
         if (state_project(later, false)) return false;
