@@ -228,14 +228,14 @@ static bool ends_reach(struct run *run)
     return true;
 }
 
-static void fail_singular(struct run *run)
+static void fail_singular(struct run *run, const struct misfit *misfit)
 {
     if (ends_reach(run))
         run_fail(
             run, FBD_BROKEN,
             "at t = %.9g the mechanism is at the end of its reach: what is prescribed goes on to where the "
-            "couplings cannot be closed",
-            run_time(run));
+            "coupling `%s` cannot be closed",
+            run_time(run), tie_row_name(run->model->tree, misfit->row >= 0 ? misfit->row : 0));
     else
         run_fail(run, FBD_FAILED,
                  "at t = %.9g the couplings pass a singular position, where the mechanism could go on in "
@@ -270,7 +270,7 @@ void run_close_step(struct run *run)
      * back takes the energy with it: that is no rounding any more. */
     if (!(fabs(after - before) <= 1e4 * fmax(run->options.tolerance, 1e-12) * run->liveliest) &&
         !(fabs(after - before) <= rounding_of_step(run).energy)) {
-        fail_singular(run);
+        fail_singular(run, &misfit);
         return;
     }
     if (nothing || left.position <= 1e3 * fmax(run->options.tolerance, 1e-12) * reach) return;

@@ -283,7 +283,7 @@ static void a_drive_beyond_its_reach_ends_the_run_by_name(void **unused)
         trial_finish(&trial);
         check_that(&checks, "it ends", trial.outcome == FBD_BROKEN);
         check_that(&checks, "by name",
-                   strstr(fbd_simulation_reason(trial.simulation), "end of its reach") != NULL);
+                   strstr(fbd_simulation_reason(trial.simulation), "the coupling `p") != NULL);
         check_close(&checks, "when", trial_get(&trial, "t"), when, 1e-4 * when);
         trial_close(&trial);
     }
