@@ -79,8 +79,8 @@ effects: $(BUILD)/.tests
 # 16,000 random scenes whose lists of events are known; takes some minutes.
 events: $(BUILD)/.tests
 	ninja -C $(BUILD) tests/unit/test_events tests/unit/test_joined_events
-	FBD_EVENT_SCENES=1000 $(BUILD)/tests/unit/test_events
-	FBD_EVENT_SCENES=800 $(BUILD)/tests/unit/test_joined_events
+	FBD_EVENT_SCENES=10000 $(BUILD)/tests/unit/test_events
+	FBD_EVENT_SCENES=4000 $(BUILD)/tests/unit/test_joined_events
 
 # A million random impacts, each held against its law.
 impacts: $(BUILD)/.tests
