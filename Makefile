@@ -76,7 +76,7 @@ effects: $(BUILD)/.tests
 	FBD_SOURCE_ROOT=$(CURDIR) FBD_RUN=$(BUILD)/apps/fbd-run FBD_COUNT_RHS=$(BUILD)/tests/bench/count_rhs \
 		FBD_RUN_PLAIN= tests/tools/effects --write docs/effects.md
 
-# 16,000 random scenes whose lists of events are known; takes some minutes.
+# 155,000 random scenes whose lists of events are known; takes some minutes.
 events: $(BUILD)/.tests
 	ninja -C $(BUILD) tests/unit/test_events tests/unit/test_joined_events
 	FBD_EVENT_SCENES=10000 $(BUILD)/tests/unit/test_events

@@ -138,8 +138,8 @@ FBD_API bool fbd_state_set_text(fbd_state *state, const char *name, const char *
  * their couplings to six digits. False with a note in `errors` of what a run would be refused for at its
  * start: `does-not-fit` (which coupling is off, and the nearest state that fits), `not-finite` (which force,
  * or other quantity), `unsettled` (no choice of stick and slip agrees with the forces), `leaves-surface` (a
- * normal force would have to pull), `masses-apart` (the forces of couplings cannot be told), or memory is
- * out. */
+ * normal force would have to pull), `masses-apart` (the forces of couplings cannot be told), `singular-start`
+ * (at rest where couplings have no slope, and about to move as they do not allow), or memory is out. */
 FBD_API bool fbd_state_close(fbd_state *state, fbd_errors *errors);
 FBD_API bool fbd_state_get(const fbd_state *state, const char *name, double *value);
 

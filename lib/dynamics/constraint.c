@@ -104,14 +104,18 @@ static struct jet turned_at(const struct tie_state *state, int end, struct jet_v
     return angle;
 }
 
-/* Piece k of a rope. */
+/* Side times radius of what piece k of a rope leaves (end 0) or reaches (1): 0 where that is a point. */
+static double rim(const struct tie *tie, const struct tie_state *state, int k, int end)
+{
+    bool outer = end == 0 ? k == 0 : k + 2 == tie->end_count;
+    return outer ? state->side[end] * tie->end[k + end].radius : 0;
+}
+
 static struct piece piece_of(const struct view *view, const struct tie *tie, const struct tie_state *state,
                              int k)
 {
-    const struct tie_end *from = &tie->end[k], *to = &tie->end[k + 1];
-    double sR1 = k == 0 ? state->side[0] * from->radius : 0;
-    double sR2 = k + 1 == tie->end_count - 1 ? state->side[1] * to->radius : 0;
-    return piece_between(point_of(view, from), sR1, point_of(view, to), sR2);
+    return piece_between(point_of(view, &tie->end[k]), rim(tie, state, k, 0),
+                         point_of(view, &tie->end[k + 1]), rim(tie, state, k, 1));
 }
 
 /* The first or the last. */
@@ -137,8 +141,7 @@ static void rope(const struct view *view, const struct tie *tie, const struct ti
     start_row(row, length);
     for (int k = 0; k < last; k++) {
         const struct tie_end *from = &tie->end[k], *to = &tie->end[k + 1];
-        double sR1 = k == 0 ? state->side[0] * from->radius : 0;
-        double sR2 = k + 1 == last ? state->side[1] * to->radius : 0;
+        double sR1 = rim(tie, state, k, 0), sR2 = rim(tie, state, k, 1);
         struct piece piece = piece_of(view, tie, state, k);
         length = jet_add(length, piece.t);
         shrunk |= piece.shrunk;
@@ -164,8 +167,7 @@ int rope_blocked_at(const struct fbd_model *model, const struct tree_work *work,
     struct view view = {model->tree, work, false};
     int last = tie->end_count - 1;
     for (int k = 0; k < last; k++) {
-        double sR1 = k == 0 ? state->side[0] * tie->end[0].radius : 0;
-        double sR2 = k + 1 == last ? state->side[1] * tie->end[last].radius : 0;
+        double sR1 = rim(tie, state, k, 0), sR2 = rim(tie, state, k, 1);
         struct vec from = jet_value(point_of(&view, &tie->end[k]));
         struct vec to = jet_value(point_of(&view, &tie->end[k + 1]));
         bool rims = sR1 != 0 || sR2 != 0;

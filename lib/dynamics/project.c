@@ -210,6 +210,64 @@ static double speed_of(const struct place *place)
     return speed;
 }
 
+/* Is it at rest, and about to move by more than rounding of its forces, at an arm? */
+static bool sets_out(const struct fbd_state *state, double arm)
+{
+    const double rounding = 1e-6;
+    const struct tree *tree = state->model->tree;
+    double a = 0, force = 0, lightest = DBL_MAX;
+    for (int i = 0; i < state->model->plan.n; i++)
+        if (state->y[state->model->plan.n + i] != 0) return false;
+    for (int i = 1; i < tree->count; i++) {
+        const struct tree_state *s = &state->tree->links[i];
+        a = fmax(a, vec_norm(s->A.a) + fabs(s->A.alpha) * arm);
+        force = fmax(force, fmax(vec_norm(tree->links[i].force), vec_norm(s->F.force)));
+        force = fmax(force, fabs(s->F.moment) / arm);
+        lightest = fmin(lightest, tree->links[i].mass);
+    }
+    for (int j = 0; j < tree->row_count; j++) {
+        const struct row *row = &state->tree->rows[j];
+        for (int k = 0; k < row->port_count; k++)
+            force = fmax(force, fabs(row->lambda) * vec_norm(row->ports[k].force));
+    }
+    return a * lightest > rounding * force;
+}
+
+static bool has_redundant_row(const struct fbd_state *state)
+{
+    const struct instant at = state_instant(state);
+    const struct tree *tree = state->model->tree;
+    for (int j = 0; j < tree->row_count; j++)
+        if (tree_takes_part(tree, &at, j) && state->tree->rows[j].redundant) return true;
+    return false;
+}
+
+/* g = J q' + q'.H q' / 2 along q' = a T: with J a = 0, and J of less than full rank, there may be no q'' with
+ * J q'' = -q'.H q'. What is missed is compared with the curvature of the motion, speed^2 / arm. */
+int state_locked_row(const struct fbd_state *state, struct fbd_state *other)
+{
+    const double T = 1e3, rounding = 1e-6;
+    if (!has_ties(state->model) || !has_redundant_row(state)) return -1;
+    const struct tree *tree = state->model->tree;
+    const struct instant at = state_instant(state);
+    int n = state->model->plan.n, worst = -1;
+    state_copy(other, state);
+    state_evaluate_unshared(other);
+    struct place place = place_of(other, false);
+    double arm = arm_length(&place);
+    if (!(arm > 0) || !sets_out(state, arm)) return -1;
+    for (int i = 0; i < n; i++) other->y[n + i] = T * state->a[i];
+    state_evaluate_unshared(other);
+    double speed = speed_of(&place), most = rounding * speed * speed / arm;
+    for (int j = 0; j < tree->row_count; j++) {
+        double miss = fabs(other->tree->rows[j].g.x2);
+        if (!tree_takes_part(tree, &at, j) || miss <= most) continue;
+        most = miss;
+        worst = j;
+    }
+    return worst;
+}
+
 bool state_project_velocity(struct fbd_state *state, bool assemble)
 {
     if (!has_ties(state->model)) return true;

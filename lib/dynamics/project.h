@@ -23,6 +23,12 @@ struct misfit state_misfit(struct fbd_state *state);
  * without rows. */
 double state_acceleration_misfit(const struct fbd_state *state, int *row);
 
+/* Is the state at rest where its couplings have no slope, and do the accelerations set out on a way that they
+ * do not allow, seen to the second order? A point between two rods in one line, loaded across, cannot move,
+ * and no finite force holds it; four bars in one line might go on in two ways, each with its own
+ * accelerations. The worst row, or -1. The state has been evaluated; `other` is written over. */
+int state_locked_row(const struct fbd_state *state, struct fbd_state *other);
+
 /* What the state keeps of its start: lengths that are not given, how gears mesh. */
 void state_start_constraints(struct fbd_state *state);
 

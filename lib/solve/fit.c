@@ -216,3 +216,16 @@ bool fit_unsolved(struct fbd_state *state, struct pos *at, struct text *lack)
         tie_row_name(state->model->tree, row), miss);
     return true;
 }
+
+bool fit_locked(const struct fbd_state *state, struct fbd_state *other, struct pos *at, struct text *lack)
+{
+    int row = state_locked_row(state, other);
+    if (row < 0) return false;
+    if (at) *at = place_of(state->model, row);
+    text_printf(lack,
+                "it is at rest in a singular position: what `%s` joins is in line, so that the coupling does "
+                "not resist at once, and cannot be moved on either. No finite forces hold it there, or it "
+                "could go on in two ways. Start a little beside, or give it a speed",
+                tie_row_name(state->model->tree, row));
+    return true;
+}

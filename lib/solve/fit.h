@@ -22,4 +22,8 @@ bool fit_blocked(struct fbd_state *state, struct pos *at, struct text *lack);
  * told; `lack` gets a sentence, and *at (may be NULL) the coupling's place in the file. */
 bool fit_unsolved(struct fbd_state *state, struct pos *at, struct text *lack);
 
+/* Is a settled state at rest where its couplings have no slope, and set out on a way that they do not allow?
+ */
+bool fit_locked(const struct fbd_state *state, struct fbd_state *other, struct pos *at, struct text *lack);
+
 #endif

@@ -174,6 +174,13 @@ static bool is_solved(struct fbd_state *state, struct lack *lack)
     return false;
 }
 
+static bool is_free_to_move(struct fbd_state *state, struct fbd_state *other, struct lack *lack)
+{
+    if (!fit_locked(state, other, &lack->at, &lack->text)) return true;
+    lack->id = "singular-start";
+    return false;
+}
+
 /* The forces account for the motion. */
 static bool is_balanced(struct fbd_state *state, struct lack *lack)
 {
@@ -193,7 +200,7 @@ bool start_ready(struct fbd_state *state, struct fbd_state *other, const char *w
     if (settled) state_project(state, false); /* what slips is not closed */
     settled = modes_settle(state, NULL);
     return start_finite(state, lack) && is_settled(state, settled, lack) && rests_on_surfaces(state, lack) &&
-           is_solved(state, lack) && is_balanced(state, lack);
+           is_solved(state, lack) && is_free_to_move(state, other, lack) && is_balanced(state, lack);
 }
 
 bool start_question(struct fbd_state *state, bool modes, fbd_errors *errors)

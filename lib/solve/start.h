@@ -12,8 +12,7 @@
 
 struct lack {
     const char *id; /* `does-not-fit`, `not-finite`, `unsettled`, `leaves-surface`, `masses-apart`,
-                       `forces-unbalanced`; NULL when
-                       memory is out */
+                       `singular-start`, `forces-unbalanced`; NULL when memory is out */
     struct pos at;  /* in the file; 0 where it has no place there */
     struct text text;
 };
