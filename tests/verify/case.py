@@ -66,11 +66,12 @@ class Equations:
 
 
 class Linear:
-    """Equilibrium and natural frequencies (rad/s, as listed) in the report of --linearize."""
+    """Equilibrium, natural frequencies (rad/s) and damping ratios, as listed in the report of --linearize."""
 
     def __init__(self, text):
         self.at = {name: float(value) for name, value in re.findall(rf"^  (\w+\.\w+) = ({NUMBER})", text, re.MULTILINE)}
         self.w0 = [float(w) for w in re.findall(rf"w0 = ({NUMBER})", text)]
+        self.zeta = [float(ratio) for ratio in re.findall(rf"zeta = ({NUMBER})", text)]
 
 
 class Case:
