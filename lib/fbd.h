@@ -444,15 +444,20 @@ typedef struct fbd_linearization fbd_linearization;
 
 /* Find the equilibrium near `state` (GSL's hybrid Newton method on the accelerations, rates zero), take the
  * exact Jacobian and its eigenvalues. NULL with a note in `errors` when there is none near
- * (`no-equilibrium`), friction holds a body (`sticks`), or coordinates are not independent
- * (`not-independent`). Forces whose slope dies out at the equilibrium are noted (`degenerate-equilibrium`, a
+ * (`no-equilibrium`), friction holds a body (`sticks`), a motion is prescribed or the couplings are in a
+ * singular position (`not-independent`), or what holds is about to give way (`at-limit`). Forces whose slope dies out at the equilibrium are noted (`degenerate-equilibrium`, a
  * warning); their rows of A are zero. `state` is moved to the equilibrium. */
 FBD_API fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *errors);
 FBD_API void fbd_linearization_free(fbd_linearization *linearization);
 
-/* The system matrix A of x' = A x, x = (q - q0, v), row by row, 2n x 2n. */
+/* The system matrix A of x' = A x, x = (q - q0, v) of the independent coordinates q, row by row, size x size;
+ * size is twice their number, which without couplings is that of all coordinates. */
 FBD_API size_t fbd_linearization_size(const fbd_linearization *linearization);
 FBD_API const double *fbd_linearization_matrix(const fbd_linearization *linearization);
+
+/* Which coordinate of the model (fbd_model_coordinate) is independent coordinate `index`; (size_t)-1 past the
+ * last one. With couplings the others follow these, to the first order. */
+FBD_API size_t fbd_linearization_coordinate(const fbd_linearization *linearization, size_t index);
 
 /* One eigenvalue lambda of A. Frequency |lambda| [rad/s] and damping ratio -Re/|lambda| (NAN for lambda = 0).
  * All are NAN past the last one. */

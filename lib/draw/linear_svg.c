@@ -16,16 +16,23 @@ static const double text_size = 3.4;
 struct plane {
     struct arena arena;
     const struct fbd_linearization *linear;
-    struct vec low, high, step; /* of the axes, in 1/s, and between ticks */
+    double unit;                /* in 1/s; 1 but near the limits of a double, where sums would overflow */
+    struct vec low, high, step; /* of the axes, in units, and between ticks */
     struct labelling labels;
     struct text text;
 };
 
+/* A place in units. */
 static struct vec at(const struct plane *plane, double re, double im)
 {
     double x = (re - plane->low.x) / (plane->high.x - plane->low.x),
            y = (im - plane->low.y) / (plane->high.y - plane->low.y);
     return (struct vec){left + x * (width - left - right), height - bottom - y * (height - top - bottom)};
+}
+
+static struct vec mode_at(const struct plane *plane, const fbd_mode *mode)
+{
+    return at(plane, mode->re / plane->unit, mode->im / plane->unit);
 }
 
 /* ---- axes */
@@ -50,11 +57,16 @@ static void set_range(double *low, double *high, double *step, double other)
 
 static void set_axes(struct plane *plane)
 {
+    const double largest = 1e300;
     struct vec low = {0, 0}, high = {0, 0};
+    plane->unit = 1;
+    for (size_t i = 0; i < plane->linear->size; i++)
+        if (fbd_linearization_mode(plane->linear, i).frequency > largest) plane->unit = 1e10;
     for (size_t i = 0; i < plane->linear->size; i++) {
         fbd_mode mode = fbd_linearization_mode(plane->linear, i);
-        low = (struct vec){fmin(low.x, mode.re), fmin(low.y, mode.im)};
-        high = (struct vec){fmax(high.x, mode.re), fmax(high.y, mode.im)};
+        double re = mode.re / plane->unit, im = mode.im / plane->unit;
+        low = (struct vec){fmin(low.x, re), fmin(low.y, im)};
+        high = (struct vec){fmax(high.x, re), fmax(high.y, im)};
     }
     double wide = high.x - low.x, tall = high.y - low.y;
     /* an undamped pair has real parts of rounding only */
@@ -65,11 +77,13 @@ static void set_axes(struct plane *plane)
     plane->high = high;
 }
 
-static void tick(struct plane *plane, double value, bool real)
+static void tick(struct plane *plane, double place, bool real)
 {
     struct text *text = &plane->text;
-    struct vec from = real ? at(plane, value, plane->low.y) : at(plane, plane->low.x, value),
-               to = real ? at(plane, value, plane->high.y) : at(plane, plane->high.x, value);
+    double value = place * plane->unit;
+    if (!isfinite(value)) return;
+    struct vec from = real ? at(plane, place, plane->low.y) : at(plane, plane->low.x, place),
+               to = real ? at(plane, place, plane->high.y) : at(plane, plane->high.x, place);
     char number[40];
     format_into(number, sizeof number, "%.6g", value);
     svg_line(text, value == 0 ? "ground" : "hatch", from, to);
@@ -115,7 +129,7 @@ static void draw_modes(struct plane *plane)
     size_t count = plane->linear->size;
     for (size_t i = 0; i < count; i++) {
         fbd_mode mode = fbd_linearization_mode(plane->linear, i);
-        struct vec center = at(plane, mode.re, mode.im);
+        struct vec center = mode_at(plane, &mode);
         const struct vec anywhere = {1, -0.4};
         labelling_add(&plane->labels, name_of(plane, &mode), text_size, center,
                       vec_scale(1 / vec_norm(anywhere), anywhere), 1.8);
@@ -135,7 +149,7 @@ static void draw_modes(struct plane *plane)
                         mode.damping_ratio);
         text_add(&plane->text, "</title>\n");
         if (label->leader) svg_line(&plane->text, "leader", label->anchor, labelling_leader(label));
-        svg_circle(&plane->text, class_of(&mode), at(plane, mode.re, mode.im), 1.1);
+        svg_circle(&plane->text, class_of(&mode), mode_at(plane, &mode), 1.1);
         svg_text(&plane->text, "label", label->center, text_size, label->text);
         text_add(&plane->text, "</g>\n");
     }

@@ -2,6 +2,8 @@
  *
  * A linearisation as a person reads it.
  */
+#include <math.h>
+
 #include "base/text.h"
 #include "solve/linearize.h"
 
@@ -12,11 +14,38 @@ static const double two_pi = 6.283185307179586;
 static void write_equilibrium(struct text *text, const struct fbd_linearization *linear)
 {
     text_add(text, "Equilibrium\n");
-    for (size_t i = 0; i < linear->size / 2; i++) {
+    for (int i = 0; i < linear->model->plan.n; i++) {
         const struct label *label = &linear->model->labels[i];
         text_printf(text, "  %s = ", label->name);
         text_number(text, linear->q[i], digits);
         text_printf(text, " %s\n", label->unit);
+    }
+}
+
+/* How coordinates that are not independent follow the others. */
+static void write_ways(struct text *text, const struct fbd_linearization *linear)
+{
+    const struct label *labels = linear->model->labels;
+    const double rounding = 1e-12;
+    size_t n = (size_t)linear->model->plan.n, count = linear->size / 2;
+    if (!linear->way || count == n) return;
+    text_add(text, "\nBy the couplings the other coordinates follow, to the first order\n");
+    for (size_t i = 0, k = 0; i < n; i++) {
+        if (k < count && linear->which[k] == (int)i) {
+            k++;
+            continue;
+        }
+        bool any = false;
+        text_printf(text, "  d %s =", labels[i].name);
+        for (size_t j = 0; j < count; j++) {
+            double way = linear->way[i * count + j];
+            if (fabs(way) <= rounding) continue;
+            text_add(text, way < 0 ? " - " : any ? " + " : " ");
+            text_number(text, fabs(way), digits);
+            text_printf(text, " d %s", labels[linear->which[j]].name);
+            any = true;
+        }
+        text_add(text, any ? "\n" : " 0\n");
     }
 }
 
@@ -31,7 +60,8 @@ static void write_matrix(struct text *text, const struct fbd_linearization *line
     text_add(text, "\nx' = A x for the deviations x = (");
     for (size_t i = 0; i < size; i++)
         text_printf(text, "%s%s", i ? ", " : "",
-                    i < n ? linear->model->labels[i].name : linear->model->labels[i - n].rate_name);
+                    i < n ? linear->model->labels[linear->which[i]].name
+                          : linear->model->labels[linear->which[i - n]].rate_name);
     text_add(text, "), A =\n");
     for (size_t i = 0; i < size; i++) {
         for (size_t j = 0; j < size; j++) {
@@ -86,6 +116,7 @@ char *fbd_linearization_text(const fbd_linearization *linear)
     if (!linear) return NULL;
     struct text text = {0};
     write_equilibrium(&text, linear);
+    write_ways(&text, linear);
     write_matrix(&text, linear);
     text_add(&text, "\nEigenvalues\n");
     for (size_t i = 0; i < linear->size; i++)

@@ -13,6 +13,7 @@
 #include "dynamics/statics.h"
 #include "dynamics/tree.h"
 #include "numeric/lu.h"
+#include "solve/independent.h"
 #include "solve/start.h"
 
 struct balance {
@@ -56,22 +57,6 @@ static int forces(const gsl_vector *q, void *context, gsl_vector *f)
     return GSL_SUCCESS;
 }
 
-/* Column j of 1 - P is what the constraints leave of a unit velocity along coordinate j. */
-static void set_share(struct balance *balance)
-{
-    struct fbd_state *state = balance->state;
-    size_t n = coordinates_of(balance);
-    double *v = state->y + n;
-    for (size_t j = 0; j < n; j++) {
-        memset(v, 0, n * sizeof *v);
-        v[j] = 1;
-        state_project_velocity(state, false);
-        for (size_t i = 0; i < n; i++) balance->share[i * n + j] = v[i];
-    }
-    memset(v, 0, n * sizeof *v);
-    state_evaluate(state);
-}
-
 static int slopes(const gsl_vector *q, void *context, gsl_matrix *J)
 {
     struct balance *balance = context;
@@ -79,7 +64,7 @@ static int slopes(const gsl_vector *q, void *context, gsl_matrix *J)
     size_t n = J->size1, size = 2 * n;
     double *dfdy = balance->work, *dfdt = dfdy + size * size;
     set_coordinates(balance, q);
-    if (balance->share) set_share(balance);
+    if (balance->share) independent_share(state, balance->share);
     struct instant at = state_instant(state);
     state_jacobian(state->model, &at, state->scratch, dfdy, dfdt);
     for (size_t i = 0; i < n; i++)

@@ -11,7 +11,10 @@
 #include "dynamics/finite.h"
 #include "dynamics/friction.h"
 #include "dynamics/modes.h"
+#include "dynamics/project.h"
+#include "dynamics/tree_driven.h"
 #include "solve/equilibrium.h"
+#include "solve/independent.h"
 #include "solve/start.h"
 
 /* ---- eigenvalues */
@@ -54,43 +57,94 @@ static int find_modes(struct fbd_linearization *linear)
 
 /* ---- the whole */
 
-/* With loops the coordinates are not independent, and with a prescribed motion there is no state of rest. */
-static bool refuse_closed(const struct fbd_state *state, fbd_errors *errors)
+static bool is_tied(const struct fbd_model *model)
+{
+    return model->tree && model->tree->tie_count > 0;
+}
+
+/* With a prescribed motion there is no state of rest. */
+static bool refuse_driven(const struct fbd_state *state, fbd_errors *errors)
 {
     const struct fbd_model *model = state->model;
-    bool tied = model->tree && model->tree->tie_count > 0;
-    int driven = -1;
-    for (size_t b = 0; b < model->body_count; b++)
-        if (model->bodies[b].drive >= 0) driven = (int)b;
-    if (!tied && driven < 0) return false;
-    struct pos at = tied ? model->scene->constraints[model->tree->ties[0].constraint].at
-                         : model->bodies[driven].source->motion.at;
-    diag_add(errors, FBD_ERROR, "not-independent", at,
-             "simulate it, from a start near the equilibrium; a tree of bodies can be linearised",
-             tied ? "the coupling `%s` makes coordinates depend on each other"
-                  : "the motion of `%s` is prescribed: it is never at rest",
-             tied ? model->tree->ties[0].name : model->bodies[driven].name);
-    return true;
+    for (size_t b = 0; b < model->body_count; b++) {
+        if (model->bodies[b].drive < 0) continue;
+        diag_add(errors, FBD_ERROR, "not-independent", model->bodies[b].source->motion.at,
+                 "simulate it, from a start near the equilibrium",
+                 "the motion of `%s` is prescribed: it is never at rest", model->bodies[b].name);
+        return true;
+    }
+    return false;
 }
 
 /* What is at rest sticks to a surface at rest; under a surface that moves on it slips, and its friction is a
- * force like others. */
+ * force like others. What rolls, or stands on its contacts, is held where it touches and may go round there. */
 static bool refuse_sticking(const struct fbd_state *state, fbd_errors *errors)
 {
     const struct fbd_model *model = state->model;
     const struct plan *plan = &model->plan;
     struct instant at = state_instant(state);
     for (size_t i = 0; i < plan->friction_count; i++) {
+        const struct friction *friction = &plan->frictions[i];
         double acceleration;
-        if (friction_surface_speed(&plan->frictions[i], &at, &acceleration) != 0) continue;
-        diag_add(errors, FBD_ERROR, "sticks", model->loads[plan->frictions[i].load].source->at,
+        if (friction->kind != mode_friction || friction->tie >= 0) continue;
+        if (friction_surface_speed(friction, &at, &acceleration) != 0) continue;
+        diag_add(errors, FBD_ERROR, "sticks", model->loads[friction->load].source->at,
                  "leave the friction out to see the motion about the balance of the other forces",
                  "`%s` has dry friction: at rest it sticks, and a body that sticks has no linear motion",
-                 model->bodies[plan->frictions[i].body].name);
+                 model->bodies[friction->body].name);
         return true;
     }
     return false;
 }
+
+/* ---- holds at the equilibrium */
+
+/* The largest force of a coupling, and the weight of all that is jointed. */
+static double size_of_forces(const struct fbd_state *state)
+{
+    const struct tree *tree = state->model->tree;
+    double most = 0;
+    for (int i = 1; i < tree->count; i++) most += tree->links[i].mass;
+    most *= vec_norm(state->model->scene->gravity);
+    for (int j = 0; j < tree->row_count; j++) most = fmax(most, fabs(state->tree->rows[j].lambda));
+    return most;
+}
+
+/* Taut ropes pull and what is closed presses; what could go either way has no linear motion. */
+static bool refuse_limits(struct fbd_state *state, fbd_errors *errors)
+{
+    const double nothing = 1e-9;
+    const struct fbd_model *model = state->model;
+    const struct plan *plan = &model->plan;
+    if (!is_tied(model) || plan->friction_count == 0) return false;
+    int *before = calloc(plan->friction_count, sizeof *before), at_limit = -1;
+    if (!before) {
+        diag_out_of_memory(errors);
+        return true;
+    }
+    memcpy(before, state->slip, plan->friction_count * sizeof *before);
+    bool settled = modes_settle(state, NULL);
+    double size = size_of_forces(state);
+    for (int i = 0; i < (int)plan->friction_count; i++) {
+        const struct friction *hold = &plan->frictions[i];
+        bool held = mode_is_one_sided(hold) && state->slip[i] == stick;
+        bool presses = !held || fabs(hold_row(state, hold)->lambda) > nothing * size;
+        if (before[i] != state->slip[i] || !presses || !settled) at_limit = i;
+    }
+    free(before);
+    if (at_limit < 0) return false;
+    const struct friction *hold = &plan->frictions[at_limit];
+    struct pos at = hold->tie >= 0 ? model->scene->constraints[model->tree->ties[hold->tie].constraint].at
+                                   : model->bodies[hold->body].source->at;
+    diag_add(
+        errors, FBD_ERROR, "at-limit", at, "start nearer to the equilibrium, or load it so that it holds",
+        "at the equilibrium `%s` is at the limit between holding and giving way: to one side the motion is "
+        "another than to the other",
+        hold->tie >= 0 ? model->tree->ties[hold->tie].name : model->bodies[hold->body].name);
+    return true;
+}
+
+/* ---- slopes */
 
 static fbd_linearization *linearization_new(const struct fbd_model *model)
 {
@@ -100,68 +154,179 @@ static fbd_linearization *linearization_new(const struct fbd_model *model)
     *linear = (struct fbd_linearization){
         .model = model,
         .size = size,
+        .which = calloc(n + 1, sizeof(int)),
         .A = calloc(size * size + size + 1, sizeof(double)), /* df/dt behind it */
         .modes = calloc(size + 1, sizeof(fbd_mode)),
         .q = calloc(n + 1, sizeof(double)),
     };
-    if (linear->A && linear->modes && linear->q) return linear;
+    for (size_t i = 0; linear->which && i < n; i++) linear->which[i] = (int)i;
+    if (linear->which && linear->A && linear->modes && linear->q) return linear;
     fbd_linearization_free(linear);
     return NULL;
 }
 
-/* The Jacobian at the state into `work` (df/dt behind it), and the largest slope that each acceleration
- * has along a coordinate. */
-static void slopes_at(struct fbd_state *state, double *work, double *most)
+/* What the slopes are taken by, and those of three places. */
+struct looking {
+    struct fbd_linearization *linear;
+    struct fbd_state *state;
+    struct independent independent; /* with couplings */
+    double *full;                   /* and the Jacobian of all coordinates, df/dt behind it */
+    double *origin, *before, *beside, *there;
+};
+
+static void looking_free(struct looking *looking)
+{
+    independent_free(&looking->independent);
+    free(looking->full);
+    free(looking->origin);
+}
+
+static bool looking_new(struct looking *looking, struct fbd_linearization *linear, struct fbd_state *state)
 {
     size_t n = (size_t)state->model->plan.n, size = 2 * n;
-    struct instant at = state_instant(state);
-    state_jacobian(state->model, &at, state->scratch, work, work + size * size);
-    for (size_t i = 0; i < n; i++) {
-        most[i] = 0;
-        for (size_t j = 0; j < n; j++) most[i] = fmax(most[i], fabs(work[(n + i) * size + j]));
+    *looking = (struct looking){.linear = linear, .state = state};
+    looking->origin = calloc(4 * n + 1, sizeof *looking->origin);
+    if (!looking->origin) return false;
+    looking->before = looking->origin + n;
+    looking->beside = looking->before + n;
+    looking->there = looking->beside + n;
+    if (!is_tied(state->model)) return true;
+    looking->full = calloc(size * size + size + 1, sizeof *looking->full);
+    return looking->full && independent_new(&looking->independent, state);
+}
+
+/* A of the independent coordinates from the Jacobian of all. */
+static void reduce(const struct looking *looking)
+{
+    const struct independent *independent = &looking->independent;
+    size_t n = independent->n, f = independent->count, size = 2 * f;
+    double *A = looking->linear->A;
+    memset(A, 0, size * size * sizeof *A);
+    for (size_t k = 0; k < f; k++) {
+        const double *row = looking->full + (n + (size_t)independent->which[k]) * 2 * n;
+        A[k * size + f + k] = 1;
+        for (size_t l = 0; l < f; l++)
+            for (size_t j = 0; j < n; j++) {
+                A[(f + k) * size + l] += row[j] * independent->way[j * f + l];
+                A[(f + k) * size + f + l] += row[n + j] * independent->way[j * f + l];
+            }
     }
+}
+
+/* The Jacobian at the state, and the largest slope that each acceleration has along a coordinate. False where
+ * the independent coordinates are not independent. */
+static bool slopes_at(struct looking *looking, double *most)
+{
+    struct fbd_state *state = looking->state;
+    struct fbd_linearization *linear = looking->linear;
+    size_t n = (size_t)state->model->plan.n, f = linear->size / 2;
+    if (looking->full) {
+        state_project(state, false);
+        if (!independent_follow(&looking->independent, state)) return false;
+    }
+    struct instant at = state_instant(state);
+    double *work = looking->full ? looking->full : linear->A;
+    state_jacobian(state->model, &at, state->scratch, work, work + 4 * n * n);
+    if (looking->full) reduce(looking);
+    for (size_t i = 0; i < f; i++) {
+        most[i] = 0;
+        for (size_t j = 0; j < f; j++) most[i] = fmax(most[i], fabs(linear->A[(f + i) * linear->size + j]));
+    }
+    return true;
 }
 
 /* Where the slope of a force dies out toward the equilibrium (f = -k x^3), Newton never quite arrives, and
  * what is left of the slope is no frequency: in the limit it is zero. Told by this, that the slope was larger
  * at the start, and is so already a little of the way back to there. */
-static void drop_dying_slopes(struct fbd_linearization *linear, const double *before, const double *beside,
-                              const double *there, fbd_errors *errors)
+static void drop_dying_slopes(const struct looking *looking, fbd_errors *errors)
 {
     const double died_out = 1e-4, of_beside = 0.1;
+    struct fbd_linearization *linear = looking->linear;
     size_t n = linear->size / 2;
     for (size_t i = 0; i < n; i++) {
-        if (!(there[i] < died_out * before[i] && there[i] < of_beside * beside[i])) continue;
+        double there = looking->there[i];
+        if (!(there < died_out * looking->before[i] && there < of_beside * looking->beside[i])) continue;
         for (size_t j = 0; j < n; j++) linear->A[(n + i) * linear->size + j] = 0;
         linear->degenerate = true;
         diag_add(errors, FBD_WARNING, "degenerate-equilibrium", (struct pos){0, 0},
                  "the motion about it is not linear, however small: simulate it",
                  "the forces along `%s` have no slope at the equilibrium: it has no linear frequency",
-                 linear->model->labels[i].name);
+                 linear->model->labels[linear->which[i]].name);
     }
 }
 
-/* Find the balance and A there; 1 found, 0 none near, -1 out of memory. */
-static int find_matrix(struct fbd_linearization *linear, struct fbd_state *state, fbd_errors *errors)
+static void refuse_singular(const struct fbd_model *model, fbd_errors *errors)
+{
+    const struct tie *tie = &model->tree->ties[0];
+    diag_add(
+        errors, FBD_ERROR, "not-independent", model->scene->constraints[tie->constraint].at,
+        "simulate it, from a start near the equilibrium",
+        "at the equilibrium the couplings, `%s` among them, are in a singular position: they leave no clear "
+        "number of degrees of freedom",
+        tie->name);
+}
+
+/* Which coordinates are independent at the equilibrium, where the state is. */
+static bool choose_coordinates(struct looking *looking, fbd_errors *errors)
+{
+    struct fbd_linearization *linear = looking->linear;
+    struct independent *independent = &looking->independent;
+    const struct tree *tree = linear->model->tree;
+    if (!looking->full) return true;
+    struct pos at = linear->model->scene->constraints[tree->ties[0].constraint].at;
+    if (!independent_choose(independent, looking->state)) {
+        refuse_singular(linear->model, errors);
+        return false;
+    }
+    if (independent->count == 0) {
+        diag_add(errors, FBD_ERROR, "sticks", at, "leave out what holds it, to see it move",
+                 "nothing can move: the couplings, `%s` among them, leave no freedom", tree->ties[0].name);
+        return false;
+    }
+    linear->size = 2 * independent->count;
+    memcpy(linear->which, independent->which, independent->count * sizeof *linear->which);
+    return true;
+}
+
+/* The slopes where it starts, a little back from the equilibrium, and there, where the state stays. */
+static bool look_around(struct looking *looking)
 {
     const double little = 1e-3; /* of the way back to the start */
-    size_t n = linear->size / 2;
-    double *origin = calloc(4 * n + 1, sizeof *origin);
-    if (!origin) return -1;
-    double *before = origin + n, *beside = before + n, *there = beside + n;
-    memcpy(origin, state->y, n * sizeof *origin);
-    slopes_at(state, linear->A, before);
-    int found = equilibrium_search(state);
+    struct fbd_state *state = looking->state;
+    const double *q = looking->linear->q;
+    size_t n = (size_t)state->model->plan.n;
+    memcpy(state->y, looking->origin, n * sizeof *q);
+    slopes_at(looking, looking->before);
+    for (size_t i = 0; i < n; i++) state->y[i] = q[i] + little * (looking->origin[i] - q[i]);
+    slopes_at(looking, looking->beside);
+    memcpy(state->y, q, n * sizeof *q);
+    state_evaluate(state);
+    return slopes_at(looking, looking->there); /* leaves the Jacobian in A */
+}
+
+/* Find the balance and A there; 1 found, 0 none near, -1 out of memory, -2 it is said why not. */
+static int find_matrix(struct fbd_linearization *linear, struct fbd_state *state, fbd_errors *errors)
+{
+    size_t n = (size_t)state->model->plan.n;
+    struct looking looking;
+    bool made = looking_new(&looking, linear, state);
+    if (made) memcpy(looking.origin, state->y, n * sizeof *looking.origin);
+    int found = made ? equilibrium_search(state) : -1;
     if (found > 0) {
         memcpy(linear->q, state->y, n * sizeof *linear->q);
-        for (size_t i = 0; i < n; i++) state->y[i] += little * (origin[i] - linear->q[i]);
-        slopes_at(state, linear->A, beside);
-        memcpy(state->y, linear->q, n * sizeof *linear->q);
-        state_evaluate(state);
-        slopes_at(state, linear->A, there); /* leaves the Jacobian in A */
-        drop_dying_slopes(linear, before, beside, there, errors);
+        if (refuse_limits(state, errors) || !choose_coordinates(&looking, errors))
+            found = -2;
+        else if (!look_around(&looking)) {
+            refuse_singular(state->model, errors);
+            found = -2;
+        } else
+            drop_dying_slopes(&looking, errors);
     }
-    free(origin);
+    if (found > 0 && looking.full) { /* handed on */
+        linear->way = looking.independent.way;
+        looking.independent.way = NULL;
+    }
+    looking_free(&looking);
     return found;
 }
 
@@ -174,10 +339,10 @@ static bool is_finite(const struct fbd_linearization *linear, struct fbd_state *
     for (size_t i = 0; i < size * size; i++) {
         if (isfinite(linear->A[i])) continue;
         size_t row = i / size % n, column = i % size;
-        const struct label *label = &model->labels[column % n];
+        const struct label *label = &model->labels[linear->which[column % n]];
         diag_add(errors, FBD_ERROR, "not-finite", (struct pos){0, 0}, NULL,
                  "at the equilibrium the slope of the acceleration along `%s` with `%s` is not finite: %s",
-                 model->labels[row].name, column < n ? label->name : label->rate_name,
+                 model->labels[linear->which[row]].name, column < n ? label->name : label->rate_name,
                  not_finite_reason(linear->A[i]));
         return false;
     }
@@ -210,14 +375,15 @@ static fbd_linearization *linearize(fbd_state *state, fbd_errors *errors)
     const struct fbd_model *model = state->model;
     diag_in_file(errors, model->scene->file);
     size_t n = (size_t)model->plan.n;
-    if (model->plan.friction_count > 0) memset(state->y + n, 0, n * sizeof *state->y); /* modes of rest */
+    if (model->plan.friction_count > 0 || is_tied(model)) /* modes of rest */
+        memset(state->y + n, 0, n * sizeof *state->y);
     bool settled = modes_settle(state, NULL);
-    if (!start_question(state, settled, errors) || refuse_closed(state, errors) ||
+    if (!start_question(state, settled, errors) || refuse_driven(state, errors) ||
         refuse_sticking(state, errors))
         return NULL;
     fbd_linearization *linear = linearization_new(model);
     int found = linear && settled ? find_matrix(linear, state, errors) : -1;
-    bool said = found > 0 && !is_finite(linear, state, errors);
+    bool said = found == -2 || (found > 0 && !is_finite(linear, state, errors));
     int modes = found > 0 && !said ? find_modes(linear) : -1;
     if (modes > 0) return linear;
     if (!said) note_failure(model, settled, found > 0 ? modes : found, found > 0, errors);
@@ -237,6 +403,8 @@ fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *list)
 void fbd_linearization_free(fbd_linearization *linearization)
 {
     if (!linearization) return;
+    free(linearization->which);
+    free(linearization->way);
     free(linearization->A);
     free(linearization->modes);
     free(linearization->q);
@@ -253,6 +421,12 @@ const double *fbd_linearization_matrix(const fbd_linearization *linearization)
 {
     if (!linearization) return NULL;
     return linearization->A;
+}
+
+size_t fbd_linearization_coordinate(const fbd_linearization *linearization, size_t index)
+{
+    bool there = linearization && index < linearization->size / 2;
+    return there ? (size_t)linearization->which[index] : (size_t)-1;
 }
 
 fbd_mode fbd_linearization_mode(const fbd_linearization *linearization, size_t index)

@@ -5,6 +5,11 @@
  * For one coordinate, I q'' + c q' + k q = 0 has lambda = -zeta w0 +- i w0 sqrt(1 - zeta^2), so that w0 =
  * |lambda| is the natural frequency and zeta = -Re(lambda) / |lambda| the damping ratio. The same is reported
  * for every eigenvalue.
+ *
+ * With couplings the coordinates are not independent. Then z are those that are (independent.h), q - q0 = T z to
+ * the first order, and since the accelerations vanish at q0 what T bends by does not count:
+ *
+ *     z'' = (rows of z of da/dq T) z + (rows of z of da/dv T) z'
  */
 #ifndef FBD_SOLVE_LINEARIZE_H
 #define FBD_SOLVE_LINEARIZE_H
@@ -13,7 +18,9 @@
 
 struct fbd_linearization {
     const struct fbd_model *model;
-    size_t size; /* 2 n */
+    size_t size; /* twice the number of independent coordinates */
+    int *which;  /* size / 2: which they are, ascending */
+    double *way; /* n x size / 2: how all coordinates follow them; NULL without couplings */
     double *A;   /* size x size, row by row (and df/dt behind it) */
     fbd_mode *modes;
     double *q;       /* the equilibrium */

@@ -266,6 +266,7 @@ static void linearizations_and_derivations(void **context)
     ENDURES(fbd_linearization_free, fbd_linearization_free(NULL));
     ANSWERS(fbd_linearization_size, fbd_linearization_size(NULL) == 0);
     ANSWERS(fbd_linearization_matrix, !fbd_linearization_matrix(NULL));
+    ANSWERS(fbd_linearization_coordinate, fbd_linearization_coordinate(NULL, 0) == (size_t)-1);
     ANSWERS(fbd_linearization_mode, is_nan(fbd_linearization_mode(NULL, 0).re));
     ANSWERS(fbd_linearization_mode, is_nan(fbd_linearization_mode(linear, past).im));
     ANSWERS(fbd_linearization_text, !fbd_linearization_text(NULL));

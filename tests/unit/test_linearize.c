@@ -14,30 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes.h"
-
-struct looked {
-    fbd_model *model;
-    fbd_state *state;
-    fbd_errors *errors;
-    fbd_linearization *linear;
-};
-
-static struct looked look(const char *text)
-{
-    struct looked looked = {.model = model_from(text), .errors = fbd_errors_new()};
-    looked.state = fbd_state_new(looked.model);
-    looked.linear = fbd_linearize(looked.state, looked.errors);
-    return looked;
-}
-
-static void end_look(struct looked *looked)
-{
-    fbd_linearization_free(looked->linear);
-    fbd_errors_free(looked->errors);
-    fbd_state_free(looked->state);
-    fbd_model_free(looked->model);
-}
+#include "looked.h"
 
 static void assert_text_has(const fbd_linearization *linear, const char *words, bool wanted)
 {
