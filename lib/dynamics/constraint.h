@@ -7,8 +7,8 @@
  *   rod    g = |p_A - p_B| - L
  *   gear   g = r_1 (theta_1 - phi) + r_2 (theta_2 - phi), phi the angle of the line of centres; r_2 < 0 for a
  *          ring round the first
- *   rope   g = sum of the straight pieces + s_1 R_1 (psi_1 - theta_1) + s_2 R_2 (theta_2 - psi_2) - L, with
- * psi the angle of the piece that leaves or reaches a pulley, s = +1 when it runs counter-clockwise there
+ *   rope   g = sum of the straight pieces + s_1 R_1 (psi_1 - theta_1) + s_2 R_2 (theta_2 - psi_2) - L, with psi
+ *          the angle of the piece that leaves or reaches a pulley, s = +1 when it runs counter-clockwise there
  *   roll   g = n . (C - P) - R, and the rack's row
  *   contact, at a side: as roll, with the side's outward normal; of two circles:
  *          g = |C_1 - C_2| - R_1 - R_2, and R_1 (phi - theta_1) + R_2 (phi - theta_2) along them, phi the

@@ -268,6 +268,14 @@ struct gap meeting_probe(const struct fbd_model *model, const struct instant *at
     return probe_corners(model, at, index, probe, closed, tie);
 }
 
+double meeting_depth(const struct fbd_model *model, const struct instant *at, int index)
+{
+    double least = 0;
+    for (int probe = 0; probe < model->tree->meetings[index].probes; probe++)
+        least = fmin(least, meeting_probe(model, at, index, probe).x);
+    return -least;
+}
+
 /* ---- what touches */
 
 /* The outermost two of features that lie at `foot`. */
@@ -289,17 +297,23 @@ static void consider(struct outermost *found, int feature, double foot)
     found->count++;
 }
 
+double meeting_speed(const struct tree_work *work, const struct meeting *meeting)
+{
+    double speed = 0;
+    for (int k = 0; k < 2; k++) {
+        const struct tree_state *s = &work->links[meeting->shape[k].link];
+        speed = fmax(speed, vec_norm(s->v) + fabs(s->omega) * meeting->size);
+    }
+    return speed;
+}
+
 /* What is at an end of a side and leaves it is on it no more. */
 static bool is_on_side(const struct fbd_model *model, const struct tree_work *work, int index,
                        const struct place_on_side *at, double near)
 {
     const double share = 1e-10;
     const struct meeting *meeting = &model->tree->meetings[index];
-    double speed = 0;
-    for (int k = 0; k < 2; k++) {
-        const struct tree_state *s = &work->links[meeting->shape[k].link];
-        speed = fmax(speed, vec_norm(s->v) + fabs(s->omega) * meeting->size);
-    }
+    double speed = meeting_speed(work, meeting);
     if (at->foot < -near || at->foot > at->length + near) return false;
     if (at->foot <= near && at->rate < -share * speed) return false;
     return !(at->foot >= at->length - near && at->rate > share * speed);
@@ -397,31 +411,7 @@ struct gap feature_end(const struct fbd_model *model, const struct tree_work *wo
     return (struct gap){at.length - at.foot, -at.rate, no_feature};
 }
 
-/* ---- the start */
-
-/* The side of a line that a body is on is the one that its shape's middle is on. */
-static void choose_side(const struct tree_work *work, const struct meeting *meeting)
-{
-    const struct contact_shape *body = &meeting->shape[0], *line = &meeting->shape[1];
-    if (line->kind != contact_line) return;
-    struct vec d = vec_sub(point_in_world(work, body->link, body->center).p, line->center);
-    double side = vec_cross(line->e, d), upright = vec_dot(vec_perp(line->e), (struct vec){0, 1});
-    if (side == 0) side = upright >= 0 ? 1 : -1; /* a point on the line is above it */
-    for (int k = 0; k < meeting->tie_count; k++)
-        work->ties[meeting->first_tie + k].side[0] = side < 0 ? -1 : 1;
-}
-
-/* How deep the shapes of a meeting are in each other; 0 when they are not. */
-static double depth_of(const struct fbd_model *model, const struct instant *at, int index)
-{
-    const struct meeting *meeting = &model->tree->meetings[index];
-    double least = HUGE_VAL;
-    for (int probe = 0; probe < meeting->probes; probe++) {
-        double gap = meeting_probe(model, at, index, probe).x;
-        if (gap < least) least = gap;
-    }
-    return least < 0 ? -least : 0;
-}
+/* ---- places */
 
 struct vec feature_place(const struct fbd_model *model, const struct tree_work *work, int index, int feature)
 {
@@ -435,65 +425,4 @@ struct vec feature_place(const struct fbd_model *model, const struct tree_work *
     }
     struct vec d = vec_sub(C, point_in_world(work, meeting->shape[1 - touch.moving].link, touch.base).p);
     return vec_sub(C, vec_scale(touch.radius / vec_norm(d), d));
-}
-
-/* What rests on each other to rounding of its speeds. */
-static bool rests(const struct fbd_model *model, const struct tree_work *work, int index, int feature)
-{
-    const double share = 1e-10;
-    const struct meeting *meeting = &model->tree->meetings[index];
-    double speed = 0;
-    for (int k = 0; k < 2; k++) {
-        const struct tree_state *s = &work->links[meeting->shape[k].link];
-        speed = fmax(speed, vec_norm(s->v) + fabs(s->omega) * meeting->size);
-    }
-    return fabs(feature_gap(model, work, index, feature).rate) <= share * speed;
-}
-
-/* Of a start numbers are as exact as a file has them: 1e-9 of the scene. */
-static const double start_share = 1e3;
-
-static void start_meeting(struct fbd_state *state, int index)
-{
-    const struct fbd_model *model = state->model;
-    const struct tree *tree = model->tree;
-    const struct meeting *meeting = &tree->meetings[index];
-    for (int k = 0; k < meeting->tie_count; k++) {
-        state->slip[tree->ties[meeting->first_tie + k].surface] = slip_plus;
-        state->tree->ties[meeting->first_tie + k].feature = no_feature;
-    }
-    choose_side(state->tree, meeting);
-    double near = start_share * meeting_near(model, state->tree, index);
-    int features[2], count = meeting_touching(model, state->tree, index, near, features);
-    for (int k = 0; k < count; k++) {
-        if (!rests(model, state->tree, index, features[k])) continue;
-        tie_set_feature(model, state->tree, meeting->first_tie + k, features[k]);
-        state->slip[tree->ties[meeting->first_tie + k].surface] = stick;
-    }
-}
-
-void contacts_start(struct fbd_state *state)
-{
-    const struct tree *tree = state->model->tree;
-    if (!tree || tree->meeting_count == 0) return;
-    struct instant at = state_instant(state);
-    tree_move(state->model, &at);
-    for (int i = 0; i < tree->meeting_count; i++) start_meeting(state, i);
-}
-
-int contacts_overlap(struct fbd_state *state, double *depth)
-{
-    const struct tree *tree = state->model->tree;
-    int worst = -1;
-    *depth = 0;
-    if (!tree || tree->meeting_count == 0) return -1;
-    struct instant at = state_instant(state);
-    tree_move(state->model, &at);
-    for (int i = 0; i < tree->meeting_count; i++) {
-        double deep = depth_of(state->model, &at, i);
-        if (deep <= start_share * meeting_near(state->model, state->tree, i) || deep <= *depth) continue;
-        *depth = deep;
-        worst = i;
-    }
-    return worst;
 }

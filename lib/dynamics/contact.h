@@ -34,6 +34,9 @@ struct place_on_side feature_foot(const struct fbd_model *model, const struct tr
  * there yet. HUGE_VAL where the ones that are there leave none. `slip` are the modes. */
 struct gap meeting_probe(const struct fbd_model *model, const struct instant *at, int index, int probe);
 
+/* How deep shapes are in each other by features that are not closed; 0 when they are not. */
+double meeting_depth(const struct fbd_model *model, const struct instant *at, int index);
+
 /* The features within `near` of touching that two shapes can have at a time; returns their number. Of more on
  * one side the outermost. */
 int meeting_touching(const struct fbd_model *model, const struct tree_work *work, int index, double near,
@@ -47,6 +50,9 @@ struct distance {
     double apart, speed;
 };
 struct distance meeting_distance(const struct fbd_model *model, const struct tree_work *work, int index);
+
+/* The largest speed of a place of its shapes, about. */
+double meeting_speed(const struct tree_work *work, const struct meeting *meeting);
 
 /* What a gap may be off by. */
 double meeting_rounding(const struct fbd_model *model, const struct tree_work *work, int index);
@@ -68,6 +74,13 @@ struct vec feature_place(const struct fbd_model *model, const struct tree_work *
 
 /* Close what touches and rests on each other at the start, and open all else. */
 void contacts_start(struct fbd_state *state);
+
+/* Are shapes in each other at the start, by more than rounding? Contacts are then as contacts_start has them. */
+bool contacts_are_deep(struct fbd_state *state);
+
+/* Move shapes that are in each other at the start, by no more than what a file rounds, out until they touch. The
+ * state fits its couplings, which move along. */
+void contacts_lift_out(struct fbd_state *state);
 
 /* The meeting whose shapes are deepest in each other, beyond rounding, and how deep; -1 without one. */
 int contacts_overlap(struct fbd_state *state, double *depth);

@@ -5,9 +5,8 @@
  * A pair slips (+1, -1: the sign of the velocity relative to its surface) or sticks (0). With N the normal
  * force of a slide:
  *
- *     slip    f = -slip mu_k |N|,  while slip (v - s) > 0
- *     stick   f = H, whatever holds the body on the surface: H = m s' - sum of the other forces,  while |H|
- * <= mu_s |N|
+ *     slip    f = -slip mu_k |N|                      while slip (v - s) > 0
+ *     stick   f = H = m s' - sum of the other forces  while |H| <= mu_s |N|: whatever holds it on the surface
  *
  * with s(t) the velocity of the surface. On a straight fixed line N follows from the forces across it alone,
  * N = -sum f . n, so that friction and normal force are not coupled. For a bearing the limits are moments and

@@ -312,6 +312,13 @@ static bool project_position(struct fbd_state *state, const struct place *place)
     return misfit.position <= 1e3 * rounding(place);
 }
 
+bool state_project_position(struct fbd_state *state)
+{
+    if (!has_ties(state->model)) return true;
+    struct place place = place_of(state, false);
+    return project_position(state, &place);
+}
+
 bool state_project(struct fbd_state *state, bool assemble)
 {
     if (!has_ties(state->model)) return true;

@@ -29,6 +29,9 @@ double state_acceleration_misfit(const struct fbd_state *state, int *row);
  * accelerations. The worst row, or -1. The state has been evaluated; `other` is written over. */
 int state_locked_row(const struct fbd_state *state, struct fbd_state *other);
 
+/* The state's positions alone, as they are with the modes of the state. */
+bool state_project_position(struct fbd_state *state);
+
 /* What the state keeps of its start: lengths that are not given, how gears mesh. */
 void state_start_constraints(struct fbd_state *state);
 

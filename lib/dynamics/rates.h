@@ -11,11 +11,12 @@
  *
  *     row          dv/dt                                                  needs
  *     steady       a                                                      terms and friction constant
- *     held         0, dx/dt = the speed of the surface                    stick on a surface of constant
- * speed affine       (c0 - kq q - kv v - k |v| v - F) / m sine         (... + s sin q + c cos q - F) / m
- *     parts        (... + scale * (sum of c u^k, c sin(w u + p)) - F) / m one formula of this shape
- * (expr/parts.h) formulas     (... + sum of scale f(t, q, v) - F) / m body         the stages of forward.h
- * everything else
+ *     held         0, dx/dt = the speed of the surface                    stick on a surface of constant speed
+ *     affine       (c0 - kq q - kv v - k |v| v - F) / m
+ *     sine         (... + s sin q + c cos q - F) / m
+ *     parts        (... + scale (sum of c u^k, c sin(w u + p)) - F) / m   one formula of this shape (expr/parts.h)
+ *     formulas     (... + sum of scale f(t, q, v) - F) / m
+ *     body         the stages of forward.h                                everything else
  *
  * Each row adds up in the order of forces.c and multiplies by the same 1/m: the bits are those of
  * state_rates.

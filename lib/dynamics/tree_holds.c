@@ -340,7 +340,7 @@ static bool is_on_contact(const struct fbd_state *state, const struct friction *
 static int next_mode(const struct fbd_state *state, const double *slots, const double *slots_along, int pair,
                      bool *by_rate)
 {
-    const double rounding = 1e-12;
+    const double rounding = 1e-12, slacks = 4;
     const struct fbd_model *model = state->model;
     const struct friction *hold = pair_of(state, pair);
     struct instant at = state_instant(state);
@@ -351,8 +351,9 @@ static int next_mode(const struct fbd_state *state, const double *slots, const d
         if (state->slip[pair] != stick) return now.acceleration > 0 ? stick : state->slip[pair];
         double rate = hold_sign(hold) * state->tree->z[model->tree->ties[hold->tie].first_row];
         double least = now.force < -now.slack / 2 ? 0 : now.slack * now.turning;
-        *by_rate = fabs(now.force) <= fmax(small, now.slack) && rate < -least;
-        return now.force < -small || *by_rate ? slip_plus : stick;
+        double nothing = fmax(small, slacks * now.slack); /* its event function lets it pull, too */
+        *by_rate = fabs(now.force) <= nothing && rate < -least;
+        return now.force < -nothing || *by_rate ? slip_plus : stick;
     }
     if (state->slip[pair] != stick) return turns_back(state, pair) ? stick : state->slip[pair];
     double *dy = state->scratch + 2 * (size_t)model->plan.slots;

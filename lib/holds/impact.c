@@ -65,7 +65,8 @@ static double until_end(const struct impact_point *point, const struct place *at
     double e = point->e, due;
     switch (point->law) {
     case impact_poisson: return (1 + e) * compressed->p - at->p;
-    case impact_newton: return (e * approach - at->v_n) / slope->v_n;
+    case impact_newton:
+    case impact_moreau: return (e * approach - at->v_n) / slope->v_n;
     case impact_stronge: break;
     }
     due = -e * e * compressed->work - (at->work - compressed->work);
@@ -84,14 +85,60 @@ static void restore(const struct impact_point *point, struct place *at, double a
     }
 }
 
+/* ---- the laws */
+
+/* Along the way, piece by piece. */
+static void follow(const struct impact_point *point, struct place *at, struct impact *impact)
+{
+    double approach = -at->v_n;
+    compress(point, at);
+    impact->compression = at->p;
+    if (point->e > 0) restore(point, at, approach);
+}
+
+/* With v_n = -e v_n before and friction -mu p on a point that slips to `side` after: does it? */
+static bool slips_after(const struct impact_point *point, const struct place *before, int side,
+                        struct place *after)
+{
+    struct slope slope = slope_with(point, -side * point->mu);
+    if (!(slope.v_n > 0)) return false;
+    *after = *before;
+    go(after, &slope, -(1 + point->e) * before->v_n / slope.v_n, HUGE_VAL);
+    return after->v_t * side > 0;
+}
+
+/* With friction that leaves it at rest, W [p, tau] = [-(1 + e) v_n, -v_t]: is it within its limit? */
+static bool sticks_after(const struct impact_point *point, const struct place *before, struct place *after)
+{
+    const double *W = point->W, det = W[0] * W[2] - W[1] * W[1], lift = -(1 + point->e) * before->v_n;
+    if (!(det > 0)) return false;
+    *after = (struct place){.p = (W[2] * lift + W[1] * before->v_t) / det,
+                            .tau = -(W[0] * before->v_t + W[1] * lift) / det};
+    return fabs(after->tau) <= point->mu * after->p;
+}
+
+/* Where several ends agree it is the one that the way would have come to: it slips on, or sticks, or slips
+ * back. Without friction, and at a limit, the last is any of them. */
+static void jump(const struct impact_point *point, struct place *at, struct impact *impact)
+{
+    const struct place before = *at;
+    int side = before.v_t < 0 ? -1 : 1;
+    bool on = before.v_t != 0 && slips_after(point, &before, side, at);
+    if (!on && !sticks_after(point, &before, at) && !slips_after(point, &before, -side, at))
+        slips_after(point, &before, side, at);
+    at->v_n = -point->e * before.v_n;
+    impact->compression = at->p / (1 + point->e);
+}
+
 struct impact impact_at_point(const struct impact_point *point, double v_n, double v_t)
 {
     struct place at = {.v_n = v_n, .v_t = v_t};
     struct impact impact = {.v_n = v_n, .v_t = v_t};
     if (!(v_n < 0)) return impact;
-    compress(point, &at);
-    impact.compression = at.p;
-    if (point->e > 0) restore(point, &at, -v_n);
+    if (point->law == impact_moreau)
+        jump(point, &at, &impact);
+    else
+        follow(point, &at, &impact);
     impact.p = at.p;
     impact.tau = at.tau;
     impact.v_n = at.v_n;

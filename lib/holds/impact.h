@@ -16,11 +16,26 @@
  *               Mechanics, section 3.3.3): with any friction no energy is made
  *     poisson   the normal impulse is 1 + e times that of compression
  *     newton    v_n = -e v_n before: with friction that may take more energy than there was
+ *
+ * One law asks for nothing within the impact:
+ *
+ *     moreau    v_n = -e v_n before, and the impulse of friction is that of the velocity after, -mu p sign(v_t),
+ *               or within mu p where v_t = 0 then (Moreau, Unilateral Contact and Dry Friction in Finite
+ *               Freedom Dynamics, 1988), as in simulators that step over impacts. It differs from newton where
+ *               the point slips back.
  */
 #ifndef FBD_HOLDS_IMPACT_H
 #define FBD_HOLDS_IMPACT_H
 
-enum impact_law { impact_stronge, impact_poisson, impact_newton };
+#include <stdbool.h>
+
+enum impact_law { impact_stronge, impact_poisson, impact_newton, impact_moreau };
+
+/* Does the law prescribe the normal velocity after? */
+static inline bool impact_by_velocity(enum impact_law law)
+{
+    return law == impact_newton || law == impact_moreau;
+}
 
 /* The point: W as [nn, nt, tt], and its laws. */
 struct impact_point {

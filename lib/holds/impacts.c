@@ -171,7 +171,7 @@ static void take(const struct together *together, double *v)
 static enum impacts_end compress(struct together *together)
 {
     const struct impacts *impacts = together->impacts;
-    bool newton = impacts->law == impact_newton;
+    bool newton = impact_by_velocity(impacts->law);
     for (int i = 0; i < 2 * impacts->count; i++) {
         bool bounces = newton && i % 2 == 0 && impacts->v[i] < 0;
         together->problem.holds[i].free = (bounces ? 1 + impacts->points[i / 2].e : 1) * impacts->v[i];
@@ -275,7 +275,7 @@ static enum impacts_end restore_by_law(struct together *together)
 static bool has_restitution(const struct impacts *impacts)
 {
     for (int i = 0; i < impacts->count; i++)
-        if (impacts->points[i].e > 0) return impacts->law != impact_newton;
+        if (impacts->points[i].e > 0) return !impact_by_velocity(impacts->law);
     return false;
 }
 
@@ -341,7 +341,7 @@ static enum impacts_end solve_whole(struct impacts *impacts)
     enum impacts_end end = impacts->propagate ? impacts_unsolvable : all_together(impacts);
     /* Points that press on each other nearly along one line may be lost in rounding: one after the other
      * their impacts are those of the same laws. */
-    bool lost = end == impacts_unsolvable && impacts->law != impact_newton;
+    bool lost = end == impacts_unsolvable && !impact_by_velocity(impacts->law);
     return impacts->propagate || lost ? propagate(impacts) : end;
 }
 

@@ -6,11 +6,12 @@
  *   simultaneous  all points are compressed together, up to where none closes any more: the holds of
  *                 holds/holds.h, in impulses (Pfeiffer and Glocker, Multibody Dynamics with Unilateral
  *                 Contacts, chapter 8). Then each gets e times its normal impulse once more, with the
- * friction that this brings, and what closes by that is held up again. With `stronge` all of it is scaled by
- * one factor, so that the work of the normal impulses is the sum of what the points give back, e^2 of theirs;
- * with `poisson` only where energy would be made. With `newton` one set of holds has v_n + e v_n (before) in
- * place of v_n (Moreau) propagate     the point that closes fastest has its impact alone, by holds/impact.h,
- * until none closes
+ *                 friction that this brings, and what closes by that is held up again. With `stronge` all of it
+ *                 is scaled by one factor, so that the work of the normal impulses is the sum of what the points
+ *                 give back, e^2 of theirs; with `poisson` only where energy would be made. With `newton` and
+ *                 `moreau` one set of holds has v_n + e v_n (before) in place of v_n (Moreau).
+ *
+ *   propagate     the point that closes fastest has its impact alone, by holds/impact.h, until none closes.
  *
  * One point alone is an impact by holds/impact.h in both.
  */

@@ -62,11 +62,13 @@ static void impact_detail(const struct fbd_model *model, const struct run_event 
 {
     const struct impact_record *impact = &event->impact;
     const char *speed = model->scene->units == unit_si ? "m/s" : "ft/s", *of = force_unit(model);
-    format_into(
-        detail, size,
-        "%s strikes: v_n %.6g to %.6g %s, v_t %.6g to %.6g %s, impulses %.6g and %.6g %s*s; takes %.6g %s",
-        name, impact->v_n[0], impact->v_n[1], speed, impact->v_t[0], impact->v_t[1], speed, impact->p,
-        impact->tau, of, impact->work == 0 ? 0 : -impact->work, energy_unit(model));
+    double taken = impact->makes ? impact->work : impact->work == 0 ? 0 : -impact->work;
+    format_into(detail, size,
+                "%s strikes: v_n %.6g to %.6g %s, v_t %.6g to %.6g %s, impulses %.6g and %.6g %s*s; %s %.6g "
+                "%s%s",
+                name, impact->v_n[0], impact->v_n[1], speed, impact->v_t[0], impact->v_t[1], speed, impact->p,
+                impact->tau, of, impact->makes ? "makes" : "takes", taken, energy_unit(model),
+                impact->makes ? ", as its law may: `stronge` does not" : "");
 }
 
 static bool is_moment(const struct fbd_model *model, const struct run_event *event)

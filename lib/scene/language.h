@@ -180,8 +180,11 @@ struct coupling_keys {
     double stiffness, free_length, coefficient, length, radius;
     bool inside;
     struct value mu_s, mu_k, restitution;
-    int law;
+    int law, side; /* enum impact_law, enum contact_side */
 };
+
+/* The side of a line on which a contact keeps its body. */
+enum contact_side { contact_side_start, contact_side_up, contact_side_left, contact_side_right };
 
 /* Kinds of couplings: those of loads, and beyond them those of constraints. */
 enum { coupling_constraint = 100 };

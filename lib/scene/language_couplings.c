@@ -85,6 +85,14 @@ static const struct choice laws[] = {
     {"stronge", 0, "the work that restitution gives back is e^2 of what compression took"},
     {"poisson", 1, "the impulse of restitution is e times that of compression"},
     {"newton", 2, "the normal velocity after is -e times that before"},
+    {"moreau", 3, "the same, with the friction of the velocity after"},
+};
+
+static const struct choice contact_sides[] = {
+    {"start", contact_side_start, "where it is at the start"},
+    {"up", contact_side_up, "the side of the line that is up"},
+    {"left", contact_side_left, "to the left of the direction of the line"},
+    {"right", contact_side_right, "to its right"},
 };
 
 static const struct field contact_fields[] = {
@@ -99,6 +107,8 @@ static const struct field contact_fields[] = {
     FIELD_VALUE(COUPLING(mu_k), "kinetic", a_number, not_negative,
                 "coefficient of kinetic friction; default that of static friction"),
     FIELD_CHOICE(COUPLING(law), "law", laws, "what `restitution` is a share of"),
+    FIELD_CHOICE(COUPLING(side), "side", contact_sides,
+                 "with a line of the ground: the side of it on which the body stays; default `start`"),
 };
 const struct group contact_group = {"a contact", NULL, FIELDS(contact_fields),
                                     NULL,        0,    "two bodies, or a body and the ground, that meet"};

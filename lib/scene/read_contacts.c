@@ -7,6 +7,7 @@
 #include "scene/values.h"
 
 #include <assert.h>
+#include <math.h>
 #include <string.h>
 
 /* A line, polygon or point of the ground. */
@@ -89,6 +90,26 @@ static bool check_restitution(struct reader *reader, const struct value *e)
     return false;
 }
 
+/* The side of a line of the ground; on a vertical one none is up. */
+static bool read_line_side(struct reader *reader, const struct node *list, int side,
+                           struct constraint *constraint)
+{
+    const double upright = 1e-12;
+    if (side == contact_side_start) return true;
+    double up = cos(constraint->along);
+    bool any_up = fabs(up) > upright;
+    if (constraint->contact.line && (side != contact_side_up || any_up)) {
+        bool left = side == contact_side_up ? up > 0 : side == contact_side_left;
+        constraint->contact.side = left ? 1 : -1;
+        return true;
+    }
+    diag_add(reader->errors, FBD_ERROR, "not-here", list->at,
+             constraint->contact.line ? "say `left` or `right` of its direction" : "leave `side` out",
+             constraint->contact.line ? "no side of a vertical line is up"
+                                      : "`side` is that of a line of the ground, and this is none");
+    return false;
+}
+
 bool contact_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
 {
     const struct node *list = keys->between;
@@ -103,6 +124,7 @@ bool contact_read(struct reader *reader, const struct coupling_keys *keys, struc
     constraint->mu_s = keys->mu_s.expr ? keys->mu_s : keys->mu_k;
     constraint->mu_k = keys->mu_k.expr ? keys->mu_k : keys->mu_s;
     if (!check_restitution(reader, &keys->restitution) || !read_sides(reader, list, constraint)) return false;
+    if (!read_line_side(reader, list, keys->side, constraint)) return false;
     if (constraint->body[0] == constraint->body[1]) {
         diag_add(reader->errors, FBD_ERROR, "same-body", list->at, "name two bodies",
                  "both ends are on the same body: nothing would act");

@@ -192,7 +192,9 @@ struct contact_law {
     int law;                       /* enum impact_law (holds/impact.h) */
     const struct polygon *polygon; /* its surface where that is a polygon of the ground, else NULL */
     bool line;                     /* its surface is a line of the ground */
-    double e;                      /* of a stop, which has no expression */
+    int side; /* of that line where the body stays: +1 to the left of its direction, -1 to the right, 0 as at
+                 the start */
+    double e; /* of a stop, which has no expression */
     int stop; /* no shapes: +1, body 0 cannot move on body 1 to below `limit`, -1 to beyond; else 0 */
     double limit;
 };

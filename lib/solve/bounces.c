@@ -3,6 +3,7 @@
  * Bounces without end: when they are too low to be seen the series is summed up, and what bounces rests.
  */
 #include <float.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "dynamics/contact.h"
@@ -10,6 +11,7 @@
 #include "dynamics/impulse.h"
 #include "dynamics/project.h"
 #include "dynamics/tree_system.h"
+#include "numeric/lu.h"
 #include "solve/contacts.h"
 #include "solve/run.h"
 
@@ -84,8 +86,8 @@ static double leaving_speed(const struct run *run, int meeting, int count)
     return most;
 }
 
-/* Bounces that nobody sees: 1e-10 of the scene, a hundred times what counts as touching. */
-static const double low_share = 100;
+/* Bounces that nobody sees: 1e-9 of the scene, a thousand times what counts as touching. */
+static const double low_share = 1000;
 
 /* The impacts of striker i's meeting: do they end soon, in bounces that nobody sees? Then when. */
 static double end_of_series(struct run *run, int i, int count)
@@ -95,21 +97,20 @@ static double end_of_series(struct run *run, int i, int count)
     int index = tree_of(run)->ties[striker->tie].meeting,
         feature = run->state->tree->ties[striker->tie].feature;
     struct bounces *bounces = &run->contacts.bounces[index];
-    double v = work->v[(ptrdiff_t)2 * i],
+    double v = work->v[(ptrdiff_t)2 * i], leaving = leaving_speed(run, index, count),
            unseen = low_share * meeting_near(run->model, run->state->tree, index);
     bool same = bounces->feature == feature && bounces->count > 0;
     remember(bounces, run->state->t, feature);
-    double interval = bounces->t[0] - bounces->t[1], rise, left;
+    double interval = bounces->t[0] - bounces->t[1], a = -acceleration_of(run, striker->tie, feature), left;
+    bool low = a > 0 && leaving * leaving <= 2 * a * unseen;
+    bounces->slow = a > 0 ? sqrt(2 * a * unseen) : 0;
     if (same && v > 0) {
-        double a = -acceleration_of(run, striker->tie, feature);
-        if (!(a > 0)) return HUGE_VAL;
-        rise = v * v / (2 * a);
-        if (rise > unseen || bounces->count < 3) return HUGE_VAL;
+        if (!low) return HUGE_VAL;
         left = sum_of_bounces(run, index, v, a);
     } else {
-        rise = leaving_speed(run, index, count) * interval;
-        if (bounces->count < 4 || rise > unseen) return HUGE_VAL;
+        if (!low && (bounces->count < 4 || leaving * interval > unseen)) return HUGE_VAL;
         left = sum_of_rocking(bounces);
+        if (low) left = fmin(left, v > 0 ? sum_of_bounces(run, index, v, a) : 2 * leaving / a);
     }
     return run->state->t + left;
 }
@@ -149,27 +150,99 @@ static int last_at_rest(const struct run *run)
     return last;
 }
 
+/* Friction -mu p sign(v_t) of what slips; what sticks does so by another row. */
+static double rubbing(const struct contacts_work *work, int i)
+{
+    double v_t = work->v[(ptrdiff_t)2 * i + 1];
+    return v_t > 0 ? -work->points[i].mu : v_t < 0 ? work->points[i].mu : 0;
+}
+
+static bool leaves_for_the_last_time(const struct run *run, int i)
+{
+    const struct contacts_work *work = &run->contacts;
+    if (work->strikers[i].rope || !(work->v[(ptrdiff_t)2 * i] > 0)) return false;
+    return work->bounces[tree_of(run)->ties[work->strikers[i].tie].meeting].rests_from < HUGE_VAL;
+}
+
+/* The speeds at which surfaces are left are taken away by impulses that rub as the weight would have done that
+ * took them away: at rest from now on, surfaces press m a T in the time T of the series, and so they do in it but
+ * for m v. */
+static void take_leaving_speeds(struct run *run, int count)
+{
+    struct contacts_work *work = &run->contacts;
+    size_t n = (size_t)run->model->plan.n, size = 0, all = 2 * (size_t)count;
+    size_t *which = calloc(2 * (size_t)count + 1, sizeof *which), *pivot = which ? which + count : NULL;
+    for (int i = 0; which && i < count; i++)
+        if (leaves_for_the_last_time(run, i)) which[size++] = (size_t)i;
+    double *A = size > 0 ? calloc(size * size + size, sizeof *A) : NULL, *P = A ? A + size * size : NULL;
+    for (size_t i = 0; A && i < size; i++) {
+        const double *row = work->W + 2 * which[i] * all;
+        P[i] = -work->v[2 * which[i]];
+        for (size_t j = 0; j < size; j++)
+            A[i * size + j] = row[2 * which[j]] + rubbing(work, (int)which[j]) * row[2 * which[j] + 1];
+    }
+    if (A && lu_decompose(size, A, pivot)) {
+        lu_solve(size, A, pivot, P);
+        for (size_t i = 0; i < size; i++) {
+            const double *answer = work->answers + 2 * which[i] * n;
+            double f = rubbing(work, (int)which[i]);
+            for (size_t k = 0; k < n; k++) run->state->y[n + k] += P[i] * (answer[k] + f * answer[n + k]);
+        }
+    }
+    if (!which || (size > 0 && !A)) run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
+    free(A);
+    free(which);
+}
+
+/* The largest speed that is lost, of those whose series are summed up. */
+static double slow_speed(const struct run *run)
+{
+    double slow = 0;
+    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
+        const struct bounces *bounces = &run->contacts.bounces[i];
+        if (bounces->rests_from < HUGE_VAL) slow = fmax(slow, bounces->slow);
+    }
+    return slow;
+}
+
+/* A slip that friction ends within what counts as the same place, as the impacts that are left would. */
+static bool stops_at_once(const struct run *run, int index, double slow)
+{
+    const struct tie *tie = &tree_of(run)->ties[index];
+    const struct instant at = state_instant(run->state);
+    if (run->state->tree->ties[index].feature == no_feature) return false;
+    double mu = formula_value(&run->model->plan.frictions[tie->pair].mu_k, &at);
+    double v_t = run->state->tree->rows[tie->first_row + 1].g.x1;
+    return v_t * v_t <= fmin(mu, 1) * slow * slow;
+}
+
 /* What bounces too low to be seen is put on its surface, and its speed from there taken away: what is left of
  * the series does the same, and its impulses are those of the weight in that time. */
-int contacts_settle_down(struct run *run)
+int contacts_settle_down(struct run *run, int strikers)
 {
     const struct tree *tree = tree_of(run);
     struct contacts_work *work = &run->contacts;
     bool *was_touching = work->touching;
-    const double wide = 10 * low_share; /* a corner that is about to come down */
+    double before = kinetic(run->state);
+    take_leaving_speeds(run, strikers);
+    const double wide = 2 * low_share; /* a corner that is about to come down */
     for (int i = 0; i < tree->tie_count; i++)
         was_touching[i] = run->state->tree->ties[i].feature != no_feature;
     for (int i = 0; i < tree->meeting_count; i++) {
         double near = meeting_near(run->model, run->state->tree, i);
         contacts_find_touching(run, i, work->bounces[i].rests_from < HUGE_VAL ? wide * near : near);
     }
+    impulse_look(run->state);
+    double slow = slow_speed(run);
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
         if (tie->kind != constraint_contact || tie->pair < 0) continue;
         /* What comes down now holds nothing along its surface; what has stuck sticks. */
         if (!was_touching[i]) run->state->slip[tie->pair] = slip_plus;
+        if (run->state->slip[tie->pair] == stick || !stops_at_once(run, i, slow)) continue;
+        tie_rezero(run->model, run->state->tree, i);
+        run->state->slip[tie->pair] = stick;
     }
-    double before = kinetic(run->state);
     state_project(run->state, false);
     impulse_look(run->state);
     int count = contacts_find_strikers(run), last = last_at_rest(run);
@@ -180,6 +253,30 @@ int contacts_settle_down(struct run *run)
         v[1] = work->strikers[i].v_t;
     }
     return count;
+}
+
+bool contacts_lift_others(struct run *run)
+{
+    const double wide = 2 * low_share;
+    const struct tree *tree = tree_of(run);
+    struct fbd_state *state = run->state;
+    const struct instant at = state_instant(state);
+    bool *was_touching = run->contacts.touching, any = false;
+    for (int i = 0; i < tree->tie_count; i++) was_touching[i] = state->tree->ties[i].feature != no_feature;
+    for (int i = 0; i < tree->meeting_count; i++) {
+        double near = meeting_near(run->model, state->tree, i), deep = meeting_depth(run->model, &at, i);
+        if (!(deep > near && deep < wide * near)) continue;
+        contacts_find_touching(run, i, wide * near);
+        any = true;
+    }
+    if (!any) return false;
+    state_project_position(state);
+    for (int i = 0; i < tree->tie_count; i++) {
+        if (was_touching[i] || state->tree->ties[i].feature == no_feature) continue;
+        state->tree->ties[i].feature = no_feature;
+        state->slip[tree->ties[i].surface] = slip_plus;
+    }
+    return true;
 }
 
 /* ---- their end */

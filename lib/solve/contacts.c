@@ -9,6 +9,7 @@
 #include "dynamics/impulse.h"
 #include "dynamics/tree_system.h"
 #include "solve/run.h"
+#include "solve/start.h"
 
 /* ---- memory */
 
@@ -33,8 +34,9 @@ static bool meetings_init(struct contacts_work *work, const struct fbd_model *mo
     work->bounces = calloc(meetings, sizeof *work->bounces);
     work->was_closed = calloc(2 * ties, sizeof *work->was_closed);
     work->asleep = calloc(meetings, sizeof *work->asleep);
+    work->deep = calloc(meetings, sizeof *work->deep);
     work->trial = state_new(model);
-    if (!work->bounces || !work->was_closed || !work->asleep || !work->trial) return false;
+    if (!work->bounces || !work->was_closed || !work->asleep || !work->deep || !work->trial) return false;
     work->touching = work->was_closed + ties;
     for (size_t i = 0; i < meetings; i++)
         work->bounces[i] = (struct bounces){.feature = -1, .rests_from = HUGE_VAL};
@@ -69,6 +71,7 @@ void contacts_work_free(struct contacts_work *work)
     free(work->bounces);
     free(work->was_closed);
     free(work->asleep);
+    free(work->deep);
     state_free(work->trial);
     *work = (struct contacts_work){0};
 }
@@ -301,6 +304,9 @@ static bool strike(struct run *run, int count)
         return false;
     }
     apply_impulses(run, count);
+    double size = 0;
+    for (int i = 0; i < 2 * count; i++) size += fabs(work->P[i] * work->v[i]);
+    work->makes = impacts.work > 1e-12 * size;
     return true;
 }
 
@@ -328,7 +334,8 @@ static void note_impact(struct run *run, int i)
     int body = tie->end[0].body;
     struct run_event *event = run_note(run, FBD_EVENT_IMPACT, body, tie->load, -1);
     if (!event) return;
-    event->impact = (struct impact_record){p, tau, taken, {striker->v_n, v[0]}, {striker->v_t, v[1]}};
+    event->impact = (struct impact_record){
+        p, tau, taken, {striker->v_n, v[0]}, {striker->v_t, v[1]}, work->makes && taken > 0};
 }
 
 /* What an impact has made slack is no more taut by its length. */
@@ -380,88 +387,65 @@ static void unstick(struct run *run)
     }
 }
 
-/* ---- which are looked at */
-
-/* The fastest link, as it turns, and how fast shapes go past each other: they are in each other no longer
- * than it takes to go by their size. */
-double run_contact_radians(const struct run *run, double span)
-{
-    const struct contacts_work *work = &run->contacts;
-    const struct tree *tree = tree_of(run);
-    double turn = 0, pass = 0;
-    if (!has_meetings(run->model)) return 0;
-    for (int i = 1; i < tree->count; i++) turn = fmax(turn, fabs(work->trial->tree->links[i].omega));
-    for (int i = 0; i < tree->meeting_count; i++) {
-        const struct contact_shape *shapes = tree->meetings[i].shape;
-        double size = shapes[0].radius + shapes[1].radius;
-        bool flat = shapes[1].kind == contact_line; /* the gap of a line is linear in the place */
-        if (work->asleep[i] || flat || size <= 0) continue;
-        pass = fmax(pass, meeting_distance(run->model, work->trial->tree, i).speed / size);
-    }
-    return (2 * turn + 2 * pass) * span; /* both shapes of a meeting may turn */
-}
-
-/* Speeds within a step are those at its ends, or not much more: a factor, and a check at the end of the step,
- * cover it. */
-void run_wake_contacts(struct run *run, double end)
-{
-    const double speeds = 2;
-    struct contacts_work *work = &run->contacts;
-    struct fbd_state *trial = work->trial;
-    if (!has_meetings(run->model)) return;
-    double span = end - run->from;
-    state_copy(trial, run->during);
-    impulse_look(trial);
-    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
-        struct distance at = meeting_distance(run->model, trial->tree, i);
-        work->asleep[i] = at.apart > speeds * span * at.speed;
-    }
-    memcpy(trial->y, run->y, 2 * (size_t)run->model->plan.n * sizeof *trial->y);
-    trial->t = end;
-    impulse_look(trial);
-    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
-        struct distance at = meeting_distance(run->model, trial->tree, i);
-        work->asleep[i] &= at.apart > speeds * span * at.speed;
-    }
-}
-
-void run_check_overlap(struct run *run)
-{
-    double depth;
-    if (!has_meetings(run->model) || run->outcome != FBD_GOING) return;
-    int meeting = contacts_overlap(run->state, &depth);
-    if (meeting < 0) return;
-    run_fail(run, FBD_FAILED,
-             "at t = %.9g the shapes of the contact `%s` are in each other by %.3g: the instant at which "
-             "they met was "
-             "missed. Try a smaller tolerance or step",
-             run_time(run), run->model->scene->constraints[tree_of(run)->meetings[meeting].constraint].name,
-             depth);
-}
-
 /* ---- all of it */
 
-void run_contacts(struct run *run)
+/* What counts as touching; shapes that are in each other by a little more, which was seen late, touch as well. */
+static double reach_of_touch(const struct run *run, int index)
+{
+    const double late = 1e3;
+    const struct instant at = state_instant(run->state);
+    double near = meeting_near(run->model, run->state->tree, index);
+    double deep = meeting_depth(run->model, &at, index);
+    return deep > near && deep <= late * near ? 1.001 * deep : near;
+}
+
+/* One look at all that touches. True when shapes have been moved, and others are to be looked at. */
+static bool look_at_contacts(struct run *run)
 {
     const struct tree *tree = tree_of(run);
-    if (!tree || tree->meeting_count == 0 || run->outcome != FBD_GOING) return;
+    bool moved = false;
     impulse_look(run->state);
-    for (int i = 0; i < tree->meeting_count; i++)
-        contacts_find_touching(run, i, meeting_near(run->model, run->state->tree, i));
+    for (int i = 0; i < tree->meeting_count; i++) contacts_find_touching(run, i, reach_of_touch(run, i));
     impulse_look(run->state);
     int count = contacts_find_strikers(run);
     bool struck = any_closes(run, count);
     if (struck) {
-        if (!strike(run, count)) return;
+        if (!strike(run, count)) return false;
         for (int i = 0; i < count; i++) note_impact(run, i);
         impulse_look(run->state);
     }
     bool rests = struck && contacts_end_bounces(run, count);
     open_or_close(run, count, struck);
     if (rests) {
-        count = contacts_settle_down(run);
+        count = contacts_settle_down(run, count);
         open_or_close(run, count, true);
+        moved = contacts_lift_others(run);
     }
+    return moved;
+}
+
+void run_contacts(struct run *run)
+{
+    enum { most_rounds = 8 };
+    if (!has_meetings(run->model)) return;
+    for (int round = 0; round < most_rounds && run->outcome == FBD_GOING; round++)
+        if (!look_at_contacts(run)) break;
+}
+
+bool run_start_contacts(struct run *run, struct lack *lack)
+{
+    struct fbd_state *state = run->state;
+    if (!has_meetings(run->model)) return true;
+    bool settled = modes_settle(state, NULL);
+    if (contacts_are_deep(state)) {
+        if (!start_fits(state, run->during, settled, "the start", lack)) return false;
+        contacts_lift_out(state);
+        modes_settle(state, NULL);
+    }
+    run_contacts(run);
+    /* Energies are counted from behind impacts of the start. */
+    memset(run->impact_work, 0, run->model->load_count * sizeof *run->impact_work);
+    return true;
 }
 
 void run_strike_taut(struct run *run)
@@ -493,4 +477,5 @@ void run_release_contacts(struct run *run)
         if (before == now) continue;
         run_note(run, now ? FBD_EVENT_CONTACT : FBD_EVENT_LIFT_OFF, tie->end[0].body, tie->load, -1);
     }
+    if (tree) contacts_note_depths(run);
 }

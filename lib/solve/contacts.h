@@ -17,6 +17,7 @@
 #include "dynamics/state.h"
 #include "holds/impacts.h"
 
+struct lack;
 struct run;
 
 /* The impacts of a meeting so far. */
@@ -24,7 +25,7 @@ struct bounces {
     int count;         /* since it was last at rest */
     double t[4];       /* of the last ones, the latest first */
     int feature;       /* of the last one */
-    double highest;    /* rise after an impact */
+    double slow;       /* a speed that is lost within what counts as the same place */
     double rests_from; /* end of a series that is summed up; HUGE_VAL without one */
 };
 
@@ -42,11 +43,13 @@ struct contacts_work {
     double *W, *answers, *v, *P, *y;
     struct bounces *bounces; /* of each meeting */
     bool *asleep;            /* of each meeting: too far apart for the step */
-    bool *touching;          /* of each tie: scratch */
-    bool *was_closed;        /* of each tie, when it was looked at last */
+    double *deep;   /* of each meeting: how deep it was left open, at a corner that another side is next to */
+    bool *touching; /* of each tie: scratch */
+    bool *was_closed; /* of each tie, when it was looked at last */
     struct fbd_state *trial;
     double speed; /* the largest of what has touched so far */
     bool due;     /* shapes have met, or what touches has come to the end of a side */
+    bool makes;   /* the last impacts have made energy */
 };
 
 /* False when memory is out. */
@@ -56,9 +59,21 @@ void contacts_work_free(struct contacts_work *work);
 /* Find what touches, let it have its impacts, and close what stays. To be called before the modes settle. */
 void run_contacts(struct run *run);
 
+/* The first look: what a file's digits have put into each other is moved out before. False, with what is lacking,
+ * when couplings do not fit. */
+bool run_start_contacts(struct run *run, struct lack *lack);
+
 /* A rope has just got taut: it, all other taut ropes and all that touches have an impact together, in which
  * ropes are plastic. What it makes slack is decided. */
 void run_strike_taut(struct run *run);
+
+/* What has been put on its surface by contacts_settle_down may have got into others that are next to it: they are
+ * moved out. Whether there were any, which may now touch. */
+bool contacts_lift_others(struct run *run);
+
+/* Note how deep in each other shapes are that do not touch: within what counts as touching, where a corner goes
+ * over the end of a side. */
+void contacts_note_depths(struct run *run);
 
 /* Which meetings the step from run->from to the state run->y at `end` has to look at: those whose shapes
  * could come near in it. In panels of how many radians the shapes turn. */
@@ -83,7 +98,7 @@ double contacts_restitution(struct run *run, int meeting, double approach);
 bool contacts_end_bounces(struct run *run, int count);
 
 /* Put what bounces on its surface; the strikers are then those that touch. Returns their number. */
-int contacts_settle_down(struct run *run);
+int contacts_settle_down(struct run *run, int strikers);
 
 /* ---- the loop */
 

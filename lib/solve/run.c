@@ -84,6 +84,7 @@ static bool make_run(struct run *run)
     run->arrows = calloc(diagram_most_arrows(run->model), sizeof *run->arrows);
     if (!contacts_work_init(&run->contacts, run->model)) return false;
     run->watchers.asleep = run->contacts.asleep;
+    run->watchers.deep = run->contacts.deep;
     run->impact_work = calloc(run->model->load_count + 1, sizeof *run->impact_work);
     run->snap_pair = -1;
     if (!run->values || !run->kept || !run->crossed || !run->anchor || !run->arrows || !run->impact_work)
@@ -115,11 +116,9 @@ static void start(struct run *run)
     struct lack lack;
     run->restart = true;
     run->from = run->state->t;
-    if (run->model->tree && run->model->tree->meeting_count > 0) {
-        modes_settle(run->state, NULL);
-        run_contacts(run);
-        /* Energies are counted from behind impacts of the start. */
-        memset(run->impact_work, 0, run->model->load_count * sizeof *run->impact_work);
+    if (!run_start_contacts(run, &lack)) {
+        refuse(run, &lack);
+        return;
     }
     if (!start_ready(run->state, run->during, "the start", &lack)) {
         refuse(run, &lack);

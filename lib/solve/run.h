@@ -45,6 +45,7 @@ struct run_options {
 struct impact_record {
     double p, tau, work;
     double v_n[2], v_t[2];
+    bool makes; /* all impacts of the instant have made energy, and this one has */
 };
 
 struct run_event {
@@ -52,8 +53,7 @@ struct run_event {
     fbd_event_kind kind;
     int body, load, watch; /* -1 where it does not apply */
     size_t group, order;   /* of an ensemble, and its place in the log of that group */
-    double force,
-        limit; /* friction: the force after the event (that holds or slides) and the static limit;
+    double force, limit;   /* friction: the force after the event (that holds or slides) and the static limit;
                   contact: the normal force and its rounding; rest: `limit` is the number of impacts */
     struct impact_record impact;
 };

@@ -54,6 +54,7 @@ struct watchers {
     int *armed;                /* per user event: +1 or -1, the side where it is; 0 while it sits on zero */
     double *fired;             /* per user event: when it happened last; NAN: it has not */
     bool *asleep;              /* per meeting: it is too far apart to be looked at in this step; or NULL */
+    double *deep;              /* per meeting: how deep it was left open; or NULL */
     double width;              /* of the bands of user events, relative to the largest size */
     bool *held;                /* per branch: a stick holds the switch at zero; it is not watched */
     int *zeros;                /* scratch for that: places where it is zero */

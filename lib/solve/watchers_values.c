@@ -93,9 +93,11 @@ static double gap_value(const struct watchers *watchers, const struct watcher *w
     if (watchers->asleep && watchers->asleep[watcher->index]) return HUGE_VAL;
     struct gap gap = meeting_probe(model, &view->at, watcher->index, watcher->part);
     *rate = gap.rate;
-    return gap.x + meeting_rounding(model, view->state->tree, watcher->index);
+    double deep = watchers->deep ? watchers->deep[watcher->index] : 0;
+    return gap.x + deep + meeting_rounding(model, view->state->tree, watcher->index);
 }
 
+/* What still touches at an end, within `near`, is not at its end yet. */
 static double edge_value(const struct watcher *watcher, const struct view *view, double *rate)
 {
     const struct fbd_model *model = view->state->model;
@@ -105,7 +107,7 @@ static double edge_value(const struct watcher *watcher, const struct view *view,
         gap = feature_end(model, view->state->tree, meeting, view->state->tree->ties[watcher->index].feature,
                           watcher->end);
     *rate = gap.rate;
-    return gap.x < HUGE_VAL ? gap.x + meeting_near(model, view->state->tree, meeting) : HUGE_VAL;
+    return gap.x < HUGE_VAL ? gap.x + 2 * meeting_near(model, view->state->tree, meeting) : HUGE_VAL;
 }
 
 static double friction_value(const struct watchers *watchers, const struct watcher *watcher,

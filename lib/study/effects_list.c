@@ -88,7 +88,7 @@ static bool find_equilibrium(struct fbd_effects *effects, bool at_rest, struct e
     fbd_linearization *linear = found ? fbd_linearize(state, errors) : NULL;
     size_t size = 2 * fbd_model_coordinates(effects->model);
     *about = (struct equilibrium){NULL, NULL};
-    if (linear)
+    if (linear && fbd_linearization_size(linear) == size)
         *about = (struct equilibrium){copy_of(effects, state->y, size),
                                       copy_of(effects, fbd_linearization_matrix(linear), size * size)};
     bool done = errors && state && !errors->out_of_memory && !effects->arena.failed;

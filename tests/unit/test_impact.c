@@ -65,11 +65,11 @@ static void friction_that_does_not_hold_lets_it_slip_back(void **state)
     assert_int_equal(impact.slip, impact_reverses);
 }
 
-/* Without friction all three laws are one: v_n = -e v_n. */
+/* Without friction all laws are one: v_n = -e v_n. */
 static void without_friction_the_laws_agree(void **state)
 {
     (void)state;
-    for (enum impact_law law = impact_stronge; law <= impact_newton; law++) {
+    for (enum impact_law law = impact_stronge; law <= impact_moreau; law++) {
         struct impact_point point = {{3, -2, 4}, 0, 0.7, law};
         check(impact_at_point(&point, -2, 1).v_n, 1.4, 4e-16);
         check(impact_at_point(&point, 0, 1).p, 0, 0);
@@ -85,7 +85,13 @@ static struct impact_point random_point(struct random_numbers *numbers)
     double b = sqrt(a * c) * random_between(numbers, -0.999, 0.999);
     double mu = random_bits(numbers) % 4 == 0 ? 0 : pow(10, random_between(numbers, -2, 1));
     double e = random_bits(numbers) % 4 == 0 ? 0 : random_between(numbers, 0, 1);
-    return (struct impact_point){{a, b, c}, mu, e, (enum impact_law)(random_bits(numbers) % 3)};
+    return (struct impact_point){{a, b, c}, mu, e, (enum impact_law)(random_bits(numbers) % 4)};
+}
+
+/* Of the two directions, in the sense of the masses: 1 where one impulse does all of the other's work. */
+static double square_of_cosine(const struct impact_point *point)
+{
+    return point->W[1] * point->W[1] / (point->W[0] * point->W[2]);
 }
 
 /* Kane's paradox (Kane and Levinson, Dynamics, 1985): where slipping ends within the impact, v_n = -e v_n may
@@ -120,8 +126,10 @@ static void check_laws(const struct impact_point *point, double v_n, double v_t)
     assert_true(impact.p > 0 && fabs(impact.tau) <= point->mu * impact.p * (1 + rounding));
     assert_true(impact.v_n >= 0);
     double energy = impact.p * size + fabs(impact.tau) * along;
-    if (point->law != impact_newton) assert_true(impact.work <= rounding * energy);
-    if (point->law == impact_newton) check(impact.v_n, -point->e * v_n, rounding * size);
+    if (!impact_by_velocity(point->law)) assert_true(impact.work <= rounding * energy);
+    if (impact_by_velocity(point->law)) check(impact.v_n, -point->e * v_n, rounding * size);
+    if (point->law == impact_moreau && fabs(impact.v_t) > rounding * along)
+        check(impact.tau, -copysign(point->mu * impact.p, impact.v_t), rounding * point->mu * impact.p);
     if (point->law == impact_poisson)
         check(impact.p, (1 + point->e) * impact.compression, rounding * impact.p);
 }
@@ -139,6 +147,32 @@ static void random_impacts_keep_their_laws(void **state)
         check_laws(&point, v_n, v_t);
     }
     print_message("# %ld impacts\n", count);
+}
+
+/* The friction of the velocity after is that of the way to it, but where the point slips back: then it is
+ * more. */
+static void moreau_s_law_is_newton_s_but_where_it_slips_back(void **state)
+{
+    struct random_numbers numbers = {11};
+    int back = 0, same = 0;
+    (void)state;
+    for (int i = 0; i < 20000; i++) {
+        struct impact_point point = random_point(&numbers);
+        double v_t = random_bits(&numbers) % 4 == 0 ? 0 : random_between(&numbers, -5, 5);
+        point.law = impact_newton;
+        struct impact newton = impact_at_point(&point, -1, v_t);
+        point.law = impact_moreau;
+        struct impact moreau = impact_at_point(&point, -1, v_t);
+        if (newton.slip == impact_reverses) {
+            back += point.mu > 0 && fabs(moreau.tau) > fabs(newton.tau);
+            continue;
+        }
+        same++;
+        double size = newton.p + fabs(newton.tau), stretch = 1 / (1 - square_of_cosine(&point));
+        check(moreau.p, newton.p, 1e-14 * stretch * size);
+        check(moreau.tau, newton.tau, 1e-14 * stretch * size);
+    }
+    assert_true(back > 100 && same > 10000);
 }
 
 /* Stronge's law by following the way in small pieces: the work of the normal impulse in restitution is -e^2
@@ -183,6 +217,7 @@ int main(void)
         cmocka_unit_test(without_friction_the_laws_agree),
         cmocka_unit_test(newton_s_law_can_make_energy),
         cmocka_unit_test(random_impacts_keep_their_laws),
+        cmocka_unit_test(moreau_s_law_is_newton_s_but_where_it_slips_back),
         cmocka_unit_test(the_work_of_restitution_is_e_squared),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

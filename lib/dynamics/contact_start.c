@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Contacts at the start: on which side of a line a body is, what touches and rests already, and what is in
+ * each other.
+ */
+#include <float.h>
+
+#include "dynamics/constraint.h"
+#include "dynamics/contact.h"
+#include "dynamics/project.h"
+
+static struct vec in_world(const struct tree_work *work, int link, struct vec own)
+{
+    return vec_add(work->links[link].p, vec_turn(work->links[link].turn, own));
+}
+
+/* The side of a line that a body stays on: the one that it says, or that its shape's middle is on. A point
+ * that the line goes through but for what a file rounds, within a share of its distance from the centre of
+ * mass, is on the side of that centre: set down on the line, a body does not get to its other side by a
+ * rounding. */
+static void choose_side(const struct fbd_model *model, struct tree_work *work, const struct meeting *meeting)
+{
+    const double share = 1e-6;
+    const struct contact_shape *body = &meeting->shape[0], *line = &meeting->shape[1];
+    if (line->kind != contact_line) return;
+    const struct tree_link *link = &model->tree->links[body->link];
+    struct vec n = vec_perp(line->e), G = vec_scale(1 / link->mass, link->moment);
+    struct vec middle = vec_sub(in_world(work, body->link, body->center), line->center);
+    struct vec mass = vec_sub(in_world(work, body->link, G), line->center);
+    double side = vec_dot(n, middle);
+    int told = model->scene->constraints[meeting->constraint].contact.side;
+    if (fabs(side) <= share * vec_norm(vec_sub(mass, middle))) side = vec_dot(n, mass);
+    if (side == 0) side = n.y >= 0 ? 1 : -1; /* a point on the line is above it */
+    if (told != 0) side = told;
+    for (int k = 0; k < meeting->tie_count; k++)
+        work->ties[meeting->first_tie + k].side[0] = side < 0 ? -1 : 1;
+}
+
+/* What rests on each other to rounding of its speeds. */
+static bool rests(const struct fbd_model *model, const struct tree_work *work, int index, int feature)
+{
+    const double share = 1e-10;
+    const struct meeting *meeting = &model->tree->meetings[index];
+    return fabs(feature_gap(model, work, index, feature).rate) <= share * meeting_speed(work, meeting);
+}
+
+/* Of a start numbers are as exact as a file has them: 1e-9 of the scene. */
+static const double start_share = 1e3;
+
+static void open_meeting(struct fbd_state *state, int index)
+{
+    const struct tree *tree = state->model->tree;
+    const struct meeting *meeting = &tree->meetings[index];
+    for (int k = 0; k < meeting->tie_count; k++) {
+        state->slip[tree->ties[meeting->first_tie + k].surface] = slip_plus;
+        state->tree->ties[meeting->first_tie + k].feature = no_feature;
+    }
+}
+
+static void start_meeting(struct fbd_state *state, int index)
+{
+    const struct fbd_model *model = state->model;
+    const struct tree *tree = model->tree;
+    const struct meeting *meeting = &tree->meetings[index];
+    open_meeting(state, index);
+    choose_side(model, state->tree, meeting);
+    double near = start_share * meeting_near(model, state->tree, index);
+    int features[2], count = meeting_touching(model, state->tree, index, near, features);
+    for (int k = 0; k < count; k++) {
+        if (!rests(model, state->tree, index, features[k])) continue;
+        tie_set_feature(model, state->tree, meeting->first_tie + k, features[k]);
+        state->slip[tree->ties[meeting->first_tie + k].surface] = stick;
+    }
+}
+
+void contacts_start(struct fbd_state *state)
+{
+    const struct tree *tree = state->model->tree;
+    if (!tree || tree->meeting_count == 0) return;
+    struct instant at = state_instant(state);
+    tree_move(state->model, &at);
+    for (int i = 0; i < tree->meeting_count; i++) start_meeting(state, i);
+}
+
+/* Close what is in each other, and what is neither in nor apart: places that have to be kept. */
+static void close_for_lifting(struct fbd_state *state, int index)
+{
+    const struct fbd_model *model = state->model;
+    const struct meeting *meeting = &model->tree->meetings[index];
+    double near = meeting_near(model, state->tree, index);
+    int features[2], count = meeting_touching(model, state->tree, index, start_share * near, features);
+    for (int k = 0; k < meeting->tie_count; k++) {
+        if (k >= count || feature_gap(model, state->tree, index, features[k]).x > near) continue;
+        tie_set_feature(model, state->tree, meeting->first_tie + k, features[k]);
+        state->slip[model->tree->ties[meeting->first_tie + k].surface] = stick;
+    }
+}
+
+static void open_all(struct fbd_state *state)
+{
+    const struct instant at = state_instant(state);
+    tree_move(state->model, &at);
+    for (int i = 0; i < state->model->tree->meeting_count; i++) open_meeting(state, i);
+}
+
+bool contacts_are_deep(struct fbd_state *state)
+{
+    const struct tree *tree = state->model->tree;
+    const struct instant at = state_instant(state);
+    bool deep = false;
+    if (!tree || tree->meeting_count == 0) return false;
+    open_all(state);
+    for (int i = 0; i < tree->meeting_count; i++)
+        deep |= meeting_depth(state->model, &at, i) > meeting_near(state->model, state->tree, i);
+    contacts_start(state);
+    return deep;
+}
+
+void contacts_lift_out(struct fbd_state *state)
+{
+    open_all(state);
+    for (int i = 0; i < state->model->tree->meeting_count; i++) close_for_lifting(state, i);
+    state_project_position(state);
+    contacts_start(state);
+}
+
+int contacts_overlap(struct fbd_state *state, double *depth)
+{
+    const struct tree *tree = state->model->tree;
+    int worst = -1;
+    *depth = 0;
+    if (!tree || tree->meeting_count == 0) return -1;
+    struct instant at = state_instant(state);
+    tree_move(state->model, &at);
+    for (int i = 0; i < tree->meeting_count; i++) {
+        double deep = meeting_depth(state->model, &at, i);
+        if (deep <= start_share * meeting_near(state->model, state->tree, i) || deep <= *depth) continue;
+        *depth = deep;
+        worst = i;
+    }
+    return worst;
+}

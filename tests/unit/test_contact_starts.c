@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Starts of scenes with contacts: sides of lines, and starts that are off by what a file rounds.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "gallery.h"
+#include "random_numbers.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const double g = 9.81;
+
+/* A rod hangs by its named end on a line, above or below it, and the line is off by a rounding or by what a file
+ * rounds: it is on the side of its centre of mass, or on the side that is said, whatever the sign of what it is off
+ * by. Below a line that it may not pass upwards it falls; above it, it stays. */
+static void a_point_on_a_line_is_on_the_side_of_its_body(void **unused)
+{
+    static const double offsets[] = {0, 1e-16, -1e-16, 1e-11, -1e-11};
+    static const struct {
+        const char *side;
+        int above; /* the centre of mass */
+        bool stays;
+    } cases[] = {
+        {"start", 1, true}, {"start", -1, false}, {"up", 1, true}, {"left", 1, true}, {"right", -1, false}};
+    (void)unused;
+    struct checks checks = {0};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        for (size_t i = 0; i < sizeof offsets / sizeof *offsets; i++) {
+            char scene[800];
+            snprintf(scene, sizeof scene,
+                     "fbd: 1\nground: {lines: {floor: {along: 0 deg, through: [0, %.17g]}}}\nbodies:\n"
+                     "  rod: {shape: rod, mass: 1 kg, length: 2 m, motion: planar, initial: {y: %d, theta: "
+                     "90 deg},"
+                     " forces: [gravity]}\ncontacts:\n  - {between: [rod.%s, ground.floor], side: %s}\n"
+                     "simulate: {until: 0.1 s}\n",
+                     offsets[i], cases[k].above, cases[k].above > 0 ? "left" : "right", cases[k].side);
+            struct trial trial = trial_parse(scene);
+            trial_start(&trial, NULL);
+            trial_finish(&trial);
+            check_that(&checks, "done", trial.outcome == FBD_DONE);
+            check_close(&checks, cases[k].side, trial_get(&trial, "rod.y"),
+                        cases[k].above - (cases[k].stays ? 0 : g / 2 * 0.01), 1e-9);
+            trial_close(&trial);
+        }
+    }
+    struct trial trial =
+        trial_parse("fbd: 1\nground: {lines: {floor: {along: 0 deg}}}\nbodies:\n  ball: {shape: disc, "
+                    "radius: 1 m, mass: 1 kg, motion: planar, initial: {y: 3}}\ncontacts:\n  - "
+                    "{between: [ball, ground.floor], side: right}\nsimulate: {until: 1 s}\n");
+    fbd_errors *errors = fbd_errors_new();
+    check_that(&checks, "on the other side", !fbd_state_close(trial.state, errors));
+    check_that(&checks, "as it says",
+               strstr(fbd_errors_get(errors, 0)->message, "in each other by 4") != NULL);
+    fbd_errors_free(errors);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+static struct trial on_a_slope(double phi, double off, bool disc, const double v[3])
+{
+    char scene[800];
+    snprintf(scene, sizeof scene,
+             "fbd: 1\nground: {lines: {floor: {along: %.17g}}}\nbodies:\n  body: {shape: %s, mass: 1 kg, "
+             "motion: planar, "
+             "initial: {x: %.17g, y: %.17g, theta: %.17g, vx: %.17g, vy: %.17g, omega: %.17g}, forces: "
+             "[gravity]}\n"
+             "contacts:\n  - {between: [body, ground.floor], static: 0.4, restitution: 0.3}\nsimulate: "
+             "{until: 0.3 s}\n",
+             phi, disc ? "disc, radius: 0.5 m" : "prism, a: 1 m, b: 1 m, c: 1 m", -(0.5 - off) * sin(phi),
+             (0.5 - off) * cos(phi), phi, v[0], v[1], v[2]);
+    struct trial trial = trial_parse(scene);
+    trial_start(&trial, NULL);
+    trial_finish(&trial);
+    return trial;
+}
+
+/* Bodies that start in their floor, or over it, by less than the ninth digit that a file may have rounded: at rest,
+ * sliding, meeting it or leaving it they move as though they began upon it. */
+static void a_start_that_is_off_by_the_digits_of_a_file_is_moved_out(void **unused)
+{
+    struct random_numbers numbers = {20261123};
+    (void)unused;
+    struct checks checks = {0};
+    for (int i = 0; i < 200; i++) {
+        bool disc = i % 2 == 0, rests = i / 2 % 3 == 0, slides = i / 2 % 3 == 1;
+        double phi = random_between(&numbers, -0.5, 0.5), u = random_between(&numbers, -1, 1);
+        double off = (i % 5 == 0 ? -1 : 1) * pow(10, random_between(&numbers, -12, -9.1));
+        double up = rests || slides ? 0 : random_between(&numbers, -1, 1), along = rests ? 0 : u;
+        const double v[] = {along * cos(phi) - up * sin(phi), along * sin(phi) + up * cos(phi),
+                            disc && !rests ? u : 0};
+        struct trial exact = on_a_slope(phi, 0, disc, v), moved = on_a_slope(phi, off, disc, v);
+        check_that(&checks, "done", moved.outcome == FBD_DONE && exact.outcome == FBD_DONE);
+        for (size_t k = 0; k < 3; k++) {
+            const char *name = fbd_model_coordinate(exact.model, k).name;
+            check_close(&checks, name, trial_get(&moved, name), trial_get(&exact, name), 1e-6);
+        }
+        trial_close(&exact);
+        trial_close(&moved);
+    }
+    checks_end(&checks);
+}
+
+/* Moved out with the couplings that they have, but a coupling that does not fit is not mended by the way. */
+static void moving_out_assembles_nothing(void **unused)
+{
+    static const char *const x[] = {"3.5", "3.51"};
+    (void)unused;
+    struct checks checks = {0};
+    for (int i = 0; i < 2; i++) {
+        char scene[800];
+        snprintf(scene, sizeof scene,
+                 "fbd: 1\nground: {lines: {floor: {along: 0 deg}}, points: {P: [3, 1]}}\nbodies:\n  ball: "
+                 "{shape: disc, radius: "
+                 "0.5, mass: 1, motion: planar, initial: {y: 0.4999999999}, forces: [gravity]}\n  rod: "
+                 "{shape: rod, length: 1, "
+                 "mass: 1, motion: planar, initial: {x: %s, y: 1}, forces: [gravity]}\ncontacts: [{between: "
+                 "[ball, "
+                 "ground.floor]}]\ncouplings:\n  - pin: {between: [rod.left, ground.P]}\n  - spring: "
+                 "{between: [ball, rod.right], "
+                 "stiffness: 1}\nsimulate: {until: 0.1}\n",
+                 x[i]);
+        struct trial trial = trial_parse(scene);
+        fbd_errors *errors = fbd_errors_new();
+        fbd_simulation *simulation = fbd_simulation_new(trial.model, NULL, errors);
+        fbd_result *result = simulation ? fbd_simulation_run(simulation, NULL) : NULL;
+        bool done = result && fbd_result_outcome(result) == FBD_DONE;
+        check_that(&checks, x[i], done == (i == 0));
+        fbd_result_free(result);
+        fbd_simulation_free(simulation);
+        fbd_errors_free(errors);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_point_on_a_line_is_on_the_side_of_its_body),
+        cmocka_unit_test(a_start_that_is_off_by_the_digits_of_a_file_is_moved_out),
+        cmocka_unit_test(moving_out_assembles_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
