@@ -20,8 +20,8 @@ struct inside {
     enum belief belief;
     int stride; /* between the points that are used */
     const double *y0, *y1;
-    double share[nodes]; /* of the step: where the points are */
-    double *tail;        /* n */
+    double share[nodes];    /* of the step: where the points are */
+    double *tail, *scratch; /* n, n */
     double points[];
 };
 
@@ -35,11 +35,12 @@ static double share_of(int k)
 
 struct inside *inside_alloc(size_t n)
 {
-    if (n == 0 || n > (SIZE_MAX - sizeof(struct inside)) / ((nodes + 1) * sizeof(double))) return NULL;
-    struct inside *inside = calloc(1, sizeof *inside + (nodes + 1) * n * sizeof(double));
+    if (n == 0 || n > (SIZE_MAX - sizeof(struct inside)) / ((nodes + 2) * sizeof(double))) return NULL;
+    struct inside *inside = calloc(1, sizeof *inside + (nodes + 2) * n * sizeof(double));
     if (!inside) return NULL;
     inside->n = n;
     inside->tail = inside->points + nodes * n;
+    inside->scratch = inside->tail + n;
     for (int k = 0; k < nodes; k++) inside->share[k] = share_of(k);
     return inside;
 }
@@ -87,18 +88,36 @@ static void set_tail(struct inside *inside, int stride)
         }
 }
 
+/* The difference that a change of the share by next to nothing makes, as an excess: what the step is rounded
+ * by. At tolerances near that it is no smoother, and points of it are as good as any other place. */
+static double rounding_of(struct inside *inside, const struct inside_source *source)
+{
+    const double next_to_nothing = 1e-13;
+    double *y = inside->scratch;
+    memset(inside->tail, 0, inside->n * sizeof *inside->tail);
+    for (int k = finest / 8; k < finest; k += finest / 8) {
+        const double *point = inside->points + (size_t)k * inside->n;
+        if (!source->sample(source->context, (1 - next_to_nothing) * inside->share[k], y)) return 0;
+        for (size_t i = 0; i < inside->n; i++) inside->tail[i] = fmax(inside->tail[i], fabs(y[i] - point[i]));
+    }
+    return source->excess(source->context, inside->tail);
+}
+
 static enum belief try_degrees(struct inside *inside, const struct inside_source *source)
 {
-    const double enough = 0.01;
+    const double enough = 0.01, roundings = 30;
     size_t bytes = inside->n * sizeof(double);
+    double excess = 0;
     memcpy(inside->points, inside->y0, bytes);
     memcpy(inside->points + finest * inside->n, inside->y1, bytes);
-    for (inside->stride = finest / coarsest; inside->stride > 0; inside->stride /= 2) {
-        if (!take_points(inside, source, inside->stride)) return none;
-        set_tail(inside, inside->stride);
-        if (source->excess(source->context, inside->tail) <= enough) return polynomial;
+    for (int stride = finest / coarsest; stride > 0; stride /= 2) {
+        inside->stride = stride;
+        if (!take_points(inside, source, stride)) return none;
+        set_tail(inside, stride);
+        excess = source->excess(source->context, inside->tail);
+        if (excess <= enough) return polynomial;
     }
-    return none;
+    return excess <= roundings * rounding_of(inside, source) ? polynomial : none;
 }
 
 static void interpolate(const struct inside *inside, double share, double *y)

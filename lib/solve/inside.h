@@ -6,8 +6,9 @@
  * Chebyshev points, of degree 8, then 16 and 32, until the last three coefficients of the series are below a
  * hundredth of the error that a step may have; every sample is then one of that polynomial, whichever was
  * asked for first. As in series.h it is ASSUMED that what is left out is no more than the last terms. Where
- * they do not fall (a layer at the start of a stiff step), or the method fails inside, there is no polynomial
- * and the samples are steps.
+ * they do not fall for the rounding of the step, which is seen by making it again to shares that differ by next
+ * to nothing, the polynomial is as good as the step is. Where they do not fall for another reason (a layer at
+ * the start of a stiff step), or the method fails inside, there is none and the samples are steps.
  */
 #ifndef FBD_SOLVE_INSIDE_H
 #define FBD_SOLVE_INSIDE_H

@@ -253,8 +253,10 @@ static struct outcome guard_stability(struct stepper *s, struct counted_system *
 
 static struct outcome judge(const struct stepper *s, double h, const double *y, const double *f)
 {
-    if (s->h_fixed > 0 || s->method->exact)
-        return (struct outcome){all_finite(s->n, y, f), rejected_not_finite, 1};
+    if (s->h_fixed > 0 || s->method->exact) {
+        bool is_finite = all_finite(s->n, y, f);
+        return (struct outcome){is_finite, rejected_not_finite, is_finite ? 1 : 0.25};
+    }
     double ratio = weights_ratio(s->control, h, y, s->yerr, f);
     double factor = weights_factor(s->control, ratio, gsl_odeiv2_step_order(s->step));
     if (ratio <= 1) return (struct outcome){true, rejected_error, factor};

@@ -15,6 +15,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "solve/linear.h"
 #include "stepper_scene.h"
 
 static void a_step_far_too_large_is_rejected_until_it_is_right(void **state)
@@ -124,6 +125,48 @@ static void a_blow_up_ends_in_underflow_at_its_time(void **state)
         assert_int_equal(status, stepper_underflow);
         assert_true(y == before && isfinite(y) && y > 1e6);
         assert_true(fabs(t.t - 1) < 1e-6);
+        stepper_free(stepper);
+    }
+}
+
+static int growth(double t, const double y[], double f[], void *params)
+{
+    (void)t;
+    f[0] = *(const double *)params * y[0];
+    return GSL_SUCCESS;
+}
+
+static int growth_jacobian(double t, const double y[], double *dfdy, double dfdt[], void *params)
+{
+    (void)t, (void)y;
+    dfdy[0] = *(const double *)params;
+    dfdt[0] = 0;
+    return GSL_SUCCESS;
+}
+
+/* y' = k y by the exact method: the slope is beyond the largest double while y is not yet. Steps get shorter until
+ * no time passes; of the same length they would be rejected for ever. */
+static void exact_growth_ends_where_its_slope_does(void **state)
+{
+    (void)state;
+    double rates[] = {1e3, 1e15};
+    for (size_t k = 0; k < 2; k++) {
+        gsl_odeiv2_system inner = {growth, growth_jacobian, 1, &rates[k]};
+        struct counted_system system;
+        counted_system_init(&system, &inner);
+        const struct method exact = {
+            .name = "linear", .type = &step_linear, .order = 8, .estimate_order = 8, .exact = true};
+        struct stepper_options options = {.method = &exact, .layout = {.extra = 1}, .tolerance = 1e-9};
+        struct stepper *stepper = stepper_alloc(&options);
+        struct moment t = moment_at(0), end = moment_at(2);
+        double h, y = 1, f;
+        assert_int_equal(stepper_reset(stepper, &system, t, &y, &f, end, &h), GSL_SUCCESS);
+        enum stepper_status status;
+        while ((status = stepper_step(stepper, &system, &t, &y, &f, &h, end)) == stepper_ok)
+            assert_true(isfinite(y) && isfinite(f));
+        assert_int_equal(status, stepper_underflow);
+        double expected = log(DBL_MAX / rates[k]) / rates[k];
+        assert_true(fabs(t.t - expected) < 1e-5 * expected);
         stepper_free(stepper);
     }
 }
@@ -263,6 +306,7 @@ int main(void)
         cmocka_unit_test(a_step_far_too_large_is_rejected_until_it_is_right),
         cmocka_unit_test(trouble_leaves_the_state_bit_for_bit),
         cmocka_unit_test(a_blow_up_ends_in_underflow_at_its_time),
+        cmocka_unit_test(exact_growth_ends_where_its_slope_does),
         cmocka_unit_test(a_fixed_step_that_fails_is_not_made_smaller),
         cmocka_unit_test(a_body_in_balance_costs_few_steps),
         cmocka_unit_test(stiff_steps_can_be_looked_into),
