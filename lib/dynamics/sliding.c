@@ -24,12 +24,12 @@ static size_t double_count(const struct fbd_model *model)
     const struct plan *plan = &model->plan;
     size_t room = (size_t)plan->slide_count, n = (size_t)plan->n;
     return 2 * room * room + n * room + 3 * room + 3 * most_switches(plan) + 2 * (size_t)plan->slots + 2 * n +
-           11 * n + extended_size(model) + 2 * n;
+           13 * n + extended_size(model) + 2 * n;
 }
 
 static size_t int_count(const struct plan *plan)
 {
-    return 4 * (size_t)plan->branches + 2 * plan->friction_count + (size_t)plan->slide_count;
+    return 4 * (size_t)plan->branches + 2 * plan->friction_count + 2 * (size_t)plan->slide_count;
 }
 
 size_t sliding_size(const struct fbd_model *model)
@@ -51,7 +51,8 @@ void sliding_init(struct sliding *sliding, const struct fbd_model *model, void *
                               &sliding->delta,    &sliding->step,   &sliding->u,           &sliding->rate,
                               &sliding->rounding, &sliding->slots,  &sliding->slots_along, &sliding->a,
                               &sliding->a_along,  &sliding->flow,   &sliding->zero,        &sliding->kept_y,
-                              &sliding->own_y,    &sliding->own_dy, &sliding->best,        &sliding->shifted};
+                              &sliding->own_y,    &sliding->own_dy, &sliding->best,        &sliding->moved,
+                              &sliding->shifted};
     const size_t sizes[] = {room * room,
                             room * room,
                             n * room,
@@ -71,6 +72,7 @@ void sliding_init(struct sliding *sliding, const struct fbd_model *model, void *
                             2 * n,
                             2 * n,
                             n,
+                            2 * n,
                             extended_size(model) + 2 * n};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         *parts[i] = next;
@@ -81,7 +83,8 @@ void sliding_init(struct sliding *sliding, const struct fbd_model *model, void *
     sliding->branches = sliding->slide_at + plan->branches;
     sliding->kept = sliding->branches + plan->branches;
     sliding->pivot = sliding->kept + 2 * (size_t)plan->branches + 2 * plan->friction_count;
-    sliding->keep = (bool *)(sliding->pivot + room);
+    sliding->held = sliding->pivot + room;
+    sliding->keep = (bool *)(sliding->held + room);
     sliding->left = sliding->keep + plan->branches;
 }
 
@@ -98,7 +101,8 @@ void sliding_copy(const struct fbd_model *model, struct sliding *to, const struc
 void sliding_add(struct sliding *sliding, const struct kink *kink, int index, int part, int unit, int sign)
 {
     int branch = kink->formula.branch + part;
-    sliding->slides[sliding->count++] = (struct slide){index, part, branch, unit, sign, 0.5, 0};
+    sliding->slides[sliding->count++] =
+        (struct slide){index, part, branch, unit, sign, kink_watches_places(kink, part), 0.5, 0};
     sliding->slide_at[branch] = sliding->count;
     if (unit >= sliding->units) sliding->units = unit + 1;
 }
@@ -203,17 +207,51 @@ double sliding_value_along(const struct formula *formula, const struct instant *
 
 /* ---- the surfaces */
 
+/* u of a switch, and its rate along (dt, dy). */
+static double switching(struct sliding *s, const struct fbd_model *model, const struct instant *given,
+                        const struct kink *kink, int part, double dt, const double *dy, double *rate)
+{
+    const struct instant at = instant_extend(model, given);
+    const struct direction own = {dt, dy}, along = direction_extend(model, &at, &own);
+    expr_switchings(kink->formula.expr, at.t, at.y, along.dt, along.dy, at.branch + kink->formula.branch,
+                    s->u, s->rate, s->rounding);
+    *rate = s->rate[part];
+    return s->u[part];
+}
+
+double sliding_surface(struct sliding *s, const struct fbd_model *model, const struct instant *given,
+                       const struct kink *kink, int part)
+{
+    double rate;
+    size_t n = (size_t)model->plan.n;
+    memcpy(s->moved, given->y + n, n * sizeof *s->moved);
+    double u = switching(s, model, given, kink, part, 0, s->moved, &rate);
+    return kink_watches_places(kink, part) ? rate : u;
+}
+
+double sliding_surface_rate(struct sliding *s, const struct fbd_model *model, const struct instant *given,
+                            const struct kink *kink, int part, double dt, const double *dy)
+{
+    double rate;
+    size_t n = (size_t)model->plan.n;
+    if (kink_watches_places(kink, part)) {
+        memcpy(s->moved, dy + n, n * sizeof *s->moved);
+        switching(s, model, given, kink, part, 0, s->moved, &rate);
+    } else {
+        switching(s, model, given, kink, part, dt, dy, &rate);
+    }
+    return rate;
+}
+
+/* Of a unit the first counts. */
 void sliding_rates(const struct fbd_model *model, const struct instant *given, double dt, const double *dy,
                    double *rates)
 {
     struct sliding *s = given->sliding;
-    const struct instant at = instant_extend(model, given);
-    const struct direction own = {dt, dy}, along = direction_extend(model, &at, &own);
-    for (int j = s->count - 1; j >= 0; j--) { /* of a unit the first counts */
-        const struct kink *kink = &model->plan.kinks[s->slides[j].kink];
-        expr_switchings(kink->formula.expr, at.t, at.y, along.dt, along.dy, at.branch + kink->formula.branch,
-                        s->u, s->rate, s->rounding);
-        rates[s->slides[j].unit] = s->rate[s->slides[j].part];
+    for (int j = s->count - 1; j >= 0; j--) {
+        const struct slide *slide = &s->slides[j];
+        rates[slide->unit] =
+            sliding_surface_rate(s, model, given, &model->plan.kinks[slide->kink], slide->part, dt, dy);
     }
 }
 
@@ -221,12 +259,9 @@ void sliding_rates(const struct fbd_model *model, const struct instant *given, d
 static void surfaces(const struct fbd_model *model, const struct instant *given, double *values)
 {
     struct sliding *s = given->sliding;
-    const struct instant at = instant_extend(model, given);
     for (int j = s->count - 1; j >= 0; j--) {
-        const struct kink *kink = &model->plan.kinks[s->slides[j].kink];
-        expr_switchings(kink->formula.expr, at.t, at.y, 0, NULL, at.branch + kink->formula.branch, s->u,
-                        s->rate, s->rounding);
-        values[s->slides[j].unit] = s->u[s->slides[j].part];
+        const struct slide *slide = &s->slides[j];
+        values[slide->unit] = sliding_surface(s, model, given, &model->plan.kinks[slide->kink], slide->part);
     }
 }
 
@@ -286,6 +321,39 @@ static void set_shares(struct sliding *s)
     }
 }
 
+/* The coordinate of a unit that watches places, where friction keeps it at rest; else -1. Then the switch holds
+ * first, and friction what is left: the share is that at which friction has nothing to do. */
+static int held_coordinate(const struct fbd_model *model, const struct instant *at, int unit)
+{
+    struct sliding *s = at->sliding;
+    size_t n = (size_t)model->plan.n;
+    int first = 0, held = -1;
+    while (s->slides[first].unit != unit) first++;
+    const struct kink *kink = &model->plan.kinks[s->slides[first].kink];
+    for (size_t pair = 0; s->slides[first].places && pair < model->plan.friction_count; pair++) {
+        const struct friction *friction = &model->plan.frictions[pair];
+        if (friction->kind != mode_friction || friction->tie >= 0 || at->slip[pair] != stick) continue;
+        memset(s->flow, 0, 2 * n * sizeof *s->flow);
+        s->flow[n + (size_t)friction->coordinate] = 1;
+        double slope = sliding_surface_rate(s, model, at, kink, s->slides[first].part, 0, s->flow);
+        if (slope != 0) held = friction->coordinate;
+    }
+    return held;
+}
+
+static void find_held(const struct fbd_model *model, const struct instant *at)
+{
+    struct sliding *s = at->sliding;
+    for (int unit = 0; unit < s->units; unit++) s->held[unit] = held_coordinate(model, at, unit);
+}
+
+/* Where a coordinate is held, its sum of forces takes the place of the rate of its surface. */
+static void put_held(const struct sliding *s, const double *slots, double *rates)
+{
+    for (int unit = 0; unit < s->units; unit++)
+        if (s->held[unit] >= 0) rates[unit] = slots[s->held[unit]];
+}
+
 /* c: the rates of the surfaces at the shares as they are. */
 static void residuals(const struct fbd_model *model, const struct instant *at)
 {
@@ -295,6 +363,7 @@ static void residuals(const struct fbd_model *model, const struct instant *at)
     memcpy(s->flow, at->y + n, n * sizeof *s->flow);
     memcpy(s->flow + n, s->a, n * sizeof *s->flow);
     sliding_rates(model, at, 1, s->flow, s->c);
+    put_held(s, s->slots, s->c);
 }
 
 /* What the share of each unit does to the accelerations, and these to the surfaces. */
@@ -311,6 +380,7 @@ static void responses(const struct fbd_model *model, const struct instant *at)
         memcpy(s->flow + n, s->a_along, n * sizeof *s->flow);
         memcpy(s->B + (size_t)unit * n, s->a_along, n * sizeof *s->B);
         sliding_rates(model, at, 0, s->flow, s->step);
+        put_held(s, s->slots_along, s->step);
         for (int i = 0; i < s->units; i++) s->M[i * s->units + unit] = s->step[i];
     }
     for (int j = 0; j < s->count; j++) s->slides[j].along = 0;
@@ -325,6 +395,7 @@ void sliding_solve(const struct fbd_model *model, const struct instant *at)
     assert(s); /* the motion slides */
     memset(s->delta, 0, (size_t)s->units * sizeof *s->delta);
     set_shares(s);
+    find_held(model, at);
     for (int step = 0; step < most_steps; step++) {
         residuals(model, at);
         if (step != 1) responses(model, at); /* affine: the second step takes the rounding of the first */
@@ -388,6 +459,7 @@ void sliding_solve_along(const struct fbd_model *model, const struct instant *gi
     memcpy(s->flow, along.dy + n, n * sizeof *s->flow);
     memcpy(s->flow + n, s->a_along, n * sizeof *s->flow);
     sliding_rates(model, &at, 0, s->flow, s->c);
+    put_held(s, s->slots_along, s->c);
     accelerations_at_shares(model, &at, s->slots, s->a);
     memcpy(s->flow, at.y + n, n * sizeof *s->flow);
     memcpy(s->flow + n, s->a, n * sizeof *s->flow);
@@ -399,6 +471,26 @@ void sliding_solve_along(const struct fbd_model *model, const struct instant *gi
 }
 
 /* ---- back onto the surfaces */
+
+/* Along what the unit's forces do, one slide after the other. */
+static void project_places(struct fbd_state *state)
+{
+    struct sliding *s = state->sliding;
+    size_t n = (size_t)state->model->plan.n;
+    for (int j = 0; j < s->count; j++) {
+        const struct slide *slide = &s->slides[j];
+        const struct kink *kink = &state->model->plan.kinks[slide->kink];
+        const double *B = s->B + (size_t)slide->unit * n;
+        const struct instant at = state_instant(state);
+        double unused;
+        if (!slide->places || s->held[slide->unit] >= 0) continue;
+        memset(s->flow, 0, n * sizeof *s->flow);
+        memcpy(s->flow + n, B, n * sizeof *B);
+        double reach = sliding_surface_rate(s, state->model, &at, kink, slide->part, 0, s->flow);
+        double u = switching(s, state->model, &at, kink, slide->part, 0, s->zero, &unused);
+        for (size_t i = 0; i < n; i++) state->y[i] -= B[i] * u / reach;
+    }
+}
 
 void sliding_project(struct fbd_state *state)
 {
@@ -412,8 +504,11 @@ void sliding_project(struct fbd_state *state)
         sliding_solve(state->model, &at);
         if (s->failed) return;
         surfaces(state->model, &at, s->c);
+        for (int unit = 0; unit < s->units; unit++)
+            if (s->held[unit] >= 0) s->c[unit] = 0;
         solve(s, s->c);
         for (int unit = 0; unit < s->units; unit++)
             for (size_t i = 0; i < n; i++) state->y[n + i] -= s->B[(size_t)unit * n + i] * s->c[unit];
+        project_places(state);
     }
 }

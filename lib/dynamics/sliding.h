@@ -15,6 +15,11 @@
  * surface, as two forces with sign(v), are a unit: their shares are as far from 1/2 as each other, each to
  * the side that helps, so that their forces are shared in proportion to what they can be, and a force and its
  * reaction stay equal.
+ *
+ * A switch that watches places, u(x), has the same u' on both sides. It is slid on in second order, where u =
+ * 0 and u' = 0, by the share that keeps u'' = 0: what is slid on is w = u' = g v with a constant g, and u = 0
+ * besides. sign(v) and sign(x) together are of one unit there. A motion gets there by passing it infinitely
+ * often in a finite time (solve/passages.h), or begins there.
  */
 #ifndef FBD_DYNAMICS_SLIDING_H
 #define FBD_DYNAMICS_SLIDING_H
@@ -27,6 +32,7 @@ struct slide {
     int branch;   /* its place in the branches of the state */
     int unit;     /* switches with one surface share one */
     int sign;     /* +1 or -1: the side to which its share goes with the unit's */
+    bool places;  /* in second order */
     double share; /* s: of the branch u > 0 */
     double along; /* its variation */
 };
@@ -39,6 +45,7 @@ struct sliding {
     int *branches;   /* plan.branches: scratch of formulas */
     bool *keep;      /* plan.branches: not to be chosen by the values, when modes are settled */
     bool *left;      /* plan.branches: its share has just reached an end */
+    int *held;       /* units: the coordinate that friction keeps at rest, or -1 */
     bool failed;     /* no shares are found: the branches do not act on the surfaces */
     const char *why; /* when modes did not settle for a slide: "none" or "several"; else NULL */
     int blamed;      /* then a kink */
@@ -46,7 +53,7 @@ struct sliding {
     double *lu, *c, *delta, *step;
     int *pivot;
     double *u, *rate, *rounding; /* of the switches of one formula */
-    double *slots, *slots_along, *a, *a_along, *flow, *zero, *shifted, *own_y, *own_dy, *best;
+    double *slots, *slots_along, *a, *a_along, *flow, *zero, *shifted, *own_y, *own_dy, *best, *moved;
     int *kept;      /* 2 plan.branches + 2 plan.friction_count: modes while others are tried */
     double *kept_y; /* 2 n */
 };
@@ -74,13 +81,22 @@ void sliding_clear_rounding(const struct sliding *sliding, int n, double *a);
 void sliding_solve_along(const struct fbd_model *model, const struct instant *given,
                          const struct direction *direction);
 
+/* What a switch watches as a surface to be slid on, and its rate along (dt, dy); dy has 2 n. Of one that
+ * watches places that is u', whose rate along (dt, dx, dv) is that of u along (0, dv, 0). */
+double sliding_surface(struct sliding *sliding, const struct fbd_model *model, const struct instant *given,
+                       const struct kink *kink, int part);
+double sliding_surface_rate(struct sliding *sliding, const struct fbd_model *model,
+                            const struct instant *given, const struct kink *kink, int part, double dt,
+                            const double *dy);
+
 /* The rates of the surfaces, one for each unit, along (dt, dy); dy has 2 n. */
 void sliding_rates(const struct fbd_model *model, const struct instant *given, double dt, const double *dy,
                    double *rates);
 
 struct fbd_state;
 
-/* Bring the velocities back onto the surfaces, by impulses of the forces that slide. */
+/* Bring the velocities back onto the surfaces, by impulses of the forces that slide, and likewise the places
+ * onto those that are slid on in second order. */
 void sliding_project(struct fbd_state *state);
 
 struct decided;

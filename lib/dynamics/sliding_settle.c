@@ -62,20 +62,16 @@ static bool gather(struct question *q, const struct decided *decided)
     return true;
 }
 
-/* The rate of what a switch watches, along (dt, dy). */
+/* The rate of the surface of a switch, along (dt, dy). */
 static double rate_along(const struct question *q, const struct asked *asked, double dt, const double *dy)
 {
     const struct fbd_model *model = q->state->model;
-    struct sliding *s = q->state->sliding;
-    const struct kink *kink = &model->plan.kinks[asked->kink];
-    const struct instant given = state_instant(q->state), at = instant_extend(model, &given);
-    const struct direction own = {dt, dy}, along = direction_extend(model, &at, &own);
-    expr_switchings(kink->formula.expr, at.t, at.y, along.dt, along.dy, at.branch + kink->formula.branch,
-                    s->u, s->rate, s->rounding);
-    return s->rate[asked->part];
+    const struct instant at = state_instant(q->state);
+    return sliding_surface_rate(q->state->sliding, model, &at, &model->plan.kinks[asked->kink], asked->part,
+                                dt, dy);
 }
 
-/* One entry of the gradient of u: with time, a coordinate, a rate. */
+/* One entry of the gradient of a surface: with time, a coordinate, a rate. */
 static double slope(const struct question *q, const struct asked *asked, size_t i)
 {
     double *dy = q->state->sliding->flow;
@@ -114,7 +110,21 @@ static void find_surfaces(struct question *q)
 
 /* ---- does a choice agree? */
 
-/* How large a rate of u could be: to rounding it is zero against that. */
+/* What may be left of u' where a switch that watches places is at rest: its value, or zero. */
+static double passing_speed(const struct question *q, const struct asked *asked)
+{
+    const double rounding = 1e-10;
+    const struct fbd_state *state = q->state;
+    const struct kink *kink = &state->model->plan.kinks[asked->kink];
+    const struct instant at = state_instant(state);
+    if (!kink_watches_places(kink, asked->part)) return 0;
+    double size = 0, w = sliding_surface(state->sliding, state->model, &at, kink, asked->part);
+    size_t n = (size_t)state->model->plan.n;
+    for (size_t i = 0; i < n; i++) size += fabs(slope(q, asked, 1 + n + i) * state->y[n + i]);
+    return fabs(w) > rounding * size ? w : 0;
+}
+
+/* How large a rate of a surface could be: to rounding it is zero against that. */
 static double size_of_rate(const struct question *q, const struct asked *asked)
 {
     const struct fbd_state *state = q->state;
@@ -136,7 +146,12 @@ static bool agrees(struct question *q)
     for (size_t i = 0; i < n; i++) q->most = fmax(q->most, fabs(state->a[i]));
     for (int i = 0; i < q->count; i++) {
         const struct asked *asked = &q->list[i];
-        int slide = s->slide_at[asked->branch];
+        int slide = s->slide_at[asked->branch], branch = state->branch[asked->branch];
+        double speed = passing_speed(q, asked);
+        if (speed != 0) {
+            if (slide > 0 || branch * speed <= 0) return false;
+            continue;
+        }
         if (slide > 0) {
             double share = s->slides[slide - 1].share;
             if (s->failed || !(share >= -rounding && share <= 1 + rounding)) return false;
@@ -146,7 +161,6 @@ static bool agrees(struct question *q)
         memcpy(flow, state->y + n, n * sizeof *flow);
         memcpy(flow + n, state->a, n * sizeof *flow);
         double rate = rate_along(q, asked, 1, flow);
-        int branch = state->branch[asked->branch];
         if (branch == 0 ? fabs(rate) > zero : branch * rate < -zero) return false;
     }
     return true;
@@ -177,7 +191,7 @@ static void keep_modes(const struct fbd_state *state, bool back)
 }
 
 /* Choice number `choice`: a digit for each surface, 0 slides, 1 and 2 its sides. False for one that slides
- * where the share is used up. */
+ * where the share is used up, or where it passes. */
 static bool choose(struct question *q, const struct decided *decided, int choice)
 {
     struct fbd_state *state = q->state;
@@ -190,7 +204,7 @@ static bool choose(struct question *q, const struct decided *decided, int choice
     for (int i = 0; i < q->count; i++) {
         const struct asked *asked = &q->list[i];
         int side = digit[asked->unit] == 2 ? -1 : 1;
-        if (digit[asked->unit] == 0 && asked->left) return false;
+        if (digit[asked->unit] == 0 && (asked->left || passing_speed(q, asked) != 0)) return false;
         state->branch[asked->branch] = side * asked->side;
         s->keep[asked->branch] = true;
         if (digit[asked->unit] > 0) continue;

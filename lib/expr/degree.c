@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "expr/program.h"
 
+#include <limits.h>
+#include <string.h>
+
 static enum expr_degree larger(enum expr_degree a, enum expr_degree b)
 {
     return a > b ? a : b;
@@ -35,39 +38,49 @@ static enum expr_degree degree_after(const struct instr *instr, enum expr_degree
     }
 }
 
-enum expr_degree expr_degree(const struct expr *expr)
+/* The degrees of time and variables, those of slots beyond `last` as if they were not affine. True where the
+ * program has sides that are not taken, so that registers may be those of either. */
+static bool begin(const struct expr *expr, int last, enum expr_degree degree[frame_limit])
 {
-    enum expr_degree degree[frame_limit] = {expr_constant_between};
     size_t first = expr->uses_time;
-    if (expr->uses_time) degree[0] = expr_nonlinear;
-    for (size_t i = 0; i < expr->variables; i++) degree[first + i] = expr_affine;
     bool jumps = false;
+    memset(degree, 0, frame_limit * sizeof *degree);
+    if (expr->uses_time) degree[0] = expr_nonlinear;
+    for (size_t i = 0; i < expr->variables; i++)
+        degree[first + i] = expr->slots[i] <= last ? expr_affine : expr_nonlinear;
     for (size_t i = 0; i < expr->operations; i++)
         jumps |= expr->code[i].op == op_jump || expr->code[i].op == op_jump_unless;
+    return jumps;
+}
+
+/* Both sides of an `if` write the same register: the worse one counts. */
+static void take(const struct instr *instr, bool jumps, enum expr_degree *degree)
+{
+    enum expr_degree result = degree_after(instr, degree[instr->a], degree[instr->b]);
+    degree[instr->to] = jumps ? larger(degree[instr->to], result) : result;
+}
+
+enum expr_degree expr_degree(const struct expr *expr)
+{
+    enum expr_degree degree[frame_limit];
+    bool jumps = begin(expr, INT_MAX, degree);
     for (size_t i = 0; i < expr->operations; i++) {
         const struct instr *instr = &expr->code[i];
-        if (instr->op == op_jump || instr->op == op_jump_unless) continue;
-        enum expr_degree result = degree_after(instr, degree[instr->a], degree[instr->b]);
-        /* Both sides of an `if` write the same register: the worse one counts. */
-        degree[instr->to] = jumps ? larger(degree[instr->to], result) : result;
+        if (instr->op != op_jump && instr->op != op_jump_unless) take(instr, jumps, degree);
     }
     return degree[expr->result];
 }
 
-/* Registers are used again: one that has been worse before counts as that. */
-enum expr_degree expr_jumps_degree(const struct expr *expr)
+enum expr_degree expr_switch_degree(const struct expr *expr, size_t index, int last)
 {
-    enum expr_degree degree[frame_limit] = {expr_constant_between}, worst = expr_constant_between;
-    size_t first = expr->uses_time;
-    if (expr->uses_time) degree[0] = expr_nonlinear;
-    for (size_t i = 0; i < expr->variables; i++) degree[first + i] = expr_affine;
+    enum expr_degree degree[frame_limit], worst = expr_constant_between;
+    bool jumps = begin(expr, last, degree);
     for (size_t i = 0; i < expr->operations; i++) {
         const struct instr *instr = &expr->code[i];
         if (instr->op == op_jump || instr->op == op_jump_unless) continue;
-        if (op_is_switch(instr->op) && expr_switch_jumps(expr, (size_t)instr->extra))
+        if (op_is_switch(instr->op) && (size_t)instr->extra == index)
             worst = larger(worst, larger(degree[instr->a], degree[instr->b]));
-        degree[instr->to] =
-            larger(degree[instr->to], degree_after(instr, degree[instr->a], degree[instr->b]));
+        take(instr, jumps, degree);
     }
     return worst;
 }

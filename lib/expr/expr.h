@@ -207,8 +207,8 @@ void expr_switchings(const struct expr *expr, double t, const double *y, double 
  * Not at abs, min and max. */
 bool expr_switch_jumps(const struct expr *expr, size_t index);
 
-/* How what such switches watch varies: the worst of them. */
-enum expr_degree expr_jumps_degree(const struct expr *expr);
+/* How what one switch watches varies; slots beyond `last` count as if they were not affine. */
+enum expr_degree expr_switch_degree(const struct expr *expr, size_t index, int last);
 
 /* The branch on the other side of end `end` (0 lower, 1 upper) of switch `index`. */
 int expr_branch_beyond(const struct expr *expr, size_t index, int end, int branch);

@@ -19,7 +19,7 @@ struct formula builder_formula(struct builder *builder, const struct value *valu
     if (switches > 0) {
         formula.branch = plan->branches;
         plan->branches += (int)switches;
-        plan->kinks[plan->kink_count++] = (struct kink){formula, body, load, switches, false};
+        plan->kinks[plan->kink_count++] = (struct kink){formula, body, load, switches, false, 0};
     }
     if (poles > 0 && body >= 0) plan->poles[plan->pole_count++] = (struct pole){formula, body, load, poles};
     return formula;

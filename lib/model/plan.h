@@ -125,8 +125,14 @@ struct kink {
     struct formula formula;
     int body, load; /* where it stands; -1 for a user event */
     size_t count;
-    bool slides; /* some of its switches may be slid on: see dynamics/sliding.h */
+    bool slides;     /* some of its switches may be slid on: see dynamics/sliding.h */
+    unsigned places; /* a bit for each that watches a sum of coordinates: to be slid on in second order */
 };
+
+static inline bool kink_watches_places(const struct kink *kink, int part)
+{
+    return part < 32 && (kink->places >> part & 1);
+}
 
 /* The divisions of one formula (see expr.h). */
 struct pole {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * Which switches a motion may slide on (dynamics/sliding.h): those at which a force jumps, or a coefficient
- * of friction, by what goes with a velocity. Where it goes with places alone, u' is the same on both sides
- * and u = 0 is passed.
+ * of friction, by what goes with a velocity; and those that watch a sum of coordinates, which are passed as
+ * long as there is a speed left, but may be slid on in second order where it ends.
  */
 #include "model/builder.h"
 
@@ -39,6 +39,18 @@ static bool reads_velocity(const struct fbd_model *model, const struct expr *exp
     return false;
 }
 
+/* The jumps that watch a sum of coordinates with constant factors, a bit each. */
+static unsigned watch_places(const struct fbd_model *model, const struct kink *kink)
+{
+    enum { most_bits = 32 };
+    const struct expr *expr = kink->formula.expr;
+    unsigned places = 0;
+    for (size_t part = 0; part < kink->count && part < most_bits; part++)
+        if (expr_switch_jumps(expr, part) && expr_switch_degree(expr, part, model->plan.n) == expr_affine)
+            places |= 1u << part;
+    return places;
+}
+
 void slides_find(struct fbd_model *model)
 {
     struct plan *plan = &model->plan;
@@ -48,8 +60,9 @@ void slides_find(struct fbd_model *model)
         for (size_t part = 0; part < kink->count; part++)
             jumps +=
                 expr_switch_jumps(kink->formula.expr, part) && !expr_switch_is_time(kink->formula.expr, part);
+        kink->places = watch_places(model, kink);
         kink->slides = jumps > 0 && plan->slide_count + jumps <= most_slides && is_force(model, kink) &&
-                       reads_velocity(model, kink->formula.expr);
+                       (kink->places > 0 || reads_velocity(model, kink->formula.expr));
         if (kink->slides) plan->slide_count += jumps;
     }
 }

@@ -13,6 +13,7 @@
 #include "dynamics/modes.h"
 #include "dynamics/project.h"
 #include "dynamics/tree.h"
+#include "solve/passages.h"
 #include "solve/run.h"
 #include "solve/start.h"
 
@@ -35,7 +36,7 @@ struct run_event *run_note(struct run *run, fbd_event_kind kind, int body, int l
     return event;
 }
 
-static void note_friction(struct run *run, fbd_event_kind kind, int pair)
+void run_note_friction(struct run *run, fbd_event_kind kind, int pair)
 {
     const struct friction *friction = &run->model->plan.frictions[pair];
     struct run_event *event = run_note(run, kind, friction->body, friction->load, -1);
@@ -57,6 +58,7 @@ static void cross_kink(struct run *run, const struct watcher *watcher)
     int *branch = &run->state->branch[index];
     *branch = expr_branch_beyond(kink->formula.expr, (size_t)watcher->part, watcher->end, *branch);
     run->decided.branches[index] = true;
+    passages_remember(run, watcher);
     run_note(run, FBD_EVENT_SWITCH, kink->body, kink->load, -1);
 }
 
@@ -105,8 +107,7 @@ static double kinetic(struct fbd_state *state)
     return sum;
 }
 
-/* What an impact brings to rest is at rest: what is left of its rates is rounding of those that were. */
-static void drop_rounding(struct run *run)
+void run_drop_rounding(struct run *run)
 {
     const double rounding = 1e-14;
     size_t n = (size_t)run->model->plan.n;
@@ -129,7 +130,7 @@ static void one_sided_event(struct run *run, int pair)
     run->state->slip[pair] = stick;
     if (rope) run_strike_taut(run);
     state_project_velocity(run->state, false); /* of a rope, rounding only */
-    drop_rounding(run);
+    run_drop_rounding(run);
     run->snap_pair = pair;
     run->snap_work = kinetic(run->state) - before;
     if (!rope) run->impact_work[run->model->plan.frictions[pair].load] += run->snap_work;
@@ -268,14 +269,34 @@ static void note_frictions(struct run *run, const bool *moving)
             note_one_sided(run, pair, before, after);
             continue;
         }
-        if (before == stick && after != stick) note_friction(run, FBD_EVENT_BREAKAWAY, pair);
+        if (before == stick && after != stick) run_note_friction(run, FBD_EVENT_BREAKAWAY, pair);
         if (before != stick && after == stick) {
             int tie = run->model->plan.frictions[pair].tie;
             if (tie >= 0) tie_rezero(run->model, run->state->tree, tie);
-            note_friction(run, FBD_EVENT_STICK, pair);
+            if (run->passages.end < HUGE_VAL)
+                run->passages.sticks[pair] = true; /* at the end of the series */
+            else
+                run_note_friction(run, FBD_EVENT_STICK, pair);
         }
-        if (stopped && after != stick && after != before) note_friction(run, FBD_EVENT_REVERSAL, pair);
+        if (stopped && after != stick && after != before) run_note_friction(run, FBD_EVENT_REVERSAL, pair);
     }
+}
+
+/* The event of a slide, with the value that the force takes. */
+static void set_slide(const struct run *run, const struct kink *kink, fbd_event_kind kind,
+                      struct run_event *event)
+{
+    const struct formula *value = &run->model->loads[kink->load].value;
+    const struct instant at = state_instant(run->state);
+    if (!event) return;
+    event->kind = kind;
+    event->limit = value->expr && value->branch == kink->formula.branch;
+    if (event->limit > 0) event->force = formula_value(value, &at);
+}
+
+void run_note_slide(struct run *run, const struct kink *kink, fbd_event_kind kind)
+{
+    set_slide(run, kink, kind, run_note(run, kind, kink->body, kink->load, -1));
 }
 
 /* Sliding is read off the modes before and after, too. What begins to slide has not passed to another branch,
@@ -290,18 +311,19 @@ static void note_slides(struct run *run, size_t first)
             bool before = run->during->sliding->slide_at[branch] > 0,
                  after = run->state->sliding->slide_at[branch] > 0;
             if (before == after) continue;
+            if (run->passages.end < HUGE_VAL) { /* at the end of the series */
+                run->passages.list[branch].slides = after;
+                continue;
+            }
             struct run_event *event = NULL;
             for (size_t i = first; after && i < run->event_count; i++)
                 if (run->events[i].kind == FBD_EVENT_SWITCH && run->events[i].load == kink->load)
                     event = &run->events[i];
             fbd_event_kind kind = after ? FBD_EVENT_SLIDING : FBD_EVENT_SLIDING_ENDS;
-            if (!event) event = run_note(run, kind, kink->body, kink->load, -1);
-            if (!event) return;
-            event->kind = kind;
-            const struct formula *value = &run->model->loads[kink->load].value;
-            struct instant at = state_instant(run->state);
-            event->limit = value->expr && value->branch == kink->formula.branch;
-            if (event->limit > 0) event->force = formula_value(value, &at);
+            if (event)
+                set_slide(run, kink, kind, event);
+            else
+                run_note_slide(run, kink, kind);
         }
     }
 }
@@ -461,6 +483,7 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     for (int s = 0; s < 2; s++)
         for (size_t i = 0; crossed[s] && i < sets[s]->count; i++)
             if (crossed[s][i]) happen(run, &sets[s]->watchers[i], crossing);
+    passages_end(run);
     if (run->contacts.due) run_contacts(run);
     run->contacts.due = false;
     if (!modes_settle(run->state, &run->decided) && run->outcome == FBD_GOING) fail_unsettled(run);

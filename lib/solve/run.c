@@ -82,7 +82,7 @@ static bool make_run(struct run *run)
     run->crossed = calloc(run->moving.count + 1, sizeof *run->crossed);
     run->anchor = calloc(4 * n + 1, sizeof *run->anchor);
     run->arrows = calloc(diagram_most_arrows(run->model), sizeof *run->arrows);
-    if (!contacts_work_init(&run->contacts, run->model)) return false;
+    if (!contacts_work_init(&run->contacts, run->model) || !passages_init(run)) return false;
     run->watchers.asleep = run->contacts.asleep;
     run->watchers.deep = run->contacts.deep;
     run->impact_work = calloc(run->model->load_count + 1, sizeof *run->impact_work);
@@ -168,6 +168,7 @@ void run_free(struct run *run)
     free(run->anchor);
     free(run->arrows);
     free(run->impact_work);
+    passages_free(&run->passages);
     free(run);
 }
 
@@ -204,7 +205,7 @@ static bool restart(struct run *run)
 static struct moment next_time(struct run *run, bool *found)
 {
     const double stretch = 1.02; /* the stepper may lengthen a step by 1 % to end at its limit */
-    double rest = run_next_rest(run), until = fmin(run->options.until, rest);
+    double rest = fmin(run_next_rest(run), run->passages.end), until = fmin(run->options.until, rest);
     double reach = fmin(until, run->state->t + stretch * run->h);
     int status = scan_interval(&run->timed, run->state->t, reach);
     *found = status == 1;
@@ -483,6 +484,7 @@ fbd_outcome run_advance(struct run *run)
         run_renew_noise(run);
     }
     run_note_rests(run);
+    passages_note(run);
     if (at_end) run_apply_touched(run, false);
     if (moving || timed || at_end) run_check_balance(run);
     if (run->outcome == FBD_GOING && at_end) run->outcome = FBD_DONE;

@@ -24,6 +24,7 @@
 #include "solve/course.h"
 #include "solve/linear.h"
 #include "solve/mechanisms.h"
+#include "solve/passages.h"
 #include "solve/poles.h"
 #include "solve/scan.h"
 #include "solve/structure.h"
@@ -114,6 +115,7 @@ struct run {
     bool *crossed;             /* moving: likewise */
     struct decided decided;
     struct contacts_work contacts;
+    struct passages passages;
     struct arrow *arrows; /* of one body */
 
     struct run_event *events;
@@ -216,6 +218,16 @@ void run_apply_touched(struct run *run, bool at_event);
 
 /* An entry of the log; NULL when memory is out. */
 struct run_event *run_note(struct run *run, fbd_event_kind kind, int body, int load, int watch);
+
+/* What is brought to rest at once, as by an impact, is at rest: what is left of its rates is rounding of those that
+ * were. */
+void run_drop_rounding(struct run *run);
+
+/* Log what a friction pair does, with its force and limit. */
+void run_note_friction(struct run *run, fbd_event_kind kind, int pair);
+
+/* Log that the motion slides on a switch, or no longer, with the value that its force takes. */
+void run_note_slide(struct run *run, const struct kink *kink, fbd_event_kind kind);
 
 /* Check normal forces at run->state; ends the run when one is negative. */
 void run_check_contacts(struct run *run);

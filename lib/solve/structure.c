@@ -241,12 +241,13 @@ static enum expr_degree slides_vary(const struct fbd_model *model)
 {
     enum expr_degree worst = expr_constant_between;
     for (size_t i = 0; i < model->plan.kink_count; i++) {
-        const struct expr *expr = model->plan.kinks[i].formula.expr;
-        const int *slots;
-        if (!model->plan.kinks[i].slides) continue;
-        size_t count = expr_variables(expr, &slots);
-        bool places = count > 0 && slots[count - 1] > 2 * model->plan.n;
-        worst = worse(worst, places ? expr_nonlinear : worse(expr_affine, expr_jumps_degree(expr)));
+        const struct kink *kink = &model->plan.kinks[i];
+        const struct expr *expr = kink->formula.expr;
+        for (size_t part = 0; kink->slides && part < kink->count; part++) {
+            /* Where it rests on places the accelerations vary as the forces do. */
+            if (!expr_switch_jumps(expr, part) || kink_watches_places(kink, (int)part)) continue;
+            worst = worse(worst, worse(expr_affine, expr_switch_degree(expr, part, 2 * model->plan.n)));
+        }
     }
     return worst;
 }

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Passages without end: a switch that watches places, as in -F sign(x), is passed infinitely often in a finite
+ * time where each passage is slower than the one before by a constant factor, as with dry friction. When they
+ * are too small to be seen the rest of the series is summed up, and the motion slides on the switch in second
+ * order (dynamics/sliding.h): u = 0 and u' = 0.
+ *
+ * While the forces vary little the intervals from one passage to the one after the next are a geometric
+ * series, with a ratio that the last five passages show. The event has the time of the limit.
+ */
+#ifndef FBD_SOLVE_PASSAGES_H
+#define FBD_SOLVE_PASSAGES_H
+
+#include <stdbool.h>
+
+struct run;
+struct watcher;
+
+struct passage {
+    int count;   /* passages since it was slid on last */
+    double t[5]; /* of the last ones, the latest first */
+    bool slides; /* from the end of the series */
+};
+
+struct passages {
+    struct passage *list; /* of each branch; NULL where no switch can be slid on */
+    bool *sticks;         /* of each friction pair: from that end, too */
+    double end;           /* of a series that is summed up; HUGE_VAL without one */
+};
+
+/* False when memory is out. */
+bool passages_init(struct run *run);
+void passages_free(struct passages *passages);
+
+/* A switch has just been passed. */
+void passages_remember(struct run *run, const struct watcher *watcher);
+
+/* After all that happens at an event, before the modes are settled: what has been passed for the last time is put
+ * onto its switch. */
+void passages_end(struct run *run);
+
+/* Note what begins with the end of a series, when that is there. */
+void passages_note(struct run *run);
+
+#endif
