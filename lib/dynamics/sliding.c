@@ -37,7 +37,7 @@ size_t sliding_size(const struct fbd_model *model)
     const struct plan *plan = &model->plan;
     if (plan->slide_count == 0) return 0;
     size_t bytes = (size_t)plan->slide_count * sizeof(struct slide) + double_count(model) * sizeof(double) +
-                   int_count(plan) * sizeof(int) + 2 * (size_t)plan->branches * sizeof(bool);
+                   int_count(plan) * sizeof(int) + 3 * (size_t)plan->branches * sizeof(bool);
     return (bytes + sizeof(double) - 1) / sizeof(double) * sizeof(double);
 }
 
@@ -86,6 +86,7 @@ void sliding_init(struct sliding *sliding, const struct fbd_model *model, void *
     sliding->held = sliding->pivot + room;
     sliding->keep = (bool *)(sliding->held + room);
     sliding->left = sliding->keep + plan->branches;
+    sliding->ended = sliding->left + plan->branches;
 }
 
 void sliding_copy(const struct fbd_model *model, struct sliding *to, const struct sliding *from)
@@ -93,6 +94,7 @@ void sliding_copy(const struct fbd_model *model, struct sliding *to, const struc
     to->count = from->count;
     to->units = from->units;
     memcpy(to->slides, from->slides, (size_t)from->count * sizeof *to->slides);
+    memcpy(to->held, from->held, (size_t)from->units * sizeof *to->held);
     memcpy(to->slide_at, from->slide_at, (size_t)model->plan.branches * sizeof *to->slide_at);
 }
 
@@ -102,7 +104,7 @@ void sliding_add(struct sliding *sliding, const struct kink *kink, int index, in
 {
     int branch = kink->formula.branch + part;
     sliding->slides[sliding->count++] =
-        (struct slide){index, part, branch, unit, sign, kink_watches_places(kink, part), 0.5, 0};
+        (struct slide){index, part, branch, unit, sign, kink_watches_places(kink, part), 0.5, 0, 0};
     sliding->slide_at[branch] = sliding->count;
     if (unit >= sliding->units) sliding->units = unit + 1;
 }
@@ -472,6 +474,20 @@ void sliding_solve_along(const struct fbd_model *model, const struct instant *gi
 
 /* ---- back onto the surfaces */
 
+/* Take away the velocities across the surfaces. What is left of one that goes is rounding. */
+static void project_velocities(struct fbd_state *state)
+{
+    const double rounding = 1e-14;
+    struct sliding *s = state->sliding;
+    size_t n = (size_t)state->model->plan.n;
+    double *v = state->y + n;
+    for (size_t i = 0; i < n; i++) {
+        double before = v[i];
+        for (int unit = 0; unit < s->units; unit++) v[i] -= s->B[(size_t)unit * n + i] * s->c[unit];
+        if (fabs(v[i]) <= rounding * fabs(before)) v[i] = 0;
+    }
+}
+
 /* Along what the unit's forces do, one slide after the other. */
 static void project_places(struct fbd_state *state)
 {
@@ -498,7 +514,6 @@ void sliding_project(struct fbd_state *state)
         passes = 2
     }; /* the second takes the rounding of the first, and of u that is not linear the rest */
     struct sliding *s = state->sliding;
-    size_t n = (size_t)state->model->plan.n;
     for (int pass = 0; pass < passes; pass++) {
         struct instant at = state_instant(state);
         sliding_solve(state->model, &at);
@@ -507,8 +522,7 @@ void sliding_project(struct fbd_state *state)
         for (int unit = 0; unit < s->units; unit++)
             if (s->held[unit] >= 0) s->c[unit] = 0;
         solve(s, s->c);
-        for (int unit = 0; unit < s->units; unit++)
-            for (size_t i = 0; i < n; i++) state->y[n + i] -= s->B[(size_t)unit * n + i] * s->c[unit];
+        project_velocities(state);
         project_places(state);
     }
 }

@@ -34,6 +34,7 @@ struct slide {
     int sign;     /* +1 or -1: the side to which its share goes with the unit's */
     bool places;  /* in second order */
     double share; /* s: of the branch u > 0 */
+    double slack; /* beyond 0 and 1 it may go so far, where it has left and come back in no time */
     double along; /* its variation */
 };
 
@@ -45,6 +46,7 @@ struct sliding {
     int *branches;   /* plan.branches: scratch of formulas */
     bool *keep;      /* plan.branches: not to be chosen by the values, when modes are settled */
     bool *left;      /* plan.branches: its share has just reached an end */
+    bool *ended;     /* plan.branches: the passages that are left are as good as none (solve/passages.h) */
     int *held;       /* units: the coordinate that friction keeps at rest, or -1 */
     bool failed;     /* no shares are found: the branches do not act on the surfaces */
     const char *why; /* when modes did not settle for a slide: "none" or "several"; else NULL */

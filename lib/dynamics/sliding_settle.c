@@ -20,6 +20,7 @@ struct asked {
     int kink, part, branch;
     int unit, side; /* the surface, and -1 where its u goes against that of the surface's first */
     bool left;      /* its share has just been used up */
+    bool ended;     /* it is at rest, whatever speed there still is */
 };
 
 struct question {
@@ -34,8 +35,8 @@ struct question {
 static bool is_asked(const struct sliding *s, const struct decided *decided, int branch, int part)
 {
     if (isnan(s->u[part])) return false; /* in a side of an `if` that is not chosen */
-    return s->slide_at[branch] > 0 || s->left[branch] || (decided && decided->branches[branch]) ||
-           fabs(s->u[part]) <= s->rounding[part];
+    return s->slide_at[branch] > 0 || s->left[branch] || s->ended[branch] ||
+           (decided && decided->branches[branch]) || fabs(s->u[part]) <= s->rounding[part];
 }
 
 /* False when there are too many. */
@@ -56,7 +57,8 @@ static bool gather(struct question *q, const struct decided *decided)
                 expr_switch_is_time(kink->formula.expr, (size_t)part) || !is_asked(s, decided, branch, part))
                 continue;
             if (q->count == most_asked) return false;
-            q->list[q->count++] = (struct asked){(int)i, part, branch, -1, 1, s->left[branch]};
+            q->list[q->count++] =
+                (struct asked){(int)i, part, branch, -1, 1, s->left[branch], s->ended[branch]};
         }
     }
     return true;
@@ -97,6 +99,33 @@ static int same_surface(const struct question *q, const struct asked *a, const s
     return ab > 0 ? 1 : ab < 0 ? -1 : 0;
 }
 
+static bool is_listed(const struct question *q, int branch)
+{
+    for (int i = 0; i < q->count; i++)
+        if (q->list[i].branch == branch) return true;
+    return false;
+}
+
+/* What rests by the end of its passages takes with it what watches that speed, though it is not zero yet. False when
+ * there are too many. */
+static bool join(struct question *q)
+{
+    const struct plan *plan = &q->state->model->plan;
+    int ended = 0, count = q->count;
+    while (ended < count && !q->list[ended].ended) ended++;
+    for (size_t i = 0; i < plan->kink_count && ended < count; i++) {
+        const struct kink *kink = &plan->kinks[i];
+        for (int part = 0; kink->slides && part < (int)kink->count; part++) {
+            struct asked asked = {(int)i, part, kink->formula.branch + part, -1, 1, false, true};
+            if (!expr_switch_jumps(kink->formula.expr, (size_t)part) || is_listed(q, asked.branch)) continue;
+            if (same_surface(q, &q->list[ended], &asked) == 0) continue;
+            if (q->count == most_asked) return false;
+            q->list[q->count++] = asked;
+        }
+    }
+    return true;
+}
+
 static void find_surfaces(struct question *q)
 {
     for (int i = 0; i < q->count; i++) {
@@ -117,7 +146,7 @@ static double passing_speed(const struct question *q, const struct asked *asked)
     const struct fbd_state *state = q->state;
     const struct kink *kink = &state->model->plan.kinks[asked->kink];
     const struct instant at = state_instant(state);
-    if (!kink_watches_places(kink, asked->part)) return 0;
+    if (!kink_watches_places(kink, asked->part) || asked->ended || asked->left) return 0;
     double size = 0, w = sliding_surface(state->sliding, state->model, &at, kink, asked->part);
     size_t n = (size_t)state->model->plan.n;
     for (size_t i = 0; i < n; i++) size += fabs(slope(q, asked, 1 + n + i) * state->y[n + i]);
@@ -197,6 +226,7 @@ static bool choose(struct question *q, const struct decided *decided, int choice
     struct fbd_state *state = q->state;
     struct sliding *s = state->sliding;
     int digit[most_units] = {0};
+    bool lands = false;
     for (int unit = 0; unit < q->units; unit++, choice /= 3) digit[unit] = choice % 3;
     for (int j = 0; j < s->count; j++) s->slide_at[s->slides[j].branch] = 0;
     sliding_drop(s);
@@ -208,10 +238,12 @@ static bool choose(struct question *q, const struct decided *decided, int choice
         state->branch[asked->branch] = side * asked->side;
         s->keep[asked->branch] = true;
         if (digit[asked->unit] > 0) continue;
+        lands |= asked->ended;
         const struct kink *kink = &state->model->plan.kinks[asked->kink];
         sliding_add(s, kink, asked->kink, asked->part, asked->unit, asked->side);
     }
     if (s->count > 0) sliding_number(s);
+    if (lands) sliding_project(state); /* before friction asks whether it moves */
     return true;
 }
 
@@ -251,8 +283,9 @@ bool sliding_settle(struct fbd_state *state, const struct decided *decided, bool
     struct question q = {.state = state};
     s->why = NULL;
     if (state->holds.found == holds_no_memory) return false;
-    bool asked = gather(&q, decided);
+    bool asked = gather(&q, decided) && join(&q);
     memset(s->left, 0, (size_t)state->model->plan.branches * sizeof *s->left);
+    memset(s->ended, 0, (size_t)state->model->plan.branches * sizeof *s->ended);
     bool fine = asked && (q.count == 0 || (settled && agrees(&q)));
     if (fine && !is_undecided(&q)) return settled;
     if (asked) find_surfaces(&q);

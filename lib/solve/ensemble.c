@@ -289,6 +289,7 @@ static void scatter_slides(const struct group *group, const struct fbd_state *pa
         while (whole->kinks[kink].formula.branch + (int)whole->kinks[kink].count <= branch) kink++;
         sliding_add(to, &whole->kinks[kink], kink, branch - whole->kinks[kink].formula.branch,
                     units + slide->unit, slide->sign);
+        to->slides[to->count - 1].slack = slide->slack;
     }
 }
 

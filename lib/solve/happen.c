@@ -36,19 +36,6 @@ struct run_event *run_note(struct run *run, fbd_event_kind kind, int body, int l
     return event;
 }
 
-void run_note_friction(struct run *run, fbd_event_kind kind, int pair)
-{
-    const struct friction *friction = &run->model->plan.frictions[pair];
-    struct run_event *event = run_note(run, kind, friction->body, friction->load, -1);
-    if (!event) return;
-    struct instant at = state_instant(run->state);
-    double *slots = run->during->scratch;
-    force_balance(run->model, &at, slots);
-    struct friction_values values = friction_at(run->model, pair, &at, slots);
-    event->force = values.force;
-    event->limit = values.limit;
-}
-
 /* ---- events by kind */
 
 static void cross_kink(struct run *run, const struct watcher *watcher)
@@ -59,7 +46,8 @@ static void cross_kink(struct run *run, const struct watcher *watcher)
     *branch = expr_branch_beyond(kink->formula.expr, (size_t)watcher->part, watcher->end, *branch);
     run->decided.branches[index] = true;
     passages_remember(run, watcher);
-    run_note(run, FBD_EVENT_SWITCH, kink->body, kink->load, -1);
+    struct run_event *event = run_note(run, FBD_EVENT_SWITCH, kink->body, kink->load, -1);
+    if (event) event->branch = index;
 }
 
 /* The share of a switch that is slid on is used up, and those of all on the same surface: the branch there
@@ -77,6 +65,7 @@ static void leave_surface(struct run *run, const struct watcher *watcher)
         run->state->branch[slide.branch] = side * slide.sign;
         run->decided.branches[slide.branch] = true;
         s->left[slide.branch] = true;
+        run->passages.list[slide.branch].left = (struct leave){run->state->t, slide.slack};
         s->slide_at[slide.branch] = 0;
     }
     sliding_drop(s);
@@ -107,7 +96,8 @@ static double kinetic(struct fbd_state *state)
     return sum;
 }
 
-void run_drop_rounding(struct run *run)
+/* What an impact brings to rest is at rest: what is left of its rates is rounding of those that were. */
+static void drop_rounding(struct run *run)
 {
     const double rounding = 1e-14;
     size_t n = (size_t)run->model->plan.n;
@@ -130,7 +120,7 @@ static void one_sided_event(struct run *run, int pair)
     run->state->slip[pair] = stick;
     if (rope) run_strike_taut(run);
     state_project_velocity(run->state, false); /* of a rope, rounding only */
-    run_drop_rounding(run);
+    drop_rounding(run);
     run->snap_pair = pair;
     run->snap_work = kinetic(run->state) - before;
     if (!rope) run->impact_work[run->model->plan.frictions[pair].load] += run->snap_work;
@@ -230,104 +220,6 @@ static void happen(struct run *run, const struct watcher *watcher, bool crossing
 
 /* ---- after the modes have settled */
 
-static void note_one_sided(struct run *run, int pair, int before, int after)
-{
-    const struct friction *friction = &run->model->plan.frictions[pair];
-    bool rope = friction->kind == mode_rope;
-    if (before == stick && after != stick)
-        run_note(run, rope ? FBD_EVENT_ROPE_SLACK : FBD_EVENT_LIFT_OFF, friction->body, friction->load, -1);
-    bool snapped = run->snap_pair == pair;
-    if (snapped) run->snap_pair = -1;
-    if (!snapped && (before == stick || after != stick)) return;
-    struct run_event *event =
-        run_note(run, rope ? FBD_EVENT_ROPE_TAUT : FBD_EVENT_LANDING, friction->body, friction->load, -1);
-    if (event) event->force = snapped ? -run->snap_work : 0;
-}
-
-/* Friction of a contact that has just closed or opened has no event of its own. */
-static bool rubbed_throughout(const struct run *run, int pair)
-{
-    int tie = run->model->plan.frictions[pair].tie;
-    if (tie < 0 || run->model->tree->ties[tie].kind != constraint_contact) return true;
-    int surface = run->model->tree->ties[tie].surface;
-    return run->during->slip[surface] == stick && run->state->slip[surface] == stick;
-}
-
-/* What each pair has done is read off its modes before and after, whichever event was the cause. */
-static void note_frictions(struct run *run, const bool *moving)
-{
-    const struct watcher_set *set = &run->watchers.moving;
-    for (int pair = 0; pair < (int)run->model->plan.friction_count; pair++) {
-        int before = run->during->slip[pair], after = run->state->slip[pair];
-        bool stopped = false;
-        for (size_t i = 0; moving && i < set->count; i++)
-            stopped |=
-                moving[i] && set->watchers[i].kind == watch_slip_stop && set->watchers[i].index == pair;
-        if (run->model->plan.frictions[pair].kind == mode_contact) continue; /* run_release_contacts */
-        if (!rubbed_throughout(run, pair)) continue;
-        if (mode_is_one_sided(&run->model->plan.frictions[pair])) {
-            note_one_sided(run, pair, before, after);
-            continue;
-        }
-        if (before == stick && after != stick) run_note_friction(run, FBD_EVENT_BREAKAWAY, pair);
-        if (before != stick && after == stick) {
-            int tie = run->model->plan.frictions[pair].tie;
-            if (tie >= 0) tie_rezero(run->model, run->state->tree, tie);
-            if (run->passages.end < HUGE_VAL)
-                run->passages.sticks[pair] = true; /* at the end of the series */
-            else
-                run_note_friction(run, FBD_EVENT_STICK, pair);
-        }
-        if (stopped && after != stick && after != before) run_note_friction(run, FBD_EVENT_REVERSAL, pair);
-    }
-}
-
-/* The event of a slide, with the value that the force takes. */
-static void set_slide(const struct run *run, const struct kink *kink, fbd_event_kind kind,
-                      struct run_event *event)
-{
-    const struct formula *value = &run->model->loads[kink->load].value;
-    const struct instant at = state_instant(run->state);
-    if (!event) return;
-    event->kind = kind;
-    event->limit = value->expr && value->branch == kink->formula.branch;
-    if (event->limit > 0) event->force = formula_value(value, &at);
-}
-
-void run_note_slide(struct run *run, const struct kink *kink, fbd_event_kind kind)
-{
-    set_slide(run, kink, kind, run_note(run, kind, kink->body, kink->load, -1));
-}
-
-/* Sliding is read off the modes before and after, too. What begins to slide has not passed to another branch,
- * as was noted when its switch was reached: `first` is the first event of this instant. */
-static void note_slides(struct run *run, size_t first)
-{
-    const struct plan *plan = &run->model->plan;
-    for (size_t k = 0; run->state->sliding && k < plan->kink_count; k++) {
-        const struct kink *kink = &plan->kinks[k];
-        for (size_t part = 0; part < kink->count; part++) {
-            size_t branch = (size_t)kink->formula.branch + part;
-            bool before = run->during->sliding->slide_at[branch] > 0,
-                 after = run->state->sliding->slide_at[branch] > 0;
-            if (before == after) continue;
-            if (run->passages.end < HUGE_VAL) { /* at the end of the series */
-                run->passages.list[branch].slides = after;
-                continue;
-            }
-            struct run_event *event = NULL;
-            for (size_t i = first; after && i < run->event_count; i++)
-                if (run->events[i].kind == FBD_EVENT_SWITCH && run->events[i].load == kink->load)
-                    event = &run->events[i];
-            fbd_event_kind kind = after ? FBD_EVENT_SLIDING : FBD_EVENT_SLIDING_ENDS;
-            if (event)
-                set_slide(run, kink, kind, event);
-            else
-                run_note_slide(run, kink, kind);
-        }
-    }
-}
-
 void run_check_contacts(struct run *run)
 {
     const struct fbd_model *model = run->model;
@@ -411,18 +303,22 @@ void run_fail_chatter(struct run *run)
     fail_chatter(run, event->load, name);
 }
 
+double run_instant(const struct run *run)
+{
+    const double instant = 1e-12, steps = 1e6;
+    return instant * fmax(fabs(run->state->t), fmin(run->options.until, steps * run->longest));
+}
+
 /* Events that crowd at one instant never let time pass: a sliding mode that no friction entry declares, or an
- * infinite sequence. An instant is measured against the time that has passed and against steps of this run,
- * for its end may be very far away; at the start, where no step has got anywhere, against the first one
+ * infinite sequence. At the start, where no step has got anywhere, an instant is measured against the first one
  * proposed. */
 static void count_crowd(struct run *run)
 {
     enum { most_at_once = 200 };
-    const double instant = 1e-12, steps = 1e6;
-    double t = fabs(run->state->t);
+    const double instant = 1e-12;
     run->longest = fmax(run->longest, run->state->t - run->from);
-    double span = instant * fmax(t, fmin(run->options.until, steps * run->longest));
-    bool crowded = run->state->t - run->last_event <= span || t <= instant * run->first_step;
+    bool crowded = run->state->t - run->last_event <= run_instant(run) ||
+                   fabs(run->state->t) <= instant * run->first_step;
     run->crowd = crowded ? run->crowd + 1 : 0;
     run->last_event = run->state->t;
     if (run->crowd < most_at_once || run->outcome != FBD_GOING) return;
@@ -487,8 +383,7 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     if (run->contacts.due) run_contacts(run);
     run->contacts.due = false;
     if (!modes_settle(run->state, &run->decided) && run->outcome == FBD_GOING) fail_unsettled(run);
-    note_slides(run, first);
-    note_frictions(run, moving);
+    run_note_happened(run, first, moving);
     run_release_contacts(run);
     refuse_sliding(run, moving);
     run_apply_touched(run, true);

@@ -16,6 +16,7 @@ bool passages_init(struct run *run)
     passages->end = HUGE_VAL;
     if (plan->slide_count == 0) return true;
     passages->list = calloc((size_t)plan->branches, sizeof *passages->list);
+    for (int i = 0; passages->list && i < plan->branches; i++) passages->list[i].left.t = -HUGE_VAL;
     passages->sticks = calloc(plan->friction_count + 1, sizeof *passages->sticks);
     return passages->list && passages->sticks;
 }
@@ -72,21 +73,6 @@ static double time_left(struct run *run, const struct kink *kink, int part)
     return speed * fmax(left, last) <= unseen * size_of(run, kink, part) ? left : HUGE_VAL;
 }
 
-/* Onto the switch, by the forces that it switches. Whether it is slid on from there is for the modes to settle,
- * together with others that have the same surface. */
-static void put_onto(struct run *run, int index, int part)
-{
-    const struct kink *kink = &run->model->plan.kinks[index];
-    struct sliding *s = run->state->sliding;
-    int branch = kink->formula.branch + part;
-    if (s->slide_at[branch] > 0) return;
-    sliding_add(s, kink, index, part, s->units, 1);
-    sliding_project(run->state);
-    run_drop_rounding(run);
-    s->slide_at[branch] = 0;
-    sliding_drop(s);
-}
-
 void passages_end(struct run *run)
 {
     const struct plan *plan = &run->model->plan;
@@ -99,12 +85,24 @@ void passages_end(struct run *run)
                 continue;
             double left = time_left(run, kink, part);
             if (!(left < HUGE_VAL)) continue;
-            put_onto(run, (int)k, part);
+            run->state->sliding->ended[kink->formula.branch + part] = true;
             passage->count = 0;
             end = fmax(end, run->state->t + left);
         }
     }
     if (end > -HUGE_VAL) run->passages.end = end;
+}
+
+void passages_blunt(struct run *run, int branch)
+{
+    const double first = 1e-9, more = 100, most = 1e-5;
+    struct sliding *s = run->state->sliding;
+    const struct leave *left = &run->passages.list[branch].left;
+    if (!(run->state->t - left->t <= run_instant(run))) return;
+    double slack = fmin(fmax(more * left->slack, first), most);
+    int unit = s->slides[s->slide_at[branch] - 1].unit;
+    for (int j = 0; j < s->count; j++)
+        if (s->slides[j].unit == unit) s->slides[j].slack = fmax(s->slides[j].slack, slack);
 }
 
 void passages_note(struct run *run)

@@ -16,10 +16,16 @@
 struct run;
 struct watcher;
 
+/* When a slide was left last, and with which slack. */
+struct leave {
+    double t, slack;
+};
+
 struct passage {
     int count;   /* passages since it was slid on last */
     double t[5]; /* of the last ones, the latest first */
     bool slides; /* from the end of the series */
+    struct leave left;
 };
 
 struct passages {
@@ -35,9 +41,12 @@ void passages_free(struct passages *passages);
 /* A switch has just been passed. */
 void passages_remember(struct run *run, const struct watcher *watcher);
 
-/* After all that happens at an event, before the modes are settled: what has been passed for the last time is put
- * onto its switch. */
+/* After all that happens at an event, before the modes are settled: say what has been passed for the last time. */
 void passages_end(struct run *run);
+
+/* A branch is slid on again. Where it has been left in this very instant, what lies beyond the end of its share is
+ * less than what the method resolves, and would send it to and fro: it has room from there, more each time. */
+void passages_blunt(struct run *run, int branch);
 
 /* Note what begins with the end of a series, when that is there. */
 void passages_note(struct run *run);

@@ -53,6 +53,7 @@ struct run_event {
     double t;
     fbd_event_kind kind;
     int body, load, watch; /* -1 where it does not apply */
+    int branch;            /* of a switch */
     size_t group, order;   /* of an ensemble, and its place in the log of that group */
     double force, limit;   /* friction: the force after the event (that holds or slides) and the static limit;
                   contact: the normal force and its rounding; rest: `limit` is the number of impacts */
@@ -219,9 +220,11 @@ void run_apply_touched(struct run *run, bool at_event);
 /* An entry of the log; NULL when memory is out. */
 struct run_event *run_note(struct run *run, fbd_event_kind kind, int body, int load, int watch);
 
-/* What is brought to rest at once, as by an impact, is at rest: what is left of its rates is rounding of those that
- * were. */
-void run_drop_rounding(struct run *run);
+/* After the modes have settled: log what they tell; the events of this instant are those from `first` on. */
+void run_note_happened(struct run *run, size_t first, const bool *moving);
+
+/* What counts as no time: against the time that has passed and steps of this run, for its end may be very far away. */
+double run_instant(const struct run *run);
 
 /* Log what a friction pair does, with its force and limit. */
 void run_note_friction(struct run *run, fbd_event_kind kind, int pair);

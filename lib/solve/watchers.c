@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "solve/watchers.h"
+#include "solve/outlook.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -186,20 +186,19 @@ double watchers_contact_slack(const struct fbd_model *model, const struct tree_w
     return 1e-13 * size;
 }
 
-/* Where the motion slides, what is made of shares is not enclosed. */
-static bool is_enclosed(const struct fbd_state *state, const struct watcher *watcher)
+/* `known`: nothing is slid on, or the shares of what is have enclosures. */
+static bool is_enclosed(const struct fbd_state *state, const struct watcher *watcher, bool known)
 {
-    bool slides = state_sliding(state) != NULL;
     switch (watcher->kind) {
     case watch_share: {
         const struct kink *kink = &state->model->plan.kinks[watcher->index];
-        for (size_t part = 0; slides && part < kink->count; part++)
+        for (size_t part = 0; !known && part < kink->count; part++)
             if (state->sliding->slide_at[(size_t)kink->formula.branch + part] > 0) return false;
         return true;
     }
     case watch_contact:
     case watch_stick_limit:
-    case watch_normal_turns: return !slides && watchers_can_enclose(state->model, watcher);
+    case watch_normal_turns: return known && watchers_can_enclose(state->model, watcher);
     default: return watchers_can_enclose(state->model, watcher);
     }
 }
@@ -209,6 +208,7 @@ void watchers_follow(struct watchers *watchers, const struct fbd_state *state)
     struct watcher_set *set = &watchers->moving;
     watchers_hold(watchers, state);
     if (!state->sliding) return;
+    bool known = !state_sliding(state) || outlook_knows_shares(state);
     for (size_t g = 0; g < set->group_count; g++)
-        set->groups[g].proved = is_enclosed(state, &set->watchers[set->groups[g].first]);
+        set->groups[g].proved = is_enclosed(state, &set->watchers[set->groups[g].first], known);
 }

@@ -93,8 +93,8 @@ void watchers_enclose(const struct watchers *watchers, const struct watcher_set 
                       const struct fbd_state *state, const struct stretch *stretch, const struct enclosure *y,
                       struct enclosure *out);
 
-/* Say which functions have enclosures in the modes that follow: where the motion slides on switches, shares
- * and sums of forces are samples. */
+/* Say which functions have enclosures in the modes that follow: where the motion slides on switches whose shares
+ * have none (outlook.h), these and sums of forces are samples. */
 void watchers_follow(struct watchers *watchers, const struct fbd_state *state);
 
 /* A part of it: set `held`. */

@@ -8,23 +8,26 @@
 #include <float.h>
 
 #include "dynamics/absolute.h"
-#include "solve/watchers.h"
+#include "solve/outlook.h"
 
-/* What enclosures are made from. */
-struct outlook {
-    const struct fbd_state *state;
-    const struct stretch *stretch;
-    const struct enclosure *y;
-};
-
-static struct enclosure enclose_formula(const struct outlook *o, const struct formula *formula)
+struct enclosure outlook_formula(const struct outlook *o, const struct formula *formula)
 {
     if (!formula->expr) return enclosure_point(formula->constant);
+    int slides;
+    const struct slide *slide = outlook_slide(o->state, formula, &slides);
+    if (slides > 1) return enclosure_everything();
+    if (slide) {
+        struct enclosure high = outlook_branch(o, formula, slide, 1),
+                         low = outlook_branch(o, formula, slide, -1);
+        struct enclosure share = enclosure_scale(slide->sign, o->shares[slide->unit]);
+        return enclosure_add(enclosure_scale(0.5, enclosure_add(high, low)),
+                             enclosure_multiply(share, enclosure_subtract(high, low)));
+    }
     const int *branch = formula->branch < 0 || !o->state->branch ? NULL : o->state->branch + formula->branch;
     return expr_enclose(formula->expr, o->stretch, o->y, branch);
 }
 
-static struct enclosure centred(const struct outlook *o, struct enclosure f)
+struct enclosure outlook_centred(const struct outlook *o, struct enclosure f)
 {
     enclosure_centre(&f, stretch_radius(o->stretch));
     return f;
@@ -32,9 +35,7 @@ static struct enclosure centred(const struct outlook *o, struct enclosure f)
 
 /* ---- sums of forces */
 
-/* Is the sum of forces in a slot of this body a sum of the terms below? Forces at points, potentials (whose
- * rates are second derivatives) and forces that joints pass on are not. */
-static bool is_plain_sum(const struct fbd_model *model, int body)
+bool outlook_knows(const struct fbd_model *model, int body)
 {
     const struct body_terms *terms = &model->plan.bodies[body];
     return model->bodies[body].place.link == 0 && !terms->at_points && terms->potentials.count == 0 &&
@@ -78,8 +79,7 @@ static struct enclosure enclose_affine(const struct outlook *o, const struct aff
     return f;
 }
 
-/* The sum of a slot of a body with is_plain_sum. */
-static struct enclosure enclose_slot(const struct outlook *o, int body, int slot)
+struct enclosure outlook_slot(const struct outlook *o, int body, int slot)
 {
     const struct plan *plan = &o->state->model->plan;
     const struct body_terms *terms = &plan->bodies[body];
@@ -95,10 +95,10 @@ static struct enclosure enclose_slot(const struct outlook *o, int body, int slot
     for (int i = terms->formulas.first; i < terms->formulas.first + terms->formulas.count; i++) {
         const struct formula_term *term = &plan->formulas[i];
         if (term->slot != slot) continue;
-        struct enclosure value = enclose_formula(o, &term->value);
+        struct enclosure value = outlook_formula(o, &term->value);
         sum = enclosure_add(sum, enclosure_scale(term->scale, value));
     }
-    return centred(o, sum);
+    return outlook_centred(o, sum);
 }
 
 /* ---- friction */
@@ -107,17 +107,16 @@ static struct enclosure slip_stop(const struct outlook *o, int pair)
 {
     const struct fbd_model *model = o->state->model;
     const struct friction *friction = &model->plan.frictions[pair];
-    struct enclosure speed = enclose_formula(o, &friction->surface_speed);
+    struct enclosure speed = outlook_formula(o, &friction->surface_speed);
     struct enclosure slip = enclosure_subtract(o->y[model->plan.n + friction->coordinate], speed);
-    return centred(o, enclosure_scale(o->state->slip[pair], slip));
+    return outlook_centred(o, enclosure_scale(o->state->slip[pair], slip));
 }
 
-/* N towards the side on which the surface is. */
-static struct enclosure press_of(const struct outlook *o, int pair)
+struct enclosure outlook_press(const struct outlook *o, int pair)
 {
     const struct friction *friction = &o->state->model->plan.frictions[pair];
     if (friction->normal_slot < 0) return enclosure_point(1);
-    struct enclosure sum = enclose_slot(o, friction->body, friction->normal_slot);
+    struct enclosure sum = outlook_slot(o, friction->body, friction->normal_slot);
     return enclosure_scale(-o->state->pull[pair], sum);
 }
 
@@ -134,17 +133,17 @@ static struct enclosure larger_of(struct enclosure f, struct enclosure g)
 static struct enclosure stick_limit(const struct outlook *o, int pair, int end)
 {
     const struct friction *friction = &o->state->model->plan.frictions[pair];
-    struct enclosure press = larger_of(press_of(o, pair), enclosure_point(0));
-    struct enclosure at_rest = enclosure_multiply(enclose_formula(o, &friction->mu_s), press);
-    struct enclosure moving = enclosure_multiply(enclose_formula(o, &friction->mu_k), press);
-    struct enclosure limit = larger_of(centred(o, at_rest), centred(o, moving));
-    struct enclosure push = enclose_slot(o, friction->body, friction->hold_slot);
+    struct enclosure press = larger_of(outlook_press(o, pair), enclosure_point(0));
+    struct enclosure at_rest = enclosure_multiply(outlook_formula(o, &friction->mu_s), press);
+    struct enclosure moving = enclosure_multiply(outlook_formula(o, &friction->mu_k), press);
+    struct enclosure limit = larger_of(outlook_centred(o, at_rest), outlook_centred(o, moving));
+    struct enclosure push = outlook_slot(o, friction->body, friction->hold_slot);
     struct enclosure f = enclosure_add(limit, enclosure_scale(end == 0 ? 1 : -1, push));
     /* The room for rounding that friction_rounding gives. */
     double rounding = 8 * DBL_EPSILON * (interval_size(push.value) + interval_size(limit.value));
     f.value.high += rounding;
     f.middle.high += rounding;
-    return centred(o, f);
+    return outlook_centred(o, f);
 }
 
 /* ---- by kind */
@@ -156,12 +155,12 @@ bool watchers_can_enclose(const struct fbd_model *model, const struct watcher *w
         return true;
     if (watcher->kind == watch_lift || watcher->kind == watch_gap || watcher->kind == watch_edge)
         return false;
-    if (watcher->kind == watch_contact) return is_plain_sum(model, plan->contacts[watcher->index].body);
+    if (watcher->kind == watch_contact) return outlook_knows(model, plan->contacts[watcher->index].body);
     const struct friction *friction = &plan->frictions[watcher->index];
     if (friction->tie >= 0) return false;
     if (watcher->kind == watch_slip_stop) return true;
     bool known = watcher->kind != watch_stick_limit || !friction->surface_speed.expr; /* its second rate */
-    return known && !friction->jointed && is_plain_sum(model, friction->body);
+    return known && !friction->jointed && outlook_knows(model, friction->body);
 }
 
 static void enclose_kink(const struct watchers *watchers, const struct watcher_set *set,
@@ -186,9 +185,22 @@ static struct enclosure enclose_user(const struct watchers *watchers, int index,
     int armed = watchers->armed[index];
     if (armed == 0) return enclosure_point(HUGE_VAL);
     struct enclosure difference =
-        enclosure_subtract(enclose_formula(o, &watch->left), enclose_formula(o, &watch->right));
+        enclosure_subtract(outlook_formula(o, &watch->left), outlook_formula(o, &watch->right));
     struct enclosure band = enclosure_point(watchers->band[index]);
-    return centred(o, enclosure_add(enclosure_scale(armed, difference), band));
+    return outlook_centred(o, enclosure_add(enclosure_scale(armed, difference), band));
+}
+
+/* s of the upper branch, or what is left to 1. */
+static struct enclosure enclose_share(const struct outlook *o, const struct watcher *watcher)
+{
+    const struct fbd_state *state = o->state;
+    int branch = state->model->plan.kinks[watcher->index].formula.branch + watcher->part;
+    int index = state_sliding(state) ? state->sliding->slide_at[branch] : 0;
+    if (index == 0) return enclosure_point(HUGE_VAL);
+    const struct slide *slide = &state->sliding->slides[index - 1];
+    struct enclosure share =
+        enclosure_scale(watcher->end == 0 ? slide->sign : -slide->sign, o->shares[slide->unit]);
+    return enclosure_add(enclosure_point(0.5 + slide->slack), share);
 }
 
 static struct enclosure enclose_one(const struct watchers *watchers, const struct watcher *watcher,
@@ -201,15 +213,15 @@ static struct enclosure enclose_one(const struct watchers *watchers, const struc
     case watch_contact: {
         const struct contact *contact = &model->plan.contacts[index];
         struct enclosure slack = enclosure_point(watchers_contact_slack(model, NULL, contact));
-        return centred(o, enclosure_subtract(slack, enclose_slot(o, contact->body, contact->slot)));
+        return outlook_centred(o, enclosure_subtract(slack, outlook_slot(o, contact->body, contact->slot)));
     }
-    case watch_normal_turns: return press_of(o, index);
+    case watch_normal_turns: return outlook_press(o, index);
     case watch_slip_stop:
         return o->state->slip[index] == stick ? enclosure_point(HUGE_VAL) : slip_stop(o, index);
     case watch_stick_limit:
         return o->state->slip[index] != stick ? enclosure_point(HUGE_VAL)
                                               : stick_limit(o, index, watcher->end);
-    case watch_share: return enclosure_point(HUGE_VAL); /* it is not slid on: watchers_follow */
+    case watch_share: return enclose_share(o, watcher);
     case watch_lift:
     case watch_gap:
     case watch_edge:
@@ -219,12 +231,20 @@ static struct enclosure enclose_one(const struct watchers *watchers, const struc
     return enclosure_everything();
 }
 
+/* Are forces, and with them shares, in functions of this kind? */
+static bool asks_shares(enum watcher_kind kind)
+{
+    return kind == watch_share || kind == watch_contact || kind == watch_stick_limit ||
+           kind == watch_normal_turns;
+}
+
 void watchers_enclose(const struct watchers *watchers, const struct watcher_set *set, size_t group,
                       const struct fbd_state *state, const struct stretch *stretch, const struct enclosure *y,
                       struct enclosure *out)
 {
     const struct proof_group *those = &set->groups[group];
-    const struct outlook outlook = {state, stretch, y};
+    struct outlook outlook = {.state = state, .stretch = stretch, .y = y};
+    if (asks_shares(set->watchers[those->first].kind) && state_sliding(state)) outlook_find_shares(&outlook);
     if (set->watchers[those->first].kind == watch_kink) {
         enclose_kink(watchers, set, those, &outlook, out);
         return;
@@ -270,6 +290,25 @@ static void mark_friction(const struct plan *plan, const struct watcher *watcher
     mark_body(plan, friction->body, used);
 }
 
+/* What the switch of a slide watches, and the forces on the bodies whose coordinates these are. */
+static void mark_share(const struct fbd_model *model, const struct formula *formula, bool *used)
+{
+    const int *slots;
+    size_t count = expr_variables(formula->expr, &slots);
+    int n = model->plan.n;
+    mark_formula(formula, used);
+    for (size_t k = 0; k < count; k++) {
+        if (slots[k] > 2 * n) continue;
+        int coordinate = (slots[k] - 1) % n;
+        used[n + coordinate] = true;
+        for (size_t b = 0; b < model->body_count; b++) {
+            const struct model_body *body = &model->bodies[b];
+            if (coordinate >= body->first && coordinate < body->first + body->count)
+                mark_body(&model->plan, (int)b, used);
+        }
+    }
+}
+
 void watchers_mark_used(const struct fbd_model *model, const struct watcher_set *set, bool *used)
 {
     const struct plan *plan = &model->plan;
@@ -289,8 +328,8 @@ void watchers_mark_used(const struct fbd_model *model, const struct watcher_set 
         case watch_lift:
         case watch_gap:
         case watch_edge:
-        case watch_share:
         case watch_one_sided: break;
+        case watch_share: mark_share(model, &plan->kinks[watcher->index].formula, used); break;
         }
     }
 }

@@ -182,7 +182,7 @@ static double share_value(const struct fbd_state *state, const struct watcher *w
     *rate = 0;
     if (!slide) return HUGE_VAL;
     *rate = watcher->end == 0 ? slide->along : -slide->along;
-    return watcher->end == 0 ? slide->share : 1 - slide->share;
+    return (watcher->end == 0 ? slide->share : 1 - slide->share) + slide->slack;
 }
 
 static void kink_margins(const struct watchers *watchers, const struct kink *kink, const struct view *view)

@@ -120,6 +120,130 @@ static void friction_by_sign_is_friction(void **unused)
     checks_end(&checks);
 }
 
+/* ---- no end of a slide is lost: pushes whose peaks are within a share of 1e-4 to 1e-2 of what holds */
+
+/* Two waves, whose sizes add up to R (1 + eps). */
+struct waves {
+    double a[2], w[2], phase[2];
+};
+
+static struct waves draw_waves(struct random_numbers *numbers, double R)
+{
+    static const double beyond[] = {1e-2, 1e-3, 1e-4, -1e-4, -1e-3};
+    double most = R * (1 + beyond[(int)random_between(numbers, 0, 4.999)]);
+    struct waves waves = {.w = {random_between(numbers, 1, 60), random_between(numbers, 0.3, 8)},
+                          .phase = {random_between(numbers, 0, 6.28), random_between(numbers, 0, 6.28)}};
+    waves.a[0] = random_between(numbers, 0.2, 0.8) * most;
+    waves.a[1] = most - waves.a[0];
+    return waves;
+}
+
+static void write_waves(const struct waves *p, char *text, size_t size)
+{
+    snprintf(
+        text, size,
+        "      - applied: {name: wave, value: \"%.17g*sin(%.17g*t + %.17g) + %.17g*sin(%.17g*t + %.17g)\"}\n",
+        p->a[0], p->w[0], p->phase[0], p->a[1], p->w[1], p->phase[1]);
+}
+
+static size_t count_of(const struct trial *trial, fbd_event_kind kind)
+{
+    size_t count = 0, events = fbd_simulation_events(trial->simulation);
+    for (size_t i = 0; i < events; i++) count += fbd_simulation_event(trial->simulation, i).kind == kind;
+    return count;
+}
+
+/* Declared friction has the same ends. */
+static void a_short_end_of_rubbing_is_not_lost(void **unused)
+{
+    (void)unused;
+    enum { draws = 60, seed = 1779 };
+    struct checks checks = {0};
+    struct random_numbers numbers = {seed};
+    printf("# seed %d\n", seed);
+    for (int draw = 0; draw < draws; draw++) {
+        double R = random_between(&numbers, 1, 3), m = random_between(&numbers, 0.5, 2), v = draw % 2;
+        const struct waves waves = draw_waves(&numbers, R);
+        char wave[300], rub[200], texts[2][900];
+        write_waves(&waves, wave, sizeof wave);
+        struct trial trials[2];
+        for (int i = 0; i < 2; i++) {
+            if (i == 0)
+                snprintf(rub, sizeof rub, "      - applied: {name: rub, value: \"-%.17g*sign(v)\"}\n", R);
+            else
+                snprintf(rub, sizeof rub, "      - gravity\n      - normal\n      - friction: %.17g\n",
+                         R / m);
+            snprintf(
+                texts[i], sizeof texts[i],
+                "fbd: 1\ngravity: 1\nbodies:\n  b:\n    mass: %.17g\n    motion: slide\n    initial: {v: "
+                "%.17g}\n    forces:\n%s%ssimulate: {until: 20 s}\n",
+                m, v, wave, rub);
+            trials[i] = trial_parse(texts[i]);
+            run_with(&trials[i], i == 0 ? methods[draw % method_count] : NULL, 1e-10);
+        }
+        size_t slides = count_of(&trials[0], FBD_EVENT_SLIDING_ENDS),
+               breaks = count_of(&trials[1], FBD_EVENT_BREAKAWAY);
+        check_that(&checks, "as many ends", slides == breaks);
+        for (int k = 0; k < (int)breaks; k++)
+            check_close(&checks, "end", trial_event(&trials[0], FBD_EVENT_SLIDING_ENDS, "rub", k),
+                        trial_event(&trials[1], FBD_EVENT_BREAKAWAY, NULL, k), 1e-6);
+        if (checks.failed) print_message("# draw %d, %zu ends of %zu\n%s", draw, slides, breaks, texts[0]);
+        for (int i = 0; i < 2; i++) trial_close(&trials[i]);
+        if (checks.failed) break;
+    }
+    checks_end(&checks);
+}
+
+/* What the relay of a sliding mode x = -c v has left: F less the size of m x/c^2 - P(t). */
+static double left_of(const struct waves *p, double F, double m, double x, double c, double t)
+{
+    double push = p->a[0] * sin(p->w[0] * t + p->phase[0]) + p->a[1] * sin(p->w[1] * t + p->phase[1]);
+    return F - fabs(m * x * exp(-t / c) / (c * c) - push);
+}
+
+static void a_short_end_of_a_sliding_mode_is_not_lost(void **unused)
+{
+    (void)unused;
+    enum { draws = 60, seed = 1932 };
+    const double step = 1e-4, until = 20;
+    struct checks checks = {0};
+    struct random_numbers numbers = {seed};
+    printf("# seed %d\n", seed);
+    for (int draw = 0; draw < draws; draw++) {
+        double F = random_between(&numbers, 1, 3), m = random_between(&numbers, 0.5, 2),
+               c = random_between(&numbers, 0.3, 1),
+               x = random_between(&numbers, -1, 1) * 0.3 * F * c * c / m;
+        const struct waves waves = draw_waves(&numbers, F);
+        char wave[300], text[900];
+        write_waves(&waves, wave, sizeof wave);
+        double end = 0;
+        if (left_of(&waves, F, m, x, c, 0) < 0.01 * F) continue;
+        while (end < until && left_of(&waves, F, m, x, c, end) > 0) end += step;
+        double low = end - step, high = end;
+        for (int k = 0; k < 60 && end < until; k++) {
+            double middle = low + (high - low) / 2;
+            *(left_of(&waves, F, m, x, c, middle) > 0 ? &low : &high) = middle;
+        }
+        snprintf(
+            text, sizeof text,
+            "fbd: 1\nbodies:\n  b:\n    mass: %.17g\n    motion: slide\n    initial: {x: %.17g, v: %.17g}\n"
+            "    forces:\n%s      - applied: {name: relay, value: \"-%.17g*sign(x + %.17g*v)\"}\nsimulate: "
+            "{until: 20 s}\n",
+            m, x, -x / c, wave, F, c);
+        struct trial trial = trial_parse(text);
+        run_with(&trial, methods[draw % method_count], 1e-10);
+        size_t ends = count_of(&trial, FBD_EVENT_SLIDING_ENDS);
+        check_that(&checks, "whether it ends", (ends > 0) == (end < until));
+        if (ends > 0 && end < until)
+            check_close(&checks, "first end", trial_event(&trial, FBD_EVENT_SLIDING_ENDS, "relay", 0), low,
+                        1e-7);
+        if (checks.failed) print_message("# draw %d, first end at %.9g\n%s", draw, low, text);
+        trial_close(&trial);
+        if (checks.failed) break;
+    }
+    checks_end(&checks);
+}
+
 /* ---- two at once: a block on a block on the ground, both rubbing */
 
 static void two_that_rub_on_each_other_are_a_stack(void **unused)
@@ -282,6 +406,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_sliding_mode_decays_on_its_surface),
         cmocka_unit_test(friction_by_sign_is_friction),
+        cmocka_unit_test(a_short_end_of_rubbing_is_not_lost),
+        cmocka_unit_test(a_short_end_of_a_sliding_mode_is_not_lost),
         cmocka_unit_test(two_that_rub_on_each_other_are_a_stack),
         cmocka_unit_test(the_jacobian_of_a_slide_is_that_of_differences),
         cmocka_unit_test(it_rests_until_the_push_is_too_large),

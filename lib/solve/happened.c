@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What has happened at an event, read off the modes before and after it.
+ */
+#include "dynamics/constraint.h"
+#include "solve/run.h"
+
+/* ---- friction, and what is one-sided */
+
+void run_note_friction(struct run *run, fbd_event_kind kind, int pair)
+{
+    const struct friction *friction = &run->model->plan.frictions[pair];
+    struct run_event *event = run_note(run, kind, friction->body, friction->load, -1);
+    if (!event) return;
+    struct instant at = state_instant(run->state);
+    double *slots = run->during->scratch;
+    force_balance(run->model, &at, slots);
+    struct friction_values values = friction_at(run->model, pair, &at, slots);
+    event->force = values.force;
+    event->limit = values.limit;
+}
+
+static void note_one_sided(struct run *run, int pair, int before, int after)
+{
+    const struct friction *friction = &run->model->plan.frictions[pair];
+    bool rope = friction->kind == mode_rope;
+    if (before == stick && after != stick)
+        run_note(run, rope ? FBD_EVENT_ROPE_SLACK : FBD_EVENT_LIFT_OFF, friction->body, friction->load, -1);
+    bool snapped = run->snap_pair == pair;
+    if (snapped) run->snap_pair = -1;
+    if (!snapped && (before == stick || after != stick)) return;
+    struct run_event *event =
+        run_note(run, rope ? FBD_EVENT_ROPE_TAUT : FBD_EVENT_LANDING, friction->body, friction->load, -1);
+    if (event) event->force = snapped ? -run->snap_work : 0;
+}
+
+/* Friction of a contact that has just closed or opened has no event of its own. */
+static bool rubbed_throughout(const struct run *run, int pair)
+{
+    int tie = run->model->plan.frictions[pair].tie;
+    if (tie < 0 || run->model->tree->ties[tie].kind != constraint_contact) return true;
+    int surface = run->model->tree->ties[tie].surface;
+    return run->during->slip[surface] == stick && run->state->slip[surface] == stick;
+}
+
+/* What each pair has done is read off its modes before and after, whichever event was the cause. */
+static void note_frictions(struct run *run, const bool *moving)
+{
+    const struct watcher_set *set = &run->watchers.moving;
+    for (int pair = 0; pair < (int)run->model->plan.friction_count; pair++) {
+        int before = run->during->slip[pair], after = run->state->slip[pair];
+        bool stopped = false;
+        for (size_t i = 0; moving && i < set->count; i++)
+            stopped |=
+                moving[i] && set->watchers[i].kind == watch_slip_stop && set->watchers[i].index == pair;
+        if (run->model->plan.frictions[pair].kind == mode_contact) continue; /* run_release_contacts */
+        if (!rubbed_throughout(run, pair)) continue;
+        if (mode_is_one_sided(&run->model->plan.frictions[pair])) {
+            note_one_sided(run, pair, before, after);
+            continue;
+        }
+        if (before == stick && after != stick) run_note_friction(run, FBD_EVENT_BREAKAWAY, pair);
+        if (before != stick && after == stick) {
+            int tie = run->model->plan.frictions[pair].tie;
+            if (tie >= 0) tie_rezero(run->model, run->state->tree, tie);
+            if (run->passages.end < HUGE_VAL)
+                run->passages.sticks[pair] = true; /* at the end of the series */
+            else
+                run_note_friction(run, FBD_EVENT_STICK, pair);
+        }
+        if (stopped && after != stick && after != before) run_note_friction(run, FBD_EVENT_REVERSAL, pair);
+    }
+}
+
+/* ---- switches */
+
+/* What has come to its switch and goes on as before has not passed it. */
+static void drop_touched(struct run *run, size_t first)
+{
+    size_t kept = first;
+    for (size_t i = first; i < run->event_count; i++) {
+        const struct run_event *event = &run->events[i];
+        bool same = event->kind == FBD_EVENT_SWITCH &&
+                    run->state->branch[event->branch] == run->during->branch[event->branch];
+        bool slid_on = same && run->state->sliding && run->state->sliding->slide_at[event->branch] > 0;
+        if (!same || slid_on) run->events[kept++] = *event;
+    }
+    run->event_count = kept;
+}
+
+/* The event of a slide, with the value that the force takes. */
+static void set_slide(const struct run *run, const struct kink *kink, fbd_event_kind kind,
+                      struct run_event *event)
+{
+    const struct formula *value = &run->model->loads[kink->load].value;
+    const struct instant at = state_instant(run->state);
+    if (!event) return;
+    event->kind = kind;
+    event->limit = value->expr && value->branch == kink->formula.branch;
+    if (event->limit > 0) event->force = formula_value(value, &at);
+}
+
+void run_note_slide(struct run *run, const struct kink *kink, fbd_event_kind kind)
+{
+    set_slide(run, kink, kind, run_note(run, kind, kink->body, kink->load, -1));
+}
+
+/* Sliding is read off the modes before and after, too. What begins to slide has not passed to another branch,
+ * as was noted when its switch was reached: `first` is the first event of this instant. */
+static void note_slides(struct run *run, size_t first)
+{
+    const struct plan *plan = &run->model->plan;
+    for (size_t k = 0; run->state->sliding && k < plan->kink_count; k++) {
+        const struct kink *kink = &plan->kinks[k];
+        for (size_t part = 0; part < kink->count; part++) {
+            size_t branch = (size_t)kink->formula.branch + part;
+            bool before = run->during->sliding->slide_at[branch] > 0,
+                 after = run->state->sliding->slide_at[branch] > 0;
+            if (before == after) continue;
+            if (after) passages_blunt(run, (int)branch);
+            if (run->passages.end < HUGE_VAL) { /* at the end of the series */
+                run->passages.list[branch].slides = after;
+                continue;
+            }
+            struct run_event *event = NULL;
+            for (size_t i = first; after && i < run->event_count; i++)
+                if (run->events[i].kind == FBD_EVENT_SWITCH && run->events[i].load == kink->load)
+                    event = &run->events[i];
+            fbd_event_kind kind = after ? FBD_EVENT_SLIDING : FBD_EVENT_SLIDING_ENDS;
+            if (event)
+                set_slide(run, kink, kind, event);
+            else
+                run_note_slide(run, kink, kind);
+        }
+    }
+}
+
+void run_note_happened(struct run *run, size_t first, const bool *moving)
+{
+    drop_touched(run, first);
+    note_slides(run, first);
+    note_frictions(run, moving);
+}
