@@ -5,6 +5,7 @@
  */
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "base/text.h"
 #include "claims.h"
@@ -88,18 +89,22 @@ static void claim_energy(fbd_energy energy)
 
 struct patience {
     unsigned long steps, waits;
+    clock_t since;
 };
 
 /* Tells the run to end after so many steps, or so many questions without one: of a belt of 1e15 rad/s a
  * stretch without a step is any number of steps of its companion. It is asked between them too, and oftener
- * where groups wait for each other: counted in calls alone no run would come to its end. */
+ * where groups wait for each other: counted in calls alone no run would come to its end. And after two seconds
+ * of work: what takes longer has to ask in them. */
 static int watch(void *context, const fbd_progress *progress)
 {
     struct patience *patience = context;
     claim_finite("time", progress->t);
+    const clock_t most = 2 * CLOCKS_PER_SEC;
+    if (patience->since == 0) patience->since = clock();
     patience->waits = progress->steps == patience->steps ? patience->waits + 1 : 0;
     patience->steps = progress->steps;
-    return progress->steps > most_steps || patience->waits > most_waits;
+    return progress->steps > most_steps || patience->waits > most_waits || clock() - patience->since > most;
 }
 
 static int write_table(void *context, const char *rows, size_t length)
