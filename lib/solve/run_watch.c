@@ -209,13 +209,15 @@ static void hold_noise(struct run *run)
     }
 }
 
-/* Where a formula has turned by three radians, `to` at most. One that turns no less in half of the time
- * hardly varies at all: its bounds are those of a difference of what is the same. */
+/* Where a formula has turned by three radians, `to` at most. What turns no less in half of the time, nor in a quarter
+ * of it, goes one way there, faster at one end than at the other, or hardly varies at all, and its bounds are those
+ * of a difference of what is the same. */
 static double end_of_turn(struct run *run, const struct formula *formula, double from, double to)
 {
-    enum { most_halvings = 20 };
+    enum { most_halvings = 20, most_in_vain = 2 };
     const double most = 3, least_fall = 0.75;
-    double before = HUGE_VAL, first = to;
+    double before = HUGE_VAL, last = to;
+    int in_vain = 0;
     for (int halving = 0; halving < most_halvings; halving++) {
         struct stretch stretch = stretch_between(from, to);
         if (run->paced_by_motion) {
@@ -224,7 +226,10 @@ static double end_of_turn(struct run *run, const struct formula *formula, double
         }
         double radians = radians_of(run, formula, &stretch);
         if (!(radians > most) || !(stretch.middle > from)) return to;
-        if (before < HUGE_VAL && radians > least_fall * before) return first;
+        bool falls = !(before < HUGE_VAL) || radians <= least_fall * before;
+        if (falls) last = to;
+        in_vain = falls ? 0 : in_vain + 1;
+        if (in_vain == most_in_vain) return last;
         before = radians;
         to = stretch.middle;
     }
@@ -255,12 +260,13 @@ static double end_of_panel(void *context, double from, double to)
     return to;
 }
 
-/* For functions that will be sampled, what forces are made of is followed as well. */
+/* For functions that will be sampled, or may be, what forces are made of is followed as well. */
 static void mark_paced(struct run *run, bool *used)
 {
     const struct watcher_set *set = &run->watchers.moving;
     bool samples = false;
-    for (size_t g = 0; g < set->group_count; g++) samples |= !set->groups[g].proved;
+    for (size_t g = 0; g < set->group_count; g++)
+        samples |= !set->groups[g].proved || set->watchers[set->groups[g].first].kind == watch_share;
     const struct formula *formula;
     for (size_t k = 0; samples && (formula = paced_formula(run->model, k)); k++) {
         if (!varies(formula)) continue;

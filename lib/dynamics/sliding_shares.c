@@ -1,0 +1,333 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Surfaces that are slid on, and the shares that keep the motion there.
+ */
+#include "dynamics/sliding.h"
+
+#include <assert.h>
+#include <float.h>
+#include <string.h>
+
+#include "dynamics/absolute.h"
+#include "dynamics/forward.h"
+#include "dynamics/state.h"
+
+/* ---- the surfaces */
+
+/* u of a switch, and its rate along (dt, dy). */
+static double switching(struct sliding *s, const struct fbd_model *model, const struct instant *given,
+                        const struct kink *kink, int part, double dt, const double *dy, double *rate)
+{
+    const struct instant at = instant_extend(model, given);
+    const struct direction own = {dt, dy}, along = direction_extend(model, &at, &own);
+    expr_switchings(kink->formula.expr, at.t, at.y, along.dt, along.dy, at.branch + kink->formula.branch,
+                    s->u, s->rate, s->rounding);
+    *rate = s->rate[part];
+    return s->u[part];
+}
+
+double sliding_surface(struct sliding *s, const struct fbd_model *model, const struct instant *given,
+                       const struct kink *kink, int part)
+{
+    double rate;
+    size_t n = (size_t)model->plan.n;
+    memcpy(s->moved, given->y + n, n * sizeof *s->moved);
+    double u = switching(s, model, given, kink, part, 0, s->moved, &rate);
+    return kink_watches_places(kink, part) ? rate : u;
+}
+
+double sliding_surface_rate(struct sliding *s, const struct fbd_model *model, const struct instant *given,
+                            const struct kink *kink, int part, double dt, const double *dy)
+{
+    double rate;
+    size_t n = (size_t)model->plan.n;
+    if (kink_watches_places(kink, part)) {
+        memcpy(s->moved, dy + n, n * sizeof *s->moved);
+        switching(s, model, given, kink, part, 0, s->moved, &rate);
+    } else {
+        switching(s, model, given, kink, part, dt, dy, &rate);
+    }
+    return rate;
+}
+
+/* Of a unit the first counts. */
+void sliding_rates(const struct fbd_model *model, const struct instant *given, double dt, const double *dy,
+                   double *rates)
+{
+    struct sliding *s = given->sliding;
+    for (int j = s->count - 1; j >= 0; j--) {
+        const struct slide *slide = &s->slides[j];
+        rates[slide->unit] =
+            sliding_surface_rate(s, model, given, &model->plan.kinks[slide->kink], slide->part, dt, dy);
+    }
+}
+
+/* The values of the surfaces, one for each unit. */
+static void surfaces(const struct fbd_model *model, const struct instant *given, double *values)
+{
+    struct sliding *s = given->sliding;
+    for (int j = s->count - 1; j >= 0; j--) {
+        const struct slide *slide = &s->slides[j];
+        values[slide->unit] = sliding_surface(s, model, given, &model->plan.kinks[slide->kink], slide->part);
+    }
+}
+
+/* ---- the small system M x = r, by elimination with pivots */
+
+static void factor(struct sliding *s)
+{
+    int m = s->units;
+    memcpy(s->lu, s->M, (size_t)(m * m) * sizeof *s->lu);
+    s->failed = false;
+    for (int k = 0; k < m; k++) {
+        int best = k;
+        for (int i = k + 1; i < m; i++)
+            if (fabs(s->lu[i * m + k]) > fabs(s->lu[best * m + k])) best = i;
+        s->pivot[k] = best;
+        double before = 0;
+        for (int j = 0; j < m; j++) before = fmax(before, fabs(s->M[j * m + k]));
+        if (!(fabs(s->lu[best * m + k]) > 1e-12 * before)) {
+            s->failed = true;
+            return;
+        }
+        for (int j = 0; best != k && j < m; j++) {
+            double swap = s->lu[k * m + j];
+            s->lu[k * m + j] = s->lu[best * m + j];
+            s->lu[best * m + j] = swap;
+        }
+        for (int i = k + 1; i < m; i++) {
+            double f = s->lu[i * m + k] /= s->lu[k * m + k];
+            for (int j = k + 1; j < m; j++) s->lu[i * m + j] -= f * s->lu[k * m + j];
+        }
+    }
+}
+
+static void solve(const struct sliding *s, double *x)
+{
+    int m = s->units;
+    for (int k = 0; k < m; k++) {
+        double swap = x[k];
+        x[k] = x[s->pivot[k]];
+        x[s->pivot[k]] = swap;
+    }
+    for (int k = 0; k < m; k++)
+        for (int i = k + 1; i < m; i++) x[i] -= s->lu[i * m + k] * x[k];
+    for (int k = m - 1; k >= 0; k--) {
+        for (int j = k + 1; j < m; j++) x[k] -= s->lu[k * m + j] * x[j];
+        x[k] /= s->lu[k * m + k];
+    }
+}
+
+/* ---- shares */
+
+static void set_shares(struct sliding *s)
+{
+    for (int j = 0; j < s->count; j++) {
+        s->slides[j].share = 0.5 + s->slides[j].sign * s->delta[s->slides[j].unit];
+        s->slides[j].along = 0;
+    }
+}
+
+/* The coordinate of a unit that watches places, where friction keeps it at rest; else -1. Then the switch holds
+ * first, and friction what is left: the share is that at which friction has nothing to do. */
+static int held_coordinate(const struct fbd_model *model, const struct instant *at, int unit)
+{
+    struct sliding *s = at->sliding;
+    size_t n = (size_t)model->plan.n;
+    int first = 0, held = -1;
+    while (s->slides[first].unit != unit) first++;
+    const struct kink *kink = &model->plan.kinks[s->slides[first].kink];
+    for (size_t pair = 0; s->slides[first].places && pair < model->plan.friction_count; pair++) {
+        const struct friction *friction = &model->plan.frictions[pair];
+        if (friction->kind != mode_friction || friction->tie >= 0 || at->slip[pair] != stick) continue;
+        memset(s->flow, 0, 2 * n * sizeof *s->flow);
+        s->flow[n + (size_t)friction->coordinate] = 1;
+        double slope = sliding_surface_rate(s, model, at, kink, s->slides[first].part, 0, s->flow);
+        if (slope != 0) held = friction->coordinate;
+    }
+    return held;
+}
+
+static void find_held(const struct fbd_model *model, const struct instant *at)
+{
+    struct sliding *s = at->sliding;
+    for (int unit = 0; unit < s->units; unit++) s->held[unit] = held_coordinate(model, at, unit);
+}
+
+/* Where a coordinate is held, its sum of forces takes the place of the rate of its surface. */
+static void put_held(const struct sliding *s, const double *slots, double *rates)
+{
+    for (int unit = 0; unit < s->units; unit++)
+        if (s->held[unit] >= 0) rates[unit] = slots[s->held[unit]];
+}
+
+/* c: the rates of the surfaces at the shares as they are. */
+static void residuals(const struct fbd_model *model, const struct instant *at)
+{
+    struct sliding *s = at->sliding;
+    size_t n = (size_t)model->plan.n;
+    accelerations_at_shares(model, at, s->slots, s->a);
+    memcpy(s->flow, at->y + n, n * sizeof *s->flow);
+    memcpy(s->flow + n, s->a, n * sizeof *s->flow);
+    sliding_rates(model, at, 1, s->flow, s->c);
+    put_held(s, s->slots, s->c);
+}
+
+/* What the share of each unit does to the accelerations, and these to the surfaces. */
+static void responses(const struct fbd_model *model, const struct instant *at)
+{
+    struct sliding *s = at->sliding;
+    size_t n = (size_t)model->plan.n;
+    const struct direction none = {0, s->zero};
+    for (int unit = 0; unit < s->units; unit++) {
+        for (int j = 0; j < s->count; j++)
+            s->slides[j].along = s->slides[j].unit == unit ? s->slides[j].sign : 0;
+        accelerations_along_at_shares(model, at, &none, s->slots, s->slots_along, s->a_along);
+        memset(s->flow, 0, n * sizeof *s->flow);
+        memcpy(s->flow + n, s->a_along, n * sizeof *s->flow);
+        memcpy(s->B + (size_t)unit * n, s->a_along, n * sizeof *s->B);
+        sliding_rates(model, at, 0, s->flow, s->step);
+        put_held(s, s->slots_along, s->step);
+        for (int i = 0; i < s->units; i++) s->M[i * s->units + unit] = s->step[i];
+    }
+    for (int j = 0; j < s->count; j++) s->slides[j].along = 0;
+    factor(s);
+}
+
+/* It starts from the middle, whatever was before, so that an instant has one answer. */
+void sliding_solve(const struct fbd_model *model, const struct instant *at)
+{
+    enum { most_steps = 12 };
+    struct sliding *s = at->sliding;
+    assert(s); /* the motion slides */
+    memset(s->delta, 0, (size_t)s->units * sizeof *s->delta);
+    set_shares(s);
+    find_held(model, at);
+    for (int step = 0; step < most_steps; step++) {
+        residuals(model, at);
+        if (step != 1) responses(model, at); /* affine: the second step takes the rounding of the first */
+        if (s->failed) return;
+        solve(s, s->c);
+        double largest = 0;
+        for (int k = 0; k < s->units; k++) {
+            s->delta[k] -= s->c[k];
+            largest = fmax(largest, fabs(s->c[k]));
+        }
+        set_shares(s);
+        if (!(largest > 1e-15)) return;
+        if (step > 0 && largest < 1e-14) return;
+    }
+}
+
+void sliding_clear_rounding(const struct sliding *s, int n, double *a)
+{
+    for (int i = 0; i < n && !s->failed; i++) {
+        double reach = 0;
+        for (int unit = 0; unit < s->units; unit++) reach += fabs(s->B[(size_t)unit * (size_t)n + (size_t)i]);
+        if (fabs(a[i]) <= 8 * DBL_EPSILON * reach) a[i] = 0;
+    }
+}
+
+/* D^2 u [f, d] for the motion f: how the rates change with the place at which they are taken. By central
+ * differences; zero to the last bit where u is affine, as it mostly is. */
+static void add_curvature(const struct fbd_model *model, const struct instant *at,
+                          const struct direction *along, double *sum)
+{
+    struct sliding *s = at->sliding;
+    size_t n = (size_t)model->plan.n;
+    double size = fabs(along->dt), place = 1 + fabs(at->t);
+    for (size_t i = 0; i < 2 * n; i++) size = fmax(size, fabs(along->dy[i]));
+    if (size == 0) return;
+    double h = 1e-5 * place / size;
+    struct instant beside = *at;
+    beside.y = s->shifted;
+    for (int side = 1; side >= -1; side -= 2) {
+        for (size_t i = 0; i < 2 * n; i++) s->shifted[i] = at->y[i] + side * h * along->dy[i];
+        beside.t = at->t + side * h * along->dt;
+        sliding_rates(model, &beside, 1, s->flow, s->step);
+        for (int k = 0; k < s->units; k++) sum[k] += side * s->step[k] / (2 * h);
+    }
+}
+
+void sliding_solve_along(const struct fbd_model *model, const struct instant *given,
+                         const struct direction *direction)
+{
+    struct sliding *s = given->sliding;
+    size_t n = (size_t)model->plan.n;
+    for (int j = 0; j < s->count; j++) s->slides[j].along = 0;
+    if (s->failed) return;
+    /* Both may stand in the room for places, which others pass through. */
+    memcpy(s->own_y, given->y, 2 * n * sizeof *s->own_y);
+    memcpy(s->own_dy, direction->dy, 2 * n * sizeof *s->own_dy);
+    struct instant at = *given;
+    at.y = s->own_y;
+    const struct direction along = {direction->dt, s->own_dy};
+    accelerations_along_at_shares(model, &at, &along, s->slots, s->slots_along, s->a_along);
+    memcpy(s->flow, along.dy + n, n * sizeof *s->flow);
+    memcpy(s->flow + n, s->a_along, n * sizeof *s->flow);
+    sliding_rates(model, &at, 0, s->flow, s->c);
+    put_held(s, s->slots_along, s->c);
+    accelerations_at_shares(model, &at, s->slots, s->a);
+    memcpy(s->flow, at.y + n, n * sizeof *s->flow);
+    memcpy(s->flow + n, s->a, n * sizeof *s->flow);
+    add_curvature(model, &at, &along, s->c);
+    solve(s, s->c);
+    for (int j = 0; j < s->count; j++) s->slides[j].along = -s->slides[j].sign * s->c[s->slides[j].unit];
+    const struct instant extended = instant_extend(model, &at);
+    direction_extend(model, &extended, &along);
+}
+
+/* ---- back onto the surfaces */
+
+/* Take away the velocities across the surfaces. What is left of one that goes is rounding. */
+static void project_velocities(struct fbd_state *state)
+{
+    const double rounding = 1e-14;
+    struct sliding *s = state->sliding;
+    size_t n = (size_t)state->model->plan.n;
+    double *v = state->y + n;
+    for (size_t i = 0; i < n; i++) {
+        double before = v[i];
+        for (int unit = 0; unit < s->units; unit++) v[i] -= s->B[(size_t)unit * n + i] * s->c[unit];
+        if (fabs(v[i]) <= rounding * fabs(before)) v[i] = 0;
+    }
+}
+
+/* Along what the unit's forces do, one slide after the other. */
+static void project_places(struct fbd_state *state)
+{
+    struct sliding *s = state->sliding;
+    size_t n = (size_t)state->model->plan.n;
+    for (int j = 0; j < s->count; j++) {
+        const struct slide *slide = &s->slides[j];
+        const struct kink *kink = &state->model->plan.kinks[slide->kink];
+        const double *B = s->B + (size_t)slide->unit * n;
+        const struct instant at = state_instant(state);
+        double unused;
+        if (!slide->places || s->held[slide->unit] >= 0) continue;
+        memset(s->flow, 0, n * sizeof *s->flow);
+        memcpy(s->flow + n, B, n * sizeof *B);
+        double reach = sliding_surface_rate(s, state->model, &at, kink, slide->part, 0, s->flow);
+        double u = switching(s, state->model, &at, kink, slide->part, 0, s->zero, &unused);
+        for (size_t i = 0; i < n; i++) state->y[i] -= B[i] * u / reach;
+    }
+}
+
+void sliding_project(struct fbd_state *state)
+{
+    enum {
+        passes = 2
+    }; /* the second takes the rounding of the first, and of u that is not linear the rest */
+    struct sliding *s = state->sliding;
+    for (int pass = 0; pass < passes; pass++) {
+        struct instant at = state_instant(state);
+        sliding_solve(state->model, &at);
+        if (s->failed) return;
+        surfaces(state->model, &at, s->c);
+        for (int unit = 0; unit < s->units; unit++)
+            if (s->held[unit] >= 0) s->c[unit] = 0;
+        solve(s, s->c);
+        project_velocities(state);
+        project_places(state);
+    }
+}
