@@ -222,6 +222,7 @@ static struct enclosure watched(const struct instr *i, const struct enclosing *e
     if (op_is_by_difference(i->op)) u = enclosure_subtract(*a, *b);
     if (op_is_by_difference(i->op)) enclosure_centre(&u, e->radius);
     if (i->op == op_square) u = enclosure_scale(2, *a);
+    if (i->op == op_relay) u = enclosure_add(*a, enclosure_point(e->branch[i->extra] > 0 ? 1 : -1));
     if (i->op != op_mod) return u;
     u.value = interval_divide(a->value, b->value);
     u.rate = interval_divide(interval_subtract(a->rate, interval_multiply(u.value, b->rate)), b->value);
@@ -252,7 +253,7 @@ static void enclose_margins(const struct instr *i, struct enclosing *e)
     } else if (n == 0 && (i->op == op_sign || i->op == op_equal)) {
         *lower = with_tolerance(u);
         *upper = with_tolerance(enclosure_negate(u));
-    } else if (n < 0) {
+    } else if (n < 0 || (n == 0 && i->op == op_relay)) {
         *upper = enclosure_negate(u);
     } else {
         *lower = u;

@@ -44,6 +44,11 @@ bool expr_switch_is_time(const struct expr *expr, size_t index)
     return expr->switch_at[index].time;
 }
 
+bool expr_switch_remembers(const struct expr *expr, size_t index)
+{
+    return expr->switch_at[index].op == op_relay;
+}
+
 const struct expr *expr_renumbered(struct arena *arena, const struct expr *expr, const int *moved)
 {
     if (expr->variables == 0) return expr;

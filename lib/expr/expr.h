@@ -210,6 +210,9 @@ bool expr_switch_jumps(const struct expr *expr, size_t index);
 /* How what one switch watches varies; slots beyond `last` count as if they were not affine. */
 enum expr_degree expr_switch_degree(const struct expr *expr, size_t index, int last);
 
+/* Is it a relay, whose value depends on where the motion came from? */
+bool expr_switch_remembers(const struct expr *expr, size_t index);
+
 /* The branch on the other side of end `end` (0 lower, 1 upper) of switch `index`. */
 int expr_branch_beyond(const struct expr *expr, size_t index, int end, int branch);
 

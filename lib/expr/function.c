@@ -18,6 +18,7 @@ enum rule {
     rule_power,
     rule_clamp, /* made of max and min */
     rule_pulse, /* made of two steps */
+    rule_relay, /* of equal dimensions, to a pure number */
     rule_if,
 };
 
@@ -60,6 +61,7 @@ static const struct function functions[] = {
     {"square", op_square, 1, 1, rule_pure},
     {"sawtooth", op_sawtooth, 1, 1, rule_pure},
     {"clamp", op_max, 3, 3, rule_clamp},
+    {"hysteresis", op_relay, 3, 3, rule_relay},
     {"if", op_copy, 3, 3, rule_if},
 };
 
@@ -125,6 +127,7 @@ static struct operand wrong_count(struct parser *p, const struct function *funct
                                            {"mod", "mod(a, b)"},
                                            {"pulse", "pulse(t, start, width)"},
                                            {"clamp", "clamp(u, low, high)"},
+                                           {"hysteresis", "hysteresis(u, low, high)"},
                                            {"if", "if(condition, a, b)"}};
     const char *hint = NULL;
     for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++)
@@ -181,6 +184,26 @@ static struct operand build_pulse(struct builder *b, int base, const struct oper
     return build_operation(b, base, op_multiply, 0, &on, &not_off, pure, at);
 }
 
+/* A relay over ((u - low) - (high - u))/(high - low), which is -1 and 1 at the ends. */
+static struct operand build_relay(struct parser *p, int base, const struct operand *args, struct kind kind,
+                                  struct pos at)
+{
+    struct builder *b = p->builder;
+    const struct operand *u = &args[0], *low = &args[1], *high = &args[2];
+    struct kind same = {.dim = u->kind.dim, .failed = kind.failed};
+    if (low->place == place_constant && high->place == place_constant && !(low->value < high->value)) {
+        diag_add(p->errors, FBD_ERROR, "argument-order", low->at, "write `hysteresis(u, low, high)`",
+                 "the lower threshold of `hysteresis` must be below the upper one");
+        return parse_failed(p, at);
+    }
+    struct operand above = build_operation(b, b->depth, op_subtract, 0, u, low, same, at);
+    struct operand below = build_operation(b, b->depth, op_subtract, 0, high, u, same, at);
+    struct operand off = build_operation(b, b->depth, op_subtract, 0, &above, &below, same, at);
+    struct operand width = build_operation(b, b->depth, op_subtract, 0, high, low, same, at);
+    struct operand share = build_operation(b, b->depth, op_divide, 0, &off, &width, kind, at);
+    return build_operation(b, base, op_relay, 0, &share, NULL, kind, at);
+}
+
 static struct kind same_arguments(struct parser *p, const struct function *function,
                                   const struct operand *args, int count)
 {
@@ -205,6 +228,7 @@ static struct kind kind_of_call(struct parser *p, const struct function *functio
         kind = args[0].kind;
         kind.failed = !check_number(p, &args[0]) || kind.failed;
         return kind;
+    case rule_relay:
     case rule_ratio: pure.failed = same_arguments(p, function, args, count).failed; return pure;
     default: return same_arguments(p, function, args, count);
     }
@@ -221,6 +245,7 @@ static struct operand build_call(struct parser *p, const struct function *functi
     }
     struct kind kind = kind_of_call(p, function, args, count);
     if (function->rule == rule_clamp) return build_clamp(b, base, args, kind, at);
+    if (function->rule == rule_relay) return build_relay(p, base, args, kind, at);
     if (function->rule == rule_pulse) return build_pulse(b, base, args, kind, at);
     if (count == 1) return build_operation(b, base, function->op, 0, &args[0], NULL, kind, at);
     struct operand result = args[0];

@@ -4,7 +4,9 @@
  *
  * Each switch watches a smooth function u of the state: a for sign, abs, step and the roundings, a - b for
  * min, max and comparisons, a/b for mod, 2a for square. A switch by sign has the branches u < 0, u > 0 and,
- * for sign and ==, u = 0. A rounding has the branches n with n + offset < u < n + offset + 1.
+ * for sign and ==, u = 0. A rounding has the branches n with n + offset < u < n + offset + 1. A relay watches the
+ * threshold at which it leaves its branch, a - 1 or a + 1; where it is between them its branch stays, whatever
+ * that was.
  *
  * Late in a run a time has few digits left behind the point, and u of a switch by time loses them: t - start,
  * t/period - n, the phase of a sine. So values are twofold numbers: the time is a moment, sums, products and
@@ -67,7 +69,7 @@ static struct twofold number_of(const struct motion *m, size_t reg)
     return (struct twofold){m->value[reg], m->rest[reg]};
 }
 
-static struct crossing crossing_at(const struct instr *i, const struct motion *m)
+static struct crossing crossing_at(const struct instr *i, const int *branch, const struct motion *m)
 {
     struct twofold a = number_of(m, i->a), b = number_of(m, i->b), u = a;
     double rate = m->rate[i->a], error = m->error[i->a];
@@ -75,6 +77,9 @@ static struct crossing crossing_at(const struct instr *i, const struct motion *m
         u = twofold_subtract(a, b);
         rate -= m->rate[i->b];
         error += m->error[i->b] + twofold_rounding * (fabs(a.x) + fabs(b.x));
+    } else if (i->op == op_relay) {
+        u = twofold_add(a, (struct twofold){branch && branch[i->extra] > 0 ? 1 : -1, 0});
+        error += twofold_rounding * fabs(a.x);
     } else if (i->op == op_mod) {
         u = twofold_divide(a, b);
         rate = (rate - u.x * m->rate[i->b]) / b.x;
@@ -146,7 +151,7 @@ static void run(const struct expr *expr, const int *branch, struct motion *m, vi
         } else if (i->op == op_jump_unless) {
             i += m->value[i->a] == 0 ? i->extra : 0;
         } else {
-            if (op_is_switch(i->op)) visit_switch(context, i, m, crossing_at(i, m));
+            if (op_is_switch(i->op)) visit_switch(context, i, m, crossing_at(i, branch, m));
             step_motion(i, branch, m);
         }
     }
@@ -185,7 +190,7 @@ static void note_margins(void *context, const struct instr *i, const struct moti
     } else if (n == 0 && (i->op == op_sign || i->op == op_equal)) {
         set_margin(m, lower, c.tolerance + c.u, c, 1);
         set_margin(m, upper, c.tolerance - c.u, c, -1);
-    } else if (n < 0) {
+    } else if (n < 0 || (n == 0 && i->op == op_relay)) {
         set_margin(m, upper, -c.u, c, -1);
     } else {
         set_margin(m, lower, c.u, c, 1);
@@ -258,14 +263,16 @@ static int plain_branch(const struct instr *i, const struct motion *at)
     return counted(op_plain_branch(i->op, at->value[i->a], at->value[i->b]));
 }
 
-static int branch_by_sign(const struct instr *i, const struct motion *at, struct crossing c)
+static int branch_by_sign(const struct instr *i, int before, const struct motion *at, struct crossing c)
 {
     if (!isfinite(c.u)) return plain_branch(i, at);
     if (fabs(c.u) <= c.tolerance) {
         if (c.rate > 0) return 1;
         if (c.rate < 0) return -1;
         if (i->op == op_sign || i->op == op_equal) return 0;
+        if (i->op == op_relay) return before > 0 ? 1 : -1;
     }
+    if (i->op == op_relay) return c.u > 0 || (c.u == 0 && before > 0) ? 1 : -1;
     return counted(op_plain_branch(i->op, c.u, 0));
 }
 
@@ -291,7 +298,8 @@ static void choose_branch(void *context, const struct instr *i, const struct mot
 {
     struct resolution *r = context;
     if (r->keep && r->keep[i->extra]) return;
-    r->branch[i->extra] = op_is_by_sign(i->op) ? branch_by_sign(i, at, c) : branch_by_rounding(i, at, c);
+    int *branch = &r->branch[i->extra];
+    *branch = op_is_by_sign(i->op) ? branch_by_sign(i, *branch, at, c) : branch_by_rounding(i, at, c);
 }
 
 void expr_resolve(const struct expr *expr, struct moment t, const double *y, double dt, const double *dy,
@@ -301,7 +309,7 @@ void expr_resolve(const struct expr *expr, struct moment t, const double *y, dou
     struct motion motion;
     struct resolution context = {keep, branch};
     for (size_t k = 0; k < expr->switches; k++)
-        if (!keep || !keep[k]) branch[k] = 0;
+        if ((!keep || !keep[k]) && expr->switch_at[k].op != op_relay) branch[k] = 0;
     /* Who asks without an event means 0.7 by the double next to it, and so where three times that is. */
     load(expr, t, y, dt, dy, keep ? twofold_rounding : DBL_EPSILON, &motion);
     run(expr, branch, &motion, choose_branch, &context);

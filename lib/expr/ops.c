@@ -55,6 +55,7 @@ static double plain_switch(unsigned op, double x, double y)
     case op_sign: return sign(x);
     case op_abs: return fabs(x);
     case op_step: return step(x);
+    case op_relay: return x >= 1 ? 1 : -1;
     case op_min: return lesser(x, y);
     case op_max: return greater(x, y);
     case op_less: return x < y;
@@ -114,6 +115,7 @@ double op_plain_branch(unsigned op, double x, double y)
     case op_sign: return sign(x);
     case op_abs:
     case op_step: return x >= 0 ? 1 : -1;
+    case op_relay: return x >= 1 ? 1 : -1;
     case op_min:
     case op_less: return x < y ? -1 : 1;
     case op_max:
@@ -143,6 +145,7 @@ double switch_value(unsigned op, double n, double x, double y)
     switch (op) {
     case op_abs: return n < 0 ? -x : x;
     case op_step: return n < 0 ? 0 : 1;
+    case op_relay: return n > 0 ? 1 : -1;
     case op_min: return n < 0 ? x : y;
     case op_max: return n < 0 ? y : x;
     case op_less:

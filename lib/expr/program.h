@@ -55,6 +55,7 @@ enum op {
     op_sign,
     op_abs,
     op_step,
+    op_relay, /* 1 from a = 1 up until a = -1 is passed down, from there on -1: its branch is its memory */
     op_min,
     op_max,
     op_less,

@@ -31,6 +31,18 @@ static struct verdict judge_jointed(const struct model_body *body, const struct 
     return (struct verdict){potential_constant, "conservative: a constant force, V = -f . p"};
 }
 
+static bool remembers(const struct model_load *load)
+{
+    const struct formula *formulas[] = {&load->value, &load->angle, &load->fx, &load->fy};
+    bool any = false;
+    for (size_t i = 0; i < sizeof formulas / sizeof *formulas; i++) {
+        const struct expr *expr = formulas[i]->expr;
+        size_t switches = expr ? expr_switches(expr) : 0;
+        for (size_t k = 0; k < switches; k++) any |= expr_switch_remembers(expr, k);
+    }
+    return any;
+}
+
 static struct verdict judge_applied(const struct model_body *body, const struct model_load *load)
 {
     unsigned on = formula_depends(body, &load->value) | formula_depends(body, &load->angle) |
@@ -38,6 +50,8 @@ static struct verdict judge_applied(const struct model_body *body, const struct 
     bool moment = load->source->kind == moment_applied, jointed = body->place.link > 0;
     bool one_coordinate = body->kind == motion_slide || body->kind == motion_pivot;
     if (on & ~(unsigned)depends_place) return (struct verdict){potential_none, why_not(on)};
+    if (remembers(load))
+        return (struct verdict){potential_none, "not conservative: it depends on where the motion came from"};
     if (on & depends_place)
         return one_coordinate && !(jointed && body->parent != ground_body)
                    ? (struct verdict){potential_quadrature,

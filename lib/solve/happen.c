@@ -281,6 +281,8 @@ static void refuse_sliding(struct run *run, const bool *moving)
     for (size_t i = 0; i < set->count; i++) {
         const struct watcher *watcher = &set->watchers[i];
         if (!moving[i] || watcher->kind != watch_kink) continue;
+        const struct expr *expr = run->model->plan.kinks[watcher->index].formula.expr;
+        if (expr_switch_remembers(expr, (size_t)watcher->part)) continue; /* its other end is elsewhere */
         /* The other end of the same switch is the one that has been crossed, seen from beyond. */
         for (size_t k = 0; k < set->count; k++) {
             const struct watcher *back = &set->watchers[k];

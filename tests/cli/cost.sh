@@ -27,8 +27,8 @@ check '--effects draws nothing: 2' exits 2 run --effects --svg - "$fall"
 check 'two files at one place are 2' exits 2 run --csv a --json a "$fall"
 check 'a wrong file is 3' exits 3 run "$FBD_SOURCE_ROOT/README.md"
 check 'an unknown parameter is 3' exits 3 run --set nothing=1 "$fall"
-check 'a scene that fails is 1' exits 1 run --budget 60 "$models/hard/zeno_stop.yaml"
-check 'with its reason' says 'events chatter' err
+check 'a scene that fails is 1' exits 1 run --budget 60 "$models/hard/singular_reached.yaml"
+check 'with its reason' says 'divides by zero' err
 check '--help goes to standard output with 0' exits 0 run --help
 check 'and nowhere else' is_empty err
 check '--version says a version' "$program" --version
