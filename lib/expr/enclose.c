@@ -244,7 +244,7 @@ static struct enclosure with_tolerance(struct enclosure u)
 static void enclose_margins(const struct instr *i, struct enclosing *e)
 {
     int n = e->branch[i->extra];
-    struct enclosure u = watched(i, e), *lower = &e->margins[2 * i->extra], *upper = lower + 1;
+    struct enclosure u = watched(i, e), *lower = &e->margins[(ptrdiff_t)2 * i->extra], *upper = lower + 1;
     if (!op_is_by_sign(i->op)) {
         if (n >= branch_limit || n <= -branch_limit) return;
         double low = n + (i->op == op_ceil ? -1 : i->op == op_round ? -0.5 : 0);
