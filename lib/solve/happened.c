@@ -118,8 +118,9 @@ static void note_slides(struct run *run, size_t first)
                  after = run->state->sliding->slide_at[branch] > 0;
             if (before == after) continue;
             if (after) passages_blunt(run, (int)branch);
-            if (run->passages.end < HUGE_VAL) { /* at the end of the series */
-                run->passages.list[branch].slides = after;
+            bool *waits = &run->passages.list[branch].slides; /* for the end of the series */
+            if (run->passages.end < HUGE_VAL && (after || *waits)) {
+                *waits = after;
                 continue;
             }
             struct run_event *event = NULL;
