@@ -186,5 +186,6 @@ bool modes_settle(struct fbd_state *state, const struct decided *decided)
     if (!sliding) return settle(state, decided);
     for (int i = 0; i < state->model->plan.branches; i++)
         sliding->keep[i] = sliding->slide_at[i] > 0 || (decided && decided->branches[i]);
+    sliding_keep_rest(state);
     return sliding_settle(state, decided, settle(state, decided), settle);
 }

@@ -26,6 +26,8 @@
 
 #include "dynamics/instant.h"
 
+enum { not_held = -1, all_held = -2 };
+
 /* A switch that the motion slides on. */
 struct slide {
     int kink, part;
@@ -42,12 +44,13 @@ struct slide {
 struct sliding {
     int count, units;
     struct slide *slides;
-    int *slide_at;   /* plan.branches: 1 + index of the slide, or 0 */
-    int *branches;   /* plan.branches: scratch of formulas */
-    bool *keep;      /* plan.branches: not to be chosen by the values, when modes are settled */
-    bool *left;      /* plan.branches: its share has just reached an end */
-    bool *ended;     /* plan.branches: the passages that are left are as good as none (solve/passages.h) */
-    int *held;       /* units: the coordinate that friction keeps at rest, or -1 */
+    int *slide_at; /* plan.branches: 1 + index of the slide, or 0 */
+    int *branches; /* plan.branches: scratch of formulas */
+    bool *keep;    /* plan.branches: not to be chosen by the values, when modes are settled */
+    bool *left;    /* plan.branches: its share has just reached an end */
+    bool *ended;   /* plan.branches: the passages that are left are as good as none (solve/passages.h) */
+    int *held; /* units: the one coordinate of the surface, where friction keeps it at rest; else not_held, or
+                        all_held where it keeps several */
     bool failed;     /* no shares are found: the branches do not act on the surfaces */
     const char *why; /* when modes did not settle for a slide: "none" or "several"; else NULL */
     int blamed;      /* then a kink */
@@ -83,6 +86,10 @@ void sliding_clear_rounding(const struct sliding *sliding, int n, double *a);
 void sliding_solve_along(const struct fbd_model *model, const struct instant *given,
                          const struct direction *direction);
 
+/* What a switch watches: u. */
+double sliding_watched(struct sliding *sliding, const struct fbd_model *model, const struct instant *given,
+                       const struct kink *kink, int part);
+
 /* What a switch watches as a surface to be slid on, and its rate along (dt, dy); dy has 2 n. Of one that
  * watches places that is u', whose rate along (dt, dx, dv) is that of u along (0, dv, 0). */
 double sliding_surface(struct sliding *sliding, const struct fbd_model *model, const struct instant *given,
@@ -102,6 +109,10 @@ struct fbd_state;
 void sliding_project(struct fbd_state *state);
 
 struct decided;
+
+/* What rests at the switch of a place, on a branch that it had, keeps that: neither u nor its rate says which. In
+ * sliding->keep. */
+void sliding_keep_rest(struct fbd_state *state);
 
 /* After the modes have been settled by `settle`, with or without success: slide where both branches of a
  * switch lead back to it, and go on by a branch where the share is used up. False when no choice or several

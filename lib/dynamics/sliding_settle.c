@@ -25,44 +25,13 @@ struct asked {
 
 struct question {
     struct fbd_state *state;
+    bool without_places; /* there are too many */
     struct asked list[most_asked];
     int count, units;
     double most; /* of the accelerations tried: what rates are measured by */
 };
 
-/* ---- who is asked */
-
-static bool is_asked(const struct sliding *s, const struct decided *decided, int branch, int part)
-{
-    if (isnan(s->u[part])) return false; /* in a side of an `if` that is not chosen */
-    return s->slide_at[branch] > 0 || s->left[branch] || s->ended[branch] ||
-           (decided && decided->branches[branch]) || fabs(s->u[part]) <= s->rounding[part];
-}
-
-/* False when there are too many. */
-static bool gather(struct question *q, const struct decided *decided)
-{
-    struct fbd_state *state = q->state;
-    struct sliding *s = state->sliding;
-    const struct plan *plan = &state->model->plan;
-    const struct instant given = state_instant(state), at = instant_extend(state->model, &given);
-    for (size_t i = 0; i < plan->kink_count; i++) {
-        const struct kink *kink = &plan->kinks[i];
-        if (!kink->slides) continue;
-        expr_switchings(kink->formula.expr, at.t, at.y, 0, NULL, at.branch + kink->formula.branch, s->u,
-                        s->rate, s->rounding);
-        for (int part = 0; part < (int)kink->count; part++) {
-            int branch = kink->formula.branch + part;
-            if (!expr_switch_jumps(kink->formula.expr, (size_t)part) ||
-                expr_switch_is_time(kink->formula.expr, (size_t)part) || !is_asked(s, decided, branch, part))
-                continue;
-            if (q->count == most_asked) return false;
-            q->list[q->count++] =
-                (struct asked){(int)i, part, branch, -1, 1, s->left[branch], s->ended[branch]};
-        }
-    }
-    return true;
-}
+/* ---- surfaces */
 
 /* The rate of the surface of a switch, along (dt, dy). */
 static double rate_along(const struct question *q, const struct asked *asked, double dt, const double *dy)
@@ -83,8 +52,63 @@ static double slope(const struct question *q, const struct asked *asked, size_t 
     return rate_along(q, asked, i == 0, dy);
 }
 
-/* +1 or -1 for switches with one surface, whose gradients have one direction or opposite ones; else 0. */
-static int same_surface(const struct question *q, const struct asked *a, const struct asked *b)
+/* What may be left of u' where a switch that watches places is at rest: its value, or zero. */
+static double passing_speed(const struct question *q, const struct asked *asked)
+{
+    const double rounding = 1e-10;
+    const struct fbd_state *state = q->state;
+    const struct kink *kink = &state->model->plan.kinks[asked->kink];
+    const struct instant at = state_instant(state);
+    if (!kink_watches_places(kink, asked->part) || asked->ended || asked->left) return 0;
+    double size = 0, w = sliding_surface(state->sliding, state->model, &at, kink, asked->part);
+    size_t n = (size_t)state->model->plan.n;
+    for (size_t i = 0; i < n; i++) size += fabs(slope(q, asked, 1 + n + i) * state->y[n + i]);
+    return fabs(w) > rounding * size ? w : 0;
+}
+
+/* ---- who is asked */
+
+/* What is passed with a speed is no place to rest; where there are too many places, none are asked. */
+static bool is_asked(const struct question *q, const struct decided *decided, const struct kink *kink,
+                     int part)
+{
+    const struct sliding *s = q->state->sliding;
+    int branch = kink->formula.branch + part;
+    if (isnan(s->u[part])) return false; /* in a side of an `if` that is not chosen */
+    if (q->without_places && kink_watches_places(kink, part)) return false;
+    return s->slide_at[branch] > 0 || s->left[branch] || s->ended[branch] ||
+           (decided && decided->branches[branch]) || fabs(s->u[part]) <= s->rounding[part];
+}
+
+/* False when there are too many. */
+static bool gather(struct question *q, const struct decided *decided)
+{
+    struct fbd_state *state = q->state;
+    struct sliding *s = state->sliding;
+    const struct plan *plan = &state->model->plan;
+    const struct instant given = state_instant(state), at = instant_extend(state->model, &given);
+    for (size_t i = 0; i < plan->kink_count; i++) {
+        const struct kink *kink = &plan->kinks[i];
+        if (!kink->slides) continue;
+        expr_switchings(kink->formula.expr, at.t, at.y, 0, NULL, at.branch + kink->formula.branch, s->u,
+                        s->rate, s->rounding);
+        for (int part = 0; part < (int)kink->count; part++) {
+            int branch = kink->formula.branch + part;
+            if (!expr_switch_jumps(kink->formula.expr, (size_t)part) ||
+                expr_switch_is_time(kink->formula.expr, (size_t)part) || !is_asked(q, decided, kink, part))
+                continue;
+            const struct asked asked = {(int)i, part, branch, -1, 1, s->left[branch], s->ended[branch]};
+            if (s->slide_at[branch] == 0 && passing_speed(q, &asked) != 0) continue;
+            if (q->count == most_asked) return false;
+            q->list[q->count++] = asked;
+        }
+    }
+    return true;
+}
+
+/* The ratio of the gradients of b and a where they have one direction or opposite ones, so that both have one
+ * surface; else 0. */
+static double ratio_of(const struct question *q, const struct asked *a, const struct asked *b)
 {
     const double rounding = 1e-10;
     size_t size = 2 * (size_t)q->state->model->plan.n;
@@ -95,8 +119,26 @@ static int same_surface(const struct question *q, const struct asked *a, const s
         bb += y * y;
         ab += x * y;
     }
-    if (!(ab * ab >= (1 - rounding) * aa * bb)) return 0;
-    return ab > 0 ? 1 : ab < 0 ? -1 : 0;
+    return ab * ab >= (1 - rounding) * aa * bb && ab != 0 ? ab / aa : 0;
+}
+
+/* Of what will be at rest on its place, u = 0 and w = 0: will another switch, whose gradient is `ratio` times that of
+ * w, be at zero with it? sign(v - 3) is not, nor is sign(x - 1). */
+static bool comes_along(const struct question *q, const struct asked *ended, const struct asked *other,
+                        double ratio)
+{
+    const double rounding = 1e-9;
+    const struct fbd_state *state = q->state;
+    const struct kink *kinks = state->model->plan.kinks, *kink = &kinks[other->kink];
+    const struct instant at = state_instant(state);
+    size_t n = (size_t)state->model->plan.n;
+    bool places = kink_watches_places(kink, other->part);
+    double size = 0, u = sliding_watched(state->sliding, state->model, &at, kink, other->part),
+           rest = places
+                      ? sliding_watched(state->sliding, state->model, &at, &kinks[ended->kink], ended->part)
+                      : sliding_surface(state->sliding, state->model, &at, &kinks[ended->kink], ended->part);
+    for (size_t i = 0; i < n; i++) size += fabs(slope(q, other, 1 + n + i) * state->y[places ? i : n + i]);
+    return fabs(u - ratio * rest) <= rounding * size;
 }
 
 static bool is_listed(const struct question *q, int branch)
@@ -118,7 +160,8 @@ static bool join(struct question *q)
         for (int part = 0; kink->slides && part < (int)kink->count; part++) {
             struct asked asked = {(int)i, part, kink->formula.branch + part, -1, 1, false, true};
             if (!expr_switch_jumps(kink->formula.expr, (size_t)part) || is_listed(q, asked.branch)) continue;
-            if (same_surface(q, &q->list[ended], &asked) == 0) continue;
+            double ratio = ratio_of(q, &q->list[ended], &asked);
+            if (ratio == 0 || !comes_along(q, &q->list[ended], &asked, ratio)) continue;
             if (q->count == most_asked) return false;
             q->list[q->count++] = asked;
         }
@@ -130,28 +173,16 @@ static void find_surfaces(struct question *q)
 {
     for (int i = 0; i < q->count; i++) {
         for (int j = 0; j < i && q->list[i].unit < 0; j++) {
-            int side = q->list[j].side * same_surface(q, &q->list[j], &q->list[i]);
-            if (side != 0) q->list[i].unit = q->list[j].unit, q->list[i].side = side;
+            double ratio = ratio_of(q, &q->list[j], &q->list[i]);
+            if (ratio == 0) continue;
+            q->list[i].unit = q->list[j].unit;
+            q->list[i].side = ratio > 0 ? q->list[j].side : -q->list[j].side;
         }
         if (q->list[i].unit < 0) q->list[i].unit = q->units++;
     }
 }
 
 /* ---- does a choice agree? */
-
-/* What may be left of u' where a switch that watches places is at rest: its value, or zero. */
-static double passing_speed(const struct question *q, const struct asked *asked)
-{
-    const double rounding = 1e-10;
-    const struct fbd_state *state = q->state;
-    const struct kink *kink = &state->model->plan.kinks[asked->kink];
-    const struct instant at = state_instant(state);
-    if (!kink_watches_places(kink, asked->part) || asked->ended || asked->left) return 0;
-    double size = 0, w = sliding_surface(state->sliding, state->model, &at, kink, asked->part);
-    size_t n = (size_t)state->model->plan.n;
-    for (size_t i = 0; i < n; i++) size += fabs(slope(q, asked, 1 + n + i) * state->y[n + i]);
-    return fabs(w) > rounding * size ? w : 0;
-}
 
 /* How large a rate of a surface could be: to rounding it is zero against that. */
 static double size_of_rate(const struct question *q, const struct asked *asked)
@@ -166,13 +197,30 @@ static double size_of_rate(const struct question *q, const struct asked *asked)
     return size;
 }
 
+/* Accelerations, and those that friction could take: at its limit what is left of both is rounding of these. */
+static void take_sizes(struct question *q)
+{
+    struct fbd_state *state = q->state;
+    const struct plan *plan = &state->model->plan;
+    const struct instant at = state_instant(state);
+    for (int i = 0; i < plan->n; i++) q->most = fmax(q->most, fabs(state->a[i]));
+    if (q->count == 0 || plan->friction_count == 0) return;
+    force_balance(state->model, &at, state->scratch);
+    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
+        const struct friction *friction = &plan->frictions[pair];
+        if (friction->kind != mode_friction || friction->tie >= 0 || friction->jointed) continue;
+        double limit = friction_at(state->model, pair, &at, state->scratch).limit / friction->inertia;
+        if (isfinite(limit)) q->most = fmax(q->most, limit);
+    }
+}
+
 static bool agrees(struct question *q)
 {
     const double rounding = 1e-10;
     struct fbd_state *state = q->state;
     struct sliding *s = state->sliding;
     size_t n = (size_t)state->model->plan.n;
-    for (size_t i = 0; i < n; i++) q->most = fmax(q->most, fabs(state->a[i]));
+    take_sizes(q);
     for (int i = 0; i < q->count; i++) {
         const struct asked *asked = &q->list[i];
         int slide = s->slide_at[asked->branch], branch = state->branch[asked->branch];
@@ -276,6 +324,31 @@ static int find_choice(struct question *q, const struct decided *decided,
     return found;
 }
 
+void sliding_keep_rest(struct fbd_state *state)
+{
+    const struct plan *plan = &state->model->plan;
+    struct sliding *s = state->sliding;
+    const struct question q = {.state = state};
+    const struct instant at = state_instant(state);
+    for (size_t i = 0; i < plan->kink_count; i++) {
+        const struct kink *kink = &plan->kinks[i];
+        for (int part = 0; kink->slides && part < (int)kink->count; part++) {
+            int branch = kink->formula.branch + part;
+            if (!kink_watches_places(kink, part) || state->branch[branch] == 0 || s->keep[branch]) continue;
+            const struct asked asked = {(int)i, part, branch, -1, 1, false, false};
+            double u = sliding_watched(s, state->model, &at, kink, part);
+            s->keep[branch] = fabs(u) <= s->rounding[part] && passing_speed(&q, &asked) == 0;
+        }
+    }
+}
+
+/* As though what watches places were passed. */
+static bool gather_without_places(struct question *q, const struct decided *decided)
+{
+    *q = (struct question){.state = q->state, .without_places = true, .most = q->most};
+    return gather(q, decided);
+}
+
 bool sliding_settle(struct fbd_state *state, const struct decided *decided, bool settled,
                     bool (*settle)(struct fbd_state *state, const struct decided *decided))
 {
@@ -284,11 +357,17 @@ bool sliding_settle(struct fbd_state *state, const struct decided *decided, bool
     s->why = NULL;
     if (state->holds.found == holds_no_memory) return false;
     bool asked = gather(&q, decided) && join(&q);
+    if (!asked) asked = gather_without_places(&q, decided);
     memset(s->left, 0, (size_t)state->model->plan.branches * sizeof *s->left);
     memset(s->ended, 0, (size_t)state->model->plan.branches * sizeof *s->ended);
     bool fine = asked && (q.count == 0 || (settled && agrees(&q)));
     if (fine && !is_undecided(&q)) return settled;
     if (asked) find_surfaces(&q);
+    if (q.units > most_units && fine) return settled;
+    if (q.units > most_units && !q.without_places && gather_without_places(&q, decided)) {
+        if (q.count == 0) return settled;
+        find_surfaces(&q);
+    }
     s->blamed = q.count > 0 ? q.list[0].kink : -1;
     if (!asked || q.units > most_units) {
         s->why = "too many switches are at zero at once";

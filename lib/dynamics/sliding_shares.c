@@ -26,6 +26,13 @@ static double switching(struct sliding *s, const struct fbd_model *model, const 
     return s->u[part];
 }
 
+double sliding_watched(struct sliding *s, const struct fbd_model *model, const struct instant *given,
+                       const struct kink *kink, int part)
+{
+    double unused;
+    return switching(s, model, given, kink, part, 0, s->zero, &unused);
+}
+
 double sliding_surface(struct sliding *s, const struct fbd_model *model, const struct instant *given,
                        const struct kink *kink, int part)
 {
@@ -128,24 +135,37 @@ static void set_shares(struct sliding *s)
     }
 }
 
-/* The coordinate of a unit that watches places, where friction keeps it at rest; else -1. Then the switch holds
- * first, and friction what is left: the share is that at which friction has nothing to do. */
+static bool is_held(const struct fbd_model *model, const struct instant *at, int coordinate)
+{
+    for (size_t pair = 0; pair < model->plan.friction_count; pair++) {
+        const struct friction *friction = &model->plan.frictions[pair];
+        if (friction->kind == mode_friction && friction->tie < 0 && friction->coordinate == coordinate &&
+            at->slip[pair] == stick)
+            return true;
+    }
+    return false;
+}
+
+/* Friction keeps the coordinates of a surface at rest. Where there is one, the switch holds first and friction what is
+ * left: the share is that at which friction has nothing to do. Of several the share stays in the middle, and each
+ * friction holds its own. As soon as one of them is free, the surface is its equation. */
 static int held_coordinate(const struct fbd_model *model, const struct instant *at, int unit)
 {
     struct sliding *s = at->sliding;
-    size_t n = (size_t)model->plan.n;
-    int first = 0, held = -1;
+    int n = model->plan.n, first = 0, count = 0, held = not_held;
     while (s->slides[first].unit != unit) first++;
     const struct kink *kink = &model->plan.kinks[s->slides[first].kink];
-    for (size_t pair = 0; s->slides[first].places && pair < model->plan.friction_count; pair++) {
-        const struct friction *friction = &model->plan.frictions[pair];
-        if (friction->kind != mode_friction || friction->tie >= 0 || at->slip[pair] != stick) continue;
-        memset(s->flow, 0, 2 * n * sizeof *s->flow);
-        s->flow[n + (size_t)friction->coordinate] = 1;
+    memset(s->flow, 0, 2 * (size_t)n * sizeof *s->flow);
+    for (int i = 0; s->slides[first].places && i < n; i++) {
+        s->flow[n + i] = 1;
         double slope = sliding_surface_rate(s, model, at, kink, s->slides[first].part, 0, s->flow);
-        if (slope != 0) held = friction->coordinate;
+        s->flow[n + i] = 0;
+        if (slope == 0) continue;
+        if (!is_held(model, at, i)) return not_held;
+        held = i;
+        count++;
     }
-    return held;
+    return count > 1 ? all_held : held;
 }
 
 static void find_held(const struct fbd_model *model, const struct instant *at)
@@ -154,11 +174,14 @@ static void find_held(const struct fbd_model *model, const struct instant *at)
     for (int unit = 0; unit < s->units; unit++) s->held[unit] = held_coordinate(model, at, unit);
 }
 
-/* Where a coordinate is held, its sum of forces takes the place of the rate of its surface. */
-static void put_held(const struct sliding *s, const double *slots, double *rates)
+/* Where a coordinate is held, its sum of forces takes the place of the rate of its surface; where all are, what the
+ * share differs from the middle by, here `off`. */
+static void put_held(const struct sliding *s, const double *slots, const double *off, double *rates)
 {
-    for (int unit = 0; unit < s->units; unit++)
+    for (int unit = 0; unit < s->units; unit++) {
         if (s->held[unit] >= 0) rates[unit] = slots[s->held[unit]];
+        if (s->held[unit] == all_held) rates[unit] = off ? off[unit] : 0;
+    }
 }
 
 /* c: the rates of the surfaces at the shares as they are. */
@@ -170,7 +193,7 @@ static void residuals(const struct fbd_model *model, const struct instant *at)
     memcpy(s->flow, at->y + n, n * sizeof *s->flow);
     memcpy(s->flow + n, s->a, n * sizeof *s->flow);
     sliding_rates(model, at, 1, s->flow, s->c);
-    put_held(s, s->slots, s->c);
+    put_held(s, s->slots, s->delta, s->c);
 }
 
 /* What the share of each unit does to the accelerations, and these to the surfaces. */
@@ -187,7 +210,8 @@ static void responses(const struct fbd_model *model, const struct instant *at)
         memcpy(s->flow + n, s->a_along, n * sizeof *s->flow);
         memcpy(s->B + (size_t)unit * n, s->a_along, n * sizeof *s->B);
         sliding_rates(model, at, 0, s->flow, s->step);
-        put_held(s, s->slots_along, s->step);
+        put_held(s, s->slots_along, NULL, s->step);
+        if (s->held[unit] == all_held) s->step[unit] = 1;
         for (int i = 0; i < s->units; i++) s->M[i * s->units + unit] = s->step[i];
     }
     for (int j = 0; j < s->count; j++) s->slides[j].along = 0;
@@ -266,7 +290,7 @@ void sliding_solve_along(const struct fbd_model *model, const struct instant *gi
     memcpy(s->flow, along.dy + n, n * sizeof *s->flow);
     memcpy(s->flow + n, s->a_along, n * sizeof *s->flow);
     sliding_rates(model, &at, 0, s->flow, s->c);
-    put_held(s, s->slots_along, s->c);
+    put_held(s, s->slots_along, NULL, s->c);
     accelerations_at_shares(model, &at, s->slots, s->a);
     memcpy(s->flow, at.y + n, n * sizeof *s->flow);
     memcpy(s->flow + n, s->a, n * sizeof *s->flow);
@@ -304,7 +328,7 @@ static void project_places(struct fbd_state *state)
         const double *B = s->B + (size_t)slide->unit * n;
         const struct instant at = state_instant(state);
         double unused;
-        if (!slide->places || s->held[slide->unit] >= 0) continue;
+        if (!slide->places || s->held[slide->unit] != not_held) continue;
         memset(s->flow, 0, n * sizeof *s->flow);
         memcpy(s->flow + n, B, n * sizeof *B);
         double reach = sliding_surface_rate(s, state->model, &at, kink, slide->part, 0, s->flow);
@@ -325,7 +349,7 @@ void sliding_project(struct fbd_state *state)
         if (s->failed) return;
         surfaces(state->model, &at, s->c);
         for (int unit = 0; unit < s->units; unit++)
-            if (s->held[unit] >= 0) s->c[unit] = 0;
+            if (s->held[unit] != not_held) s->c[unit] = 0;
         solve(s, s->c);
         project_velocities(state);
         project_places(state);

@@ -184,7 +184,8 @@ static struct operand build_pulse(struct builder *b, int base, const struct oper
     return build_operation(b, base, op_multiply, 0, &on, &not_off, pure, at);
 }
 
-/* A relay over ((u - low) - (high - u))/(high - low), which is -1 and 1 at the ends. */
+/* A relay over ((u - low) - (high - u))/(high - low), which is -1 and 1 at the ends. Thresholds that vary are not to
+ * cross: nothing times the square root of their distance is no number then, and ends the run. */
 static struct operand build_relay(struct parser *p, int base, const struct operand *args, struct kind kind,
                                   struct pos at)
 {
@@ -201,7 +202,14 @@ static struct operand build_relay(struct parser *p, int base, const struct opera
     struct operand off = build_operation(b, b->depth, op_subtract, 0, &above, &below, same, at);
     struct operand width = build_operation(b, b->depth, op_subtract, 0, high, low, same, at);
     struct operand share = build_operation(b, b->depth, op_divide, 0, &off, &width, kind, at);
-    return build_operation(b, base, op_relay, 0, &share, NULL, kind, at);
+    bool constant = low->place == place_constant && high->place == place_constant;
+    if (constant) return build_operation(b, base, op_relay, 0, &share, NULL, kind, at);
+    struct operand nothing = build_constant(0, kind, at);
+    struct operand state = build_operation(b, b->depth, op_relay, 0, &share, NULL, kind, at);
+    struct operand apart = build_operation(b, b->depth, op_subtract, 0, high, low, same, at);
+    struct operand root = build_operation(b, b->depth, op_sqrt, 0, &apart, NULL, kind, at);
+    struct operand none = build_operation(b, b->depth, op_multiply, 0, &nothing, &root, kind, at);
+    return build_operation(b, base, op_add, 0, &state, &none, kind, at);
 }
 
 static struct kind same_arguments(struct parser *p, const struct function *function,

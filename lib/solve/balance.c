@@ -28,6 +28,20 @@ struct sums {
     double place;         /* rounding of arms, as a moment */
 };
 
+/* A force between its branches may be next to nothing, and is right to the rounding of these: what shares can do to
+ * the body's coordinates, as forces or moments. */
+static double slid_size(const struct fbd_state *state, const struct model_body *body)
+{
+    const struct plan *plan = &state->model->plan;
+    const struct sliding *s = state_sliding(state);
+    double size = 0;
+    for (int unit = 0; s && body->place.link == 0 && unit < s->units; unit++)
+        for (int i = body->first; i < body->first + body->count; i++)
+            if (plan->inverse_inertia[i] > 0)
+                size += fabs(s->B[unit * plan->n + i]) / plan->inverse_inertia[i];
+    return size;
+}
+
 static struct sums sums_of(const struct fbd_state *state, int b, struct arrow *arrows)
 {
     const struct fbd_model *model = state->model;
@@ -41,8 +55,9 @@ static struct sums sums_of(const struct fbd_state *state, int b, struct arrow *a
                    : body->kind == motion_pivot ? state->a[body->first]
                                                 : state->a[body->first + body->count - 1];
     sums.I_alpha = body->inertia.I_G * alpha;
-    sums.force = vec_norm(sums.m_a);
-    sums.moment = fabs(sums.I_alpha);
+    double slid = slid_size(state, body);
+    sums.force = vec_norm(sums.m_a) + slid;
+    sums.moment = fabs(sums.I_alpha) + slid;
     size_t count = diagram_fill(model, b, &at, state->a, state->slots, arrows);
     for (size_t i = 0; i < count; i++) {
         const struct arrow *arrow = &arrows[i];

@@ -59,11 +59,12 @@ static void note_frictions(struct run *run, const bool *moving)
             note_one_sided(run, pair, before, after);
             continue;
         }
+        if (before == stick && after != stick) passages_note_stick(run, pair);
         if (before == stick && after != stick) run_note_friction(run, FBD_EVENT_BREAKAWAY, pair);
         if (before != stick && after == stick) {
             int tie = run->model->plan.frictions[pair].tie;
             if (tie >= 0) tie_rezero(run->model, run->state->tree, tie);
-            if (run->passages.end < HUGE_VAL)
+            if (run->passages.now)
                 run->passages.sticks[pair] = true; /* at the end of the series */
             else
                 run_note_friction(run, FBD_EVENT_STICK, pair);
@@ -119,7 +120,7 @@ static void note_slides(struct run *run, size_t first)
             if (before == after) continue;
             if (after) passages_blunt(run, (int)branch);
             bool *waits = &run->passages.list[branch].slides; /* for the end of the series */
-            if (run->passages.end < HUGE_VAL && (after || *waits)) {
+            if ((run->passages.now && after) || *waits) {
                 *waits = after;
                 continue;
             }

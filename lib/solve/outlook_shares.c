@@ -144,6 +144,17 @@ static void take_force(const struct outlook *o, int coordinate, double factor, s
     }
 }
 
+/* Friction keeps it from accelerating. */
+static bool sticks(const struct fbd_state *state, int coordinate)
+{
+    const struct plan *plan = &state->model->plan;
+    bool any = false;
+    for (size_t pair = 0; pair < plan->friction_count; pair++)
+        any |= plan->frictions[pair].kind == mode_friction &&
+               plan->frictions[pair].coordinate == coordinate && state->slip[pair] == stick;
+    return any;
+}
+
 static void write_equation(const struct outlook *o, int unit, struct equations *e)
 {
     const struct fbd_state *state = o->state;
@@ -154,6 +165,10 @@ static void write_equation(const struct outlook *o, int unit, struct equations *
     int first = 0;
     while (s->slides[first].unit != unit) first++;
     const struct kink *kink = &plan->kinks[s->slides[first].kink];
+    if (s->held[unit] == all_held) {
+        e->C[unit][unit] = enclosure_point(1);
+        return;
+    }
     if (s->held[unit] >= 0) {
         take_force(o, s->held[unit], 1, e, unit);
         return;
@@ -163,7 +178,7 @@ static void write_equation(const struct outlook *o, int unit, struct equations *
         s->flow[i] = 1;
         double slope = sliding_surface_rate(s, state->model, &at, kink, s->slides[first].part, 0, s->flow);
         s->flow[i] = 0;
-        if (slope == 0) continue;
+        if (slope == 0 || (i >= n && sticks(state, (int)(i - n)))) continue;
         if (i < n)
             e->c[unit] = enclosure_add(e->c[unit], enclosure_scale(slope, o->y[n + i]));
         else

@@ -90,7 +90,10 @@ void passages_end(struct run *run)
             end = fmax(end, run->state->t + left);
         }
     }
-    if (end > -HUGE_VAL) run->passages.end = end;
+    struct passages *passages = &run->passages;
+    passages->now = end > -HUGE_VAL;
+    if (!passages->now) return;
+    passages->end = passages->end < HUGE_VAL ? fmax(passages->end, end) : end;
 }
 
 void passages_blunt(struct run *run, int branch)
@@ -105,16 +108,21 @@ void passages_blunt(struct run *run, int branch)
         if (s->slides[j].unit == unit) s->slides[j].slack = fmax(s->slides[j].slack, slack);
 }
 
+void passages_note_stick(struct run *run, int pair)
+{
+    bool *waits = run->passages.sticks ? &run->passages.sticks[pair] : NULL;
+    if (!waits || !*waits) return;
+    *waits = false;
+    run_note_friction(run, FBD_EVENT_STICK, pair);
+}
+
 void passages_note(struct run *run)
 {
     const struct plan *plan = &run->model->plan;
     struct passages *passages = &run->passages;
     if (passages->end > run->state->t) return;
     passages->end = HUGE_VAL;
-    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        if (passages->sticks[pair]) run_note_friction(run, FBD_EVENT_STICK, pair);
-        passages->sticks[pair] = false;
-    }
+    for (int pair = 0; pair < (int)plan->friction_count; pair++) passages_note_stick(run, pair);
     for (size_t k = 0; k < plan->kink_count; k++) {
         const struct kink *kink = &plan->kinks[k];
         bool slides = false;

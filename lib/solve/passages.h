@@ -32,6 +32,7 @@ struct passages {
     struct passage *list; /* of each branch; NULL where no switch can be slid on */
     bool *sticks;         /* of each friction pair: from that end, too */
     double end;           /* of a series that is summed up; HUGE_VAL without one */
+    bool now;             /* it has been summed up at this event: what begins by that waits for the end */
 };
 
 /* False when memory is out. */
@@ -48,7 +49,8 @@ void passages_end(struct run *run);
  * less than what the method resolves, and would send it to and fro: it has room from there, more each time. */
 void passages_blunt(struct run *run, int branch);
 
-/* Note what begins with the end of a series, when that is there. */
+/* Note that a pair sticks, when that waits for the end of a series; and all that waits, when the end is there. */
+void passages_note_stick(struct run *run, int pair);
 void passages_note(struct run *run);
 
 #endif

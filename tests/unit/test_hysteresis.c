@@ -135,6 +135,31 @@ static void by_time_and_behind_an_if(void **unused)
     checks_end(&checks);
 }
 
+/* Thresholds may vary, but not cross. */
+static void thresholds_that_cross_end_the_run(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    for (int crosses = 0; crosses < 2; crosses++) {
+        char text[600];
+        snprintf(text, sizeof text,
+                 "fbd: 1\nbodies:\n  b:\n    mass: 1\n    motion: slide\n    initial: {x: 0.5}\n    forces:\n"
+                 "      - applied: \"-2*hysteresis(x, -0.1[m]*(%d + cos(1[1/s]*t)), 0.1[m]*(%d + "
+                 "cos(1[1/s]*t)))\"\n"
+                 "simulate: {until: 3 s}\n",
+                 crosses ? 0 : 2, crosses ? 0 : 2);
+        struct trial trial = trial_parse(text);
+        trial_start(&trial, NULL);
+        fbd_outcome outcome;
+        do outcome = fbd_simulation_advance(trial.simulation);
+        while (outcome == FBD_GOING);
+        check_that(&checks, crosses ? "they cross" : "they do not",
+                   outcome == (crosses ? FBD_FAILED : FBD_DONE));
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 static void its_force_is_not_conservative(void **unused)
 {
     (void)unused;
@@ -154,9 +179,8 @@ static void its_force_is_not_conservative(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(by_speed_it_goes_to_and_fro),
-        cmocka_unit_test(by_place_it_swings_up),
-        cmocka_unit_test(by_time_and_behind_an_if),
+        cmocka_unit_test(by_speed_it_goes_to_and_fro),   cmocka_unit_test(by_place_it_swings_up),
+        cmocka_unit_test(by_time_and_behind_an_if),      cmocka_unit_test(thresholds_that_cross_end_the_run),
         cmocka_unit_test(its_force_is_not_conservative),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -18,6 +18,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const char *const methods[] = {NULL, "dop853", "rkf45", "rk8pd", "rodas5p", "rk4imp", "rk4", "rkck"};
 
@@ -157,10 +158,128 @@ static void a_series_ends_and_rests_until_it_is_pushed_away(void **unused)
     checks_end(&checks);
 }
 
+/* ---- beside other switches and other holds, by hand */
+
+struct beside {
+    const char *what, *bodies;
+    double until, x, v;          /* of b, at the end */
+    size_t slides, ends, leaves; /* events: sliding, sliding_ends, breakaway */
+};
+
+static const struct beside besides[] = {
+    {"a switch elsewhere is not pulled in",
+     "  b:\n    mass: 1\n    motion: slide\n    initial: {x: 0.5}\n    forces:\n"
+     "      - applied: {name: pull, value: \"-4*sign(x)\"}\n      - applied: {name: rub, value: "
+     "\"-1.5*sign(v)\"}\n"
+     "      - applied: {name: far, value: \"-0.3*sign(x - 1[m])\"}\n",
+     5, 0, 0, 2, 0, 0},
+    /* It leaves at t - 4 = 4 + 1.5 - 0.3, and passes 3 m/s after sqrt(6) s. */
+    {"nor one of another speed",
+     "  b:\n    mass: 1\n    motion: slide\n    initial: {x: 0.5}\n    forces:\n"
+     "      - applied: {name: pull, value: \"-4*sign(x)\"}\n      - applied: {name: rub, value: "
+     "\"-1.5*sign(v)\"}\n"
+     "      - applied: {name: fast, value: \"-0.3*sign(v - 3[m/s])\"}\n"
+     "      - applied: {name: push, value: \"max(0[N], 1[N/s]*(t - 4[s]))\"}\n",
+     12, 3.6218094265, 3.7096938457, 2, 2, 0},
+    {"held by the friction of the other body",
+     "  b:\n    mass: 1\n    motion: slide\n    forces: [applied: {name: pull, value: \"-4*sign(b.x - "
+     "c.x)\"}]\n"
+     "  c:\n    mass: 1\n    motion: slide\n    forces:\n      - gravity\n      - normal\n      - friction: "
+     "0.8\n"
+     "      - applied: {name: pull, value: \"4*sign(b.x - c.x)\"}\n      - applied: {name: push, value: 3}\n",
+     5, 0, 0, 0, 0, 0},
+    {"held by friction of both",
+     "  b:\n    mass: 1\n    motion: slide\n    forces:\n      - gravity\n      - normal\n      - friction: "
+     "0.1\n"
+     "      - applied: {name: pull, value: \"-4*sign(b.x - c.x)\"}\n"
+     "  c:\n    mass: 1\n    motion: slide\n    forces:\n      - gravity\n      - normal\n      - friction: "
+     "0.8\n"
+     "      - applied: {name: pull, value: \"4*sign(b.x - c.x)\"}\n      - applied: {name: push, value: 3}\n",
+     5, 0, 0, 0, 0, 0},
+    /* From t = 12 s on both go with (t - 12)/2: b needs no more than 4 of 5 N. */
+    {"carried on when that gives way",
+     "  b:\n    mass: 1\n    motion: slide\n    initial: {x: 0.5}\n    forces:\n"
+     "      - applied: {name: pull, value: \"-4*sign(b.x - c.x)\"}\n"
+     "      - applied: {name: rub, value: \"-1*sign(b.v - c.v)\"}\n"
+     "  c:\n    mass: 1\n    motion: slide\n    forces:\n      - gravity\n      - normal\n      - friction: "
+     "0.8\n"
+     "      - applied: {name: pull, value: \"4*sign(b.x - c.x)\"}\n"
+     "      - applied: {name: rub, value: \"1*sign(b.v - c.v)\"}\n"
+     "      - applied: {name: push, value: \"max(0[N], 1[N/s]*(t - 4[s]))\"}\n",
+     20, 128.0 / 3, 16, 4, 0, 1},
+    {"a place that is passed ends a slide of the speed",
+     "  b:\n    mass: 1\n    motion: slide\n    initial: {x: -5, v: 5}\n    forces:\n"
+     "      - applied: {name: hold, value: \"-4*sign(v - 5[m/s])\"}\n"
+     "      - applied: {name: gate, value: \"-5*sign(x)\"}\n      - applied: {name: c, value: -2}\n",
+     3, 4, -1, 0, 1, 0},
+    {"friction gives way beside a switch that has",
+     "  b:\n    mass: 1\n    motion: slide\n    initial: {x: 0.5}\n    forces:\n      - gravity\n      - "
+     "normal\n"
+     "      - friction: 0.15\n      - applied: {name: pull, value: \"-4*sign(x)\"}\n"
+     "      - applied: {name: push, value: \"max(0[N], 1[N/s]*(t - 4[s]))\"}\n",
+     12, 2.5 * 2.5 * 2.5 / 6, 2.5 * 2.5 / 2, 1, 1, 1},
+};
+
+static size_t count_of(const struct trial *trial, fbd_event_kind kind)
+{
+    size_t count = 0, events = fbd_simulation_events(trial->simulation);
+    for (size_t i = 0; i < events; i++) count += fbd_simulation_event(trial->simulation, i).kind == kind;
+    return count;
+}
+
+static void other_switches_and_holds_have_their_own_way(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    for (size_t k = 0; k < sizeof besides / sizeof *besides; k++)
+        for (int m = 0; m < method_count; m++) {
+            const struct beside *beside = &besides[k];
+            char text[1600];
+            snprintf(text, sizeof text, "fbd: 1\ngravity: 10\nbodies:\n%ssimulate: {until: %g s}\n",
+                     beside->bodies, beside->until);
+            struct trial trial = trial_parse(text);
+            run_with(&trial, methods[m], 1e-10);
+            bool one = fbd_model_coordinates(trial.model) == 1;
+            check_close(&checks, beside->what, trial_get(&trial, one ? "x" : "b.x"), beside->x, 1e-6);
+            check_close(&checks, beside->what, trial_get(&trial, one ? "v" : "b.v"), beside->v, 1e-6);
+            check_that(&checks, beside->what,
+                       count_of(&trial, FBD_EVENT_SLIDING) == beside->slides &&
+                           count_of(&trial, FBD_EVENT_SLIDING_ENDS) == beside->ends &&
+                           count_of(&trial, FBD_EVENT_BREAKAWAY) == beside->leaves);
+            trial_close(&trial);
+        }
+    checks_end(&checks);
+}
+
+/* More switches of places than can be tried in all ways are passed, or rested on, as ever. */
+static void many_places_at_zero_are_no_trouble(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    static const char *const initial[] = {"{x: 0, v: 1}", "{x: 0}"};
+    for (int rests = 0; rests < 2; rests++) {
+        char text[4000] = "fbd: 1\nbodies:\n";
+        for (int i = 0; i < 20; i++)
+            snprintf(
+                text + strlen(text), sizeof text - strlen(text),
+                "  b%d: {mass: 1, motion: slide, initial: %s, forces: [applied: \"-4*sign(x) + 0*b%d.v\"]}\n",
+                i, initial[rests], (i + 1) % 20);
+        snprintf(text + strlen(text), sizeof text - strlen(text), "simulate: {until: 0.75 s}\n");
+        struct trial trial = trial_parse(text);
+        run_with(&trial, NULL, 1e-10);
+        /* Back at 0 after 0.5 s, and on with -1 + 4 t. */
+        check_close(&checks, "x", trial_get(&trial, "b7.x"), rests ? 0 : -0.125, 1e-9);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_series_ends_and_rests_until_it_is_pushed_away),
+        cmocka_unit_test(other_switches_and_holds_have_their_own_way),
+        cmocka_unit_test(many_places_at_zero_are_no_trouble),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
