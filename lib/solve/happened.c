@@ -59,8 +59,10 @@ static void note_frictions(struct run *run, const bool *moving)
             note_one_sided(run, pair, before, after);
             continue;
         }
-        if (before == stick && after != stick) passages_note_stick(run, pair);
-        if (before == stick && after != stick) run_note_friction(run, FBD_EVENT_BREAKAWAY, pair);
+        if (before == stick && after != stick) {
+            passages_note_stick(run, pair);
+            run_note_friction(run, FBD_EVENT_BREAKAWAY, pair);
+        }
         if (before != stick && after == stick) {
             int tie = run->model->plan.frictions[pair].tie;
             if (tie >= 0) tie_rezero(run->model, run->state->tree, tie);
