@@ -8,6 +8,7 @@
 
 #include "base/call.h"
 #include "base/diag.h"
+#include "dynamics/modes.h"
 #include "dynamics/project.h"
 #include "dynamics/rates.h"
 #include "dynamics/statics.h"
@@ -424,6 +425,22 @@ static bool refuse(const struct fbd_state *state, fbd_errors *errors)
     return false;
 }
 
+bool equilibrium_holds(struct fbd_state *state)
+{
+    const double rounding = 1e-6;
+    double most = 0;
+    if (state->model->plan.kink_count == 0) return true;
+    if (!modes_settle(state, NULL)) return false;
+    for (int i = 0; i < state->model->plan.n; i++) most = larger(most, fabs(state->a[i]));
+    return most <= rounding * typical_acceleration(state);
+}
+
+void equilibrium_refuse(fbd_errors *errors)
+{
+    diag_add(errors, FBD_ERROR, "no-equilibrium", (struct pos){0, 0}, "look from another state, with --at",
+             "forces balance only on a branch of an expression that has been left by then");
+}
+
 static bool find_equilibrium(fbd_state *state, fbd_errors *errors)
 {
     diag_in_file(errors, state->model->scene->file);
@@ -440,7 +457,9 @@ static bool find_equilibrium(fbd_state *state, fbd_errors *errors)
     int found = settle(state);
     if (state->holds.found == holds_no_memory) found = -1;
     state->settled = false;
-    if (found > 0) return start_question(state, true, errors);
+    if (found > 0 && !start_question(state, true, errors)) return false;
+    if (found > 0 && equilibrium_holds(state)) return true;
+    if (found > 0) equilibrium_refuse(errors);
     if (found < 0) diag_out_of_memory(errors);
     if (found == 0)
         diag_add(errors, FBD_ERROR, "no-equilibrium", (struct pos){0, 0},

@@ -20,4 +20,9 @@
  */
 int equilibrium_search(struct fbd_state *state);
 
+/* Do forces balance with the branches that expressions have at the state, which need not be those in which it was
+ * found? Its modes are settled by that. And saying that they do not. */
+bool equilibrium_holds(struct fbd_state *state);
+void equilibrium_refuse(fbd_errors *errors);
+
 #endif

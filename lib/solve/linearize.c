@@ -304,6 +304,23 @@ static bool look_around(struct looking *looking)
     return slopes_at(looking, looking->there); /* leaves the Jacobian in A */
 }
 
+/* 1, or what find_matrix says: -1 out of memory, -2 another branch holds there. */
+static int check_branches(const struct fbd_linearization *linear, const struct fbd_state *state,
+                          fbd_errors *errors)
+{
+    size_t n = (size_t)state->model->plan.n;
+    struct fbd_state *there = state_new(state->model);
+    if (!there) return -1;
+    state_copy(there, state);
+    memcpy(there->y, linear->q, n * sizeof *linear->q);
+    memset(there->y + n, 0, n * sizeof *there->y);
+    bool holds = equilibrium_holds(there), memory = there->holds.found != holds_no_memory;
+    state_free(there);
+    if (!memory) return -1;
+    if (!holds) equilibrium_refuse(errors);
+    return holds ? 1 : -2;
+}
+
 /* Find the balance and A there; 1 found, 0 none near, -1 out of memory, -2 it is said why not. */
 static int find_matrix(struct fbd_linearization *linear, struct fbd_state *state, fbd_errors *errors)
 {
@@ -322,6 +339,7 @@ static int find_matrix(struct fbd_linearization *linear, struct fbd_state *state
         } else
             drop_dying_slopes(&looking, errors);
     }
+    if (found > 0) found = check_branches(linear, state, errors);
     if (found > 0 && looking.full) { /* handed on */
         linear->way = looking.independent.way;
         looking.independent.way = NULL;

@@ -13,6 +13,7 @@
 
 #include <cmocka.h>
 
+#include "random_numbers.h"
 #include "rest_checks.h"
 
 static const double place = 1e-9;
@@ -173,6 +174,54 @@ static void what_has_no_place_of_rest_is_said(void **unused)
     check_refused("trees/shaken_pendulum.yaml", "not-independent");
 }
 
+/* A spring k x under a push c that jumps by J at x0: balances are c/k left of it and (c + J)/k right of it, where they
+ * are there; a balance of the other branch is none. */
+static void a_balance_is_one_of_the_branch_that_holds_there(void **unused)
+{
+    (void)unused;
+    struct random_numbers numbers = {1788};
+    int found = 0, none = 0;
+    for (int draw = 0; draw < 200; draw++) {
+        double k = random_between(&numbers, 1, 10), c = random_between(&numbers, -3, 3),
+               J = random_between(&numbers, -4, 4), x0 = random_between(&numbers, -1, 1);
+        bool left = c / k<x0, right = (c + J) / k> x0;
+        char text[500];
+        snprintf(text, sizeof text,
+                 "fbd: 1\nbodies:\n  b:\n    mass: 1\n    motion: slide\n    forces:\n"
+                 "      - applied: {name: law, value: \"%.17g[N] + %.17g[N]*step(x - (%.17g[m])) - "
+                 "%.17g[N/m]*x\"}\n"
+                 "simulate: {until: 1}\n",
+                 c, J, x0, k);
+        struct trial trial = trial_parse(text);
+        fbd_errors *errors = fbd_errors_new();
+        if (fbd_find_equilibrium(trial.state, errors)) {
+            double x = trial_get(&trial, "x");
+            /* With J < 0 it may rest on the switch itself. */
+            bool slid = J < 0 && !left && !right && fabs(x - x0) < 1e-9;
+            bool good = (left && fabs(x - c / k) < 1e-9) || (right && fabs(x - (c + J) / k) < 1e-9) || slid;
+            if (!good) print_message("# draw %d: x = %.9g\n%s", draw, x, text);
+            assert_true(good);
+            found++;
+        } else {
+            assert_string_equal(fbd_errors_get(errors, 0)->id, "no-equilibrium");
+            none += !left && !right;
+        }
+        fbd_errors_free(errors);
+        fbd_errors *others = fbd_errors_new();
+        fbd_linearization *linear = fbd_linearize(trial.state, others);
+        char *report = linear ? fbd_linearization_text(linear) : NULL;
+        double where = 0;
+        if (report) assert_int_equal(sscanf(strstr(report, "x = "), "x = %lf", &where), 1);
+        free(report);
+        bool held = (left && fabs(where - c / k) < 1e-7) || (right && fabs(where - (c + J) / k) < 1e-7);
+        assert_true(!linear || held || (J < 0 && !left && !right));
+        fbd_linearization_free(linear);
+        fbd_errors_free(others);
+        trial_close(&trial);
+    }
+    assert_true(found >= 100 && none > 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -184,6 +233,7 @@ int main(void)
         cmocka_unit_test(a_bob_on_a_rope_ends_below),
         cmocka_unit_test(a_spring_without_a_load_ends_neutral),
         cmocka_unit_test(what_has_no_place_of_rest_is_said),
+        cmocka_unit_test(a_balance_is_one_of_the_branch_that_holds_there),
     };
     return cmocka_run_group_tests(tests, no_handler, NULL);
 }
