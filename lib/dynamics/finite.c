@@ -12,9 +12,9 @@
 
 const char *not_finite_reason(double value)
 {
-    return isnan(value)
-               ? "an expression leaves its domain there (a root or logarithm of a negative number, 0/0)"
-               : "it is beyond the largest number (a division by zero, or an overflow)";
+    return isnan(value) ? "an expression leaves its domain there (a root or logarithm of a negative number, "
+                          "0/0, thresholds of `hysteresis` that cross)"
+                        : "it is beyond the largest number (a division by zero, or an overflow)";
 }
 
 bool not_finite_note(struct not_finite *found, double value, struct pos at, const char *format, ...)

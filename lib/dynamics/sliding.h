@@ -86,6 +86,9 @@ void sliding_clear_rounding(const struct sliding *sliding, int n, double *a);
 void sliding_solve_along(const struct fbd_model *model, const struct instant *given,
                          const struct direction *direction);
 
+/* Does dry friction of its own keep a coordinate from accelerating against its surface? */
+bool sliding_is_held(const struct fbd_model *model, const struct instant *at, int coordinate);
+
 /* What a switch watches: u. */
 double sliding_watched(struct sliding *sliding, const struct fbd_model *model, const struct instant *given,
                        const struct kink *kink, int part);

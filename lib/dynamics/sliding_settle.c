@@ -68,14 +68,15 @@ static double passing_speed(const struct question *q, const struct asked *asked)
 
 /* ---- who is asked */
 
-/* What is passed with a speed is no place to rest; where there are too many places, none are asked. */
+/* What is passed with a speed is no place to rest; where there are too many places, none are asked but
+ * those that are slid on. */
 static bool is_asked(const struct question *q, const struct decided *decided, const struct kink *kink,
                      int part)
 {
     const struct sliding *s = q->state->sliding;
     int branch = kink->formula.branch + part;
     if (isnan(s->u[part])) return false; /* in a side of an `if` that is not chosen */
-    if (q->without_places && kink_watches_places(kink, part)) return false;
+    if (q->without_places && kink_watches_places(kink, part) && s->slide_at[branch] == 0) return false;
     return s->slide_at[branch] > 0 || s->left[branch] || s->ended[branch] ||
            (decided && decided->branches[branch]) || fabs(s->u[part]) <= s->rounding[part];
 }

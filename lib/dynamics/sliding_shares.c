@@ -135,7 +135,7 @@ static void set_shares(struct sliding *s)
     }
 }
 
-static bool is_held(const struct fbd_model *model, const struct instant *at, int coordinate)
+bool sliding_is_held(const struct fbd_model *model, const struct instant *at, int coordinate)
 {
     for (size_t pair = 0; pair < model->plan.friction_count; pair++) {
         const struct friction *friction = &model->plan.frictions[pair];
@@ -161,7 +161,7 @@ static int held_coordinate(const struct fbd_model *model, const struct instant *
         double slope = sliding_surface_rate(s, model, at, kink, s->slides[first].part, 0, s->flow);
         s->flow[n + i] = 0;
         if (slope == 0) continue;
-        if (!is_held(model, at, i)) return not_held;
+        if (!sliding_is_held(model, at, i)) return not_held;
         held = i;
         count++;
     }

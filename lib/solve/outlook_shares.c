@@ -71,15 +71,6 @@ static bool knows_body(const struct fbd_state *state, int body)
     return true;
 }
 
-static int body_of(const struct fbd_model *model, int coordinate)
-{
-    for (size_t b = 0; b < model->body_count; b++) {
-        const struct model_body *body = &model->bodies[b];
-        if (coordinate >= body->first && coordinate < body->first + body->count) return (int)b;
-    }
-    return -1;
-}
-
 bool outlook_knows_shares(const struct fbd_state *state)
 {
     const struct fbd_model *model = state->model;
@@ -94,8 +85,7 @@ bool outlook_knows_shares(const struct fbd_state *state)
             return false;
         for (size_t k = 0; k < count; k++) {
             if (slots[k] > 2 * n) return false;
-            int body = body_of(model, (slots[k] - 1) % n);
-            if (body < 0 || !knows_body(state, body)) return false;
+            if (!knows_body(state, model->scene->coordinates[(slots[k] - 1) % n].body)) return false;
         }
     }
     return true;
@@ -128,7 +118,7 @@ static struct enclosure friction_of(const struct outlook *o, int coordinate)
 static void take_force(const struct outlook *o, int coordinate, double factor, struct equations *e, int unit)
 {
     const struct fbd_model *model = o->state->model;
-    int body = body_of(model, coordinate);
+    int body = model->scene->coordinates[coordinate].body;
     const struct body_terms *terms = &model->plan.bodies[body];
     struct enclosure force = enclosure_add(outlook_slot(o, body, coordinate), friction_of(o, coordinate));
     e->c[unit] = enclosure_add(e->c[unit], enclosure_scale(factor, force));
@@ -142,17 +132,6 @@ static void take_force(const struct outlook *o, int coordinate, double factor, s
         struct enclosure *C = &e->C[unit][slide->unit];
         *C = enclosure_add(*C, enclosure_scale(factor * slide->sign * term->scale, jump));
     }
-}
-
-/* Friction keeps it from accelerating. */
-static bool sticks(const struct fbd_state *state, int coordinate)
-{
-    const struct plan *plan = &state->model->plan;
-    bool any = false;
-    for (size_t pair = 0; pair < plan->friction_count; pair++)
-        any |= plan->frictions[pair].kind == mode_friction &&
-               plan->frictions[pair].coordinate == coordinate && state->slip[pair] == stick;
-    return any;
 }
 
 static void write_equation(const struct outlook *o, int unit, struct equations *e)
@@ -178,7 +157,7 @@ static void write_equation(const struct outlook *o, int unit, struct equations *
         s->flow[i] = 1;
         double slope = sliding_surface_rate(s, state->model, &at, kink, s->slides[first].part, 0, s->flow);
         s->flow[i] = 0;
-        if (slope == 0 || (i >= n && sticks(state, (int)(i - n)))) continue;
+        if (slope == 0 || (i >= n && sliding_is_held(state->model, &at, (int)(i - n)))) continue;
         if (i < n)
             e->c[unit] = enclosure_add(e->c[unit], enclosure_scale(slope, o->y[n + i]));
         else

@@ -72,10 +72,10 @@ static void explain_not_finite(struct run *run)
 {
     if (explain_blocked_rope(run)) return;
     size_t n = (size_t)run->model->plan.n, element = run->system.last_element % (2 * n);
-    const char *what =
-        isnan(run->system.last_value)
-            ? "an expression leaves its domain there (a root or logarithm of a negative number, 0/0)"
-            : "it is beyond the largest number (a division by zero, or an overflow)";
+    const char *what = isnan(run->system.last_value)
+                           ? "an expression leaves its domain there (a root or logarithm of a negative "
+                             "number, 0/0, thresholds of `hysteresis` that cross)"
+                           : "it is beyond the largest number (a division by zero, or an overflow)";
     run_fail(
         run, FBD_FAILED,
         "a force on `%s` is not finite at t = %.9g, just beyond the last good state at t = %.9g: %s. End the "

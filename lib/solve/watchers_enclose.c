@@ -301,11 +301,7 @@ static void mark_share(const struct fbd_model *model, const struct formula *form
         if (slots[k] > 2 * n) continue;
         int coordinate = (slots[k] - 1) % n;
         used[n + coordinate] = true;
-        for (size_t b = 0; b < model->body_count; b++) {
-            const struct model_body *body = &model->bodies[b];
-            if (coordinate >= body->first && coordinate < body->first + body->count)
-                mark_body(&model->plan, (int)b, used);
-        }
+        mark_body(&model->plan, model->scene->coordinates[coordinate].body, used);
     }
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * What holds a body, under two waves whose sizes add up to its limit R and a share of 1e-4 to 1e-2 more or less:
- * the first time beyond it is found here by a fine search of the sum. A program that looks at samples misses such
+ * the first time beyond it is found by a search with bounds (waves.h). A program that looks at samples misses such
  * peaks, which are over within a hundredth of a period.
  */
 #include <setjmp.h>
@@ -12,49 +12,12 @@
 #include <cmocka.h>
 
 #include "gallery.h"
-#include "random_numbers.h"
+#include "waves.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
 static const double until = 20, g = 10;
-
-struct waves {
-    double a[2], w[2], phase[2];
-};
-
-static struct waves draw_waves(struct random_numbers *numbers, double R)
-{
-    static const double beyond[] = {1e-2, 1e-3, 1e-4, -1e-4, -1e-3};
-    double most = R * (1 + beyond[(int)random_between(numbers, 0, 4.999)]);
-    struct waves waves = {.w = {random_between(numbers, 1, 60), random_between(numbers, 0.3, 8)},
-                          .phase = {random_between(numbers, 0, 6.28), random_between(numbers, 0, 6.28)}};
-    waves.a[0] = random_between(numbers, 0.2, 0.8) * most;
-    waves.a[1] = most - waves.a[0];
-    return waves;
-}
-
-static double sum_at(const struct waves *p, double t)
-{
-    return p->a[0] * sin(p->w[0] * t + p->phase[0]) + p->a[1] * sin(p->w[1] * t + p->phase[1]);
-}
-
-/* HUGE_VAL when it stays below. Peaks last for more than ten steps: the fast wave alone takes one down by 1e-4 in 2e-4
- * of a radian's root. */
-static double first_beyond(const struct waves *p, double R, bool both)
-{
-    const double step = 5e-5;
-    for (double t = 0; t < until; t += step) {
-        double push = sum_at(p, t), low = t - step, high = t;
-        if (!((both ? fabs(push) : push) > R)) continue;
-        for (int k = 0; k < 60; k++) {
-            double middle = low + (high - low) / 2, now = sum_at(p, middle);
-            *((both ? fabs(now) : now) > R ? &high : &low) = middle;
-        }
-        return high;
-    }
-    return HUGE_VAL;
-}
 
 /* ---- scenes: of a mass m, a wave of forces, and the limit */
 
@@ -163,12 +126,13 @@ static double first_event(const struct trial *trial, fbd_event_kind kind)
 static void check_hold(struct checks *checks, const struct hold *hold, struct random_numbers *numbers)
 {
     double m = random_between(numbers, 0.5, 3), R = hold->limit * m * g;
-    const struct waves waves = draw_waves(numbers, R);
-    double push = sum_at(&waves, 0), want = first_beyond(&waves, R, hold->both);
-    char wave[300], bodies[1400], text[2000];
+    const struct waves waves = waves_near(numbers, R);
+    double slope, most, push = R + waves_value(&waves, 0, &slope, &most),
+                        want = waves_first(&waves, until, hold->both);
+    char sum[300], wave[320], bodies[1400], text[2000];
     if (fabs(push) > 0.99 * R) return;
-    snprintf(wave, sizeof wave, "%.17g[N]*sin(%.17g*t + %.17g) + %.17g[N]*sin(%.17g*t + %.17g)", waves.a[0],
-             waves.w[0], waves.phase[0], waves.a[1], waves.w[1], waves.phase[1]);
+    waves_write(&waves, "t", "rad/s", sum, sizeof sum);
+    snprintf(wave, sizeof wave, "1[N]*(%s)", sum);
     hold->write(bodies, sizeof bodies, m, wave);
     snprintf(text, sizeof text,
              "fbd: 1\ngravity: %g\nground: {points: {O: [0, 0]}, lines: {floor: {along: 0 deg}}}\nbodies:\n%s"

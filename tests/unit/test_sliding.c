@@ -13,6 +13,7 @@
 #include "gallery.h"
 #include "random_numbers.h"
 #include "scenes.h"
+#include "waves.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -122,28 +123,11 @@ static void friction_by_sign_is_friction(void **unused)
 
 /* ---- no end of a slide is lost: pushes whose peaks are within a share of 1e-4 to 1e-2 of what holds */
 
-/* Two waves, whose sizes add up to R (1 + eps). */
-struct waves {
-    double a[2], w[2], phase[2];
-};
-
-static struct waves draw_waves(struct random_numbers *numbers, double R)
+static void write_near(const struct waves *waves, char *text, size_t size)
 {
-    static const double beyond[] = {1e-2, 1e-3, 1e-4, -1e-4, -1e-3};
-    double most = R * (1 + beyond[(int)random_between(numbers, 0, 4.999)]);
-    struct waves waves = {.w = {random_between(numbers, 1, 60), random_between(numbers, 0.3, 8)},
-                          .phase = {random_between(numbers, 0, 6.28), random_between(numbers, 0, 6.28)}};
-    waves.a[0] = random_between(numbers, 0.2, 0.8) * most;
-    waves.a[1] = most - waves.a[0];
-    return waves;
-}
-
-static void write_waves(const struct waves *p, char *text, size_t size)
-{
-    snprintf(
-        text, size,
-        "      - applied: {name: wave, value: \"%.17g*sin(%.17g*t + %.17g) + %.17g*sin(%.17g*t + %.17g)\"}\n",
-        p->a[0], p->w[0], p->phase[0], p->a[1], p->w[1], p->phase[1]);
+    char sum[300];
+    waves_write(waves, "t", "rad/s", sum, sizeof sum);
+    snprintf(text, size, "      - applied: {name: wave, value: \"%s\"}\n", sum);
 }
 
 static size_t count_of(const struct trial *trial, fbd_event_kind kind)
@@ -163,9 +147,9 @@ static void a_short_end_of_rubbing_is_not_lost(void **unused)
     printf("# seed %d\n", seed);
     for (int draw = 0; draw < draws; draw++) {
         double R = random_between(&numbers, 1, 3), m = random_between(&numbers, 0.5, 2), v = draw % 2;
-        const struct waves waves = draw_waves(&numbers, R);
-        char wave[300], rub[200], texts[2][900];
-        write_waves(&waves, wave, sizeof wave);
+        const struct waves waves = waves_near(&numbers, R);
+        char wave[360], rub[200], texts[2][900];
+        write_near(&waves, wave, sizeof wave);
         struct trial trials[2];
         for (int i = 0; i < 2; i++) {
             if (i == 0)
@@ -197,7 +181,7 @@ static void a_short_end_of_rubbing_is_not_lost(void **unused)
 /* What the relay of a sliding mode x = -c v has left: F less the size of m x/c^2 - P(t). */
 static double left_of(const struct waves *p, double F, double m, double x, double c, double t)
 {
-    double push = p->a[0] * sin(p->w[0] * t + p->phase[0]) + p->a[1] * sin(p->w[1] * t + p->phase[1]);
+    double slope, most, push = F + waves_value(p, t, &slope, &most);
     return F - fabs(m * x * exp(-t / c) / (c * c) - push);
 }
 
@@ -213,9 +197,9 @@ static void a_short_end_of_a_sliding_mode_is_not_lost(void **unused)
         double F = random_between(&numbers, 1, 3), m = random_between(&numbers, 0.5, 2),
                c = random_between(&numbers, 0.3, 1),
                x = random_between(&numbers, -1, 1) * 0.3 * F * c * c / m;
-        const struct waves waves = draw_waves(&numbers, F);
-        char wave[300], text[900];
-        write_waves(&waves, wave, sizeof wave);
+        const struct waves waves = waves_near(&numbers, F);
+        char wave[360], text[900];
+        write_near(&waves, wave, sizeof wave);
         double end = 0;
         if (left_of(&waves, F, m, x, c, 0) < 0.01 * F) continue;
         while (end < until && left_of(&waves, F, m, x, c, end) > 0) end += step;

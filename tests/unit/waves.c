@@ -85,6 +85,34 @@ struct waves waves_random(struct random_numbers *numbers, enum course course)
     return h;
 }
 
+struct waves waves_near(struct random_numbers *numbers, double R)
+{
+    static const double beyond[] = {1e-2, 1e-3, 1e-4, -1e-4, -1e-3};
+    double most = R * (1 + beyond[(int)random_between(numbers, 0, 4.999)]);
+    struct waves h = {.count = 2, .c = R, .course = along_time};
+    for (int k = 0; k < 2; k++) {
+        h.w[k] = k == 0 ? random_between(numbers, 1, 60) : random_between(numbers, 0.3, 8);
+        h.p[k] = random_between(numbers, 0, 6.28);
+    }
+    h.a[0] = random_between(numbers, 0.2, 0.8) * most;
+    h.a[1] = most - h.a[0];
+    return h;
+}
+
+double waves_first(const struct waves *h, double until, bool both)
+{
+    static struct zeros zeros;
+    struct waves other = *h;
+    double first = HUGE_VAL;
+    for (int k = 0; k < h->count; k++) other.a[k] = -h->a[k];
+    for (int side = 0; side < 1 + both; side++) {
+        zeros = (struct zeros){0};
+        waves_find(side == 0 ? h : &other, 0, until, &zeros);
+        if (zeros.count > 0) first = fmin(first, zeros.t[0]);
+    }
+    return first;
+}
+
 int waves_write(const struct waves *h, const char *argument, const char *unit, char *text, size_t size)
 {
     int length = 0;

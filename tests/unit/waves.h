@@ -40,6 +40,14 @@ void waves_find(const struct waves *h, double low, double high, struct zeros *ze
 /* Up to three waves. Thresholds near the crest of one wave, by gaps from 1e-12 to 1, or anywhere. */
 struct waves waves_random(struct random_numbers *numbers, enum course course);
 
+/* Two waves along time whose sizes add up to R and a share of 1e-4 to 1e-2 more or less, less R: their peaks are
+ * just beyond it, or not. */
+struct waves waves_near(struct random_numbers *numbers, double R);
+
+/* The first time before `until` at which the sum is above c, or with `both` above c or below -c; HUGE_VAL without
+ * one. */
+double waves_first(const struct waves *h, double until, bool both);
+
 /* sum_k a_k sin(w_k x + p_k) as an expression, for an argument of the unit 1/`unit`; returns its length. */
 int waves_write(const struct waves *h, const char *argument, const char *unit, char *text, size_t size);
 
