@@ -176,17 +176,44 @@ static double entry(const struct fbd_model *model, const struct instant *at, int
 }
 
 /* ---- L D U in the envelope: row i from column first[i], column i from row first[i]; rows and columns are
- * places in the order of elimination (model/tie_order.c) */
+ * places in the order of elimination (model/tie_order.c), of those unknowns that take part */
 
-/* Entry k of the row or column j, which is kept from `from` on. */
-static double *entry_of(const struct tree *tree, double *kept, int j, int k)
+/* Number those that take part. What touches nothing and what slips costs nothing from here on. */
+static void set_places(const struct tree *tree, const struct instant *at)
 {
-    return &kept[tree->envelope[j] + (size_t)(k - tree->first[j])];
+    struct tree_work *work = at->tree;
+    int count = 0, all = tree_unknowns(tree);
+    size_t size = 0;
+    for (int p = 0; p < all; p++) {
+        int k = tree->unknown_at[p];
+        work->rank[p] = count;
+        work->place[k] = -1;
+        work->diagonal[k] = 1;
+        if (is_row(tree, k)) work->rows[k].redundant = work->rows[k].weak = false;
+        if (!tree_takes_part(tree, at, k)) continue;
+        work->place[k] = count;
+        work->unknown_at[count] = k;
+        work->first[count] = work->rank[tree->first[p]];
+        work->reach[count] = tree->reach[p];
+        work->envelope[count] = size;
+        size += (size_t)(count - work->first[count]);
+        count++;
+    }
+    work->rank[all] = count;
+    for (int r = 0; r < count; r++) work->reach[r] = work->rank[work->reach[r]];
+    work->count = count;
+    work->envelope_size = size;
 }
 
-static double entry_in(const struct tree *tree, const double *kept, int j, int k)
+/* Entry k of the row or column j, which is kept from `from` on. */
+static double *entry_of(const struct tree_work *work, double *kept, int j, int k)
 {
-    return kept[tree->envelope[j] + (size_t)(k - tree->first[j])];
+    return &kept[work->envelope[j] + (size_t)(k - work->first[j])];
+}
+
+static double entry_in(const struct tree_work *work, const double *kept, int j, int k)
+{
+    return kept[work->envelope[j] + (size_t)(k - work->first[j])];
 }
 
 /* A row that nothing can move, as a rod on the axis of a pivot, has no multiplier: it would be one of
@@ -196,13 +223,13 @@ static const double nothing = 1e-15;
 /* Row and column j up to the diagonal, given those before. */
 static void factor_row(const struct tree *tree, struct tree_work *work, int j, double epsilon)
 {
-    const int *first = tree->first, unknown = tree->unknown_at[j];
+    const int *first = work->first, unknown = work->unknown_at[j];
     double shift = epsilon * work->scale[unknown], pivot = work->diagonal[unknown] + shift;
     for (int i = first[j]; i < j; i++) {
-        double *lower = entry_of(tree, work->lower, j, i), *upper = entry_of(tree, work->upper, j, i);
+        double *lower = entry_of(work, work->lower, j, i), *upper = entry_of(work, work->upper, j, i);
         for (int k = first[i] > first[j] ? first[i] : first[j]; k < i; k++) {
-            *upper -= *entry_of(tree, work->lower, i, k) * *entry_of(tree, work->upper, j, k);
-            *lower -= *entry_of(tree, work->lower, j, k) * *entry_of(tree, work->upper, i, k);
+            *upper -= *entry_of(work, work->lower, i, k) * *entry_of(work, work->upper, j, k);
+            *lower -= *entry_of(work, work->lower, j, k) * *entry_of(work, work->upper, i, k);
         }
         *lower *= work->inverse[i];
         pivot -= *lower * *upper;
@@ -216,28 +243,26 @@ static void factor_row(const struct tree *tree, struct tree_work *work, int j, d
 }
 
 /* rest = right - S z. */
-static void rest_of(const struct tree *tree, const struct tree_work *work, const double *right,
-                    const double *z, double *rest)
+static void rest_of(const struct tree_work *work, const double *right, const double *z, double *rest)
 {
-    const double *lower = work->whole, *upper = lower + tree->envelope_size, *diagonal = work->diagonal;
-    int m = tree_unknowns(tree);
-    for (int j = 0; j < m; j++) {
-        rest[j] = right[j] - diagonal[tree->unknown_at[j]] * z[j];
-        for (int k = tree->first[j]; k < j; k++) {
-            rest[j] -= entry_in(tree, lower, j, k) * z[k];
-            rest[k] -= entry_in(tree, upper, j, k) * z[j];
+    const double *lower = work->whole, *upper = lower + work->envelope_size, *diagonal = work->diagonal;
+    for (int j = 0; j < work->count; j++) {
+        rest[j] = right[j] - diagonal[work->unknown_at[j]] * z[j];
+        for (int k = work->first[j]; k < j; k++) {
+            rest[j] -= entry_in(work, lower, j, k) * z[k];
+            rest[k] -= entry_in(work, upper, j, k) * z[j];
         }
     }
 }
 
-static void substitute(const struct tree *tree, const struct tree_work *work, double *z)
+static void substitute(const struct tree_work *work, double *z)
 {
-    int m = tree_unknowns(tree);
+    int m = work->count;
     for (int j = 0; j < m; j++)
-        for (int k = tree->first[j]; k < j; k++) z[j] -= *entry_of(tree, work->lower, j, k) * z[k];
+        for (int k = work->first[j]; k < j; k++) z[j] -= *entry_of(work, work->lower, j, k) * z[k];
     for (int j = m - 1; j >= 0; j--) {
         z[j] *= work->inverse[j];
-        for (int k = tree->first[j]; k < j; k++) z[k] -= *entry_of(tree, work->upper, j, k) * z[j];
+        for (int k = work->first[j]; k < j; k++) z[k] -= *entry_of(work, work->upper, j, k) * z[j];
     }
 }
 
@@ -248,20 +273,20 @@ static double largest(const double *values, int count)
     return most;
 }
 
-static void solve(const struct tree *tree, struct tree_work *work, double *unknowns)
+static void solve(struct tree_work *work, double *unknowns)
 {
     enum { least_corrections = 2, most_corrections = 8 };
-    int m = tree_unknowns(tree), corrections = work->projecting ? 0 : most_corrections;
+    int m = work->count, corrections = work->projecting ? 0 : most_corrections;
     double *right = work->right, *rest = work->rest, *z = work->ordered;
-    for (int p = 0; p < m; p++) z[p] = right[p] = unknowns[tree->unknown_at[p]];
-    substitute(tree, work, z);
+    for (int p = 0; p < m; p++) z[p] = right[p] = unknowns[work->unknown_at[p]];
+    substitute(work, z);
     for (int pass = 0; pass < corrections; pass++) {
-        rest_of(tree, work, right, z, rest);
+        rest_of(work, right, z, rest);
         if (pass >= least_corrections && largest(rest, m) <= 1e-14 * largest(right, m)) break;
-        substitute(tree, work, rest);
+        substitute(work, rest);
         for (int j = 0; j < m; j++) z[j] += rest[j];
     }
-    for (int p = 0; p < m; p++) unknowns[tree->unknown_at[p]] = z[p];
+    for (int p = 0; p < m; p++) unknowns[work->unknown_at[p]] = z[p];
 }
 
 /* ---- how much the joints could give way */
@@ -291,16 +316,15 @@ static double mobility(const struct tree *tree, const struct tree_work *work, in
  *
  * What nothing can move has all of that of the order of rounding, when it sits on the axis but for rounding
  * (the pin of a welded body). So whether it moves is measured against the lightest link too, as a whole. */
-static void set_scales(const struct tree *tree, const struct instant *at)
+static void set_scales(const struct tree *tree, struct tree_work *work)
 {
-    struct tree_work *work = at->tree;
     double most = 0, lightest = DBL_MAX;
     for (int i = 0; i < tree->tie_count; i++) {
         int first = tree->ties[i].first_row, end = first + tree->ties[i].row_count;
         double scale = 0;
         for (int j = first; j < end; j++) {
             const struct row *row = &work->rows[j];
-            if (!tree_takes_part(tree, at, j)) continue;
+            if (work->place[j] < 0) continue;
             for (int k = 0; k < row->port_count; k++) {
                 int link = row->ports[k].link;
                 scale = fmax(scale, mobility(tree, work, link, row->ports[k].arm));
@@ -308,7 +332,7 @@ static void set_scales(const struct tree *tree, const struct instant *at)
             }
             scale = fmax(scale, work->diagonal[j]);
         }
-        for (int j = first; j < end; j++) work->scale[j] = tree_takes_part(tree, at, j) ? scale : 1;
+        for (int j = first; j < end; j++) work->scale[j] = work->place[j] < 0 ? 1 : scale;
         most = fmax(most, scale);
     }
     for (int k = tree->row_count; k < tree_unknowns(tree); k++) work->scale[k] = work->diagonal[k];
@@ -319,35 +343,32 @@ static void assemble(const struct fbd_model *model, const struct instant *at)
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
-    int m = tree_unknowns(tree);
-    double *lower = work->whole, *upper = lower + tree->envelope_size;
-    memset(lower, 0, 2 * tree->envelope_size * sizeof *lower);
+    set_places(tree, at);
+    double *lower = work->whole, *upper = lower + work->envelope_size;
+    memset(lower, 0, 2 * work->envelope_size * sizeof *lower);
     memset(work->mark, 0, (size_t)tree->count * sizeof *work->mark);
-    for (int p = 0; p < m; p++) {
-        int k = tree->unknown_at[p];
-        bool part = tree_takes_part(tree, at, k);
-        if (part) answer_unit(model, at, k);
+    for (int p = 0; p < work->count; p++) {
+        int k = work->unknown_at[p];
+        answer_unit(model, at, k);
         /* Column p meets rows q whose envelope reaches it, and those in its own. */
-        for (int q = tree->first[p]; q < tree->reach[p]; q++) {
-            int j = tree->unknown_at[q];
-            bool both = part && tree_takes_part(tree, at, j);
-            double value = both ? entry(model, at, j, k) : j == k;
-            if (q < p) *entry_of(tree, upper, p, q) = value;
+        for (int q = work->first[p]; q < work->reach[p]; q++) {
+            double value = entry(model, at, work->unknown_at[q], k);
+            if (q < p) *entry_of(work, upper, p, q) = value;
             if (q == p) work->diagonal[k] = value;
-            if (q > p && tree->first[q] <= p) *entry_of(tree, lower, q, p) = value;
+            if (q > p && work->first[q] <= p) *entry_of(work, lower, q, p) = value;
         }
     }
-    set_scales(tree, at);
+    set_scales(tree, work);
 }
 
 void tree_system_refactor(const struct tree *tree, struct tree_work *work)
 {
-    size_t bytes = tree->envelope_size * sizeof *work->lower;
+    size_t bytes = work->envelope_size * sizeof *work->lower;
     /* A projection must not throw the state about for what a row with no slope has left. */
     const double epsilon = work->projecting ? work->damping : 1e-8;
     memcpy(work->lower, work->whole, bytes);
-    memcpy(work->upper, work->whole + tree->envelope_size, bytes);
-    for (int j = 0; j < tree_unknowns(tree); j++) factor_row(tree, work, j, epsilon);
+    memcpy(work->upper, work->whole + work->envelope_size, bytes);
+    for (int j = 0; j < work->count; j++) factor_row(tree, work, j, epsilon);
 }
 
 void tree_system_factor(const struct fbd_model *model, const struct instant *at)
@@ -362,8 +383,8 @@ void tree_system_solve(const struct fbd_model *model, const struct instant *at, 
     struct tree_work *work = at->tree;
     int m = tree_unknowns(tree);
     for (int k = 0; k < m; k++)
-        if (!tree_takes_part(tree, at, k)) z[k] = 0;
-    solve(tree, work, z);
+        if (work->place[k] < 0) z[k] = 0;
+    solve(work, z);
     clear_range(work->x, 0, tree->count);
     for (int k = 0; k < m; k++)
         if (z[k] != 0) apply_unknown(model, at, k, z[k]);

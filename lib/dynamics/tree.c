@@ -21,11 +21,12 @@ static size_t doubles_of(const struct fbd_model *model)
 size_t tree_work_size(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
-    size_t links = (size_t)tree->count, ints = (links + 1) / 2 * 2;
+    size_t links = (size_t)tree->count, unknowns = (size_t)tree_unknowns(tree);
+    size_t ints = (links + 5 * unknowns + 2) / 2 * 2;
     size_t link = sizeof(struct tree_state) + sizeof(struct tree_rhs) + sizeof(struct tree_variation);
     return links * link + (size_t)tree->row_count * sizeof(struct row) +
            (size_t)tree->tie_count * sizeof(struct tie_state) + doubles_of(model) * sizeof(double) +
-           ints * sizeof(int);
+           unknowns * sizeof(size_t) + ints * sizeof(int);
 }
 
 void tree_work_init(struct tree_work *work, const struct fbd_model *model, void *memory)
@@ -51,7 +52,14 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->scale = work->a_along + n;
     work->ordered = work->scale + unknowns;
     void *behind = work->ordered + unknowns;
+    work->envelope = behind;
+    behind = work->envelope + unknowns;
     work->mark = behind;
+    work->unknown_at = work->mark + links;
+    work->first = work->unknown_at + unknowns;
+    work->reach = work->first + unknowns;
+    work->place = work->reach + unknowns;
+    work->rank = work->place + unknowns;
     work->damping = 1e-6;
     work->accuracy = 1e-10;
     work->links[0].turn = work->links[0].e = (struct vec){1, 0};

@@ -72,18 +72,24 @@ struct tree_work {
     double *whole;                  /* lower and upper parts of the system before it was factored */
     double *right, *rest, *ordered; /* unknowns in the order of elimination */
     int *mark;                      /* count: which unknown a tree answers to */
-    double *unit;                   /* n: accelerations that are added */
-    double *a, *a_along;            /* n: accelerations of the last force_balance, and their variation */
-    double most;                    /* the largest scale of a row */
-    double *scale;                  /* unknowns: how large the diagonals could be, see constraint_solve.c */
-    double damping;     /* of a projection: slopes whose square is less than this share are left alone */
-    double accuracy;    /* relative, of the coordinates that are projected */
-    bool projecting;    /* the system is set up for a projection: no friction */
-    bool shared;        /* what constraints leave open is shared in them, see rest_system.h */
-    double shared_size; /* then: the largest force that was there before, which has given its rounding */
-    bool complete;      /* A and F of the links are final, see tree_complete */
-    double fastest;     /* the speed of the fastest link; negative: to be found, see constraint.c; */
-    double spin;        /* then with the largest angular speed */
+    size_t *envelope; /* of the unknowns that take part in the system, see constraint_solve.c: */
+    int *unknown_at, *first, *reach; /* what struct tree has of all of them */
+    int *place;                      /* of an unknown, or -1 */
+    int *rank;                       /* unknowns + 1: how many take part before a place of the tree */
+    int count;                       /* how many do */
+    size_t envelope_size;
+    double *unit;        /* n: accelerations that are added */
+    double *a, *a_along; /* n: accelerations of the last force_balance, and their variation */
+    double most;         /* the largest scale of a row */
+    double *scale;       /* unknowns: how large the diagonals could be, see constraint_solve.c */
+    double damping;      /* of a projection: slopes whose square is less than this share are left alone */
+    double accuracy;     /* relative, of the coordinates that are projected */
+    bool projecting;     /* the system is set up for a projection: no friction */
+    bool shared;         /* what constraints leave open is shared in them, see rest_system.h */
+    double shared_size;  /* then: the largest force that was there before, which has given its rounding */
+    bool complete;       /* A and F of the links are final, see tree_complete */
+    double fastest;      /* the speed of the fastest link; negative: to be found, see constraint.c; */
+    double spin;         /* then with the largest angular speed */
 };
 
 /* Bytes that a workspace needs (a multiple of the size of a double), and laying it out. */

@@ -14,11 +14,12 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <time.h>
 
 #include "gallery.h"
 #include "random_numbers.h"
 
-enum { most_bodies = 3, room = 4000 };
+enum { most_bodies = 12, room = 20000 };
 
 struct pile {
     int count;
@@ -28,10 +29,10 @@ struct pile {
 };
 
 /* One above the other, apart by up to 0.1 m, turned or not. */
-static void draw_pile(struct random_numbers *numbers, struct pile *pile, char *text)
+static void draw_pile(struct random_numbers *numbers, int least, int most, struct pile *pile, char *text)
 {
     double y = 0;
-    *pile = (struct pile){.count = 2 + (int)(random_bits(numbers) % 2)};
+    *pile = (struct pile){.count = least + (int)(random_bits(numbers) % (unsigned)(most - least + 1))};
     pile->slope = random_bits(numbers) % 3 == 0 ? random_between(numbers, -0.17, 0.17) : 0;
     pile->mu = random_between(numbers, 0.2, 0.9);
     pile->e = random_bits(numbers) % 2 == 0 ? 0 : random_between(numbers, 0, 0.5);
@@ -85,6 +86,12 @@ static double height_of(const struct trial *trial, const struct pile *pile, int 
     return middle - (fabs(pile->a[i] * sin(turn)) + fabs(pile->b[i] * cos(turn))) / 2;
 }
 
+static int number_of(const char *name, int otherwise)
+{
+    const char *given = getenv(name);
+    return given ? atoi(given) : otherwise;
+}
+
 static void piles_fall_down_and_come_to_rest(void **unused)
 {
     const char *many = getenv("FBD_PILES");
@@ -95,7 +102,10 @@ static void piles_fall_down_and_come_to_rest(void **unused)
     for (int i = 0; i < count; i++) {
         struct pile pile;
         char text[room];
-        draw_pile(&numbers, &pile, text);
+        draw_pile(&numbers, number_of("FBD_PILE_FROM", 2), number_of("FBD_PILE_TO", 3), &pile, text);
+        if (getenv("FBD_PILE_ONLY") && atoi(getenv("FBD_PILE_ONLY")) != i) continue;
+        if (getenv("FBD_PILE_SHOW")) puts(text);
+        clock_t begin = clock();
         struct trial trial = trial_parse(text);
         trial_run(&trial, NULL);
         if (trial.outcome == FBD_DONE) {
@@ -109,6 +119,8 @@ static void piles_fall_down_and_come_to_rest(void **unused)
         } else {
             print_message("# pile %d: %s\n", i, fbd_simulation_reason(trial.simulation));
         }
+        print_message("## pile %d of %d: %.2f s\n", i, pile.count,
+                      (double)(clock() - begin) / CLOCKS_PER_SEC);
         trial_close(&trial);
     }
     print_message("# %d of %d piles came to their ends\n", done, count);
