@@ -169,8 +169,17 @@ static struct gap lowest_over(const struct fbd_model *model, const struct tree_w
     return lowest;
 }
 
-/* The side that separates best, by its lowest corner. Of sides that do so alike to rounding, at a corner on a
- * corner, the one that the shapes leave fastest: that is how they will part. */
+/* Is the corner of a feature over its side, and not beyond an end of it? */
+static bool is_over(const struct fbd_model *model, const struct tree_work *work, int index, int feature)
+{
+    const double near = 1e-12 * model->tree->meetings[index].size;
+    struct place_on_side at = feature_foot(model, work, index, feature);
+    return at.foot >= -near && at.foot <= at.length + near;
+}
+
+/* The side that separates best, by its lowest corner. Of sides that do so alike to rounding the one whose corner is
+ * over it: sides that lie flat on each other have corners beyond their ends, which touch nothing. And then, at a
+ * corner on a corner, the one that the shapes leave fastest: that is how they will part. */
 static struct gap separation(const struct fbd_model *model, const struct tree_work *work, int index)
 {
     const struct meeting *meeting = &model->tree->meetings[index];
@@ -179,7 +188,12 @@ static struct gap separation(const struct fbd_model *model, const struct tree_wo
     for (int moving = 0; moving < 2; moving++)
         for (int side = 0; side < shape_sides(&meeting->shape[1 - moving]); side++) {
             struct gap gap = lowest_over(model, work, index, moving, side);
-            bool better = gap.x > best.x + alike || (gap.x > best.x - alike && gap.rate > best.rate);
+            bool better = gap.x > best.x + alike;
+            if (!better && gap.x > best.x - alike) {
+                bool over = is_over(model, work, index, gap.feature),
+                     other = is_over(model, work, index, best.feature);
+                better = over != other ? over : gap.rate > best.rate;
+            }
             if (better) best = gap;
         }
     return best;

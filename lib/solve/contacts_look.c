@@ -74,6 +74,17 @@ void run_wake_contacts(struct run *run, double end)
     }
 }
 
+/* Do the shapes of a meeting get no deeper into each other? */
+static bool parts(const struct run *run, const struct instant *at, int index)
+{
+    double least = HUGE_VAL;
+    for (int probe = 0; probe < tree_of(run)->meetings[index].probes; probe++) {
+        struct gap gap = meeting_probe(run->model, at, index, probe);
+        if (gap.x < 0) least = fmin(least, gap.rate);
+    }
+    return least >= 0;
+}
+
 void contacts_note_depths(struct run *run)
 {
     const struct fbd_state *state = run->state;
@@ -81,8 +92,9 @@ void contacts_note_depths(struct run *run)
     for (int i = 0; i < tree_of(run)->meeting_count; i++) {
         double deep = meeting_depth(run->model, &at, i), near = meeting_near(run->model, state->tree, i);
         int features[2];
-        bool lasts =
-            deep > 0 && deep <= near && meeting_touching(run->model, state->tree, i, near, features) == 0;
+        bool lasts = deep > 0 && deep <= near &&
+                     (parts(run, &at, i) ||
+                      meeting_touching(run->model, state->tree, i, near, features) == 0);
         run->contacts.deep[i] = lasts ? deep : 0;
     }
 }
