@@ -335,6 +335,13 @@ static bool is_on_contact(const struct fbd_state *state, const struct friction *
     return hold->tie >= 0 && state->model->tree->ties[hold->tie].meeting >= 0;
 }
 
+/* Friction of what has just opened has nothing to hold or to slip on, whatever its mode. */
+static bool is_on_open_contact(const struct fbd_state *state, const struct friction *hold)
+{
+    return hold->kind == mode_friction && is_on_contact(state, hold) &&
+           state->slip[state->model->tree->ties[hold->tie].surface] != stick;
+}
+
 /* What a hold that is in question has to become: itself where it agrees. At its limit to rounding the rate
  * decides, and `by_rate` is set: there what is solved is as likely to have it hold as to have it give. */
 static int next_mode(const struct fbd_state *state, const double *slots, const double *slots_along, int pair,
@@ -410,6 +417,7 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
             continue;
         }
         if (hold->kind == mode_friction && slips_already(state, decided, forced, pair) != 0) continue;
+        if (is_on_open_contact(state, hold)) continue;
         int mode = next_mode(state, slots, slots_along, pair, &by_rate);
         if (mode == state->slip[pair]) continue;
         found = by_rate ? at_limit : differs;

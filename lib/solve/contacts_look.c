@@ -74,15 +74,17 @@ void run_wake_contacts(struct run *run, double end)
     }
 }
 
-/* Do the shapes of a meeting get no deeper into each other? */
+/* Do the shapes of a meeting get no deeper into each other? What has just opened does so from rest, to rounding. */
 static bool parts(const struct run *run, const struct instant *at, int index)
 {
-    double least = HUGE_VAL;
-    for (int probe = 0; probe < tree_of(run)->meetings[index].probes; probe++) {
+    const double rounding = 1e-10;
+    const struct meeting *meeting = &tree_of(run)->meetings[index];
+    double least = HUGE_VAL, speed = meeting_speed(run->state->tree, meeting);
+    for (int probe = 0; probe < meeting->probes; probe++) {
         struct gap gap = meeting_probe(run->model, at, index, probe);
         if (gap.x < 0) least = fmin(least, gap.rate);
     }
-    return least >= 0;
+    return least >= -rounding * speed;
 }
 
 void contacts_note_depths(struct run *run)
