@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "holds/parts.h"
 #include "numeric/lcp.h"
 #include "numeric/lu.h"
 
@@ -373,15 +374,12 @@ static enum holds_found look_for_others(struct hold_problem *problem)
     return solutions > 1 ? holds_several : holds_decided;
 }
 
-enum holds_found holds_decide(struct hold_problem *problem)
+static enum holds_found decide(struct hold_problem *problem)
 {
     enum { most_modes = 20000 };
     int *slips = calloc(problem->count + 1, sizeof *slips);
     if (!slips) return holds_no_memory;
-    for (size_t i = 0; i < problem->count; i++) {
-        problem->holds[i].mu_s = larger(&problem->holds[i]);
-        slips[i] = problem->holds[i].slip;
-    }
+    for (size_t i = 0; i < problem->count; i++) slips[i] = problem->holds[i].slip;
     enum holds_found found = solve(problem);
     for (size_t i = 0; i < problem->count; i++) problem->holds[i].slip = slips[i];
     free(slips);
@@ -393,4 +391,10 @@ enum holds_found holds_decide(struct hold_problem *problem)
            : solutions == 0 ? holds_none
            : solutions > 1  ? holds_several
                             : holds_decided;
+}
+
+enum holds_found holds_decide(struct hold_problem *problem)
+{
+    for (size_t i = 0; i < problem->count; i++) problem->holds[i].mu_s = larger(&problem->holds[i]);
+    return parts_decide(problem, decide);
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "holds/holds.h"
+#include "holds/parts.h"
 
 /* ---- energy */
 
@@ -310,26 +311,15 @@ static enum impacts_end all_together(struct impacts *impacts)
 
 /* ---- parts that do not feel each other */
 
-/* Number the connected parts of the points, from 0. Returns how many. */
-static int find_parts(const struct impacts *impacts, int *part)
+static bool feel_each_other(const void *context, int i, int j)
 {
-    int n = 2 * impacts->count, parts = 0;
-    for (int i = 0; i < impacts->count; i++) part[i] = -1;
-    for (int first = 0; first < impacts->count; first++) {
-        if (part[first] >= 0) continue;
-        part[first] = parts;
-        for (bool grown = true; grown;) {
-            grown = false;
-            for (int k = 0; k < n * n; k++) {
-                int i = k / n / 2, j = k % n / 2;
-                if (impacts->W[k] == 0 || part[i] != parts || part[j] >= 0) continue;
-                part[j] = parts;
-                grown = true;
-            }
-        }
-        parts++;
-    }
-    return parts;
+    const struct impacts *impacts = context;
+    const double *W = impacts->W;
+    int n = 2 * impacts->count;
+    for (int row = 2 * i; row < 2 * i + 2; row++)
+        for (int column = 2 * j; column < 2 * j + 2; column++)
+            if (W[row * n + column] != 0) return true;
+    return false;
 }
 
 static enum impacts_end solve_whole(struct impacts *impacts)
@@ -386,7 +376,7 @@ enum impacts_end impacts_solve(struct impacts *impacts)
     enum impacts_end end = part && room ? impacts_done : impacts_no_memory;
     memset(impacts->P, 0, n * sizeof *impacts->P);
     impacts->work = 0;
-    int parts = end == impacts_done ? find_parts(impacts, part) : 0;
+    int parts = end == impacts_done ? parts_find(impacts->count, feel_each_other, impacts, part) : 0;
     for (int p = 0; p < parts && end == impacts_done; p++) {
         int members = 0;
         for (int i = 0; i < impacts->count; i++)

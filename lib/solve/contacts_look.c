@@ -94,8 +94,9 @@ void contacts_note_depths(struct run *run)
     for (int i = 0; i < tree_of(run)->meeting_count; i++) {
         double deep = meeting_depth(run->model, &at, i), near = meeting_near(run->model, state->tree, i);
         int features[2];
+        bool beyond = deep > meeting_rounding(run->model, state->tree, i); /* rounding is allowed for anyway */
         bool lasts = deep > 0 && deep <= near &&
-                     (parts(run, &at, i) ||
+                     ((beyond && parts(run, &at, i)) ||
                       meeting_touching(run->model, state->tree, i, near, features) == 0);
         run->contacts.deep[i] = lasts ? deep : 0;
     }
