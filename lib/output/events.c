@@ -26,6 +26,7 @@ const char *fbd_event_kind_name(fbd_event_kind kind)
     case FBD_EVENT_IMPACT: return "impact";
     case FBD_EVENT_CONTACT: return "contact";
     case FBD_EVENT_REST: return "rest";
+    case FBD_EVENT_JAM: return "jam";
     case FBD_EVENT_SLIDING: return "sliding";
     case FBD_EVENT_SLIDING_ENDS: return "sliding_ends";
     }
@@ -71,6 +72,18 @@ static void impact_detail(const struct fbd_model *model, const struct run_event 
                 impact->makes ? ", as its law may: `stronge` does not" : "");
 }
 
+static void jam_detail(const struct fbd_model *model, const struct run_event *event, const char *name,
+                       char *detail, size_t size)
+{
+    const struct impact_record *jam = &event->impact;
+    const char *speed = model->scene->units == unit_si ? "m/s" : "ft/s", *of = force_unit(model);
+    format_into(detail, size,
+                "%s jams: no finite forces go with its slip, as in Painleve's paradox; impulses %.6g and %.6g "
+                "%s*s, v_n %.6g to %.6g %s, v_t %.6g to %.6g %s; takes %.6g %s",
+                name, jam->p, jam->tau, of, jam->v_n[0], jam->v_n[1], speed, jam->v_t[0], jam->v_t[1], speed,
+                jam->work == 0 ? 0 : -jam->work, energy_unit(model));
+}
+
 static bool is_moment(const struct fbd_model *model, const struct run_event *event)
 {
     return model->loads[event->load].source->kind == moment_applied;
@@ -110,6 +123,7 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
         return;
     case FBD_EVENT_IMPACT: impact_detail(model, event, name, detail, size); return;
     case FBD_EVENT_CONTACT: snprintf(detail, size, "%s closes", name); return;
+    case FBD_EVENT_JAM: jam_detail(model, event, name, detail, size); return;
     case FBD_EVENT_REST:
         snprintf(detail, size, "%s is closed after %d impacts and infinitely many too small to see", name,
                  (int)event->limit);

@@ -114,7 +114,8 @@ static void write_events(struct text *text, const fbd_simulation *simulation)
         text_member(text, "body", event_body(run->model, event), false);
         text_member(text, "kind", fbd_event_kind_name(event->kind), false);
         text_member(text, "name", event_name(run->model, event), false);
-        if (event->kind == FBD_EVENT_IMPACT) write_impact(text, &event->impact);
+        if (event->kind == FBD_EVENT_IMPACT || event->kind == FBD_EVENT_JAM)
+            write_impact(text, &event->impact);
         if (event->kind == FBD_EVENT_REST) member(text, "impacts", event->limit, false);
         text_member(text, "detail", detail, true);
         text_add(text, "}");

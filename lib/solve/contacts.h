@@ -50,6 +50,7 @@ struct contacts_work {
     double speed; /* the largest of what has touched so far */
     bool due;     /* shapes have met, or what touches has come to the end of a side */
     bool makes;   /* the last impacts have made energy */
+    bool plastic; /* the next ones are to be, whatever their e */
 };
 
 /* False when memory is out. */
@@ -62,6 +63,10 @@ void run_contacts(struct run *run);
 /* The first look: what a file's digits have put into each other is moved out before. False, with what is lacking,
  * when couplings do not fit. */
 bool run_start_contacts(struct run *run, struct lack *lack);
+
+/* No accelerations agree with what touches and slips: let it jam. Without an approach, an impact of all that touches
+ * ends the slip that asks for infinite forces. False where it does not. */
+bool run_jam(struct run *run);
 
 /* A rope has just got taut: it, all other taut ropes and all that touches have an impact together, in which
  * ropes are plastic. What it makes slack is decided. */
@@ -83,7 +88,16 @@ double run_contact_radians(const struct run *run, double span);
 /* No shapes are in each other at the end of a step; else the run ends, for it has missed an impact. */
 void run_check_overlap(struct run *run);
 
-/* ---- for bounces.c */
+/* ---- for the files of contacts */
+
+/* The impact of the first `count` strikers; their velocities after are in work->v, its impulses in work->P. False
+ * after failing the run. (contacts_strike.c) */
+bool contacts_strike(struct run *run, int count);
+
+/* What leaves by the velocities in work->v after an impact, or as it is without one, is open; what stays slips or
+ * sticks. */
+void contacts_open_or_close(struct run *run, int count, bool struck);
+
 
 /* Give the ties of meeting `index` the features that touch within `near`. */
 void contacts_find_touching(struct run *run, int index, double near);

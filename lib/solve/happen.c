@@ -367,6 +367,17 @@ static void fail_unsettled(struct run *run)
     text_free(&words);
 }
 
+/* What jams has other slips then, which may jam in turn. */
+static bool settle(struct run *run)
+{
+    enum { most_jams = 8 };
+    for (int jam = 0;; jam++) {
+        if (modes_settle(run->state, &run->decided)) return true;
+        bool jams = run->state->holds.found == holds_none && run->outcome == FBD_GOING && jam < most_jams;
+        if (!jams || !run_jam(run)) return false;
+    }
+}
+
 void run_apply(struct run *run, const bool *timed, const bool *moving)
 {
     const struct plan *plan = &run->model->plan;
@@ -384,7 +395,7 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     passages_end(run);
     if (run->contacts.due) run_contacts(run);
     run->contacts.due = false;
-    if (!modes_settle(run->state, &run->decided) && run->outcome == FBD_GOING) fail_unsettled(run);
+    if (!settle(run) && run->outcome == FBD_GOING) fail_unsettled(run);
     run_note_happened(run, first, moving);
     run_release_contacts(run);
     refuse_sliding(run, moving);

@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The impact of all that touches: its points, what answers to them, and what it does to the motion.
+ */
+#include <string.h>
+
+#include "dynamics/impulse.h"
+#include "dynamics/tree_system.h"
+#include "solve/contacts.h"
+#include "solve/run.h"
+
+static const struct tree *tree_of(const struct run *run)
+{
+    return run->model->tree;
+}
+
+double contacts_restitution(struct run *run, int meeting, double approach)
+{
+    const struct fbd_model *model = run->model;
+    const struct constraint *source = &model->scene->constraints[tree_of(run)->meetings[meeting].constraint];
+    const struct expr *expr = source->contact.restitution.expr;
+    if (!expr) return source->contact.e;
+    size_t n = 2 * (size_t)model->plan.n;
+    double *y = run->contacts.y;
+    memcpy(y, run->state->y, n * sizeof *y);
+    y[n] = approach;
+    double e = expr_is_constant(expr) ? expr_value(expr) : expr_eval(expr, run->state->t, y, NULL);
+    if (e >= 0 && e <= 1) return e;
+    run_fail(run, FBD_FAILED, "at t = %.9g the restitution of `%s` is %.6g: it must be between 0 and 1",
+             run_time(run), source->name, e);
+    return -1;
+}
+
+static bool set_point(struct run *run, int i)
+{
+    struct contacts_work *work = &run->contacts;
+    const struct striker *striker = &work->strikers[i];
+    const struct tie *tie = &tree_of(run)->ties[striker->tie];
+    struct instant at = state_instant(run->state);
+    work->points[i] = (struct impacts_point){0, 0};
+    if (striker->rope) return true;
+    if (tie->pair >= 0) work->points[i].mu = formula_value(&run->model->plan.frictions[tie->pair].mu_k, &at);
+    if (work->plastic) return true;
+    work->points[i].e = contacts_restitution(run, tie->meeting, fmax(0, -striker->v_n));
+    return work->points[i].e >= 0;
+}
+
+/* The law of the point that closes fastest. */
+static enum impact_law law_of(const struct run *run, int count)
+{
+    const struct contacts_work *work = &run->contacts;
+    int best = -1;
+    for (int i = 0; i < count; i++)
+        if (!work->strikers[i].rope && (best < 0 || work->strikers[i].v_n < work->strikers[best].v_n))
+            best = i;
+    if (best < 0) return impact_stronge;
+    const struct tie *tie = &tree_of(run)->ties[work->strikers[best].tie];
+    return (enum impact_law)run->model->scene->constraints[tie->constraint].contact.law;
+}
+
+/* Rows 2 i and 2 i + 1; a rope has one, and its normal points the other way. */
+static void set_answers(struct run *run, int count)
+{
+    struct contacts_work *work = &run->contacts;
+    int rows = 2 * count;
+    for (int i = 0; i < count; i++) {
+        int first = tree_of(run)->ties[work->strikers[i].tie].first_row;
+        int *row = work->rows + (ptrdiff_t)2 * i;
+        row[0] = first;
+        row[1] = work->strikers[i].rope ? first : first + 1;
+    }
+    impulse_answers(run->state, work->rows, rows, work->modes, work->W, work->answers);
+    for (int i = 0; i < count; i++) {
+        if (!work->strikers[i].rope) continue;
+        for (int k = 0; k < rows; k++) {
+            work->W[(2 * i) * rows + k] *= -1;
+            work->W[k * rows + 2 * i] *= -1;
+            work->W[(2 * i + 1) * rows + k] = work->W[k * rows + 2 * i + 1] = 0;
+        }
+    }
+}
+
+static void apply_impulses(struct run *run, int count)
+{
+    struct contacts_work *work = &run->contacts;
+    size_t n = (size_t)run->model->plan.n;
+    for (int i = 0; i < 2 * count; i++) {
+        const struct striker *striker = &work->strikers[i / 2];
+        double P = striker->rope ? (i % 2 == 0 ? -work->P[i] : 0) : work->P[i];
+        for (size_t k = 0; P != 0 && k < n; k++) run->state->y[n + k] += P * work->answers[(size_t)i * n + k];
+    }
+}
+
+static void fail_impact(struct run *run, enum impacts_end end)
+{
+    if (end == impacts_no_memory) {
+        run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
+        return;
+    }
+    run_fail(run, FBD_FAILED, "at t = %.9g impacts at several points %s", run_time(run),
+             end == impacts_endless
+                 ? "go on among each other without end: try `simulate: {impacts: simultaneous}`"
+                 : "have no solution by their law: with `law: stronge` they have one");
+}
+
+bool contacts_strike(struct run *run, int count)
+{
+    struct contacts_work *work = &run->contacts;
+    for (int i = 0; i < count; i++) {
+        if (!set_point(run, i)) return false;
+        double *v = work->v + (ptrdiff_t)2 * i;
+        v[0] = work->strikers[i].v_n;
+        v[1] = work->strikers[i].v_t;
+    }
+    set_answers(run, count);
+    struct impacts impacts = {.count = count,
+                              .propagate = run->model->scene->simulate.propagate && !work->plastic,
+                              .law = law_of(run, count),
+                              .points = work->points,
+                              .W = work->W,
+                              .v = work->v,
+                              .P = work->P};
+    enum impacts_end end = impacts_solve(&impacts);
+    if (end != impacts_done) {
+        fail_impact(run, end);
+        return false;
+    }
+    apply_impulses(run, count);
+    double size = 0;
+    for (int i = 0; i < 2 * count; i++) size += fabs(work->P[i] * work->v[i]);
+    work->makes = impacts.work > 1e-12 * size;
+    return true;
+}
