@@ -27,7 +27,7 @@ struct fbd_state *state_new(const struct fbd_model *model)
     size_t n = (size_t)plan->n, extended = extended_size(model);
     size_t extra = model->absolute_count > 0 ? 2 * extended : 0;
     size_t doubles = extended + n + (size_t)plan->slots + scratch_size(plan) + extra;
-    size_t ints = 2 * (size_t)plan->branches + 5 * plan->friction_count;
+    size_t ints = 2 * (size_t)plan->branches + 6 * plan->friction_count;
     size_t tree = model->tree ? sizeof(struct tree_work) + tree_work_size(model) : 0;
     size_t sliding = plan->slide_count > 0 ? sizeof(struct sliding) + sliding_size(model) : 0;
     struct fbd_state *state =
@@ -56,6 +56,7 @@ struct fbd_state *state_new(const struct fbd_model *model)
     state->slip_before = state->branch_before + plan->branches;
     state->slip_forced = state->slip_before + plan->friction_count;
     state->slip_driven = state->slip_forced + plan->friction_count;
+    state->slip_barely = state->slip_driven + plan->friction_count;
     for (size_t i = 0; i < n; i++) {
         state->y[i] = model->scene->coordinates[i].initial;
         state->y[n + i] = model->scene->coordinates[i].initial_rate;

@@ -27,14 +27,14 @@ struct fbd_state {
     double *y;     /* 2 n: coordinates, then rates; then what absolute.h adds, by state_evaluate */
     double *a;     /* n: accelerations, by state_evaluate */
     double *slots; /* plan.slots: generalized forces, by state_evaluate */
-    int *branch, *slip, *pull;      /* modes, see instant.h */
-    int *branch_before;             /* scratch for settling: plan.branches */
-    int *slip_before, *slip_forced; /* and plan.friction_count each */
-    int *slip_driven;               /* and: the side on which drives alone make it slip, 0 where forces do */
-    double *scratch;                /* 2 plan.slots + 3 n */
-    double *extended;               /* scratch of absolute.h */
-    struct sliding *sliding;        /* NULL when no switch can be slid on */
-    struct tree_work *tree;         /* of the jointed bodies, by state_evaluate; NULL when there are none */
+    int *branch, *slip, *pull;                    /* modes, see instant.h */
+    int *branch_before;                           /* scratch for settling: plan.branches */
+    int *slip_before, *slip_forced, *slip_barely; /* and plan.friction_count each */
+    int *slip_driven;        /* and: the side on which drives alone make it slip, 0 where forces do */
+    double *scratch;         /* 2 plan.slots + 3 n */
+    double *extended;        /* scratch of absolute.h */
+    struct sliding *sliding; /* NULL when no switch can be slid on */
+    struct tree_work *tree;  /* of the jointed bodies, by state_evaluate; NULL when there are none */
 };
 
 /* A state at the scene's initial values, t = 0, modes not yet settled. NULL when memory is out. */

@@ -77,11 +77,12 @@ static void jam_detail(const struct fbd_model *model, const struct run_event *ev
 {
     const struct impact_record *jam = &event->impact;
     const char *speed = model->scene->units == unit_si ? "m/s" : "ft/s", *of = force_unit(model);
-    format_into(detail, size,
-                "%s jams: no finite forces go with its slip, as in Painleve's paradox; impulses %.6g and %.6g "
-                "%s*s, v_n %.6g to %.6g %s, v_t %.6g to %.6g %s; takes %.6g %s",
-                name, jam->p, jam->tau, of, jam->v_n[0], jam->v_n[1], speed, jam->v_t[0], jam->v_t[1], speed,
-                jam->work == 0 ? 0 : -jam->work, energy_unit(model));
+    format_into(
+        detail, size,
+        "%s jams: no finite forces go with its slip, as in Painleve's paradox; impulses %.6g and %.6g "
+        "%s*s, v_n %.6g to %.6g %s, v_t %.6g to %.6g %s; takes %.6g %s",
+        name, jam->p, jam->tau, of, jam->v_n[0], jam->v_n[1], speed, jam->v_t[0], jam->v_t[1], speed,
+        jam->work == 0 ? 0 : -jam->work, energy_unit(model));
 }
 
 static bool is_moment(const struct fbd_model *model, const struct run_event *event)

@@ -98,7 +98,6 @@ bool contacts_strike(struct run *run, int count);
  * sticks. */
 void contacts_open_or_close(struct run *run, int count, bool struck);
 
-
 /* Give the ties of meeting `index` the features that touch within `near`. */
 void contacts_find_touching(struct run *run, int index, double near);
 

@@ -94,7 +94,8 @@ void contacts_note_depths(struct run *run)
     for (int i = 0; i < tree_of(run)->meeting_count; i++) {
         double deep = meeting_depth(run->model, &at, i), near = meeting_near(run->model, state->tree, i);
         int features[2];
-        bool beyond = deep > meeting_rounding(run->model, state->tree, i); /* rounding is allowed for anyway */
+        bool beyond =
+            deep > meeting_rounding(run->model, state->tree, i); /* rounding is allowed for anyway */
         bool lasts = deep > 0 && deep <= near &&
                      ((beyond && parts(run, &at, i)) ||
                       meeting_touching(run->model, state->tree, i, near, features) == 0);

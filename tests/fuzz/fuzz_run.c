@@ -103,7 +103,8 @@ static int watch(void *context, const fbd_progress *progress)
     if (patience->since == 0) patience->since = clock();
     patience->waits = progress->steps == patience->steps ? patience->waits + 1 : 0;
     patience->steps = progress->steps;
-    return progress->steps > most_steps || patience->waits > most_waits || clock() - patience->since > patience->most;
+    return progress->steps > most_steps || patience->waits > most_waits ||
+           clock() - patience->since > patience->most;
 }
 
 /* Most runs are looked at for a tenth of a second, one in sixteen for two. */

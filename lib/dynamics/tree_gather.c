@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dynamics/tree_gather.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "dynamics/constraint.h"
+#include "dynamics/contact.h"
+#include "dynamics/modes.h"
+#include "dynamics/tree_driven.h"
+#include "dynamics/tree_system.h"
+
+/* ---- which holds are in question */
+
+/* Is the surface that the friction is on, if it is on one, closed or to be decided? */
+static bool is_on_surface(const struct fbd_state *state, const struct decided *decided, const int *forced,
+                          const struct friction *friction)
+{
+    if (friction->tie < 0) return true;
+    int surface = state->model->tree->ties[friction->tie].surface;
+    struct instant at = state_instant(state);
+    if (surface >= 0 && (forced[surface] || (decided && decided->slips[surface])) &&
+        state->slip[surface] != stick)
+        return false;
+    if (surface >= 0 && pair_of(state, surface)->kind == mode_contact)
+        return state->tree->ties[friction->tie].feature != no_feature;
+    return surface < 0 || state->slip[surface] == stick || one_sided_at(state->model, &at, surface).touches;
+}
+
+bool hold_in_question(const struct fbd_state *state, const struct decided *decided, const int *forced,
+                      int pair)
+{
+    const struct friction *hold = pair_of(state, pair);
+    struct instant at = state_instant(state);
+    if (!hold->jointed || hold->kind == mode_drive) return false;
+    if (hold->kind == mode_friction) return is_on_surface(state, decided, forced, hold);
+    if (forced[pair] || (decided && decided->slips[pair])) return false;
+    if (hold->kind == mode_contact) return state->tree->ties[hold->tie].feature != no_feature;
+    struct one_sided now = one_sided_at(state->model, &at, pair);
+    return now.touches || (state->slip[pair] == stick && (decided || !(now.parts || now.meets)));
+}
+
+int hold_slips_already(const struct fbd_state *state, const struct decided *decided, const int *forced,
+                       int pair)
+{
+    if (forced[pair]) return forced[pair] == keeps_still ? 0 : forced[pair];
+    if (decided && decided->slips[pair]) return state->slip[pair];
+    double v = settling_velocity(state, decided, pair);
+    return v > 0 ? 1 : v < 0 ? -1 : 0;
+}
+
+/* ---- one unit of a hold, and what answers */
+
+static void apply_unit(struct fbd_state *state, int pair)
+{
+    const struct friction *hold = pair_of(state, pair);
+    memset(state->tree->x, 0, (size_t)state->model->tree->count * sizeof *state->tree->x);
+    if (hold->tie >= 0)
+        row_apply(hold_row(state, hold), hold_sign(hold), state->tree->x);
+    else
+        state->tree->x[link_of(state, pair)].g = 1;
+}
+
+/* Add what the accelerations in work->x and work->unit are along hold i and to the guides, to column k. */
+static void add_answers(struct gathered *all, size_t k)
+{
+    struct fbd_state *state = all->state;
+    const struct tree *tree = state->model->tree;
+    size_t count = all->problem.count;
+    for (size_t i = 0; i < count; i++) {
+        const struct friction *hold = pair_of(state, all->pair[i]);
+        all->problem.A[i * count + k] +=
+            hold->tie < 0
+                ? state->tree->unit[hold->coordinate]
+                : hold_sign(hold) *
+                      tree_row_answer(state->tree, (int)(hold_row(state, hold) - state->tree->rows));
+    }
+    for (size_t g = 0; g < all->problem.guide_count; g++)
+        all->problem.B[g * count + k] += tree_normal_in(tree, state->tree, all->link[g]);
+}
+
+/* What the constraints alone do not let move slips by rounding only, and no force along it moves anything. */
+static const double immovable = 1e-12;
+
+static void hold_still(struct gathered *all, size_t k)
+{
+    struct fbd_state *state = all->state;
+    const struct friction *hold = pair_of(state, all->pair[k]);
+    struct hold *still = &all->problem.holds[k];
+    size_t count = all->problem.count;
+    double surface, driven = tree_driven(state, all->trial, all->pair[k]);
+    still->free = still->kind == hold_one_sided ? driven : 0;
+    for (size_t i = 0; i < count; i++) all->problem.A[i * count + k] = all->problem.A[k * count + i] = 0;
+    if (driven != 0) still->slip = driven > 0 ? 1 : -1;
+    if (driven != 0 && hold->kind == mode_friction)
+        all->forced[all->pair[k]] = state->slip_driven[all->pair[k]] = still->slip;
+    if (hold->moving || driven != 0) return; /* below what stands still */
+    still->slip = 0;
+    if (all->forced[all->pair[k]] == 0) all->forced[all->pair[k]] = keeps_still;
+    if (hold->kind == mode_friction && hold->tie < 0)
+        state->y[state->model->plan.n + hold->coordinate] = friction_surface_speed(hold, &all->at, &surface);
+}
+
+/* The links answer, and then the constraints that do not let them. True when these hold it still. */
+static bool add_column(struct gathered *all, size_t k)
+{
+    struct fbd_state *state = all->state;
+    const struct tree *tree = state->model->tree;
+    struct tree_work *work = state->tree;
+    apply_unit(state, all->pair[k]);
+    tree_inward(tree, work, 1, tree->count);
+    tree_outward(tree, work, 1, tree->count, work->unit);
+    add_answers(all, k);
+    double alone = all->problem.A[k * all->problem.count + k];
+    if (tree->tie_count == 0) return false;
+    for (int j = 0; j < tree_unknowns(tree); j++)
+        work->z[j] = j < tree->row_count ? -tree_row_answer(work, j) : 0;
+    tree_system_solve(state->model, &all->at, work->z);
+    add_answers(all, k);
+    return all->problem.A[k * all->problem.count + k] <= immovable * alone;
+}
+
+/* Without any hold. */
+static void set_free(struct gathered *all)
+{
+    struct fbd_state *state = all->state;
+    double *slots = state->scratch;
+    accelerations(state->model, &all->at, slots, state->a);
+    for (size_t i = 0; i < all->problem.count; i++)
+        all->problem.holds[i].free = tree_hold_acceleration(state, &all->at, all->pair[i]);
+    for (size_t g = 0; g < all->problem.guide_count; g++)
+        all->problem.guides[g].free = -slots[state->model->tree->links[all->link[g]].normal_slot];
+}
+
+/* ---- the problem */
+
+void gathered_free(struct gathered *all)
+{
+    holds_free(&all->problem);
+    free(all->pair);
+}
+
+/* What presses on friction i: a hold of the same line, or the guide of its slide, which is noted. */
+static void set_press(struct gathered *all, size_t i, size_t *guides)
+{
+    struct hold *hold = &all->problem.holds[i];
+    const struct friction *friction = pair_of(all->state, all->pair[i]);
+    hold->press = press_constant;
+    if (friction->normal_slot < 0) return;
+    if (friction->tie >= 0) {
+        int surface = all->state->model->tree->ties[friction->tie].surface;
+        hold->press = press_hold;
+        hold->presses = all->hold[surface];
+        if (hold->presses >= 0) return;
+        /* Closed already: with the force that it has, and look() says whether it keeps that. */
+        double N = fmax(0, one_sided_at(all->state->model, &all->at, surface).force);
+        hold->press = press_constant;
+        hold->mu_s *= N;
+        hold->mu_k *= N;
+        return;
+    }
+    hold->press = press_guide;
+    hold->presses = (int)*guides;
+    all->link[*guides] = link_of(all->state, all->pair[i]);
+    all->problem.guides[(*guides)++].two_sided = friction->two_sided;
+}
+
+bool gathered_find(struct gathered *all, struct fbd_state *state, const struct decided *decided, int *forced)
+{
+    const struct plan *plan = &state->model->plan;
+    size_t pairs = plan->friction_count, count = 0, guides = 0;
+    struct instant at = state_instant(state);
+    *all = (struct gathered){.state = state,
+                             .at = at,
+                             .forced = forced,
+                             .pair = calloc(5 * pairs + 1, sizeof *all->pair)};
+    if (!all->pair) return false;
+    all->hold = all->pair + pairs;
+    all->link = all->hold + pairs;
+    all->trial = all->link + pairs;
+    all->still = all->trial + pairs;
+    memcpy(all->trial, state->slip, pairs * sizeof *all->trial);
+    for (size_t p = 0; p < pairs; p++) {
+        all->hold[p] = -1;
+        if (!hold_in_question(state, decided, forced, (int)p)) continue;
+        const struct friction *hold = &plan->frictions[p];
+        guides += hold->tie < 0 && hold->normal_slot >= 0;
+        all->hold[p] = (int)count;
+        all->pair[count++] = (int)p;
+        all->trial[p] = loose;
+    }
+    if (!holds_new(&all->problem, count, guides)) return false;
+    guides = 0;
+    for (size_t i = 0; i < count; i++) {
+        const struct friction *friction = pair_of(state, all->pair[i]);
+        struct hold *hold = &all->problem.holds[i];
+        hold->kind = friction->kind == mode_friction ? hold_friction : hold_one_sided;
+        if (hold->kind == hold_one_sided) continue;
+        hold->mu_s = formula_value(&friction->mu_s, &at);
+        hold->mu_k = formula_value(&friction->mu_k, &at);
+        hold->slip = hold_slips_already(state, decided, forced, all->pair[i]);
+        set_press(all, i, &guides);
+    }
+    all->at.slip = all->trial;
+    set_free(all);
+    for (size_t k = 0; k < count; k++) all->still[k] = add_column(all, k);
+    for (size_t k = 0; k < count; k++) {
+        state->slip_driven[all->pair[k]] = 0;
+        if (all->still[k]) hold_still(all, k);
+    }
+    return true;
+}

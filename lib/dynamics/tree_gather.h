@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The holds between jointed bodies that are in question, as one problem: each of them let loose, and what all of them
+ * do when it pushes with one unit.
+ */
+#ifndef FBD_DYNAMICS_TREE_GATHER_H
+#define FBD_DYNAMICS_TREE_GATHER_H
+
+#include "dynamics/friction.h"
+#include "dynamics/state.h"
+#include "holds/holds.h"
+
+enum {
+    keeps_still = 2
+}; /* beside the modes that rates decide: nothing moves along it, whatever the forces */
+
+struct gathered {
+    struct fbd_state *state;
+    struct instant at; /* with all of them loose */
+    struct hold_problem problem;
+    int *pair, *hold; /* of a hold; of a pair, or -1 */
+    int *link;        /* of a guide: whose slide */
+    int *trial;       /* modes with all of them loose */
+    int *still;       /* of a hold: the constraints alone let nothing move along it */
+    int *forced;
+};
+
+static inline const struct friction *pair_of(const struct fbd_state *state, int pair)
+{
+    return &state->model->plan.frictions[pair];
+}
+
+static inline int link_of(const struct fbd_state *state, int pair)
+{
+    return state->model->bodies[pair_of(state, pair)->body].place.link;
+}
+
+/* `forced`: modes that rates have decided, 0 where they have not. */
+bool hold_in_question(const struct fbd_state *state, const struct decided *decided, const int *forced,
+                      int pair);
+
+/* The side on which a friction slips whatever the forces are, 0 for one at rest. */
+int hold_slips_already(const struct fbd_state *state, const struct decided *decided, const int *forced,
+                       int pair);
+
+/* The problem of all that are in question; false when memory is out. To be freed in either case. */
+bool gathered_find(struct gathered *all, struct fbd_state *state, const struct decided *decided, int *forced);
+void gathered_free(struct gathered *all);
+
+#endif
