@@ -200,8 +200,7 @@ static double value(const struct affine *of, const double *affine, const double 
     return sum;
 }
 
-/* The weight that makes accelerations of distances and of angles comparable: their own mobility. */
-static double weight(const struct hold_problem *problem, size_t i)
+double holds_weight(const struct hold_problem *problem, size_t i)
 {
     double own = problem->A[i * problem->count + i];
     return own > 0 ? 1 / sqrt(own) : 0;
@@ -210,12 +209,12 @@ static double weight(const struct hold_problem *problem, size_t i)
 /* What counts as no acceleration: a share of the largest, for rounding and the corrections of multipliers. */
 static double rounding_of(const struct hold_problem *problem, double share)
 {
-    double most = 0;
+    double most = problem->beside_c;
     for (size_t i = 0; i < problem->count; i++) {
         double size = fabs(problem->holds[i].free);
         for (size_t j = 0; j < problem->count; j++)
             size = fmax(size, fabs(problem->A[i * problem->count + j] * problem->holds[j].force));
-        most = fmax(most, weight(problem, i) * size);
+        most = fmax(most, holds_weight(problem, i) * size);
     }
     return share * most;
 }
@@ -225,7 +224,7 @@ static void set_modes(struct hold_problem *problem)
     double zero = rounding_of(problem, 1e-11);
     for (size_t i = 0; i < problem->count; i++) {
         struct hold *hold = &problem->holds[i];
-        double c = weight(problem, i) * hold->c;
+        double c = holds_weight(problem, i) * hold->c;
         if (hold->slip != 0)
             hold->mode = hold->slip;
         else
@@ -279,6 +278,7 @@ static double force_rounding(const struct hold_problem *problem, size_t i)
     if (own > 0) size = fmax(size, fabs(hold->free) / own);
     if (hold->kind == hold_friction) size = fmax(size, hold->mu_s * press_of(problem, hold));
     /* What presses on nothing has the rounding of what presses beside it. */
+    size = fmax(size, beside * problem->beside_force);
     for (size_t j = 0; j < problem->count; j++) size = fmax(size, beside * fabs(problem->holds[j].force));
     return rounding * size;
 }
@@ -286,7 +286,7 @@ static double force_rounding(const struct hold_problem *problem, size_t i)
 static bool agrees(const struct hold_problem *problem, size_t i, double zero)
 {
     const struct hold *hold = &problem->holds[i];
-    double c = weight(problem, i) * hold->c, small = force_rounding(problem, i);
+    double c = holds_weight(problem, i) * hold->c, small = force_rounding(problem, i);
     if (hold->kind == hold_one_sided && hold->mode == hold_keeps) return hold->force >= -small && c <= zero;
     if (hold->kind == hold_one_sided) return c >= -zero && fabs(hold->force) <= small;
     double P = press_of(problem, hold);

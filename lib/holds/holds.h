@@ -65,7 +65,12 @@ struct hold_problem {
     struct hold_guide *guides;
     double *A; /* count x count, row by row */
     double *B; /* guide_count x count */
+    /* Of a part: the largest acceleration (weighted, see holds.c) and force without holds in the whole. */
+    double beside_c, beside_force;
 };
+
+/* The weight that makes accelerations of distances and of angles comparable: their own mobility. */
+double holds_weight(const struct hold_problem *problem, size_t i);
 
 enum holds_found {
     holds_decided,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "holds/parts.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 int parts_find(int count, bool (*meet)(const void *context, int i, int j), const void *context, int *part)
@@ -111,11 +112,23 @@ static enum holds_found decide_apart(struct hold_problem *problem, const struct 
 {
     struct hold_problem alone;
     if (!holds_new(&alone, (size_t)members->count, (size_t)members->guide_count)) return holds_no_memory;
+    alone.beside_c = problem->beside_c;
+    alone.beside_force = problem->beside_force;
     take_out(problem, members, &alone);
     enum holds_found found = decide(&alone);
     put_back(problem, members, &alone);
     holds_free(&alone);
     return found;
+}
+
+/* What is rounding in one part is told by the sizes of all. */
+static void set_sizes(struct hold_problem *problem)
+{
+    for (size_t i = 0; i < problem->count; i++) {
+        double free = fabs(problem->holds[i].free), own = problem->A[i * problem->count + i];
+        problem->beside_c = fmax(problem->beside_c, holds_weight(problem, i) * free);
+        if (own > 0) problem->beside_force = fmax(problem->beside_force, free / own);
+    }
 }
 
 enum holds_found parts_decide(struct hold_problem *problem,
@@ -128,6 +141,7 @@ enum holds_found parts_decide(struct hold_problem *problem,
     enum holds_found found = holds_decided;
     int parts = parts_find((int)all, feel_each_other, problem, part);
     if (parts <= 1) found = decide(problem);
+    if (parts > 1) set_sizes(problem);
     for (int p = 0; p < parts && parts > 1; p++) {
         members.guides = members.holds + problem->count;
         set_members(problem, part, p, &members);
