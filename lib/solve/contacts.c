@@ -51,14 +51,15 @@ bool contacts_work_init(struct contacts_work *work, const struct fbd_model *mode
     work->strikers = calloc(most, sizeof *work->strikers);
     work->points = calloc(most, sizeof *work->points);
     work->rows = calloc(rows + model->plan.friction_count, sizeof *work->rows);
-    work->W = calloc(rows * rows + rows * n + 2 * rows + 2 * n + 1, sizeof *work->W);
+    work->W = calloc(rows * rows + rows * n + 4 * rows + 2 * n + 1, sizeof *work->W);
     if (!meetings_init(work, model)) return false;
     if (!work->strikers || !work->points || !work->rows || !work->W) return false;
     work->modes = work->rows + rows;
     work->answers = work->W + rows * rows;
     work->v = work->answers + rows * n;
     work->P = work->v + rows;
-    work->y = work->P + rows;
+    work->later = work->P + rows;
+    work->y = work->later + 2 * rows;
     return true;
 }
 

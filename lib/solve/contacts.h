@@ -41,6 +41,7 @@ struct contacts_work {
     struct impacts_point *points;
     int *rows, *modes;
     double *W, *answers, *v, *P, *y;
+    double *later; /* two velocities and impulses of each striker, beside v and P */
     struct bounces *bounces; /* of each meeting */
     bool *asleep;            /* of each meeting: too far apart for the step */
     double *deep;   /* of each meeting: how deep it was left open, at a corner that another side is next to */
@@ -93,6 +94,10 @@ void run_check_overlap(struct run *run);
 /* The impact of the first `count` strikers; their velocities after are in work->v, its impulses in work->P. False
  * after failing the run. (contacts_strike.c) */
 bool contacts_strike(struct run *run, int count);
+
+/* Its two halves. */
+bool contacts_solve_impact(struct run *run, int count);
+void contacts_apply_impulses(struct run *run, int count);
 
 /* What leaves by the velocities in work->v after an impact, or as it is without one, is open; what stays slips or
  * sticks. */

@@ -6,11 +6,16 @@
  * the wrong sign: then no finite forces go with the slip (Painleve's paradox). What rigid bodies do there is known from
  * the limit of stiff ones and from time stepping: the forces rise without bound while hardly any time passes, an impulse
  * that ends the slip at once though nothing approaches (a tangential impact, or impact without collision: Genot and
- * Brogliato, European Journal of Mechanics A 18, 1999; Stewart, SIAM Review 42, 2000). So all that touches has a plastic
- * impact with an approach that is a hint, and what comes of it does not depend on its size: without a jam it would be as
- * small as the hint is.
+ * Brogliato, European Journal of Mechanics A 18, 1999; Stewart, SIAM Review 42, 2000).
+ *
+ * So all that touches has the velocities that it would have after a moment without forces between shapes, and a plastic
+ * impact. Without a jam the impulses would be as small as the moment is. They are linear in its length while the modes
+ * are the same, so that a moment and one twice as long tell what they are without any.
  */
+#include <string.h>
+
 #include "dynamics/impulse.h"
+#include "dynamics/tree_system.h"
 #include "solve/contacts.h"
 #include "solve/run.h"
 
@@ -19,10 +24,73 @@ static const struct tree *tree_of(const struct run *run)
     return run->model->tree;
 }
 
-/* Of the fastest slip. */
-static const double hint = 1e-10;
+/* What a moment does to velocities, as a share of the fastest slip. */
+static const double hint = 1e-7;
 
-static void note_jam(struct run *run, int i, double least)
+/* The accelerations along normal and tangent of striker i where nothing that touches pushes, in work->trial. */
+static void free_accelerations(const struct run *run, int i, double c[2])
+{
+    const struct striker *striker = &run->contacts.strikers[i];
+    const struct row *rows = &run->contacts.trial->tree->rows[tree_of(run)->ties[striker->tie].first_row];
+    c[0] = striker->rope ? -rows[0].g.x2 : rows[0].g.x2;
+    c[1] = striker->rope ? 0 : rows[1].g.x2;
+}
+
+static void let_go(struct run *run, int count)
+{
+    struct fbd_state *trial = run->contacts.trial;
+    state_copy(trial, run->state);
+    for (int i = 0; i < count; i++) {
+        const struct striker *striker = &run->contacts.strikers[i];
+        const struct tie *tie = &tree_of(run)->ties[striker->tie];
+        trial->slip[striker->rope ? tie->pair : tie->surface] = slip_plus;
+    }
+    state_evaluate(trial);
+}
+
+/* A moment that is short against the slips; 0 where nothing slips. */
+static double short_moment(const struct run *run, int count)
+{
+    const struct striker *strikers = run->contacts.strikers;
+    double speed = 0, most = 0, c[2];
+    for (int i = 0; i < count; i++) {
+        free_accelerations(run, i, c);
+        speed = fmax(speed, fabs(strikers[i].v_t));
+        most = fmax(most, fmax(fabs(c[0]), fabs(c[1])));
+    }
+    return most > 0 ? hint * speed / most : 0;
+}
+
+static bool solve_after(struct run *run, int count, double moment)
+{
+    struct striker *strikers = run->contacts.strikers;
+    double c[2];
+    contacts_find_strikers(run);
+    for (int i = 0; i < count; i++) {
+        free_accelerations(run, i, c);
+        strikers[i].v_n += moment * c[0];
+        strikers[i].v_t += moment * c[1];
+    }
+    return contacts_solve_impact(run, count);
+}
+
+/* Impulses and velocities without a moment. */
+static bool solve_jam(struct run *run, int count, double moment)
+{
+    struct contacts_work *work = &run->contacts;
+    size_t size = 2 * (size_t)count;
+    if (!solve_after(run, count, 2 * moment)) return false;
+    memcpy(work->later, work->v, size * sizeof *work->v);
+    memcpy(work->later + size, work->P, size * sizeof *work->P);
+    if (!solve_after(run, count, moment)) return false;
+    for (size_t i = 0; i < size; i++) {
+        work->v[i] = 2 * work->v[i] - work->later[i];
+        work->P[i] = 2 * work->P[i] - work->later[size + i];
+    }
+    return true;
+}
+
+static void note_jam(struct run *run, int i)
 {
     const struct contacts_work *work = &run->contacts;
     const struct striker *striker = &work->strikers[i];
@@ -30,22 +98,23 @@ static void note_jam(struct run *run, int i, double least)
     const double *v = work->v + (ptrdiff_t)2 * i, *P = work->P + (ptrdiff_t)2 * i;
     double taken = (P[0] * (striker->v_n + v[0]) + P[1] * (striker->v_t + v[1])) / 2;
     run->impact_work[tie->load] += taken;
-    if (striker->rope || P[0] <= least) return;
+    if (striker->rope) return;
     struct run_event *event = run_note(run, FBD_EVENT_JAM, tie->end[0].body, tie->load, -1);
     if (!event) return;
     event->impact =
         (struct impact_record){P[0], P[1], taken, {striker->v_n, v[0]}, {striker->v_t, v[1]}, false};
 }
 
-/* Impulses that are more than the hint needs. */
-static double least_impulse(const struct run *run, int count, double speed)
+/* The largest impulse that the moment itself could ask for. */
+static double least_impulse(const struct run *run, int count, double moment)
 {
-    const double far = 1e4;
+    const double far = 1e3;
     const struct contacts_work *work = &run->contacts;
-    double least = 0;
+    double least = 0, c[2];
     for (int i = 0; i < count; i++) {
         double own = work->W[(size_t)(2 * i) * (size_t)(2 * count + 1)];
-        if (own > 0) least = fmax(least, far * hint * speed / own);
+        free_accelerations(run, i, c);
+        if (own > 0) least = fmax(least, far * moment * fabs(c[0]) / own);
     }
     return least;
 }
@@ -54,28 +123,28 @@ bool run_jam(struct run *run)
 {
     struct contacts_work *work = &run->contacts;
     bool any = false;
-    double speed = 0;
     if (!run->model->tree || run->model->tree->meeting_count == 0) return false;
     impulse_look(run->state);
     int count = contacts_find_strikers(run);
-    for (int i = 0; i < count; i++) speed = fmax(speed, fabs(work->strikers[i].v_t));
-    if (speed == 0) return false;
-    for (int i = 0; i < count; i++) work->strikers[i].v_n -= hint * speed;
+    let_go(run, count);
+    double moment = short_moment(run, count);
+    if (moment == 0) return false;
     work->plastic = true;
-    bool struck = contacts_strike(run, count);
+    bool solved = solve_jam(run, count, moment);
     work->plastic = false;
-    if (!struck) return false;
-    double least = least_impulse(run, count, speed);
-    for (int i = 0; i < count; i++) {
-        work->strikers[i].v_n += hint * speed;
-        any |= work->P[2 * i] > least;
-        note_jam(run, i, least);
-    }
+    if (!solved) return false;
+    double least = least_impulse(run, count, moment);
+    for (int i = 0; i < count; i++) any |= work->P[2 * i] > least;
+    if (!any) return false;
+    contacts_apply_impulses(run, count);
+    contacts_find_strikers(run); /* with the velocities before */
+    for (int i = 0; i < count; i++)
+        if (work->P[2 * i] > least) note_jam(run, i);
     impulse_look(run->state);
     contacts_open_or_close(run, count, true);
     for (int i = 0; i < count; i++) {
         int pair = tree_of(run)->ties[work->strikers[i].tie].pair;
         if (pair >= 0) run->decided.slips[pair] = false;
     }
-    return any;
+    return true;
 }

@@ -80,7 +80,7 @@ static void set_answers(struct run *run, int count)
     }
 }
 
-static void apply_impulses(struct run *run, int count)
+void contacts_apply_impulses(struct run *run, int count)
 {
     struct contacts_work *work = &run->contacts;
     size_t n = (size_t)run->model->plan.n;
@@ -103,7 +103,7 @@ static void fail_impact(struct run *run, enum impacts_end end)
                  : "have no solution by their law: with `law: stronge` they have one");
 }
 
-bool contacts_strike(struct run *run, int count)
+bool contacts_solve_impact(struct run *run, int count)
 {
     struct contacts_work *work = &run->contacts;
     for (int i = 0; i < count; i++) {
@@ -115,7 +115,7 @@ bool contacts_strike(struct run *run, int count)
     set_answers(run, count);
     struct impacts impacts = {.count = count,
                               .propagate = run->model->scene->simulate.propagate && !work->plastic,
-                              .law = law_of(run, count),
+                              .law = work->plastic ? impact_stronge : law_of(run, count),
                               .points = work->points,
                               .W = work->W,
                               .v = work->v,
@@ -125,9 +125,15 @@ bool contacts_strike(struct run *run, int count)
         fail_impact(run, end);
         return false;
     }
-    apply_impulses(run, count);
     double size = 0;
     for (int i = 0; i < 2 * count; i++) size += fabs(work->P[i] * work->v[i]);
     work->makes = impacts.work > 1e-12 * size;
     return true;
+}
+
+bool contacts_strike(struct run *run, int count)
+{
+    bool solved = contacts_solve_impact(run, count);
+    if (solved) contacts_apply_impulses(run, count);
+    return solved;
 }

@@ -72,6 +72,16 @@ static void leave_surface(struct run *run, const struct watcher *watcher)
 }
 
 /* The relative velocity is zero by the event, so it is made zero exactly; settling decides what follows. */
+/* What is brought to rest is at rest: what is left of its rates is rounding of those that were. */
+static void drop_rounding(struct run *run)
+{
+    const double rounding = 1e-14;
+    size_t n = (size_t)run->model->plan.n;
+    const double *most = run->anchor + 2 * n;
+    for (size_t i = n; i < 2 * n; i++)
+        if (fabs(run->state->y[i]) <= rounding * most[i]) run->state->y[i] = 0;
+}
+
 static void stop_slipping(struct run *run, int pair)
 {
     const struct friction *friction = &run->model->plan.frictions[pair];
@@ -80,6 +90,7 @@ static void stop_slipping(struct run *run, int pair)
     if (friction->tie >= 0) {
         run->state->slip[pair] = stick;
         state_project_velocity(run->state, false);
+        drop_rounding(run);
         return;
     }
     run->state->y[run->model->plan.n + friction->coordinate] =
@@ -94,16 +105,6 @@ static double kinetic(struct fbd_state *state)
     for (size_t b = 0; b < state->model->body_count; b++)
         sum += kinetic_energy(&state->model->bodies[b], &at);
     return sum;
-}
-
-/* What an impact brings to rest is at rest: what is left of its rates is rounding of those that were. */
-static void drop_rounding(struct run *run)
-{
-    const double rounding = 1e-14;
-    size_t n = (size_t)run->model->plan.n;
-    const double *most = run->anchor + 2 * n;
-    for (size_t i = n; i < 2 * n; i++)
-        if (fabs(run->state->y[i]) <= rounding * most[i]) run->state->y[i] = 0;
 }
 
 /* A tension that ends is left to settling. A rope that becomes taut takes at once the velocities that would

@@ -180,6 +180,10 @@ struct moment run_pin_moving(struct run *run, double t, double move, struct mome
 void run_part_before(struct run *run);
 void run_part_from(struct run *run, struct moment limit);
 
+/* The first event in the step that has been made to *t, which becomes its time, with y and f there; where the step has
+ * passed a pole it is cut before that. 1 found, 0 none, -1 failed. (run_find.c) */
+int run_find_event(struct run *run, struct moment *t);
+
 /* Apply what has happened at run->state: `timed` and `moving` flag the functions of each set that have
  * crossed; NULL for none. Settles the modes. */
 void run_apply(struct run *run, const bool *timed, const bool *moving);
