@@ -4,6 +4,7 @@
  */
 #include "dynamics/tree.h"
 
+#include <float.h>
 #include <string.h>
 
 #include "dynamics/friction.h"
@@ -158,6 +159,21 @@ static void set_joint_forces(const struct fbd_model *model, const struct instant
     }
 }
 
+/* What rests on others has accelerations of rounding, which grows with the number of those that press on it. No step
+ * would be short enough for them: there is no motion that errors could be measured against. */
+static void drop_rounding(const struct tree *tree, const struct tree_work *work, double *a)
+{
+    const double rounding = (64.0 + 8 * tree->count) * tree->count * DBL_EPSILON;
+    for (int i = 1; i < tree->count; i++) {
+        const struct tree_link *link = &tree->links[i];
+        if (link->kind != motion_planar) continue;
+        const double *unit = work->unit + link->coordinate;
+        double *own = a + link->coordinate, radius = sqrt(link->I_O / link->mass);
+        double least = rounding * fmax(hypot(unit[0], unit[1]), radius * fabs(unit[2]));
+        if (hypot(own[0], own[1]) <= least && radius * fabs(own[2]) <= least) own[0] = own[1] = own[2] = 0;
+    }
+}
+
 /* Add the forces of constraints and of slipping slides. */
 static void close_system(const struct fbd_model *model, const struct instant *at, double *a)
 {
@@ -174,6 +190,7 @@ static void close_system(const struct fbd_model *model, const struct instant *at
     tree_system_solve(model, at, work->z);
     tree_take_multipliers(model, at);
     tree_add_unit(tree, work, a);
+    if (tree->meeting_count > 0) drop_rounding(tree, work, a);
     add_result(tree, work);
     constraints_evaluate(model, work, false); /* with the accelerations that they lead to */
 }
