@@ -219,6 +219,23 @@ static double rounding_of(const struct hold_problem *problem, double share)
     return share * most;
 }
 
+bool holds_is_on_open(const struct hold_problem *problem, const struct hold *hold)
+{
+    return hold->kind == hold_friction && hold->press == press_hold &&
+           problem->holds[hold->presses].mode != hold_keeps;
+}
+
+void holds_set_open(struct hold_problem *problem)
+{
+    double zero = rounding_of(problem, 1e-11);
+    for (size_t i = 0; i < problem->count; i++) {
+        struct hold *hold = &problem->holds[i];
+        double c = holds_weight(problem, i) * hold->c;
+        if (hold->slip == 0 && holds_is_on_open(problem, hold))
+            hold->mode = c > zero ? hold_gives : c < -zero ? hold_slips_back : hold_keeps;
+    }
+}
+
 static void set_modes(struct hold_problem *problem)
 {
     double zero = rounding_of(problem, 1e-11);
@@ -290,6 +307,7 @@ static bool agrees(const struct hold_problem *problem, size_t i, double zero)
     if (hold->kind == hold_one_sided && hold->mode == hold_keeps) return hold->force >= -small && c <= zero;
     if (hold->kind == hold_one_sided) return c >= -zero && fabs(hold->force) <= small;
     double P = press_of(problem, hold);
+    if (holds_is_on_open(problem, hold)) return fabs(hold->force) <= small;
     if (hold->mode == hold_keeps)
         return fabs(hold->force) <= fmax(hold->mu_s, hold->mu_k) * P + small && fabs(c) <= zero;
     bool own_way = hold->slip != 0 || hold->mode * c >= -zero;
@@ -376,7 +394,7 @@ static enum holds_found look_for_others(struct hold_problem *problem)
 
 static enum holds_found decide(struct hold_problem *problem)
 {
-    enum { most_modes = 20000 };
+    enum { most_modes = 70000 }; /* of eight points with friction */
     int *slips = calloc(problem->count + 1, sizeof *slips);
     if (!slips) return holds_no_memory;
     for (size_t i = 0; i < problem->count; i++) slips[i] = problem->holds[i].slip;

@@ -80,6 +80,10 @@ enum holds_found {
     holds_no_memory
 };
 
+/* Friction on a surface that is open? And its mode there: the way that it moves. */
+bool holds_is_on_open(const struct hold_problem *problem, const struct hold *hold);
+void holds_set_open(struct hold_problem *problem);
+
 /* Room for the problem, all zero; false when memory is out. */
 bool holds_new(struct hold_problem *problem, size_t count, size_t guide_count);
 void holds_free(struct hold_problem *problem);

@@ -55,6 +55,37 @@ static void slipping_row(const struct trial *trial, size_t i, double *row, doubl
     *right -= share * side * guide->free;
 }
 
+/* Friction of what is open has no force in any of its modes: one of them will do. */
+static bool is_repeated(const struct hold_problem *problem)
+{
+    for (size_t i = 0; i < problem->count; i++) {
+        const struct hold *hold = &problem->holds[i];
+        if (hold->slip == 0 && hold->mode != hold_keeps && holds_is_on_open(problem, hold)) return true;
+    }
+    return false;
+}
+
+/* How many are left then: of a surface, that it is open beside the modes of what rubs on it. */
+static double different_modes(const struct hold_problem *problem)
+{
+    double all = 1;
+    for (size_t g = 0; g < problem->guide_count; g++) all *= 2;
+    for (size_t i = 0; i < problem->count; i++) {
+        const struct hold *hold = &problem->holds[i];
+        double closed = 1;
+        for (size_t k = 0; hold->kind == hold_one_sided && k < problem->count; k++) {
+            const struct hold *on = &problem->holds[k];
+            bool rubs = on->kind == hold_friction && on->press == press_hold && on->presses == (int)i;
+            if (rubs) closed *= (double)choices(on);
+        }
+        if (hold->kind == hold_one_sided)
+            all *= 1 + closed;
+        else if (hold->press != press_hold)
+            all *= (double)choices(hold);
+    }
+    return all;
+}
+
 /* Forces and accelerations in the modes; false where they are not determined. A touch of give tells
  * redundant holds apart. */
 static bool find_forces(struct trial *trial)
@@ -67,7 +98,7 @@ static bool find_forces(struct trial *trial)
     for (size_t i = 0; i < n; i++) {
         const struct hold *hold = &problem->holds[i];
         double *row = trial->A + i * n, most = 0;
-        bool held = hold->mode == hold_keeps;
+        bool held = hold->mode == hold_keeps && !holds_is_on_open(problem, hold);
         if (held) {
             memcpy(row, problem->A + i * n, n * sizeof *row);
             row[i] *= 1 + give;
@@ -155,18 +186,19 @@ int holds_try_all(struct hold_problem *problem, size_t most)
 {
     struct trial trial;
     size_t all = 1, best = 0;
-    for (size_t g = 0; g < problem->guide_count && all <= most; g++) all *= 2;
-    for (size_t i = 0; i < problem->count && all <= most; i++) all *= choices(&problem->holds[i]);
-    if (all > most) return -1;
+    if (different_modes(problem) > (double)most) return -1;
+    for (size_t g = 0; g < problem->guide_count; g++) all *= 2;
+    for (size_t i = 0; i < problem->count; i++) all *= choices(&problem->holds[i]);
     bool made = trial_new(&trial, problem);
     for (size_t number = 0; made && number < all; number++) {
         set_modes(&trial, number);
-        if (!find_forces(&trial) || !sides_agree(&trial) || !holds_agree(problem)) continue;
+        if (is_repeated(problem) || !find_forces(&trial) || !sides_agree(&trial) || !holds_agree(problem)) continue;
         if (trial.solutions == 0 || !same_as_first(&trial)) keep_first(&trial, &best, number);
     }
     if (made && trial.solutions > 0) {
         set_modes(&trial, best);
         find_forces(&trial);
+        holds_set_open(problem);
     }
     trial_free(&trial);
     return made ? trial.solutions : -2;

@@ -374,7 +374,8 @@ static bool settle(struct run *run)
     enum { most_jams = 8 };
     for (int jam = 0;; jam++) {
         if (modes_settle(run->state, &run->decided)) return true;
-        bool jams = run->state->holds.found == holds_none && run->outcome == FBD_GOING && jam < most_jams;
+        bool no_forces = run->state->holds.found == holds_none || run->state->holds.found == holds_lost;
+        bool jams = no_forces && run->outcome == FBD_GOING && jam < most_jams;
         if (!jams || !run_jam(run)) return false;
     }
 }
