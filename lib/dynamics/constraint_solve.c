@@ -234,12 +234,13 @@ static void factor_row(const struct tree *tree, struct tree_work *work, int j, d
         *lower *= work->inverse[i];
         pivot -= *lower * *upper;
     }
-    /* Of friction the diagonal is 1 and what a normal force answers to it, which may well be less than -1. */
-    bool movable = !is_row(tree, unknown) || work->diagonal[unknown] > nothing * work->most;
+    /* Of friction the diagonal is 1 and what a normal force answers to it, which may well be less than -1; of a surface
+     * that is rubbed on, what its own friction makes of it, which may be below zero (Painleve). */
+    bool movable = !is_row(tree, unknown) || fabs(work->diagonal[unknown]) > nothing * work->most;
     work->inverse[j] = movable && pivot != 0 ? 1 / pivot : 0;
     if (!is_row(tree, unknown)) return;
-    work->rows[unknown].redundant = !movable || !(pivot > 10 * shift);
-    work->rows[unknown].weak = !movable || !(pivot > 1e4 * shift); /* shifts of rows before add to it */
+    work->rows[unknown].redundant = !movable || !(fabs(pivot) > 10 * shift);
+    work->rows[unknown].weak = !movable || !(fabs(pivot) > 1e4 * shift); /* shifts of rows before add to it */
 }
 
 /* rest = right - S z. */

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/energy.h"
 
+#include "dynamics/tree.h"
+
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 #include <string.h>
@@ -19,6 +21,16 @@ double kinetic_energy(const struct model_body *body, const struct instant *at)
     }
     struct vec v_G = point_motion(body, &pose, body->inertia.G).v;
     return (m * vec_dot(v_G, v_G) + body->inertia.I_G * pose.omega * pose.omega) / 2;
+}
+
+double jointed_kinetic_energy(struct fbd_state *state)
+{
+    struct instant at = state_instant(state);
+    double sum = 0;
+    tree_move(state->model, &at);
+    for (size_t b = 0; b < state->model->body_count; b++)
+        if (state->model->bodies[b].place.link > 0) sum += kinetic_energy(&state->model->bodies[b], &at);
+    return sum;
 }
 
 /* ---- V by quadrature */

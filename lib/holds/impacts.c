@@ -155,6 +155,7 @@ static enum impacts_end decide(struct together *together)
 {
     enum holds_found found = holds_decide(&together->problem);
     if (found == holds_no_memory) return impacts_no_memory;
+    if (found <= holds_several && !holds_share(&together->problem)) return impacts_no_memory;
     if (is_wild(together)) return impacts_unsolvable;
     return found == holds_decided || found == holds_several ? impacts_done : impacts_unsolvable;
 }

@@ -86,11 +86,10 @@ static double different_modes(const struct hold_problem *problem)
     return all;
 }
 
-/* Forces and accelerations in the modes; false where they are not determined. A touch of give tells
- * redundant holds apart. */
-static bool find_forces(struct trial *trial)
+/* The system of the modes: A f = -free of what keeps, f = 0 of what is open, f + mode mu P = 0 of what slips; with rows
+ * of comparable sizes. A touch of give tells redundant holds apart. */
+static void set_system(struct trial *trial, double give)
 {
-    const double give = 1e-10;
     struct hold_problem *problem = trial->problem;
     size_t n = problem->count;
     memset(trial->A, 0, n * n * sizeof *trial->A);
@@ -113,18 +112,33 @@ static bool find_forces(struct trial *trial)
         for (size_t j = 0; j < n; j++) row[j] /= most;
         trial->f[i] /= most;
     }
-    if (!lu_decompose(n, trial->A, trial->pivot)) return false;
-    lu_solve(n, trial->A, trial->pivot, trial->f);
+}
+
+static void take_forces(struct hold_problem *problem, const double *f)
+{
+    size_t n = problem->count;
     for (size_t i = 0; i < n; i++) {
         struct hold *hold = &problem->holds[i];
-        hold->force = trial->f[i];
+        hold->force = f[i];
         hold->c = hold->free;
-        for (size_t j = 0; j < n; j++) hold->c += problem->A[i * n + j] * trial->f[j];
+        for (size_t j = 0; j < n; j++) hold->c += problem->A[i * n + j] * f[j];
     }
     for (size_t g = 0; g < problem->guide_count; g++) {
         problem->guides[g].N = problem->guides[g].free;
-        for (size_t j = 0; j < n; j++) problem->guides[g].N += problem->B[g * n + j] * trial->f[j];
+        for (size_t j = 0; j < n; j++) problem->guides[g].N += problem->B[g * n + j] * f[j];
     }
+}
+
+static const double touch = 1e-10;
+
+/* Forces and accelerations in the modes; false where they are not determined. */
+static bool find_forces(struct trial *trial)
+{
+    size_t n = trial->problem->count;
+    set_system(trial, touch);
+    if (!lu_decompose(n, trial->A, trial->pivot)) return false;
+    lu_solve(n, trial->A, trial->pivot, trial->f);
+    take_forces(trial->problem, trial->f);
     return true;
 }
 
@@ -192,7 +206,8 @@ int holds_try_all(struct hold_problem *problem, size_t most)
     bool made = trial_new(&trial, problem);
     for (size_t number = 0; made && number < all; number++) {
         set_modes(&trial, number);
-        if (is_repeated(problem) || !find_forces(&trial) || !sides_agree(&trial) || !holds_agree(problem)) continue;
+        if (is_repeated(problem) || !find_forces(&trial) || !sides_agree(&trial) || !holds_agree(problem))
+            continue;
         if (trial.solutions == 0 || !same_as_first(&trial)) keep_first(&trial, &best, number);
     }
     if (made && trial.solutions > 0) {
@@ -202,4 +217,60 @@ int holds_try_all(struct hold_problem *problem, size_t most)
     }
     trial_free(&trial);
     return made ? trial.solutions : -2;
+}
+
+/* f += what the system with some give makes of right - M f. Returns the largest of these rests. */
+static double correct(struct trial *trial, const double *M, const double *right, double *f)
+{
+    size_t n = trial->problem->count;
+    double most = 0;
+    for (size_t i = 0; i < n; i++) {
+        trial->f[i] = right[i];
+        for (size_t j = 0; j < n; j++) trial->f[i] -= M[i * n + j] * f[j];
+        most = fmax(most, fabs(trial->f[i]));
+    }
+    lu_solve(n, trial->A, trial->pivot, trial->f);
+    for (size_t i = 0; i < n; i++) f[i] += trial->f[i];
+    return most;
+}
+
+/* Friction that nothing asks for has rounding, which counts for nothing beside what else there is. */
+static void drop_nothing(const struct hold_problem *problem, double *f)
+{
+    const double rounding = 1e-11;
+    double most = 0;
+    for (size_t i = 0; i < problem->count; i++) most = fmax(most, fabs(f[i]));
+    for (size_t i = 0; i < problem->count; i++)
+        if (problem->holds[i].kind == hold_friction && fabs(f[i]) <= rounding * most) f[i] = 0;
+}
+
+bool holds_share(struct hold_problem *problem)
+{
+    enum { most_corrections = 20 };
+    const double give = 1e-5, rounding = 1e-15; /* what is not determined has rounding/give */
+    struct trial trial;
+    size_t n = problem->count;
+    double *M = calloc(n * n + 3 * n + 1, sizeof *M), *right = M ? M + n * n : NULL;
+    bool made = trial_new(&trial, problem) && M;
+    if (made) {
+        double *f = right + n, *before = f + n;
+        for (size_t g = 0; g < problem->guide_count; g++) trial.side[g] = problem->guides[g].N < 0 ? -1 : 1;
+        for (size_t i = 0; i < n; i++) before[i] = problem->holds[i].force;
+        set_system(&trial, 0);
+        memcpy(M, trial.A, n * n * sizeof *M);
+        memcpy(right, trial.f, n * sizeof *right);
+        set_system(&trial, give);
+        if (lu_decompose(n, trial.A, trial.pivot)) {
+            double size = 0, rest = HUGE_VAL;
+            for (size_t i = 0; i < n; i++) size = fmax(size, fabs(right[i]));
+            for (int k = 0; k < most_corrections && rest > rounding * size; k++)
+                rest = correct(&trial, M, right, f);
+            drop_nothing(problem, f);
+            take_forces(problem, f);
+            if (!(rest <= 100 * rounding * size) || !holds_agree(problem)) take_forces(problem, before);
+        }
+    }
+    trial_free(&trial);
+    free(M);
+    return made;
 }

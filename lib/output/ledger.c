@@ -114,7 +114,7 @@ bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t index)
     }
     const struct run *run = group->run;
     if (!integrate(ledger, ensemble, index, run_start(run), run_end(run), ledger->end)) return false;
-    for (size_t i = model->coupled_count; i < model->load_count; i++) {
+    for (size_t i = 0; i < model->load_count; i++) {
         int load = group_load(group, (int)i);
         if (!ledger->integrated[load]) continue;
         ledger->end[load] += run->impact_work[i] - ledger->struck[load];

@@ -86,6 +86,13 @@ static double leaving_speed(const struct run *run, int meeting, int count)
     return most;
 }
 
+static bool any_leaves(const struct run *run, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (run->contacts.v[2 * i] > 0) return true;
+    return false;
+}
+
 /* Bounces that nobody sees: 1e-9 of the scene, a thousand times what counts as touching. */
 static const double low_share = 1000;
 
@@ -101,6 +108,7 @@ static double end_of_series(struct run *run, int i, int count)
            unseen = low_share * meeting_near(run->model, run->state->tree, index);
     bool same = bounces->feature == feature && bounces->count > 0;
     remember(bounces, run->state->t, feature);
+    if (!any_leaves(run, count)) return HUGE_VAL;
     double interval = bounces->t[0] - bounces->t[1], a = -acceleration_of(run, striker->tie, feature), left;
     bool low = a > 0 && leaving * leaving <= 2 * a * unseen;
     bounces->slow = a > 0 ? sqrt(2 * a * unseen) : 0;
@@ -129,16 +137,6 @@ bool contacts_end_bounces(struct run *run, int count)
         ended = true;
     }
     return ended;
-}
-
-static double kinetic(struct fbd_state *state)
-{
-    struct instant at = state_instant(state);
-    double sum = 0;
-    tree_move(state->model, &at);
-    for (size_t b = 0; b < state->model->body_count; b++)
-        sum += kinetic_energy(&state->model->bodies[b], &at);
-    return sum;
 }
 
 /* A meeting whose series is summed up. */
@@ -223,7 +221,7 @@ int contacts_settle_down(struct run *run, int strikers)
     const struct tree *tree = tree_of(run);
     struct contacts_work *work = &run->contacts;
     bool *was_touching = work->touching;
-    double before = kinetic(run->state);
+    double before = jointed_kinetic_energy(run->state);
     take_leaving_speeds(run, strikers);
     const double wide = 2 * low_share; /* a corner that is about to come down */
     for (int i = 0; i < tree->tie_count; i++)
@@ -246,7 +244,8 @@ int contacts_settle_down(struct run *run, int strikers)
     state_project(run->state, false);
     impulse_look(run->state);
     int count = contacts_find_strikers(run), last = last_at_rest(run);
-    run->impact_work[tree->ties[tree->meetings[last].first_tie].load] += kinetic(run->state) - before;
+    run->impact_work[tree->ties[tree->meetings[last].first_tie].load] +=
+        jointed_kinetic_energy(run->state) - before;
     for (int i = 0; i < count; i++) {
         double *v = work->v + (ptrdiff_t)2 * i;
         v[0] = 0;

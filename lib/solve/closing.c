@@ -17,16 +17,6 @@ static bool has_ties(const struct run *run)
     return run->model->tree && run->model->tree->tie_count > 0;
 }
 
-static double kinetic(struct fbd_state *state)
-{
-    struct instant at = state_instant(state);
-    double sum = 0;
-    tree_move(state->model, &at);
-    for (size_t b = 0; b < state->model->body_count; b++)
-        if (state->model->bodies[b].place.link > 0) sum += kinetic_energy(&state->model->bodies[b], &at);
-    return sum;
-}
-
 /* The largest change from `from` to `to`, in tolerances of the largest size that each number has had. */
 static double tolerances_apart(const struct run *run, const double *from, const double *to)
 {
@@ -248,9 +238,9 @@ void run_close_step(struct run *run)
     if (!has_ties(run)) return;
     struct misfit misfit;
     run->projected = true;
-    double before = kinetic(run->state);
+    double before = jointed_kinetic_energy(run->state);
     struct misfit left = bring_back(run, &misfit);
-    double after = kinetic(run->state);
+    double after = jointed_kinetic_energy(run->state);
     constraints_follow(run->model, run->state->tree);
     run->liveliest = fmax(run->liveliest, fmax(before, after));
     double reach = measure(run);

@@ -41,7 +41,7 @@ struct contacts_work {
     struct impacts_point *points;
     int *rows, *modes;
     double *W, *answers, *v, *P, *y;
-    double *later; /* two velocities and impulses of each striker, beside v and P */
+    double *later;           /* two velocities and impulses of each striker, beside v and P */
     struct bounces *bounces; /* of each meeting */
     bool *asleep;            /* of each meeting: too far apart for the step */
     double *deep;   /* of each meeting: how deep it was left open, at a corner that another side is next to */

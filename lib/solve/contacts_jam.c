@@ -136,8 +136,8 @@ bool run_jam(struct run *run)
     double least = least_impulse(run, count, moment);
     for (int i = 0; i < count; i++) any |= work->P[2 * i] > least;
     if (!any) return false;
-    contacts_apply_impulses(run, count);
     contacts_find_strikers(run); /* with the velocities before */
+    contacts_apply_impulses(run, count);
     for (int i = 0; i < count; i++)
         if (work->P[2 * i] > least) note_jam(run, i);
     impulse_look(run->state);

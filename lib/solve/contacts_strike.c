@@ -4,7 +4,9 @@
  */
 #include <string.h>
 
+#include "dynamics/energy.h"
 #include "dynamics/impulse.h"
+#include "dynamics/tree_driven.h"
 #include "dynamics/tree_system.h"
 #include "solve/contacts.h"
 #include "solve/run.h"
@@ -80,15 +82,80 @@ static void set_answers(struct run *run, int count)
     }
 }
 
+/* ---- work of drives
+ *
+ * What has a prescribed motion does not give way: its drive takes up the impulse, and does work by it. */
+
+/* The work of unit impulses of a row on the links that coordinate `k` of link `driven` carries along. */
+static double carried_work(const struct run *run, const struct row *row, int driven)
+{
+    const struct tree *tree = tree_of(run);
+    const struct tree_link *link = &tree->links[driven];
+    const struct tree_state *links = run->state->tree->links, *own = &links[driven];
+    double v = run->state->y[run->model->plan.n + link->coordinate], sum = 0;
+    for (int i = 0; i < row->port_count; i++) {
+        const struct port *port = &row->ports[i];
+        int carrier = port->link;
+        while (carrier > 0 && carrier != driven) carrier = tree->links[carrier].parent;
+        if (carrier != driven) continue;
+        struct vec from_axis = vec_sub(vec_add(links[port->link].p, port->arm), own->p);
+        sum += link->kind == motion_pivot ? v * vec_cross(from_axis, port->force)
+                                          : v * vec_dot(own->e, port->force);
+    }
+    return sum;
+}
+
+/* The impulses of strikers on what drive `friction` moves. */
+static double drive_work(const struct run *run, const struct friction *friction, int count)
+{
+    const struct contacts_work *work = &run->contacts;
+    int driven = run->model->bodies[friction->body].place.link;
+    double sum = 0;
+    for (int i = 0; i < 2 * count; i++) {
+        const struct striker *striker = &work->strikers[i / 2];
+        double P = striker->rope ? (i % 2 == 0 ? -work->P[i] : 0) : work->P[i];
+        if (P != 0) sum -= P * carried_work(run, &run->state->tree->rows[work->rows[i]], driven);
+    }
+    return sum;
+}
+
+/* What kinetic energy has changed by, less what the impulses have taken; the only drive that moves has done it. Of
+ * several each has done what the impulses on all that it carries tell, as if that kept its motion on it. */
+static void note_drives(struct run *run, int count, double change)
+{
+    const struct contacts_work *work = &run->contacts;
+    const struct plan *plan = &run->model->plan;
+    int moving = 0, only = -1;
+    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
+        const struct friction *friction = &plan->frictions[pair];
+        if (friction->kind != mode_drive || run->state->y[plan->n + friction->coordinate] == 0) continue;
+        moving++;
+        only = pair;
+        run->impact_work[friction->load] += drive_work(run, friction, count);
+    }
+    if (moving != 1) return;
+    const struct friction *friction = &plan->frictions[only];
+    double taken = 0;
+    for (int i = 0; i < count; i++) {
+        const struct striker *striker = &work->strikers[i];
+        taken += work->P[2 * i] * (striker->v_n + work->v[2 * i]) / 2;
+        if (!striker->rope) taken += work->P[2 * i + 1] * (striker->v_t + work->v[2 * i + 1]) / 2;
+    }
+    run->impact_work[friction->load] += change - taken - drive_work(run, friction, count);
+}
+
 void contacts_apply_impulses(struct run *run, int count)
 {
     struct contacts_work *work = &run->contacts;
     size_t n = (size_t)run->model->plan.n;
+    bool drives = tree_has_drives(run->model);
+    double before = drives ? jointed_kinetic_energy(run->state) : 0;
     for (int i = 0; i < 2 * count; i++) {
         const struct striker *striker = &work->strikers[i / 2];
         double P = striker->rope ? (i % 2 == 0 ? -work->P[i] : 0) : work->P[i];
         for (size_t k = 0; P != 0 && k < n; k++) run->state->y[n + k] += P * work->answers[(size_t)i * n + k];
     }
+    if (drives) note_drives(run, count, jointed_kinetic_energy(run->state) - before);
 }
 
 static void fail_impact(struct run *run, enum impacts_end end)

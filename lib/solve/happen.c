@@ -97,16 +97,6 @@ static void stop_slipping(struct run *run, int pair)
         friction_surface_speed(friction, &at, &acceleration);
 }
 
-static double kinetic(struct fbd_state *state)
-{
-    struct instant at = state_instant(state);
-    double sum = 0;
-    tree_move(state->model, &at);
-    for (size_t b = 0; b < state->model->body_count; b++)
-        sum += kinetic_energy(&state->model->bodies[b], &at);
-    return sum;
-}
-
 /* A tension that ends is left to settling. A rope that becomes taut takes at once the velocities that would
  * lengthen it: a plastic impact, with the impulses that every other coupling needs for it. */
 static void one_sided_event(struct run *run, int pair)
@@ -116,14 +106,14 @@ static void one_sided_event(struct run *run, int pair)
         run->decided.slips[pair] = true;
         return;
     }
-    double before = kinetic(run->state);
+    double before = jointed_kinetic_energy(run->state);
     bool rope = run->model->plan.frictions[pair].kind == mode_rope;
     run->state->slip[pair] = stick;
     if (rope) run_strike_taut(run);
     state_project_velocity(run->state, false); /* of a rope, rounding only */
     drop_rounding(run);
     run->snap_pair = pair;
-    run->snap_work = kinetic(run->state) - before;
+    run->snap_work = jointed_kinetic_energy(run->state) - before;
     if (!rope) run->impact_work[run->model->plan.frictions[pair].load] += run->snap_work;
 }
 

@@ -17,6 +17,12 @@ static double time_left(const struct run *run, size_t i)
     return rate < 0 && value < HUGE_VAL ? -value / rate : HUGE_VAL;
 }
 
+/* Events of one instant that rounding has put a little apart happen together. */
+static double instant_at(double t)
+{
+    return 64 * DBL_EPSILON * fabs(t);
+}
+
 /* Go back to the event that the scan has found and improve its time: the partial step has the full accuracy
  * of the method, the dense output may have less. Newton on the function that reaches zero first; y and f are
  * left at the result, which is at *t + *move, the move being of the size of a rounding where it has
@@ -38,10 +44,8 @@ static bool polish(struct run *run, double step_end, double *t, double *move)
         if (there || step == most_steps) break;
         *t = next;
     }
-    /* Events of one instant that rounding has put a little apart happen together. */
-    const double instant = 64 * DBL_EPSILON * fabs(*t);
     for (size_t i = 0; i < scan->count; i++)
-        if (fabs(time_left(run, i)) <= instant) scan->crossed[i] = true;
+        if (fabs(time_left(run, i)) <= instant_at(*t)) scan->crossed[i] = true;
     return true;
 }
 
@@ -77,7 +81,8 @@ static bool look_before(struct run *run, double start, double *t, double *move)
 {
     struct scan *scan = &run->moving;
     bool down = false;
-    for (size_t i = 0; i < scan->count; i++) down |= !scan->crossed[i] && run->values[i] < 0;
+    for (size_t i = 0; i < scan->count; i++)
+        down |= run->values[i] < 0 && !(scan->crossed[i] && fabs(time_left(run, i)) <= instant_at(*t));
     if (!down) return true;
     memcpy(run->crossed, scan->crossed, scan->count * sizeof *run->crossed);
     double when = *t, others = *move;

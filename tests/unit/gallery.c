@@ -355,6 +355,9 @@ void trial_run(struct trial *trial, const fbd_options *options)
     trial->result = fbd_simulation_run(trial->simulation, NULL);
     assert_non_null(trial->result);
     trial->outcome = fbd_result_outcome(trial->result);
+    double from, to;
+    fbd_simulation_interval(trial->simulation, &from, &to);
+    fbd_simulation_state(trial->simulation, to, trial->state);
 }
 
 double trial_event(const struct trial *trial, fbd_event_kind kind, const char *name, int index)

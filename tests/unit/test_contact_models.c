@@ -1,0 +1,234 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The models of contacts against closed forms; and jams, where friction and normal forces grow on each other.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <stdio.h>
+#include <string.h>
+
+#include "gallery.h"
+#include "random_numbers.h"
+
+static const double g = 9.81, pi = 3.14159265358979323846;
+
+/* The event number `which` of a kind (from 0); with t NAN when there are not so many. */
+static fbd_event event_of(const struct trial *trial, fbd_event_kind kind, size_t which)
+{
+    size_t count = fbd_simulation_events(trial->simulation);
+    for (size_t i = 0; i < count; i++) {
+        fbd_event event = fbd_simulation_event(trial->simulation, i);
+        if (event.kind == kind && which-- == 0) return event;
+    }
+    return (fbd_event){.t = NAN, .detail = "", .name = ""};
+}
+
+static struct trial run_model(const char *path, const char *const *settings)
+{
+    struct trial trial = trial_open(path, settings);
+    trial_run(&trial, NULL);
+    return trial;
+}
+
+/* Ramps of the push: it slides at F = mu m g and then tips where that moves the floor's force to the edge; or it tips
+ * first, at F = m g a/(2 h). */
+static void a_block_slides_or_tips(void **unused)
+{
+    const double weight = 5 * g, a = 0.4, b = 0.6, h = 0.5, rate = 10;
+    struct checks checks = {0};
+    (void)unused;
+    struct trial trial = run_model("contact/push_slide_or_tip.yaml", NULL);
+    check_that(&checks, "done", trial.outcome == FBD_DONE);
+    check_close(&checks, "slides", event_of(&trial, FBD_EVENT_BREAKAWAY, 0).t, 0.3 * weight / rate, 1e-9);
+    check_close(&checks, "tips later", event_of(&trial, FBD_EVENT_LIFT_OFF, 0).t,
+                (a / 2 - 0.3 * b / 2) * weight / (h - b / 2) / rate, 1e-9);
+    trial_close(&trial);
+    trial = run_model("contact/push_slide_or_tip.yaml", SET("mu=0.6"));
+    double tips = weight * a / (2 * h) / rate;
+    check_close(&checks, "tips", event_of(&trial, FBD_EVENT_LIFT_OFF, 0).t, tips, 1e-9);
+    check_that(&checks, "before it slides", !(event_of(&trial, FBD_EVENT_BREAKAWAY, 0).t < tips));
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+/* After one period of one pendulum all is as it was; the last one has been as high as the first. */
+static void a_cradle_exchanges_its_ends(void **unused)
+{
+    struct checks checks = {0};
+    (void)unused;
+    struct trial trial = trial_open("contact/cradle.yaml", SET("phi=-0.001"));
+    trial_start(&trial, NULL);
+    trial_finish(&trial);
+    double first = event_of(&trial, FBD_EVENT_IMPACT, 0).t, second = event_of(&trial, FBD_EVENT_IMPACT, 2).t;
+    double omega = sqrt(g * 0.2 / (0.2 * 0.2 + 0.4 * 0.02 * 0.02)), quarter = pi / 2 / omega;
+    check_close(&checks, "a quarter", first, quarter * (1 + 1e-6 / 16), 1e-9);
+    check_close(&checks, "half a period", second - first, 2 * quarter * (1 + 1e-6 / 16), 2e-9);
+    trial_start(&trial, NULL);
+    trial_to(&trial, first + quarter);
+    check_close(&checks, "as high", trial_get(&trial, "b5.theta"), 0.001, 1e-9);
+    for (int i = 1; i <= 4; i++) {
+        char name[12];
+        snprintf(name, sizeof name, "b%d.theta", i);
+        check_close(&checks, name, trial_get(&trial, name), 0, 1e-12);
+    }
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+/* A projectile between impacts: which step is below decides how far it falls. */
+static void a_ball_hops_down_the_stairs(void **unused)
+{
+    const double ends[] = {0, 0.3, 0.6, 100}, v0 = 0.75, e = 0.6, rise = 0.15;
+    struct checks checks = {0};
+    (void)unused;
+    struct trial trial = run_model("contact/stairs.yaml", NULL);
+    check_that(&checks, "done", trial.outcome == FBD_DONE);
+    double t = 0.1 / v0, x = 0, up = 0, height = 0;
+    check_close(&checks, "leaves", event_of(&trial, FBD_EVENT_LIFT_OFF, 0).t, t, 1e-9);
+    for (size_t impact = 0; impact < 6; impact++) {
+        /* the first step that it comes down on before it has passed it */
+        for (int step = 1; step < 4; step++) {
+            double fall = height + rise * step, flight = (up + sqrt(up * up + 2 * g * fall)) / g;
+            if (fall < -1e-9 || x + v0 * flight > ends[step]) continue;
+            t += flight;
+            x += v0 * flight;
+            height = -rise * step;
+            up = e * (g * flight - up);
+            break;
+        }
+        check_close(&checks, "impact", event_of(&trial, FBD_EVENT_IMPACT, impact).t, t, 1e-9);
+    }
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+/* The first one strikes with the rate that its fall about its corner gives; all of them fall, and lose energy. */
+static void dominoes_fall_one_after_the_other(void **unused)
+{
+    const double w = 0.01, h = 0.05, d = 0.02, push = 5, I = (w * w + h * h) / 3;
+    struct checks checks = {0};
+    (void)unused;
+    struct trial trial = run_model("contact/dominoes.yaml", NULL);
+    check_that(&checks, "done", trial.outcome == FBD_DONE);
+    double s = d / h, c = sqrt(1 - s * s), rise = (w * s + h * c - h) / 2, v = NAN;
+    double rate = sqrt(push * push - 2 * g * rise / I), last = 0;
+    static const char *const names[] = {"first", "second", "third", "fourth"};
+    size_t next = 0;
+    for (size_t i = 0; i < fbd_simulation_events(trial.simulation); i++) {
+        fbd_event event = fbd_simulation_event(trial.simulation, i);
+        if (event.kind != FBD_EVENT_IMPACT || next == 4 || strcmp(event.name, names[next]) != 0) continue;
+        if (next++ == 0) assert_int_equal(sscanf(strstr(event.detail, "v_n "), "v_n %lf", &v), 1);
+        check_that(&checks, "in turn", event.t > last);
+        last = event.t;
+    }
+    check_close(&checks, "the first impact", v, -rate * h * c, 1e-6);
+    check_that(&checks, "four are struck", next == 4);
+    for (int i = 1; i <= 5; i++) {
+        char name[12];
+        snprintf(name, sizeof name, "d%d.theta", i);
+        check_that(&checks, name, trial_get(&trial, name) < -0.5);
+    }
+    fbd_energy energy = fbd_result_energy(trial.result);
+    check_that(&checks, "energy is lost",
+               energy.kinetic + energy.potential < energy.initial_kinetic + energy.initial_potential);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+/* The height of the table over the flying box, with A = 20 mm and w = 30/s. */
+static double over(double t, double from)
+{
+    double flight = t - from, A = 0.02, w = 30;
+    return A * sin(w * t) - A * sin(w * from) - A * w * cos(w * from) * flight + g * flight * flight / 2;
+}
+
+static void a_box_on_a_shaken_table_flies_once_a_period(void **unused)
+{
+    const double A = 0.02, w = 30, leaves = asin(g / (A * w * w)) / w, period = 2 * pi / w;
+    struct checks checks = {0};
+    (void)unused;
+    double low = leaves + 0.01, high = leaves + 0.2;
+    for (int i = 0; i < 80; i++) {
+        double middle = (low + high) / 2;
+        *(over(middle, leaves) < 0 ? &low : &high) = middle;
+    }
+    struct trial trial = run_model("contact/shaken_table.yaml", NULL);
+    check_that(&checks, "done", trial.outcome == FBD_DONE);
+    for (size_t k = 0; k < 4; k++) { /* both corners */
+        double from = leaves + (double)k * period;
+        check_close(&checks, "leaves", event_of(&trial, FBD_EVENT_LIFT_OFF, 2 * k).t, from, 1e-9);
+        check_close(&checks, "lands", event_of(&trial, FBD_EVENT_IMPACT, 2 * k).t, low + (double)k * period,
+                    1e-9);
+    }
+    check_that(&checks, "lies flat", fabs(trial_get(&trial, "box.theta")) < 1e-9);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+/* A uniform rod slides with its end on a floor that becomes rough at t = 0.01 s. Where 1 + 3 c^2 - 3 mu s c < 0, with c
+ * and s of its angle to the floor, no normal force goes with the slip (Painleve): it jams, and turns on about its end
+ * with the moment of momentum that it has about it. */
+static bool jam_agrees(struct random_numbers *numbers)
+{
+    char text[1200];
+    double L = random_between(numbers, 0.5, 2), phi = random_between(numbers, 0.7, 1.1);
+    double V = random_between(numbers, -3, -1), m = random_between(numbers, 0.2, 5),
+           mu = random_between(numbers, 1.9, 3);
+    double omega = random_between(numbers, -0.2, 0.2), c = cos(phi), s = sin(phi);
+    if (1 + 3 * c * c - 3 * mu * s * c > -0.05) return true;
+    /* the centre is to the right of the end, which slides to the left: friction drives it in */
+    double x = L / 2 * c, y = L / 2 * s;
+    snprintf(text, sizeof text,
+             "fbd: 1\nground: {lines: {floor: {along: 0}}}\nbodies:\n  rod: {shape: rod, length: %.17g, "
+             "mass: %.17g, "
+             "motion: planar, initial: {x: %.17g, y: %.17g, theta: %.17g, vx: %.17g, vy: %.17g, omega: "
+             "%.17g}, forces: "
+             "[gravity]}\ncontacts:\n  - {name: floor, between: [rod.left, ground.floor], static: 'if(t < "
+             "0.01[s], 0.1, "
+             "%.17g)'}\nsimulate: {until: 0.0100001}\n",
+             L, m, x, y, phi, V - omega * y, omega * x, omega, mu);
+    struct trial trial = trial_parse(text);
+    trial_start(&trial, NULL);
+    trial_to(&trial, 0.01 - 1e-9);
+    double theta = trial_get(&trial, "rod.theta"), r[2] = {L / 2 * cos(theta), L / 2 * sin(theta)};
+    double vx = trial_get(&trial, "rod.vx"), vy = trial_get(&trial, "rod.vy"),
+           w = trial_get(&trial, "rod.omega");
+    double after = (w * L * L / 12 + r[0] * vy - r[1] * vx) / (L * L / 3);
+    trial_finish(&trial);
+    fbd_event jam = event_of(&trial, FBD_EVENT_JAM, 0);
+    double got = trial_get(&trial, "rod.omega");
+    bool agrees =
+        trial.outcome == FBD_DONE && fabs(jam.t - 0.01) < 1e-12 && fabs(got - after) < 2e-5 * fabs(after);
+    if (!agrees)
+        print_error("outcome %d, jam at %.17g, omega %.12g, %.12g wanted\n%s%s\n", (int)trial.outcome, jam.t,
+                    got, after, text, fbd_simulation_reason(trial.simulation));
+    trial_close(&trial);
+    return agrees;
+}
+
+static void a_rod_jams_with_its_moment_of_momentum(void **unused)
+{
+    struct random_numbers numbers = {20261123};
+    size_t wrong = 0;
+    (void)unused;
+    for (int i = 0; i < 100; i++) wrong += !jam_agrees(&numbers);
+    assert_int_equal(wrong, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_block_slides_or_tips),
+        cmocka_unit_test(a_cradle_exchanges_its_ends),
+        cmocka_unit_test(a_ball_hops_down_the_stairs),
+        cmocka_unit_test(dominoes_fall_one_after_the_other),
+        cmocka_unit_test(a_box_on_a_shaken_table_flies_once_a_period),
+        cmocka_unit_test(a_rod_jams_with_its_moment_of_momentum),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
