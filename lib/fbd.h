@@ -233,7 +233,8 @@ typedef enum fbd_event_kind {
     FBD_EVENT_REST,     /* infinitely many impacts have ended: they touch from now on */
     FBD_EVENT_SLIDING,  /* both branches of a switch lead back to it: the motion slides along it (Filippov) */
     FBD_EVENT_SLIDING_ENDS, /* and goes on by one of them */
-    FBD_EVENT_JAM, /* no finite forces go with its slip (Painleve's paradox): an impulse ends the slip */
+    FBD_EVENT_JAM,     /* no finite forces go with its slip (Painleve's paradox): an impulse ends the slip */
+    FBD_EVENT_SEVERAL, /* several motions agree with the forces from here on, and one of them is taken */
 } fbd_event_kind;
 
 typedef struct fbd_event {
@@ -246,7 +247,7 @@ typedef struct fbd_event {
 } fbd_event;
 
 /* "breakaway", "stick", "reversal", "contact_lost", "user", "rope_slack", "rope_taut", "lift_off", "landing",
- * "switch", "impact", "contact", "rest", "jam", "sliding", "sliding_ends"; "" for none of them */
+ * "switch", "impact", "contact", "rest", "sliding", "sliding_ends", "jam", "several"; "" for none of them */
 FBD_API const char *fbd_event_kind_name(fbd_event_kind kind);
 
 typedef enum fbd_outcome {

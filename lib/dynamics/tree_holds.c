@@ -263,6 +263,20 @@ static bool holds_what_is_driven(struct fbd_state *state, const struct decided *
     return moves;
 }
 
+/* Does a surface that is rubbed on answer its normal force with the wrong sign? Then what agrees may not be the only one
+ * that does (Painleve). */
+static bool answers_wrongly(const struct fbd_state *state)
+{
+    const struct tree *tree = state->model->tree;
+    const struct instant at = state_instant(state);
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (!tie_has_surface(tie) || tree_rubbing_share(state->model, &at, tie->first_row) == 0) continue;
+        if (state->tree->diagonal[tie->first_row] < 0) return true;
+    }
+    return false;
+}
+
 bool tree_settle_holds(struct fbd_state *state, const struct decided *decided)
 {
     int *before = state->slip_before;
@@ -276,8 +290,8 @@ bool tree_settle_holds(struct fbd_state *state, const struct decided *decided)
         bool rests = hold->kind != mode_friction || hold_slips_already(state, decided, forced, pair) == 0;
         if (rests) state->slip[pair] = stick; /* tried first */
     }
-    bool agreed =
-        !holds_what_is_driven(state, decided, forced) && look(state, decided, forced, false) == agrees;
+    bool agreed = !holds_what_is_driven(state, decided, forced) &&
+                  look(state, decided, forced, false) == agrees && !answers_wrongly(state);
     agreed = agreed || decide(state, decided, forced);
     return agreed && memcmp(before, state->slip, bytes) == 0;
 }

@@ -27,6 +27,7 @@ const char *fbd_event_kind_name(fbd_event_kind kind)
     case FBD_EVENT_CONTACT: return "contact";
     case FBD_EVENT_REST: return "rest";
     case FBD_EVENT_JAM: return "jam";
+    case FBD_EVENT_SEVERAL: return "several";
     case FBD_EVENT_SLIDING: return "sliding";
     case FBD_EVENT_SLIDING_ENDS: return "sliding_ends";
     }
@@ -124,6 +125,12 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
         return;
     case FBD_EVENT_IMPACT: impact_detail(model, event, name, detail, size); return;
     case FBD_EVENT_CONTACT: snprintf(detail, size, "%s closes", name); return;
+    case FBD_EVENT_SEVERAL:
+        format_into(detail, size,
+                    "%s: several motions agree with the forces, as in Painleve's paradox, and one of them is "
+                    "taken; each %s of its normal force brings %.4g %s of it with it",
+                    name, unit, event->force, unit);
+        return;
     case FBD_EVENT_JAM: jam_detail(model, event, name, detail, size); return;
     case FBD_EVENT_REST:
         snprintf(detail, size, "%s is closed after %d impacts and infinitely many too small to see", name,

@@ -2,6 +2,8 @@
  *
  * A scene at rest as a person reads it: does it hold, what would hold it, and the table of each body.
  */
+#include <string.h>
+
 #include "output/equations.h"
 #include "output/result.h"
 #include "solve/statics.h"
@@ -60,7 +62,20 @@ static void write_unbalanced(struct text *text, const struct fbd_statics *static
     }
 }
 
-static void write_broken(struct text *text, const fbd_limit *limit)
+/* Another feature of the same shapes that is pressed on: `floor.normal_2` beside `floor.normal`. */
+static const char *held_beside(const struct fbd_statics *statics, const fbd_limit *limit)
+{
+    const char *normal = strstr(limit->name, ".normal");
+    size_t length = normal ? (size_t)(normal - limit->name) + strlen(".normal") : 0;
+    for (size_t i = 0; normal && i < statics->limit_count; i++) {
+        const fbd_limit *other = &statics->limits[i];
+        bool same = other->kind == FBD_LIMIT_NORMAL && strncmp(other->name, limit->name, length) == 0;
+        if (same && other != limit && other->holds && other->needed > 0) return other->name;
+    }
+    return NULL;
+}
+
+static void write_broken(struct text *text, const struct fbd_statics *statics, const fbd_limit *limit)
 {
     text_printf(text, "  `%s` ", limit->name);
     if (limit->kind == FBD_LIMIT_FRICTION) {
@@ -73,7 +88,10 @@ static void write_broken(struct text *text, const fbd_limit *limit)
     }
     text_printf(text, "would have to %s with ", limit->kind == FBD_LIMIT_ROPE ? "push" : "pull");
     text_number(text, -limit->needed, digits);
-    text_printf(text, " %s\n", limit->unit);
+    text_printf(text, " %s", limit->unit);
+    const char *beside = held_beside(statics, limit);
+    if (beside) text_printf(text, ": it opens there, and tips over `%s`", beside);
+    text_add(text, "\n");
 }
 
 /* The coordinates that are not those of the file. */
@@ -109,8 +127,14 @@ static void write_verdict(struct text *text, const struct fbd_statics *statics)
     text_add(text, " s: NOT in equilibrium\n");
     write_unbalanced(text, statics);
     if (statics->unbalanced_count > 0) return; /* what limits would have to bear depends on what holds it */
+    bool opens = false;
     for (size_t i = 0; i < statics->limit_count; i++)
-        if (!statics->limits[i].holds) write_broken(text, &statics->limits[i]);
+        opens |= statics->limits[i].kind == FBD_LIMIT_NORMAL && !statics->limits[i].holds;
+    for (size_t i = 0; i < statics->limit_count; i++) {
+        const fbd_limit *limit = &statics->limits[i];
+        bool of_nothing = limit->kind == FBD_LIMIT_FRICTION && limit->limit == 0 && opens;
+        if (!limit->holds && !of_nothing) write_broken(text, statics, limit);
+    }
     if (statics->indeterminacy > 0)
         text_add(text, "  (by the reactions of the least sum of squares; no others hold either)\n");
 }

@@ -358,12 +358,25 @@ static void fail_unsettled(struct run *run)
     text_free(&words);
 }
 
+/* One of several ways to go on has been taken. */
+static void note_several(struct run *run)
+{
+    const struct holds_trouble *holds = &run->state->holds;
+    if (holds->found != holds_several || holds->pair < 0) return;
+    const struct friction *friction = &run->model->plan.frictions[holds->pair];
+    struct run_event *event = run_note(run, FBD_EVENT_SEVERAL, friction->body, friction->load, -1);
+    if (event) event->force = holds->answer;
+}
+
 /* What jams has other slips then, which may jam in turn. */
 static bool settle(struct run *run)
 {
     enum { most_jams = 8 };
     for (int jam = 0;; jam++) {
-        if (modes_settle(run->state, &run->decided)) return true;
+        if (modes_settle(run->state, &run->decided)) {
+            note_several(run);
+            return true;
+        }
         bool no_forces = run->state->holds.found == holds_none || run->state->holds.found == holds_lost;
         bool jams = no_forces && run->outcome == FBD_GOING && jam < most_jams;
         if (!jams || !run_jam(run)) return false;

@@ -49,11 +49,22 @@ static bool put_to_rest(struct fbd_state *state, fbd_errors *errors)
 
 /* ---- what is said about the solution */
 
+/* The feature of shapes that touch whose force is limited; NULL when it is something else. */
+static const struct tie *touching_tie(const struct fbd_model *model, const struct rest_limit *limit)
+{
+    const struct plan *plan = &model->plan;
+    int pair = limit->kind == limit_normal ? plan->contacts[limit->index].pair : limit->index;
+    int tie = pair >= 0 ? plan->frictions[pair].tie : -1;
+    return tie >= 0 && model->tree->ties[tie].kind == constraint_contact ? &model->tree->ties[tie] : NULL;
+}
+
 static const char *limit_name(struct fbd_statics *statics, const struct rest_limit *limit)
 {
     const struct fbd_model *model = statics->model;
     const struct plan *plan = &model->plan;
     if (limit->kind == limit_rope) return model->tree->ties[plan->frictions[limit->index].tie].name;
+    const struct tie *touching = touching_tie(model, limit);
+    if (touching) return touching->end[0].name[limit->kind == limit_normal ? 0 : 1];
     int load =
         limit->kind == limit_normal ? plan->contacts[limit->index].load : plan->frictions[limit->index].load;
     const char *name = model->loads[load].source->name;
