@@ -323,6 +323,26 @@ static bool feel_each_other(const void *context, int i, int j)
     return false;
 }
 
+/* Impacts of several points on each other that lose energy may go on without end, ever slower: what is left is taken
+ * by one that is plastic. */
+static enum impacts_end propagate_to_the_end(struct impacts *impacts)
+{
+    enum impacts_end end = propagate(impacts);
+    bool loses = true;
+    for (int i = 0; i < impacts->count; i++) loses &= impacts->points[i].e < 1;
+    if (end != impacts_endless || !loses) return end;
+    struct impacts rest = *impacts;
+    struct impacts_point *points = calloc((size_t)impacts->count + 1, sizeof *points);
+    if (!points) return impacts_no_memory;
+    for (int i = 0; i < impacts->count; i++) points[i] = (struct impacts_point){impacts->points[i].mu, 0};
+    rest.points = points;
+    rest.law = impact_stronge;
+    end = all_together(&rest);
+    impacts->work = rest.work;
+    free(points);
+    return end == impacts_unsolvable ? impacts_endless : end;
+}
+
 static enum impacts_end solve_whole(struct impacts *impacts)
 {
     if (impacts->count == 1) {
@@ -333,7 +353,7 @@ static enum impacts_end solve_whole(struct impacts *impacts)
     /* Points that press on each other nearly along one line may be lost in rounding: one after the other
      * their impacts are those of the same laws. */
     bool lost = end == impacts_unsolvable && !impact_by_velocity(impacts->law);
-    return impacts->propagate || lost ? propagate(impacts) : end;
+    return impacts->propagate || lost ? propagate_to_the_end(impacts) : end;
 }
 
 /* Points `member` of all; a part in which nothing closes is left as it is. */
