@@ -74,6 +74,36 @@ bool command_line_number(const struct command_line *line, const char *option, co
     return false;
 }
 
+bool command_line_seconds(const char *text, double *value)
+{
+    static const struct {
+        const char *name;
+        double seconds;
+    } units[] = {{"", 1}, {"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}, {"min", 60}, {"h", 3600}};
+    char *end;
+    errno = 0;
+    double number = strtod(text, &end);
+    if (end == text || errno == ERANGE) return false;
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++) {
+        if (strcmp(end + strspn(end, " "), units[i].name) != 0) continue;
+        *value = number * units[i].seconds;
+        return true;
+    }
+    return false;
+}
+
+bool command_line_time(const struct command_line *line, const char *option, const char *text, double least,
+                       double *value)
+{
+    const double most = 1e300;
+    if (command_line_seconds(text, value) && *value >= least && *value <= most) return true;
+    if (line->silent) return false;
+    complain("%s: --%s wants a time%s, as `2`, `2 s` or `200ms`, not `%s`", line->program, option,
+             least > 0 ? " above 0" : "", text);
+    point_to_help(line);
+    return false;
+}
+
 bool command_line_whole(const struct command_line *line, const char *wanted, const char *text,
                         unsigned long least, unsigned long most, unsigned long *value)
 {

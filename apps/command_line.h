@@ -52,6 +52,13 @@ bool command_line_usage(const struct command_line *line, const char *message, co
 bool command_line_number(const struct command_line *line, const char *option, const char *text, double least,
                          double *value);
 
+/* A time [s]: a number, or one with a unit behind it: `5 s`, `200ms`, `2 min`. */
+bool command_line_seconds(const char *text, double *value);
+
+/* Such a time, at least `least`. */
+bool command_line_time(const struct command_line *line, const char *option, const char *text, double least,
+                       double *value);
+
 /* A whole number; `wanted` is the message: "--seed wants a whole number, not ". */
 bool command_line_whole(const struct command_line *line, const char *wanted, const char *text,
                         unsigned long least, unsigned long most, unsigned long *value);

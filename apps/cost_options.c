@@ -93,7 +93,7 @@ static bool take_option(const struct command_line *unused, int option, void *con
     (void)unused;
     switch (option) {
     case option_set: return command_line_setting(&line, optarg, options->settings, &options->setting_count);
-    case option_until: return take_positive("until", &study->until);
+    case option_until: return command_line_time(&line, "until", optarg, 1e-300, &study->until);
     case option_budget: return take_positive("budget", &study->budget);
     case option_methods:
         study->methods = options->methods;

@@ -88,10 +88,10 @@ static enum exit_code place(const fbd_model *model, const struct options *option
             if (!set_coordinate(state, options->at[i], errors)) return exit_usage;
             continue;
         }
-        char *end;
-        double t = strtod(options->at[i], &end);
-        if (end == options->at[i] || *end) {
-            complain("fbd-run: --at wants a time in seconds or NAME=VALUE, not `%s`", options->at[i]);
+        double t;
+        if (!command_line_seconds(options->at[i], &t)) {
+            complain("fbd-run: --at wants a time, as `2` or `200ms`, or NAME=VALUE, not `%s`",
+                     options->at[i]);
             return exit_usage;
         }
         enum exit_code code = run_until(model, options, t, state, errors);

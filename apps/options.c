@@ -153,6 +153,11 @@ static bool take_number(const char *name, double least, double *value)
     return command_line_number(&line, name, optarg, least, value);
 }
 
+static bool take_time(const char *name, double least, double *value)
+{
+    return command_line_time(&line, name, optarg, least, value);
+}
+
 static bool take_option(const struct command_line *unused, int option, void *context)
 {
     const double tiny = 1e-300; /* above 0 */
@@ -165,8 +170,8 @@ static bool take_option(const struct command_line *unused, int option, void *con
     case option_accuracy: return take_number("accuracy", tiny, &options->run.accuracy);
     case option_step: return take_number("step", tiny, &options->run.step);
     case option_no_structure: options->run.no_structure = true; return true;
-    case option_until: return take_number("until", -1e300, &options->run.until);
-    case option_every: return take_number("every", tiny, &options->every);
+    case option_until: return take_time("until", -1e300, &options->run.until);
+    case option_every: return take_time("every", tiny, &options->every);
     case option_csv: options->csv = optarg; return true;
     case option_json: options->json = optarg; return true;
     case option_ledger: options->ledger = true; return true;

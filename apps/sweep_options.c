@@ -113,7 +113,7 @@ static bool take_option(const struct command_line *line, int option, void *conte
     case option_tolerance: return command_line_number(line, "tolerance", optarg, tiny, &plan->run.tolerance);
     case option_step: return command_line_number(line, "step", optarg, tiny, &plan->run.step);
     case option_no_structure: plan->run.no_structure = true; return true;
-    case option_until: return command_line_number(line, "until", optarg, -1e300, &plan->run.until);
+    case option_until: return command_line_time(line, "until", optarg, -1e300, &plan->run.until);
     case option_jobs: return take_jobs(line, &options->jobs);
     case option_csv: options->csv = optarg; return true;
     case option_resume: options->resume = true; return true;

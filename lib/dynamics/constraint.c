@@ -320,10 +320,14 @@ static const struct row *row_along(const struct fbd_model *model, const struct t
 double tie_slip_velocity(const struct fbd_model *model, const struct instant *at, int tie)
 {
     const struct row *row = row_along(model, at->tree, tie);
+    bool touches = model->tree->ties[tie].meeting >= 0;
     double v = row->g.x1, size = 0;
     for (int k = 0; k < row->port_count; k++) {
         const struct tree_state *s = &at->tree->links[row->ports[k].link];
-        size = fmax(size, vec_norm(s->v) + fabs(s->omega) * vec_norm(row->ports[k].arm));
+        double arm = vec_norm(row->ports[k].arm);
+        size = fmax(size, vec_norm(s->v) + fabs(s->omega) * arm);
+        /* What has come down and rests has no speed to measure rounding against but that of falling over. */
+        if (touches) size = fmax(size, sqrt(vec_norm(model->scene->gravity) * arm));
     }
     return fabs(v) <= 64 * DBL_EPSILON * size ? 0 : v;
 }

@@ -95,6 +95,8 @@ static const char *translated(fbd_errors *errors, const struct group *group, con
                                            {"v0", "v"},
                                            {"x0", "x"},
                                            {"velocity", "v"},
+                                           {"vx", "v"},
+                                           {"vy", "v"},
                                            {"speed", "v"},
                                            {"angle", "theta"},
                                            {"theta0", "theta"},
@@ -117,6 +119,17 @@ static const char *translated(fbd_errors *errors, const struct group *group, con
     return NULL;
 }
 
+/* A comma inside braces ends an entry: what comes behind it is a key without a value. */
+static const char *behind_a_comma(const struct pair *pair)
+{
+    if (pair->value->kind != node_null) return NULL;
+    if (pair->key[0] && strspn(pair->key, "0123456789") == strlen(pair->key))
+        return "a comma separates entries inside braces: write a decimal point, as `2.5`";
+    if (strchr(pair->key, ')'))
+        return "a comma separates entries inside braces: put the expression in quotes, as `\"min(1, 2)\"`";
+    return NULL;
+}
+
 static void note_unknown_key(struct reader *reader, const struct group *group, const struct pair *pair)
 {
     const char *hint = NULL, *colon = strchr(pair->key, ':');
@@ -125,6 +138,7 @@ static void note_unknown_key(struct reader *reader, const struct group *group, c
                          pair->key, colon + 1);
     if (strstr(pair->key, "\xC2\xA0"))
         hint = "it holds a no-break space (U+00A0), as pasted text does: type a blank in its place";
+    if (!hint) hint = behind_a_comma(pair);
     if (!hint) hint = misplaced(reader->errors, group, pair->key);
     if (!hint) hint = translated(reader->errors, group, pair->key);
     if (!hint) {
@@ -259,6 +273,34 @@ bool fields_read(struct reader *reader, const struct group *group, const struct 
 
 /* ---- kinds */
 
+/* What textbooks call a force; NULL when the word is not one of theirs. */
+static const char *usual_force(const char *word)
+{
+    static const char *const words[][2] = {
+        {"weight", "the weight is `gravity`, of the mass of the body"},
+        {"mg", "the weight is `gravity`, of the mass of the body"},
+        {"g", "the weight is `gravity`, of the mass of the body"},
+        {"force", "a given force is `applied: {value: 5 N, angle: 30 deg}`"},
+        {"push", "a given force is `applied: {value: 5 N, angle: 30 deg}`"},
+        {"pull", "a given force is `applied: {value: 5 N, angle: 30 deg}`"},
+        {"load", "a given force is `applied: {value: 5 N, angle: 30 deg}`"},
+        {"moment", "a given moment belongs under `moments`: `applied: 3 N*m`"},
+        {"torque", "a given moment belongs under `moments`: `applied: 3 N*m`"},
+        {"tension", "a tension comes with its `rope` or `rod`, under `couplings`"},
+        {"rope", "it joins two ends: write it under `couplings`"},
+        {"rod", "it joins two ends: write it under `couplings`"},
+        {"string", "it is a `rope`, under `couplings`"},
+        {"cable", "it is a `rope`, under `couplings`"},
+        {"reaction", "reactions of joints and couplings are found, not given"},
+        {"normal_force", "it is `normal`, of a slide; of shapes that touch it comes with `contacts`"},
+        {"contact", "what can touch is listed under `contacts`, beside `bodies`"},
+        {"air", "it is `drag`"},
+    };
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcmp(word, words[i][0]) == 0) return words[i][1];
+    return NULL;
+}
+
 static const struct kind *find_kind(struct reader *reader, const struct kinds *kinds, const char *name,
                                     struct pos at)
 {
@@ -268,8 +310,9 @@ static const struct kind *find_kind(struct reader *reader, const struct kinds *k
         names[i] = kinds->kinds[i].name;
         if (strcmp(names[i], name) == 0) return &kinds->kinds[i];
     }
-    diag_add(reader->errors, FBD_ERROR, "unknown-kind", at,
-             diag_nearest(reader->errors, name, names, kinds->count), "no %s is called `%.40s`", kinds->noun,
+    const char *hint = kinds == &force_kinds ? usual_force(name) : NULL;
+    if (!hint) hint = diag_nearest(reader->errors, name, names, kinds->count);
+    diag_add(reader->errors, FBD_ERROR, "unknown-kind", at, hint, "no %s is called `%.40s`", kinds->noun,
              name);
     return NULL;
 }

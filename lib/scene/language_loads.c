@@ -91,7 +91,8 @@ static const struct field spring_fields[] = {
     TO_ROW,
 };
 static const struct group spring_group =
-    LOAD_GROUP("a spring", NULL, spring_fields, "a linear spring to a point of the ground, or along a slide");
+    LOAD_GROUP("a spring", "stiffness", spring_fields,
+               "a linear spring to a point of the ground, or along a slide");
 
 static const struct field damper_fields[] = {
     FIELD_NUMBER(LOAD(coefficient), "coefficient", a_damping, required | not_negative, "force per velocity"),
@@ -146,7 +147,8 @@ static const struct field moment_spring_fields[] = {
                  "angle without moment; default 0"),
 };
 static const struct group moment_spring_group =
-    LOAD_GROUP("a torsional spring", NULL, moment_spring_fields, "a linear torsional spring to the ground");
+    LOAD_GROUP("a torsional spring", "stiffness", moment_spring_fields,
+               "a linear torsional spring to the ground");
 
 static const struct field moment_damper_fields[] = {
     FIELD_NUMBER(LOAD(coefficient), "coefficient", a_torsional_damping, required | not_negative,

@@ -202,6 +202,39 @@ bool value_flag(struct reader *reader, const struct node *node, const char *what
     return value_refuse(reader, node, what, "true or false", hint);
 }
 
+/* What others call one of these; NULL when the word is not one of theirs. */
+static const char *usual_choice(fbd_errors *errors, const char *word, const char *const *names, size_t count)
+{
+    static const char *const words[][2] = {
+        {"ball", "sphere"},
+        {"box", "prism"},
+        {"block", "prism"},
+        {"cube", "prism"},
+        {"brick", "prism"},
+        {"rectangle", "prism"},
+        {"plate", "prism"},
+        {"wheel", "disc"},
+        {"circle", "disc"},
+        {"roller", "disc"},
+        {"pulley", "disc"},
+        {"bar", "rod"},
+        {"beam", "rod"},
+        {"stick", "rod"},
+        {"line", "rod"},
+        {"hoop", "ring"},
+        {"tube", "hollow_cylinder"},
+        {"particle", "point"},
+        {"mass", "point"},
+        {"rk45", "rkf45"},
+        {"ode45", "dop853"},
+        {"implicit", "rodas5p"},
+    };
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        for (size_t k = 0; k < count && strcmp(word, words[i][0]) == 0; k++)
+            if (strcmp(names[k], words[i][1]) == 0) return diag_hint(errors, "it is `%s`", names[k]);
+    return NULL;
+}
+
 bool value_choice(struct reader *reader, const struct node *node, const char *what,
                   const struct choice *choices, size_t count, int *choice)
 {
@@ -215,8 +248,9 @@ bool value_choice(struct reader *reader, const struct node *node, const char *wh
         return true;
     }
     if (node->kind != node_scalar) return value_refuse(reader, node, what, "one word", NULL);
-    diag_add(reader->errors, FBD_ERROR, "unknown-choice", node->at,
-             diag_nearest(reader->errors, node->text, names, count), "`%s` cannot be %s", what,
+    const char *hint = usual_choice(reader->errors, node->text, names, count);
+    if (!hint) hint = diag_nearest(reader->errors, node->text, names, count);
+    diag_add(reader->errors, FBD_ERROR, "unknown-choice", node->at, hint, "`%s` cannot be %s", what,
              value_found(reader, node));
     return false;
 }
