@@ -18,7 +18,7 @@ static const char help[] =
     "tolerance\n"
     "  --step TIME          steps of this fixed size, in seconds\n"
     "  --no-structure       integrate all bodies together by the general method\n"
-    "  --until TIME         end of the run, in seconds\n"
+    "  --until TIME         end of the run, in seconds or with a unit (200ms)\n"
     "\n"
     "What is written (FILE may be - for standard output, which leaves the report out)\n"
     "  --csv FILE           the motion, one row for each output time and event\n"

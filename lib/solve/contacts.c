@@ -271,11 +271,10 @@ static void unstick(struct run *run)
 /* What counts as touching; shapes that are in each other by a little more, which was seen late, touch as well. */
 static double reach_of_touch(const struct run *run, int index)
 {
-    const double late = 1e3;
     const struct instant at = state_instant(run->state);
     double near = meeting_near(run->model, run->state->tree, index);
     double deep = meeting_depth(run->model, &at, index);
-    return deep > near && deep <= late * near ? 1.001 * deep : near;
+    return deep > near && deep <= contacts_late * near ? 1.001 * deep : near;
 }
 
 /* One look at all that touches. True when shapes have been moved, and others are to be looked at. */

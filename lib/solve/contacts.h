@@ -91,6 +91,9 @@ void run_check_overlap(struct run *run);
 
 /* ---- for the files of contacts */
 
+/* What counts as touching when it is seen late, in `near` of dynamics/contact.h. */
+static const double contacts_late = 1e3;
+
 /* The impact of the first `count` strikers; their velocities after are in work->v, its impulses in work->P. False
  * after failing the run. (contacts_strike.c) */
 bool contacts_strike(struct run *run, int count);

@@ -96,10 +96,10 @@ void contacts_note_depths(struct run *run)
         int features[2];
         bool beyond =
             deep > meeting_rounding(run->model, state->tree, i); /* rounding is allowed for anyway */
-        bool lasts = deep > 0 && deep <= near &&
-                     ((beyond && parts(run, &at, i)) ||
-                      meeting_touching(run->model, state->tree, i, near, features) == 0);
-        run->contacts.deep[i] = lasts ? deep : 0;
+        bool leaves = beyond && deep <= contacts_late * near && parts(run, &at, i);
+        bool over_an_end = deep > 0 && deep <= near &&
+                           meeting_touching(run->model, state->tree, i, near, features) == 0;
+        run->contacts.deep[i] = leaves || over_an_end ? deep : 0;
     }
 }
 
