@@ -364,6 +364,7 @@ struct balance balance_of(const struct model_body *body, const struct instant *a
         forces = fmax(forces, vec_norm(arrows[i].force));
         moments = fmax(moments, fabs(moment));
     }
+    moments = fmax(moments, forces * sqrt(body->inertia.I_G / body->inertia.mass));
     double off = vec_norm(vec_sub(balance.force, balance.m_a));
     double turned = fabs(balance.moment - balance.I_alpha);
     balance.residual = fmax(forces > 0 ? off / forces : 0, moments > 0 ? turned / moments : 0);

@@ -225,6 +225,11 @@ bool holds_is_on_open(const struct hold_problem *problem, const struct hold *hol
            problem->holds[hold->presses].mode != hold_keeps;
 }
 
+bool holds_is_still(const struct hold_problem *problem, size_t i, double share)
+{
+    return fabs(holds_weight(problem, i) * problem->holds[i].c) <= rounding_of(problem, share);
+}
+
 void holds_set_open(struct hold_problem *problem)
 {
     double zero = rounding_of(problem, 1e-11);

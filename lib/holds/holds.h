@@ -84,6 +84,9 @@ enum holds_found {
 bool holds_is_on_open(const struct hold_problem *problem, const struct hold *hold);
 void holds_set_open(struct hold_problem *problem);
 
+/* Is its acceleration no more than that share of the largest? */
+bool holds_is_still(const struct hold_problem *problem, size_t i, double share);
+
 /* Room for the problem, all zero; false when memory is out. */
 bool holds_new(struct hold_problem *problem, size_t count, size_t guide_count);
 void holds_free(struct hold_problem *problem);

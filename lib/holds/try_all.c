@@ -244,33 +244,60 @@ static void drop_nothing(const struct hold_problem *problem, double *f)
         if (problem->holds[i].kind == hold_friction && fabs(f[i]) <= rounding * most) f[i] = 0;
 }
 
-bool holds_share(struct hold_problem *problem)
+/* What slips by no more than rounding may as well keep still. Returns whether there is any. */
+static bool keep_still(struct hold_problem *problem)
+{
+    const double still = 1e-9;
+    bool any = false;
+    for (size_t i = 0; i < problem->count; i++) {
+        struct hold *hold = &problem->holds[i];
+        if (hold->kind != hold_friction || hold->slip != 0 || hold->mode == hold_keeps) continue;
+        if (holds_is_on_open(problem, hold) || !holds_is_still(problem, i, still)) continue;
+        hold->mode = hold_keeps;
+        any = true;
+    }
+    return any;
+}
+
+/* The least forces of the modes that there are; false where they do not agree, and all is as it was. */
+static bool share(struct hold_problem *problem, struct trial *trial, double *M)
 {
     enum { most_corrections = 20 };
     const double give = 1e-5, rounding = 1e-15; /* what is not determined has rounding/give */
+    size_t n = problem->count;
+    double *right = M + n * n, *f = right + n, *before = f + n, size = 0, rest = HUGE_VAL;
+    for (size_t g = 0; g < problem->guide_count; g++) trial->side[g] = problem->guides[g].N < 0 ? -1 : 1;
+    for (size_t i = 0; i < n; i++) {
+        before[i] = problem->holds[i].force;
+        f[i] = 0;
+    }
+    set_system(trial, 0);
+    memcpy(M, trial->A, n * n * sizeof *M);
+    memcpy(right, trial->f, n * sizeof *right);
+    for (size_t i = 0; i < n; i++) size = fmax(size, fabs(right[i]));
+    set_system(trial, give);
+    if (!lu_decompose(n, trial->A, trial->pivot)) return false;
+    for (int k = 0; k < most_corrections && rest > rounding * size; k++) rest = correct(trial, M, right, f);
+    drop_nothing(problem, f);
+    take_forces(problem, f);
+    if (rest <= 100 * rounding * size && holds_agree(problem)) return true;
+    take_forces(problem, before);
+    return false;
+}
+
+bool holds_share(struct hold_problem *problem)
+{
     struct trial trial;
     size_t n = problem->count;
-    double *M = calloc(n * n + 3 * n + 1, sizeof *M), *right = M ? M + n * n : NULL;
-    bool made = trial_new(&trial, problem) && M;
-    if (made) {
-        double *f = right + n, *before = f + n;
-        for (size_t g = 0; g < problem->guide_count; g++) trial.side[g] = problem->guides[g].N < 0 ? -1 : 1;
-        for (size_t i = 0; i < n; i++) before[i] = problem->holds[i].force;
-        set_system(&trial, 0);
-        memcpy(M, trial.A, n * n * sizeof *M);
-        memcpy(right, trial.f, n * sizeof *right);
-        set_system(&trial, give);
-        if (lu_decompose(n, trial.A, trial.pivot)) {
-            double size = 0, rest = HUGE_VAL;
-            for (size_t i = 0; i < n; i++) size = fmax(size, fabs(right[i]));
-            for (int k = 0; k < most_corrections && rest > rounding * size; k++)
-                rest = correct(&trial, M, right, f);
-            drop_nothing(problem, f);
-            take_forces(problem, f);
-            if (!(rest <= 100 * rounding * size) || !holds_agree(problem)) take_forces(problem, before);
-        }
-    }
+    double *M = calloc(n * n + 3 * n + 1, sizeof *M);
+    int *modes = calloc(n + 1, sizeof *modes);
+    bool made = trial_new(&trial, problem) && M && modes, shared = false;
+    for (size_t i = 0; made && i < n; i++) modes[i] = problem->holds[i].mode;
+    if (made && keep_still(problem)) shared = share(problem, &trial, M);
+    for (size_t i = 0; made && !shared && i < n; i++) problem->holds[i].mode = modes[i];
+    if (made && !shared) share(problem, &trial, M);
     trial_free(&trial);
     free(M);
+    free(modes);
     return made;
 }

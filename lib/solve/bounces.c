@@ -20,14 +20,27 @@ static const struct tree *tree_of(const struct run *run)
     return run->model->tree;
 }
 
-/* The gap's acceleration where only the surfaces that stay closed act; by a trial of the modes as they are.
- */
+/* Has the impact just now given the feature of a tie a speed away from its surface? */
+static bool leaves_with(const struct run *run, int tie)
+{
+    const struct contacts_work *work = &run->contacts;
+    for (int i = 0; i < work->struck; i++)
+        if (work->strikers[i].tie == tie) return work->v[2 * i] > 0;
+    return false;
+}
+
+/* The gap's acceleration where only the surfaces that stay closed act, and none of the same meeting: a box that falls
+ * flat bounces on all its corners; by a trial of the modes as they are. */
 static double acceleration_of(struct run *run, int tie, int feature)
 {
     struct fbd_state *state = run->contacts.trial;
+    const struct tree *tree = tree_of(run);
+    const struct meeting *meeting = &tree->meetings[tree->ties[tie].meeting];
     state_copy(state, run->state);
     tie_set_feature(run->model, state->tree, tie, feature);
-    state->slip[tree_of(run)->ties[tie].surface] = slip_plus;
+    for (int k = 0; k < meeting->tie_count; k++)
+        if (leaves_with(run, meeting->first_tie + k) || meeting->first_tie + k == tie)
+            state->slip[tree->ties[meeting->first_tie + k].surface] = slip_plus;
     state_evaluate(state);
     return state->tree->rows[tree_of(run)->ties[tie].first_row].g.x2;
 }
@@ -86,10 +99,13 @@ static double leaving_speed(const struct run *run, int meeting, int count)
     return most;
 }
 
-static bool any_leaves(const struct run *run, int count)
+/* Does any contact open by the impact of striker i, by more than rounding? */
+static bool any_leaves(const struct run *run, int i, int count)
 {
-    for (int i = 0; i < count; i++)
-        if (run->contacts.v[2 * i] > 0) return true;
+    const double rounding = 1e-9;
+    const struct contacts_work *work = &run->contacts;
+    for (int k = 0; k < count; k++)
+        if (!work->strikers[k].rope && work->v[2 * k] > -rounding * work->strikers[i].v_n) return true;
     return false;
 }
 
@@ -108,7 +124,7 @@ static double end_of_series(struct run *run, int i, int count)
            unseen = low_share * meeting_near(run->model, run->state->tree, index);
     bool same = bounces->feature == feature && bounces->count > 0;
     remember(bounces, run->state->t, feature);
-    if (!any_leaves(run, count)) return HUGE_VAL;
+    if (!any_leaves(run, i, count)) return HUGE_VAL;
     double interval = bounces->t[0] - bounces->t[1], a = -acceleration_of(run, striker->tie, feature), left;
     bool low = a > 0 && leaving * leaving <= 2 * a * unseen;
     bounces->slow = a > 0 ? sqrt(2 * a * unseen) : 0;
@@ -127,10 +143,14 @@ static double end_of_series(struct run *run, int i, int count)
 bool contacts_end_bounces(struct run *run, int count)
 {
     bool ended = false;
+    run->contacts.struck = count;
     for (int i = 0; i < count; i++) {
         const struct striker *striker = &run->contacts.strikers[i];
         if (striker->rope || striker->v_n >= 0) continue;
         int index = tree_of(run)->ties[striker->tie].meeting;
+        const struct bounces *bounces = &run->contacts.bounces[index];
+        if (bounces->count > 0 && bounces->t[0] == run->state->t)
+            continue; /* another corner of the same shapes */
         double end = end_of_series(run, i, count);
         if (!(end < HUGE_VAL)) continue;
         run->contacts.bounces[index].rests_from = end;

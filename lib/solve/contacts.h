@@ -38,6 +38,7 @@ struct striker {
 
 struct contacts_work {
     struct striker *strikers; /* room for all contacts and ropes */
+    int struck;               /* how many took part in the last impact */
     struct impacts_point *points;
     int *rows, *modes;
     double *W, *answers, *v, *P, *y;

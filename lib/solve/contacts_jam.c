@@ -90,7 +90,7 @@ static bool solve_jam(struct run *run, int count, double moment)
     return true;
 }
 
-static void note_jam(struct run *run, int i)
+static void note_jam(struct run *run, int i, bool jams)
 {
     const struct contacts_work *work = &run->contacts;
     const struct striker *striker = &work->strikers[i];
@@ -98,7 +98,7 @@ static void note_jam(struct run *run, int i)
     const double *v = work->v + (ptrdiff_t)2 * i, *P = work->P + (ptrdiff_t)2 * i;
     double taken = (P[0] * (striker->v_n + v[0]) + P[1] * (striker->v_t + v[1])) / 2;
     run->impact_work[tie->load] += taken;
-    if (striker->rope) return;
+    if (striker->rope || !jams) return;
     struct run_event *event = run_note(run, FBD_EVENT_JAM, tie->end[0].body, tie->load, -1);
     if (!event) return;
     event->impact =
@@ -138,8 +138,7 @@ bool run_jam(struct run *run)
     if (!any) return false;
     contacts_find_strikers(run); /* with the velocities before */
     contacts_apply_impulses(run, count);
-    for (int i = 0; i < count; i++)
-        if (work->P[2 * i] > least) note_jam(run, i);
+    for (int i = 0; i < count; i++) note_jam(run, i, work->P[2 * i] > least);
     impulse_look(run->state);
     contacts_open_or_close(run, count, true);
     for (int i = 0; i < count; i++) {

@@ -97,8 +97,8 @@ void contacts_note_depths(struct run *run)
         bool beyond =
             deep > meeting_rounding(run->model, state->tree, i); /* rounding is allowed for anyway */
         bool leaves = beyond && deep <= contacts_late * near && parts(run, &at, i);
-        bool over_an_end = deep > 0 && deep <= near &&
-                           meeting_touching(run->model, state->tree, i, near, features) == 0;
+        bool over_an_end =
+            deep > 0 && deep <= near && meeting_touching(run->model, state->tree, i, near, features) == 0;
         run->contacts.deep[i] = leaves || over_an_end ? deep : 0;
     }
 }
