@@ -70,6 +70,10 @@ bool run_start_contacts(struct run *run, struct lack *lack);
  * ends the slip that asks for infinite forces. False where it does not. */
 bool run_jam(struct run *run);
 
+/* No surface that is rubbed on may have come to answer its normal force with the wrong sign within a step; else the run
+ * ends, for its force was infinite on the way. */
+void run_check_jam(struct run *run);
+
 /* A rope has just got taut: it, all other taut ropes and all that touches have an impact together, in which
  * ropes are plastic. What it makes slack is decided. */
 void run_strike_taut(struct run *run);

@@ -147,3 +147,42 @@ bool run_jam(struct run *run)
     }
     return true;
 }
+
+/* The contact that is rubbed on and presses most; -1 without one. */
+static int pressed_most(const struct run *run)
+{
+    const struct tree *tree = tree_of(run);
+    const struct instant at = state_instant(run->state);
+    double most = -1;
+    int found = -1;
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        double N = fabs(run->state->tree->rows[tie->first_row].lambda);
+        if (tie->kind != constraint_contact || tree_rubbing_share(run->model, &at, tie->first_row) == 0)
+            continue;
+        if (N <= most) continue;
+        most = N;
+        found = i;
+    }
+    return found;
+}
+
+/* Without friction the system of the multipliers is positive definite. Friction that slips may turn the sign of its
+ * determinant, and where it does the forces are infinite. */
+void run_check_jam(struct run *run)
+{
+    const struct fbd_model *model = run->model;
+    if (!model->tree || model->tree->meeting_count == 0 || run->outcome != FBD_GOING) return;
+    const struct tree_work *work = run->state->tree;
+    int negative = 0, worst = -1;
+    for (int r = 0; r < work->count; r++) negative += work->inverse[r] < 0;
+    if (negative % 2 == 1) worst = pressed_most(run);
+    if (worst < 0) return;
+    const struct tie *tie = &model->tree->ties[worst];
+    run_fail(run, FBD_FAILED,
+             "at t = %.9g a step has gone over an instant at which the normal force of `%s` on `%s` is "
+             "infinite: as it slips "
+             "its friction has come to press it on (Painleve's paradox). Less friction, or end the run "
+             "before by an event",
+             run_time(run), model->loads[tie->load].source->name, model->bodies[tie->end[0].body].name);
+}

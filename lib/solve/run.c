@@ -322,6 +322,7 @@ fbd_outcome run_advance(struct run *run)
     else {
         /* Who shows forces shares them out: run_look, run_check_balance. */
         state_evaluate_unshared(run->state);
+        run_check_jam(run);
         run_renew_noise(run);
     }
     run_note_rests(run);

@@ -66,9 +66,9 @@ static bool is_friction(const struct load *load)
 const char *unsettled_advice(const struct fbd_model *model, int load)
 {
     if (load >= 0 && model->loads[load].source->kind == load_contact)
-        return "Bodies meet and part there faster than can be followed: `restitution: 0` ends that, or end "
-               "the run "
-               "before by an event";
+        return "Bodies meet and part there, or stick and slip, faster than can be followed: less friction or "
+               "restitution may "
+               "end that, or end the run before by an event";
     bool declared = load >= 0 ? is_friction(model->loads[load].source) : model->plan.kink_count == 0;
     return declared ? "There what holds has to give at once, and what gives to hold. In a law of friction "
                       "write the speed over the own surface as `slip`; or end the run before by an event"

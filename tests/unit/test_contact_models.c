@@ -170,6 +170,34 @@ static void a_box_on_a_shaken_table_flies_once_a_period(void **unused)
     checks_end(&checks);
 }
 
+/* A box that falls flat bounces on both corners at once: at rest from sqrt(2 h/g) (1 + e)/(1 - e) on, as a ball. */
+static void flat_boxes_rest_when_their_series_ends(void **unused)
+{
+    struct random_numbers numbers = {20261125};
+    struct checks checks = {0};
+    (void)unused;
+    for (int i = 0; i < 20; i++) {
+        char text[600];
+        double a = random_between(&numbers, 0.1, 1), b = random_between(&numbers, 0.02, 1);
+        double e = random_between(&numbers, 0.2, 0.8), h = random_between(&numbers, 0.1, 2);
+        double mu = i % 2 == 0 ? 0 : 0.5, rest = sqrt(2 * h / g) * (1 + e) / (1 - e);
+        snprintf(text, sizeof text,
+                 "fbd: 1\nground: {lines: {floor: {along: 0}}}\nbodies:\n  box: {shape: prism, a: %.17g, b: "
+                 "%.17g, c: 1, "
+                 "mass: 1, motion: planar, initial: {y: %.17g}, forces: [gravity]}\ncontacts:\n  - {between: "
+                 "[box, "
+                 "ground.floor], static: %.17g, restitution: %.17g}\nsimulate: {until: %.17g}\n",
+                 a, b, b / 2 + h, mu, e, rest + 0.1);
+        struct trial trial = trial_parse(text);
+        trial_run(&trial, NULL);
+        check_that(&checks, "done", trial.outcome == FBD_DONE);
+        check_close(&checks, "rest", event_of(&trial, FBD_EVENT_REST, 0).t, rest, 1e-8 * rest);
+        check_close(&checks, "flat", trial_get(&trial, "box.theta"), 0, 1e-12);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 /* A uniform rod slides with its end on a floor that becomes rough at t = 0.01 s. Where 1 + 3 c^2 - 3 mu s c < 0, with c
  * and s of its angle to the floor, no normal force goes with the slip (Painleve): it jams, and turns on about its end
  * with the moment of momentum that it has about it. */
@@ -228,6 +256,7 @@ int main(void)
         cmocka_unit_test(a_ball_hops_down_the_stairs),
         cmocka_unit_test(dominoes_fall_one_after_the_other),
         cmocka_unit_test(a_box_on_a_shaken_table_flies_once_a_period),
+        cmocka_unit_test(flat_boxes_rest_when_their_series_ends),
         cmocka_unit_test(a_rod_jams_with_its_moment_of_momentum),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
