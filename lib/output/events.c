@@ -91,6 +91,29 @@ static bool is_moment(const struct fbd_model *model, const struct run_event *eve
     return model->loads[event->load].source->kind == moment_applied;
 }
 
+static void stick_detail(const struct run_event *event, const char *name, const char *unit, char *detail,
+                         size_t size)
+{
+    if (fabs(event->force) > event->limit * (1 + 1e-6)) /* decided before another hold */
+        format_into(detail, size,
+                    "%s is at rest; it would take %+.6g %s to hold it, where it can bear %.6g %s", name,
+                    event->force, unit, fmax(event->limit, 0), unit);
+    else
+        format_into(detail, size, "%s holds with %+.6g %s, %.3g %% of its static limit %.6g %s", name,
+                    event->force, unit, event->limit > 0 ? 100 * fabs(event->force) / event->limit : 0,
+                    event->limit, unit);
+}
+
+static void sliding_detail(const struct fbd_model *model, const struct run_event *event, const char *name,
+                           char *detail, size_t size)
+{
+    if (event->limit > 0) /* its value is one force or moment */
+        format_into(detail, size, "%s slides on its switch, with %+.6g %s", name, event->force,
+                    is_moment(model, event) ? moment_unit(model) : force_unit(model));
+    else
+        snprintf(detail, size, "%s slides on its switch", name);
+}
+
 void event_detail(const struct fbd_model *model, const struct run_event *event, char *detail, size_t size)
 {
     const char *name = event_name(model, event);
@@ -101,17 +124,7 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
         format_into(detail, size, "%s slips with %+.6g %s; the static limit was %.6g %s", name, event->force,
                     unit, event->limit, unit);
         return;
-    case FBD_EVENT_STICK:
-        if (fabs(event->force) > event->limit * (1 + 1e-6)) { /* decided before another hold */
-            format_into(detail, size,
-                        "%s is at rest; it would take %+.6g %s to hold it, where it can bear %.6g %s", name,
-                        event->force, unit, fmax(event->limit, 0), unit);
-            return;
-        }
-        format_into(detail, size, "%s holds with %+.6g %s, %.3g %% of its static limit %.6g %s", name,
-                    event->force, unit, event->limit > 0 ? 100 * fabs(event->force) / event->limit : 0,
-                    event->limit, unit);
-        return;
+    case FBD_EVENT_STICK: stick_detail(event, name, unit, detail, size); return;
     case FBD_EVENT_REVERSAL:
         format_into(detail, size, "%s cannot hold it: slips back with %+.6g %s; the static limit is %.6g %s",
                     name, event->force, unit, event->limit, unit);
@@ -149,13 +162,7 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
     case FBD_EVENT_SWITCH:
         snprintf(detail, size, "%s passes to another branch", name[0] ? name : "an event");
         return;
-    case FBD_EVENT_SLIDING:
-        if (event->limit > 0) /* its value is one force or moment */
-            format_into(detail, size, "%s slides on its switch, with %+.6g %s", name, event->force,
-                        is_moment(model, event) ? moment_unit(model) : force_unit(model));
-        else
-            snprintf(detail, size, "%s slides on its switch", name);
-        return;
+    case FBD_EVENT_SLIDING: sliding_detail(model, event, name, detail, size); return;
     case FBD_EVENT_SLIDING_ENDS: snprintf(detail, size, "%s leaves its switch", name); return;
     }
 }

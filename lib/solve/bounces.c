@@ -24,8 +24,9 @@ static const struct tree *tree_of(const struct run *run)
 static bool leaves_with(const struct run *run, int tie)
 {
     const struct contacts_work *work = &run->contacts;
-    for (int i = 0; i < work->struck; i++)
-        if (work->strikers[i].tie == tie) return work->v[2 * i] > 0;
+    const double *v = work->v;
+    for (int i = 0; i < work->struck; i++, v += 2)
+        if (work->strikers[i].tie == tie) return *v > 0;
     return false;
 }
 
@@ -104,8 +105,9 @@ static bool any_leaves(const struct run *run, int i, int count)
 {
     const double rounding = 1e-9;
     const struct contacts_work *work = &run->contacts;
-    for (int k = 0; k < count; k++)
-        if (!work->strikers[k].rope && work->v[2 * k] > -rounding * work->strikers[i].v_n) return true;
+    const double *v = work->v;
+    for (int k = 0; k < count; k++, v += 2)
+        if (!work->strikers[k].rope && *v > -rounding * work->strikers[i].v_n) return true;
     return false;
 }
 

@@ -134,11 +134,11 @@ bool run_jam(struct run *run)
     work->plastic = false;
     if (!solved) return false;
     double least = least_impulse(run, count, moment);
-    for (int i = 0; i < count; i++) any |= work->P[2 * i] > least;
+    for (size_t i = 0; i < (size_t)count; i++) any |= work->P[2 * i] > least;
     if (!any) return false;
     contacts_find_strikers(run); /* with the velocities before */
     contacts_apply_impulses(run, count);
-    for (int i = 0; i < count; i++) note_jam(run, i, work->P[2 * i] > least);
+    for (size_t i = 0; i < (size_t)count; i++) note_jam(run, (int)i, work->P[2 * i] > least);
     impulse_look(run->state);
     contacts_open_or_close(run, count, true);
     for (int i = 0; i < count; i++) {

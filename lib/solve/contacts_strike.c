@@ -135,11 +135,12 @@ static void note_drives(struct run *run, int count, double change)
     }
     if (moving != 1) return;
     const struct friction *friction = &plan->frictions[only];
+    const double *P = work->P, *v = work->v;
     double taken = 0;
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < count; i++, P += 2, v += 2) {
         const struct striker *striker = &work->strikers[i];
-        taken += work->P[2 * i] * (striker->v_n + work->v[2 * i]) / 2;
-        if (!striker->rope) taken += work->P[2 * i + 1] * (striker->v_t + work->v[2 * i + 1]) / 2;
+        taken += P[0] * (striker->v_n + v[0]) / 2;
+        if (!striker->rope) taken += P[1] * (striker->v_t + v[1]) / 2;
     }
     run->impact_work[friction->load] += change - taken - drive_work(run, friction, count);
 }
