@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * All modes one after the other: in each of them the forces are those of a linear system.
+ * All modes one after the other: in each of them the forces are those of a linear system. And of what that system leaves
+ * open in the modes that are found, the least.
  */
 #include "holds/holds.h"
 

@@ -52,6 +52,7 @@ struct contacts_work {
     double speed; /* the largest of what has touched so far */
     bool due;     /* shapes have met, or what touches has come to the end of a side */
     bool makes;   /* the last impacts have made energy */
+    bool turned;  /* see run_note_sign */
     bool plastic; /* the next ones are to be, whatever their e */
 };
 
@@ -70,9 +71,11 @@ bool run_start_contacts(struct run *run, struct lack *lack);
  * ends the slip that asks for infinite forces. False where it does not. */
 bool run_jam(struct run *run);
 
-/* No surface that is rubbed on may have come to answer its normal force with the wrong sign within a step; else the run
- * ends, for its force was infinite on the way. */
-void run_check_jam(struct run *run);
+/* Note, for run->during in the modes of the steps that follow, and compare at the end of a step, before its events,
+ * the sign by which normal forces answer to each other and to their friction. Where a step has turned it the forces were
+ * infinite on the way, and the run ends. `evaluated`: run->state is. */
+void run_note_sign(struct run *run);
+void run_check_jam(struct run *run, bool evaluated);
 
 /* A rope has just got taut: it, all other taut ropes and all that touches have an impact together, in which
  * ropes are plastic. What it makes slack is decided. */

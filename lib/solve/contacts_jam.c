@@ -168,15 +168,33 @@ static int pressed_most(const struct run *run)
 }
 
 /* Without friction the system of the multipliers is positive definite. Friction that slips may turn the sign of its
- * determinant, and where it does the forces are infinite. */
-void run_check_jam(struct run *run)
+ * determinant; on either side of that there may be a motion, but where it turns the forces are infinite. */
+static bool has_turned(const struct fbd_state *state)
+{
+    const struct tree_work *work = state->tree;
+    int negative = 0;
+    for (int r = 0; r < work->count; r++) negative += work->inverse[r] < 0;
+    return negative % 2 == 1;
+}
+
+static bool has_meetings(const struct run *run)
+{
+    return run->model->tree && run->model->tree->meeting_count > 0;
+}
+
+void run_note_sign(struct run *run)
+{
+    if (!has_meetings(run)) return;
+    state_evaluate_unshared(run->during);
+    run->contacts.turned = has_turned(run->during);
+}
+
+void run_check_jam(struct run *run, bool evaluated)
 {
     const struct fbd_model *model = run->model;
-    if (!model->tree || model->tree->meeting_count == 0 || run->outcome != FBD_GOING) return;
-    const struct tree_work *work = run->state->tree;
-    int negative = 0, worst = -1;
-    for (int r = 0; r < work->count; r++) negative += work->inverse[r] < 0;
-    if (negative % 2 == 1) worst = pressed_most(run);
+    if (!has_meetings(run) || run->outcome != FBD_GOING) return;
+    if (!evaluated) state_evaluate_unshared(run->state);
+    int worst = has_turned(run->state) != run->contacts.turned ? pressed_most(run) : -1;
     if (worst < 0) return;
     const struct tie *tie = &model->tree->ties[worst];
     run_fail(run, FBD_FAILED,

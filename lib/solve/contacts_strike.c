@@ -82,11 +82,18 @@ static void set_answers(struct run *run, int count)
     }
 }
 
+/* The impulse of row i of the strikers; a rope pulls the other way, and has one row. */
+static double impulse_of(const struct contacts_work *work, int i)
+{
+    if (!work->strikers[i / 2].rope) return work->P[i];
+    return i % 2 == 0 ? -work->P[i] : 0;
+}
+
 /* ---- work of drives
  *
  * What has a prescribed motion does not give way: its drive takes up the impulse, and does work by it. */
 
-/* The work of unit impulses of a row on the links that coordinate `k` of link `driven` carries along. */
+/* The work of a unit impulse of a row on what link `driven` carries along, by the motion that is prescribed to it. */
 static double carried_work(const struct run *run, const struct row *row, int driven)
 {
     const struct tree *tree = tree_of(run);
@@ -112,29 +119,15 @@ static double drive_work(const struct run *run, const struct friction *friction,
     int driven = run->model->bodies[friction->body].place.link;
     double sum = 0;
     for (int i = 0; i < 2 * count; i++) {
-        const struct striker *striker = &work->strikers[i / 2];
-        double P = striker->rope ? (i % 2 == 0 ? -work->P[i] : 0) : work->P[i];
+        double P = impulse_of(work, i);
         if (P != 0) sum -= P * carried_work(run, &run->state->tree->rows[work->rows[i]], driven);
     }
     return sum;
 }
 
-/* What kinetic energy has changed by, less what the impulses have taken; the only drive that moves has done it. Of
- * several each has done what the impulses on all that it carries tell, as if that kept its motion on it. */
-static void note_drives(struct run *run, int count, double change)
+/* What the impulses have taken from the bodies along their contacts and ropes. */
+static double taken_by(const struct contacts_work *work, int count)
 {
-    const struct contacts_work *work = &run->contacts;
-    const struct plan *plan = &run->model->plan;
-    int moving = 0, only = -1;
-    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        const struct friction *friction = &plan->frictions[pair];
-        if (friction->kind != mode_drive || run->state->y[plan->n + friction->coordinate] == 0) continue;
-        moving++;
-        only = pair;
-        run->impact_work[friction->load] += drive_work(run, friction, count);
-    }
-    if (moving != 1) return;
-    const struct friction *friction = &plan->frictions[only];
     const double *P = work->P, *v = work->v;
     double taken = 0;
     for (int i = 0; i < count; i++, P += 2, v += 2) {
@@ -142,7 +135,28 @@ static void note_drives(struct run *run, int count, double change)
         taken += P[0] * (striker->v_n + v[0]) / 2;
         if (!striker->rope) taken += P[1] * (striker->v_t + v[1]) / 2;
     }
-    run->impact_work[friction->load] += change - taken - drive_work(run, friction, count);
+    return taken;
+}
+
+/* The only drive that moves has done what kinetic energy has changed by, less what the impulses have taken. Of several
+ * each has done what the impulses on all that it carries tell, as if that kept its motion on it. */
+static void note_drives(struct run *run, int count, double change)
+{
+    const struct plan *plan = &run->model->plan;
+    const struct friction *only = NULL;
+    int moving = 0;
+    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
+        const struct friction *friction = &plan->frictions[pair];
+        if (friction->kind != mode_drive || run->state->y[plan->n + friction->coordinate] == 0) continue;
+        moving++;
+        only = friction;
+    }
+    if (moving == 1) run->impact_work[only->load] += change - taken_by(&run->contacts, count);
+    for (int pair = 0; moving > 1 && pair < (int)plan->friction_count; pair++) {
+        const struct friction *friction = &plan->frictions[pair];
+        if (friction->kind == mode_drive)
+            run->impact_work[friction->load] += drive_work(run, friction, count);
+    }
 }
 
 void contacts_apply_impulses(struct run *run, int count)
@@ -152,8 +166,7 @@ void contacts_apply_impulses(struct run *run, int count)
     bool drives = tree_has_drives(run->model);
     double before = drives ? jointed_kinetic_energy(run->state) : 0;
     for (int i = 0; i < 2 * count; i++) {
-        const struct striker *striker = &work->strikers[i / 2];
-        double P = striker->rope ? (i % 2 == 0 ? -work->P[i] : 0) : work->P[i];
+        double P = impulse_of(work, i);
         for (size_t k = 0; P != 0 && k < n; k++) run->state->y[n + k] += P * work->answers[(size_t)i * n + k];
     }
     if (drives) note_drives(run, count, jointed_kinetic_energy(run->state) - before);
@@ -190,7 +203,7 @@ bool contacts_solve_impact(struct run *run, int count)
                               .P = work->P};
     enum impacts_end end = impacts_solve(&impacts);
     if (end != impacts_done) {
-        fail_impact(run, end);
+        if (!work->plastic || end == impacts_no_memory) fail_impact(run, end); /* a jam says more */
         return false;
     }
     double size = 0;

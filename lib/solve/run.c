@@ -284,6 +284,7 @@ fbd_outcome run_advance(struct run *run)
     run->from = run->state->t;
     run->from_rest = run->state->rest;
     state_copy(run->during, run->state);
+    if (run->restart) run_note_sign(run);
     if (run->restart && !restart(run)) return run->outcome;
     if (run->crawl == 0) run->not_finite = switcher_counts(run->stepper).rejected[rejected_not_finite];
     if (run->kind == structure_linear) set_linear_step(run);
@@ -317,12 +318,14 @@ fbd_outcome run_advance(struct run *run)
     if (run->projected) counted_system_rhs(&run->system, t.t, run->y, run->f);
     timed = timed && moment_equal(t, limit);
     bool at_end = t.t >= run->options.until;
+    if (moving || timed) run_check_jam(run, false);
+    if (run->outcome != FBD_GOING) return run->outcome;
     if (moving || timed)
         run_apply(run, timed ? run->timed.crossed : NULL, moving ? run->moving.crossed : NULL);
     else {
         /* Who shows forces shares them out: run_look, run_check_balance. */
         state_evaluate_unshared(run->state);
-        run_check_jam(run);
+        run_check_jam(run, true);
         run_renew_noise(run);
     }
     run_note_rests(run);

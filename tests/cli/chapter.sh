@@ -55,6 +55,8 @@ ramp=$models/kinetics/ramp_breakaway.yaml
 check 'the ramp breaks away at 2.943 s' prints '^  t = 2\.943 s +block +breakaway' "$ramp"
 check 'exactly once' counts 1 breakaway "$ramp"
 
+check 'a time may have a unit' prints 'Final state at t = 0.25 s' --until '250 ms' "$models/rotation/fixed_axis.yaml"
+check 'also the time to look at' prints 'Equations at t = 0.2 s' --equations --at 200ms "$models/rotation/fixed_axis.yaml"
 check 'the moment works M theta' prints 'drive .* work 146\.938776 J|work 146\.938776 J' --until 4 "$models/rotation/fixed_axis.yaml"
 check 'which is I omega^2 / 2' prints 'kinetic +0 +146\.938776' --until 4 "$models/rotation/fixed_axis.yaml"
 
