@@ -278,14 +278,21 @@ static void set_linear_step(struct run *run)
     if (resolved > 0) run->h = fmin(run->h, resolved);
 }
 
-fbd_outcome run_advance(struct run *run)
+/* From where the step goes, in which modes. False when the run has ended. */
+static bool begin_step(struct run *run)
 {
-    if (run->outcome != FBD_GOING) return run->outcome;
     run->from = run->state->t;
     run->from_rest = run->state->rest;
     state_copy(run->during, run->state);
-    if (run->restart) run_note_sign(run);
-    if (run->restart && !restart(run)) return run->outcome;
+    if (!run->restart) return true;
+    run_note_sign(run);
+    return restart(run);
+}
+
+fbd_outcome run_advance(struct run *run)
+{
+    if (run->outcome != FBD_GOING) return run->outcome;
+    if (!begin_step(run)) return run->outcome;
     if (run->crawl == 0) run->not_finite = switcher_counts(run->stepper).rejected[rejected_not_finite];
     if (run->kind == structure_linear) set_linear_step(run);
     if (run->kind == structure_constant) run->h = run->options.until - run->from;
