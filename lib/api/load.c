@@ -17,7 +17,7 @@ static fbd_model *compile(char *text, size_t length, const char *name, const fbd
     if (overrides) {
         for (size_t i = 0; i < count; i++)
             overrides[i] = (struct override){settings[i].name, settings[i].value};
-        struct scene *scene = scene_read(text, length, name, overrides, count, errors);
+        struct scene *scene = scene_read(text, length, name, overrides, count, NULL, errors);
         model = scene ? model_compile(scene, errors) : NULL;
     } else {
         diag_out_of_memory(errors);

@@ -13,7 +13,7 @@
 const char *not_finite_reason(double value)
 {
     return isnan(value) ? "an expression leaves its domain there (a root or logarithm of a negative number, "
-                          "0/0, thresholds of `hysteresis` that cross)"
+                          "0/0, beyond the end of a table, thresholds of `hysteresis` that cross)"
                         : "it is beyond the largest number (a division by zero, or an overflow)";
 }
 

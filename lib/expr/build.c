@@ -78,12 +78,12 @@ static size_t add_constant(struct builder *b, struct twofold value)
     return b->constant_count++;
 }
 
-static int add_switch(struct builder *b, enum op op, bool time)
+static int add_switch(struct builder *b, const struct instr *instr, bool time)
 {
     struct expr_switch *switches = grow(b, b->switches, b->switch_count, &b->switch_room, sizeof *switches);
     if (!switches) return 0;
     b->switches = switches;
-    switches[b->switch_count] = (struct expr_switch){.op = op, .time = time};
+    switches[b->switch_count] = (struct expr_switch){.op = (enum op)instr->op, .time = time, .table = instr->table};
     return (int)b->switch_count++;
 }
 
@@ -162,20 +162,19 @@ static void fold(const struct instr *instr, const struct operand *x, const struc
     result->broken = result->at;
 }
 
-struct operand build_operation(struct builder *b, int base, enum op op, int extra, const struct operand *x,
-                               const struct operand *y, struct kind kind, struct pos at)
+static struct operand build_instr(struct builder *b, int base, struct instr instr, const struct operand *x,
+                                  const struct operand *y, struct kind kind, struct pos at)
 {
     struct operand result = {.kind = kind, .at = at};
     const struct operand *second = y ? y : x;
     inherit(&result, x);
     inherit(&result, second);
-    struct instr instr = {.op = (unsigned char)op, .extra = extra};
     if (x->place == place_constant && second->place == place_constant) {
         fold(&instr, x, second, &result);
         b->depth = base;
         return result;
     }
-    if (op_is_switch(op)) instr.extra = add_switch(b, op, !result.state);
+    if (op_is_switch(instr.op)) instr.extra = add_switch(b, &instr, !result.state);
     instr.a = name_register(b, x);
     instr.b = name_register(b, second);
     instr.to = claim(b, base);
@@ -183,6 +182,18 @@ struct operand build_operation(struct builder *b, int base, enum op op, int extr
     result.place = place_temporary;
     result.index = base;
     return result;
+}
+
+struct operand build_operation(struct builder *b, int base, enum op op, int extra, const struct operand *x,
+                               const struct operand *y, struct kind kind, struct pos at)
+{
+    return build_instr(b, base, (struct instr){.op = (unsigned char)op, .extra = extra}, x, y, kind, at);
+}
+
+struct operand build_table(struct builder *b, int base, const struct table *table, const struct operand *x,
+                           struct kind kind, struct pos at)
+{
+    return build_instr(b, base, (struct instr){.op = op_table, .table = table}, x, NULL, kind, at);
 }
 
 /* ---- if: the side that is not chosen is jumped over, so that it costs nothing and its switches stay silent

@@ -52,6 +52,10 @@ struct operand build_operation(struct builder *builder, int base, enum op op, in
                                const struct operand *x, const struct operand *y, struct kind kind,
                                struct pos at);
 
+/* The value of `table` at `x`. */
+struct operand build_table(struct builder *builder, int base, const struct table *table, const struct operand *x,
+                           struct kind kind, struct pos at);
+
 /* The parts of if(condition, a, b), in this order: start after the condition, first after a, second after b.
  */
 struct choice {

@@ -15,6 +15,12 @@ static enum expr_degree of_any(enum expr_degree a, enum expr_degree b)
     return larger(a, b) == expr_constant_between ? expr_constant_between : expr_nonlinear;
 }
 
+static enum expr_degree of_table(const struct table *table, enum expr_degree a)
+{
+    int degree = table_degree(table);
+    return degree == 0 ? expr_constant_between : degree == 1 ? a : of_any(a, a);
+}
+
 /* The degree of a result from those of the operands; b is a where there is one operand. */
 static enum expr_degree degree_after(const struct instr *instr, enum expr_degree a, enum expr_degree b)
 {
@@ -34,6 +40,7 @@ static enum expr_degree degree_after(const struct instr *instr, enum expr_degree
     case op_divide: return b == expr_constant_between ? a : expr_nonlinear;
     case op_whole_power:
         return instr->extra == 0 ? expr_constant_between : instr->extra == 1 ? a : of_any(a, a);
+    case op_table: return of_table(instr->table, a);
     default: return op_is_switch(instr->op) ? expr_constant_between : of_any(a, b);
     }
 }

@@ -29,6 +29,23 @@ static struct interval truth_of(const struct instr *i, struct interval a, struct
     return sure ? interval_point(op_value(i, a.low, b.low)) : truth;
 }
 
+/* The polynomial of a piece, and its slope. */
+static struct interval value_of_piece(const struct table *table, double piece, struct interval a)
+{
+    struct table_polynomial p = table_polynomial(table, piece);
+    struct interval u = interval_subtract(a, interval_point(p.from)), f = interval_point(p.c[3]);
+    for (int k = 2; k >= 0; k--) f = interval_add(interval_point(p.c[k]), interval_multiply(u, f));
+    return f;
+}
+
+static struct interval slope_of_piece(const struct table *table, double piece, struct interval a)
+{
+    struct table_polynomial p = table_polynomial(table, piece);
+    struct interval u = interval_subtract(a, interval_point(p.from)), f = interval_point(3 * p.c[3]);
+    for (int k = 2; k >= 1; k--) f = interval_add(interval_point(k * p.c[k]), interval_multiply(u, f));
+    return f;
+}
+
 /* A branch past counting follows plain values, which have no smooth formula. */
 static struct interval value_of_switch(const struct instr *i, int n, struct interval a, struct interval b)
 {
@@ -39,7 +56,8 @@ static struct interval value_of_switch(const struct instr *i, int n, struct inte
     case op_max: return n < 0 ? b : a;
     case op_mod: return n == 0 ? a : interval_subtract(a, interval_scale(n, b));
     case op_sawtooth: return interval_subtract(a, interval_point(n));
-    default: return interval_point(switch_value(i->op, n, 0, 0));
+    case op_table: return value_of_piece(i->table, n, a);
+    default: return interval_point(switch_value(i, n, 0, 0));
     }
 }
 
@@ -100,7 +118,7 @@ static struct interval over(double c, struct interval r)
     return c < 0 ? (struct interval){-HUGE_VAL, c * least.low} : (struct interval){c * least.low, HUGE_VAL};
 }
 
-static struct steepness of_switch(const struct instr *i, int n)
+static struct steepness of_switch(const struct instr *i, int n, struct interval a)
 {
     if (n >= branch_limit || n <= -branch_limit)
         return (struct steepness){interval_everything(), interval_everything()};
@@ -110,6 +128,7 @@ static struct steepness of_switch(const struct instr *i, int n)
     case op_max: return n < 0 ? (struct steepness){none, one} : (struct steepness){one, none};
     case op_sawtooth: return (struct steepness){one, none};
     case op_mod: return (struct steepness){one, interval_point(-(double)n)};
+    case op_table: return (struct steepness){slope_of_piece(i->table, n, a), none};
     default: return (struct steepness){none, none};
     }
 }
@@ -183,7 +202,7 @@ static struct interval rate_of(const struct instr *i, const int *branch, const s
     case op_atan2: s = of_two(i, a->value, b->value, f); break;
     default:
         if (op_is_switch(i->op))
-            s = of_switch(i, branch ? branch[i->extra] : branch_limit);
+            s = of_switch(i, branch ? branch[i->extra] : branch_limit, a->value);
         else if (a->rate.low == 0 && a->rate.high == 0)
             return none;
         else
@@ -240,12 +259,24 @@ static struct enclosure with_tolerance(struct enclosure u)
     return u;
 }
 
+static struct enclosure knot_of(struct twofold knot)
+{
+    struct interval range = interval_widen(knot.x, knot.x, 1);
+    return (struct enclosure){range, none, range};
+}
+
 /* As note_margins in kinks.c. */
 static void enclose_margins(const struct instr *i, struct enclosing *e)
 {
     int n = e->branch[i->extra];
     struct enclosure u = watched(i, e), *lower = &e->margins[(ptrdiff_t)2 * i->extra], *upper = lower + 1;
-    if (!op_is_by_sign(i->op)) {
+    if (i->op == op_table) {
+        struct twofold from, to;
+        if (n >= branch_limit || n <= -branch_limit) return;
+        table_ends(i->table, n, &from, &to);
+        if (isfinite(from.x)) *lower = enclosure_subtract(u, knot_of(from));
+        if (isfinite(to.x)) *upper = enclosure_subtract(knot_of(to), u);
+    } else if (!op_is_by_sign(i->op)) {
         if (n >= branch_limit || n <= -branch_limit) return;
         double low = n + (i->op == op_ceil ? -1 : i->op == op_round ? -0.5 : 0);
         *lower = enclosure_subtract(u, enclosure_point(low));

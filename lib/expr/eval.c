@@ -29,7 +29,7 @@ static double run_on_frame(const struct expr *expr, double t, const double *y, c
         case op_jump_unless: i += a == 0 ? i->extra : 0; break;
         default:
             if (branch && op_is_switch(i->op))
-                value[i->to] = switch_value(i->op, switch_branch(i, a, b, branch), a, b);
+                value[i->to] = switch_value(i, switch_branch(i, a, b, branch), a, b);
             else
                 value[i->to] = op_value(i, a, b);
         }

@@ -49,6 +49,11 @@ bool expr_switch_remembers(const struct expr *expr, size_t index)
     return expr->switch_at[index].op == op_relay;
 }
 
+const struct table *expr_switch_table(const struct expr *expr, size_t index)
+{
+    return expr->switch_at[index].table;
+}
+
 const struct expr *expr_renumbered(struct arena *arena, const struct expr *expr, const int *moved)
 {
     if (expr->variables == 0) return expr;

@@ -16,7 +16,7 @@
  * sign min max (two to eight arguments) floor ceil round mod(a, b) (with the sign of b), step(u) (0 below
  * zero, 1 from zero on), pulse(t, start, width) (1 from start to start + width), square(u) (+1 in the first
  * half of each unit period of u, -1 in the second), sawtooth(u) (u - floor(u)), clamp(u, low, high),
- * if(condition, a, b). Constants: pi.
+ * if(condition, a, b). Tables of the scope (table.h) are functions of one argument. Constants: pi.
  *
  * Dimensions are checked everywhere. A bare literal (no unit) takes whatever dimension it needs, and so does
  * a product with such a factor; so `2*x + F` passes. pi counts as a bare literal, so that sin(pi*t) needs no
@@ -26,7 +26,7 @@
  * ...) are switches: each has a branch (a small integer), and evaluation with given branches follows the
  * smooth formula of that branch, beyond its end if need be. The caller holds the branches, sees from the
  * margins when a branch ends, locates that instant, and crosses over. So no integrator ever straddles a kink.
- * Without branches (NULL) evaluation takes the plain value.
+ * Without branches (NULL) evaluation takes the plain value. A table has a branch for each of its pieces.
  *
  * if(condition, a, b) evaluates only the side that is chosen; clamp and pulse are two switches each, `and`,
  * `or` and `not` none. A switch by sign (of u, or of a - b) has the branches -1 and 1, and sign and == also
@@ -65,6 +65,14 @@ struct symbol {
     int slot;     /* of a variable: 0 is t, k >= 1 is y[k - 1] */
 };
 
+/* What a name with an argument behind it means, if it is no function: `failed` when a note was given already, else
+ * NULL for no table. */
+struct table;
+struct table_symbol {
+    const struct table *table;
+    bool failed;
+};
+
 /* The names that an expression may use. */
 struct scope {
     /* The meaning of `name` (dots included: `crank.theta`), asked at most once for each place where it
@@ -73,6 +81,8 @@ struct scope {
     /* All names that may be used here, for hints; returns their number, *names lives as long as the scope.
      * May be NULL. */
     size_t (*names)(void *context, const char *const **names);
+    /* The table called `name`, asked at most once for each place where it is called; may be NULL. */
+    struct table_symbol (*table)(void *context, const char *name, struct pos at);
     void *context;
     enum unit_system units;
 };
@@ -212,6 +222,9 @@ enum expr_degree expr_switch_degree(const struct expr *expr, size_t index, int l
 
 /* Is it a relay, whose value depends on where the motion came from? */
 bool expr_switch_remembers(const struct expr *expr, size_t index);
+
+/* The table whose pieces are the branches of a switch, or NULL. */
+const struct table *expr_switch_table(const struct expr *expr, size_t index);
 
 /* The branch on the other side of end `end` (0 lower, 1 upper) of switch `index`. */
 int expr_branch_beyond(const struct expr *expr, size_t index, int end, int branch);

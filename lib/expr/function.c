@@ -212,6 +212,38 @@ static struct operand build_relay(struct parser *p, int base, const struct opera
     return build_operation(b, base, op_add, 0, &state, &none, kind, at);
 }
 
+/* ---- tables */
+
+/* A number without a unit takes the dimension of the points, and the other way round. */
+static struct operand build_lookup(struct parser *p, const struct table *table, int base, const struct operand *args,
+                                   int count, struct token name)
+{
+    const char *text = p->lexer.text + name.start;
+    struct kind kind = {.dim = table->y_dim, .free = table->y_free};
+    if (count != 1) {
+        diag_add(p->errors, FBD_ERROR, "argument-count", name.at, NULL, "the table `%.*s` takes 1 argument, not %d",
+                 (int)name.length, text, count);
+        return parse_failed(p, name.at);
+    }
+    if (!check_number(p, &args[0])) return parse_failed(p, name.at);
+    if (!args[0].kind.failed && !args[0].kind.free && !table->x_free && !dim_equal(args[0].kind.dim, table->x_dim)) {
+        struct phrase given = check_phrase(args[0].kind.dim, p->scope->units),
+                      needed = check_phrase(table->x_dim, p->scope->units);
+        diag_add(p->errors, FBD_ERROR, "wrong-dimension", args[0].at, NULL,
+                 "the table `%.*s` is a function of %s, not of %s", (int)name.length, text, needed.text, given.text);
+        return parse_failed(p, name.at);
+    }
+    kind.failed = args[0].kind.failed;
+    return build_table(p->builder, base, table, &args[0], kind, name.at);
+}
+
+static struct table_symbol find_table(struct parser *p, struct token name)
+{
+    const char *text = arena_text(&p->builder->scratch, p->lexer.text + name.start, name.length);
+    if (!text || !p->scope->table) return (struct table_symbol){NULL, !text};
+    return p->scope->table(p->scope->context, text, name.at);
+}
+
 static struct kind same_arguments(struct parser *p, const struct function *function,
                                   const struct operand *args, int count)
 {
@@ -336,8 +368,12 @@ struct operand function_call(struct parser *p, struct token name)
     } else {
         struct operand args[most_arguments] = {{.index = 0}};
         int count = read_arguments(p, args);
-        if (p->stopped)
+        struct table_symbol table = {NULL, false};
+        if (!p->stopped && !function) table = find_table(p, name);
+        if (p->stopped || table.failed)
             result = parse_failed(p, name.at);
+        else if (table.table)
+            result = build_lookup(p, table.table, base, args, count, name);
         else if (!function)
             result = unknown_function(p, name);
         else if (count < function->least || count > function->most)

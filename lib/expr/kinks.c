@@ -119,7 +119,8 @@ static bool keep_rest(const struct instr *i, const struct motion *m, const int *
 /* Does the operation give its operand, or a whole number, as it is? */
 static bool is_without_rounding(unsigned op)
 {
-    return op == op_copy || op == op_negate || (op >= op_and && op <= op_not) || op_is_switch(op);
+    return op == op_copy || op == op_negate || (op >= op_and && op <= op_not) ||
+           (op_is_switch(op) && op != op_table);
 }
 
 static void step_motion(const struct instr *i, const int *branch, struct motion *m)
@@ -182,7 +183,13 @@ static void note_margins(void *context, const struct instr *i, const struct moti
     (void)at;
     struct margins *m = context;
     int n = m->branch[i->extra], lower = 2 * i->extra, upper = lower + 1;
-    if (!op_is_by_sign(i->op)) {
+    if (i->op == op_table) {
+        struct twofold from, to;
+        if (n >= branch_limit || n <= -branch_limit) return;
+        table_ends(i->table, n, &from, &to);
+        if (isfinite(from.x)) set_margin(m, lower, twofold_value(twofold_subtract(c.exact, from)), c, 1);
+        if (isfinite(to.x)) set_margin(m, upper, twofold_value(twofold_subtract(to, c.exact)), c, -1);
+    } else if (!op_is_by_sign(i->op)) {
         if (n >= branch_limit || n <= -branch_limit) return;
         double low = n + offset_of(i->op);
         set_margin(m, lower, (c.exact.x - low) + c.exact.rest, c, 1);
@@ -260,7 +267,7 @@ static int counted(double n)
 
 static int plain_branch(const struct instr *i, const struct motion *at)
 {
-    return counted(op_plain_branch(i->op, at->value[i->a], at->value[i->b]));
+    return counted(op_plain_branch(i, at->value[i->a], at->value[i->b]));
 }
 
 static int branch_by_sign(const struct instr *i, int before, const struct motion *at, struct crossing c)
@@ -273,7 +280,7 @@ static int branch_by_sign(const struct instr *i, int before, const struct motion
         if (i->op == op_relay) return before > 0 ? 1 : -1;
     }
     if (i->op == op_relay) return c.u > 0 || (c.u == 0 && before > 0) ? 1 : -1;
-    return counted(op_plain_branch(i->op, c.u, 0));
+    return counted(op_plain_branch(i, c.u, 0));
 }
 
 static int branch_by_rounding(const struct instr *i, const struct motion *at, struct crossing c)
@@ -289,6 +296,19 @@ static int branch_by_rounding(const struct instr *i, const struct motion *at, st
     return counted(beyond < 0 ? nearest - 1 : nearest);
 }
 
+static int branch_by_piece(const struct instr *i, const struct motion *at, struct crossing c)
+{
+    struct twofold from, to;
+    double piece = table_piece(i->table, at->value[i->a]);
+    if (!isfinite(c.u)) return counted(piece);
+    table_ends(i->table, piece, &from, &to);
+    double below = twofold_value(twofold_subtract(c.exact, from)),
+           above = twofold_value(twofold_subtract(to, c.exact));
+    if (fabs(below) <= c.tolerance && c.rate != 0) return counted(c.rate > 0 ? piece : piece - 1);
+    if (fabs(above) <= c.tolerance && c.rate != 0) return counted(c.rate > 0 ? piece + 1 : piece);
+    return counted(piece);
+}
+
 struct resolution {
     const bool *keep;
     int *branch;
@@ -299,7 +319,9 @@ static void choose_branch(void *context, const struct instr *i, const struct mot
     struct resolution *r = context;
     if (r->keep && r->keep[i->extra]) return;
     int *branch = &r->branch[i->extra];
-    *branch = op_is_by_sign(i->op) ? branch_by_sign(i, *branch, at, c) : branch_by_rounding(i, at, c);
+    *branch = i->op == op_table       ? branch_by_piece(i, at, c)
+              : op_is_by_sign(i->op) ? branch_by_sign(i, *branch, at, c)
+                                     : branch_by_rounding(i, at, c);
 }
 
 void expr_resolve(const struct expr *expr, struct moment t, const double *y, double dt, const double *dy,

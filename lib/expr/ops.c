@@ -49,9 +49,9 @@ static double square_wave(double x)
     return isnan(half_periods) ? half_periods : fmod(half_periods, 2) == 0 ? 1 : -1;
 }
 
-static double plain_switch(unsigned op, double x, double y)
+static double plain_switch(const struct instr *instr, double x, double y)
 {
-    switch (op) {
+    switch (instr->op) {
     case op_sign: return sign(x);
     case op_abs: return fabs(x);
     case op_step: return step(x);
@@ -69,6 +69,7 @@ static double plain_switch(unsigned op, double x, double y)
     case op_mod: return modulo(x, y);
     case op_sawtooth: return x - floor(x);
     case op_square: return square_wave(x);
+    case op_table: return table_value(instr->table, table_piece(instr->table, x), x);
     default: return NAN;
     }
 }
@@ -103,15 +104,15 @@ double op_value(const struct instr *instr, double x, double y)
     case op_and: return x != 0 && y != 0;
     case op_or: return x != 0 || y != 0;
     case op_not: return x == 0;
-    default: return plain_switch(instr->op, x, y);
+    default: return plain_switch(instr, x, y);
     }
 }
 
 /* ---- switches */
 
-double op_plain_branch(unsigned op, double x, double y)
+double op_plain_branch(const struct instr *instr, double x, double y)
 {
-    switch (op) {
+    switch (instr->op) {
     case op_sign: return sign(x);
     case op_abs:
     case op_step: return x >= 0 ? 1 : -1;
@@ -129,6 +130,7 @@ double op_plain_branch(unsigned op, double x, double y)
     case op_round: return round(x);
     case op_mod: return floor(x / y);
     case op_square: return floor(2 * x);
+    case op_table: return table_piece(instr->table, x);
     default: return 0;
     }
 }
@@ -137,12 +139,12 @@ double switch_branch(const struct instr *instr, double x, double y, const int *b
 {
     int n = branch ? branch[instr->extra] : branch_limit;
     if (n < branch_limit && n > -branch_limit) return n;
-    return op_plain_branch(instr->op, x, y);
+    return op_plain_branch(instr, x, y);
 }
 
-double switch_value(unsigned op, double n, double x, double y)
+double switch_value(const struct instr *instr, double n, double x, double y)
 {
-    switch (op) {
+    switch (instr->op) {
     case op_abs: return n < 0 ? -x : x;
     case op_step: return n < 0 ? 0 : 1;
     case op_relay: return n > 0 ? 1 : -1;
@@ -156,6 +158,7 @@ double switch_value(unsigned op, double n, double x, double y)
     case op_mod: return n == 0 ? x : x - n * y; /* y may be infinite */
     case op_sawtooth: return x - n;
     case op_square: return fmod(n, 2) == 0 ? 1 : -1;
+    case op_table: return table_value(instr->table, n, x);
     default: return n; /* sign, floor, ceil, round */
     }
 }

@@ -14,6 +14,7 @@
 #define FBD_EXPR_PROGRAM_H
 
 #include "expr/expr.h"
+#include "expr/table.h"
 
 enum {
     frame_limit = 1024,       /* registers: 32 KB of stack for hyper-dual numbers */
@@ -72,6 +73,9 @@ enum op {
     op_sawtooth,
     op_square,
 
+    /* A switch with one branch for each piece of a table (table.h). */
+    op_table,
+
     /* Control: go on `extra` instructions further down. */
     op_jump,
     op_jump_unless, /* when a is 0 */
@@ -81,11 +85,13 @@ struct instr {
     unsigned char op;
     unsigned short to, a, b; /* registers; b is a where there is one operand */
     int extra;
+    const struct table *table; /* of op_table */
 };
 
 struct expr_switch {
     enum op op;
-    bool time; /* depends on nothing but t */
+    bool time;                 /* depends on nothing but t */
+    const struct table *table; /* of op_table */
 };
 
 struct step;
@@ -117,7 +123,7 @@ struct expr {
 
 static inline bool op_is_switch(unsigned op)
 {
-    return op >= op_sign && op <= op_square;
+    return op >= op_sign && op <= op_table;
 }
 
 static inline bool op_is_by_sign(unsigned op)
@@ -139,14 +145,14 @@ double op_value(const struct instr *instr, double x, double y);
 
 /* The branch of a switch at plain values, as a double because that of a floor may be beyond the range of an
  * int. */
-double op_plain_branch(unsigned op, double x, double y);
+double op_plain_branch(const struct instr *instr, double x, double y);
 
 /* The branch of a switch: the given one, or the plain one when there is none, or when it is past counting
  * (then the steps are below the resolution of the numbers anyway). */
 double switch_branch(const struct instr *instr, double x, double y, const int *branch);
 
 /* The smooth formula of branch `n` of a switch. */
-double switch_value(unsigned op, double n, double x, double y);
+double switch_value(const struct instr *instr, double n, double x, double y);
 
 /* Value and partial derivatives with respect to the operands. */
 struct slopes {

@@ -142,7 +142,7 @@ static void slopes_of_switch(const struct instr *instr, double x, double y, cons
                              struct slopes *s)
 {
     double n = switch_branch(instr, x, y, branch);
-    s->f = branch ? switch_value(instr->op, n, x, y) : op_value(instr, x, y);
+    s->f = branch ? switch_value(instr, n, x, y) : op_value(instr, x, y);
     switch (instr->op) {
     case op_abs: s->a = !branch && x == 0 ? 0 : n < 0 ? -1 : 1; break;
     case op_min: s->a = n < 0; break;
@@ -152,6 +152,7 @@ static void slopes_of_switch(const struct instr *instr, double x, double y, cons
         s->a = 1;
         s->b = -n;
         break;
+    case op_table: table_slopes(instr->table, n, x, &s->f, &s->a, &s->aa); break;
     default: break;
     }
     if (instr->op == op_min || instr->op == op_max) s->b = 1 - s->a;

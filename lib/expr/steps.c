@@ -10,7 +10,7 @@
 static double any(const struct instr *instr, double x, double y, const int *branch)
 {
     if (branch && op_is_switch(instr->op))
-        return switch_value(instr->op, switch_branch(instr, x, y, branch), x, y);
+        return switch_value(instr, switch_branch(instr, x, y, branch), x, y);
     return op_value(instr, x, y);
 }
 

@@ -31,16 +31,24 @@ static struct verdict judge_jointed(const struct model_body *body, const struct 
     return (struct verdict){potential_constant, "conservative: a constant force, V = -f . p"};
 }
 
-static bool remembers(const struct model_load *load)
+/* What of the force has no potential that could be had by quadrature: relays and tables. */
+struct odd_switches {
+    bool relay, table;
+};
+
+static struct odd_switches odd_switches(const struct model_load *load)
 {
     const struct formula *formulas[] = {&load->value, &load->angle, &load->fx, &load->fy};
-    bool any = false;
+    struct odd_switches odd = {false, false};
     for (size_t i = 0; i < sizeof formulas / sizeof *formulas; i++) {
         const struct expr *expr = formulas[i]->expr;
         size_t switches = expr ? expr_switches(expr) : 0;
-        for (size_t k = 0; k < switches; k++) any |= expr_switch_remembers(expr, k);
+        for (size_t k = 0; k < switches; k++) {
+            odd.relay |= expr_switch_remembers(expr, k);
+            odd.table |= expr_switch_table(expr, k) != NULL;
+        }
     }
-    return any;
+    return odd;
 }
 
 static struct verdict judge_applied(const struct model_body *body, const struct model_load *load)
@@ -50,8 +58,11 @@ static struct verdict judge_applied(const struct model_body *body, const struct 
     bool moment = load->source->kind == moment_applied, jointed = body->place.link > 0;
     bool one_coordinate = body->kind == motion_slide || body->kind == motion_pivot;
     if (on & ~(unsigned)depends_place) return (struct verdict){potential_none, why_not(on)};
-    if (remembers(load))
+    struct odd_switches odd = odd_switches(load);
+    if (odd.relay)
         return (struct verdict){potential_none, "not conservative: it depends on where the motion came from"};
+    if (odd.table && on & depends_place)
+        return (struct verdict){potential_none, "counted as work: it depends on the place by a table"};
     if (on & depends_place)
         return one_coordinate && !(jointed && body->parent != ground_body)
                    ? (struct verdict){potential_quadrature,

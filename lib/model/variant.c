@@ -29,7 +29,7 @@ struct fbd_model *model_variant(const struct fbd_model *model, scene_edit *edit,
     struct scene *scene = NULL;
     if (overrides)
         scene = scene_read(model->source, model->source_length, model->scene->file, overrides,
-                           model->scene->parameter_count, errors);
+                           model->scene->parameter_count, model->scene, errors);
     else
         diag_out_of_memory(errors);
     arena_free(&arena);

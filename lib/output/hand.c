@@ -407,6 +407,7 @@ int fbd_check_hand(const fbd_model *model, unsigned seed, char **result)
             document_open(&document, model->source, model->source_length, model->scene->file, errors) &&
             !errors->out_of_memory;
         document.split_hands = true;
+        document.like = model->scene;
         if (open && draw_model(&document, model, rng, 0, &split)) {
             check.model = split ? split : model;
             differ = check_all(&check, &document, rng, &text);

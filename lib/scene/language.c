@@ -20,6 +20,8 @@ static const struct field scene_fields[] = {
                  "height y at which the potential energy of gravity is zero"),
     FIELD_NODE(offsetof(struct scene_keys, parameters), "parameters", field_map, 0, NULL,
                "named constants: name: quantity or expression of other parameters"),
+    FIELD_NODE(offsetof(struct scene_keys, tables), "tables", field_map, 0, &table_group,
+               "functions given by points or files of data, called as `name(t)` in expressions"),
     FIELD_NODE(offsetof(struct scene_keys, ground), "ground", field_map, 0, &ground_group,
                "named points and lines that do not move"),
     FIELD_NODE(offsetof(struct scene_keys, bodies), "bodies", field_map, required, &body_group,

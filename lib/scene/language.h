@@ -90,7 +90,13 @@ struct scene_keys {
     const char *title, *description;
     int units;
     double datum;
-    const struct node *gravity, *parameters, *ground, *bodies, *couplings, *contacts, *simulate, *output;
+    const struct node *gravity, *parameters, *tables, *ground, *bodies, *couplings, *contacts, *simulate, *output;
+};
+
+struct table_keys {
+    const char *file, *x, *y;
+    const struct node *points;
+    int interpolation, beyond; /* enum table_interpolation, enum table_beyond */
 };
 
 struct output_keys {
@@ -197,7 +203,7 @@ struct hand_keys {
 extern const struct choice method_choices[];
 
 extern const struct group scene_group, ground_group, line_group, simulate_group, output_group, event_group;
-extern const struct group contact_group;
+extern const struct group contact_group, table_group;
 extern const struct group body_group, part_group, inertia_group, hand_group;
 extern const struct group initial_groups[], exact_groups[]; /* by enum motion_kind */
 extern const struct kinds motion_kinds, force_kinds, moment_kinds, coupling_kinds;

@@ -322,6 +322,12 @@ static struct symbol look_up(void *context, const char *name, struct pos at)
     return other;
 }
 
+static struct table_symbol look_up_table(void *context, const char *name, struct pos at)
+{
+    const struct names *names = context;
+    return table_symbol(names->reader, name, at);
+}
+
 /* ---- names for hints */
 
 enum { most_known = 200 }; /* enough for a suggestion, and bounded for a scene of many bodies */
@@ -379,6 +385,7 @@ static size_t list_names(void *context, const char *const **list)
 struct scope names_scope(struct names *names)
 {
     return (struct scope){.lookup = look_up,
+                          .table = look_up_table,
                           .names = list_names,
                           .context = names,
                           .units = names->reader->scene->units};

@@ -32,10 +32,11 @@ static const char *enter_override(struct reader *reader, const struct override *
 
 static void note_unknown_override(struct reader *reader, const struct override *override)
 {
-    size_t count = reader->scene->parameter_count;
+    size_t parameters = reader->scene->parameter_count, count = parameters + reader->scene->table_count;
     const char **names = ARENA_ARRAY(reader->arena, count, const char *);
     if (!names) return;
-    for (size_t i = 0; i < count; i++) names[i] = reader->scene->parameters[i].name;
+    for (size_t i = 0; i < count; i++)
+        names[i] = i < parameters ? reader->scene->parameters[i].name : reader->scene->tables[i - parameters].name;
     qsort(names, count, sizeof *names, compare_names);
     const char *file = enter_override(reader, override);
     diag_add(reader->errors, FBD_ERROR, "unknown-parameter", (struct pos){0, 0},
@@ -45,13 +46,23 @@ static void note_unknown_override(struct reader *reader, const struct override *
     reader->errors->file = file;
 }
 
+static struct table_draft *find_table(struct reader *reader, const char *name)
+{
+    const struct pair *pair = reader->tables ? node_find(reader->tables, name) : NULL;
+    return pair ? &reader->table_drafts[pair - reader->tables->pairs] : NULL;
+}
+
 static bool apply_overrides(struct reader *reader, const struct override *overrides, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
         const struct node *map = reader->parameters;
         const struct pair *pair = map ? node_find(map, overrides[i].name) : NULL;
         struct definition *definition = pair ? &reader->definitions[pair - map->pairs] : NULL;
-        if (definition) {
+        struct table_draft *table = find_table(reader, overrides[i].name);
+        if (table) {
+            table->override = overrides[i].value ? &overrides[i] : NULL;
+            table->varies = !overrides[i].value;
+        } else if (definition) {
             definition->override = overrides[i].value ? &overrides[i] : NULL;
             definition->varies = !overrides[i].value;
         } else {
@@ -94,7 +105,7 @@ bool parameters_start(struct reader *reader, const struct override *overrides, s
 
 /* ---- evaluation */
 
-static void note_circle(struct reader *reader, const char *name, struct pos at)
+void definition_note_circle(struct reader *reader, const char *name, struct pos at)
 {
     char path[400] = "";
     size_t used = 0;
@@ -109,11 +120,11 @@ static void note_circle(struct reader *reader, const char *name, struct pos at)
         used += n > 0 ? (size_t)n : 0;
     }
     diag_add(reader->errors, FBD_ERROR, "circular-parameter", at, "give one of them a value of its own",
-             "parameters define one another in a circle: %s%.40s", path, name);
+             "definitions lead in a circle: %s%.40s", path, name);
 }
 
 /* Enter the definition of `name`; false with a note when it is too deep. */
-static bool open_definition(struct reader *reader, struct open_definition *open, const char *name,
+bool definition_open(struct reader *reader, struct open_definition *open, const char *name,
                             struct pos at)
 {
     if (reader->open_depth == deepest_chain) {
@@ -127,7 +138,7 @@ static bool open_definition(struct reader *reader, struct open_definition *open,
     return true;
 }
 
-static void close_definition(struct reader *reader, const struct open_definition *open)
+void definition_close(struct reader *reader, const struct open_definition *open)
 {
     reader->open = open->outer;
     reader->open_depth--;
@@ -214,24 +225,25 @@ static void resolve(struct reader *reader, size_t index, struct pos at)
     struct open_definition open;
     if (definition->progress != untouched) return;
     definition->progress = failed;
-    if (!open_definition(reader, &open, reader->scene->parameters[index].name, at)) return;
+    if (!definition_open(reader, &open, reader->scene->parameters[index].name, at)) return;
     bool outer = reader->varies;
     reader->varies = false;
     definition->progress = in_progress;
     definition->progress = evaluate(reader, index) ? done : failed;
     definition->varies |= reader->varies;
     reader->varies = outer;
-    close_definition(reader, &open);
+    definition_close(reader, &open);
 }
 
 struct symbol parameter_symbol(struct reader *reader, size_t index, struct pos at)
 {
     struct parameter *parameter = &reader->scene->parameters[index];
     parameter->used = true;
+    reader->names_parameters = true;
     resolve(reader, index, at);
     enum progress progress = reader->definitions[index].progress;
     if (reader->definitions[index].varies) reader->varies = true;
-    if (progress == in_progress) note_circle(reader, parameter->name, at);
+    if (progress == in_progress) definition_note_circle(reader, parameter->name, at);
     if (progress != done) return (struct symbol){.kind = symbol_failed};
     return (struct symbol){.kind = symbol_constant,
                            .dim = parameter->dim,
@@ -289,20 +301,21 @@ static bool read_gravity(struct reader *reader)
 struct symbol gravity_symbol(struct reader *reader, struct pos at)
 {
     struct open_definition open;
-    if (reader->gravity_progress == in_progress) note_circle(reader, "gravity", at);
+    if (reader->gravity_progress == in_progress) definition_note_circle(reader, "gravity", at);
     if (reader->gravity_progress == untouched) {
         reader->gravity_progress = failed;
-        if (open_definition(reader, &open, "gravity", at)) {
+        if (definition_open(reader, &open, "gravity", at)) {
             bool outer = reader->varies;
             reader->varies = false;
             reader->gravity_progress = in_progress;
             reader->gravity_progress = read_gravity(reader) ? done : failed;
             reader->gravity_varies = reader->varies;
             reader->varies = outer;
-            close_definition(reader, &open);
+            definition_close(reader, &open);
         }
     }
     if (reader->gravity_varies) reader->varies = true;
+    reader->names_parameters = true;
     if (reader->gravity_progress != done) return (struct symbol){.kind = symbol_failed};
     return (struct symbol){.kind = symbol_constant,
                            .dim = DIM_ACCELERATION,

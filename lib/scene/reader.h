@@ -34,6 +34,13 @@ struct open_definition {
     const struct open_definition *outer;
 };
 
+/* What is known of a table beside its place in the scene. */
+struct table_draft {
+    const struct override *override; /* another file, or NULL */
+    enum progress progress;
+    bool varies, used; /* see struct definition */
+};
+
 struct ground_line {
     struct vec through;
     double along;
@@ -62,9 +69,13 @@ struct reader {
     fbd_errors *errors;
 
     /* Mappings of the file, or NULL. Entry i of a mapping is parameter, body, point or line i. */
-    const struct node *root, *parameters, *bodies, *points, *lines, *polygons;
+    const struct node *root, *parameters, *tables, *bodies, *points, *lines, *polygons;
     bool without_hands, split_hands; /* see struct document */
     struct definition *definitions;
+    struct table_draft *table_drafts;
+    const struct scene *tables_of; /* an earlier reading of the same text, whose tables serve here, or NULL */
+    bool same_parameters;          /* it had the same values of all parameters, */
+    bool same_files;               /* and the files of tables that were set from outside hold on */
     struct draft *drafts;
     struct ground_point *ground_points;
     struct ground_line *ground_lines;
@@ -79,6 +90,7 @@ struct reader {
     const struct programs *known; /* of an earlier reading of the same file, or NULL */
     struct programs *keep;        /* where those go that hold for later readings, or NULL */
     bool varies;                  /* the expression that is being compiled holds for this reading only */
+    bool names_parameters;        /* the table that is being read names some, or gravity */
 
     struct names constant_names;
     struct scope constants; /* parameters, g, pi */
@@ -99,6 +111,20 @@ struct symbol parameter_symbol(struct reader *reader, size_t index, struct pos a
 
 /* The magnitude of gravity, named at `at`. */
 struct symbol gravity_symbol(struct reader *reader, struct pos at);
+
+/* While a definition is evaluated it is open: `open` is the caller's. False with a note when too many are. */
+bool definition_open(struct reader *reader, struct open_definition *open, const char *name, struct pos at);
+void definition_close(struct reader *reader, const struct open_definition *open);
+void definition_note_circle(struct reader *reader, const char *name, struct pos at);
+
+/* ---- tables (read_tables.c), as parameters */
+
+bool tables_start(struct reader *reader);
+void tables_finish(struct reader *reader);
+void tables_note_unused(struct reader *reader);
+
+/* The table that is called as `name(...)` at `at`. */
+struct table_symbol table_symbol(struct reader *reader, const char *name, struct pos at);
 
 /* ---- the ground (read_ground.c) */
 

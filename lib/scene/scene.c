@@ -66,6 +66,7 @@ static bool read_top(struct reader *reader, struct scene_keys *keys)
     }
     gravity_symbol(reader, reader->root->at);
     parameters_finish(reader);
+    tables_finish(reader);
     bool solid = ground_read(reader, keys->ground, ground ? ground->at : reader->root->at);
     return fine && solid;
 }
@@ -133,16 +134,19 @@ static void read_scene(struct reader *reader, const struct override *overrides, 
     struct scene_keys keys = {0};
     reader->scene->units = find_units(reader->root);
     reader->parameters = mapping(reader->root, "parameters");
+    reader->tables = mapping(reader->root, "tables");
     reader->bodies = mapping(reader->root, "bodies");
     reader->constant_names = (struct names){.reader = reader, .place = place_constant, .body = ground_body};
     reader->constants = names_scope(&reader->constant_names);
     start_gravity(reader);
-    if (!parameters_start(reader, overrides, override_count) || !bodies_start(reader)) return;
+    if (!tables_start(reader) || !parameters_start(reader, overrides, override_count) || !bodies_start(reader)) return;
     read_top(reader, &keys);
     read_bodies(reader);
     if (!is_hopeless(reader) && reader->bodies) couplings_read(reader, keys.couplings, keys.contacts);
     if (!is_hopeless(reader)) simulate_read(reader, &keys);
-    if (fbd_errors_failed(reader->errors) == 0) parameters_note_unused(reader);
+    if (fbd_errors_failed(reader->errors) > 0) return;
+    parameters_note_unused(reader);
+    tables_note_unused(reader);
 }
 
 static bool check_root(struct reader *reader)
@@ -201,6 +205,9 @@ static struct scene *make(const struct document *document, const struct override
     reader.split_hands = document->split_hands;
     reader.known = document->programs;
     reader.keep = keep;
+    reader.tables_of = document->like ? document->like : document->first;
+    reader.same_files = document->like != NULL;
+    reader.same_parameters = document->same_parameters;
     if (check_root(&reader)) read_scene(&reader, overrides, override_count);
     if (scene->arena.failed || errors->arena.failed) diag_out_of_memory(errors);
     if (scene->coordinates && !errors->out_of_memory) return scene;
@@ -225,10 +232,12 @@ struct scene *scene_make(const struct document *document, const struct override 
 }
 
 struct scene *scene_read(const char *text, size_t length, const char *file, const struct override *overrides,
-                         size_t override_count, fbd_errors *errors)
+                         size_t override_count, const struct scene *like, fbd_errors *errors)
 {
     struct document document;
     bool open = document_open(&document, text, length, file, errors);
+    document.like = like;
+    document.same_parameters = like != NULL;
     struct scene *scene = open ? scene_make(&document, overrides, override_count, errors) : NULL;
     document_close(&document);
     return scene;
@@ -237,6 +246,7 @@ struct scene *scene_read(const char *text, size_t length, const char *file, cons
 void scene_free(struct scene *scene)
 {
     if (!scene) return;
+    for (size_t i = 0; scene->tables && i < scene->table_count; i++) shared_table_release(scene->tables[i].shared);
     arena_free(&scene->arena);
     free(scene);
 }

@@ -15,6 +15,7 @@
 #include "base/diag.h"
 #include "base/vec.h"
 #include "expr/expr.h"
+#include "scene/tables.h"
 
 enum { most_coordinates_of_a_body = 3 };
 
@@ -337,8 +338,9 @@ struct scene {
     enum unit_system units;
     struct vec gravity; /* acceleration, straight down by default */
     double datum;       /* height y at which the potential energy of gravity is zero */
-    size_t parameter_count, body_count, event_count, coupling_count, constraint_count;
+    size_t parameter_count, table_count, body_count, event_count, coupling_count, constraint_count;
     struct parameter *parameters;
+    struct scene_table *tables;
     struct body *bodies;
     struct user_event *events;
     struct coupling *couplings;
@@ -349,7 +351,7 @@ struct scene {
     struct absolute *absolutes;
 };
 
-/* Parameters set from outside, as text: `--set f1=50 N`. */
+/* Parameters set from outside, as text: `--set f1=50 N`; of a table the file: `--set road=b.csv`. */
 struct override {
     const char *name;
     const char *value; /* NULL: that of the file, but other readings of the document may have another */
@@ -368,6 +370,8 @@ struct document {
     bool split_hands;          /* and those that are read, into their summands: what --check-hand compares */
     struct programs *programs; /* expressions compiled once for all readings (programs.h), or NULL */
     struct scene *first;       /* the scene that holds them */
+    const struct scene *like;  /* an earlier scene of the same text, whose tables and their files serve again, or */
+    bool same_parameters;      /* NULL; does it have the same parameters? */
 };
 
 /* Open the file `text`, which must live as long as the document. False with notes in `errors` when it is no
@@ -387,9 +391,10 @@ bool document_prepare(struct document *document, const struct override *override
 struct scene *scene_make(const struct document *document, const struct override *overrides,
                          size_t override_count, fbd_errors *errors);
 
-/* Both at once: the scene of a model file in memory. */
+/* Both at once: the scene of a model file in memory. `like` is a scene of the same text and parameters whose tables
+ * serve again, or NULL. */
 struct scene *scene_read(const char *text, size_t length, const char *file, const struct override *overrides,
-                         size_t override_count, fbd_errors *errors);
+                         size_t override_count, const struct scene *like, fbd_errors *errors);
 
 void scene_free(struct scene *scene);
 

@@ -13,6 +13,7 @@
 #include "dynamics/modes.h"
 #include "dynamics/project.h"
 #include "dynamics/tree.h"
+#include "solve/cross.h"
 #include "solve/passages.h"
 #include "solve/run.h"
 #include "solve/start.h"
@@ -37,18 +38,6 @@ struct run_event *run_note(struct run *run, fbd_event_kind kind, int body, int l
 }
 
 /* ---- events by kind */
-
-static void cross_kink(struct run *run, const struct watcher *watcher)
-{
-    const struct kink *kink = &run->model->plan.kinks[watcher->index];
-    int index = kink->formula.branch + watcher->part;
-    int *branch = &run->state->branch[index];
-    *branch = expr_branch_beyond(kink->formula.expr, (size_t)watcher->part, watcher->end, *branch);
-    run->decided.branches[index] = true;
-    passages_remember(run, watcher);
-    struct run_event *event = run_note(run, FBD_EVENT_SWITCH, kink->body, kink->load, -1);
-    if (event) event->branch = index;
-}
 
 /* The share of a switch that is slid on is used up, and those of all on the same surface: the branch there
  * goes on alone. */
@@ -178,7 +167,7 @@ static void happen(struct run *run, const struct watcher *watcher, bool crossing
 {
     int index = watcher->index;
     switch (watcher->kind) {
-    case watch_kink: cross_kink(run, watcher); break;
+    case watch_kink: run_cross(run, watcher); break;
     case watch_stick_limit:
         if (crossing || tree_give_shared(run->state, index, run->decided.slips)) break;
         run->state->slip[index] = watcher->end == 0 ? slip_minus : slip_plus;

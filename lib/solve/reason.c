@@ -74,7 +74,7 @@ static void explain_not_finite(struct run *run)
     size_t n = (size_t)run->model->plan.n, element = run->system.last_element % (2 * n);
     const char *what = isnan(run->system.last_value)
                            ? "an expression leaves its domain there (a root or logarithm of a negative "
-                             "number, 0/0, thresholds of `hysteresis` that cross)"
+                             "number, 0/0, beyond the end of a table, thresholds of `hysteresis` that cross)"
                            : "it is beyond the largest number (a division by zero, or an overflow)";
     run_fail(
         run, FBD_FAILED,

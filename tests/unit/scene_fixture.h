@@ -20,7 +20,7 @@ static inline struct reading read_with(const char *text, const struct override *
 {
     struct reading reading = {.errors = fbd_errors_new()};
     assert_non_null(reading.errors);
-    reading.scene = scene_read(text, strlen(text), "test.yaml", overrides, count, reading.errors);
+    reading.scene = scene_read(text, strlen(text), "test.yaml", overrides, count, NULL, reading.errors);
     return reading;
 }
 

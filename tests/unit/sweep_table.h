@@ -26,7 +26,7 @@ static const char projectile[] =
     "  until: 5 s\n"
     "  events: [{name: top, when: vy < 0}, {name: land, when: y < h - 1, then: stop}]\n";
 
-struct table {
+struct sweep_table {
     fbd_sweep *sweep;
     fbd_errors *errors;
     struct text rows;
@@ -59,17 +59,17 @@ static inline fbd_sweep_plan plan_of(const char *const *vary, const char *const 
                             .run = FBD_OPTIONS_DEFAULT};
 }
 
-static inline struct table open_table(const char *text, const fbd_sweep_plan *plan)
+static inline struct sweep_table open_table(const char *text, const fbd_sweep_plan *plan)
 {
-    struct table table = {.errors = fbd_errors_new()};
+    struct sweep_table table = {.errors = fbd_errors_new()};
     assert_non_null(table.errors);
     table.sweep = fbd_sweep_parse(text, strlen(text), "test.yaml", plan, table.errors);
     return table;
 }
 
-static inline struct table sweep_by(const char *text, const fbd_sweep_plan *plan, size_t first, size_t jobs)
+static inline struct sweep_table sweep_by(const char *text, const fbd_sweep_plan *plan, size_t first, size_t jobs)
 {
-    struct table table = open_table(text, plan);
+    struct sweep_table table = open_table(text, plan);
     if (!table.sweep) fbd_errors_print(table.errors, stderr);
     assert_non_null(table.sweep);
     const fbd_sweep_work work = {.first = first,
@@ -81,13 +81,13 @@ static inline struct table sweep_by(const char *text, const fbd_sweep_plan *plan
     return table;
 }
 
-static inline struct table sweep_of(const char *text, const char *const *vary, const char *const *outputs)
+static inline struct sweep_table sweep_of(const char *text, const char *const *vary, const char *const *outputs)
 {
     const fbd_sweep_plan plan = plan_of(vary, outputs);
     return sweep_by(text, &plan, 0, 1);
 }
 
-static inline void close_table(struct table *table)
+static inline void close_table(struct sweep_table *table)
 {
     text_free(&table->rows);
     fbd_sweep_free(table->sweep);
@@ -95,7 +95,7 @@ static inline void close_table(struct table *table)
 }
 
 /* Field `column` (from 0) of row `row` (from 0), as text. */
-static inline const char *field(const struct table *table, size_t row, size_t column, char *buffer,
+static inline const char *field(const struct sweep_table *table, size_t row, size_t column, char *buffer,
                                 size_t size)
 {
     const char *at = table->rows.data;
@@ -105,13 +105,13 @@ static inline const char *field(const struct table *table, size_t row, size_t co
     return buffer;
 }
 
-static inline double number(const struct table *table, size_t row, size_t column)
+static inline double number(const struct sweep_table *table, size_t row, size_t column)
 {
     char buffer[64];
     return strtod(field(table, row, column, buffer, sizeof buffer), NULL);
 }
 
-static inline void assert_field(const struct table *table, size_t row, size_t column, const char *want)
+static inline void assert_field(const struct sweep_table *table, size_t row, size_t column, const char *want)
 {
     char buffer[64];
     assert_string_equal(field(table, row, column, buffer, sizeof buffer), want);

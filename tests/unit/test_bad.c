@@ -114,7 +114,7 @@ static bool check_file(const char *name)
     snprintf(path, sizeof path, "%s/%s", folder, name);
     read_file(path, &file);
     fbd_errors *errors = fbd_errors_new();
-    struct scene *scene = scene_read(file.text, file.length, name, NULL, 0, errors);
+    struct scene *scene = scene_read(file.text, file.length, name, NULL, 0, NULL, errors);
     struct fbd_model *model = NULL;
     if (scene && fbd_errors_failed(errors) == 0) {
         model = model_compile(scene, errors); /* owns it now */

@@ -246,7 +246,7 @@ static void notes_outlive_the_text_and_the_scene(void **state)
     (void)state;
     char text[] = "fbd: 1\nbodies: {b: {mas: 1, motion: slide}}\n", file[] = "model.yaml";
     fbd_errors *errors = fbd_errors_new();
-    struct scene *scene = scene_read(text, strlen(text), file, NULL, 0, errors);
+    struct scene *scene = scene_read(text, strlen(text), file, NULL, 0, NULL, errors);
     scene_free(scene);
     memset(text, 'x', sizeof text - 1);
     memset(file, 'x', sizeof file - 1);

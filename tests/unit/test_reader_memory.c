@@ -59,7 +59,7 @@ static bool read_without(const char *text, size_t n, bool for_good)
         fail_alloc_from(n);
     else
         fail_alloc_at(n);
-    struct scene *scene = scene_read(text, strlen(text), "model.yaml", NULL, 0, errors);
+    struct scene *scene = scene_read(text, strlen(text), "model.yaml", NULL, 0, NULL, errors);
     bool failed = fail_alloc_end();
     if (failed) {
         assert_null(scene);

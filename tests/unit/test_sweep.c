@@ -21,7 +21,7 @@ static void rows_show_what_happened(void **state)
     /* From y = h up and down to h - 1: top at 4/g and h + 16/(2 g); land at (4 + sqrt(16 + 2 g))/g. The
      * tolerance of a step is 1e-10, and the motion is a polynomial that dop853 integrates exactly. */
     const double g = 9.81, land = (4 + sqrt(16 + 2 * g)) / g, tolerance = 1e-12;
-    struct table table =
+    struct sweep_table table =
         sweep_of(projectile, TEXTS("h=0,7"),
                  TEXTS("t,ball.x,max(ball.y)", "min(ball.y),max(ball.vy),time(top),time(land),count(land),"
                                                "energy.kinetic,ball.gravity.work,time(stick)"));
@@ -51,7 +51,7 @@ static void the_amplitude_of_a_pendulum_is_found_between_the_steps(void **state)
                                    "    initial: {theta: start}\n"
                                    "    forces: [gravity]\n"
                                    "simulate: {until: 20 s}\n";
-    struct table table =
+    struct sweep_table table =
         sweep_of(pendulum, TEXTS("start=0.1,1,2,3"), TEXTS("min(theta),max(theta),max(omega)"));
     for (size_t i = 0; i < 4; i++) {
         /* Without loss it swings as far on the other side, and below omega^2/2 = g/l (1 - cos(start)). Near
@@ -80,7 +80,7 @@ static void runs_that_fail_are_rows_and_stop_no_others(void **state)
                                "      - applied: {name: up, value: lift, angle: 90 deg}\n"
                                "      - applied: {name: pull, value: '-1[N*m^2]/x^2'}\n"
                                "simulate: {until: 0.1 s}\n";
-    struct table table = sweep_of(lost, TEXTS("m=-1,2", "lift=10,30"), NULL);
+    struct sweep_table table = sweep_of(lost, TEXTS("m=-1,2", "lift=10,30"), NULL);
     assert_int_equal(table.end, FBD_SWEEP_DONE);
     assert_int_equal(table.counts.written, 4);
     assert_int_equal(table.counts.failed, 3);
@@ -102,10 +102,10 @@ static void rows_do_not_depend_on_the_number_of_workers_or_where_one_starts(void
 {
     (void)state;
     const fbd_sweep_plan plan = plan_of(TEXTS("m=-1:2:31", "v0=normal(1,1):17"), TEXTS("final,times,max(y)"));
-    struct table one = sweep_by(projectile, &plan, 0, 1);
+    struct sweep_table one = sweep_by(projectile, &plan, 0, 1);
     assert_int_equal(one.counts.written, 31 * 17);
     for (size_t jobs = 2; jobs <= 7; jobs += 5) {
-        struct table more = sweep_by(projectile, &plan, 0, jobs);
+        struct sweep_table more = sweep_by(projectile, &plan, 0, jobs);
         assert_int_equal(more.counts.written, one.counts.written);
         assert_int_equal(more.counts.failed, one.counts.failed);
         assert_string_equal(more.rows.data, one.rows.data);
@@ -113,7 +113,7 @@ static void rows_do_not_depend_on_the_number_of_workers_or_where_one_starts(void
     }
     const char *tail = one.rows.data;
     for (int i = 0; i < 100; i++) tail = strchr(tail, '\n') + 1;
-    struct table rest = sweep_by(projectile, &plan, 100, 2);
+    struct sweep_table rest = sweep_by(projectile, &plan, 100, 2);
     assert_string_equal(rest.rows.data, tail);
     close_table(&rest);
     close_table(&one);
@@ -133,7 +133,7 @@ static void a_sweep_that_is_stopped_leaves_its_first_rows(void **state)
 {
     (void)state;
     const fbd_sweep_plan plan = plan_of(TEXTS("v0=1:9:500"), NULL);
-    struct table whole = sweep_by(projectile, &plan, 0, 1), part = open_table(projectile, &plan);
+    struct sweep_table whole = sweep_by(projectile, &plan, 0, 1), part = open_table(projectile, &plan);
     size_t steps = 100; /* of two that a run takes */
     const fbd_sweep_work work = {.end = 500,
                                  .jobs = 1,
@@ -145,7 +145,7 @@ static void a_sweep_that_is_stopped_leaves_its_first_rows(void **state)
     assert_in_range(part.counts.written, 1, 499);
     assert_int_equal(part.rows.data[part.rows.length - 1], '\n');
     assert_memory_equal(part.rows.data, whole.rows.data, part.rows.length);
-    struct table rest = sweep_by(projectile, &plan, part.counts.written, 2);
+    struct sweep_table rest = sweep_by(projectile, &plan, part.counts.written, 2);
     assert_string_equal(rest.rows.data, whole.rows.data + part.rows.length);
     close_table(&rest);
     close_table(&part);
@@ -164,7 +164,7 @@ static void a_table_that_cannot_be_written_ends_the_sweep(void **state)
     (void)state;
     for (size_t jobs = 1; jobs <= 3; jobs++) {
         const fbd_sweep_plan plan = plan_of(TEXTS("v0=1:9:500"), NULL);
-        struct table table = open_table(projectile, &plan);
+        struct sweep_table table = open_table(projectile, &plan);
         size_t left = 3;
         const fbd_sweep_work work = {.end = 500, .jobs = jobs, .write = refuse_later, .write_context = &left};
         assert_int_equal(fbd_sweep_run(table.sweep, &work, &table.counts), FBD_SWEEP_REFUSED);
@@ -179,7 +179,7 @@ static void shares_that_others_make_take_their_place_in_the_order(void **state)
 {
     (void)state;
     const fbd_sweep_plan plan = plan_of(TEXTS("v0=1:9:200"), NULL);
-    struct table alone = sweep_by(projectile, &plan, 0, 1), led = open_table(projectile, &plan);
+    struct sweep_table alone = sweep_by(projectile, &plan, 0, 1), led = open_table(projectile, &plan);
     const fbd_sweep_work work = {
         .end = 200, .jobs = 1, .helpers = 1, .write = append, .write_context = &led.rows};
     fbd_sweep_crew *crew = fbd_sweep_start(led.sweep, &work);

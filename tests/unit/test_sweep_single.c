@@ -72,7 +72,7 @@ static size_t compare_parameter(const char *path, const char *text, const char *
     text_number(&vary, parameter->value * 1.1, 15);
     fbd_sweep_plan plan = plan_of(TEXTS(vary.data), TEXTS(outputs));
     plan.run = (fbd_options){.until = 0.5};
-    struct table table = sweep_by(text, &plan, 0, 1);
+    struct sweep_table table = sweep_by(text, &plan, 0, 1);
     for (size_t row = 0; row < 2; row++) {
         char value[64];
         struct text single = {0};
@@ -104,7 +104,7 @@ static size_t compare_model(const char *path)
     free(read);
     struct text outputs = {0};
     list_outputs(text, &outputs);
-    struct scene *scene = scene_read(text, length, path, NULL, 0, errors);
+    struct scene *scene = scene_read(text, length, path, NULL, 0, NULL, errors);
     for (size_t i = 0; i < scene->parameter_count; i++)
         differ += compare_parameter(path, text, outputs.data, &scene->parameters[i]);
     scene_free(scene);

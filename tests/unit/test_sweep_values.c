@@ -17,7 +17,7 @@
 
 static void assert_plan_refused(const fbd_sweep_plan *plan, const char *id)
 {
-    struct table table = open_table(projectile, plan);
+    struct sweep_table table = open_table(projectile, plan);
     assert_null(table.sweep);
     const fbd_error *note = fbd_errors_get(table.errors, 0);
     assert_non_null(note);
@@ -34,7 +34,7 @@ static void assert_refused(const char *const *vary, const char *const *outputs, 
 static void a_grid_has_its_ends_and_values_as_people_write_them(void **state)
 {
     (void)state;
-    struct table table = sweep_of(projectile, TEXTS("v0=0.1:0.6:6"), TEXTS("t"));
+    struct sweep_table table = sweep_of(projectile, TEXTS("v0=0.1:0.6:6"), TEXTS("t"));
     const char *const want[] = {"0.1", "0.2", "0.3", "0.4", "0.5", "0.6"};
     assert_int_equal(table.counts.written, 6);
     for (size_t i = 0; i < 6; i++) assert_field(&table, i, 1, want[i]);
@@ -50,7 +50,7 @@ static void a_grid_has_its_ends_and_values_as_people_write_them(void **state)
 static void a_logarithmic_grid_has_equal_ratios(void **state)
 {
     (void)state;
-    struct table table = sweep_of(projectile, TEXTS("m=1:1000:4:log"), TEXTS("t"));
+    struct sweep_table table = sweep_of(projectile, TEXTS("m=1:1000:4:log"), TEXTS("t"));
     const char *const want[] = {"1", "10", "100", "1000"};
     for (size_t i = 0; i < 4; i++) assert_field(&table, i, 1, want[i]);
     close_table(&table);
@@ -59,7 +59,7 @@ static void a_logarithmic_grid_has_equal_ratios(void **state)
 static void a_unit_holds_for_all_values_and_stands_in_the_header(void **state)
 {
     (void)state;
-    struct table table = sweep_of(projectile, TEXTS("v0=1,2 km/h"), TEXTS("ball.vx"));
+    struct sweep_table table = sweep_of(projectile, TEXTS("v0=1,2 km/h"), TEXTS("ball.vx"));
     assert_string_equal(fbd_sweep_header(table.sweep), "run,v0 [km/h],ball.vx [m/s],events,status,reason\n");
     assert_field(&table, 1, 1, "2");
     /* 2/3.6 rounds once, and so does the conversion of the unit */
@@ -76,7 +76,7 @@ static void a_unit_holds_for_all_values_and_stands_in_the_header(void **state)
 static void the_last_axis_changes_fastest(void **state)
 {
     (void)state;
-    struct table table = sweep_of(projectile, TEXTS("m=1,2", "v0=5,6,7"), TEXTS("t"));
+    struct sweep_table table = sweep_of(projectile, TEXTS("m=1,2", "v0=5,6,7"), TEXTS("t"));
     assert_int_equal(table.counts.written, 6);
     for (size_t i = 0; i < 6; i++) {
         assert_true(number(&table, i, 0) == (double)(i + 1));
@@ -89,7 +89,7 @@ static void the_last_axis_changes_fastest(void **state)
 static void members_of_an_axis_go_side_by_side_and_so_does_all_with_zip(void **state)
 {
     (void)state;
-    struct table table = sweep_of(projectile, TEXTS("m=1,2; v0=5,6", "h=0,1,2"), TEXTS("t"));
+    struct sweep_table table = sweep_of(projectile, TEXTS("m=1,2; v0=5,6", "h=0,1,2"), TEXTS("t"));
     assert_int_equal(table.counts.written, 6);
     assert_field(&table, 3, 1, "2");
     assert_field(&table, 3, 2, "6");
@@ -113,7 +113,7 @@ static void draws_are_of_their_distribution(void **state)
 {
     (void)state;
     enum { n = 2000 };
-    struct table table =
+    struct sweep_table table =
         sweep_of(projectile,
                  TEXTS("m=uniform(1,3) kg:2000; v0=normal(5,0.5) m/s:2000; h=loguniform(1,100):2000"),
                  TEXTS("t"));
@@ -142,15 +142,15 @@ static void a_draw_depends_on_seed_name_and_number_alone(void **state)
 {
     (void)state;
     char a[64], b[64];
-    struct table few = sweep_of(projectile, TEXTS("m=uniform(1,2):10"), TEXTS("t"));
-    struct table many = sweep_of(projectile, TEXTS("h=normal(0,1):2", "m=uniform(1,2):20"), TEXTS("t"));
+    struct sweep_table few = sweep_of(projectile, TEXTS("m=uniform(1,2):10"), TEXTS("t"));
+    struct sweep_table many = sweep_of(projectile, TEXTS("h=normal(0,1):2", "m=uniform(1,2):20"), TEXTS("t"));
     for (size_t i = 0; i < 10; i++) {
         assert_string_equal(field(&few, i, 1, a, sizeof a), field(&many, i, 2, b, sizeof b));
         assert_string_equal(a, field(&many, 20 + i, 2, b, sizeof b));
     }
     fbd_sweep_plan plan = plan_of(TEXTS("m=uniform(1,2):10"), TEXTS("t"));
     plan.seed = 2;
-    struct table other = sweep_by(projectile, &plan, 0, 1);
+    struct sweep_table other = sweep_by(projectile, &plan, 0, 1);
     for (size_t i = 0; i < 10; i++)
         assert_string_not_equal(field(&few, i, 1, a, sizeof a), field(&other, i, 1, b, sizeof b));
     close_table(&few);

@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Tables: functions of one argument given by points, as measured data are.
+ *
+ * Between two knots x_i and x_(i+1) a table is a polynomial in u = x - x_i,
+ *
+ *     f = c_0 + u (c_1 + u (c_2 + u c_3)),
+ *
+ * and that polynomial is its piece i, also beyond the ends of the piece. So a table is a switch like floor (expr.h):
+ * the branch is the piece, evaluation with a given branch is smooth and costs no search, and no step of an integrator
+ * straddles a knot. Piece -1 is before the first knot and piece count - 1 from the last one on; with `repeat` the
+ * pieces are counted on through all periods, piece p + k (count - 1) being piece p, k periods later.
+ *
+ * The coefficients of cubic (natural, or periodic with `repeat`), Akima and Steffen splines are those of GSL's
+ * gsl_interp, taken from its derivatives at the knots; c_3 is what makes ends meet.
+ *
+ * Sources: C. de Boor, A Practical Guide to Splines, 1978; H. Akima, J. ACM 17 (1970) 589; M. Steffen, Astron.
+ * Astrophys. 239 (1990) 443.
+ */
+#ifndef FBD_EXPR_TABLE_H
+#define FBD_EXPR_TABLE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/twofold.h"
+#include "expr/dim.h"
+
+enum table_interpolation {
+    table_linear,
+    table_step,    /* f(x_i) from x_i on */
+    table_cubic,   /* natural cubic spline: continuous up to the second derivative */
+    table_akima,   /* continuous with the first derivative, and calm beside steps */
+    table_steffen, /* likewise, and monotonic between points */
+};
+
+enum table_beyond {
+    table_hold,   /* the first and the last value */
+    table_zero,
+    table_repeat, /* with the period x_(count - 1) - x_0 */
+    table_error,  /* no value: a run that gets there ends */
+};
+
+struct table {
+    const char *name;
+    struct dim x_dim, y_dim;
+    bool x_free, y_free; /* given without units: any dimension will do */
+    enum table_interpolation interpolation;
+    enum table_beyond beyond;
+    size_t count; /* knots */
+    double *x;    /* count, ascending */
+    double *c;    /* 4 for each of the count - 1 pieces between */
+    double before, after; /* the values beyond the ends */
+    double per_knot;      /* knots for each unit of x, if they are about even: where to look first */
+    struct twofold period; /* of `repeat` */
+};
+
+enum table_status {
+    table_made,
+    table_no_memory,
+    table_too_few, /* points for this interpolation: see table_least */
+    table_open,    /* `repeat` of a spline whose ends differ */
+    table_too_steep, /* differences of points overflow */
+};
+
+/* The number of points that an interpolation needs at least. */
+size_t table_least(enum table_interpolation interpolation, enum table_beyond beyond);
+
+/* Make a table of `count` points. x ascends strictly, and all is finite. `interpolation` and `beyond` are set
+ * before; `x` and `c` are allocated, see table_drop. */
+enum table_status table_make(struct table *table, size_t count, const double *x, const double *y);
+void table_drop(struct table *table);
+
+/* The piece in which `x` lies; 0 for no number. In O(1) where the knots are about even, else in O(log count). */
+double table_piece(const struct table *table, double x);
+
+/* Where a piece begins and ends; -HUGE_VAL and HUGE_VAL for what has no end. */
+void table_ends(const struct table *table, double piece, struct twofold *low, struct twofold *high);
+
+/* The polynomial of a piece: u = x - the knot `from`, and its coefficients. */
+struct table_polynomial {
+    double from;
+    double c[4];
+};
+struct table_polynomial table_polynomial(const struct table *table, double piece);
+
+/* Its value at x, and the first two derivatives. */
+double table_value(const struct table *table, double piece, double x);
+void table_slopes(const struct table *table, double piece, double x, double *f, double *d, double *dd);
+
+/* Is the piece beyond an end with table_error? */
+bool table_has_ended(const struct table *table, double piece);
+
+/* The degree of the pieces: 0, 1 or 3. */
+int table_degree(const struct table *table);
+
+/* How many derivatives are continuous where `piece` begins, up to 2: -1 where the value jumps, 0 at a corner. Found by
+ * the numbers, so points in a line have none. */
+int table_smoothness(const struct table *table, double piece);
+
+#endif

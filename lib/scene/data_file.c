@@ -1,0 +1,402 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/data_file.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/file.h"
+#include "expr/expr.h"
+#include "expr/glyph.h"
+
+enum { most_columns = 1000, most_complaints = 20 };
+
+struct span {
+    const char *text;
+    size_t length;
+};
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\r';
+}
+
+static struct span trim(struct span s)
+{
+    while (s.length && is_blank(s.text[0])) s.text++, s.length--;
+    while (s.length && is_blank(s.text[s.length - 1])) s.length--;
+    return s;
+}
+
+static bool is_same(struct span a, struct span b)
+{
+    return a.length == b.length && memcmp(a.text, b.text, a.length) == 0;
+}
+
+/* ---- headings */
+
+struct heading heading_read(const char *text, size_t length)
+{
+    struct span whole = trim((struct span){text, length});
+    struct heading heading = {.name = whole.text, .name_length = whole.length};
+    char last = whole.length ? whole.text[whole.length - 1] : '\0';
+    char opening = last == ']' ? '[' : last == ')' ? '(' : '\0';
+    size_t open = whole.length;
+    while (opening && open > 0 && whole.text[open - 1] != opening) open--;
+    if (!opening || open == 0) return heading;
+    struct span unit = trim((struct span){whole.text + open, whole.length - open - 1});
+    struct unit read;
+    /* Parentheses may hold other words. */
+    bool meant = last == ']' || unit_parse(unit.text, unit.length, unit_si, NULL, (struct pos){0}, &read);
+    if (!meant) return heading;
+    struct span name = trim((struct span){whole.text, open - 1});
+    return (struct heading){name.text, unit.text, name.length, unit.length};
+}
+
+/* ---- lines and cells */
+
+struct data_reader {
+    struct span rest; /* what is not read yet */
+    int line;         /* number of the last one read */
+    char separator;   /* ' ' for blanks of any number */
+    fbd_errors *errors;
+    size_t complaints;
+};
+
+/* The next line; it ends with LF, CR LF or CR. */
+static bool next_line(struct data_reader *reader, struct span *line)
+{
+    if (reader->rest.length == 0) return false;
+    const char *start = reader->rest.text, *end = start + reader->rest.length, *stop = start;
+    while (stop < end && *stop != '\n' && *stop != '\r') stop++;
+    *line = (struct span){start, (size_t)(stop - start)};
+    if (stop < end && *stop == '\r' && stop + 1 < end && stop[1] == '\n') stop++;
+    if (stop < end) stop++;
+    reader->rest = (struct span){stop, (size_t)(end - stop)};
+    reader->line++;
+    return true;
+}
+
+static char separator_of(struct span line)
+{
+    static const char order[] = ";\t,";
+    for (const char *c = order; *c; c++)
+        if (memchr(line.text, *c, line.length)) return *c;
+    return ' ';
+}
+
+/* The next cell of a line, without its quotes. */
+static bool next_cell(char separator, struct span *line, struct span *cell)
+{
+    if (separator == ' ') *line = trim(*line);
+    if (!line->text || (separator == ' ' && line->length == 0)) return false;
+    bool quoted = false;
+    size_t end = 0;
+    for (; end < line->length; end++) {
+        char c = line->text[end];
+        if (c == '"') quoted = !quoted;
+        if (!quoted && (c == separator || (separator == ' ' && is_blank(c)))) break;
+    }
+    *cell = trim((struct span){line->text, end});
+    if (cell->length >= 2 && cell->text[0] == '"' && cell->text[cell->length - 1] == '"')
+        *cell = trim((struct span){cell->text + 1, cell->length - 2});
+    bool more = end < line->length;
+    *line = more ? (struct span){line->text + end + 1, line->length - end - 1} : (struct span){NULL, 0};
+    return true;
+}
+
+/* A number; with `;` between cells its comma is a decimal one. */
+static bool read_number(char separator, struct span cell, double *value)
+{
+    char plain[64];
+    const char *comma = separator == ';' ? memchr(cell.text, ',', cell.length) : NULL;
+    if (!comma || cell.length > sizeof plain) return expr_number(cell.text, cell.length, value);
+    memcpy(plain, cell.text, cell.length);
+    plain[comma - cell.text] = '.';
+    return expr_number(plain, cell.length, value);
+}
+
+static bool is_numbers(char separator, struct span line)
+{
+    struct span cell;
+    double value;
+    bool any = false;
+    while (next_cell(separator, &line, &cell)) {
+        if (cell.length > 0 && !read_number(separator, cell, &value)) return false;
+        any |= cell.length > 0;
+    }
+    return any;
+}
+
+static struct pos place_of(const struct data_reader *reader, struct span line, const char *at)
+{
+    return glyph_pos(line.text, (size_t)(at - line.text), (struct pos){reader->line, 1});
+}
+
+/* ---- which columns */
+
+struct titles {
+    struct span cells[most_columns];
+    size_t count;
+};
+
+static void read_titles(char separator, struct span line, struct titles *titles)
+{
+    struct span cell;
+    while (titles->count < most_columns && next_cell(separator, &line, &cell)) titles->cells[titles->count++] = cell;
+}
+
+static struct span name_of(const struct heading *heading)
+{
+    return (struct span){heading->name, heading->name_length};
+}
+
+/* How often a heading is `wanted`, as a whole or by its name; *index is the first. */
+static size_t count_matches(const struct titles *titles, struct span wanted, bool whole, size_t *index)
+{
+    struct heading sought = heading_read(wanted.text, wanted.length);
+    size_t matches = 0;
+    for (size_t i = titles->count; i-- > 0;) {
+        struct heading heading = heading_read(titles->cells[i].text, titles->cells[i].length);
+        bool same = whole ? is_same(titles->cells[i], wanted) : is_same(name_of(&heading), name_of(&sought));
+        if (!same) continue;
+        matches++;
+        *index = i;
+    }
+    return matches;
+}
+
+static void note_no_column(const struct titles *titles, const char *path, const char *wanted, struct pos at,
+                           fbd_errors *errors)
+{
+    enum { most_named = 50 };
+    const char *names[most_named];
+    size_t count = 0;
+    for (size_t i = 0; i < titles->count && count < most_named; i++) {
+        const char *name = diag_hint(errors, "%.*s", (int)titles->cells[i].length, titles->cells[i].text);
+        if (name && *name) names[count++] = name;
+    }
+    const char *hint = count ? diag_nearest(errors, wanted, names, count)
+                             : "the file names no columns: give their number, `x: 1`, `y: 2`";
+    diag_add(errors, FBD_ERROR, "unknown-column", at, hint, "`%s` has no column `%.80s`", path, wanted);
+}
+
+static bool find_column(const struct titles *titles, const char *path, const char *wanted, struct pos at,
+                        fbd_errors *errors, size_t *index)
+{
+    struct span name = trim((struct span){wanted, strlen(wanted)});
+    size_t matches = count_matches(titles, name, true, index);
+    if (matches == 0) matches = count_matches(titles, name, false, index);
+    if (matches == 1) return true;
+    if (matches > 1) {
+        diag_add(errors, FBD_ERROR, "unknown-column", at, "give its number, as `x: 1`",
+                 "`%s` has %zu columns called `%.80s`", path, matches, wanted);
+        return false;
+    }
+    struct heading heading = heading_read(wanted, strlen(wanted));
+    double place;
+    if (expr_number(heading.name, heading.name_length, &place) && place >= 1 && place <= most_columns &&
+        place == (double)(size_t)place) {
+        *index = (size_t)place - 1;
+        return true;
+    }
+    note_no_column(titles, path, wanted, at, errors);
+    return false;
+}
+
+/* ---- rows */
+
+/* `message` may be NULL, when memory is out. */
+static void complain(struct data_reader *reader, struct pos at, const char *hint, const char *message)
+{
+    if (reader->complaints++ < most_complaints)
+        diag_add(reader->errors, FBD_ERROR, "table-format", at, hint, "%s", message ? message : "");
+}
+
+static void read_cell(struct data_reader *reader, struct span line, struct span cell, size_t column, double *value)
+{
+    enum { most_shown = 40 };
+    if (read_number(reader->separator, cell, value)) return;
+    struct pos at = place_of(reader, line, cell.text);
+    const char *hint = memchr(cell.text, ',', cell.length) ? "a decimal point is written `.`" : NULL;
+    if (cell.length == 0)
+        complain(reader, at, NULL, diag_hint(reader->errors, "column %zu is empty here", column + 1));
+    else
+        complain(reader, at, hint,
+                 diag_hint(reader->errors, "column %zu must hold a number, not `%.*s`", column + 1,
+                           (int)(cell.length < most_shown ? cell.length : most_shown), cell.text));
+}
+
+static bool read_row(struct data_reader *reader, struct span line, const size_t columns[2], double values[2])
+{
+    struct span rest = line, cell;
+    size_t before = reader->complaints;
+    int found = 0;
+    for (size_t i = 0; found < 2 && next_cell(reader->separator, &rest, &cell); i++)
+        for (int k = 0; k < 2; k++) {
+            if (columns[k] != i) continue;
+            read_cell(reader, line, cell, i, &values[k]);
+            found++;
+        }
+    if (found < 2)
+        complain(reader, (struct pos){reader->line, 1}, NULL,
+                 diag_hint(reader->errors, "the row has no column %zu",
+                           1 + (columns[0] > columns[1] ? columns[0] : columns[1])));
+    return reader->complaints == before;
+}
+
+static bool grow(struct data_columns *columns, size_t *room)
+{
+    if (columns->count < *room) return true;
+    size_t larger = *room ? 2 * *room : 256;
+    for (int k = 0; k < 2; k++) {
+        double *values = realloc(columns->values[k], larger * sizeof *values);
+        if (!values) return false;
+        columns->values[k] = values;
+    }
+    int *lines = realloc(columns->lines, larger * sizeof *lines);
+    if (!lines) return false;
+    columns->lines = lines;
+    *room = larger;
+    return true;
+}
+
+static bool read_rows(struct data_reader *reader, struct span line, const size_t which[2],
+                      struct data_columns *columns)
+{
+    size_t room = 0;
+    bool more = true;
+    do {
+        struct span row = trim(line);
+        if (row.length == 0 || row.text[0] == '#') continue;
+        double values[2] = {0};
+        if (!read_row(reader, line, which, values)) continue;
+        if (!grow(columns, &room)) {
+            diag_out_of_memory(reader->errors);
+            return false;
+        }
+        columns->lines[columns->count] = reader->line;
+        for (int k = 0; k < 2; k++) columns->values[k][columns->count] = values[k];
+        columns->count++;
+    } while (more && (more = next_line(reader, &line)));
+    return reader->complaints == 0;
+}
+
+/* ---- the file */
+
+/* The first line with something to read, and what stood before it. */
+struct opening {
+    struct span line, remark; /* the last line with `#` before it; text NULL when there is none */
+    int remark_line;
+};
+
+static bool open_rows(struct data_reader *reader, struct opening *opening)
+{
+    while (next_line(reader, &opening->line)) {
+        struct span row = trim(opening->line);
+        if (row.length == 0) continue;
+        if (row.text[0] != '#') return true;
+        opening->remark = (struct span){row.text + 1, row.length - 1};
+        opening->remark_line = reader->line;
+    }
+    return false;
+}
+
+/* Find the headings: *line is then the first row of numbers. */
+static bool open_titles(struct data_reader *reader, struct opening *opening, struct titles *titles,
+                        struct pos *titles_at)
+{
+    reader->separator = separator_of(opening->line);
+    *titles_at = (struct pos){reader->line, 1};
+    if (is_numbers(reader->separator, opening->line)) {
+        struct span line = opening->line, cell;
+        size_t cells = 0;
+        while (next_cell(reader->separator, &line, &cell)) cells++;
+        if (opening->remark.text) read_titles(separator_of(opening->remark), opening->remark, titles);
+        if (titles->count != cells) titles->count = 0;
+        titles_at->line = opening->remark_line;
+        return true;
+    }
+    read_titles(reader->separator, opening->line, titles);
+    return open_rows(reader, opening);
+}
+
+static bool choose_columns(const struct titles *titles, const char *path, const char *const wanted[2],
+                           const struct pos wanted_at[2], fbd_errors *errors, size_t which[2])
+{
+    bool fine = true;
+    for (size_t k = 0; k < 2; k++) {
+        which[k] = k;
+        if (wanted[k] && !find_column(titles, path, wanted[k], wanted_at[k], errors, &which[k])) fine = false;
+    }
+    if (!fine || which[0] != which[1]) return fine;
+    diag_add(errors, FBD_ERROR, "unknown-column", wanted_at[1].line ? wanted_at[1] : wanted_at[0],
+             "name both: `x: t`, `y: force`", "`x` and `y` are the same column");
+    return false;
+}
+
+static bool read_text(struct data_reader *reader, const char *path, const char *const wanted[2],
+                      const struct pos wanted_at[2], const char *model_file, struct data_columns *columns)
+{
+    fbd_errors *errors = reader->errors;
+    struct opening opening = {.remark_line = 0};
+    struct titles *titles = calloc(1, sizeof *titles);
+    size_t which[2];
+    struct pos at = {1, 1};
+    bool fine = false;
+    if (!titles) {
+        diag_out_of_memory(errors);
+        return false;
+    }
+    if (!open_rows(reader, &opening) || !open_titles(reader, &opening, titles, &at)) {
+        diag_add(errors, FBD_ERROR, "table-format", at, NULL, "the file holds no rows of numbers");
+    } else {
+        const char *data_file = errors->file;
+        errors->file = model_file;
+        fine = choose_columns(titles, path, wanted, wanted_at, errors, which);
+        errors->file = data_file;
+        for (size_t k = 0; fine && k < 2; k++) {
+            columns->heading_at[k] = at;
+            if (which[k] < titles->count)
+                columns->found[k] = heading_read(titles->cells[which[k]].text, titles->cells[which[k]].length);
+        }
+        fine = fine && read_rows(reader, opening.line, which, columns);
+    }
+    free(titles);
+    return fine;
+}
+
+/* Not a pipe, a terminal or a device, which would make a model wait. */
+static bool is_plain_file(const char *path, fbd_errors *errors)
+{
+    struct stat info;
+    if (stat(path, &info) != 0 || S_ISREG(info.st_mode)) return true; /* to be opened, and refused with the reason */
+    diag_add(errors, FBD_ERROR, "cannot-read", (struct pos){0, 0}, NULL, "cannot read the file: it is no plain file");
+    return false;
+}
+
+bool data_file_read(const char *path, const char *const wanted[2], const struct pos wanted_at[2], fbd_errors *errors,
+                    struct data_columns *columns)
+{
+    const char *model_file = errors->file;
+    *columns = (struct data_columns){.count = 0};
+    diag_in_file(errors, path);
+    size_t length = 0;
+    columns->text = is_plain_file(path, errors) ? file_text(path, &length, errors) : NULL;
+    bool fine = false;
+    if (columns->text) {
+        struct data_reader reader = {.rest = {columns->text, length}, .errors = errors};
+        if (length >= 3 && memcmp(columns->text, "\xEF\xBB\xBF", 3) == 0)
+            reader.rest = (struct span){columns->text + 3, length - 3};
+        fine = read_text(&reader, path, wanted, wanted_at, model_file, columns);
+    }
+    errors->file = model_file;
+    return fine;
+}
+
+void data_columns_free(struct data_columns *columns)
+{
+    for (int k = 0; k < 2; k++) free(columns->values[k]);
+    free(columns->lines);
+    free(columns->text);
+}

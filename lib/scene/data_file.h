@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Data files: two columns of numbers from a text such as instruments, spreadsheets and fbd-run --csv write.
+ *
+ * One row a line; cells are parted by `;`, tabs, `,` or blanks, whichever of these, in this order, the first row has.
+ * The first row may name the columns, with units in brackets or parentheses: `t [s],force (N)`. Lines that are empty
+ * or start with `#` are skipped; where no row names columns, the `#` line just before the numbers may. Cells may stand
+ * in double quotes. Numbers have a decimal point; in files parted by `;` a decimal comma will do.
+ */
+#ifndef FBD_SCENE_DATA_FILE_H
+#define FBD_SCENE_DATA_FILE_H
+
+#include "base/diag.h"
+#include "expr/unit.h"
+
+/* A name with a unit behind it, as in `force [N]`: a heading of a file, or what a model file calls one. */
+struct heading {
+    const char *name, *unit; /* in the text; unit is NULL when there is none */
+    size_t name_length, unit_length;
+};
+struct heading heading_read(const char *text, size_t length);
+
+/* Two columns, in the file's own units. */
+struct data_columns {
+    double *values[2]; /* count each; to be freed */
+    size_t count;
+    int *lines;              /* count, to be freed: where each row stands */
+    struct heading found[2]; /* in `text` */
+    struct pos heading_at[2];
+    char *text; /* to be freed */
+};
+
+/* Read the columns called `wanted[0]` and `wanted[1]`; where one is NULL, the first and the second of the file. A
+ * number is the place of a column, unless one is called so. False with notes in `errors`, whose file is the data
+ * file's for those about its text: `cannot-read`, `unknown-column` (at `wanted_at`), `table-format`. */
+bool data_file_read(const char *path, const char *const wanted[2], const struct pos wanted_at[2], fbd_errors *errors,
+                    struct data_columns *columns);
+void data_columns_free(struct data_columns *columns);
+
+#endif

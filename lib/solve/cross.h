@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * An expression passes to another branch.
+ */
+#ifndef FBD_SOLVE_CROSS_H
+#define FBD_SOLVE_CROSS_H
+
+#include "solve/run.h"
+
+/* Take the branch beyond what `watcher`, a watch_kink, watches, and note it where there is something to see. Ends the
+ * run where a table has no more values, and where a prescribed motion jumps. */
+void run_cross(struct run *run, const struct watcher *watcher);
+
+#endif
