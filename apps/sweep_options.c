@@ -14,6 +14,7 @@ static const char help[] =
     "                         mu=0.1:0.6:51             51 values from 0.1 to 0.6\n"
     "                         k='1:1000 N/m:4:log'      1, 10, 100, 1000 N/m\n"
     "                         v0='1,2,5 m/s'            a list\n"
+    "                         road=dry.csv,wet.csv      files of a table\n"
     "                         m='uniform(1,2) kg:100'   random draws; also normal(mean,deviation) and\n"
     "                                                   loguniform(low,high)\n"
     "                         'a=1,2,3; b=4,5,6'        side by side\n"

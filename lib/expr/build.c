@@ -83,7 +83,8 @@ static int add_switch(struct builder *b, const struct instr *instr, bool time)
     struct expr_switch *switches = grow(b, b->switches, b->switch_count, &b->switch_room, sizeof *switches);
     if (!switches) return 0;
     b->switches = switches;
-    switches[b->switch_count] = (struct expr_switch){.op = (enum op)instr->op, .time = time, .table = instr->table};
+    switches[b->switch_count] =
+        (struct expr_switch){.op = (enum op)instr->op, .time = time, .table = instr->table};
     return (int)b->switch_count++;
 }
 

@@ -53,8 +53,8 @@ struct operand build_operation(struct builder *builder, int base, enum op op, in
                                struct pos at);
 
 /* The value of `table` at `x`. */
-struct operand build_table(struct builder *builder, int base, const struct table *table, const struct operand *x,
-                           struct kind kind, struct pos at);
+struct operand build_table(struct builder *builder, int base, const struct table *table,
+                           const struct operand *x, struct kind kind, struct pos at);
 
 /* The parts of if(condition, a, b), in this order: start after the condition, first after a, second after b.
  */

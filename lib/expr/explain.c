@@ -188,12 +188,16 @@ static const char *name_hint(struct parser *p, const char *name, size_t length)
         {"true", "write a comparison"},
         {"false", "write a comparison"},
     };
-    const char *const *names = NULL;
+    const char *const *names = NULL, *const *names_of_tables = NULL;
     size_t count = p->scope->names ? p->scope->names(p->scope->context, &names) : 0;
     for (size_t i = 0; i < sizeof constants / sizeof constants[0]; i++)
         if (strcmp(constants[i][0], name) == 0) return constants[i][1];
     if (function_exists(name, length))
         return diag_hint(p->errors, "`%s` is a function: write `%s(...)`", name, name);
+    size_t tables = p->scope->tables ? p->scope->tables(p->scope->context, &names_of_tables) : 0;
+    for (size_t i = 0; i < tables; i++)
+        if (strcmp(names_of_tables[i], name) == 0)
+            return diag_hint(p->errors, "`%s` is a table: write `%s(...)` with its argument", name, name);
     if (unit_find(name, length))
         return diag_hint(p->errors, "`%s` as a unit stands in brackets behind a number: `5[%s]`", name, name);
     return diag_nearest(p->errors, name, names, count);

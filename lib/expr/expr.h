@@ -83,6 +83,8 @@ struct scope {
     size_t (*names)(void *context, const char *const **names);
     /* The table called `name`, asked at most once for each place where it is called; may be NULL. */
     struct table_symbol (*table)(void *context, const char *name, struct pos at);
+    /* Their names, as `names`; may be NULL. */
+    size_t (*tables)(void *context, const char *const **names);
     void *context;
     enum unit_system units;
 };

@@ -101,14 +101,19 @@ static const char *const other_names[][2] = {
 
 static const char *suggest_function(struct parser *p, const char *name)
 {
-    const char *names[function_count];
+    enum { most_tables = 50 };
+    const char *names[function_count + most_tables];
+    const char *const *tables = NULL;
     for (size_t i = 0; i < sizeof other_names / sizeof other_names[0]; i++)
         if (strcmp(other_names[i][0], name) == 0)
             return diag_hint(p->errors, "write `%s`", other_names[i][1]);
     if (explain_is_known(p->scope, name, strlen(name)))
         return diag_hint(p->errors, "`%s` is a value; a product is written `%s*(...)`", name, name);
-    for (size_t i = 0; i < function_count; i++) names[i] = functions[i].name;
-    return diag_nearest(p->errors, name, names, function_count);
+    size_t count = p->scope->tables ? p->scope->tables(p->scope->context, &tables) : 0;
+    if (count > most_tables) count = most_tables;
+    for (size_t i = 0; i < count; i++) names[i] = tables[i];
+    for (size_t i = 0; i < function_count; i++) names[count + i] = functions[i].name;
+    return diag_nearest(p->errors, name, names, count + function_count);
 }
 
 static struct operand unknown_function(struct parser *p, struct token name)
@@ -215,22 +220,24 @@ static struct operand build_relay(struct parser *p, int base, const struct opera
 /* ---- tables */
 
 /* A number without a unit takes the dimension of the points, and the other way round. */
-static struct operand build_lookup(struct parser *p, const struct table *table, int base, const struct operand *args,
-                                   int count, struct token name)
+static struct operand build_lookup(struct parser *p, const struct table *table, int base,
+                                   const struct operand *args, int count, struct token name)
 {
     const char *text = p->lexer.text + name.start;
     struct kind kind = {.dim = table->y_dim, .free = table->y_free};
     if (count != 1) {
-        diag_add(p->errors, FBD_ERROR, "argument-count", name.at, NULL, "the table `%.*s` takes 1 argument, not %d",
-                 (int)name.length, text, count);
+        diag_add(p->errors, FBD_ERROR, "argument-count", name.at, NULL,
+                 "the table `%.*s` takes 1 argument, not %d", (int)name.length, text, count);
         return parse_failed(p, name.at);
     }
     if (!check_number(p, &args[0])) return parse_failed(p, name.at);
-    if (!args[0].kind.failed && !args[0].kind.free && !table->x_free && !dim_equal(args[0].kind.dim, table->x_dim)) {
+    if (!args[0].kind.failed && !args[0].kind.free && !table->x_free &&
+        !dim_equal(args[0].kind.dim, table->x_dim)) {
         struct phrase given = check_phrase(args[0].kind.dim, p->scope->units),
                       needed = check_phrase(table->x_dim, p->scope->units);
         diag_add(p->errors, FBD_ERROR, "wrong-dimension", args[0].at, NULL,
-                 "the table `%.*s` is a function of %s, not of %s", (int)name.length, text, needed.text, given.text);
+                 "the table `%.*s` is a function of %s, not of %s", (int)name.length, text, needed.text,
+                 given.text);
         return parse_failed(p, name.at);
     }
     kind.failed = args[0].kind.failed;

@@ -319,7 +319,7 @@ static void choose_branch(void *context, const struct instr *i, const struct mot
     struct resolution *r = context;
     if (r->keep && r->keep[i->extra]) return;
     int *branch = &r->branch[i->extra];
-    *branch = i->op == op_table       ? branch_by_piece(i, at, c)
+    *branch = i->op == op_table      ? branch_by_piece(i, at, c)
               : op_is_by_sign(i->op) ? branch_by_sign(i, *branch, at, c)
                                      : branch_by_rounding(i, at, c);
 }

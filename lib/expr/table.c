@@ -169,7 +169,8 @@ void table_ends(const struct table *table, double piece, struct twofold *low, st
 {
     size_t last = table->count - 1;
     if (is_beyond(table, piece)) {
-        *low = piece < 0 ? (struct twofold){-HUGE_VAL, 0} : (struct twofold){table->x[last] + slack(table), 0};
+        *low =
+            piece < 0 ? (struct twofold){-HUGE_VAL, 0} : (struct twofold){table->x[last] + slack(table), 0};
         *high = piece < 0 ? (struct twofold){table->x[0] - slack(table), 0} : (struct twofold){HUGE_VAL, 0};
         return;
     }
@@ -200,7 +201,8 @@ double table_value(const struct table *table, double piece, double x)
     struct table_polynomial p = table_polynomial(table, piece);
     double u = x - p.from;
     if (isnan(u)) return u;
-    return p.c[0] + (table->interpolation == table_linear ? u * p.c[1] : u * (p.c[1] + u * (p.c[2] + u * p.c[3])));
+    return p.c[0] +
+           (table->interpolation == table_linear ? u * p.c[1] : u * (p.c[1] + u * (p.c[2] + u * p.c[3])));
 }
 
 void table_slopes(const struct table *table, double piece, double x, double *f, double *d, double *dd)

@@ -35,7 +35,7 @@ enum table_interpolation {
 };
 
 enum table_beyond {
-    table_hold,   /* the first and the last value */
+    table_hold, /* the first and the last value */
     table_zero,
     table_repeat, /* with the period x_(count - 1) - x_0 */
     table_error,  /* no value: a run that gets there ends */
@@ -47,19 +47,19 @@ struct table {
     bool x_free, y_free; /* given without units: any dimension will do */
     enum table_interpolation interpolation;
     enum table_beyond beyond;
-    size_t count; /* knots */
-    double *x;    /* count, ascending */
-    double *c;    /* 4 for each of the count - 1 pieces between */
-    double before, after; /* the values beyond the ends */
-    double per_knot;      /* knots for each unit of x, if they are about even: where to look first */
+    size_t count;          /* knots */
+    double *x;             /* count, ascending */
+    double *c;             /* 4 for each of the count - 1 pieces between */
+    double before, after;  /* the values beyond the ends */
+    double per_knot;       /* knots for each unit of x, if they are about even: where to look first */
     struct twofold period; /* of `repeat` */
 };
 
 enum table_status {
     table_made,
     table_no_memory,
-    table_too_few, /* points for this interpolation: see table_least */
-    table_open,    /* `repeat` of a spline whose ends differ */
+    table_too_few,   /* points for this interpolation: see table_least */
+    table_open,      /* `repeat` of a spline whose ends differ */
     table_too_steep, /* differences of points overflow */
 };
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene/data_file.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -143,7 +144,8 @@ struct titles {
 static void read_titles(char separator, struct span line, struct titles *titles)
 {
     struct span cell;
-    while (titles->count < most_columns && next_cell(separator, &line, &cell)) titles->cells[titles->count++] = cell;
+    while (titles->count < most_columns && next_cell(separator, &line, &cell))
+        titles->cells[titles->count++] = cell;
 }
 
 static struct span name_of(const struct heading *heading)
@@ -213,7 +215,8 @@ static void complain(struct data_reader *reader, struct pos at, const char *hint
         diag_add(reader->errors, FBD_ERROR, "table-format", at, hint, "%s", message ? message : "");
 }
 
-static void read_cell(struct data_reader *reader, struct span line, struct span cell, size_t column, double *value)
+static void read_cell(struct data_reader *reader, struct span line, struct span cell, size_t column,
+                      double *value)
 {
     enum { most_shown = 40 };
     if (read_number(reader->separator, cell, value)) return;
@@ -358,7 +361,8 @@ static bool read_text(struct data_reader *reader, const char *path, const char *
         for (size_t k = 0; fine && k < 2; k++) {
             columns->heading_at[k] = at;
             if (which[k] < titles->count)
-                columns->found[k] = heading_read(titles->cells[which[k]].text, titles->cells[which[k]].length);
+                columns->found[k] =
+                    heading_read(titles->cells[which[k]].text, titles->cells[which[k]].length);
         }
         fine = fine && read_rows(reader, opening.line, which, columns);
     }
@@ -366,29 +370,34 @@ static bool read_text(struct data_reader *reader, const char *path, const char *
     return fine;
 }
 
-/* Not a pipe, a terminal or a device, which would make a model wait. */
-static bool is_plain_file(const char *path, fbd_errors *errors)
+/* A file that can be opened, and no pipe, terminal or device, which would make a model wait. */
+static bool is_plain_file(const char *path, struct pos at, fbd_errors *errors)
 {
     struct stat info;
-    if (stat(path, &info) != 0 || S_ISREG(info.st_mode)) return true; /* to be opened, and refused with the reason */
-    diag_add(errors, FBD_ERROR, "cannot-read", (struct pos){0, 0}, NULL, "cannot read the file: it is no plain file");
+    bool missing = stat(path, &info) != 0;
+    if (!missing && S_ISREG(info.st_mode)) return true;
+    diag_add(errors, FBD_ERROR, "cannot-read", at,
+             missing && at.line ? "a path that does not start with `/` starts where the model file lies"
+                                : NULL,
+             "cannot read `%s`: %s", path, missing ? strerror(errno) : "it is no plain file");
     return false;
 }
 
-bool data_file_read(const char *path, const char *const wanted[2], const struct pos wanted_at[2], fbd_errors *errors,
-                    struct data_columns *columns)
+bool data_file_read(const char *path, const char *const wanted[2], const struct data_places *places,
+                    fbd_errors *errors, struct data_columns *columns)
 {
     const char *model_file = errors->file;
-    *columns = (struct data_columns){.count = 0};
-    diag_in_file(errors, path);
     size_t length = 0;
-    columns->text = is_plain_file(path, errors) ? file_text(path, &length, errors) : NULL;
     bool fine = false;
+    *columns = (struct data_columns){.count = 0};
+    if (!is_plain_file(path, places->file, errors)) return false;
+    diag_in_file(errors, path);
+    columns->text = file_text(path, &length, errors);
     if (columns->text) {
         struct data_reader reader = {.rest = {columns->text, length}, .errors = errors};
         if (length >= 3 && memcmp(columns->text, "\xEF\xBB\xBF", 3) == 0)
             reader.rest = (struct span){columns->text + 3, length - 3};
-        fine = read_text(&reader, path, wanted, wanted_at, model_file, columns);
+        fine = read_text(&reader, path, wanted, places->columns, model_file, columns);
     }
     errors->file = model_file;
     return fine;

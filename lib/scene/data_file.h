@@ -30,11 +30,16 @@ struct data_columns {
     char *text; /* to be freed */
 };
 
+/* Where in the model file the columns and the data file itself are named; line 0 where they are not. */
+struct data_places {
+    struct pos file, columns[2];
+};
+
 /* Read the columns called `wanted[0]` and `wanted[1]`; where one is NULL, the first and the second of the file. A
  * number is the place of a column, unless one is called so. False with notes in `errors`, whose file is the data
- * file's for those about its text: `cannot-read`, `unknown-column` (at `wanted_at`), `table-format`. */
-bool data_file_read(const char *path, const char *const wanted[2], const struct pos wanted_at[2], fbd_errors *errors,
-                    struct data_columns *columns);
+ * file's for those about its text: `cannot-read`, `unknown-column`, `table-format`. */
+bool data_file_read(const char *path, const char *const wanted[2], const struct data_places *places,
+                    fbd_errors *errors, struct data_columns *columns);
 void data_columns_free(struct data_columns *columns);
 
 #endif

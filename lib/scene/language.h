@@ -90,7 +90,8 @@ struct scene_keys {
     const char *title, *description;
     int units;
     double datum;
-    const struct node *gravity, *parameters, *tables, *ground, *bodies, *couplings, *contacts, *simulate, *output;
+    const struct node *gravity, *parameters, *tables, *ground, *bodies, *couplings, *contacts, *simulate,
+        *output;
 };
 
 struct table_keys {

@@ -20,11 +20,17 @@ static const struct choice beyonds[] = {
 static const struct field table_fields[] = {
     FIELD_TEXT(offsetof(struct table_keys, file), "file",
                "a text file with columns of numbers; its path is relative to the model file"),
-    FIELD_NODE(offsetof(struct table_keys, points), "points", field_list, 0, NULL, "[[x, y], ...] in place of a file"),
-    FIELD_TEXT(offsetof(struct table_keys, x), "x", "heading of the column of arguments, as `t [s]`, or its number"),
-    FIELD_TEXT(offsetof(struct table_keys, y), "y", "heading of the column of values, as `force [N]`, or its number"),
-    FIELD_CHOICE(offsetof(struct table_keys, interpolation), "interpolation", interpolations, "between the points"),
-    FIELD_CHOICE(offsetof(struct table_keys, beyond), "beyond", beyonds, "before the first point and behind the last"),
+    FIELD_NODE(offsetof(struct table_keys, points), "points", field_list, 0, NULL,
+               "[[x, y], ...] in place of a file"),
+    FIELD_TEXT(offsetof(struct table_keys, x), "x",
+               "heading of the column of arguments, as `t [s]`, or its number"),
+    FIELD_TEXT(offsetof(struct table_keys, y), "y",
+               "heading of the column of values, as `force [N]`, or its number"),
+    FIELD_CHOICE(offsetof(struct table_keys, interpolation), "interpolation", interpolations,
+                 "between the points"),
+    FIELD_CHOICE(offsetof(struct table_keys, beyond), "beyond", beyonds,
+                 "before the first point and behind the last"),
 };
 
-const struct group table_group = {"a table", "file", FIELDS(table_fields), NULL, 0, "a function given by points"};
+const struct group table_group = {"a table", "file", FIELDS(table_fields),
+                                  NULL,      0,      "a function given by points"};

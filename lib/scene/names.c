@@ -382,10 +382,22 @@ static size_t list_names(void *context, const char *const **list)
     return names->known_count;
 }
 
+static size_t list_tables(void *context, const char *const **list)
+{
+    const struct names *names = context;
+    const struct scene *scene = names->reader->scene;
+    const char **known = ARENA_ARRAY(names->reader->arena, scene->table_count, const char *);
+    if (!known) return 0;
+    for (size_t i = 0; i < scene->table_count; i++) known[i] = scene->tables[i].name;
+    *list = known;
+    return scene->table_count;
+}
+
 struct scope names_scope(struct names *names)
 {
     return (struct scope){.lookup = look_up,
                           .table = look_up_table,
+                          .tables = list_tables,
                           .names = list_names,
                           .context = names,
                           .units = names->reader->scene->units};

@@ -36,7 +36,8 @@ static void note_unknown_override(struct reader *reader, const struct override *
     const char **names = ARENA_ARRAY(reader->arena, count, const char *);
     if (!names) return;
     for (size_t i = 0; i < count; i++)
-        names[i] = i < parameters ? reader->scene->parameters[i].name : reader->scene->tables[i - parameters].name;
+        names[i] =
+            i < parameters ? reader->scene->parameters[i].name : reader->scene->tables[i - parameters].name;
     qsort(names, count, sizeof *names, compare_names);
     const char *file = enter_override(reader, override);
     diag_add(reader->errors, FBD_ERROR, "unknown-parameter", (struct pos){0, 0},
@@ -120,12 +121,11 @@ void definition_note_circle(struct reader *reader, const char *name, struct pos 
         used += n > 0 ? (size_t)n : 0;
     }
     diag_add(reader->errors, FBD_ERROR, "circular-parameter", at, "give one of them a value of its own",
-             "definitions lead in a circle: %s%.40s", path, name);
+             "parameters define one another in a circle: %s%.40s", path, name);
 }
 
 /* Enter the definition of `name`; false with a note when it is too deep. */
-bool definition_open(struct reader *reader, struct open_definition *open, const char *name,
-                            struct pos at)
+bool definition_open(struct reader *reader, struct open_definition *open, const char *name, struct pos at)
 {
     if (reader->open_depth == deepest_chain) {
         diag_add(reader->errors, FBD_ERROR, "parameter-chain", at, "write definitions before their use",

@@ -67,14 +67,15 @@ struct points {
 static const char *const axis_names[] = {"x", "y"};
 
 /* The unit that `label` names in brackets, if it does. */
-static bool read_label_unit(struct reader *reader, const struct heading *heading, struct pos at, struct points *points,
-                            int axis)
+static bool read_label_unit(struct reader *reader, const struct heading *heading, struct pos at,
+                            struct points *points, int axis)
 {
     if (!heading->unit) return true;
     struct unit unit;
     if (heading->unit_length == 0) { /* `ratio []` */
         unit = (struct unit){.factor = 1};
-    } else if (!unit_parse(heading->unit, heading->unit_length, reader->scene->units, reader->errors, at, &unit)) {
+    } else if (!unit_parse(heading->unit, heading->unit_length, reader->scene->units, reader->errors, at,
+                           &unit)) {
         return false;
     }
     if (points->has_unit[axis] && (!dim_equal(points->unit[axis].dim, unit.dim) ||
@@ -95,6 +96,12 @@ static struct pos key_place(const struct node *map, const char *key)
     return pair ? pair->value->at : (struct pos){0, 0};
 }
 
+/* Where a table says its file: `f: a.csv` or `f: {file: a.csv}`. */
+static struct pos file_place(const struct node *map)
+{
+    return map->kind == node_scalar ? map->at : key_place(map, "file");
+}
+
 /* A path that is not absolute starts where the model file lies. */
 static const char *resolve_path(struct reader *reader, const char *path, bool from_outside)
 {
@@ -104,12 +111,12 @@ static const char *resolve_path(struct reader *reader, const char *path, bool fr
     return arena_printf(reader->arena, "%.*s/%s", (int)(slash - model), model, path);
 }
 
-static bool read_file(struct reader *reader, const struct node *map, const struct table_keys *keys, const char *path,
-                      struct data_columns *columns, struct points *points)
+static bool read_file(struct reader *reader, const struct node *map, const struct table_keys *keys,
+                      const char *path, struct data_columns *columns, struct points *points)
 {
     const char *const wanted[2] = {keys->x, keys->y};
-    const struct pos wanted_at[2] = {key_place(map, "x"), key_place(map, "y")};
-    if (!path || !data_file_read(path, wanted, wanted_at, reader->errors, columns)) return false;
+    const struct data_places places = {file_place(map), {key_place(map, "x"), key_place(map, "y")}};
+    if (!path || !data_file_read(path, wanted, &places, reader->errors, columns)) return false;
     points->count = columns->count;
     points->lines = columns->lines;
     const char *model_file = reader->errors->file;
@@ -121,10 +128,11 @@ static bool read_file(struct reader *reader, const struct node *map, const struc
         reader->errors->file = model_file;
         if (!wanted[k]) continue;
         struct heading heading = heading_read(wanted[k], strlen(wanted[k]));
-        if (!read_label_unit(reader, &heading, wanted_at[k], points, k)) fine = false;
+        if (!read_label_unit(reader, &heading, places.columns[k], points, k)) fine = false;
     }
     for (int k = 0; fine && k < 2; k++)
-        for (size_t i = 0; points->has_unit[k] && i < points->count; i++) points->values[k][i] *= points->unit[k].factor;
+        for (size_t i = 0; points->has_unit[k] && i < points->count; i++)
+            points->values[k][i] *= points->unit[k].factor;
     return fine;
 }
 
@@ -133,7 +141,8 @@ static bool read_coordinate(struct reader *reader, const struct node *node, int 
                             struct points *points, double *number)
 {
     struct value value;
-    if (!value_formula(reader, node, axis_names[axis], a_parameter, 0, &reader->constants, &value)) return false;
+    if (!value_formula(reader, node, axis_names[axis], a_parameter, 0, &reader->constants, &value))
+        return false;
     *number = expr_value(value.expr);
     if (expr_is_bare(value.expr)) {
         if (labelled) *number *= points->unit[axis].factor;
@@ -147,8 +156,8 @@ static bool read_coordinate(struct reader *reader, const struct node *node, int 
     unit_name(dim, reader->scene->units, given, sizeof given);
     unit_name(points->unit[axis].dim, reader->scene->units, wanted, sizeof wanted);
     diag_add(reader->errors, FBD_ERROR, "wrong-dimension", node->at, NULL,
-             "this `%s` is in %s, and those before are in %s", axis_names[axis], *given ? given : "pure numbers",
-             *wanted ? wanted : "pure numbers");
+             "this `%s` is in %s, and those before are in %s", axis_names[axis],
+             *given ? given : "pure numbers", *wanted ? wanted : "pure numbers");
     return false;
 }
 
@@ -170,11 +179,13 @@ static bool read_points(struct reader *reader, const struct node *map, const str
     for (size_t i = 0; i < points->count; i++) {
         const struct node *pair = keys->points->items[i];
         if (pair->kind != node_list || pair->count != 2) {
-            fine = value_refuse(reader, pair, "points", "a list of pairs [x, y]", "write `points: [[0, 0], [1, 5]]`");
+            fine = value_refuse(reader, pair, "points", "a list of pairs [x, y]",
+                                "write `points: [[0, 0], [1, 5]]`");
             continue;
         }
         for (int k = 0; k < 2; k++)
-            if (!read_coordinate(reader, pair->items[k], k, labelled[k], points, &points->values[k][i])) fine = false;
+            if (!read_coordinate(reader, pair->items[k], k, labelled[k], points, &points->values[k][i]))
+                fine = false;
     }
     return fine;
 }
@@ -198,7 +209,8 @@ static bool check_order(struct reader *reader, const char *file, struct points *
             bool same = x[i] == x[kept - 1];
             if (file) diag_in_file(reader->errors, file);
             diag_add(reader->errors, FBD_ERROR, "table-order", row_place(points, i),
-                     same ? "a jump takes `interpolation: step`, or two points a little apart" : "sort the rows by x",
+                     same ? "a jump takes `interpolation: step`, or two points a little apart"
+                          : "sort the rows by x",
                      same ? "`x` is %.9g here and in the row before, with another `y`"
                           : "`x` must grow from row to row: %.9g is less than before",
                      x[i] / (points->has_unit[0] ? points->unit[0].factor : 1));
@@ -226,8 +238,9 @@ static bool make_table(struct reader *reader, const struct pair *pair, const str
     case table_no_memory: diag_out_of_memory(reader->errors); break;
     case table_too_few:
         diag_add(reader->errors, FBD_ERROR, "table-points", pair->at, NULL,
-                 "the table `%s` has %zu point%s; its interpolation needs at least %zu", pair->key, points->count,
-                 points->count == 1 ? "" : "s", table_least(table->interpolation, table->beyond));
+                 "the table `%s` has %zu point%s; its interpolation needs at least %zu", pair->key,
+                 points->count, points->count == 1 ? "" : "s",
+                 table_least(table->interpolation, table->beyond));
         break;
     case table_open:
         diag_add(reader->errors, FBD_ERROR, "table-points", pair->at,
@@ -250,11 +263,15 @@ static bool read_table(struct reader *reader, size_t index, struct table *table)
     struct table_keys keys = {0};
     struct points points = {0};
     struct data_columns columns = {0};
-    if (!fields_read(reader, &table_group, pair->value, pair->at, &reader->constants, &keys)) return false;
+    if (pair->value->kind == node_list)
+        keys.points = pair->value;
+    else if (!fields_read(reader, &table_group, pair->value, pair->at, &reader->constants, &keys))
+        return false;
     if (!fields_exclude(reader, pair->value, "file", "points", "give the points, or the file that has them"))
         return false;
     if (!keys.file && !keys.points && !draft->override) {
-        diag_add(reader->errors, FBD_ERROR, "missing-key", pair->at, "add `file: data.csv` or `points: [[0, 0], [1, 5]]`",
+        diag_add(reader->errors, FBD_ERROR, "missing-key", pair->at,
+                 "add `file: data.csv` or `points: [[0, 0], [1, 5]]`",
                  "the table `%s` has neither a file nor points", pair->key);
         return false;
     }
@@ -277,7 +294,8 @@ static struct shared_table *find_known(const struct reader *reader, size_t index
     const struct scene_table *table = &known->tables[index];
     if (reader->same_parameters) return table->shared;
     if (table->names_parameters || draft->varies) return NULL;
-    if (draft->override) return table->file && strcmp(table->file, draft->override->value) == 0 ? table->shared : NULL;
+    if (draft->override)
+        return table->file && strcmp(table->file, draft->override->value) == 0 ? table->shared : NULL;
     return table->file && !reader->same_files ? NULL : table->shared;
 }
 

@@ -139,7 +139,9 @@ static void read_scene(struct reader *reader, const struct override *overrides, 
     reader->constant_names = (struct names){.reader = reader, .place = place_constant, .body = ground_body};
     reader->constants = names_scope(&reader->constant_names);
     start_gravity(reader);
-    if (!tables_start(reader) || !parameters_start(reader, overrides, override_count) || !bodies_start(reader)) return;
+    if (!tables_start(reader) || !parameters_start(reader, overrides, override_count) ||
+        !bodies_start(reader))
+        return;
     read_top(reader, &keys);
     read_bodies(reader);
     if (!is_hopeless(reader) && reader->bodies) couplings_read(reader, keys.couplings, keys.contacts);
@@ -246,7 +248,8 @@ struct scene *scene_read(const char *text, size_t length, const char *file, cons
 void scene_free(struct scene *scene)
 {
     if (!scene) return;
-    for (size_t i = 0; scene->tables && i < scene->table_count; i++) shared_table_release(scene->tables[i].shared);
+    for (size_t i = 0; scene->tables && i < scene->table_count; i++)
+        shared_table_release(scene->tables[i].shared);
     arena_free(&scene->arena);
     free(scene);
 }

@@ -370,8 +370,9 @@ struct document {
     bool split_hands;          /* and those that are read, into their summands: what --check-hand compares */
     struct programs *programs; /* expressions compiled once for all readings (programs.h), or NULL */
     struct scene *first;       /* the scene that holds them */
-    const struct scene *like;  /* an earlier scene of the same text, whose tables and their files serve again, or */
-    bool same_parameters;      /* NULL; does it have the same parameters? */
+    const struct scene
+        *like; /* an earlier scene of the same text, whose tables and their files serve again, or */
+    bool same_parameters; /* NULL; does it have the same parameters? */
 };
 
 /* Open the file `text`, which must live as long as the document. False with notes in `errors` when it is no

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solve/cross.h"
 
+#include <string.h>
+
 #include "expr/table.h"
 #include "solve/passages.h"
 
@@ -9,7 +11,8 @@ static bool end_table(struct run *run, const struct table *table, int end, int p
 {
     if (!table || !table_has_ended(table, piece)) return false;
     run_fail(run, FBD_BROKEN,
-             "at t = %.9g the table `%s` %s (`beyond: error`): it has no value %s. Give it more points, say what is "
+             "at t = %.9g the table `%s` %s (`beyond: error`): it has no value %s. Give it more points, say "
+             "what is "
              "beyond (`hold`, `zero`, `repeat`), or end the run before",
              run_time(run), table->name, end ? "ends" : "begins", end ? "from there on" : "before that");
     return true;
@@ -29,27 +32,35 @@ static bool jumps(double before, double after, double size)
 }
 
 /* A prescribed motion has a velocity: where its place or its velocity jumps, no force is large enough. */
-static void check_drive(struct run *run, const struct kink *kink, int branch, int before)
+static void check_drive(struct run *run, const struct kink *kink)
 {
     const struct fbd_model *model = run->model;
-    if (kink->load < 0 || model->loads[kink->load].source->kind != load_drive) return;
-    int *branches = run->state->branch + kink->formula.branch, after = run->state->branch[branch];
-    const double *y = run->state->y;
-    double t = run->state->t, x[2], v[2];
-    for (int side = 0; side < 2; side++) {
-        run->state->branch[branch] = side ? after : before;
-        x[side] = expr_eval_slot(kink->formula.expr, t, y, 0, branches, &v[side]);
-    }
+    const struct expr *law = kink->formula.expr;
+    const int *before = run->during->branch + kink->formula.branch,
+              *after = run->state->branch + kink->formula.branch;
+    if (memcmp(before, after, kink->count * sizeof *before) == 0) return;
+    const double *y = run->state->y, *most = run->anchor + 2 * (size_t)model->plan.n;
     const struct model_body *body = &model->bodies[kink->body];
-    const double *most = run->anchor + 2 * (size_t)model->plan.n;
-    double size = fmax(most[body->first], fabs(x[0]) + fabs(x[1])),
-           speed = fmax(most[body->first_rate], fabs(v[0]) + fabs(v[1]));
-    bool place = jumps(x[0], x[1], size);
-    if (!place && !jumps(v[0], v[1], speed)) return;
+    double v[2], x[2] = {expr_eval_slot(law, run->state->t, y, 0, before, &v[0]),
+                         expr_eval_slot(law, run->state->t, y, 0, after, &v[1])};
+    bool place = jumps(x[0], x[1], fmax(most[body->first], fabs(x[0]) + fabs(x[1])));
+    if (!place && !jumps(v[0], v[1], fmax(most[body->first_rate], fabs(v[0]) + fabs(v[1])))) return;
     run_fail(run, FBD_BROKEN,
-             "at t = %.9g the %s that is prescribed to `%s` jumps from %.6g to %.6g: that takes a force without bound. "
+             "at t = %.9g the %s that is prescribed to `%s` jumps from %.6g to %.6g: that takes a force "
+             "without bound. "
              "Round the corner off (a table: `interpolation: cubic`), or end the run before",
-             run_time(run), place ? "place" : "velocity", body->name, place ? x[0] : v[0], place ? x[1] : v[1]);
+             run_time(run), place ? "place" : "velocity", body->name, place ? x[0] : v[0],
+             place ? x[1] : v[1]);
+}
+
+void run_check_drives(struct run *run)
+{
+    const struct plan *plan = &run->model->plan;
+    for (size_t i = 0; i < plan->kink_count; i++) {
+        int load = plan->kinks[i].load;
+        if (load >= 0 && run->model->loads[load].source->kind == load_drive)
+            check_drive(run, &plan->kinks[i]);
+    }
 }
 
 void run_cross(struct run *run, const struct watcher *watcher)
@@ -61,7 +72,6 @@ void run_cross(struct run *run, const struct watcher *watcher)
     run->decided.branches[index] = true;
     if (end_table(run, table, watcher->end, next)) return;
     run->state->branch[index] = next;
-    check_drive(run, kink, index, before);
     if (is_smooth(table, watcher->end, next)) return;
     passages_remember(run, watcher);
     struct run_event *event = run_note(run, FBD_EVENT_SWITCH, kink->body, kink->load, -1);

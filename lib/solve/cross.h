@@ -8,7 +8,10 @@
 #include "solve/run.h"
 
 /* Take the branch beyond what `watcher`, a watch_kink, watches, and note it where there is something to see. Ends the
- * run where a table has no more values, and where a prescribed motion jumps. */
+ * run where a table has no more values. */
 void run_cross(struct run *run, const struct watcher *watcher);
+
+/* When all is decided that changes at an event: end the run where a prescribed motion jumps, or its velocity. */
+void run_check_drives(struct run *run);
 
 #endif

@@ -390,6 +390,7 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     if (run->contacts.due) run_contacts(run);
     run->contacts.due = false;
     if (!settle(run) && run->outcome == FBD_GOING) fail_unsettled(run);
+    run_check_drives(run);
     run_note_happened(run, first, moving);
     run_release_contacts(run);
     refuse_sliding(run, moving);

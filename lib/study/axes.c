@@ -48,7 +48,9 @@ void axes_value(const struct axes *axes, const struct member *m, uint64_t run, s
     for (size_t axis = axes->axis_count - 1; axis > m->axis; axis--) i /= axes->counts[axis];
     i %= axes->counts[m->axis];
     const struct draw_place place = {axes->seed, m->key, i};
-    if (m->kind == values_listed)
+    if (m->kind == values_words)
+        text_add(text, m->words[i]);
+    else if (m->kind == values_listed)
         add_exact(text, m->list[i]);
     else if (m->kind == values_drawn)
         add_exact(text, draw(m->distribution, m->a, m->b, place));
@@ -197,10 +199,38 @@ static bool read_grid(const struct vary *vary, struct member *m, struct slice sl
     return read_count(vary, count, &m->count);
 }
 
+/* The name of a file: no number, with a dot or a slash in it. */
+static bool is_file(struct slice slice)
+{
+    bool number = number_length(slice) > 0 && strchr("0123456789+-", slice.text[0]);
+    bool mark = memchr(slice.text, '.', slice.length) || memchr(slice.text, '/', slice.length);
+    return !number && mark && !memchr(slice.text, '"', slice.length) && slice.length > 1;
+}
+
+static bool read_files(const struct vary *vary, struct member *m, struct slice slice, size_t count)
+{
+    const char **words = ARENA_ARRAY(vary->arena, count, const char *);
+    if (!words) return false;
+    m->kind = values_words;
+    m->words = words;
+    m->count = count;
+    for (size_t i = 0; i < count; i++) {
+        struct slice item;
+        cut(&slice, ',', &item);
+        if (!is_file(item))
+            return refuse(vary, "write NAME=a.csv,b.csv", "one of these is no file of a table");
+        words[i] = arena_text(vary->arena, item.text, item.length);
+    }
+    return true;
+}
+
 static bool read_list(const struct vary *vary, struct member *m, struct slice slice)
 {
     size_t count = 1;
     for (size_t i = 0; i < slice.length; i++) count += slice.text[i] == ',';
+    struct slice rest = slice, first;
+    cut(&rest, ',', &first);
+    if (first.length > 0 && is_file(first)) return read_files(vary, m, slice, count);
     double *list = ARENA_ARRAY(vary->arena, count, double);
     if (!list) return false;
     m->kind = values_listed;

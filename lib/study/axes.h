@@ -7,6 +7,7 @@
  *     0.1:0.6:51            51 values from 0.1 to 0.6, evenly
  *     1:1000:4:log          4 values from 1 to 1000, each the same multiple of the one before
  *     1,2,5 m/s             a list
+ *     dry.csv,wet.csv       files of a table
  *     uniform(1,2) kg:100   100 random draws; also normal(mean,deviation) and loguniform(low,high)
  *
  * One text is one axis; its members go side by side, so they have equally many values. The axes are combined:
@@ -27,10 +28,11 @@ struct member {
     const char *name;
     const char *unit; /* as written, or "" */
     uint64_t key;     /* of its draws: made of the name, so that they do not depend on what else varies */
-    enum { values_listed, values_even, values_log, values_drawn } kind;
+    enum { values_listed, values_words, values_even, values_log, values_drawn } kind;
     enum distribution distribution;
     double a, b; /* ends of a grid, or what the distribution takes */
     const double *list;
+    const char *const *words;
     uint64_t count;
     size_t axis;
 };

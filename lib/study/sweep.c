@@ -35,17 +35,33 @@ static const char *hint_of_parameters(const char *name, const struct node *map, 
                      last, zero);
 }
 
+static const struct node *find_map(const struct fbd_sweep *sweep, const char *key)
+{
+    const struct pair *pair = node_find(sweep->document.root, key);
+    return pair && pair->value->kind == node_map ? pair->value : NULL;
+}
+
+/* A table varies over files, a parameter over values. */
+static bool check_table(const struct member *member, fbd_errors *errors)
+{
+    if (member->kind == values_words) return true;
+    diag_add(errors, FBD_ERROR, "bad-vary", (struct pos){0, 0},
+             diag_hint(errors, "write `%.40s=a.csv,b.csv`", member->name),
+             "`%.40s` is a table: it varies over files", member->name);
+    return false;
+}
+
 static bool check_member(const struct fbd_sweep *sweep, const struct member *member, fbd_errors *errors)
 {
-    const struct pair *pair = node_find(sweep->document.root, "parameters");
-    const struct node *map = pair && pair->value->kind == node_map ? pair->value : NULL;
+    const struct node *map = find_map(sweep, "parameters"), *tables = find_map(sweep, "tables");
     for (size_t i = 0; i < sweep->fixed_count; i++) {
         if (strcmp(sweep->fixed[i].name, member->name) != 0) continue;
         diag_add(errors, FBD_ERROR, "varied-twice", (struct pos){0, 0}, "leave one of the two out",
                  "`%s` is both set and varied", member->name);
         return false;
     }
-    if (node_find(map, member->name)) return true;
+    if (map && node_find(map, member->name)) return true;
+    if (tables && node_find(tables, member->name)) return check_table(member, errors);
     diag_add(errors, FBD_ERROR, "unknown-parameter", (struct pos){0, 0},
              hint_of_parameters(member->name, map, errors), "the model has no parameter `%.40s` to vary",
              member->name);
@@ -114,6 +130,30 @@ static void set_header(struct fbd_sweep *sweep)
     for (size_t i = 0; i < sweep->columns.count; i++)
         text_printf(header, ",%s", sweep->columns.list[i].title);
     text_add(header, ",events,status,reason\n");
+}
+
+/* The data behind the rows, in the tables of the file and the files that vary. */
+static bool add_data(struct fbd_sweep *sweep, fbd_errors *errors)
+{
+    const struct scene *scene = sweep->base->scene;
+    struct text *key = &sweep->key;
+    for (size_t i = 0; i < scene->table_count; i++) {
+        const struct table *table = &scene->tables[i].shared->table;
+        uint64_t x = hash_text((const char *)table->x, table->count * sizeof *table->x),
+                 c = hash_text((const char *)table->c, 4 * (table->count - 1) * sizeof *table->c);
+        text_printf(key, "table %s %016" PRIx64 " %016" PRIx64 "\n", table->name, x, c);
+    }
+    for (size_t i = 0; i < sweep->axes.member_count; i++) {
+        const struct member *member = &sweep->axes.members[i];
+        for (uint64_t k = 0; member->kind == values_words && k < member->count; k++) {
+            size_t length;
+            char *data = file_text(member->words[k], &length, errors);
+            if (!data) return false;
+            text_printf(key, "file %s %016" PRIx64 "\n", member->words[k], hash_text(data, length));
+            free(data);
+        }
+    }
+    return true;
 }
 
 /* Everything that the rows depend on, a line for each: what is continued later has to be the same. */
@@ -211,6 +251,7 @@ static bool build(struct fbd_sweep *sweep, const char *name, const fbd_sweep_pla
     if (!first || (sweep->axes.runs > 1 && !try_values(sweep, sweep->axes.runs - 1, errors))) return false;
     set_header(sweep);
     set_key(sweep, plan);
+    if (!add_data(sweep, errors)) return false;
     return !sweep->header.failed && !sweep->key.failed;
 }
 

@@ -67,7 +67,8 @@ static inline struct sweep_table open_table(const char *text, const fbd_sweep_pl
     return table;
 }
 
-static inline struct sweep_table sweep_by(const char *text, const fbd_sweep_plan *plan, size_t first, size_t jobs)
+static inline struct sweep_table sweep_by(const char *text, const fbd_sweep_plan *plan, size_t first,
+                                          size_t jobs)
 {
     struct sweep_table table = open_table(text, plan);
     if (!table.sweep) fbd_errors_print(table.errors, stderr);
@@ -81,7 +82,8 @@ static inline struct sweep_table sweep_by(const char *text, const fbd_sweep_plan
     return table;
 }
 
-static inline struct sweep_table sweep_of(const char *text, const char *const *vary, const char *const *outputs)
+static inline struct sweep_table sweep_of(const char *text, const char *const *vary,
+                                          const char *const *outputs)
 {
     const fbd_sweep_plan plan = plan_of(vary, outputs);
     return sweep_by(text, &plan, 0, 1);

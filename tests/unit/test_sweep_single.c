@@ -10,6 +10,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 #include <gsl/gsl_errno.h>
@@ -94,6 +95,13 @@ static size_t compare_parameter(const char *path, const char *text, const char *
     return differ;
 }
 
+static void enter_directory_of(const char *path)
+{
+    char directory[4096];
+    snprintf(directory, sizeof directory, "%.*s", (int)(strrchr(path, '/') - path), path);
+    assert_int_equal(chdir(directory), 0);
+}
+
 static size_t compare_model(const char *path)
 {
     size_t length, differ = 0;
@@ -102,6 +110,7 @@ static size_t compare_model(const char *path)
     assert_true(read && text);
     memcpy(text, read, length);
     free(read);
+    enter_directory_of(path); /* where its tables are */
     struct text outputs = {0};
     list_outputs(text, &outputs);
     struct scene *scene = scene_read(text, length, path, NULL, 0, NULL, errors);

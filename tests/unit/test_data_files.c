@@ -1,0 +1,254 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Files of data: the ways in which they are written and in which they are wrong, and the models that use some.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <gsl/gsl_spline.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "gallery.h"
+#include "random_numbers.h"
+#include "thorough.h"
+
+/* ---- files */
+
+struct file_case {
+    const char *text, *keys;
+    double at, value; /* of the force [N] at a time [s] */
+    const char *id;   /* of the first error, or NULL */
+};
+
+static const struct file_case file_cases[] = {
+    {"t [s],F [N]\n0,1\n1,3\n", "", 0.5, 2, NULL},
+    {"t [ms],F [kN]\n0,1\n1000,3\n", "", 0.5, 2000, NULL},
+    {"t (ms);F (kN)\r\n0;1\r\n1000;3\r\n", "", 0.5, 2000, NULL},
+    {"0 1\n1\t3\n", "", 0.5, 2, NULL},
+    {"0   1\n\n  1 3", "", 0.5, 2, NULL},
+    {"0,0;1,0\n1,0;3,5\n", "", 1, 3.5, NULL},
+    {"\xEF\xBB\xBF\"time, s\",\"force\"\n0,1\n1,3\n", ", x: \"time, s\", y: \"force [N]\"", 0.5, 2, NULL},
+    {"# rig 4\n# t [s], F [N], T [N]\n0,1,5\n# pause\n1,3,7\n", ", y: T", 0.5, 6, NULL},
+    {"a,b,c\n0,9,1\n1,9,3\n", ", x: \"a [s]\", y: \"c [N]\"", 0.5, 2, NULL},
+    {"0,9,1\n1,9,3\n", ", x: 1, y: 3", 0.5, 2, NULL},
+    {"t,F\n0,1\n0,1\n1,3\n", "", 0.5, 2, NULL},
+    {"t,F\r0,1\r1,3\r", "", 0.5, 2, NULL},
+    {"t [s],F [N]\n0,1\n1,3\n", ", y: T", 0, 0, "unknown-column"},
+    {"t [s],F [N]\n0,1\n1,3\n", ", y: \"F [kN]\"", 0, 0, "wrong-dimension"},
+    {"t [s],F [m]\n0,1\n1,3\n", "", 0, 0, "wrong-dimension"},
+    {"t [s],F [N]\n0,1\n1,x\n", "", 0, 0, "table-format"},
+    {"t [s],F [N]\n0,1\n1\n", "", 0, 0, "table-format"},
+    {"t [s],F [N]\n0,1\n1,\n", "", 0, 0, "table-format"},
+    {"t [s],F [N]\n0,1\n1,nan\n", "", 0, 0, "table-format"},
+    {"t [s],F [N]\n0,1\n1,1e999\n", "", 0, 0, "table-format"},
+    {"t [s],F [N]\n0,1\n2,3\n1,3\n", "", 0, 0, "table-order"},
+    {"t [s],F [N]\n0,1\n0,3\n", "", 0, 0, "table-order"},
+    {"t [s],F [N]\n0,1\n", "", 0, 0, "table-points"},
+    {"t [s],F [N]\n0,1\n1,2\n2,3\n", ", interpolation: akima", 0, 0, "table-points"},
+    {"t [s],F [N]\n0,1\n1,2\n2,3\n", ", interpolation: cubic, beyond: repeat", 0, 0, "table-points"},
+    {"t [s],F [furlong]\n0,1\n1,2\n", "", 0, 0, "unknown-unit"},
+    {"t,t\n0,1\n1,3\n", ", x: t", 0, 0, "unknown-column"},
+    {"t,F\n0,1\n1,3\n", ", y: t", 0, 0, "unknown-column"},
+    {"", "", 0, 0, "table-format"},
+    {"t,F\n", "", 0, 0, "table-format"},
+    {"t [s],F [N]\n0,1e300\n1e-300,-1e300\n", "", 0, 0, "table-points"},
+};
+
+static void write_file(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    fwrite(text, 1, strlen(text), file);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void files_are_read_as_they_are_written(void **unused)
+{
+    char path[] = "/tmp/fbd-table-XXXXXX", text[1000];
+    struct checks checks = {0};
+    (void)unused;
+    int descriptor = mkstemp(path);
+    assert_true(descriptor >= 0);
+    close(descriptor);
+    for (size_t i = 0; i < sizeof file_cases / sizeof *file_cases; i++) {
+        const struct file_case *c = &file_cases[i];
+        write_file(path, c->text);
+        snprintf(text, sizeof text,
+                 "fbd: 1\ntables:\n  f: {file: %s%s}\nbodies:\n  b:\n    mass: 1\n    motion: slide\n    "
+                 "forces: [applied: "
+                 "\"f(%.17g[s])\"]\n",
+                 path, c->keys, c->at);
+        fbd_errors *errors = fbd_errors_new();
+        fbd_model *model = fbd_model_parse(text, strlen(text), "scene", NULL, 0, errors);
+        const fbd_error *first = fbd_errors_count(errors) > 0 ? fbd_errors_get(errors, 0) : NULL;
+        bool as_said = c->id ? first && strcmp(first->id, c->id) == 0 : model && !first;
+        check_that(&checks, c->text, as_said);
+        if (!as_said) fbd_errors_print(errors, stdout);
+        if (model) {
+            struct trial trial = {.model = model, .state = fbd_state_new(model)};
+            if (!c->id) check_close(&checks, c->keys, trial_acceleration(&trial, "b.x"), c->value, 1e-12);
+            trial_close(&trial);
+        }
+        fbd_errors_free(errors);
+    }
+    remove(path);
+    checks_end(&checks);
+}
+
+/* ---- the models */
+
+/* The hammer by its trapezoids. */
+static void a_measured_blow(void **unused)
+{
+    static const double t[] = {0, 0.02, 0.035, 0.06, 0.11, 0.15, 0.2}, F[] = {0, 180, 240, 90, -15, 0, 0};
+    struct checks checks = {0};
+    (void)unused;
+    struct trial run = trial_open("data/measured_push.yaml", NULL);
+    trial_start(&run, NULL);
+    double x = 0, v = 0, m = 3;
+    for (int i = 0; i < 6; i++) {
+        double h = t[i + 1] - t[i];
+        x += v * h + h * h / m * (F[i] / 3 + F[i + 1] / 6);
+        v += h / m * (F[i] + F[i + 1]) / 2;
+        trial_to(&run, t[i + 1]);
+        check_close(&checks, "x", trial_get(&run, "x"), x, 1e-13);
+        check_close(&checks, "v", trial_get(&run, "v"), v, 1e-12);
+    }
+    check_close(&checks, "the area", v, 3.55, 1e-12);
+    trial_close(&run);
+    checks_end(&checks);
+}
+
+/* A quarter car by its transition matrix: over a piece of the road, a cubic in t, the state z of z' = A z + b u(t) is
+ * the sum of b_k t^k by Taylor series, independent of any integrator. */
+struct quarter_car {
+    double m_b, m_w, k, c, k_t;
+};
+
+static void car_rate(const struct quarter_car *car, const double z[4], double h, double rate[4])
+{
+    double force = car->k * (z[0] - z[1]) + car->c * (z[2] - z[3]);
+    rate[0] = z[2];
+    rate[1] = z[3];
+    rate[2] = -force / car->m_b;
+    rate[3] = (force - car->k_t * (z[1] - h)) / car->m_w;
+}
+
+/* Over a time h, in which the road is r[0] + r[1] t + r[2] t^2 + r[3] t^3. */
+static void car_advance(const struct quarter_car *car, double z[4], const double r[4], double h)
+{
+    enum { terms = 60 };
+    double term[4], sum[4] = {z[0], z[1], z[2], z[3]}, power = 1;
+    memcpy(term, z, sizeof term);
+    for (int n = 0; n < terms; n++) { /* term is the coefficient of t^n */
+        double next[4];
+        car_rate(car, term, n < 4 ? r[n] : 0, next);
+        power *= h;
+        for (int i = 0; i < 4; i++) {
+            term[i] = next[i] / (n + 1);
+            sum[i] += term[i] * power;
+        }
+    }
+    memcpy(z, sum, sizeof sum);
+}
+
+static void a_car_on_a_road(const char *data, size_t points, const double *s, const double *h, double until,
+                            struct checks *checks)
+{
+    const struct quarter_car car = {320, 40, 22e3, 1.6e3, 190e3};
+    const double V = 10;
+    double z[4] = {0};
+    gsl_spline *road = gsl_spline_alloc(gsl_interp_cspline, points);
+    gsl_spline_init(road, s, h, points);
+    gsl_interp_accel *near = gsl_interp_accel_alloc();
+    double at = 0;
+    for (size_t i = 0; i + 1 < points && at < until; i++) {
+        double r[4] = {h[i], gsl_spline_eval_deriv(road, s[i], near) * V,
+                       gsl_spline_eval_deriv2(road, s[i], near) / 2 * V * V, 0};
+        double width = (s[i + 1] - s[i]) / V, step = fmin(width, until - at);
+        r[3] = ((h[i + 1] - h[i]) / width - r[1] - r[2] * width) / (width * width);
+        car_advance(&car, z, r, step);
+        at += step;
+    }
+    const double level[4] = {h[points - 1], 0, 0, 0};
+    while (at < until) {
+        double step = fmin(0.01, until - at);
+        car_advance(&car, z, level, step);
+        at += step;
+    }
+    gsl_interp_accel_free(near);
+    gsl_spline_free(road);
+    char set[200], end[64];
+    snprintf(set, sizeof set, "h=%s", data);
+    snprintf(end, sizeof end, "%.17g", until);
+    struct trial run = trial_open("data/measured_road.yaml", data[0] ? SET(set) : NULL);
+    const fbd_options options = {.until = until};
+    trial_start(&run, &options);
+    trial_finish(&run);
+    static const char *const names[] = {"body.x", "wheel.x", "body.v", "wheel.v"};
+    for (int i = 0; i < 4; i++) check_close(checks, names[i], trial_get(&run, names[i]), z[i], 1e-10);
+    trial_close(&run);
+}
+
+static size_t read_road(const char *path, double *s, double *h, size_t room)
+{
+    char line[200], full[400];
+    size_t count = 0;
+    snprintf(full, sizeof full, "%s/models/data/%s", getenv("FBD_SOURCE_ROOT"), path);
+    FILE *file = fopen(full, "r");
+    assert_non_null(file);
+    while (count < room && fgets(line, sizeof line, file))
+        if (sscanf(line, "%lf,%lf", &s[count], &h[count]) == 2) h[count++] /= 1000;
+    fclose(file);
+    return count;
+}
+
+static void the_quarter_car_follows_its_road(void **unused)
+{
+    enum { long_road = 100000 };
+    struct checks checks = {0};
+    struct random_numbers numbers = {7};
+    double *s = calloc(long_road, sizeof *s), *h = calloc(long_road, sizeof *h);
+    (void)unused;
+    assert_true(s && h);
+    size_t points = read_road("measured_road.csv", s, h, long_road);
+    assert_int_equal(points, 241);
+    a_car_on_a_road("", points, s, h, 3, &checks);
+
+    /* A road of 1e5 points, 1 mm apart. */
+    char path[] = "/tmp/fbd-road-XXXXXX";
+    int descriptor = mkstemp(path);
+    assert_true(descriptor >= 0);
+    FILE *file = fdopen(descriptor, "w");
+    assert_non_null(file);
+    fprintf(file, "s [m],h [mm]\n");
+    for (size_t i = 0; i < long_road; i++) {
+        s[i] = (double)i / 1000;
+        h[i] = 5 * sin(0.7 * s[i]) + 2 * sin(3.1 * s[i] + 1) + random_between(&numbers, -0.05, 0.05);
+        fprintf(file, "%.3f,%.17g\n", s[i], h[i]);
+        h[i] /= 1000;
+    }
+    assert_int_equal(fclose(file), 0);
+    a_car_on_a_road(path, long_road, s, h, thorough() ? 11 : 1, &checks);
+    remove(path);
+    free(s);
+    free(h);
+    checks_end(&checks);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(files_are_read_as_they_are_written),
+        cmocka_unit_test(a_measured_blow),
+        cmocka_unit_test(the_quarter_car_follows_its_road),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
