@@ -92,6 +92,17 @@ static struct direction flow_of(struct fbd_state *state)
     return direction_extend(state->model, &extended, &flow);
 }
 
+double press_slack(const struct fbd_model *model, const struct tree_work *tree, int b)
+{
+    const struct model_body *body = &model->bodies[b];
+    double size = body->inertia.mass * vec_norm(model->scene->gravity);
+    for (int i = 1; tree && body->place.link > 0 && i < model->tree->count; i++) {
+        size = fmax(size, vec_norm(tree->links[i].F.force));
+        size = fmax(size, vec_norm(model->tree->links[i].force));
+    }
+    return 1e-13 * size;
+}
+
 static bool settle_branches(struct fbd_state *state, const struct decided *decided,
                             const struct direction *flow)
 {

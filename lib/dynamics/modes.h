@@ -55,4 +55,10 @@ void modes_hold(struct fbd_state *state);
 /* Put prescribed coordinates and their rates where the time says. */
 void modes_drive(struct fbd_state *state);
 
+struct tree_work;
+
+/* The rounding of the normal force on a body, 1e-13 of the largest force about: what presses or pulls by less does
+ * neither. `tree` may be NULL. */
+double press_slack(const struct fbd_model *model, const struct tree_work *tree, int body);
+
 #endif

@@ -175,8 +175,10 @@ static bool pulls(struct fbd_state *state, const double *slots, const struct dec
     double N = -slots[hold->normal_slot];
     if (!hold->two_sided) return N < 0 && !solved;
     if (decided && decided->pulls[pair]) return false;
-    if (state->slip[pair] == stick) set_pull(state, pair, N);
-    return state->pull[pair] * N < 0;
+    double nothing =
+        press_slack(state->model, state->tree, hold->body) / 2; /* its event function has twice that */
+    if (state->slip[pair] == stick && fabs(N) > nothing) set_pull(state, pair, N);
+    return state->pull[pair] * N < -nothing;
 }
 
 /* ---- all of them */

@@ -200,7 +200,24 @@ static void happen(struct run *run, const struct watcher *watcher, bool crossing
 
 /* ---- after the modes have settled */
 
-void run_check_contacts(struct run *run)
+/* Has the event that shows the loss of a contact come, though its normal force is still zero to the rounding of the
+ * instant? */
+static bool is_just_lost(struct run *run, const bool *moving, int contact, double N, double slack)
+{
+    const struct watcher_set *set = &run->watchers.moving;
+    const double instant = 64 * DBL_EPSILON * fabs(run->state->t);
+    double *values = run->values, *rates = values + set->count;
+    for (size_t i = 0; moving && i < set->count; i++) {
+        if (!moving[i] || set->watchers[i].kind != watch_contact || set->watchers[i].index != contact)
+            continue;
+        watchers_evaluate(&run->watchers, set, run->state, state_moment(run->state), run->state->y, values,
+                          rates);
+        return rates[i] < 0 && N <= slack - rates[i] * instant;
+    }
+    return false;
+}
+
+void run_check_contacts(struct run *run, const bool *moving)
 {
     const struct fbd_model *model = run->model;
     for (size_t i = 0; i < model->plan.contact_count; i++) {
@@ -208,16 +225,16 @@ void run_check_contacts(struct run *run)
         if (contact->pair >= 0) continue;
         double N = -run->state->slots[contact->slot],
                slack = watchers_contact_slack(model, run->state->tree, contact);
-        if (N >= -slack) continue;
+        if (N >= -slack && !is_just_lost(run, moving, (int)i, N, slack)) continue;
         struct run_event *event = run_note(run, FBD_EVENT_CONTACT_LOST, contact->body, contact->load, -1);
-        if (event) event->force = N, event->limit = slack;
+        if (event) event->force = fmin(N, 0), event->limit = slack;
         struct text words = {0};
         if (!isfinite(N)) {
             run_fail(run, FBD_FAILED, "the normal force of `%s` is not finite at t = %.9g: %s",
                      model->bodies[contact->body].name, run->state->t, not_finite_reason(N));
             continue;
         }
-        start_contact_words(model, contact, run->state->t, N, &words);
+        start_contact_words(model, contact, run->state->t, fmin(N, 0), &words);
         run_fail(run, words.failed ? FBD_OUT_OF_MEMORY : FBD_BROKEN, "%s",
                  words.failed ? "out of memory" : words.data);
         text_free(&words);
@@ -395,7 +412,7 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     run_release_contacts(run);
     refuse_sliding(run, moving);
     run_apply_touched(run, true);
-    run_check_contacts(run);
+    run_check_contacts(run, moving);
     run_check_pulleys(run);
     run->restart = true;
     run->interval[1] = run->interval[0];

@@ -105,7 +105,7 @@ static void refuse(struct run *run, struct lack *lack)
     } else {
         run->refusal = lack->id;
         run->refusal_at = lack->at;
-        if (strcmp(lack->id, "leaves-surface") == 0) run_check_contacts(run); /* an event, too */
+        if (strcmp(lack->id, "leaves-surface") == 0) run_check_contacts(run, NULL); /* an event, too */
         run_fail(run, FBD_FAILED, "%s", lack->text.data);
     }
     text_free(&lack->text);

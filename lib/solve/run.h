@@ -236,8 +236,9 @@ void run_note_friction(struct run *run, fbd_event_kind kind, int pair);
 /* Log that the motion slides on a switch, or no longer, with the value that its force takes. */
 void run_note_slide(struct run *run, const struct kink *kink, fbd_event_kind kind);
 
-/* Check normal forces at run->state; ends the run when one is negative. */
-void run_check_contacts(struct run *run);
+/* Check normal forces at run->state; ends the run when one is negative, or about to be: `moving` are the watchers that
+ * have crossed, or NULL. */
+void run_check_contacts(struct run *run, const bool *moving);
 
 /* Tell the error control what it cannot know: floors for what is exactly zero, and how well the accelerations
  * at run->state are known: to rounding of the forces that are summed up, and of the time at which they are

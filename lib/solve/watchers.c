@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "dynamics/absolute.h"
+#include "dynamics/modes.h"
 #include "dynamics/tree.h"
 
 /* ---- which functions a plan needs */
@@ -177,13 +178,7 @@ void watchers_free(struct watchers *watchers)
 double watchers_contact_slack(const struct fbd_model *model, const struct tree_work *tree,
                               const struct contact *contact)
 {
-    const struct model_body *body = &model->bodies[contact->body];
-    double size = body->inertia.mass * vec_norm(model->scene->gravity);
-    for (int i = 1; tree && body->place.link > 0 && i < model->tree->count; i++) {
-        size = fmax(size, vec_norm(tree->links[i].F.force));
-        size = fmax(size, vec_norm(model->tree->links[i].force));
-    }
-    return 1e-13 * size;
+    return press_slack(model, tree, contact->body);
 }
 
 /* `known`: nothing is slid on, or the shares of what is have enclosures. */

@@ -9,6 +9,7 @@
 #include "dynamics/constraint.h"
 #include "dynamics/contact.h"
 #include "dynamics/friction.h"
+#include "dynamics/modes.h"
 #include "dynamics/rest_system.h"
 #include "dynamics/tree_driven.h"
 #include "solve/watchers.h"
@@ -135,7 +136,8 @@ static double friction_value(const struct watchers *watchers, const struct watch
     const struct friction_values *now = &view->now, *d = &view->along;
     if (watcher->kind == watch_normal_turns) {
         *rate = view->at.pull[watcher->index] * d->N;
-        return view->at.pull[watcher->index] * now->N;
+        double slack = friction->jointed ? press_slack(model, view->at.tree, friction->body) : 0;
+        return view->at.pull[watcher->index] * now->N + slack;
     }
     int side = watcher->end == 0 ? 1 : -1;
     bool kinetic = now->limit_kinetic > now->limit_static; /* as in friction_decide */
