@@ -110,6 +110,8 @@ static struct scene *copy_scene(const struct scene *from, const struct selection
     struct scene *to = calloc(1, sizeof *to);
     if (!to) return NULL;
     *to = *from;
+    to->tables = NULL; /* the whole holds them, and outlives its parts */
+    to->table_count = 0;
     struct copy copy = {from, to, selection};
     prepare(&copy);
     for (size_t i = 0; !to->arena.failed && i < selection->body_count; i++)
