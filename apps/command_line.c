@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "complain.h"
+#include "completion.h"
 #include "standard_streams.h"
 
 enum exit_code exit_code_for(enum exit_code code, fbd_errors *errors)
@@ -29,13 +30,55 @@ bool command_line_usage(const struct command_line *line, const char *message, co
     return false;
 }
 
+static void print_schema(enum exit_code *code)
+{
+    char *schema = fbd_schema();
+    if (schema)
+        fputs(schema, stdout);
+    else
+        *code = exit_failed;
+    if (!schema) complain("out of memory");
+    free(schema);
+}
+
+static bool no_completion(const struct command_line *line, enum exit_code *code)
+{
+    *code = exit_usage;
+    return command_line_usage(line, "--completion is for bash, zsh or fish, not ", optarg);
+}
+
+/* A word that is nearly an option, or an option that lacks its value. */
+static bool refuse_option(const struct command_line *line, const char *text)
+{
+    const char *nearest = completion_nearest(line, text);
+    if (line->silent || !nearest)
+        return command_line_usage(line, "unknown option, or one without its value: ", text);
+    bool exact = strcmp(text + strspn(text, "-"), nearest) == 0;
+    if (exact)
+        complain("%s: --%s wants a value behind it", line->program, nearest);
+    else
+        complain("%s: unknown option %s: did you mean --%s?", line->program, text, nearest);
+    point_to_help(line);
+    return false;
+}
+
+static bool says_itself(int option)
+{
+    return option == option_help || option == 'h' || option == option_version || option == option_schema ||
+           option == option_completion;
+}
+
 static bool say(const struct command_line *line, int option, enum exit_code *code)
 {
     *code = exit_done;
     if (line->silent) return false;
-    if (option == option_help)
+    if (option == option_help || option == 'h')
         fputs(line->help, stdout);
-    else
+    else if (option == option_schema)
+        print_schema(code);
+    else if (option == option_completion && !completion_write(line, optarg))
+        return no_completion(line, code);
+    else if (option == option_version)
         printf("%s %s\n", line->program, fbd_version());
     if (!standard_output_arrives(line->program)) *code = exit_failed;
     return false;
@@ -46,10 +89,9 @@ bool command_line_read(const struct command_line *line, int argc, char **argv, c
 {
     *code = exit_usage;
     opterr = 0;
-    for (int option; (option = getopt_long(argc, argv, "", line->options, NULL)) != -1;) {
-        if (option == option_help || option == option_version) return say(line, option, code);
-        if (option == '?')
-            return command_line_usage(line, "unknown option, or one without its value: ", argv[optind - 1]);
+    for (int option; (option = getopt_long(argc, argv, "h", line->options, NULL)) != -1;) {
+        if (says_itself(option)) return say(line, option, code);
+        if (option == '?') return refuse_option(line, argv[optind - 1]);
         if (!take(line, option, options)) return false;
     }
     if (optind + 1 != argc)

@@ -25,14 +25,16 @@ enum exit_code exit_code_for(enum exit_code code, fbd_errors *errors);
 
 struct command_line {
     const char *program, *help;
-    const struct option *options; /* long ones; these two among them, others from option_first on */
-    bool silent;                  /* another process says what is wrong */
+    const struct option
+        *options; /* long ones; those of COMMAND_LINE_END among them, others from option_first on */
+    bool silent;  /* another process says what is wrong */
 };
 
-enum { option_help = 256, option_version, option_first };
+enum { option_help = 256, option_version, option_completion, option_schema, option_first };
 
 #define COMMAND_LINE_END                                                                                     \
-    {"help", no_argument, NULL, option_help}, {"version", no_argument, NULL, option_version},                \
+    {"completion", required_argument, NULL, option_completion}, {"help", no_argument, NULL, option_help},    \
+        {"version", no_argument, NULL, option_version},                                                      \
     {                                                                                                        \
         NULL, 0, NULL, 0                                                                                     \
     }
@@ -41,7 +43,7 @@ enum { option_help = 256, option_version, option_first };
 typedef bool command_line_take(const struct command_line *line, int option, void *options);
 
 /* Read the options and the one model file. Returns true to go on; false with *code set when all is said
- * (help, version, a mistake). */
+ * (help, version, schema, completion, a mistake). */
 bool command_line_read(const struct command_line *line, int argc, char **argv, command_line_take *take,
                        void *options, const char **model, enum exit_code *code);
 

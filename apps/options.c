@@ -50,7 +50,9 @@ static const char help[] =
     "  --check-hand         hold the file's hand derivations against the assembly\n"
     "  --seed NUMBER        seed of the random states for that (default 1)\n"
     "  --check              read the file and say what is wrong with it, or with its start\n"
-    "  --help, --version\n"
+    "  --schema             the model language as JSON Schema, for editors\n"
+    "  --completion SHELL   what makes bash, zsh or fish complete these options\n"
+    "  -h, --help, --version\n"
     "\n"
     "Exit codes: 0 done, 1 the run failed or ended early, or the scene is not in equilibrium (--static),\n"
     "2 usage, 3 the model file is wrong, 4 a hand derivation differs, 5 the accuracy asked for was not "
@@ -119,6 +121,7 @@ static const struct option long_options[] = {
     {"body", required_argument, NULL, option_body},
     {"components", no_argument, NULL, option_components},
     {"check", no_argument, NULL, option_check},
+    {"schema", no_argument, NULL, option_schema},
     COMMAND_LINE_END,
 };
 

@@ -40,7 +40,8 @@ static const char help[] =
     "  --csv FILE           where the table goes (default: standard output); FILE.part until it is whole\n"
     "  --resume             go on with FILE.part\n"
     "  --quiet              no progress, no summary\n"
-    "  --help, --version\n"
+    "  --completion SHELL   what makes bash, zsh or fish complete these options\n"
+    "  -h, --help, --version\n"
     "\n"
     "Exit codes: 0 all runs ended well, 1 some did not (their rows say why), 2 usage, 3 the model file is\n"
     "wrong; ended by a signal: 128 and its number, and what has been computed is kept.\n";

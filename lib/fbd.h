@@ -422,6 +422,10 @@ FBD_API char *fbd_result_gnuplot(fbd_result *result, const char *file, const cha
 /* Does the model have all these columns? False with notes in `errors`. */
 FBD_API bool fbd_model_has_columns(const fbd_model *model, const char *columns, fbd_errors *errors);
 
+/* The model language as JSON Schema (draft 07), for editors and other programs: keys, kinds, words and types with what
+ * they mean. To be freed with free(); NULL when memory is out. */
+FBD_API char *fbd_schema(void);
+
 /* Was the library built with the page (it needs a library for its plots)? */
 FBD_API bool fbd_has_html(void);
 

@@ -7,6 +7,7 @@
 #include "base/call.h"
 #include "base/file.h"
 #include "model/model.h"
+#include "scene/schema.h"
 
 /* `text` is taken over. */
 static fbd_model *compile(char *text, size_t length, const char *name, const fbd_setting *settings,
@@ -115,6 +116,14 @@ fbd_coordinate fbd_model_coordinate(const fbd_model *model, size_t index)
                             .rate_name = label->rate_name,
                             .rate_unit = label->rate_unit,
                             .body = (size_t)model->scene->coordinates[index].body};
+}
+
+char *fbd_schema(void)
+{
+    struct text text = {0};
+    schema_write(&text);
+    if (text.failed) text_free(&text);
+    return text.data;
 }
 
 const char *fbd_version(void)

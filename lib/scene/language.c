@@ -18,22 +18,22 @@ static const struct field scene_fields[] = {
                "acceleration of gravity: a magnitude, straight down, or a pair [gx, gy]"),
     FIELD_NUMBER(offsetof(struct scene_keys, datum), "datum", a_length, 0,
                  "height y at which the potential energy of gravity is zero"),
-    FIELD_NODE(offsetof(struct scene_keys, parameters), "parameters", field_map, 0, NULL,
-               "named constants: name: quantity or expression of other parameters"),
-    FIELD_NODE(offsetof(struct scene_keys, tables), "tables", field_map, 0, &table_group,
-               "functions given by points or files of data, called as `name(t)` in expressions"),
+    FIELD_ENTRIES(offsetof(struct scene_keys, parameters), "parameters", field_map, 0, each_number, NULL,
+                  "named constants: name: quantity or expression of other parameters"),
+    FIELD_ENTRIES(offsetof(struct scene_keys, tables), "tables", field_map, 0, each_group, &table_group,
+                  "functions given by points or files of data, called as `name(t)` in expressions"),
     FIELD_NODE(offsetof(struct scene_keys, ground), "ground", field_map, 0, &ground_group,
                "named points and lines that do not move"),
-    FIELD_NODE(offsetof(struct scene_keys, bodies), "bodies", field_map, required, &body_group,
-               "each body by its name: what it is, how it moves, what acts on it"),
+    FIELD_ENTRIES(offsetof(struct scene_keys, bodies), "bodies", field_map, required, each_group, &body_group,
+                  "each body by its name: what it is, how it moves, what acts on it"),
     FIELD_NODE(offsetof(struct scene_keys, simulate), "simulate", field_map, 0, &simulate_group,
                "how long to run, how accurately, and when to stop"),
     FIELD_NODE(offsetof(struct scene_keys, output), "output", field_map, 0, &output_group,
                "what a run writes"),
-    FIELD_NODE(offsetof(struct scene_keys, couplings), "couplings", field_list, 0, NULL,
-               "what joins two bodies, beside what they move on"),
-    FIELD_NODE(offsetof(struct scene_keys, contacts), "contacts", field_list, 0, &contact_group,
-               "bodies that meet each other or the ground, and part"),
+    FIELD_KINDS(offsetof(struct scene_keys, couplings), "couplings", field_list, 0, each_kind,
+                &coupling_kinds, "what joins two bodies, beside what they move on"),
+    FIELD_ENTRIES(offsetof(struct scene_keys, contacts), "contacts", field_list, 0, each_group,
+                  &contact_group, "bodies that meet each other or the ground, and part"),
 };
 
 const struct group scene_group = {"the file", NULL, FIELDS(scene_fields), NULL, 0, "a model"};
@@ -46,11 +46,12 @@ static const struct field output_fields[] = {
 const struct group output_group = {"`output`", NULL, FIELDS(output_fields), NULL, 0, "what a run writes"};
 
 static const struct field ground_fields[] = {
-    FIELD_NODE(offsetof(struct ground_keys, points), "points", field_map, 0, NULL, "name: [x, y]"),
-    FIELD_NODE(offsetof(struct ground_keys, lines), "lines", field_map, 0, &line_group,
-               "name: a line to slide on"),
-    FIELD_NODE(offsetof(struct ground_keys, polygons), "polygons", field_map, 0, NULL,
-               "name: corners [[x, y], ...] of a convex surface that contacts meet"),
+    FIELD_ENTRIES(offsetof(struct ground_keys, points), "points", field_map, 0, each_pair, NULL,
+                  "name: [x, y]"),
+    FIELD_ENTRIES(offsetof(struct ground_keys, lines), "lines", field_map, 0, each_group, &line_group,
+                  "name: a line to slide on"),
+    FIELD_ENTRIES(offsetof(struct ground_keys, polygons), "polygons", field_map, 0, each_polygon, NULL,
+                  "name: corners [[x, y], ...] of a convex surface that contacts meet"),
 };
 
 const struct group ground_group = {"`ground`", NULL, FIELDS(ground_fields),
@@ -105,8 +106,8 @@ static const struct field simulate_fields[] = {
                  "several impacts at one instant"),
     FIELD_NODE(offsetof(struct simulate_keys, output), "output", field_map, 0, &output_group,
                "what a run writes"),
-    FIELD_NODE(offsetof(struct simulate_keys, events), "events", field_any, 0, &event_group,
-               "instants to find: a list of conditions"),
+    FIELD_ENTRIES(offsetof(struct simulate_keys, events), "events", field_any, 0, each_group, &event_group,
+                  "instants to find: a list of conditions"),
 };
 
 const struct group simulate_group = {"`simulate`", NULL, FIELDS(simulate_fields), NULL, 0, "how to run"};

@@ -46,6 +46,19 @@ struct choice {
     const char *doc;
 };
 
+/* What the entries of a list or mapping are; `one_value`: it is no collection, or of entries of any kind. */
+enum entries {
+    one_value,    /* one mapping, of `group` */
+    each_group,   /* mappings of `group` */
+    each_kind,    /* one of `kinds` */
+    each_number,  /* constants */
+    each_word,    /* names */
+    each_pair,    /* [x, y] */
+    each_polygon, /* [[x, y], ...] */
+};
+
+struct kinds;
+
 struct field {
     const char *key;
     enum field_type type;
@@ -55,6 +68,8 @@ struct field {
     const struct choice *choices;
     size_t choice_count;
     const struct group *group; /* of a mapping, or of the entries of a list or mapping */
+    enum entries entries;
+    const struct kinds *kinds; /* of the value, or of its entries */
     const char *doc;
 };
 
@@ -214,7 +229,7 @@ extern const struct kind *const contact_kind; /* among the couplings, or in a li
 
 #define FIELD_PLAIN(key, type, quantity, flags, at, doc)                                                     \
     {                                                                                                        \
-        key, type, quantity, flags, at, NULL, 0, NULL, doc                                                   \
+        key, type, quantity, flags, at, NULL, 0, NULL, one_value, NULL, doc                                  \
     }
 
 #define FIELD_TEXT(at, key, doc)                    FIELD_PLAIN(key, field_text, a_number, 0, at, doc)
@@ -227,11 +242,19 @@ extern const struct kind *const contact_kind; /* among the couplings, or in a li
 #define FIELD_LATER(key, doc)                       FIELD_PLAIN(key, field_later, a_number, 0, 0, doc)
 #define FIELD_CHOICE(at, key, table, doc)                                                                    \
     {                                                                                                        \
-        key, field_choice, a_number, 0, at, FIELDS(table), NULL, doc                                         \
+        key, field_choice, a_number, 0, at, FIELDS(table), NULL, one_value, NULL, doc                        \
     }
 #define FIELD_NODE(at, key, type, flags, group, doc)                                                         \
     {                                                                                                        \
-        key, type, a_number, flags, at, NULL, 0, group, doc                                                  \
+        key, type, a_number, flags, at, NULL, 0, group, one_value, NULL, doc                                 \
+    }
+#define FIELD_ENTRIES(at, key, type, flags, entries, group, doc)                                             \
+    {                                                                                                        \
+        key, type, a_number, flags, at, NULL, 0, group, entries, NULL, doc                                   \
+    }
+#define FIELD_KINDS(at, key, type, flags, entries, kinds, doc)                                               \
+    {                                                                                                        \
+        key, type, a_number, flags, at, NULL, 0, NULL, entries, kinds, doc                                   \
     }
 
 #define FIELDS(table) (table), sizeof(table) / sizeof *(table)

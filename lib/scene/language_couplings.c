@@ -10,8 +10,8 @@ static const struct field name_fields[] = {
 static const struct group named = {"a coupling", NULL, FIELDS(name_fields), NULL, 0, "with a name"};
 
 #define BETWEEN_ROW                                                                                          \
-    FIELD_NODE(COUPLING(between), "between", field_list, required, NULL,                                     \
-               "its two ends: body.point, ground.point or, for the centre of mass, a body")
+    FIELD_ENTRIES(COUPLING(between), "between", field_list, required, each_word, NULL,                       \
+                  "its two ends: body.point, ground.point or, for the centre of mass, a body")
 
 #define COUPLING_GROUP(title, table, doc)                                                                    \
     {                                                                                                        \
@@ -46,17 +46,18 @@ static const struct group rod_group =
     COUPLING_GROUP("a rod", rod_fields, "massless: keeps two points at their distance");
 
 static const struct field gear_fields[] = {
-    FIELD_NODE(COUPLING(between), "between", field_list, required, NULL, "two bodies that turn"),
-    FIELD_NODE(COUPLING(radii), "radii", field_list, 0, NULL,
-               "their pitch radii; default those of their shapes"),
+    FIELD_ENTRIES(COUPLING(between), "between", field_list, required, each_word, NULL,
+                  "two bodies that turn"),
+    FIELD_ENTRIES(COUPLING(radii), "radii", field_list, 0, each_number, NULL,
+                  "their pitch radii; default those of their shapes"),
     FIELD_FLAG(COUPLING(inside), "inside", "true: the first turns inside the second, a ring"),
 };
 static const struct group gear_group =
     COUPLING_GROUP("a gear", gear_fields, "two pitch circles that roll on each other without slip");
 
 static const struct field rope_fields[] = {
-    FIELD_NODE(COUPLING(through), "through", field_list, required, NULL,
-               "its way: ends and points as in `between`; a disc that turns is a pulley"),
+    FIELD_ENTRIES(COUPLING(through), "through", field_list, required, each_word, NULL,
+                  "its way: ends and points as in `between`; a disc that turns is a pulley"),
     FIELD_NUMBER(COUPLING(length), "length", a_length, positive, "its length; default taut at the start"),
 };
 static const struct group rope_group = COUPLING_GROUP("a rope", rope_fields, "inextensible and massless");
@@ -74,8 +75,8 @@ static const struct group roll_group =
     COUPLING_GROUP("`roll`", roll_fields, "a round body on a line; without coefficients it never slips");
 
 static const struct field rack_fields[] = {
-    FIELD_NODE(COUPLING(between), "between", field_list, required, NULL,
-               "a body that turns, and one whose x axis is the rack"),
+    FIELD_ENTRIES(COUPLING(between), "between", field_list, required, each_word, NULL,
+                  "a body that turns, and one whose x axis is the rack"),
     FIELD_NUMBER(COUPLING(radius), "radius", a_length, positive, "pitch radius; default that of its shape"),
 };
 static const struct group rack_group =
@@ -97,9 +98,9 @@ static const struct choice contact_sides[] = {
 
 static const struct field contact_fields[] = {
     FIELD_NAME(COUPLING(name), "name", "its name in all output; default `contact`"),
-    FIELD_NODE(COUPLING(between), "between", field_list, required, NULL,
-               "a body or body.point, and what it meets: the same of another body, or a line, polygon or "
-               "point of the ground"),
+    FIELD_ENTRIES(COUPLING(between), "between", field_list, required, each_word, NULL,
+                  "a body or body.point, and what it meets: the same of another body, or a line, polygon or "
+                  "point of the ground"),
     FIELD_VALUE(COUPLING(restitution), "restitution", a_number, not_negative,
                 "e of an impact, 0 to 1; may depend on the approach speed, `approach`; default 0"),
     FIELD_VALUE(COUPLING(mu_s), "static", a_number, not_negative,

@@ -20,8 +20,8 @@ static const struct choice beyonds[] = {
 static const struct field table_fields[] = {
     FIELD_TEXT(offsetof(struct table_keys, file), "file",
                "a text file with columns of numbers; its path is relative to the model file"),
-    FIELD_NODE(offsetof(struct table_keys, points), "points", field_list, 0, NULL,
-               "[[x, y], ...] in place of a file"),
+    FIELD_ENTRIES(offsetof(struct table_keys, points), "points", field_list, 0, each_pair, NULL,
+                  "[[x, y], ...] in place of a file"),
     FIELD_TEXT(offsetof(struct table_keys, x), "x",
                "heading of the column of arguments, as `t [s]`, or its number"),
     FIELD_TEXT(offsetof(struct table_keys, y), "y",

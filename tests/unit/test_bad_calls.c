@@ -439,6 +439,10 @@ static void no_function_is_forgotten(void **context)
     fclose(file);
     note("fbd_errors_new"); /* which ask for nothing */
     note("fbd_version");
+    char *schema = fbd_schema();
+    assert_non_null(schema);
+    free(schema);
+    note("fbd_schema");
     size_t functions = 0, forgotten = 0;
     for (const char *at = text; (at = strstr(at, "\nFBD_API ")) != NULL;) {
         const char *end = at = strchr(at, '(');

@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "completion.h"
+
+#include <string.h>
+
+/* ---- what the help says of an option */
+
+struct piece {
+    const char *text;
+    int length;
+};
+
+/* The first line of `--name ...   what it does`, without what a shell or a list would take for its own. */
+static struct piece doc_of(const struct command_line *line, const char *name)
+{
+    size_t length = strlen(name);
+    for (const char *at = line->help; (at = strstr(at, "  --")) != NULL; at += 4) {
+        if (strncmp(at + 4, name, length) != 0 || !strchr(" ,\n|", at[4 + length])) continue;
+        const char *doc = strstr(at + 4 + length, "  ");
+        const char *end = at + 4 + strcspn(at + 4, "\n");
+        if (!doc || doc > end) return (struct piece){"", 0};
+        doc += strspn(doc, " ");
+        return (struct piece){doc, (int)strcspn(doc, "'[]:(;\n")};
+    }
+    return (struct piece){"", 0};
+}
+
+/* ---- shells */
+
+/* Names behind which a file is given. */
+static bool takes_file(const char *name)
+{
+    static const char *const files[] = {"csv", "json", "html", "plot", "gnuplot", "svg"};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        if (strcmp(name, files[i]) == 0) return true;
+    return false;
+}
+
+static void write_bash(const struct command_line *line)
+{
+    const char *function = strchr(line->program, '-') + 1;
+    printf("# eval \"$(%s --completion bash)\"\n_fbd_%s() {\n    local word=${COMP_WORDS[COMP_CWORD]} "
+           "before=${COMP_WORDS[COMP_CWORD-1]}\n    case $before in\n",
+           line->program, function);
+    for (const struct option *o = line->options; o->name; o++)
+        if (o->has_arg == required_argument && !takes_file(o->name))
+            printf("    --%s) %s ;;\n", o->name,
+                   strcmp(o->name, "completion") == 0
+                       ? "COMPREPLY=($(compgen -W 'bash zsh fish' -- \"$word\")); return"
+                       : "return");
+    printf("    esac\n    if [[ $word == -* ]]; then\n        COMPREPLY=($(compgen -W '");
+    for (const struct option *o = line->options; o->name; o++)
+        printf("%s--%s", o == line->options ? "" : " ", o->name);
+    printf("' -- \"$word\"))\n    else\n        COMPREPLY=($(compgen -f -- \"$word\"))\n    fi\n}\ncomplete "
+           "-o filenames -F "
+           "_fbd_%s %s\n",
+           function, line->program);
+}
+
+static void write_zsh(const struct command_line *line)
+{
+    printf("#compdef %s\n# eval \"$(%s --completion zsh)\", after compinit\n_%s() {\n    _arguments \\\n",
+           line->program, line->program, line->program);
+    for (const struct option *o = line->options; o->name; o++) {
+        struct piece doc = doc_of(line, o->name);
+        bool value = o->has_arg == required_argument;
+        printf("        '*--%s[%.*s]%s' \\\n", o->name, doc.length, doc.text,
+               !value                               ? ""
+               : takes_file(o->name)                ? ":file:_files"
+               : strcmp(o->name, "completion") == 0 ? ":shell:(bash zsh fish)"
+                                                    : ":value:");
+    }
+    printf("        '*:model:_files -g \"*.yaml\"'\n}\ncompdef _%s %s\n", line->program, line->program);
+}
+
+static void write_fish(const struct command_line *line)
+{
+    printf("# %s --completion fish | source\n", line->program);
+    for (const struct option *o = line->options; o->name; o++) {
+        struct piece doc = doc_of(line, o->name);
+        bool value = o->has_arg == required_argument;
+        printf("complete -c %s -l %s%s -d '%.*s'\n", line->program, o->name,
+               !value                               ? ""
+               : takes_file(o->name)                ? " -r -F"
+               : strcmp(o->name, "completion") == 0 ? " -x -a 'bash zsh fish'"
+                                                    : " -x",
+               doc.length, doc.text);
+    }
+}
+
+bool completion_write(const struct command_line *line, const char *shell)
+{
+    if (strcmp(shell, "bash") == 0)
+        write_bash(line);
+    else if (strcmp(shell, "zsh") == 0)
+        write_zsh(line);
+    else if (strcmp(shell, "fish") == 0)
+        write_fish(line);
+    else
+        return false;
+    return true;
+}
+
+/* ---- slips */
+
+static int least(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+/* How many letters are to be put in, left out, changed or exchanged with the next (Damerau and Levenshtein, restricted). */
+static int distance(const char *a, const char *b)
+{
+    enum { longest = 32 };
+    int d[longest + 1][longest + 1], n = (int)strlen(a), m = (int)strlen(b);
+    if (n > longest || m > longest) return longest;
+    for (int i = 0; i <= n; i++) d[i][0] = i;
+    for (int j = 0; j <= m; j++) d[0][j] = j;
+    for (int i = 1; i <= n; i++)
+        for (int j = 1; j <= m; j++) {
+            d[i][j] = least(least(d[i - 1][j], d[i][j - 1]) + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1]));
+            bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+            if (swapped) d[i][j] = least(d[i][j], d[i - 2][j - 2] + 1);
+        }
+    return d[n][m];
+}
+
+const char *completion_nearest(const struct command_line *line, const char *wrong)
+{
+    char name[32] = "";
+    size_t dashes = strspn(wrong, "-"), length = strcspn(wrong + dashes, "=");
+    if (dashes == 0 || length == 0 || length >= sizeof name) return NULL;
+    memcpy(name, wrong + dashes, length);
+    const char *nearest = NULL;
+    int fewest = length <= 4 ? 2 : 3; /* less than this many letters */
+    for (const struct option *o = line->options; o->name; o++) {
+        int d = distance(name, o->name);
+        if (d >= fewest) continue;
+        fewest = d;
+        nearest = o->name;
+    }
+    return nearest;
+}

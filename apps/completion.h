@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Completion of a command line by the shell, made of the tables that the options are read by.
+ */
+#ifndef FBD_APPS_COMPLETION_H
+#define FBD_APPS_COMPLETION_H
+
+#include "command_line.h"
+
+/* Write the script for `shell` (bash, zsh or fish) to standard output; false when there is no such shell. */
+bool completion_write(const struct command_line *line, const char *shell);
+
+/* The option that `wrong` (`--acuracy`) is meant to be, or NULL. */
+const char *completion_nearest(const struct command_line *line, const char *wrong);
+
+#endif

@@ -1,0 +1,441 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/schema.h"
+
+#include <string.h>
+
+#include "base/format.h"
+#include "scene/language.h"
+
+/* ---- pieces of JSON */
+
+/* A comma before everything but the first of an object or list. */
+static void next(struct text *text, bool *first)
+{
+    if (!*first) text_add(text, ",\n");
+    *first = false;
+}
+
+static void add_key(struct text *text, bool *first, const char *key)
+{
+    next(text, first);
+    text_json_string(text, key);
+    text_add(text, ": ");
+}
+
+static void add_doc(struct text *text, const char *doc)
+{
+    text_add(text, "\"description\": ");
+    text_json_string(text, doc);
+}
+
+static const char word_schema[] = "{\"type\": \"string\"}";
+static const char scalar_schema[] = "{\"type\": [\"string\", \"number\"]}";
+static const char pair_schema[] = "{\"type\": \"array\", \"items\": {\"$ref\": \"#/definitions/number\"}, "
+                                  "\"minItems\": 2, \"maxItems\": 2}";
+static const char polygon_schema[] =
+    "{\"type\": \"array\", \"items\": {\"$ref\": \"#/definitions/pair\"}, \"minItems\": 3}";
+
+/* ---- values */
+
+/* A plain number, whose sign is known; a text may be a quantity or an expression. */
+static void add_quantity(struct text *text, const struct field *field)
+{
+    const char *sign = field->flags & positive       ? ", \"exclusiveMinimum\": 0"
+                       : field->flags & not_negative ? ", \"minimum\": 0"
+                                                     : "";
+    text_printf(text, "{\"type\": [\"number\", \"string\"]%s, \"examples\": [", sign);
+    text_json_string(text, quantity_example(field->quantity));
+    struct text doc = {0};
+    text_printf(&doc, "%s; %s", field->doc, quantity_name(field->quantity));
+    text_add(text, "], ");
+    if (!doc.failed) add_doc(text, doc.data);
+    text->failed |= doc.failed;
+    text_free(&doc);
+    text_add(text, "}");
+}
+
+static void add_words(struct text *text, const struct field *field)
+{
+    bool first = true;
+    text_add(text, "{\"enum\": [");
+    for (size_t i = 0; i < field->choice_count; i++) {
+        if (!first) text_add(text, ", ");
+        first = false;
+        text_json_string(text, field->choices[i].name);
+    }
+    text_add(text, "], ");
+    add_doc(text, field->doc);
+    text_add(text, "}");
+}
+
+/* `name`: of its definition, where that has needs, or NULL. */
+static void add_group(struct text *text, const struct group *group, const char *name);
+
+/* What one entry of a collection is, or one value; NULL kinds and group: any. */
+static void add_entry(struct text *text, const struct field *field, enum entries entries)
+{
+    switch (entries) {
+    case each_group: add_group(text, field->group, field->group == &part_group ? "part" : NULL); break;
+    case each_kind: text_printf(text, "{\"$ref\": \"#/definitions/%ss\"}", field->kinds->noun); break;
+    case each_number: text_add(text, "{\"$ref\": \"#/definitions/number\"}"); break;
+    case each_word: text_add(text, word_schema); break;
+    case each_pair: text_add(text, "{\"$ref\": \"#/definitions/pair\"}"); break;
+    case each_polygon: text_add(text, polygon_schema); break;
+    case one_value: text_add(text, "true"); break;
+    }
+}
+
+static void add_list(struct text *text, const struct field *field)
+{
+    text_add(text, "{\"type\": \"array\", \"items\": ");
+    add_entry(text, field, field->entries);
+    text_add(text, "}");
+}
+
+/* Names of the file in front of entries. */
+static void add_map(struct text *text, const struct field *field)
+{
+    bool some = field->group == &body_group || field->group == &part_group;
+    text_printf(text, "{\"type\": \"object\", \"minProperties\": %d, ", some ? 1 : 0);
+    text_add(text, "\"propertyNames\": {\"$ref\": \"#/definitions/name\"}, "
+                   "\"additionalProperties\": ");
+    if (field->group == &table_group)
+        text_add(text, "{\"$ref\": \"#/definitions/table\"}");
+    else
+        add_entry(text, field, field->entries);
+    text_add(text, "}");
+}
+
+/* A mapping, list or scalar that has its own code. */
+static void add_any(struct text *text, const struct field *field)
+{
+    if (field->kinds && field->entries == one_value) {
+        text_printf(text, "{\"$ref\": \"#/definitions/%ss\"}", field->kinds->noun);
+    } else if (field->entries != one_value) {
+        text_add(text, "{\"anyOf\": [");
+        add_entry(text, field, field->entries);
+        text_add(text, ", ");
+        add_list(text, field);
+        text_add(text, "]}");
+    } else if (field->group) {
+        add_group(text, field->group, NULL);
+    } else {
+        text_add(text, "{\"$ref\": \"#/definitions/place\"}");
+    }
+}
+
+static void add_plain(struct text *text, const struct field *field)
+{
+    switch (field->type) {
+    case field_name: text_add(text, "{\"$ref\": \"#/definitions/name\"}"); break;
+    case field_text:
+    case field_scalar: text_add(text, scalar_schema); break;
+    case field_flag: text_add(text, "{\"type\": \"boolean\"}"); break;
+    case field_vector: text_add(text, "{\"$ref\": \"#/definitions/pair\"}"); break;
+    case field_any: add_any(text, field); break;
+    case field_list: add_list(text, field); break;
+    case field_map:
+        if (field->entries != one_value)
+            add_map(text, field);
+        else if (field->group)
+            add_group(text, field->group, NULL);
+        else
+            text_add(text, "{\"type\": \"object\"}"); /* `initial` and `exact`: as the motion says */
+        break;
+    default: text_add(text, "true"); break;
+    }
+}
+
+static void add_field(struct text *text, const struct field *field)
+{
+    if (field->type == field_number || field->type == field_value) {
+        add_quantity(text, field);
+    } else if (field->type == field_choice) {
+        add_words(text, field);
+    } else {
+        text_add(text, "{");
+        add_doc(text, field->doc);
+        text_add(text, ", \"allOf\": [");
+        add_plain(text, field);
+        text_add(text, "]}");
+    }
+}
+
+/* ---- groups */
+
+static void add_fields(struct text *text, const struct group *group, bool *first)
+{
+    if (group->base) add_fields(text, group->base, first);
+    for (size_t i = 0; i < group->count; i++) {
+        const struct field *field = &group->fields[i];
+        if (field->type == field_later) continue;
+        add_key(text, first, field->key);
+        add_field(text, field);
+    }
+}
+
+static bool list_required(struct text *text, const struct group *group, bool any)
+{
+    if (group->base) any = list_required(text, group->base, any);
+    for (size_t i = 0; i < group->count; i++) {
+        if (!(group->fields[i].flags & required)) continue;
+        text_add(text, any ? ", " : ", \"required\": [");
+        text_json_string(text, group->fields[i].key);
+        any = true;
+    }
+    return any;
+}
+
+static bool has_required(const struct group *group)
+{
+    if (!group) return false;
+    for (size_t i = 0; i < group->count; i++)
+        if (group->fields[i].flags & required) return true;
+    return has_required(group->base);
+}
+
+/* What a mapping needs at least one of: keys, several of them joined by `+`. */
+static const struct {
+    const char *name, *keys;
+} needs[] = {
+    {"body", "mass parts"},
+    {"part", "mass"},
+    {"table", "file points"},
+    {"force_applied", "value fx fy"},
+    {"force_drag", "linear quadratic"},
+    {"force_friction", "coefficient static kinetic"},
+    {"moment_friction", "coefficient static kinetic"},
+    {"rod", "length from+to"},
+    {"sphere", "radius"},
+    {"cylinder", "radius"},
+    {"disc", "radius"},
+    {"disk", "radius"},
+    {"solid_cylinder", "radius"},
+    {"hollow_cylinder", "outer_radius+inner_radius"},
+    {"prism", "a+b b+c a+c"},
+    {"rectangular_prism", "a+b b+c a+c"},
+    {"ring", "radius"},
+    {"thin_ring", "radius"},
+};
+
+static const char *find_needs(const char *name)
+{
+    for (size_t i = 0; name && i < sizeof needs / sizeof *needs; i++)
+        if (strcmp(needs[i].name, name) == 0) return needs[i].keys;
+    return NULL;
+}
+
+static void add_needs(struct text *text, const char *keys)
+{
+    text_add(text, "\"anyOf\": [{\"required\": [\"");
+    for (const char *c = keys; *c; c++) {
+        if (*c == ' ')
+            text_add(text, "\"]}, {\"required\": [\"");
+        else if (*c == '+')
+            text_add(text, "\", \"");
+        else
+            text_add_bytes(text, c, 1);
+    }
+    text_add(text, "\"]}]");
+}
+
+/* The sizes that a shape needs, unless its moment of inertia is given. */
+static void add_shape_rules(struct text *text)
+{
+    const struct field *shape = &part_group.fields[0];
+    while (strcmp(shape->key, "shape") != 0) shape++;
+    bool first = true;
+    for (size_t i = 0; i < shape->choice_count; i++) {
+        const char *name = shape->choices[i].name, *keys = find_needs(name);
+        if (!keys) continue;
+        next(text, &first);
+        text_printf(text,
+                    "{\"if\": {\"required\": [\"shape\"], \"properties\": {\"shape\": {\"const\": \"%s\"}}, "
+                    "\"not\": {\"required\": [\"inertia\"]}},\n\"then\": {",
+                    name);
+        add_needs(text, keys);
+        text_add(text, "}}");
+    }
+}
+
+/* The members of the schema of a mapping. */
+static void add_members(struct text *text, const struct group *group, const char *name)
+{
+    bool first = true;
+    text_add(text, "\"type\": \"object\", ");
+    add_doc(text, group->doc);
+    text_add(text, ",\n\"properties\": {\n");
+    add_fields(text, group, &first);
+    text_add(text, "},\n\"additionalProperties\": false");
+    if (list_required(text, group, false)) text_add(text, "]");
+    const char *keys = find_needs(name);
+    if (keys) text_add(text, ",\n");
+    if (keys) add_needs(text, keys);
+    if (group != &part_group) return;
+    text_add(text, ",\n\"allOf\": [\n");
+    add_shape_rules(text);
+    text_add(text, "]");
+}
+
+static void add_mapping(struct text *text, const struct group *group, const char *name)
+{
+    text_add(text, "{");
+    add_members(text, group, name);
+    text_add(text, "}");
+}
+
+static const struct field *brief_of(const struct group *group)
+{
+    for (const struct group *part = group; part && group->brief; part = part->base)
+        for (size_t i = 0; i < part->count; i++)
+            if (strcmp(part->fields[i].key, group->brief) == 0) return &part->fields[i];
+    return NULL;
+}
+
+/* A mapping, or a single value for its main key. */
+static void add_group(struct text *text, const struct group *group, const char *name)
+{
+    const struct field *brief = brief_of(group);
+    if (group == &body_group) {
+        text_add(text, "{\"$ref\": \"#/definitions/body\"}");
+        return;
+    }
+    if (brief) text_add(text, "{\"anyOf\": [");
+    add_mapping(text, group, name);
+    if (!brief) return;
+    text_add(text, ", ");
+    text_add(text, brief->type == field_any ? "{\"$ref\": \"#/definitions/place\"}" : scalar_schema);
+    text_add(text, "]}");
+}
+
+/* ---- kinds */
+
+/* May it stand without any keys? */
+static bool may_be_bare(const struct kinds *kinds, const struct kind *kind)
+{
+    char name[64];
+    format_into(name, sizeof name, "%s_%s", kinds->noun, kind->name);
+    return !find_needs(name) && !has_required(kind->group);
+}
+
+/* One of those that go with `motion`, a bit or all of them. */
+static void add_kinds(struct text *text, const struct kinds *kinds, unsigned motion)
+{
+    bool first = true;
+    text_add(text, "{\"anyOf\": [{\"enum\": [");
+    for (size_t i = 0; i < kinds->count; i++) {
+        const struct kind *kind = &kinds->kinds[i];
+        if (!(kind->motions & motion) || !may_be_bare(kinds, kind)) continue;
+        if (!first) text_add(text, ", ");
+        first = false;
+        text_json_string(text, kind->name);
+    }
+    text_add(text, "]},\n{\"type\": \"object\", \"minProperties\": 1, \"maxProperties\": 1, "
+                   "\"additionalProperties\": false, \"properties\": {\n");
+    first = true;
+    for (size_t i = 0; i < kinds->count; i++) {
+        const struct kind *kind = &kinds->kinds[i];
+        if (!(kind->motions & motion)) continue;
+        add_key(text, &first, kind->name);
+        text_printf(text, "{\"$ref\": \"#/definitions/%s_%s\"}", kinds->noun, kind->name);
+    }
+    text_add(text, "}}]}");
+}
+
+static void define_kinds(struct text *text, const struct kinds *kinds, bool *first)
+{
+    char name[64];
+    for (size_t i = 0; i < kinds->count; i++) {
+        const struct kind *kind = &kinds->kinds[i];
+        format_into(name, sizeof name, "%s_%s", kinds->noun, kind->name);
+        add_key(text, first, name);
+        bool empty = may_be_bare(kinds, kind);
+        if (empty) text_add(text, "{\"anyOf\": [{\"type\": \"null\"}, ");
+        add_group(text, kind->group, name);
+        if (empty) text_add(text, "]}");
+    }
+    format_into(name, sizeof name, "%ss", kinds->noun);
+    add_key(text, first, name);
+    add_kinds(text, kinds, ~0u);
+}
+
+/* ---- a body: what depends on its motion */
+
+static void add_of_motion(struct text *text, const char *key, const struct kinds *kinds, unsigned motion)
+{
+    text_printf(text, ",\n\"%s\": {\"anyOf\": [", key);
+    add_kinds(text, kinds, motion);
+    text_add(text, ", {\"type\": \"array\", \"items\": ");
+    add_kinds(text, kinds, motion);
+    text_add(text, "}]}");
+}
+
+static void add_motion_rules(struct text *text)
+{
+    text_add(text, ",\n\"allOf\": [\n");
+    add_shape_rules(text);
+    for (size_t i = 0; i < motion_kinds.count; i++) {
+        const struct kind *kind = &motion_kinds.kinds[i];
+        text_printf(text,
+                    ",\n{\"if\": {\"required\": [\"motion\"], \"properties\": {\"motion\": {\"anyOf\": "
+                    "[{\"const\": \"%s\"}, "
+                    "{\"type\": \"object\", \"required\": [\"%s\"]}]}}},\n\"then\": {\"properties\": "
+                    "{\n\"initial\": ",
+                    kind->name, kind->name);
+        add_group(text, &initial_groups[kind->value], NULL);
+        text_add(text, ",\n\"exact\": ");
+        add_group(text, &exact_groups[kind->value], NULL);
+        add_of_motion(text, "forces", &force_kinds, 1u << kind->value);
+        add_of_motion(text, "moments", &moment_kinds, 1u << kind->value);
+        text_add(text, "}}}");
+    }
+    text_add(text, "]");
+}
+
+/* ---- the whole */
+
+static void define(struct text *text, bool *first, const char *name, const char *schema)
+{
+    add_key(text, first, name);
+    text_add(text, schema);
+}
+
+static void define_table(struct text *text, bool *first)
+{
+    add_key(text, first, "table");
+    text_add(text, "{\"anyOf\": [");
+    add_mapping(text, &table_group, "table");
+    text_add(
+        text,
+        ", {\"type\": \"string\"}, {\"type\": \"array\", \"items\": {\"$ref\": \"#/definitions/pair\"}}]}");
+}
+
+static void define_body(struct text *text, bool *first)
+{
+    add_key(text, first, "body");
+    text_add(text, "{");
+    add_members(text, &body_group, "body");
+    add_motion_rules(text);
+    text_add(text, "}");
+}
+
+void schema_write(struct text *text)
+{
+    bool first = true;
+    text_add(text, "{\n\"$schema\": \"http://json-schema.org/draft-07/schema#\",\n"
+                   "\"title\": \"fbd: free-body diagrams that run\",\n\"definitions\": {\n");
+    define(text, &first, "number",
+           "{\"type\": [\"number\", \"string\"], \"description\": \"a number, a quantity (30 deg) or an "
+           "expression\"}");
+    define(text, &first, "name", "{\"type\": \"string\", \"pattern\": \"^[A-Za-z_][A-Za-z0-9_]*$\"}");
+    define(text, &first, "pair", pair_schema);
+    define(text, &first, "place",
+           "{\"anyOf\": [{\"type\": [\"string\", \"number\"]}, {\"$ref\": \"#/definitions/pair\"}]}");
+    const struct kinds *const kinds[] = {&motion_kinds, &force_kinds, &moment_kinds, &coupling_kinds};
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) define_kinds(text, kinds[i], &first);
+    define_table(text, &first);
+    define_body(text, &first);
+    text_add(text, "},\n");
+    add_members(text, &scene_group, NULL);
+    text_add(text, "\n}\n");
+}
