@@ -338,34 +338,39 @@ static bool choose_columns(const struct titles *titles, const char *path, const 
     return false;
 }
 
+/* The columns that are asked for; what is wrong with the choice is said of the model file. */
+static bool find_columns(struct data_reader *reader, const struct titles *titles, const char *path,
+                         const char *const wanted[2], const struct pos wanted_at[2], const char *model_file,
+                         size_t which[2])
+{
+    const char *data_file = reader->errors->file;
+    reader->errors->file = model_file;
+    bool fine = choose_columns(titles, path, wanted, wanted_at, reader->errors, which);
+    reader->errors->file = data_file;
+    return fine;
+}
+
 static bool read_text(struct data_reader *reader, const char *path, const char *const wanted[2],
                       const struct pos wanted_at[2], const char *model_file, struct data_columns *columns)
 {
-    fbd_errors *errors = reader->errors;
     struct opening opening = {.remark_line = 0};
     struct titles *titles = calloc(1, sizeof *titles);
-    size_t which[2];
     struct pos at = {1, 1};
-    bool fine = false;
+    size_t which[2] = {0, 1};
     if (!titles) {
-        diag_out_of_memory(errors);
+        diag_out_of_memory(reader->errors);
         return false;
     }
-    if (!open_rows(reader, &opening) || !open_titles(reader, &opening, titles, &at)) {
-        diag_add(errors, FBD_ERROR, "table-format", at, NULL, "the file holds no rows of numbers");
-    } else {
-        const char *data_file = errors->file;
-        errors->file = model_file;
-        fine = choose_columns(titles, path, wanted, wanted_at, errors, which);
-        errors->file = data_file;
-        for (size_t k = 0; fine && k < 2; k++) {
-            columns->heading_at[k] = at;
-            if (which[k] < titles->count)
-                columns->found[k] =
-                    heading_read(titles->cells[which[k]].text, titles->cells[which[k]].length);
-        }
-        fine = fine && read_rows(reader, opening.line, which, columns);
+    bool any = open_rows(reader, &opening) && open_titles(reader, &opening, titles, &at);
+    if (!any)
+        diag_add(reader->errors, FBD_ERROR, "table-format", at, NULL, "the file holds no rows of numbers");
+    bool fine = any && find_columns(reader, titles, path, wanted, wanted_at, model_file, which);
+    for (size_t k = 0; fine && k < 2; k++) {
+        columns->heading_at[k] = at;
+        if (which[k] < titles->count)
+            columns->found[k] = heading_read(titles->cells[which[k]].text, titles->cells[which[k]].length);
     }
+    fine = fine && read_rows(reader, opening.line, which, columns);
     free(titles);
     return fine;
 }

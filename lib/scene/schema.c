@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene/schema.h"
 
+#include <assert.h>
 #include <string.h>
 
 #include "base/format.h"
@@ -76,7 +77,10 @@ static void add_entry(struct text *text, const struct field *field, enum entries
 {
     switch (entries) {
     case each_group: add_group(text, field->group, field->group == &part_group ? "part" : NULL); break;
-    case each_kind: text_printf(text, "{\"$ref\": \"#/definitions/%ss\"}", field->kinds->noun); break;
+    case each_kind:
+        assert(field->kinds); /* each_kind goes with FIELD_KINDS */
+        text_printf(text, "{\"$ref\": \"#/definitions/%ss\"}", field->kinds->noun);
+        break;
     case each_number: text_add(text, "{\"$ref\": \"#/definitions/number\"}"); break;
     case each_word: text_add(text, word_schema); break;
     case each_pair: text_add(text, "{\"$ref\": \"#/definitions/pair\"}"); break;
@@ -269,8 +273,10 @@ static void add_members(struct text *text, const struct group *group, const char
     text_add(text, "},\n\"additionalProperties\": false");
     if (list_required(text, group, false)) text_add(text, "]");
     const char *keys = find_needs(name);
-    if (keys) text_add(text, ",\n");
-    if (keys) add_needs(text, keys);
+    if (keys) {
+        text_add(text, ",\n");
+        add_needs(text, keys);
+    }
     if (group != &part_group) return;
     text_add(text, ",\n\"allOf\": [\n");
     add_shape_rules(text);

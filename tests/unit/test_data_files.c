@@ -204,8 +204,12 @@ static size_t read_road(const char *path, double *s, double *h, size_t room)
     snprintf(full, sizeof full, "%s/models/data/%s", getenv("FBD_SOURCE_ROOT"), path);
     FILE *file = fopen(full, "r");
     assert_non_null(file);
-    while (count < room && fgets(line, sizeof line, file))
-        if (sscanf(line, "%lf,%lf", &s[count], &h[count]) == 2) h[count++] /= 1000;
+    while (count < room && fgets(line, sizeof line, file)) {
+        char *end;
+        s[count] = strtod(line, &end);
+        if (end == line || *end != ',') continue; /* headings */
+        h[count++] = strtod(end + 1, NULL) / 1000;
+    }
     fclose(file);
     return count;
 }

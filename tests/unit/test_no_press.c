@@ -28,13 +28,13 @@ static const char *const methods[] = {"auto", "dop853", "rodas5p", "rkf45", "msa
 static int wanted(void)
 {
     const char *number = getenv("FBD_SCENES");
-    return number ? atoi(number) : thorough() ? 100 : 10;
+    return number ? (int)strtol(number, NULL, 10) : thorough() ? 100 : 10;
 }
 
 static struct random_numbers seeded(uint64_t offset)
 {
     const char *seed = getenv("FBD_SEED");
-    return (struct random_numbers){offset + 1000 * (seed ? (uint64_t)atoi(seed) : 1)};
+    return (struct random_numbers){offset + 1000 * (seed ? (uint64_t)strtol(seed, NULL, 10) : 1)};
 }
 
 /* Without gravity a damper to a fixed point presses a body on its line until that passes the foot of the point, where
@@ -71,9 +71,10 @@ static void a_damper_lets_go_at_its_foot(void **unused)
         fbd_simulation_state(run.simulation, to, run.state);
         at = trial_get(&run, "b.x");
         const char *why = fbd_simulation_reason(run.simulation);
-        bool fine = check_that(&checks, "it ends by name",
-                               run.outcome == FBD_BROKEN && strstr(why, "leaves its surface")) &
-                    check_close(&checks, "at the foot", at, foot, 1e-9);
+        bool fine_0 = check_that(&checks, "it ends by name",
+                                 run.outcome == FBD_BROKEN && strstr(why, "leaves its surface"));
+        bool fine_1 = check_close(&checks, "at the foot", at, foot, 1e-9);
+        bool fine = fine_0 && fine_1;
         if (!fine) print_message("trial %d: %s\n%s", trial, why, text);
         trial_close(&run);
     }
@@ -128,8 +129,9 @@ static void friction_without_a_force_is_none(void **unused)
             if (!quick) print_message("trial %d: %zu steps\n%s", trial, stats.steps, text);
             trial_close(&run);
         }
-        bool fine = check_close(&checks, "x", end[1][0], end[0][0], 1e-8) &
-                    check_close(&checks, "v", end[1][1], end[0][1], 1e-8);
+        bool fine_0 = check_close(&checks, "x", end[1][0], end[0][0], 1e-8);
+        bool fine_1 = check_close(&checks, "v", end[1][1], end[0][1], 1e-8);
+        bool fine = fine_0 && fine_1;
         if (!fine) print_message("trial %d:\n%s", trial, text);
     }
     checks_end(&checks);

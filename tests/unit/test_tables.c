@@ -30,13 +30,13 @@ static const char *const beyond_names[] = {"hold", "zero", "repeat", "error"};
 static int wanted(void)
 {
     const char *number = getenv("FBD_TABLES");
-    return number ? atoi(number) : thorough() ? 100 : 10;
+    return number ? (int)strtol(number, NULL, 10) : thorough() ? 100 : 10;
 }
 
 static struct random_numbers seeded(uint64_t offset)
 {
     const char *seed = getenv("FBD_TABLE_SEED");
-    return (struct random_numbers){offset + 1000 * (seed ? (uint64_t)atoi(seed) : 1)};
+    return (struct random_numbers){offset + 1000 * (seed ? (uint64_t)strtol(seed, NULL, 10) : 1)};
 }
 
 static int pick(struct random_numbers *numbers, int count)
@@ -207,8 +207,9 @@ static void a_force_by_a_table_of_time(void **unused)
         struct trial run = trial_parse(text);
         trial_start(&run, NULL);
         trial_finish(&run);
-        bool fine = check_close(&checks, "v", trial_get(&run, "b.v"), v, 1e-9 * (1 + fabs(v))) &
-                    check_close(&checks, "x", trial_get(&run, "b.x"), s, 1e-9 * (1 + fabs(s)));
+        bool fine_0 = check_close(&checks, "v", trial_get(&run, "b.v"), v, 1e-9 * (1 + fabs(v)));
+        bool fine_1 = check_close(&checks, "x", trial_get(&run, "b.x"), s, 1e-9 * (1 + fabs(s)));
+        bool fine = fine_0 && fine_1;
         if (!fine) print_message("trial %d:\n%s", trial, text);
         trial_close(&run);
     }
@@ -253,8 +254,9 @@ static void a_force_by_a_table_of_place(void **unused)
             end[form][1] = trial_get(&run, "b.v");
             trial_close(&run);
         }
-        bool fine = check_close(&checks, "x", end[0][0], end[1][0], 1e-7) &
-                    check_close(&checks, "v", end[0][1], end[1][1], 1e-7);
+        bool fine_0 = check_close(&checks, "x", end[0][0], end[1][0], 1e-7);
+        bool fine_1 = check_close(&checks, "v", end[0][1], end[1][1], 1e-7);
+        bool fine = fine_0 && fine_1;
         if (!fine) print_message("trial %d:\n%s", trial, text);
     }
     checks_end(&checks);
