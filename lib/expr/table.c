@@ -233,13 +233,13 @@ static bool agree(double a, double b, double size)
 
 int table_smoothness(const struct table *table, double piece)
 {
-    struct twofold low, knot, high;
+    struct twofold low, start, high;
     double f[2], d[2], dd[2];
-    table_ends(table, piece - 1, &low, &knot);
-    table_ends(table, piece, &knot, &high);
-    table_slopes(table, piece - 1, knot.x, &f[0], &d[0], &dd[0]);
-    table_slopes(table, piece, knot.x, &f[1], &d[1], &dd[1]);
-    double h = fmin(knot.x - low.x, high.x - knot.x); /* one of them is finite */
+    table_ends(table, piece - 1, &low, &start);
+    table_ends(table, piece, &start, &high);
+    table_slopes(table, piece - 1, start.x, &f[0], &d[0], &dd[0]);
+    table_slopes(table, piece, start.x, &f[1], &d[1], &dd[1]);
+    double h = fmin(start.x - low.x, high.x - start.x); /* one of them is finite */
     double slope = fabs(d[0]) + fabs(d[1]), curve = fabs(dd[0]) + fabs(dd[1]);
     double bend = curve * h, size = fabs(f[0]) + fabs(f[1]) + (slope + bend) * h;
     if (!agree(f[0], f[1], size)) return -1;
