@@ -3,6 +3,7 @@
 
 #include <locale.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 /* The C locale is a constant of the C library (glibc, musl): asking for it takes no memory and cannot fail.
  * uselocale is a matter of this thread alone. */
@@ -11,6 +12,21 @@ int format_list(char *buffer, size_t size, const char *format, va_list args)
     locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     locale_t before = plain ? uselocale(plain) : (locale_t)0;
     int length = vsnprintf(buffer, size, format, args);
+    if (before) uselocale(before);
+    if (plain) freelocale(plain);
+    return length;
+}
+
+int format_shortest(char *buffer, size_t size, double value)
+{
+    enum { fewest = 15, most = 17 };
+    locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    locale_t before = plain ? uselocale(plain) : (locale_t)0;
+    int length = 0;
+    for (int digits = fewest; digits <= most; digits++) {
+        length = snprintf(buffer, size, "%.*g", digits, value);
+        if (!(strtod(buffer, NULL) < value || strtod(buffer, NULL) > value)) break;
+    }
     if (before) uselocale(before);
     if (plain) freelocale(plain);
     return length;

@@ -15,4 +15,7 @@ int format_into(char *buffer, size_t size, const char *format, ...) __attribute_
 int format_list(char *buffer, size_t size, const char *format, va_list args)
     __attribute__((format(printf, 3, 0)));
 
+/* The shortest decimal that reads back as `value`, as %g writes it with 15 to 17 digits; what is not finite as %g has it. */
+int format_shortest(char *buffer, size_t size, double value);
+
 #endif

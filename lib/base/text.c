@@ -142,11 +142,18 @@ void text_json_key(struct text *text, const char *name)
     text_add(text, ": ");
 }
 
+void text_exact(struct text *text, double value)
+{
+    char buffer[64];
+    if (format_shortest(buffer, sizeof buffer, value == 0 ? 0.0 : value) < 0) return;
+    text->odd |= !isfinite(value);
+    text_add(text, buffer);
+}
+
 void text_json_number(struct text *text, double value)
 {
-    enum { all_digits = 17 };
     if (isfinite(value))
-        text_number(text, value, all_digits);
+        text_exact(text, value);
     else
         text_add(text, "null");
 }

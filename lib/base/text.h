@@ -31,6 +31,9 @@ void text_heading(struct text *text, const char *title);
 /* `value` with `digits` significant digits as %g writes it, always with a decimal point. */
 void text_number(struct text *text, double value, int digits);
 
+/* The shortest decimal that reads back as `value`. */
+void text_exact(struct text *text, double value);
+
 /* Pad with blanks up to display column `column` of the current line (UTF-8 counted by characters). */
 void text_pad(struct text *text, size_t column);
 

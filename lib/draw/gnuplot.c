@@ -163,7 +163,7 @@ static bool is_thinned(const struct record *record)
 static void write_row(struct text *text, const struct choice *choice, size_t row)
 {
     const struct record *record = choice->record;
-    text_number(text, record->times[row], 17);
+    text_exact(text, record->times[row]);
     for (size_t k = 0; k < choice->count; k++) {
         text_add(text, " ");
         text_number(text, record->rows[row * record->column_count + (size_t)choice->columns[k]], digits);

@@ -3,7 +3,6 @@
 
 #include <math.h>
 
-enum { digits = 17 };
 
 void json_key(struct text *text, const char *name)
 {
@@ -14,7 +13,7 @@ void json_key(struct text *text, const char *name)
 void json_number(struct text *text, double value)
 {
     if (isfinite(value))
-        text_number(text, value, digits);
+        text_exact(text, value);
     else
         text_add(text, "null");
 }

@@ -6,7 +6,7 @@
 
 #include "output/finite_result.h"
 
-enum { digits = 17, default_rows = 500 };
+enum { default_rows = 500 };
 
 /* ---- columns of forces: a slide shows the component along itself (normal force: across), a pivot the moment
  * about its axis, a body in the plane its components */
@@ -92,7 +92,7 @@ static void number(struct csv *csv, double value)
 {
     csv->odd |= !isfinite(value);
     text_add(&csv->line, ",");
-    text_number(&csv->line, value, digits);
+    text_exact(&csv->line, value);
 }
 
 /* The field of an error that is not known is empty. */
@@ -100,7 +100,7 @@ static void error(struct csv *csv, double value)
 {
     if (!csv->bars) return;
     text_add(&csv->line, ",");
-    if (isfinite(value)) text_number(&csv->line, value, digits);
+    if (isfinite(value)) text_exact(&csv->line, value);
 }
 
 /* A quantity of the run and of its companion. */
@@ -222,7 +222,7 @@ static bool row(struct csv *csv, struct ensemble *ensemble)
     const struct fbd_model *model = csv->model;
     const struct fbd_state *state = ensemble_state(ensemble);
     csv->last = state->t;
-    text_number(&csv->line, state->t, digits);
+    text_exact(&csv->line, state->t);
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
         for (int k = 0; k < body->count; k++) component(csv, state, body->first + k);

@@ -9,8 +9,6 @@
 #include "output/equations.h"
 #include "output/result.h"
 
-enum { digits = 17 };
-
 static void member(struct text *text, const char *name, double value, bool last)
 {
     text_json_key(text, name);

@@ -21,19 +21,6 @@ static double logarithmic(const struct member *m, uint64_t i)
     return m->a * pow(m->b / m->a, (double)i / (double)(m->count - 1));
 }
 
-/* The shortest decimal of at least 15 digits that reads back as `value`. */
-static void add_exact(struct text *text, double value)
-{
-    size_t start = text->length;
-    for (int digits = 15; digits <= 17; digits++) {
-        double back;
-        text->length = start;
-        text_number(text, value, digits);
-        if (text->failed || !expr_number(text->data + start, text->length - start, &back)) return;
-        if (back == value) return;
-    }
-}
-
 static void add_between(struct text *text, const struct member *m, uint64_t i)
 {
     const double rounding = 1e-15;
@@ -51,13 +38,13 @@ void axes_value(const struct axes *axes, const struct member *m, uint64_t run, s
     if (m->kind == values_words)
         text_add(text, m->words[i]);
     else if (m->kind == values_listed)
-        add_exact(text, m->list[i]);
+        text_exact(text, m->list[i]);
     else if (m->kind == values_drawn)
-        add_exact(text, draw(m->distribution, m->a, m->b, place));
+        text_exact(text, draw(m->distribution, m->a, m->b, place));
     else if (i > 0 && i + 1 < m->count)
         add_between(text, m, i);
     else
-        add_exact(text, i == 0 ? m->a : m->b);
+        text_exact(text, i == 0 ? m->a : m->b);
 }
 
 /* ---- reading */

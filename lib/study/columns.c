@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { digits = 17, longest_output = 200 };
+enum { longest_output = 200 };
 
 struct list {
     struct columns *columns;
@@ -255,7 +255,7 @@ static bool is_meant(const struct column *column, const struct run_event *event)
 
 static void put_number(struct text *text, double value)
 {
-    if (isfinite(value)) text_number(text, value, digits);
+    if (isfinite(value)) text_exact(text, value);
 }
 
 static void put_event(const struct column *column, const struct ensemble *run, struct text *text)

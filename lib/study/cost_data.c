@@ -6,7 +6,6 @@
 
 #include "study/cost.h"
 
-enum { all_digits = 17 };
 
 static const char *state_name(fbd_point_state state)
 {
@@ -18,7 +17,7 @@ static const char *state_name(fbd_point_state state)
 static void cell(struct text *text, bool there, double value)
 {
     text_add(text, ",");
-    if (there && !isnan(value)) text_number(text, value, all_digits);
+    if (there && !isnan(value)) text_exact(text, value);
 }
 
 static void cell_text(struct text *text, const char *value)
@@ -144,7 +143,7 @@ static void json_scales(struct text *text, const fbd_cost *cost)
     for (size_t i = 0, shown = 0; i < 2 * n; i++) {
         if (!(cost->reference.scale[i] > 0)) continue;
         text_printf(text, "%s\"%s\": ", shown++ ? ", " : "", quantity_name_of(cost->model, i));
-        text_number(text, cost->reference.scale[i], all_digits);
+        text_exact(text, cost->reference.scale[i]);
     }
     text_add(text, "},\n");
 }
@@ -159,7 +158,7 @@ static void json_answers(struct text *text, const fbd_cost *cost)
         json_setting(text, point);
         member(text, "error", point->error);
         text_add(text, "\"seconds\": ");
-        text_number(text, point->seconds, all_digits);
+        text_exact(text, point->seconds);
         text_add(text, "}");
     }
     text_add(text, "\n  ],\n");
@@ -172,7 +171,7 @@ char *fbd_cost_json(const fbd_cost *cost)
     text_add(&text, "{\n  \"title\": ");
     text_json_string(&text, fbd_model_title(cost->model));
     text_add(&text, ",\n  \"until\": ");
-    text_number(&text, cost->until, all_digits);
+    text_exact(&text, cost->until);
     text_add(&text, ",\n");
     json_reference(&text, cost);
     json_scales(&text, cost);
