@@ -3,7 +3,6 @@
 
 #include <math.h>
 
-
 void json_key(struct text *text, const char *name)
 {
     text_json_string(text, name);

@@ -209,6 +209,16 @@ static bool set_absolutes(struct fbd_model *model)
     return model->absolutes != NULL;
 }
 
+static bool set_output_points(struct fbd_model *model)
+{
+    const struct scene *scene = model->scene;
+    model->output_points = ARENA_ARRAY(&model->arena, scene->output_point_count, struct vec);
+    for (size_t k = 0; model->output_points && k < scene->output_point_count; k++)
+        model->output_points[k] =
+            resolve_point(&scene->output_points[k].point, &model->bodies[scene->output_points[k].body]);
+    return model->output_points != NULL;
+}
+
 /* ---- the whole */
 
 static bool allocate(struct fbd_model *model)
@@ -267,8 +277,9 @@ static struct fbd_model *compile(struct scene *scene, bool labels, fbd_errors *e
         set_couplings(&builder);
         if (labels) model->labels = labels_make(&model->arena, scene);
         done = (model->labels || !labels) && set_named_ties(&builder) && set_drives(&builder) &&
-               set_absolutes(model) && tree_number(model) && tree_name_reactions(model) &&
-               arrows_name(model) && plan_build(&builder) && classify_loads(&builder);
+               set_absolutes(model) && set_output_points(model) && tree_number(model) &&
+               tree_name_reactions(model) && arrows_name(model) && plan_build(&builder) &&
+               classify_loads(&builder);
         set_watches(&builder);
         if (done) done = slips_find(model);
         if (done) {

@@ -112,6 +112,7 @@ static struct scene *copy_scene(const struct scene *from, const struct selection
     *to = *from;
     to->tables = NULL; /* the whole holds them, and outlives its parts */
     to->table_count = 0;
+    to->output_point_count = 0; /* written of the whole */
     struct copy copy = {from, to, selection};
     prepare(&copy);
     for (size_t i = 0; !to->arena.failed && i < selection->body_count; i++)

@@ -94,6 +94,7 @@ struct fbd_model {
     const struct label *labels; /* of the coordinates */
     size_t absolute_count;
     struct model_absolute *absolutes;
+    struct vec *output_points; /* scene->output_points, in the frames of their bodies */
     struct plan plan;
     struct tree *tree; /* the jointed bodies; NULL when there are none */
     bool assembles;    /* some bodies find their place from their couplings at the start */

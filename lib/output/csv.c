@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "output/finite_result.h"
+#include "output/world.h"
 
 enum { default_rows = 500 };
 
@@ -83,6 +84,10 @@ static void headers(struct csv *csv, const struct fbd_state *start)
         for (int k = 0; k < body->count; k++) header(csv, labels[k].name, "", "", labels[k].unit);
         for (int k = 0; k < body->count; k++) header(csv, labels[k].rate_name, "", "", labels[k].rate_unit);
     }
+    for (size_t i = 0; i < model->scene->output_point_count; i++)
+        for (int part = 0; part < world_parts; part++)
+            header(csv, model->scene->output_points[i].name, world_part_name((enum world_part)part), "",
+                   world_part_unit(model, (enum world_part)part));
     if (csv->ledger) ledger_headers(csv, start);
 }
 
@@ -217,6 +222,16 @@ static bool refuse_line(struct csv *csv, struct ensemble *ensemble)
     return ensemble->outcome == FBD_FAILED || ensemble->outcome == FBD_BROKEN;
 }
 
+static void point_values(struct csv *csv, const struct fbd_state *state, size_t i)
+{
+    const struct fbd_model *model = csv->model;
+    int body = model->scene->output_points[i].body;
+    double values[world_parts], others[world_parts];
+    world_values(state, body, model->output_points[i], values);
+    world_values(csv->bars ? csv->bars->state : state, body, model->output_points[i], others);
+    for (int part = 0; part < world_parts; part++) value(csv, values[part], others[part]);
+}
+
 static bool row(struct csv *csv, struct ensemble *ensemble)
 {
     const struct fbd_model *model = csv->model;
@@ -228,6 +243,7 @@ static bool row(struct csv *csv, struct ensemble *ensemble)
         for (int k = 0; k < body->count; k++) component(csv, state, body->first + k);
         for (int k = 0; k < body->count; k++) component(csv, state, body->first_rate + k);
     }
+    for (size_t i = 0; i < model->scene->output_point_count; i++) point_values(csv, state, i);
     if (csv->ledger) ledger_values(csv, state);
     return csv->odd ? refuse_line(csv, ensemble) : put_line(csv);
 }

@@ -8,6 +8,7 @@
 #include "output/couplings.h"
 #include "output/equations.h"
 #include "output/result.h"
+#include "output/world.h"
 
 static void member(struct text *text, const char *name, double value, bool last)
 {
@@ -44,6 +45,25 @@ static void write_final(struct text *text, const struct fbd_model *model, const 
         for (int k = 0; k < body->count; k++)
             member(text, model->scene->coordinates[body->first + k].rate_name, state->y[body->first_rate + k],
                    k + 1 == body->count);
+        text_add(text, "}");
+    }
+    text_add(text, "\n  },\n");
+}
+
+/* Of the points that the file asks for. */
+static void write_points(struct text *text, const struct fbd_model *model, const struct fbd_state *state)
+{
+    const struct scene *scene = model->scene;
+    if (scene->output_point_count == 0) return;
+    text_add(text, "  \"points\": {");
+    for (size_t i = 0; i < scene->output_point_count; i++) {
+        double values[world_parts];
+        world_values(state, scene->output_points[i].body, model->output_points[i], values);
+        text_add(text, i ? ",\n    " : "\n    ");
+        text_json_key(text, scene->output_points[i].name);
+        text_add(text, "{");
+        for (int part = 0; part < world_parts; part++)
+            member(text, world_part_name((enum world_part)part), values[part], part + 1 == world_parts);
         text_add(text, "}");
     }
     text_add(text, "\n  },\n");
@@ -312,6 +332,7 @@ char *fbd_result_json(fbd_result *result)
     text_add(&text, ",\n");
     state_ready(end);
     write_final(&text, model, end);
+    write_points(&text, model, end);
     write_final_errors(&text, simulation);
     write_events(&text, simulation);
     write_forces(&text, result, end);

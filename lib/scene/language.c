@@ -41,6 +41,9 @@ const struct group scene_group = {"the file", NULL, FIELDS(scene_fields), NULL, 
 static const struct field output_fields[] = {
     FIELD_NUMBER(offsetof(struct output_keys, every), "every", a_time, positive,
                  "time between two rows of output"),
+    FIELD_ENTRIES(offsetof(struct output_keys, points), "points", field_list, 0, each_word, NULL,
+                  "points of bodies, as `rod.right`: columns of their places, velocities and accelerations "
+                  "in the world"),
 };
 
 const struct group output_group = {"`output`", NULL, FIELDS(output_fields), NULL, 0, "what a run writes"};

@@ -117,6 +117,7 @@ struct table_keys {
 
 struct output_keys {
     double every;
+    const struct node *points;
 };
 
 struct ground_keys {

@@ -34,7 +34,7 @@ static bool read_surface(struct reader *reader, const struct node *name, struct 
 static bool read_side(struct reader *reader, const struct node *node, int k, struct constraint *constraint)
 {
     if (node->kind == node_scalar && strchr(node->text, '.'))
-        return coupling_end_read(reader, node, &constraint->body[k], &constraint->point[k]);
+        return coupling_end_read(reader, node, "between", &constraint->body[k], &constraint->point[k]);
     constraint->point[k] = (struct point){.at = node->at};
     return node->kind == node_scalar ? body_name_read(reader, node, "between", &constraint->body[k])
                                      : value_refuse(reader, node, "between", "a body or `body.point`", NULL);

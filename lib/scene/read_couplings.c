@@ -25,24 +25,25 @@ const struct node *text_part(struct reader *reader, const struct node *whole, si
     return part;
 }
 
-bool coupling_end_read(struct reader *reader, const struct node *node, int *body, struct point *point)
+bool coupling_end_read(struct reader *reader, const struct node *node, const char *what, int *body,
+                       struct point *point)
 {
     if (node->kind != node_scalar)
-        return value_refuse(reader, node, "between", "a point as `body.point` or `ground.point`", NULL);
+        return value_refuse(reader, node, what, "a point as `body.point` or `ground.point`", NULL);
     const char *dot = strchr(node->text, '.');
     size_t length = dot ? (size_t)(dot - node->text) : node->length;
     const struct node *owner = text_part(reader, node, 0, length);
-    if (!owner || !body_name_read(reader, owner, "between", body)) return false;
+    if (!owner || !body_name_read(reader, owner, what, body)) return false;
     if (!dot) {
         *point = (struct point){.kind = point_G, .at = node->at};
         if (*body != ground_body) return true;
-        return value_refuse(reader, node, "between", "`ground.point`: the ground has no centre", NULL);
+        return value_refuse(reader, node, what, "`ground.point`: the ground has no centre", NULL);
     }
     const struct node *name = text_part(reader, node, length + 1, node->length - length - 1);
     if (!name) return false;
-    if (*body != ground_body) return body_point_read(reader, *body, name, "between", point);
+    if (*body != ground_body) return body_point_read(reader, *body, name, what, point);
     *point = (struct point){.kind = point_fixed, .at = node->at};
-    return ground_point_read(reader, name, "between", &point->where);
+    return ground_point_read(reader, name, what, &point->where);
 }
 
 static bool read_between(struct reader *reader, const struct node *list, struct coupling *coupling)
@@ -53,8 +54,10 @@ static bool read_between(struct reader *reader, const struct node *list, struct 
                  "`between` needs two ends, not %zu", list->count);
         return false;
     }
-    bool first = coupling_end_read(reader, list->items[0], &coupling->body[0], &coupling->point[0]);
-    bool second = coupling_end_read(reader, list->items[1], &coupling->body[1], &coupling->point[1]);
+    bool first =
+        coupling_end_read(reader, list->items[0], "between", &coupling->body[0], &coupling->point[0]);
+    bool second =
+        coupling_end_read(reader, list->items[1], "between", &coupling->body[1], &coupling->point[1]);
     if (!first || !second) return false;
     if (coupling->body[0] != coupling->body[1]) return true;
     diag_add(reader->errors, FBD_ERROR, "same-body", list->at, "name points of two bodies",
@@ -67,7 +70,7 @@ static bool read_between(struct reader *reader, const struct node *list, struct 
 static bool add_end(struct reader *reader, const struct node *node, struct constraint *constraint)
 {
     int k = constraint->end_count++;
-    return coupling_end_read(reader, node, &constraint->body[k], &constraint->point[k]);
+    return coupling_end_read(reader, node, "between", &constraint->body[k], &constraint->point[k]);
 }
 
 static bool refuse_count(struct reader *reader, const struct node *list, const char *what, const char *hint)

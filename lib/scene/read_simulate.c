@@ -104,6 +104,36 @@ static bool read_events(struct reader *reader, const struct node *node)
 
 /* ---- the run */
 
+static bool read_points(struct reader *reader, const struct node *list)
+{
+    struct scene *scene = reader->scene;
+    bool fine = true;
+    if (scene->output_points) {
+        diag_add(reader->errors, FBD_ERROR, "conflicting-keys", list->at, "give them once",
+                 "the points of the output are given already");
+        return false;
+    }
+    scene->output_points = ARENA_ARRAY(reader->arena, list->count, struct output_point);
+    if (!scene->output_points) return false;
+    for (size_t i = 0; i < list->count; i++) {
+        struct output_point *point = &scene->output_points[scene->output_point_count];
+        const struct node *node = list->items[i];
+        if (!coupling_end_read(reader, node, "points", &point->body, &point->point)) {
+            fine = false;
+        } else if (point->body == ground_body) {
+            diag_add(reader->errors, FBD_ERROR, "unknown-point", node->at,
+                     "name a point of a body, as `rod.right`", "`%.80s` does not move", node->text);
+            fine = false;
+        } else {
+            bool centre = !strchr(node->text, '.');
+            point->name = centre ? arena_printf(reader->arena, "%s.G", node->text)
+                                 : arena_text(reader->arena, node->text, node->length);
+            scene->output_point_count++;
+        }
+    }
+    return fine;
+}
+
 /* `output: {every: ...}` may stand beside `simulate` or in it, and `every` in `simulate`: one of them. */
 static bool read_output(struct reader *reader, const struct node *node, const struct pair *key)
 {
@@ -118,6 +148,7 @@ static bool read_output(struct reader *reader, const struct node *node, const st
         return false;
     }
     if (keys.every > 0) *every = keys.every;
+    if (keys.points && !read_points(reader, keys.points)) fine = false;
     return fine;
 }
 

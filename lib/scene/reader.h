@@ -178,7 +178,8 @@ const struct polygon *ground_polygon_find(struct reader *reader, const struct no
 bool couplings_read(struct reader *reader, const struct node *couplings, const struct node *contacts);
 
 /* An end of a coupling: `body.point`, `ground.point`, or a body for its centre of mass. */
-bool coupling_end_read(struct reader *reader, const struct node *node, int *body, struct point *point);
+bool coupling_end_read(struct reader *reader, const struct node *node, const char *what, int *body,
+                       struct point *point);
 
 /* From place `from` on, `length` characters of a text, in its own place; NULL when memory is out. */
 const struct node *text_part(struct reader *reader, const struct node *whole, size_t from, size_t length);

@@ -322,6 +322,13 @@ struct user_event {
     bool stop;
 };
 
+/* A point whose place, velocity and acceleration in the world are written. */
+struct output_point {
+    const char *name; /* `rod.right` */
+    int body;
+    struct point point;
+};
+
 struct simulate {
     struct value until; /* expr NULL when the file has no `simulate` */
     double tolerance;   /* 0 when not given */
@@ -346,6 +353,8 @@ struct scene {
     struct coupling *couplings;
     struct constraint *constraints;
     struct simulate simulate;
+    size_t output_point_count;
+    struct output_point *output_points;
     size_t coordinate_count, absolute_count;
     struct coordinate *coordinates;
     struct absolute *absolutes;

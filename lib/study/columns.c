@@ -58,17 +58,27 @@ static bool add_final(struct list *list, int index)
     return add(list, (struct column){.title = title(list, name, unit), .kind = column_final, .index = index});
 }
 
-static bool add_extreme(struct list *list, int sign, int index)
+static bool add_world(struct list *list, const char *name, const struct world_quantity *point)
+{
+    const char *text = arena_printf(list->arena, "%s [%s]", name, world_part_unit(list->model, point->part));
+    return add(list, (struct column){.title = text, .kind = column_world, .point = *point});
+}
+
+/* Of y[index], or of a point where that is below zero. */
+static bool add_extreme(struct list *list, int sign, int index, const char *name,
+                        const struct world_quantity *point)
 {
     struct columns *columns = list->columns;
     const struct fbd_model *model = list->model;
     struct extreme *larger = ARENA_ARRAY(list->arena, columns->extreme_count + 1, struct extreme);
     if (!larger) return false;
     if (columns->extreme_count) memcpy(larger, columns->extremes, columns->extreme_count * sizeof *larger);
-    larger[columns->extreme_count] = (struct extreme){.index = index, .sign = sign};
+    larger[columns->extreme_count] = (struct extreme){.index = index, .point = *point, .sign = sign};
     columns->extremes = larger;
-    const char *text = arena_printf(list->arena, "%s(%s) [%s]", sign > 0 ? "max" : "min",
-                                    name_in_y(model, index), unit_in_y(model, index));
+    const char *text =
+        arena_printf(list->arena, "%s(%s) [%s]", sign > 0 ? "max" : "min",
+                     index < 0 ? name : name_in_y(model, index),
+                     index < 0 ? world_part_unit(model, point->part) : unit_in_y(model, index));
     return add(list, (struct column){.title = text,
                                      .kind = column_extreme,
                                      .index = (int)columns->extreme_count++});
@@ -175,9 +185,11 @@ static bool cut_call(char *name, char **argument)
 
 static bool add_call(struct list *list, const char *function, const char *argument)
 {
+    struct world_quantity point = {.body = 0};
     int index = model_find_component(list->model, argument, true);
-    if (strcmp(function, "min") == 0 && index >= 0) return add_extreme(list, -1, index);
-    if (strcmp(function, "max") == 0 && index >= 0) return add_extreme(list, 1, index);
+    bool known = index >= 0 || world_find(list->model, argument, &point);
+    if (strcmp(function, "min") == 0 && known) return add_extreme(list, -1, index, argument, &point);
+    if (strcmp(function, "max") == 0 && known) return add_extreme(list, 1, index, argument, &point);
     if (strcmp(function, "time") == 0) return add_event(list, column_time, argument);
     return strcmp(function, "count") == 0 && add_event(list, column_count, argument);
 }
@@ -192,7 +204,9 @@ static bool add_named(struct list *list, char *name)
     if (strcmp(name, "steps") == 0) return add(list, (struct column){.title = "steps", .kind = column_steps});
     if (strcmp(name, "rhs") == 0) return add(list, (struct column){.title = "rhs", .kind = column_rhs});
     int index = model_find_component(list->model, name, true);
+    struct world_quantity point;
     if (index >= 0) return add_final(list, index);
+    if (world_find(list->model, name, &point)) return add_world(list, name, &point);
     for (int i = 0; i < 4; i++)
         if (strcmp(name, energies[i]) == 0) return add_energy(list, i);
     return add_work(list, name);
@@ -297,6 +311,12 @@ static void put(const struct column *column, const struct observed *o, struct te
     switch (column->kind) {
     case column_t: put_number(text, run->t); return;
     case column_final: put_number(text, ensemble_state(run)->y[column->index]); return;
+    case column_world: {
+        double values[world_parts];
+        world_values(ensemble_state(run), column->point.body, column->point.point, values);
+        put_number(text, values[column->point.part]);
+        return;
+    }
     case column_extreme: put_number(text, o->extremes[column->index].value); return;
     case column_time:
     case column_count: put_event(column, run, text); return;

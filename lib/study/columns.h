@@ -3,7 +3,8 @@
  * Columns: what a sweep notes of each run. They have the names of fbd-run's CSV where it has them:
  *
  *     t, block.x, block.v          at the end of the run
- *     min(block.x), max(block.v)   over the run
+ *     rod.right.x, .vx, .ax ...    of a point in the world, at the end of the run
+ *     min(block.x), max(rod.right.y)   over the run
  *     time(land), count(land)      of an event of the file: when first, how often; also of a kind of event,
  *                                  time(stick), and of one body, time(block.stick)
  *     energy.kinetic, .potential, .work, .residual    at the end
@@ -18,6 +19,7 @@
 
 #include "base/text.h"
 #include "output/ledger.h"
+#include "output/world.h"
 #include "study/extremes.h"
 
 struct column {
@@ -25,6 +27,7 @@ struct column {
     enum column_kind {
         column_t,
         column_final,   /* y[index] */
+        column_world,   /* `point` */
         column_extreme, /* extremes[index] */
         column_time,
         column_count,
@@ -34,6 +37,7 @@ struct column {
         column_rhs,
     } kind;
     int index;
+    struct world_quantity point;
     /* time, count: of which events; -1 for any */
     int event, body, watch;
 };

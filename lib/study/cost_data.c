@@ -6,7 +6,6 @@
 
 #include "study/cost.h"
 
-
 static const char *state_name(fbd_point_state state)
 {
     return state == FBD_POINT_MEASURED ? "measured" : state == FBD_POINT_FAILED ? "failed" : "skipped";

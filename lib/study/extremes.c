@@ -3,9 +3,17 @@
 
 #include <math.h>
 
+static double value_of(const struct extreme *extreme, const struct fbd_state *state)
+{
+    double values[world_parts];
+    if (extreme->index >= 0) return state->y[extreme->index];
+    world_values(state, extreme->point.body, extreme->point.point, values);
+    return values[extreme->point.part];
+}
+
 void extremes_start(struct extreme *extremes, size_t count, const struct fbd_state *state)
 {
-    for (size_t i = 0; i < count; i++) extremes[i].value = state->y[extremes[i].index];
+    for (size_t i = 0; i < count; i++) extremes[i].value = value_of(&extremes[i], state);
 }
 
 /* What is looked at: the greatest value of sign * y[index]. */
@@ -19,7 +27,7 @@ struct look {
 static double value_at(struct look *look, double t)
 {
     if (!ensemble_look(look->run, t, look->probe)) look->failed = true;
-    return look->extreme->sign * look->probe->y[look->extreme->index];
+    return look->extreme->sign * value_of(look->extreme, look->probe);
 }
 
 /* The greatest value in [a, b], which holds one maximum. */

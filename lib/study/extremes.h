@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Extremes: the least and the greatest value of coordinates and rates over a run.
+ * Extremes: the least and the greatest value of coordinates, rates and points in the world over a run.
  *
  * Each step is looked at on its dense output at equal distances, ends included; where a sample goes beyond
  * what was seen so far and its neighbours do not, the extreme lies between them and is closed in by golden
@@ -10,11 +10,13 @@
 #ifndef FBD_STUDY_EXTREMES_H
 #define FBD_STUDY_EXTREMES_H
 
+#include "output/world.h"
 #include "solve/ensemble.h"
 
 struct extreme {
-    int index; /* in y */
-    int sign;  /* +1 greatest, -1 least */
+    int index; /* in y, or -1: */
+    struct world_quantity point;
+    int sign; /* +1 greatest, -1 least */
     double value;
 };
 

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Points of bodies in the world: where they are, how fast they move, and how that changes.
+ */
+#ifndef FBD_OUTPUT_WORLD_H
+#define FBD_OUTPUT_WORLD_H
+
+#include "dynamics/state.h"
+
+/* `.x .y .vx .vy .ax .ay` of a point. */
+enum world_part { world_x, world_y, world_vx, world_vy, world_ax, world_ay, world_parts };
+
+struct world_quantity {
+    int body;
+    struct vec point; /* body frame */
+    enum world_part part;
+};
+
+const char *world_part_name(enum world_part part);
+const char *world_part_unit(const struct fbd_model *model, enum world_part part);
+
+/* Find `rod.right.vx`: a named point, G, or O of a pivot. False when there is none. */
+bool world_find(const struct fbd_model *model, const char *name, struct world_quantity *quantity);
+
+/* All parts of a point, in coherent units; the state has been evaluated. */
+void world_values(const struct fbd_state *state, int body, struct vec point, double values[world_parts]);
+
+#endif
