@@ -78,6 +78,19 @@ enum expr_degree expr_degree(const struct expr *expr)
     return degree[expr->result];
 }
 
+bool expr_switch_depends(const struct expr *expr, size_t index, size_t on)
+{
+    bool follows[frame_limit] = {false};
+    for (size_t i = 0; i < expr->operations; i++) {
+        const struct instr *instr = &expr->code[i];
+        if (instr->op == op_jump || instr->op == op_jump_unless) continue;
+        bool does = follows[instr->a] || follows[instr->b], is_switch = op_is_switch(instr->op);
+        if (is_switch && (size_t)instr->extra == index) return does;
+        follows[instr->to] = does || (is_switch && (size_t)instr->extra == on);
+    }
+    return false;
+}
+
 enum expr_degree expr_switch_degree(const struct expr *expr, size_t index, int last)
 {
     enum expr_degree degree[frame_limit], worst = expr_constant_between;

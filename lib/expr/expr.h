@@ -225,6 +225,9 @@ enum expr_degree expr_switch_degree(const struct expr *expr, size_t index, int l
 /* Is it a relay, whose value depends on where the motion came from? */
 bool expr_switch_remembers(const struct expr *expr, size_t index);
 
+/* Does what switch `index` watches depend on switch `on`, which stands before it? */
+bool expr_switch_depends(const struct expr *expr, size_t index, size_t on);
+
 /* The table whose pieces are the branches of a switch, or NULL. */
 const struct table *expr_switch_table(const struct expr *expr, size_t index);
 

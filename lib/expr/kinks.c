@@ -133,6 +133,8 @@ static void step_motion(const struct instr *i, const int *branch, struct motion 
     struct twofold kept;
     bool keeps = keep_rest(i, m, branch, s.f, &kept);
     double own = (keeps || is_without_rounding(i->op) ? twofold_rounding : DBL_EPSILON) * fabs(s.f);
+    if (i->op == op_table)
+        own = table_rounding(i->table, switch_branch(i, m->value[i->a], 0, branch), m->value[i->a]);
     if (keeps && (i->op == op_add || i->op == op_subtract || i->op == op_mod))
         own += twofold_rounding * fabs(m->value[i->a]);
     m->value[i->to] = keeps ? kept.x : s.f;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "expr/table.h"
 
+#include <float.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_interp.h>
 #include <math.h>
@@ -189,6 +190,10 @@ struct table_polynomial table_polynomial(const struct table *table, double piece
         p.c[0] = piece < 0 ? table->before : table->after;
         return p;
     }
+    if (fabs(piece) >= table_most_pieces) {
+        p.c[0] = (double)NAN;
+        return p;
+    }
     double periods = 0;
     size_t i = table->beyond == table_repeat ? within(table, piece, &periods) : (size_t)piece;
     p.from = knot(table, i, periods).x;
@@ -203,6 +208,14 @@ double table_value(const struct table *table, double piece, double x)
     if (isnan(u)) return u;
     return p.c[0] +
            (table->interpolation == table_linear ? u * p.c[1] : u * (p.c[1] + u * (p.c[2] + u * p.c[3])));
+}
+
+double table_rounding(const struct table *table, double piece, double x)
+{
+    struct table_polynomial p = table_polynomial(table, piece);
+    double u = fabs(x - p.from), slope = fabs(p.c[1]) + u * (2 * fabs(p.c[2]) + 3 * u * fabs(p.c[3]));
+    double size = fabs(p.c[0]) + u * (fabs(p.c[1]) + u * (fabs(p.c[2]) + u * fabs(p.c[3])));
+    return 2 * DBL_EPSILON * (size + slope * (fabs(p.from) + fabs(x)));
 }
 
 void table_slopes(const struct table *table, double piece, double x, double *f, double *d, double *dd)

@@ -26,6 +26,9 @@
 #include "base/twofold.h"
 #include "expr/dim.h"
 
+/* Pieces of periods are counted this far; beyond, a table has no value. */
+enum { table_most_pieces = 2147483647 };
+
 enum table_interpolation {
     table_linear,
     table_step,    /* f(x_i) from x_i on */
@@ -86,6 +89,8 @@ struct table_polynomial table_polynomial(const struct table *table, double piece
 
 /* Its value at x, and the first two derivatives. */
 double table_value(const struct table *table, double piece, double x);
+/* The rounding of that value, and of its argument in it. */
+double table_rounding(const struct table *table, double piece, double x);
 void table_slopes(const struct table *table, double piece, double x, double *f, double *d, double *dd);
 
 /* Is the piece beyond an end with table_error? */

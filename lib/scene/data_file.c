@@ -10,7 +10,7 @@
 #include "expr/expr.h"
 #include "expr/glyph.h"
 
-enum { most_columns = 1000, most_complaints = 20 };
+enum { most_columns = 10000, most_complaints = 20 };
 
 struct span {
     const char *text;
@@ -36,21 +36,30 @@ static bool is_same(struct span a, struct span b)
 
 /* ---- headings */
 
+/* What stands between the last `open` and the `close` behind it. */
+static bool find_brackets(struct span whole, char open, char close, struct span *inside)
+{
+    size_t start = whole.length;
+    while (start > 0 && whole.text[start - 1] != open) start--;
+    const char *end = start > 0 ? memchr(whole.text + start, close, whole.length - start) : NULL;
+    if (!end) return false;
+    *inside = (struct span){whole.text + start, (size_t)(end - whole.text) - start};
+    return true;
+}
+
+/* A unit may stand behind the name wherever other words are; parentheses may hold such words. */
 struct heading heading_read(const char *text, size_t length)
 {
-    struct span whole = trim((struct span){text, length});
-    struct heading heading = {.name = whole.text, .name_length = whole.length};
-    char last = whole.length ? whole.text[whole.length - 1] : '\0';
-    char opening = last == ']' ? '[' : last == ')' ? '(' : '\0';
-    size_t open = whole.length;
-    while (opening && open > 0 && whole.text[open - 1] != opening) open--;
-    if (!opening || open == 0) return heading;
-    struct span unit = trim((struct span){whole.text + open, whole.length - open - 1});
+    struct span whole = trim((struct span){text, length}), unit;
     struct unit read;
-    /* Parentheses may hold other words. */
-    bool meant = last == ']' || unit_parse(unit.text, unit.length, unit_si, NULL, (struct pos){0}, &read);
-    if (!meant) return heading;
-    struct span name = trim((struct span){whole.text, open - 1});
+    bool found = find_brackets(whole, '[', ']', &unit);
+    if (!found && find_brackets(whole, '(', ')', &unit)) {
+        struct span inside = trim(unit);
+        found = unit_parse(inside.text, inside.length, unit_si, NULL, (struct pos){0}, &read);
+    }
+    if (!found) return (struct heading){.name = whole.text, .name_length = whole.length};
+    struct span name = trim((struct span){whole.text, (size_t)(unit.text - whole.text) - 1});
+    unit = trim(unit);
     return (struct heading){name.text, unit.text, name.length, unit.length};
 }
 
@@ -117,16 +126,14 @@ static bool read_number(char separator, struct span cell, double *value)
     return expr_number(plain, cell.length, value);
 }
 
-static bool is_numbers(char separator, struct span line)
+/* A row with a number in it is no row of headings; what else is in it may be a slip. */
+static bool has_number(char separator, struct span line)
 {
     struct span cell;
     double value;
-    bool any = false;
-    while (next_cell(separator, &line, &cell)) {
-        if (cell.length > 0 && !read_number(separator, cell, &value)) return false;
-        any |= cell.length > 0;
-    }
-    return any;
+    while (next_cell(separator, &line, &cell))
+        if (read_number(separator, cell, &value)) return true;
+    return false;
 }
 
 static struct pos place_of(const struct data_reader *reader, struct span line, const char *at)
@@ -311,7 +318,7 @@ static bool open_titles(struct data_reader *reader, struct opening *opening, str
 {
     reader->separator = separator_of(opening->line);
     *titles_at = (struct pos){reader->line, 1};
-    if (is_numbers(reader->separator, opening->line)) {
+    if (has_number(reader->separator, opening->line)) {
         struct span line = opening->line, cell;
         size_t cells = 0;
         while (next_cell(reader->separator, &line, &cell)) cells++;
@@ -382,8 +389,7 @@ static bool is_plain_file(const char *path, struct pos at, fbd_errors *errors)
     bool missing = stat(path, &info) != 0;
     if (!missing && S_ISREG(info.st_mode)) return true;
     diag_add(errors, FBD_ERROR, "cannot-read", at,
-             missing && at.line ? "a path that does not start with `/` starts where the model file lies"
-                                : NULL,
+             missing && at.line && path[0] != '/' ? "the path starts where the model file lies" : NULL,
              "cannot read `%s`: %s", path, missing ? strerror(errno) : "it is no plain file");
     return false;
 }

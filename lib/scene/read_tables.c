@@ -111,11 +111,14 @@ static const char *resolve_path(struct reader *reader, const char *path, bool fr
     return arena_printf(reader->arena, "%.*s/%s", (int)(slash - model), model, path);
 }
 
-static bool read_file(struct reader *reader, const struct node *map, const struct table_keys *keys,
-                      const char *path, struct data_columns *columns, struct points *points)
+static bool read_file(struct reader *reader, size_t index, const struct node *map,
+                      const struct table_keys *keys, const char *path, struct data_columns *columns,
+                      struct points *points)
 {
     const char *const wanted[2] = {keys->x, keys->y};
-    const struct data_places places = {file_place(map), {key_place(map, "x"), key_place(map, "y")}};
+    bool given = path && reader->table_drafts[index].override;
+    const struct data_places places = {given ? (struct pos){0, 0} : file_place(map),
+                                       {key_place(map, "x"), key_place(map, "y")}};
     if (!path || !data_file_read(path, wanted, &places, reader->errors, columns)) return false;
     points->count = columns->count;
     points->lines = columns->lines;
@@ -145,8 +148,13 @@ static bool read_coordinate(struct reader *reader, const struct node *node, int 
         return false;
     *number = expr_value(value.expr);
     if (expr_is_bare(value.expr)) {
-        if (labelled) *number *= points->unit[axis].factor;
-        return true;
+        double plain, factor = labelled ? points->unit[axis].factor : 1;
+        *number *= factor;
+        if (factor == 1 || expr_number(node->text, node->length, &plain)) return true;
+        diag_add(reader->errors, FBD_ERROR, "wrong-dimension", node->at, "give it a unit where it is defined",
+                 "`%.40s` has no unit, and `%s` has one here that is not the model's", node->text,
+                 axis_names[axis]);
+        return false;
     }
     struct dim dim = expr_dim(value.expr);
     if (!points->has_unit[axis]) points->unit[axis] = (struct unit){.dim = dim, .factor = 1};
@@ -209,8 +217,7 @@ static bool check_order(struct reader *reader, const char *file, struct points *
             bool same = x[i] == x[kept - 1];
             if (file) diag_in_file(reader->errors, file);
             diag_add(reader->errors, FBD_ERROR, "table-order", row_place(points, i),
-                     same ? "a jump takes `interpolation: step`, or two points a little apart"
-                          : "sort the rows by x",
+                     same ? "a jump takes `interpolation: step`" : "sort the rows by x",
                      same ? "`x` is %.9g here and in the row before, with another `y`"
                           : "`x` must grow from row to row: %.9g is less than before",
                      x[i] / (points->has_unit[0] ? points->unit[0].factor : 1));
@@ -278,7 +285,7 @@ static bool read_table(struct reader *reader, size_t index, struct table *table)
     const char *path = draft->override ? resolve_path(reader, draft->override->value, true)
                        : keys.file     ? resolve_path(reader, keys.file, false)
                                        : NULL;
-    bool fine = path ? read_file(reader, pair->value, &keys, path, &columns, &points)
+    bool fine = path ? read_file(reader, index, pair->value, &keys, path, &columns, &points)
                      : read_points(reader, pair->value, &keys, &points);
     fine = fine && check_order(reader, path, &points) && make_table(reader, pair, &keys, &points, table);
     data_columns_free(&columns);

@@ -53,6 +53,25 @@ static void check_drive(struct run *run, const struct kink *kink)
              place ? x[1] : v[1]);
 }
 
+void run_check_counts(struct run *run)
+{
+    const struct plan *plan = &run->model->plan;
+    for (size_t i = 0; i < plan->kink_count; i++) {
+        const struct kink *kink = &plan->kinks[i];
+        for (size_t part = 0; part < kink->count; part++) {
+            int branch = run->state->branch[(size_t)kink->formula.branch + part];
+            if (branch < table_most_pieces && branch > -table_most_pieces) continue;
+            run_fail(run, FBD_BROKEN,
+                     "at t = %.9g %s%s%s is past its 2^31st step, where steps are no longer told apart: "
+                     "subtract whole "
+                     "periods from its argument",
+                     run_time(run), kink->load >= 0 ? "`" : "",
+                     kink->load >= 0 ? run->model->loads[kink->load].source->name : "an expression",
+                     kink->load >= 0 ? "`" : "");
+        }
+    }
+}
+
 void run_check_drives(struct run *run)
 {
     const struct plan *plan = &run->model->plan;
@@ -63,12 +82,24 @@ void run_check_drives(struct run *run)
     }
 }
 
+/* Has a switch been crossed in this event that decides what this one watches? Then the way it goes on is for the rates
+ * beyond to say: |x| has turned, and f(|x|) comes back to the piece that it was about to leave. */
+static bool follows_crossed(const struct run *run, const struct kink *kink, int part)
+{
+    const bool *crossed = run->decided.branches + kink->formula.branch;
+    for (int other = 0; other < part; other++)
+        if (crossed[other] && expr_switch_depends(kink->formula.expr, (size_t)part, (size_t)other))
+            return true;
+    return false;
+}
+
 void run_cross(struct run *run, const struct watcher *watcher)
 {
     const struct kink *kink = &run->model->plan.kinks[watcher->index];
     int index = kink->formula.branch + watcher->part, before = run->state->branch[index];
     int next = expr_branch_beyond(kink->formula.expr, (size_t)watcher->part, watcher->end, before);
     const struct table *table = expr_switch_table(kink->formula.expr, (size_t)watcher->part);
+    if (follows_crossed(run, kink, watcher->part)) return;
     run->decided.branches[index] = true;
     if (end_table(run, table, watcher->end, next)) return;
     run->state->branch[index] = next;

@@ -11,6 +11,9 @@
  * run where a table has no more values. */
 void run_cross(struct run *run, const struct watcher *watcher);
 
+/* End the run where a rounding or a periodic table is past counting (expr.h). */
+void run_check_counts(struct run *run);
+
 /* When all is decided that changes at an event: end the run where a prescribed motion jumps, or its velocity. */
 void run_check_drives(struct run *run);
 

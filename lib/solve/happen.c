@@ -278,7 +278,11 @@ static void refuse_sliding(struct run *run, const bool *moving)
     for (size_t i = 0; i < set->count; i++) {
         const struct watcher *watcher = &set->watchers[i];
         if (!moving[i] || watcher->kind != watch_kink) continue;
-        const struct expr *expr = run->model->plan.kinks[watcher->index].formula.expr;
+        const struct formula *formula = &run->model->plan.kinks[watcher->index].formula;
+        const struct expr *expr = formula->expr;
+        int branch = formula->branch + watcher->part;
+        if (run->state->branch[branch] == run->during->branch[branch])
+            continue; /* it has turned back with another */
         if (expr_switch_remembers(expr, (size_t)watcher->part)) continue; /* its other end is elsewhere */
         /* The other end of the same switch is the one that has been crossed, seen from beyond. */
         for (size_t k = 0; k < set->count; k++) {
@@ -408,6 +412,7 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     run->contacts.due = false;
     if (!settle(run) && run->outcome == FBD_GOING) fail_unsettled(run);
     run_check_drives(run);
+    run_check_counts(run);
     run_note_happened(run, first, moving);
     run_release_contacts(run);
     refuse_sliding(run, moving);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solve/proof.h"
 
-/* What one stretch tells of a function, and of all of a group: the worst. */
-enum verdict { clear_above, clear_rising, clear_to_rounding, unsure, negative };
+/* What one stretch tells of a function, and of all of a group: the last of these. While one is unsure the stretch is
+ * halved, whatever others have become at its end: it may have passed zero twice before them. */
+enum verdict { clear_above, clear_rising, clear_to_rounding, negative, unsure };
 
 /* The rounding of g, where its sign says nothing. */
 static double rounding_of(const struct enclosure *g)

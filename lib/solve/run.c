@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "dynamics/finite.h"
+#include "solve/cross.h"
 #include "solve/start.h"
 
 /* ---- the system that the stepper sees */
@@ -125,6 +126,7 @@ static void start(struct run *run)
         return;
     }
     run_release_contacts(run);
+    run_check_counts(run);
     watchers_arm(&run->watchers, run->state, 0);
     if (!(run->options.until > run->state->t)) run->outcome = FBD_DONE;
 }

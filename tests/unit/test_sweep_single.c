@@ -38,7 +38,7 @@ static void add_single(const char *text, const char *name, const char *value, st
             double number;
             assert_true(fbd_state_get(state, i % 2 ? c.rate_name : c.name, &number));
             text_add(row, ",");
-            if (!isnan(number)) text_number(row, number, 17);
+            if (!isnan(number)) text_exact(row, number);
         }
         text_printf(row, ",%zu,", fbd_simulation_events(simulation));
         fbd_state_free(state);

@@ -336,12 +336,124 @@ static void a_prescribed_motion_may_not_jump(void **unused)
     checks_end(&checks);
 }
 
+/* ---- in each other, and late */
+
+struct composed {
+    const char *value;
+    double until, v; /* from rest, of a unit mass */
+};
+
+/* Against a fine quadrature of the same formulas by hand. */
+static void tables_of_tables(void **unused)
+{
+    static const struct composed cases[] = {
+        /* load is broken at 1.05 s; sin passes 0.6 at 0.1024 and 0.3976 s and once a second from there */
+        {"if(sin(2*pi*t/1[s]) > 0.6, 1[N], 0) + load(t)", 2.5, 1.155052987953882},
+        /* the same switch without a table */
+        {"step(sin(2*pi*t/1[s]) - 0.6)*1[N] + 0[N]*step(t - 1.05[s])", 2.5, 0.885501705902600},
+        /* a knot that is touched where |t - 0.5| turns */
+        {"1[N]*ramp(abs(t/1[s] - 0.5))", 2, 0.75 + 2 + 1.5},
+        {"1[N]*ramp(1 - ramp(t/1[s]))", 1, 0},
+        {"1[N]*saw(saw(t/1[s]))", 3, 0},
+        {"1[N]*wave(t + 1e9[s])", 1.025, 0.025},
+    };
+    struct checks checks = {0};
+    (void)unused;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[1500];
+        snprintf(
+            text, sizeof text,
+            "fbd: 1\ntables:\n  load: [[0 s, 0 N], [1.05 s, 0 N], [3 s, 0.5 N]]\n  ramp: [[0, 1], [1, 3]]\n  "
+            "saw: "
+            "{points: [[0, -1], [1, 1], [2, -1]], beyond: repeat}\n  wave: {points: [[0 s, 1], [0.5 s, -1], "
+            "[1 s, 1]], "
+            "interpolation: step, beyond: repeat}\nbodies:\n  b: {mass: 1, motion: slide, forces: [applied: "
+            "\"%s\"]}\nsimulate: {until: %.17g}\n",
+            cases[i].value, cases[i].until);
+        fbd_errors *errors = fbd_errors_new();
+        struct trial run = {.model = fbd_model_parse(text, strlen(text), "scene", NULL, 0, errors)};
+        if (!run.model) fbd_errors_print(errors, stdout);
+        fbd_errors_free(errors);
+        assert_non_null(run.model);
+        run.state = fbd_state_new(run.model);
+        trial_start(&run, NULL);
+        trial_finish(&run);
+        double want = cases[i].v;
+        if (want == 0) { /* saw(saw(t)) and ramp(1 - ramp(t)): summed here */
+            enum { parts = 300000 };
+            for (int k = 0; k < parts; k++) {
+                double t = (k + 0.5) * cases[i].until / parts, saw = fabs(fmod(t, 2) - 1) * -2 + 1;
+                double inner = 1 - (1 + 2 * fmin(t, 1)), of_saw = saw < 0 ? saw + 2 : saw;
+                double f = strstr(cases[i].value, "ramp") ? 1 + 2 * fmin(fmax(inner, 0), 1)
+                                                          : fabs(of_saw - 1) * -2 + 1;
+                want += f * cases[i].until / parts;
+            }
+        }
+        check_close(&checks, cases[i].value, trial_get(&run, "b.v"), want, cases[i].v == 0 ? 1e-6 : 1e-9);
+        trial_close(&run);
+    }
+    checks_end(&checks);
+}
+
+/* A corner of |x - 0.5| at a knot, with the motion: by energy. */
+static void a_knot_that_is_touched_is_passed(void **unused)
+{
+    struct checks checks = {0};
+    (void)unused;
+    struct trial run = trial_parse(
+        "fbd: 1\ntables: {f: [[0, 1], [1, 3]]}\nbodies:\n  b: {mass: 1, motion: slide, initial: {v: "
+        "3}, forces: [applied: \"1[N]*f(abs(x/1[m] - 0.5))\"]}\nsimulate: {until: 1}\n");
+    trial_start(&run, NULL);
+    trial_finish(&run);
+    double x = trial_get(&run, "b.x");
+    check_that(&checks, "it gets past the table's end", x > 1.5);
+    check_close(&checks, "energy", 0.5 * pow(trial_get(&run, "b.v"), 2), 4.5 + 0.75 + 2 + 3 * (x - 1.5),
+                1e-8);
+    trial_close(&run);
+    checks_end(&checks);
+}
+
+/* Steps past counting are not taken for one. */
+static void what_is_past_counting_is_said_so(void **unused)
+{
+    static const char *const values[] = {"1[N]*wave(t + 1.7e9[s])", "1[N]*square((t - 1e9[s])/0.1[s])"};
+    struct checks checks = {0};
+    (void)unused;
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
+        char text[600];
+        snprintf(text, sizeof text,
+                 "fbd: 1\ntables: {wave: {points: [[0 s, 1], [0.5 s, -1], [1 s, 1]], interpolation: step, "
+                 "beyond: repeat}}\nbodies:"
+                 "\n  b: {mass: 1, motion: slide, forces: [applied: \"%s\", applied: {name: u, value: "
+                 "0*wave(t)*1[N]}]}\nsimulate: "
+                 "{until: 1}\n",
+                 values[i]);
+        fbd_errors *errors = fbd_errors_new();
+        fbd_model *model = fbd_model_parse(text, strlen(text), "scene", NULL, 0, errors);
+        if (!model) fbd_errors_print(errors, stdout);
+        assert_non_null(model);
+        fbd_simulation *simulation = fbd_simulation_new(model, NULL, errors);
+        fbd_outcome outcome = FBD_FAILED;
+        while (simulation && (outcome = fbd_simulation_advance(simulation)) == FBD_GOING) continue;
+        check_that(&checks, values[i], outcome != FBD_DONE);
+        fbd_simulation_free(simulation);
+        fbd_model_free(model);
+        fbd_errors_free(errors);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tables_are_those_of_gsl),          cmocka_unit_test(a_force_by_a_table_of_time),
-        cmocka_unit_test(a_force_by_a_table_of_place),      cmocka_unit_test(a_run_ends_where_a_table_does),
+        cmocka_unit_test(tables_are_those_of_gsl),
+        cmocka_unit_test(a_force_by_a_table_of_time),
+        cmocka_unit_test(a_force_by_a_table_of_place),
+        cmocka_unit_test(a_run_ends_where_a_table_does),
         cmocka_unit_test(a_prescribed_motion_may_not_jump),
+        cmocka_unit_test(tables_of_tables),
+        cmocka_unit_test(a_knot_that_is_touched_is_passed),
+        cmocka_unit_test(what_is_past_counting_is_said_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
