@@ -425,7 +425,7 @@ static void what_is_past_counting_is_said_so(void **unused)
                  "fbd: 1\ntables: {wave: {points: [[0 s, 1], [0.5 s, -1], [1 s, 1]], interpolation: step, "
                  "beyond: repeat}}\nbodies:"
                  "\n  b: {mass: 1, motion: slide, forces: [applied: \"%s\", applied: {name: u, value: "
-                 "0*wave(t)*1[N]}]}\nsimulate: "
+                 "0*wave(t)}]}\nsimulate: "
                  "{until: 1}\n",
                  values[i]);
         fbd_errors *errors = fbd_errors_new();
