@@ -2,12 +2,12 @@
 #include "output/hand.h"
 
 #include <float.h>
-#include <gsl/gsl_rng.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/diag.h"
 #include "dynamics/project.h"
+#include "output/random_state.h"
 
 enum { parameter_draws = 12, states_of_a_draw = 24, tries_of_a_state = 8 };
 
@@ -15,119 +15,6 @@ enum { parameter_draws = 12, states_of_a_draw = 24, tries_of_a_state = 8 };
 static bool agrees(const struct hand_sample *sample)
 {
     return fabs(sample->lack) <= 1e-9 * sample->size && isfinite(sample->size);
-}
-
-/* ---- drawing */
-
-static double between(gsl_rng *rng, double low, double high)
-{
-    return low + (high - low) * gsl_rng_uniform(rng);
-}
-
-/* The model of a document, each parameter that of `model` times a random factor, `spread` more or less than
- * 1: false when memory is out; *drawn is NULL when the file does not allow these. */
-static bool draw_model(const struct document *document, const fbd_model *model, gsl_rng *rng, double spread,
-                       fbd_model **drawn)
-{
-    const struct scene *scene = model->scene;
-    struct arena arena = {0};
-    struct override *overrides = ARENA_ARRAY(&arena, scene->parameter_count + 1, struct override);
-    fbd_errors *errors = fbd_errors_new();
-    struct text text = {0};
-    *drawn = NULL;
-    for (size_t i = 0; overrides && i < scene->parameter_count; i++) {
-        text.length = 0;
-        text_number(&text, scene->parameters[i].value * between(rng, 1 - spread, 1 + spread), 17);
-        if (text.failed) break;
-        overrides[i] =
-            (struct override){scene->parameters[i].name, arena_text(&arena, text.data, text.length)};
-    }
-    bool done = errors && !arena.failed && !text.failed;
-    if (done) {
-        struct scene *changed = scene_make(document, overrides, scene->parameter_count, errors);
-        if (changed) *drawn = model_compile(changed, errors);
-        done = !errors->out_of_memory;
-    }
-    fbd_errors_free(errors);
-    text_free(&text);
-    arena_free(&arena);
-    return done;
-}
-
-/* From the coordinates at t = 0 to those at the state's time: prescribed ones lead there in small steps, the
- * others follow. False where that ends. */
-static bool follow_prescribed(struct fbd_state *state)
-{
-    enum { steps = 64 };
-    const double t = state->t;
-    bool fits = true;
-    for (int k = 1; fits && k <= steps; k++) {
-        state->t = t * k / steps;
-        modes_drive(state);
-        fits = state_project(state, false);
-    }
-    return fits;
-}
-
-static bool is_driven(const struct fbd_model *model)
-{
-    for (size_t k = 0; k < model->plan.friction_count; k++)
-        if (model->plan.frictions[k].kind == mode_drive) return true;
-    return false;
-}
-
-/* Where couplings close loops, most states do not fit: so the start moves by up to 0.3 rad or a tenth of a
- * metre, with random rates, and the nearest state that fits is taken. False when there is none. */
-static bool draw_closed(gsl_rng *rng, struct fbd_state *state, const double *start)
-{
-    const struct fbd_model *model = state->model;
-    size_t n = model->scene->coordinate_count;
-    if (!model->tree || model->tree->tie_count == 0) return true;
-    memcpy(state->y, start, n * sizeof *start);
-    if (is_driven(model) && !follow_prescribed(state)) return false;
-    for (size_t i = 0; i < n; i++)
-        state->y[i] += between(rng, -1, 1) * (model->scene->coordinates[i].angle ? 0.3 : 0.1);
-    modes_drive(state);
-    /* Round bodies slip as often as they roll. */
-    for (size_t k = 0; k < model->plan.friction_count; k++)
-        if (model->plan.frictions[k].tie >= 0 && model->plan.frictions[k].kind == mode_friction)
-            state->slip[k] = between(rng, 0, 1) < 0.5 ? stick : slip_plus;
-    return state_project(state, false);
-}
-
-/* Random coordinates and rates of the size of the initial ones, at least one unit; angles all around. False
- * where couplings have no such state. */
-static bool draw_state(gsl_rng *rng, struct fbd_state *state, const double *start)
-{
-    const struct scene *scene = state->model->scene;
-    size_t n = scene->coordinate_count;
-    const struct value *until = &scene->simulate.until;
-    double duration = until->expr ? expr_value(until->expr) : 1;
-    state->t = between(rng, 0, duration);
-    for (size_t i = 0; i < n; i++) {
-        const struct coordinate *c = &scene->coordinates[i];
-        double reach = c->angle ? 3.14159 : fmax(1, 2 * fabs(c->initial)),
-               speed = fmax(1, 2 * fabs(c->initial_rate));
-        state->y[i] = between(rng, -reach, reach);
-        state->y[n + i] = between(rng, -speed, speed);
-    }
-    state->settled = false;
-    return draw_closed(rng, state, start);
-}
-
-static bool admissible(struct fbd_state *state)
-{
-    const struct plan *plan = &state->model->plan;
-    state->settled = true;
-    if (!modes_settle(state, NULL)) return false;
-    for (int i = 0; i < plan->n; i++)
-        if (!isfinite(state->a[i])) return false;
-    for (size_t i = 0; i < plan->contact_count; i++) {
-        const struct contact *contact = &plan->contacts[i];
-        if (-state->slots[contact->slot] < 0) return false;
-        if (contact->pair >= 0 && state->slip[contact->pair] != stick) return false;
-    }
-    return true;
 }
 
 /* ---- one equation at one state */
@@ -287,7 +174,7 @@ static bool sample_model(struct hand_check *check, const fbd_model *model, gsl_r
     bool done = state && y;
     for (int i = 0; done && i < states_of_a_draw; i++)
         for (int k = 0; k < tries_of_a_state && check->count < most_samples; k++) {
-            if (!draw_state(rng, state, start) || !admissible(state)) continue;
+            if (!random_state(rng, state, start) || !random_admissible(state)) continue;
             take_sample(check, hand, state, y);
             break;
         }
@@ -366,7 +253,7 @@ static int check_one(struct hand_check *check, const struct document *document, 
     if (!sample_model(check, model, rng)) return -1;
     for (int draw = 1; draw < parameter_draws; draw++) {
         fbd_model *changed;
-        bool done = draw_model(document, model, rng, 0.3, &changed) &&
+        bool done = random_model(document, model, rng, 0.3, &changed) &&
                     (!changed || sample_model(check, changed, rng));
         fbd_model_free(changed);
         if (!done) return -1;
@@ -408,7 +295,7 @@ int fbd_check_hand(const fbd_model *model, unsigned seed, char **result)
             !errors->out_of_memory;
         document.split_hands = true;
         document.like = model->scene;
-        if (open && draw_model(&document, model, rng, 0, &split)) {
+        if (open && random_model(&document, model, rng, 0, &split)) {
             check.model = split ? split : model;
             differ = check_all(&check, &document, rng, &text);
         }

@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "output/random_state.h"
+
+#include <string.h>
+
+#include "base/diag.h"
+#include "base/text.h"
+#include "dynamics/project.h"
+
+static double between(gsl_rng *rng, double low, double high)
+{
+    return low + (high - low) * gsl_rng_uniform(rng);
+}
+
+bool random_model(const struct document *document, const fbd_model *model, gsl_rng *rng, double spread,
+                  fbd_model **drawn)
+{
+    const struct scene *scene = model->scene;
+    struct arena arena = {0};
+    struct override *overrides = ARENA_ARRAY(&arena, scene->parameter_count + 1, struct override);
+    fbd_errors *errors = fbd_errors_new();
+    struct text text = {0};
+    *drawn = NULL;
+    for (size_t i = 0; overrides && i < scene->parameter_count; i++) {
+        text.length = 0;
+        text_number(&text, scene->parameters[i].value * between(rng, 1 - spread, 1 + spread), 17);
+        if (text.failed) break;
+        overrides[i] =
+            (struct override){scene->parameters[i].name, arena_text(&arena, text.data, text.length)};
+    }
+    bool done = errors && !arena.failed && !text.failed;
+    if (done) {
+        struct scene *changed = scene_make(document, overrides, scene->parameter_count, errors);
+        if (changed) *drawn = model_compile(changed, errors);
+        done = !errors->out_of_memory;
+    }
+    fbd_errors_free(errors);
+    text_free(&text);
+    arena_free(&arena);
+    return done;
+}
+
+/* From the coordinates at t = 0 to those at the state's time: prescribed ones lead there in small steps, the
+ * others follow. False where that ends. */
+static bool follow_prescribed(struct fbd_state *state)
+{
+    enum { steps = 64 };
+    const double t = state->t;
+    bool fits = true;
+    for (int k = 1; fits && k <= steps; k++) {
+        state->t = t * k / steps;
+        modes_drive(state);
+        fits = state_project(state, false);
+    }
+    return fits;
+}
+
+static bool is_driven(const struct fbd_model *model)
+{
+    for (size_t k = 0; k < model->plan.friction_count; k++)
+        if (model->plan.frictions[k].kind == mode_drive) return true;
+    return false;
+}
+
+/* Where couplings close loops, most states do not fit: so the start moves by up to 0.3 rad or a tenth of a
+ * metre, with random rates, and the nearest state that fits is taken. False when there is none. */
+static bool draw_closed(gsl_rng *rng, struct fbd_state *state, const double *start)
+{
+    const struct fbd_model *model = state->model;
+    size_t n = model->scene->coordinate_count;
+    if (!model->tree || model->tree->tie_count == 0) return true;
+    memcpy(state->y, start, n * sizeof *start);
+    if (is_driven(model) && !follow_prescribed(state)) return false;
+    for (size_t i = 0; i < n; i++)
+        state->y[i] += between(rng, -1, 1) * (model->scene->coordinates[i].angle ? 0.3 : 0.1);
+    modes_drive(state);
+    /* Round bodies slip as often as they roll. */
+    for (size_t k = 0; k < model->plan.friction_count; k++)
+        if (model->plan.frictions[k].tie >= 0 && model->plan.frictions[k].kind == mode_friction)
+            state->slip[k] = between(rng, 0, 1) < 0.5 ? stick : slip_plus;
+    return state_project(state, false);
+}
+
+bool random_state(gsl_rng *rng, struct fbd_state *state, const double *start)
+{
+    const struct scene *scene = state->model->scene;
+    size_t n = scene->coordinate_count;
+    const struct value *until = &scene->simulate.until;
+    double duration = until->expr ? expr_value(until->expr) : 1;
+    state->t = between(rng, 0, duration);
+    for (size_t i = 0; i < n; i++) {
+        const struct coordinate *c = &scene->coordinates[i];
+        double reach = c->angle ? 3.14159 : fmax(1, 2 * fabs(c->initial)),
+               speed = fmax(1, 2 * fabs(c->initial_rate));
+        state->y[i] = between(rng, -reach, reach);
+        state->y[n + i] = between(rng, -speed, speed);
+    }
+    state->settled = false;
+    return draw_closed(rng, state, start);
+}
+
+bool random_admissible(struct fbd_state *state)
+{
+    const struct plan *plan = &state->model->plan;
+    state->settled = true;
+    if (!modes_settle(state, NULL)) return false;
+    for (int i = 0; i < plan->n; i++)
+        if (!isfinite(state->a[i])) return false;
+    for (size_t i = 0; i < plan->contact_count; i++) {
+        const struct contact *contact = &plan->contacts[i];
+        if (-state->slots[contact->slot] < 0) return false;
+        if (contact->pair >= 0 && state->slip[contact->pair] != stick) return false;
+    }
+    return true;
+}

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Random states of a scene, where its equations are compared: coordinates and rates of the size of the initial ones,
+ * angles all around, couplings closed.
+ */
+#ifndef FBD_OUTPUT_RANDOM_STATE_H
+#define FBD_OUTPUT_RANDOM_STATE_H
+
+#include <gsl/gsl_rng.h>
+
+#include "dynamics/modes.h"
+
+/* The model of a document, each parameter that of `model` times a random factor, `spread` more or less than
+ * 1: false when memory is out; *drawn is NULL when the file does not allow these. */
+bool random_model(const struct document *document, const fbd_model *model, gsl_rng *rng, double spread,
+                  fbd_model **drawn);
+
+/* Random coordinates and rates of the size of the initial ones, at least one unit; angles all around. `start`: the
+ * coordinates (n) that couplings fit at. False where couplings have no such state. */
+bool random_state(gsl_rng *rng, struct fbd_state *state, const double *start);
+
+/* Settle the modes: are all forces finite, does no surface have to pull, and does what rolls roll? */
+bool random_admissible(struct fbd_state *state);
+
+#endif
