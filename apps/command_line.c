@@ -84,8 +84,8 @@ static bool say(const struct command_line *line, int option, enum exit_code *cod
     return false;
 }
 
-bool command_line_read(const struct command_line *line, int argc, char **argv, command_line_take *take,
-                       void *options, const char **model, enum exit_code *code)
+bool command_line_options(const struct command_line *line, int argc, char **argv, command_line_take *take,
+                          void *options, enum exit_code *code)
 {
     *code = exit_usage;
     opterr = 0;
@@ -94,12 +94,24 @@ bool command_line_read(const struct command_line *line, int argc, char **argv, c
         if (option == '?') return refuse_option(line, argv[optind - 1]);
         if (!take(line, option, options)) return false;
     }
+    return true;
+}
+
+bool command_line_model(const struct command_line *line, int argc, char **argv, const char **model)
+{
     if (optind + 1 != argc)
         return command_line_usage(line,
                                   optind == argc ? "no model file given" : "more than one model file given",
                                   "");
     *model = argv[optind];
     return true;
+}
+
+bool command_line_read(const struct command_line *line, int argc, char **argv, command_line_take *take,
+                       void *options, const char **model, enum exit_code *code)
+{
+    return command_line_options(line, argc, argv, take, options, code) &&
+           command_line_model(line, argc, argv, model);
 }
 
 bool command_line_number(const struct command_line *line, const char *option, const char *text, double least,

@@ -47,6 +47,11 @@ typedef bool command_line_take(const struct command_line *line, int option, void
 bool command_line_read(const struct command_line *line, int argc, char **argv, command_line_take *take,
                        void *options, const char **model, enum exit_code *code);
 
+/* The same in two steps: the options, after which `optind` is the first word behind them, and the one file. */
+bool command_line_options(const struct command_line *line, int argc, char **argv, command_line_take *take,
+                          void *options, enum exit_code *code);
+bool command_line_model(const struct command_line *line, int argc, char **argv, const char **model);
+
 /* Say what is wrong: `message` and what stands there instead, or "". Returns false. */
 bool command_line_usage(const struct command_line *line, const char *message, const char *what);
 

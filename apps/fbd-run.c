@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "complain.h"
+#include "grading.h"
 #include "options.h"
 #include "outputs.h"
 #include "place.h"
@@ -268,6 +269,8 @@ static enum exit_code act(const fbd_model *model, const struct options *options,
     case action_equations:
     case action_static:
     case action_linearize: return show_state(model, options, errors);
+    case action_grade:
+    case action_handout:
     case action_run: break;
     }
     return run(model, options, errors);
@@ -293,6 +296,9 @@ int main(int argc, char **argv)
     enum exit_code code;
     standard_streams_begin();
     gsl_set_error_handler_off(); /* every status is looked at instead */
-    if (options_read(argc, argv, &options, &code)) code = read_and_act(&options);
+    if (options_read(argc, argv, &options, &code))
+        code = options.action == action_grade     ? grading(&options)
+               : options.action == action_handout ? handout(&options)
+                                                  : read_and_act(&options);
     return (int)code;
 }

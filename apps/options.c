@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "options.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "gnuplot.h"
@@ -50,13 +51,22 @@ static const char help[] =
     "  --check-hand         hold the file's hand derivations against the assembly\n"
     "  --seed NUMBER        seed of the random states for that (default 1)\n"
     "  --check              read the file and say what is wrong with it, or with its start\n"
+    "\n"
+    "Answers of students (fbd-run --grade KEY.yaml ANSWER.yaml...)\n"
+    "  --grade KEY          hold each answer against the forces, moments and derivations of this model file\n"
+    "  --student NAME       whose answer it is, where values are drawn (default: the name of its file)\n"
+    "  --details            with the names of the key's forces, for the teacher\n"
+    "  --handout            print the sheet that a student gets of the key MODEL.yaml: with --student\n"
+    "\n"
+    "About the program\n"
     "  --schema             the model language as JSON Schema, for editors\n"
     "  --completion SHELL   what makes bash, zsh or fish complete these options\n"
     "  -h, --help, --version\n"
     "\n"
     "Exit codes: 0 done, 1 the run failed or ended early, or the scene is not in equilibrium (--static),\n"
-    "2 usage, 3 the model file is wrong, 4 a hand derivation differs, 5 the accuracy asked for was not "
-    "reached,\n"
+    "2 usage, 3 the model file is wrong, 4 a hand derivation differs or an answer does not pass, 5 the "
+    "accuracy\n"
+    "asked for was not reached,\n"
     "128 + signal: interrupted, with what was computed written.\n";
 
 enum {
@@ -89,6 +99,10 @@ enum {
     option_body,
     option_components,
     option_check,
+    option_grade,
+    option_student,
+    option_details,
+    option_handout,
 };
 
 static const struct option long_options[] = {
@@ -121,6 +135,10 @@ static const struct option long_options[] = {
     {"body", required_argument, NULL, option_body},
     {"components", no_argument, NULL, option_components},
     {"check", no_argument, NULL, option_check},
+    {"grade", required_argument, NULL, option_grade},
+    {"student", required_argument, NULL, option_student},
+    {"details", no_argument, NULL, option_details},
+    {"handout", no_argument, NULL, option_handout},
     {"schema", no_argument, NULL, option_schema},
     COMMAND_LINE_END,
 };
@@ -136,7 +154,8 @@ static bool choose_action(struct options *options, enum action action)
 {
     if (options->action != action_run && options->action != action)
         return usage(
-            "only one of --equations, --linearize, --static, --explain, --check-hand and --check at a time",
+            "only one of --equations, --linearize, --static, --explain, --check-hand, --check, --grade and "
+            "--handout at a time",
             "");
     options->action = action;
     return true;
@@ -205,6 +224,10 @@ static bool take_option(const struct command_line *unused, int option, void *con
     case option_explain: return choose_action(options, action_explain);
     case option_check_hand: return choose_action(options, action_check_hand);
     case option_check: return choose_action(options, action_check);
+    case option_grade: options->model = optarg; return choose_action(options, action_grade);
+    case option_student: options->student = optarg; return true;
+    case option_details: options->details = true; return true;
+    case option_handout: return choose_action(options, action_handout);
     default: return usage("unknown option, or an option without its value", "");
     }
 }
@@ -243,9 +266,35 @@ bool options_use_stdout(const struct options *options)
            place_is_stdout(options->gnuplot);
 }
 
+/* Neither the key nor an answer is written over. */
+static bool grading_agrees(const struct options *options)
+{
+    const struct output_place places[] = {{"--csv", options->csv}, {"--json", options->json}};
+    bool grades = options->action == action_grade;
+    if (grades && options->student && options->answer_count != 1)
+        return usage("--student goes with one answer; without it each is called as its file", "");
+    if (!grades && !options->student) return usage("--handout needs --student NAME", "");
+    if (options->setting_count || options->at_count || options->run.method || options->run.tolerance > 0 ||
+        options->run.accuracy > 0 || options->run.step > 0 || options->run.no_structure ||
+        isfinite(options->run.until) || options->run.error_bars || options->settle || options->svg ||
+        options->html || options->plot || options->plot_of || options->gnuplot || options->ledger ||
+        options->every > 0 || options->drawing.body || options->drawing.components)
+        return usage("with --grade go --student, --details, --csv, --json and --quiet only; with --handout "
+                     "--student only",
+                     "");
+    if (!grades && (options->csv || options->json || options->quiet || options->details))
+        return usage("with --handout goes --student only", "");
+    for (size_t i = 0; i < options->answer_count; i++)
+        if (!places_differ(&line, options->answers[i], places, sizeof places / sizeof *places)) return false;
+    return places_differ(&line, options->model, places, sizeof places / sizeof *places);
+}
+
 /* Options that would be passed over in silence are mistakes. */
 static bool options_agree(const struct options *options)
 {
+    if (options->action == action_grade || options->action == action_handout) return grading_agrees(options);
+    if (options->student || options->details)
+        return usage("--student and --details go with --grade and --handout", "");
     bool stands_still = options->action != action_run;
     bool draws = options->action == action_equations || options->action == action_linearize;
     bool rests = options->action == action_static;
@@ -275,6 +324,11 @@ static bool options_agree(const struct options *options)
 bool options_read(int argc, char **argv, struct options *options, enum exit_code *code)
 {
     *options = (struct options){.run = FBD_OPTIONS_DEFAULT, .seed = 1};
-    return command_line_read(&line, argc, argv, take_option, options, &options->model, code) &&
-           options_agree(options);
+    if (!command_line_options(&line, argc, argv, take_option, options, code)) return false;
+    if (options->action != action_grade)
+        return command_line_model(&line, argc, argv, &options->model) && options_agree(options);
+    options->answers = argv + optind;
+    options->answer_count = (size_t)(argc - optind);
+    if (options->answer_count == 0) return usage("no answer given to hold against the key", "");
+    return options_agree(options);
 }

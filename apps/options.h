@@ -17,6 +17,8 @@ struct options {
         action_explain,
         action_linearize,
         action_static,
+        action_grade,   /* `model` is the key of `answers` */
+        action_handout, /* `model` is the key */
     } action;
     fbd_setting settings[most_settings];
     size_t setting_count;
@@ -29,6 +31,10 @@ struct options {
     const char *plot, *gnuplot, *plot_of;
     fbd_drawing drawing;
     unsigned seed;
+    const char *student; /* of the answer, or NULL */
+    bool details;
+    char **answers;
+    size_t answer_count;
 };
 
 /* Read the command line. Returns true to go on; false with *code set when all is said (help, version, a

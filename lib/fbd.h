@@ -788,6 +788,77 @@ typedef struct fbd_drawing {
  * components). NULL with a note in `errors` (`unknown-body`, or memory is out). */
 FBD_API char *fbd_diagram_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *errors);
 
+/* ---------------------------------------------------------------- grading */
+
+/* A teacher's model that answers are held against: its forces, moments and derivations are the right ones, its
+ * `grading` says what they are worth. */
+typedef struct fbd_key fbd_key;
+
+/* Read a key. NULL with notes in `errors`: those of a wrong model file, and `nothing-to-grade`. */
+FBD_API fbd_key *fbd_key_read(const char *path, fbd_errors *errors);
+FBD_API void fbd_key_free(fbd_key *key);
+
+/* What a student gets of it, as a model file: the scene without forces, moments, derivations and comments, with the
+ * values that `grading: {draw: ...}` draws for the name of this student. To be freed with free(); NULL with a note in
+ * `errors` when memory is out. */
+FBD_API char *fbd_key_handout(const fbd_key *key, const char *student, fbd_errors *errors);
+
+typedef enum fbd_finding_kind {
+    FBD_FINDING_RIGHT,
+    FBD_FINDING_MISSING,     /* a force or moment, or a derivation, is not there */
+    FBD_FINDING_SUPERFLUOUS, /* a force or moment is there that nothing exerts */
+    FBD_FINDING_PLACE,       /* its line of action is another one */
+    FBD_FINDING_DIRECTION,
+    FBD_FINDING_SENSE, /* it points the opposite way */
+    FBD_FINDING_MAGNITUDE,
+    FBD_FINDING_UNIT,            /* its magnitude is off by a factor between units */
+    FBD_FINDING_COEFFICIENT,     /* of friction */
+    FBD_FINDING_INERTIA,         /* mass, centre of mass or moment of inertia */
+    FBD_FINDING_REFERENCE_POINT, /* a moment of inertia is that about another point */
+    FBD_FINDING_MOTION,          /* a body moves in another way */
+    FBD_FINDING_BODY,            /* a body is not there, or should not be */
+    FBD_FINDING_UNREADABLE,      /* something cannot be read */
+    FBD_FINDING_DERIVATION,      /* it does not agree with mechanics, or says nothing */
+    FBD_FINDING_NO_SUBMISSION,
+} fbd_finding_kind;
+
+/* "right", "missing", "superfluous", "place", "direction", "sense", "magnitude", "unit", "coefficient", "inertia",
+ * "reference_point", "motion", "body", "unreadable", "derivation", "no_submission"; "" for none of them */
+FBD_API const char *fbd_finding_kind_name(fbd_finding_kind kind);
+
+/* One part of an answer. `message` names only what the student wrote, and may be shown; `detail` names the key's. */
+typedef struct fbd_finding {
+    fbd_finding_kind kind;
+    const char *body, *name; /* "" where there is none */
+    int line, column;        /* in the answer, 0 when it is not there */
+    double points, most;     /* got (below zero: taken off), and to be had */
+    const char *message, *detail;
+} fbd_finding;
+
+typedef struct fbd_grade fbd_grade;
+
+/* Hold an answer against a key by mechanics. `student` chooses the values that are drawn; NULL takes the name of the
+ * file, without folders and `.yaml`. An answer that is not there, or cannot be read, has no points. NULL when memory
+ * is out. The key must outlive it. */
+FBD_API fbd_grade *fbd_grade_new(const fbd_key *key, const char *path, const char *student);
+FBD_API void fbd_grade_free(fbd_grade *grade);
+
+/* What was got, at least 0, and what is to be had. */
+FBD_API double fbd_grade_points(const fbd_grade *grade);
+FBD_API double fbd_grade_most(const fbd_grade *grade);
+
+/* Is there an answer, and are its points enough? */
+FBD_API bool fbd_grade_passed(const fbd_grade *grade);
+
+FBD_API size_t fbd_grade_findings(const fbd_grade *grade);
+/* Finding `index`; past the end one without texts. */
+FBD_API fbd_finding fbd_grade_finding(const fbd_grade *grade, size_t index);
+
+/* As text, and as one JSON object (docs/grading.md); with `details` those that name the key's forces. To be freed with
+ * free(); NULL when memory is out. */
+FBD_API char *fbd_grade_text(const fbd_grade *grade, bool details);
+FBD_API char *fbd_grade_json(const fbd_grade *grade, bool details);
+
 FBD_API const char *fbd_version(void);
 
 #ifdef __cplusplus

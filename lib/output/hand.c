@@ -113,6 +113,23 @@ static void take_summands(struct hand_check *check, const struct hand *hand, dou
     }
 }
 
+/* Which names the equation depends on: bit k for hand slot k, hand_others for accelerations of other bodies. An identity
+ * depends on none. */
+static unsigned depends_on(const struct hand *hand, const struct fbd_model *model, double t, const double *y)
+{
+    int first = 1 + 2 * model->plan.n;
+    unsigned says = 0;
+    for (int k = 0; k < hand_slots + (int)model->absolute_count; k++) {
+        double left, right;
+        if (k >= hand_slots && model->absolutes[k - hand_slots].kind != absolute_acceleration) continue;
+        expr_eval_slot(hand->left, t, y, first + k, NULL, &left);
+        expr_eval_slot(hand->right, t, y, first + k, NULL, &right);
+        if (fabs(left - right) > 1e-9 * (fabs(left) + fabs(right)))
+            says |= k < hand_slots ? 1U << k : hand_others;
+    }
+    return says;
+}
+
 static void take_sample(struct hand_check *check, const struct hand *hand, struct fbd_state *state, double *y)
 {
     const struct fbd_model *model = state->model;
@@ -127,6 +144,7 @@ static void take_sample(struct hand_check *check, const struct hand *hand, struc
     sample.left = expr_eval(hand->left, state->t, y, NULL);
     sample.right = expr_eval(hand->right, state->t, y, NULL);
     if (!isfinite(sample.left) || !isfinite(sample.right)) return;
+    check->says |= depends_on(hand, model, state->t, y);
     double slope = 0, scale = 1;
     bool jointed = body->place.link > 0; /* several accelerations in one equation: side against side */
     int part = jointed ? -1 : accelerated_part(hand, model->plan.n, body->count, state->t, y, &slope);
@@ -234,6 +252,22 @@ static bool write_verdict(const struct hand_check *check, struct text *text)
     return false;
 }
 
+bool hand_take_samples(struct hand_check *check, const struct document *document, gsl_rng *rng, double spread)
+{
+    check->count = 0;
+    check->part = -1;
+    check->says = 0;
+    if (!sample_model(check, check->model, rng)) return false;
+    for (int draw = 1; draw < parameter_draws; draw++) {
+        fbd_model *changed;
+        bool done = random_model(document, check->model, rng, spread, &changed) &&
+                    (!changed || sample_model(check, changed, rng));
+        fbd_model_free(changed);
+        if (!done) return false;
+    }
+    return true;
+}
+
 /* Check one equation; 1 differs, 0 agrees, -1 out of memory. */
 static int check_one(struct hand_check *check, const struct document *document, gsl_rng *rng,
                      struct text *text)
@@ -241,8 +275,6 @@ static int check_one(struct hand_check *check, const struct document *document, 
     const struct fbd_model *model = check->model;
     const struct body *body = &model->scene->bodies[check->body];
     const struct hand *hand = &body->hands[check->index];
-    check->count = 0;
-    check->part = -1;
     text_printf(text, "%s: ", body->name);
     text_shown(text, hand->text);
     text_add(text, "\n");
@@ -250,14 +282,7 @@ static int check_one(struct hand_check *check, const struct document *document, 
         text_printf(text, "  not checked: more than %d forces\n", most_terms);
         return 1;
     }
-    if (!sample_model(check, model, rng)) return -1;
-    for (int draw = 1; draw < parameter_draws; draw++) {
-        fbd_model *changed;
-        bool done = random_model(document, model, rng, 0.3, &changed) &&
-                    (!changed || sample_model(check, changed, rng));
-        fbd_model_free(changed);
-        if (!done) return -1;
-    }
+    if (!hand_take_samples(check, document, rng, 0.3)) return -1;
     return write_verdict(check, text) ? 0 : 1;
 }
 

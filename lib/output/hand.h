@@ -14,11 +14,13 @@
 #ifndef FBD_OUTPUT_HAND_H
 #define FBD_OUTPUT_HAND_H
 
+#include <gsl/gsl_rng.h>
+
 #include "base/text.h"
 #include "dynamics/diagram.h"
 #include "dynamics/modes.h"
 
-enum { most_samples = 512, most_terms = 40 };
+enum { most_samples = 512, most_terms = 40, hand_others = 1 << hand_slots };
 
 /* Factors that derivations forget, as they are at a state. Those that do not apply are NAN. */
 enum hand_factor {
@@ -54,11 +56,17 @@ struct hand_sample {
 struct hand_check {
     const struct fbd_model *model;
     int body, index;
-    int part; /* coordinate whose acceleration it is about, -1 for none */
+    int part;      /* coordinate whose acceleration it is about, -1 for none */
+    unsigned says; /* bit k: it depends on hand slot k; hand_others: on the acceleration of another body */
     size_t count;
     struct hand_sample *samples;     /* most_samples */
     bool accelerates[most_summands]; /* this summand is (part of) the left side I a */
 };
+
+/* Sample the equation at random states of the model and of eleven others, whose parameters differ by up to `spread`.
+ * False when memory is out. */
+bool hand_take_samples(struct hand_check *check, const struct document *document, gsl_rng *rng,
+                       double spread);
 
 /* Say in which term the samples that have slip `slip` differ from the assembly, or that no single term
  * explains it. */

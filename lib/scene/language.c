@@ -34,6 +34,8 @@ static const struct field scene_fields[] = {
                 &coupling_kinds, "what joins two bodies, beside what they move on"),
     FIELD_ENTRIES(offsetof(struct scene_keys, contacts), "contacts", field_list, 0, each_group,
                   &contact_group, "bodies that meet each other or the ground, and part"),
+    FIELD_NODE(offsetof(struct scene_keys, grading), "grading", field_map, 0, &grading_group,
+               "how answers are graded that are held against this file"),
 };
 
 const struct group scene_group = {"the file", NULL, FIELDS(scene_fields), NULL, 0, "a model"};

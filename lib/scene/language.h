@@ -106,7 +106,13 @@ struct scene_keys {
     int units;
     double datum;
     const struct node *gravity, *parameters, *tables, *ground, *bodies, *couplings, *contacts, *simulate,
-        *output;
+        *output, *grading;
+};
+
+struct grading_keys {
+    double digits;
+    const struct node *draw, *points;
+    struct grading grading;
 };
 
 struct table_keys {
@@ -220,7 +226,8 @@ struct hand_keys {
 extern const struct choice method_choices[];
 
 extern const struct group scene_group, ground_group, line_group, simulate_group, output_group, event_group;
-extern const struct group contact_group, table_group;
+extern const struct group contact_group, table_group, grading_group;
+extern const struct group *const grading_points_group;
 extern const struct group body_group, part_group, inertia_group, hand_group;
 extern const struct group initial_groups[], exact_groups[]; /* by enum motion_kind */
 extern const struct kinds motion_kinds, force_kinds, moment_kinds, coupling_kinds;

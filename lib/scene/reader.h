@@ -196,4 +196,8 @@ bool stops_read(struct reader *reader, struct coupling_name *names);
 
 bool simulate_read(struct reader *reader, const struct scene_keys *keys);
 
+/* ---- how answers are graded (read_grading.c) */
+
+bool grading_read(struct reader *reader, const struct node *node);
+
 #endif

@@ -146,6 +146,7 @@ static void read_scene(struct reader *reader, const struct override *overrides, 
     read_bodies(reader);
     if (!is_hopeless(reader) && reader->bodies) couplings_read(reader, keys.couplings, keys.contacts);
     if (!is_hopeless(reader)) simulate_read(reader, &keys);
+    if (!is_hopeless(reader)) grading_read(reader, keys.grading);
     if (fbd_errors_failed(reader->errors) > 0) return;
     parameters_note_unused(reader);
     tables_note_unused(reader);

@@ -339,6 +339,28 @@ struct simulate {
     const char *method; /* NULL where the file does not say how to run */
 };
 
+/* A parameter that each student has a value of: a number in [low, high] with the text `unit` behind it. */
+struct drawn_parameter {
+    const char *name;
+    struct pos at;
+    double low, high;
+    const char *unit;
+};
+
+struct grading_points {
+    double force, inertia, derivation, superfluous;
+};
+
+/* How answers are graded that are held against this file as a key (lib/grade). */
+struct grading {
+    bool given; /* the file says so; else all is as by default */
+    size_t draw_count;
+    struct drawn_parameter *draws;
+    int digits;                      /* decimal ones of values that are drawn */
+    double tolerance, partial, pass; /* shares */
+    struct grading_points points;
+};
+
 struct scene {
     struct arena arena;
     const char *file, *title; /* title "" when not given */
@@ -353,6 +375,7 @@ struct scene {
     struct coupling *couplings;
     struct constraint *constraints;
     struct simulate simulate;
+    struct grading grading;
     size_t output_point_count;
     struct output_point *output_points;
     size_t coordinate_count, absolute_count;

@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "grading.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "complain.h"
+#include "place.h"
+#include "standard_streams.h"
+#include "whole_file.h"
+
+/* What is written besides the text. */
+struct tables {
+    struct whole_file json, csv;
+    bool first;
+};
+
+static bool open_one(struct whole_file *file, const char *path)
+{
+    if (!path || whole_file_open(file, path)) return true;
+    complain("fbd-run: cannot write `%s`: %s", path, strerror(errno));
+    return false;
+}
+
+static bool close_one(struct whole_file *file, const char *path, bool keep)
+{
+    if (!path || !file->stream || whole_file_close(file, keep) || !keep) return true;
+    complain("fbd-run: cannot write `%s`: %s", path, strerror(errno));
+    return false;
+}
+
+/* A field with what would end it in quotes. */
+static void put_field(FILE *stream, const char *text)
+{
+    bool quotes = strpbrk(text, ",\"\n\r") != NULL;
+    if (quotes) fputc('"', stream);
+    for (; *text; text++) {
+        if (*text == '"') fputc('"', stream);
+        fputc(*text, stream);
+    }
+    if (quotes) fputc('"', stream);
+    fputc(',', stream);
+}
+
+static void put_row(FILE *stream, const fbd_grade *grade, const char *student, const char *file)
+{
+    double points = fbd_grade_points(grade), most = fbd_grade_most(grade);
+    put_field(stream, student);
+    put_field(stream, file);
+    fprintf(stream, "%.10g,%.10g,%.10g,%s\n", points, most, points / most,
+            fbd_grade_passed(grade) ? "yes" : "no");
+}
+
+/* The name of the student that no option gives: that of the file. */
+static void name_of(const char *path, char *name, size_t room)
+{
+    const char *slash = strrchr(path, '/'), *start = slash ? slash + 1 : path, *dot = strrchr(start, '.');
+    size_t length = dot && dot != start ? (size_t)(dot - start) : strlen(start);
+    if (length >= room) length = room - 1;
+    memcpy(name, start, length);
+    name[length] = '\0';
+}
+
+static bool put_json(struct tables *tables, const fbd_grade *grade, bool details)
+{
+    char *json = fbd_grade_json(grade, details);
+    if (!json) return false;
+    fputs(tables->first ? "\n" : ",\n", tables->json.stream);
+    fputs(json, tables->json.stream);
+    tables->first = false;
+    free(json);
+    return true;
+}
+
+static enum exit_code grade_one(const struct options *options, const fbd_key *key, const char *path,
+                                struct tables *tables)
+{
+    char name[256];
+    name_of(path, name, sizeof name);
+    const char *student = options->student ? options->student : name;
+    fbd_grade *grade = fbd_grade_new(key, path, student);
+    bool silent = options->quiet || options_use_stdout(options);
+    char *text = grade && !silent ? fbd_grade_text(grade, options->details) : NULL;
+    bool done = grade && (silent || text) && (!options->json || put_json(tables, grade, options->details));
+    if (done && text) fputs(text, stdout);
+    if (done && options->csv) put_row(tables->csv.stream, grade, student, path);
+    enum exit_code code = !done ? exit_failed : fbd_grade_passed(grade) ? exit_done : exit_hand_differs;
+    if (!done) complain("fbd-run: out of memory");
+    free(text);
+    fbd_grade_free(grade);
+    return code;
+}
+
+static enum exit_code grade_all(const struct options *options, const fbd_key *key)
+{
+    struct tables tables = {.first = true};
+    enum exit_code code = exit_done;
+    bool open = open_one(&tables.json, options->json) && open_one(&tables.csv, options->csv);
+    if (open && options->json) fputs("{\"answers\": [", tables.json.stream);
+    if (open && options->csv) fputs("student,file,points,max_points,score,passed\n", tables.csv.stream);
+    for (size_t i = 0; open && i < options->answer_count && code != exit_failed; i++) {
+        enum exit_code one = grade_one(options, key, options->answers[i], &tables);
+        if (one != exit_done) code = one;
+    }
+    bool keep = open && code != exit_failed;
+    if (keep && options->json) fputs("\n]}\n", tables.json.stream);
+    bool written = close_one(&tables.json, options->json, keep);
+    written = close_one(&tables.csv, options->csv, keep) && written;
+    return open && written ? code : exit_failed;
+}
+
+/* Print notes and say what they mean for the exit code. */
+static enum exit_code finish(fbd_key *key, fbd_errors *errors, enum exit_code code)
+{
+    fflush(stdout);
+    if (code != exit_failed && !standard_output_arrives("fbd-run")) code = exit_failed;
+    fbd_errors_print(errors, stderr);
+    code = exit_code_for(code, errors);
+    fbd_key_free(key);
+    fbd_errors_free(errors);
+    return code;
+}
+
+enum exit_code grading(const struct options *options)
+{
+    fbd_errors *errors = fbd_errors_new();
+    fbd_key *key = errors ? fbd_key_read(options->model, errors) : NULL;
+    if (!errors) complain("fbd-run: out of memory");
+    if (!errors) return exit_failed;
+    return finish(key, errors, key ? grade_all(options, key) : exit_bad_model);
+}
+
+enum exit_code handout(const struct options *options)
+{
+    fbd_errors *errors = fbd_errors_new();
+    fbd_key *key = errors ? fbd_key_read(options->model, errors) : NULL;
+    if (!errors) complain("fbd-run: out of memory");
+    if (!errors) return exit_failed;
+    char *text = key ? fbd_key_handout(key, options->student, errors) : NULL;
+    if (text) fputs(text, stdout);
+    enum exit_code code = text ? exit_done : key ? exit_failed : exit_bad_model;
+    free(text);
+    return finish(key, errors, code);
+}

@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Reading an answer: what cannot be read is noted and left out, and the rest is read again.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/text.h"
+#include "grade/grade.h"
+#include "scene/node_edit.h"
+
+fbd_model *grade_compile(struct fbd_grade *grade, const struct node *root, const char *file, bool hands,
+                         fbd_errors *errors)
+{
+    struct override *overrides;
+    const struct document document = {.file = file,
+                                      .root = root,
+                                      .without_hands = !hands,
+                                      .split_hands = hands};
+    size_t count = drawn_overrides(&grade->arena, grade->key, grade->student, root, &overrides);
+    if (grade->arena.failed) return NULL;
+    struct scene *scene = scene_make(&document, overrides, count, errors);
+    if (!scene) return NULL;
+    if (fbd_errors_failed(errors) == 0) return model_compile(scene, errors);
+    scene_free(scene);
+    return NULL;
+}
+
+/* ---- leaving out */
+
+static bool is_before(struct pos a, struct pos b)
+{
+    return a.line < b.line || (a.line == b.line && a.column < b.column);
+}
+
+/* The last place of the file at which something starts that is not behind `at`, and the entry of a list of forces,
+ * moments or couplings that it is part of; NULL when it is part of none. */
+struct search {
+    struct pos at, found;
+    const struct node *entry, *body;
+    const char *key;
+};
+
+static void look(struct search *search, struct pos at, const struct node *entry, const char *key)
+{
+    if (is_before(search->at, at) || is_before(at, search->found)) return;
+    search->found = at;
+    search->entry = entry;
+    search->key = key;
+}
+
+static void walk(struct search *search, const struct node *node, const struct node *entry, const char *key)
+{
+    look(search, node->at, entry, key);
+    for (size_t i = 0; i < node->count; i++) {
+        if (node->kind == node_map) look(search, node->pairs[i].at, entry, key);
+        walk(search, node->kind == node_map ? node->pairs[i].value : node->items[i], entry, key);
+    }
+}
+
+static void walk_entries(struct search *search, const struct node *list, const char *key)
+{
+    if (list->kind != node_list) return;
+    look(search, list->at, NULL, NULL);
+    for (size_t i = 0; i < list->count; i++) walk(search, list->items[i], list->items[i], key);
+}
+
+static bool holds_entries(const char *key)
+{
+    return strcmp(key, "forces") == 0 || strcmp(key, "moments") == 0;
+}
+
+static void walk_body(struct search *search, const struct node *body)
+{
+    for (size_t i = 0; i < body->count && body->kind == node_map; i++) {
+        const struct pair *pair = &body->pairs[i];
+        look(search, pair->at, NULL, NULL);
+        if (holds_entries(pair->key) && pair->value->kind == node_list)
+            walk_entries(search, pair->value, pair->key);
+        else
+            walk(search, pair->value, NULL, NULL);
+    }
+}
+
+static struct search find_entry(const struct node *root, struct pos at)
+{
+    struct search search = {.at = at};
+    for (size_t i = 0; i < root->count; i++) {
+        const struct pair *pair = &root->pairs[i];
+        look(&search, pair->at, NULL, NULL);
+        if (strcmp(pair->key, "bodies") != 0 || pair->value->kind != node_map) {
+            walk(&search, pair->value, NULL, NULL);
+            continue;
+        }
+        for (size_t b = 0; b < pair->value->count; b++) {
+            look(&search, pair->value->pairs[b].at, NULL, NULL);
+            walk_body(&search, pair->value->pairs[b].value);
+        }
+    }
+    return search;
+}
+
+static bool is_it(const struct node *item, const void *context)
+{
+    return item == context;
+}
+
+/* A tree without one entry of a list of one of its bodies. */
+static const struct node *without(struct arena *arena, const struct node *root, const struct search *search)
+{
+    const struct node *bodies = node_find(root, "bodies")->value, *made = bodies;
+    for (size_t b = 0; made && b < bodies->count; b++) {
+        const struct node *body = bodies->pairs[b].value;
+        const struct pair *pair = node_find(body, search->key);
+        if (!pair || pair->value->kind != node_list) continue;
+        const struct node *list = node_filtered(arena, pair->value, is_it, search->entry);
+        if (list && list->count == pair->value->count) continue;
+        const struct node *changed = list ? node_with(arena, body, search->key, list) : NULL;
+        made = changed ? node_with(arena, made, bodies->pairs[b].key, changed) : NULL;
+    }
+    return made ? node_with(arena, root, "bodies", made) : NULL;
+}
+
+static const char *body_around(const struct node *root, const struct search *search)
+{
+    const struct pair *bodies = node_find(root, "bodies");
+    for (size_t b = 0; bodies && b < bodies->value->count; b++) {
+        const struct pair *list = node_find(bodies->value->pairs[b].value, search->key);
+        for (size_t i = 0; list && list->value->kind == node_list && i < list->value->count; i++)
+            if (list->value->items[i] == search->entry) return bodies->value->pairs[b].key;
+    }
+    return "";
+}
+
+/* What an entry is called: `name` of what stands behind its kind, or else the kind. */
+static const char *name_of(const struct node *entry)
+{
+    if (!entry || entry->kind == node_list) return "";
+    if (entry->kind != node_map) return entry->text ? entry->text : "";
+    const struct pair *name = entry->count > 0 ? node_find(entry->pairs[0].value, "name") : NULL;
+    if (name && name->value->kind == node_scalar) return name->value->text;
+    return entry->count > 0 ? entry->pairs[0].key : "";
+}
+
+static void note_unreadable(struct fbd_grade *grade, const char *body, const struct node *entry,
+                            const fbd_error *error)
+{
+    struct text text = {0};
+    bool unit = strcmp(error->id, "wrong-dimension") == 0 && entry;
+    fbd_finding *finding = finding_add(grade, unit ? FBD_FINDING_UNIT : FBD_FINDING_UNREADABLE, body,
+                                       name_of(entry), (struct pos){error->line, error->column});
+    text_add(&text, error->message);
+    if (error->hint) text_printf(&text, " (%s)", error->hint);
+    if (text.failed) grade->arena.failed = true;
+    finding_say(grade, finding, text.data ? text.data : "");
+    text_free(&text);
+}
+
+static const fbd_error *first_error(fbd_errors *errors)
+{
+    const fbd_error *error;
+    for (size_t i = 0; (error = fbd_errors_get(errors, i)) != NULL; i++)
+        if (error->severity == FBD_ERROR) return error;
+    return NULL;
+}
+
+/* Read the tree until nothing is wrong with it, each time without the entry of the first error. */
+static void compile_rest(struct fbd_grade *grade, struct answer *answer)
+{
+    while (answer->root && !answer->model && !grade->arena.failed) {
+        fbd_errors *errors = fbd_errors_new();
+        if (!errors) grade->arena.failed = true;
+        if (!errors) return;
+        answer->model = grade_compile(grade, answer->root, grade->file, false, errors);
+        const fbd_error *error = answer->model ? NULL : first_error(errors);
+        if (errors->out_of_memory) grade->arena.failed = true;
+        struct search search = {0};
+        if (error) search = find_entry(answer->root, (struct pos){error->line, error->column});
+        if (error)
+            note_unreadable(grade, search.entry ? body_around(answer->root, &search) : "", search.entry,
+                            error);
+        if (!answer->model)
+            answer->root = search.entry ? without(&grade->arena, answer->root, &search) : NULL;
+        fbd_errors_free(errors);
+    }
+}
+
+/* Runs are not graded; derivations are read on the key's mechanics; and an answer reads no files. */
+static const struct node *strip(struct fbd_grade *grade, const struct node *root)
+{
+    static const char *const unused[] = {"grading", "simulate", "output", "tables"};
+    const struct pair *tables = node_find(grade->key->document.root, "tables");
+    for (size_t i = 0; root && i < sizeof unused / sizeof *unused; i++)
+        root = node_with(&grade->arena, root, unused[i], NULL);
+    return root && tables ? node_with(&grade->arena, root, "tables", tables->value) : root;
+}
+
+/* Does any body have a list that is not empty? */
+static bool says_something(const struct node *root)
+{
+    static const char *const keys[] = {"forces", "moments", "hand"};
+    const struct pair *bodies = node_find(root, "bodies");
+    for (size_t b = 0; bodies && bodies->value->kind == node_map && b < bodies->value->count; b++)
+        for (size_t k = 0; k < sizeof keys / sizeof *keys; k++) {
+            const struct pair *pair = node_find(bodies->value->pairs[b].value, keys[k]);
+            if (pair && (pair->value->count > 0 || pair->value->kind == node_scalar)) return true;
+        }
+    return false;
+}
+
+static void note_absent(struct fbd_grade *grade, const char *message)
+{
+    fbd_finding *finding = finding_add(grade, FBD_FINDING_NO_SUBMISSION, "", "", (struct pos){0, 0});
+    finding_say(grade, finding, message);
+}
+
+static void open_answer(struct fbd_grade *grade, const char *path, struct answer *answer, fbd_errors *errors)
+{
+    size_t length;
+    answer->text = file_text(path, &length, errors);
+    if (!answer->text) {
+        note_absent(grade, "there is no answer to read");
+        return;
+    }
+    grade->submitted = strspn(answer->text, " \t\r\n") < length;
+    if (!grade->submitted) {
+        note_absent(grade, "the answer is empty");
+        return;
+    }
+    bool open = document_open(&answer->document, answer->text, length, grade->file, errors);
+    if (open && fbd_errors_failed(errors) == 0 && answer->document.root->kind == node_map)
+        answer->root = strip(grade, answer->document.root);
+    else if (first_error(errors))
+        note_unreadable(grade, "", NULL, first_error(errors));
+    else
+        note_absent(grade, "the answer is no model");
+}
+
+bool answer_read(struct fbd_grade *grade, const char *path, struct answer *answer)
+{
+    fbd_errors *errors = fbd_errors_new();
+    *answer = (struct answer){.text = NULL};
+    if (!errors) grade->arena.failed = true;
+    if (!errors) return false;
+    open_answer(grade, path, answer, errors);
+    if (answer->root && !says_something(answer->root)) {
+        grade->submitted = false;
+        note_absent(grade, "nothing is drawn on the sheet, and nothing derived");
+    }
+    if (errors->out_of_memory) grade->arena.failed = true;
+    fbd_errors_free(errors);
+    compile_rest(grade, answer);
+    grade->readable = answer->model != NULL;
+    return grade->readable && grade->submitted;
+}
+
+void answer_close(struct answer *answer)
+{
+    fbd_model_free(answer->model);
+    document_close(&answer->document);
+    free(answer->text);
+}

@@ -1,0 +1,301 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The forces and moments of an answer at states of the key.
+ */
+#include <gsl/gsl_rng.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dynamics/diagram.h"
+#include "dynamics/kinematics.h"
+#include "dynamics/project.h"
+#include "grade/compare.h"
+#include "grade/verdict.h"
+#include "output/random_state.h"
+
+/* A body of the key and the one of that name in the answer. */
+struct twin {
+    int other;   /* -1: there is none, or it moves in another way */
+    double sign; /* -1: its coordinate counts the other way */
+    int slip;    /* of the key's friction at the start */
+    struct sides sides;
+};
+
+struct comparison {
+    struct fbd_grade *grade;
+    const fbd_model *key, *answer;
+    fbd_state *fresh, *key_state, *state;
+    struct twin *twins; /* of each body of the key */
+    struct arrow *arrows;
+    gsl_rng *rng;
+    double *start;
+    double length, force; /* units of the answer in those of the key */
+};
+
+/* ---- states */
+
+static int coordinate_of(const fbd_model *model, const char *name)
+{
+    for (int i = 0; i < model->plan.n; i++)
+        if (strcmp(model->labels[i].name, name) == 0) return i;
+    return -1;
+}
+
+/* The answer in the state of the key. */
+static void follow(const struct comparison *comparison)
+{
+    const fbd_model *key = comparison->key, *answer = comparison->answer;
+    const double *y = comparison->key_state->y;
+    fbd_state *state = comparison->state;
+    state->t = comparison->key_state->t;
+    for (size_t b = 0; b < key->body_count; b++) {
+        const struct twin *twin = &comparison->twins[b];
+        for (int k = 0; twin->other >= 0 && k < key->bodies[b].count; k++) {
+            int from = key->bodies[b].first + k, to = coordinate_of(answer, key->labels[from].name);
+            double scale = key->scene->coordinates[from].angle ? 1 : 1 / comparison->length;
+            state->y[to] = twin->sign * scale * y[from];
+            state->y[answer->plan.n + to] = twin->sign * scale * y[key->plan.n + from];
+        }
+    }
+    if (!random_admissible(state)) state_evaluate(state);
+}
+
+/* State `s`: the start, then random ones. False when there are no more. */
+static bool next_state(struct comparison *comparison, size_t s)
+{
+    enum { tries = 40 };
+    fbd_state *state = comparison->key_state;
+    if (s == 0) {
+        state_copy(state, comparison->fresh);
+        if (comparison->key->assembles) state_project(state, true);
+        memcpy(comparison->start, state->y, (size_t)comparison->key->plan.n * sizeof *state->y);
+        if (!random_admissible(state)) state_evaluate(state);
+        return true;
+    }
+    for (int k = 0; k < tries; k++)
+        if (random_state(comparison->rng, state, comparison->start) && random_admissible(state)) return true;
+    return false;
+}
+
+/* ---- which body is which */
+
+static int body_called(const fbd_model *model, const char *name)
+{
+    for (size_t b = 0; b < model->body_count; b++)
+        if (strcmp(model->bodies[b].name, name) == 0) return (int)b;
+    return -1;
+}
+
+static bool has_coordinates(const struct comparison *comparison, const struct model_body *body)
+{
+    for (int k = 0; k < body->count; k++)
+        if (coordinate_of(comparison->answer, comparison->key->labels[body->first + k].name) < 0)
+            return false;
+    return true;
+}
+
+/* Is the frame of the body where that of the key's is? That of a slide may point the other way. */
+static bool is_there(const struct comparison *comparison, size_t b)
+{
+    const struct twin *twin = &comparison->twins[b];
+    struct instant at = state_instant(comparison->key_state), other_at = state_instant(comparison->state);
+    const struct model_body *body = &comparison->key->bodies[b];
+    const struct model_body *other = &comparison->answer->bodies[twin->other];
+    struct pose pose = body_pose(body, &at), there = body_pose(other, &other_at);
+    struct vec apart = vec_sub(pose.origin, vec_scale(comparison->length, there.origin));
+    double size = 1e-9 * (1 + vec_norm(pose.origin));
+    bool turned = body->kind != motion_slide && body->kind != motion_particle &&
+                  vec_norm(vec_sub(pose.rotation, there.rotation)) > 1e-9;
+    return vec_norm(apart) <= size && !turned;
+}
+
+static void find_twin(struct comparison *comparison, size_t b)
+{
+    const struct model_body *body = &comparison->key->bodies[b];
+    struct twin *twin = &comparison->twins[b];
+    *twin = (struct twin){.other = body_called(comparison->answer, body->name), .sign = 1};
+    if (twin->other < 0) {
+        verdict_body(comparison->grade, body);
+        return;
+    }
+    const struct model_body *other = &comparison->answer->bodies[twin->other];
+    if (body->kind == other->kind && has_coordinates(comparison, body)) return;
+    verdict_motion(comparison->grade, body, other);
+    twin->other = -1;
+}
+
+/* At a state that is not at the origin: the place tells which way a coordinate counts. */
+static void find_signs(struct comparison *comparison)
+{
+    for (size_t b = 0; b < comparison->key->body_count; b++) {
+        struct twin *twin = &comparison->twins[b];
+        if (twin->other < 0 || is_there(comparison, b)) continue;
+        if (comparison->key->bodies[b].count == 1) {
+            twin->sign = -1;
+            follow(comparison);
+            if (is_there(comparison, b)) continue;
+        }
+        verdict_motion(comparison->grade, &comparison->key->bodies[b],
+                       &comparison->answer->bodies[twin->other]);
+        twin->other = -1;
+    }
+}
+
+/* ---- the two sides of a body */
+
+static double coefficient(const struct value *value, const fbd_state *state)
+{
+    return value->expr ? expr_eval(value->expr, state->t, state->y, NULL) : 0;
+}
+
+static void take_item(struct item *item, size_t s, const struct arrow *arrow, struct vec G,
+                      const fbd_state *state, double force, double length)
+{
+    struct wrench *at = &item->at[s];
+    at->force = vec_scale(force, arrow->force);
+    at->point = vec_scale(length, arrow->point);
+    struct vec lever = vec_sub(at->point, G);
+    at->arm = vec_norm(at->force) > 0 ? vec_norm(lever) : 0;
+    at->moment = force * length * arrow->couple + vec_cross(lever, at->force);
+    at->mu_s = coefficient(&item->source->mu_s, state);
+    at->mu_k = coefficient(&item->source->mu_k, state);
+    at->surface = coefficient(&item->source->surface_speed, state);
+}
+
+/* What the body lists itself, among its arrows. */
+static void take_items(const struct comparison *comparison, fbd_state *state, int b, struct item *items,
+                       size_t s, struct vec G)
+{
+    const fbd_model *model = state->model;
+    const struct model_body *body = &model->bodies[b];
+    struct instant at = state_instant(state);
+    bool own = model == comparison->key;
+    size_t count = diagram_fill(model, b, &at, state->a, state->slots, comparison->arrows);
+    for (size_t i = 0; i < count; i++) {
+        const struct arrow *arrow = &comparison->arrows[i];
+        int index = arrow->load - body->first_load;
+        if (arrow->load < 0 || index < 0 || index >= (int)body->source->load_count) continue;
+        items[index].source = model->loads[arrow->load].source;
+        items[index].follows = arrow_is_reaction(model, arrow);
+        take_item(&items[index], s, arrow, G, state, own ? 1 : comparison->force,
+                  own ? 1 : comparison->length);
+    }
+}
+
+static void take_state(struct comparison *comparison, size_t s)
+{
+    const fbd_model *key = comparison->key;
+    for (size_t b = 0; b < key->body_count; b++) {
+        struct twin *twin = &comparison->twins[b];
+        const struct model_body *body = &key->bodies[b];
+        if (twin->other < 0) continue;
+        struct instant at = state_instant(comparison->key_state);
+        struct pose pose = body_pose(body, &at);
+        struct vec G = point_motion(body, &pose, body->inertia.G).p;
+        take_items(comparison, comparison->key_state, (int)b, twin->sides.key, s, G);
+        take_items(comparison, comparison->state, twin->other, twin->sides.items, s, G);
+        int slip = body->friction >= 0 ? comparison->key_state->slip[body->friction] : 0;
+        if (s == 0) twin->slip = slip;
+        twin->sides.like_start[s] = twin->slip == slip;
+        twin->sides.samples = s + 1;
+    }
+}
+
+static bool make_sides(struct comparison *comparison)
+{
+    for (size_t b = 0; b < comparison->key->body_count; b++) {
+        struct twin *twin = &comparison->twins[b];
+        struct sides *sides = &twin->sides;
+        if (twin->other < 0) continue;
+        const struct model_body *body = &comparison->key->bodies[b];
+        sides->key_count = body->source->load_count;
+        sides->count = comparison->answer->bodies[twin->other].source->load_count;
+        sides->tolerance = comparison->key->scene->grading.tolerance;
+        sides->turns = body->kind != motion_slide && body->kind != motion_particle;
+        sides->key = calloc(sides->key_count + sides->count + 1, sizeof *sides->key);
+        if (!sides->key) return false;
+        sides->items = sides->key + sides->key_count;
+    }
+    return true;
+}
+
+/* How large what is compared is, over all states. */
+static void measure(struct sides *sides)
+{
+    for (size_t i = 0; i < sides->key_count + sides->count; i++)
+        for (size_t s = 0; s < sides->samples; s++) {
+            const struct wrench *at = &sides->key[i].at[s];
+            sides->force = fmax(sides->force, vec_norm(at->force));
+            sides->moment = fmax(sides->moment, fabs(at->moment));
+            sides->arm = fmax(sides->arm, at->arm);
+        }
+    sides->moment = fmax(sides->moment, sides->force * sides->arm);
+}
+
+/* ---- all of it */
+
+static bool open_comparison(struct comparison *comparison)
+{
+    const fbd_model *key = comparison->key, *answer = comparison->answer;
+    const double foot = 0.3048, pound = 4.4482216152605; /* exact by definition */
+    size_t most = diagram_most_arrows(key), other = diagram_most_arrows(answer);
+    bool us = answer->scene->units == unit_us, key_us = key->scene->units == unit_us;
+    comparison->length = us == key_us ? 1 : us ? foot : 1 / foot;
+    comparison->force = us == key_us ? 1 : us ? pound : 1 / pound;
+    comparison->fresh = state_new(key);
+    comparison->key_state = state_new(key);
+    comparison->state = state_new(answer);
+    comparison->twins = calloc(key->body_count + 1, sizeof *comparison->twins);
+    comparison->arrows = calloc((most > other ? most : other) + 1, sizeof *comparison->arrows);
+    comparison->start = calloc((size_t)key->plan.n + 1, sizeof *comparison->start);
+    comparison->rng = gsl_rng_alloc(gsl_rng_mt19937);
+    return comparison->fresh && comparison->key_state && comparison->state && comparison->twins &&
+           comparison->arrows && comparison->start && comparison->rng;
+}
+
+static void close_comparison(struct comparison *comparison)
+{
+    for (size_t b = 0; comparison->twins && b < comparison->key->body_count; b++)
+        free(comparison->twins[b].sides.key);
+    if (comparison->rng) gsl_rng_free(comparison->rng);
+    state_free(comparison->fresh);
+    state_free(comparison->key_state);
+    state_free(comparison->state);
+    free(comparison->twins);
+    free(comparison->arrows);
+    free(comparison->start);
+}
+
+static void look_at_states(struct comparison *comparison)
+{
+    next_state(comparison, 0);
+    next_state(comparison, 1);
+    follow(comparison);
+    find_signs(comparison);
+    for (size_t s = 0; s < most_grade_samples && next_state(comparison, s); s++) {
+        follow(comparison);
+        take_state(comparison, s);
+    }
+}
+
+void grade_bodies(struct fbd_grade *grade, const fbd_model *answer)
+{
+    struct comparison comparison = {.grade = grade, .key = grade->sheet, .answer = answer};
+    bool open = open_comparison(&comparison);
+    for (size_t b = 0; open && b < comparison.key->body_count; b++) find_twin(&comparison, b);
+    if (open && make_sides(&comparison)) {
+        look_at_states(&comparison);
+        for (size_t b = 0; b < comparison.key->body_count; b++) {
+            struct twin *twin = &comparison.twins[b];
+            const struct model_body *body = &comparison.key->bodies[b];
+            if (twin->other < 0) continue;
+            measure(&twin->sides);
+            verdict_on(grade, body, &answer->bodies[twin->other], &twin->sides, comparison.length,
+                       comparison.force);
+        }
+        verdict_on_others(grade, answer);
+    } else {
+        grade->arena.failed = true;
+    }
+    close_comparison(&comparison);
+}

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Compare: what a body lists, at the same states of the key and of an answer.
+ */
+#ifndef FBD_GRADE_COMPARE_H
+#define FBD_GRADE_COMPARE_H
+
+#include "grade/grade.h"
+
+/* A force and a moment at one state: in the world, in the units of the key, about the key's centre of mass. */
+struct wrench {
+    struct vec force, point;
+    double moment;
+    double arm;                 /* of the point from there */
+    double mu_s, mu_k, surface; /* of friction */
+};
+
+/* One force or moment that a body lists, at every state. */
+struct item {
+    const struct load *source;
+    bool follows; /* from the other forces */
+    bool used;    /* paired */
+    struct wrench at[most_grade_samples];
+};
+
+/* Both sides of a body. */
+struct sides {
+    size_t samples;
+    bool like_start[most_grade_samples];  /* the body slips as it does at the start */
+    bool turns;                           /* moments about G matter */
+    double tolerance, force, arm, moment; /* sizes of what is compared */
+    size_t key_count, count;
+    struct item *key, *items;
+};
+
+/* How a force of the answer differs from one of the key. */
+enum relation { is_same, is_opposite, is_elsewhere, is_turned, is_scaled, is_rougher, is_other };
+
+struct difference {
+    enum relation relation;
+    double ratio;   /* is_scaled: of the magnitudes, constant; NAN when it varies */
+    double angle;   /* is_turned: by this much [rad], constant; NAN when it varies */
+    bool exchanged; /* is_turned: its components are exchanged */
+};
+
+struct difference difference_of(const struct sides *sides, const struct item *key, const struct item *item);
+
+/* Is the sum of two items the third, at every state? */
+bool adds_up(const struct sides *sides, const struct item *one, const struct item *other,
+             const struct item *sum);
+
+#endif

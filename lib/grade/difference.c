@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+
+#include "grade/compare.h"
+
+static const double rounding = 1e-9;
+
+/* ---- equal to the tolerance, at every state that counts */
+
+static bool near_force(const struct sides *sides, struct vec key, struct vec other)
+{
+    return vec_norm(vec_sub(key, other)) <= sides->tolerance * vec_norm(key) + rounding * sides->force;
+}
+
+static bool near_moment(const struct sides *sides, double key, double other, double force)
+{
+    double size = fabs(key) + force * sides->arm;
+    return !sides->turns || fabs(key - other) <= sides->tolerance * size + rounding * sides->moment;
+}
+
+static bool near_wrench(const struct sides *sides, const struct wrench *key, const struct wrench *other)
+{
+    return near_force(sides, key->force, other->force) &&
+           near_moment(sides, key->moment, other->moment, vec_norm(key->force));
+}
+
+/* What follows from the others is compared with a formula where it slips as at the start: drawn for that moment. */
+static bool counts(const struct sides *sides, const struct item *key, const struct item *item, size_t s)
+{
+    return !key->follows || item->follows || sides->like_start[s];
+}
+
+static struct wrench reversed(struct wrench wrench)
+{
+    wrench.force = vec_scale(-1, wrench.force);
+    wrench.moment = -wrench.moment;
+    return wrench;
+}
+
+static bool agree(const struct sides *sides, const struct item *key, const struct item *item, bool reverse)
+{
+    for (size_t s = 0; s < sides->samples; s++) {
+        struct wrench other = reverse ? reversed(item->at[s]) : item->at[s];
+        if (counts(sides, key, item, s) && !near_wrench(sides, &key->at[s], &other)) return false;
+    }
+    return true;
+}
+
+bool adds_up(const struct sides *sides, const struct item *one, const struct item *other,
+             const struct item *sum)
+{
+    for (size_t s = 0; s < sides->samples; s++) {
+        struct wrench both = {.force = vec_add(one->at[s].force, other->at[s].force),
+                              .moment = one->at[s].moment + other->at[s].moment};
+        if (!near_wrench(sides, &sum->at[s], &both)) return false;
+    }
+    return true;
+}
+
+/* ---- what follows from the others */
+
+static bool same_coefficients(const struct sides *sides, const struct item *key, const struct item *item)
+{
+    for (size_t s = 0; s < sides->samples; s++) {
+        const struct wrench *a = &key->at[s], *b = &item->at[s];
+        double tolerance = sides->tolerance;
+        if (fabs(a->mu_s - b->mu_s) > tolerance * fabs(a->mu_s) ||
+            fabs(a->mu_k - b->mu_k) > tolerance * fabs(a->mu_k) ||
+            fabs(a->surface - b->surface) > tolerance * fabs(a->surface))
+            return false;
+    }
+    return true;
+}
+
+static bool same_line(const struct sides *sides, const struct item *key, const struct item *item)
+{
+    for (size_t s = 0; s < sides->samples && sides->turns; s++) {
+        struct vec apart = vec_sub(item->at[s].point, key->at[s].point), f = key->at[s].force;
+        double size = vec_norm(f);
+        if (size > rounding * sides->force &&
+            fabs(vec_cross(apart, f)) > (sides->tolerance * sides->arm + rounding) * size)
+            return false;
+    }
+    return true;
+}
+
+static struct difference of_reactions(const struct sides *sides, const struct item *key,
+                                      const struct item *item)
+{
+    struct difference difference = {.relation = is_same};
+    if (key->source->kind != item->source->kind)
+        difference.relation = is_other;
+    else if (!same_coefficients(sides, key, item))
+        difference.relation = is_rougher;
+    else if (!same_line(sides, key, item))
+        difference.relation = is_elsewhere;
+    else if (key->source->side != item->source->side)
+        difference.relation = is_opposite;
+    return difference;
+}
+
+/* ---- forces that differ */
+
+/* The magnitude of a force, or of a moment by itself. */
+static double magnitude(const struct sides *sides, const struct wrench *wrench)
+{
+    double force = vec_norm(wrench->force);
+    return force > rounding * sides->force ? force : fabs(wrench->moment);
+}
+
+static bool is_couple(const struct sides *sides, const struct item *item)
+{
+    for (size_t s = 0; s < sides->samples; s++)
+        if (vec_norm(item->at[s].force) > rounding * sides->force) return false;
+    return true;
+}
+
+static bool forces_agree(const struct sides *sides, const struct item *key, const struct item *item)
+{
+    for (size_t s = 0; s < sides->samples; s++)
+        if (counts(sides, key, item, s) && !near_force(sides, key->at[s].force, item->at[s].force))
+            return false;
+    return true;
+}
+
+/* Along the same line everywhere? Then the ratio of the magnitudes is in *ratio, NAN when it varies. */
+static bool parallel(const struct sides *sides, const struct item *key, const struct item *item,
+                     double *ratio)
+{
+    double first = NAN;
+    bool couple = is_couple(sides, key), varies = false;
+    if (couple != is_couple(sides, item)) return false;
+    for (size_t s = 0; s < sides->samples; s++) {
+        const struct wrench *a = &key->at[s], *b = &item->at[s];
+        double size = magnitude(sides, a);
+        if (!counts(sides, key, item, s) || size <= rounding * (couple ? sides->moment : sides->force))
+            continue;
+        double across = couple ? 0 : vec_cross(a->force, b->force) / size;
+        double along = couple ? b->moment * copysign(1, a->moment) : vec_dot(a->force, b->force) / size;
+        if (fabs(across) > sides->tolerance * fabs(along)) return false;
+        double now = along / size;
+        if (isnan(first)) first = now;
+        varies = varies || fabs(now - first) > sides->tolerance * fabs(first);
+    }
+    *ratio = varies ? NAN : first;
+    return true;
+}
+
+/* Of the same magnitude everywhere? Then the angle between them is in *angle, NAN when it varies. */
+static bool turned(const struct sides *sides, const struct item *key, const struct item *item, double *angle,
+                   bool *exchanged)
+{
+    double first = NAN;
+    bool varies = false;
+    *exchanged = true;
+    for (size_t s = 0; s < sides->samples; s++) {
+        struct vec a = key->at[s].force, b = item->at[s].force;
+        double size = vec_norm(a);
+        if (!counts(sides, key, item, s) || size <= rounding * sides->force) continue;
+        if (fabs(vec_norm(b) - size) > sides->tolerance * size) return false;
+        struct vec cross = {a.y, a.x};
+        *exchanged =
+            *exchanged && (near_force(sides, cross, b) || near_force(sides, vec_scale(-1, cross), b));
+        double now = atan2(vec_cross(a, b), vec_dot(a, b));
+        if (isnan(first)) first = now;
+        varies = varies || fabs(remainder(now - first, 6.283185307179586)) > sides->tolerance;
+    }
+    *angle = varies ? NAN : first;
+    return !isnan(first);
+}
+
+struct difference difference_of(const struct sides *sides, const struct item *key, const struct item *item)
+{
+    struct difference difference = {.relation = is_same, .ratio = NAN, .angle = NAN};
+    if (key->follows && item->follows) return of_reactions(sides, key, item);
+    if (agree(sides, key, item, false)) return difference;
+    difference.relation = is_other;
+    if (agree(sides, key, item, true))
+        difference.relation = is_opposite;
+    else if (!is_couple(sides, key) && forces_agree(sides, key, item))
+        difference.relation = is_elsewhere;
+    else if (parallel(sides, key, item, &difference.ratio))
+        difference.relation = is_scaled;
+    else if (turned(sides, key, item, &difference.angle, &difference.exchanged))
+        difference.relation = is_turned;
+    return difference;
+}

@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Public interface: an answer held against a key.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/call.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "grade/grade.h"
+
+/* The name of a file without folders and ending. */
+static const char *stem(struct arena *arena, const char *path)
+{
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    return arena_text(arena, name, dot && dot != name ? (size_t)(dot - name) : strlen(name));
+}
+
+static double sum(const struct fbd_grade *grade)
+{
+    double points = 0;
+    for (const struct finding *one = grade->first; one; one = one->next) points += one->finding.points;
+    return points;
+}
+
+/* A key may be wrong for the values that a student has drawn: then nothing can be said of the answer. */
+static bool make_sheet(struct fbd_grade *grade)
+{
+    fbd_errors *errors = fbd_errors_new();
+    if (!errors) return false;
+    grade->sheet = grade_compile(grade, grade->key->document.root, grade->key->file, true, errors);
+    const fbd_error *error = fbd_errors_get(errors, 0);
+    bool done = grade->sheet != NULL || (error && !errors->out_of_memory);
+    if (!grade->sheet && done) {
+        fbd_finding *finding = finding_add(grade, FBD_FINDING_NO_SUBMISSION, "", "", (struct pos){0, 0});
+        finding_say(grade, finding, "the sheet of this student cannot be made: ask the teacher");
+        finding_tell(grade, finding, error->message);
+    }
+    fbd_errors_free(errors);
+    return done;
+}
+
+static void hold_against(struct fbd_grade *grade, const char *path)
+{
+    struct answer answer;
+    if (answer_read(grade, path, &answer)) {
+        grade_bodies(grade, answer.model);
+        grade_lines(grade, answer.root);
+    }
+    answer_close(&answer);
+}
+
+static fbd_grade *make_grade(const fbd_key *key, const char *path, const char *student)
+{
+    fbd_grade *grade = calloc(1, sizeof *grade);
+    if (!grade) return NULL;
+    grade->key = key;
+    grade->student =
+        student ? arena_text(&grade->arena, student, strlen(student)) : stem(&grade->arena, path);
+    grade->file = arena_text(&grade->arena, path, strlen(path));
+    if (grade->student && grade->file && make_sheet(grade)) {
+        if (grade->sheet) hold_against(grade, path);
+        fbd_model_free(grade->sheet);
+        grade->sheet = NULL;
+        if (grade->readable && grade->submitted) grade->points = fmax(0, sum(grade));
+        if (!grade->arena.failed) return grade;
+    }
+    fbd_grade_free(grade);
+    return NULL;
+}
+
+fbd_grade *fbd_grade_new(const fbd_key *key, const char *path, const char *student)
+{
+    return key && path ? make_grade(key, path, student) : NULL;
+}
+
+void fbd_grade_free(fbd_grade *grade)
+{
+    if (!grade) return;
+    fbd_model_free(grade->sheet);
+    arena_free(&grade->arena);
+    free(grade);
+}
+
+double fbd_grade_points(const fbd_grade *grade)
+{
+    return grade ? grade->points : 0;
+}
+
+double fbd_grade_most(const fbd_grade *grade)
+{
+    return grade ? grade->key->most : 0;
+}
+
+bool fbd_grade_passed(const fbd_grade *grade)
+{
+    if (!grade || !grade->submitted || !grade->readable) return false;
+    const double rounding = 1e-9;
+    return grade->points >= (grade->key->model->scene->grading.pass - rounding) * grade->key->most;
+}
+
+size_t fbd_grade_findings(const fbd_grade *grade)
+{
+    return grade ? grade->count : 0;
+}
+
+fbd_finding fbd_grade_finding(const fbd_grade *grade, size_t index)
+{
+    const fbd_finding none = {.body = "", .name = "", .message = "", .detail = ""};
+    if (!grade || index >= grade->count) return none;
+    const struct finding *one = grade->first;
+    while (index-- > 0) one = one->next;
+    return one->finding;
+}

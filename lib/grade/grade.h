@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Grade: a student's model held against the teacher's by mechanics.
+ *
+ * Both are compiled and put into the same states: that of the start and random ones. The forces and moments that
+ * bodies list are compared there as wrenches about the centre of mass, whatever they are called and however they
+ * are written: what is equal at every state is right, and what is left over on both sides is paired with what it
+ * was meant to be, so that it can be told how it differs. What follows from the others (normal forces, friction)
+ * is compared by its kind, line of action and coefficients, since its magnitude is off as soon as any other force
+ * is. Derivations are evaluated on the key's own mechanics (output/hand.h).
+ *
+ * What cannot be read in an answer is marked and left out, and the rest is graded.
+ */
+#ifndef FBD_GRADE_GRADE_H
+#define FBD_GRADE_GRADE_H
+
+#include "dynamics/modes.h"
+#include "model/model.h"
+#include "scene/node.h"
+
+enum { most_grade_samples = 32 };
+
+struct fbd_key {
+    struct arena arena;
+    char *source; /* text of the file */
+    const char *file;
+    struct document document;
+    fbd_model *model; /* with the values of the file */
+    double most;      /* points */
+    size_t lines;     /* derivations */
+};
+
+struct finding {
+    fbd_finding finding;
+    struct finding *next;
+};
+
+struct fbd_grade {
+    struct arena arena;
+    const struct fbd_key *key;
+    const char *student, *file;
+    struct finding *first, *last;
+    fbd_finding **list; /* all of them */
+    size_t count;
+    double points;
+    bool submitted, readable;
+
+    /* while it is being made */
+    struct override *drawn; /* the student's own values, of the document at hand */
+    size_t drawn_count;
+    fbd_model *sheet;  /* the key with these values */
+    fbd_errors *notes; /* what was said of the answer last */
+    fbd_finding lost;  /* what is noted when memory is out: nobody reads it */
+};
+
+/* A parameter's value for a student, as text with its unit; NULL when memory is out. */
+const char *draw_for_student(struct arena *arena, const struct grading *grading,
+                             const struct drawn_parameter *drawn, const char *student);
+
+/* The values of a student for those parameters that a file has. */
+size_t drawn_overrides(struct arena *arena, const struct fbd_key *key, const char *student,
+                       const struct node *root, struct override **overrides);
+
+/* Compile a tree of an answer or of the key under the student's values. NULL with notes. */
+fbd_model *grade_compile(struct fbd_grade *grade, const struct node *root, const char *file, bool hands,
+                         fbd_errors *errors);
+
+/* ---- findings (findings.c); the texts are copied */
+
+/* Note one: where it stands in the answer, what it is worth and what was got. */
+fbd_finding *finding_add(struct fbd_grade *grade, fbd_finding_kind kind, const char *body, const char *name,
+                         struct pos at);
+void finding_say(struct fbd_grade *grade, fbd_finding *finding, const char *message);
+void finding_tell(struct fbd_grade *grade, fbd_finding *finding, const char *detail);
+
+/* ---- reading (answer.c): the compiled answer, without what cannot be read of it, which is noted; NULL when
+ * nothing is left. `root` is its tree. */
+struct answer {
+    struct document document;
+    const struct node *root; /* without what was left out */
+    fbd_model *model;
+    char *text;
+};
+
+bool answer_read(struct fbd_grade *grade, const char *path, struct answer *answer);
+void answer_close(struct answer *answer);
+
+/* ---- comparing */
+
+/* Forces and moments of all bodies (compare.c), derivations (lines.c). */
+void grade_bodies(struct fbd_grade *grade, const fbd_model *answer);
+void grade_lines(struct fbd_grade *grade, const struct node *root);
+
+#endif

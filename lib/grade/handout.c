@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What a student gets of a key: the scene with the student's own values, without forces, derivations and
+ * comments.
+ */
+#include <string.h>
+
+#include "base/call.h"
+#include "base/text.h"
+#include "grade/grade.h"
+
+struct handout {
+    struct text *text;
+    struct arena *arena;
+    const struct fbd_key *key;
+    const char *student;
+};
+
+/* Of the file, and of a body: what the student is to find out, and what the teacher says for himself. */
+static const char *const kept_back[] = {"grading", "description", "$schema", "output", NULL};
+static const char *const asked[] = {"forces", "moments", "hand", "exact", "description", NULL};
+static const char *const inertia_keys[] = {"inertia", NULL};
+
+static bool is_one_of(const char *key, const char *const *names)
+{
+    for (; *names; names++)
+        if (strcmp(key, *names) == 0) return true;
+    return false;
+}
+
+static void indent(struct text *text, int depth)
+{
+    text_printf(text, "%*s", 2 * depth, "");
+}
+
+/* What plain text could be taken for something else, or ends early. */
+static bool needs_quotes(const struct node *scalar)
+{
+    const char *text = scalar->text;
+    return scalar->quoted || strpbrk(text, ":#{}[],&*!|>'\"%@`\n\t") || text[0] == '-' || text[0] == '?' ||
+           text[0] == '\0' || text[0] == ' ';
+}
+
+static void write_scalar(struct text *text, const struct node *scalar)
+{
+    if (scalar->kind == node_null) return;
+    if (needs_quotes(scalar))
+        text_json_string(text, scalar->text);
+    else
+        text_add(text, scalar->text);
+}
+
+static void write_value(struct text *text, const struct node *node);
+
+static void write_pairs(struct text *text, const struct node *map)
+{
+    for (size_t i = 0; i < map->count; i++) {
+        text_add(text, i ? ", " : "");
+        text_add(text, map->pairs[i].key);
+        text_add(text, ": ");
+        write_value(text, map->pairs[i].value);
+    }
+}
+
+/* On one line. */
+static void write_value(struct text *text, const struct node *node)
+{
+    switch (node->kind) {
+    case node_null:
+    case node_scalar: write_scalar(text, node); return;
+    case node_map:
+        text_add(text, "{");
+        write_pairs(text, node);
+        text_add(text, "}");
+        return;
+    case node_list: break;
+    }
+    text_add(text, "[");
+    for (size_t i = 0; i < node->count; i++) {
+        text_add(text, i ? ", " : "");
+        write_value(text, node->items[i]);
+    }
+    text_add(text, "]");
+}
+
+static void write_pair(struct text *text, int depth, const char *key, const struct node *value)
+{
+    indent(text, depth);
+    text_printf(text, "%s: ", key);
+    write_value(text, value);
+    text_add(text, "\n");
+}
+
+static const struct drawn_parameter *find_drawn(const struct grading *grading, const char *name)
+{
+    for (size_t i = 0; i < grading->draw_count; i++)
+        if (strcmp(grading->draws[i].name, name) == 0) return &grading->draws[i];
+    return NULL;
+}
+
+static void write_parameters(const struct handout *handout, const struct node *map)
+{
+    const struct grading *grading = &handout->key->model->scene->grading;
+    for (size_t i = 0; i < map->count; i++) {
+        const struct drawn_parameter *drawn = find_drawn(grading, map->pairs[i].key);
+        const char *value = drawn ? draw_for_student(handout->arena, grading, drawn, handout->student) : NULL;
+        if (value)
+            text_printf(handout->text, "  %s: %s\n", drawn->name, value);
+        else
+            write_pair(handout->text, 1, map->pairs[i].key, map->pairs[i].value);
+    }
+}
+
+static void write_body(const struct handout *handout, const struct pair *body)
+{
+    struct text *text = handout->text;
+    bool asks_inertia = handout->key->model->scene->grading.points.inertia > 0, hand = false;
+    text_printf(text, "  %s:\n", body->key);
+    for (size_t i = 0; i < body->value->count && body->value->kind == node_map; i++) {
+        const struct pair *pair = &body->value->pairs[i];
+        hand = hand || strcmp(pair->key, "hand") == 0;
+        if (is_one_of(pair->key, asked) || (asks_inertia && is_one_of(pair->key, inertia_keys))) continue;
+        write_pair(text, 2, pair->key, pair->value);
+    }
+    text_add(text, "    forces: []\n");
+    text_add(text, "    moments: []\n");
+    if (hand) text_add(text, "    hand: []\n");
+}
+
+static void write_bodies(const struct handout *handout, const struct node *bodies)
+{
+    for (size_t i = 0; i < bodies->count; i++) write_body(handout, &bodies->pairs[i]);
+}
+
+static void write_entry(const struct handout *handout, const struct pair *pair)
+{
+    bool parameters = strcmp(pair->key, "parameters") == 0, bodies = strcmp(pair->key, "bodies") == 0;
+    if (is_one_of(pair->key, kept_back)) return;
+    if ((!parameters && !bodies) || pair->value->kind != node_map) {
+        write_pair(handout->text, 0, pair->key, pair->value);
+        return;
+    }
+    text_printf(handout->text, "%s:\n", pair->key);
+    if (parameters)
+        write_parameters(handout, pair->value);
+    else
+        write_bodies(handout, pair->value);
+}
+
+char *fbd_key_handout(const fbd_key *key, const char *student, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    struct text text = {0};
+    struct arena arena = {0};
+    if (!key || !student) call_refuse(errors, "there is no key, or no name of a student");
+    if (key && student) {
+        struct handout handout = {&text, &arena, key, student};
+        text_add(&text, "# Sheet of ");
+        text_shown(&text, student);
+        text_add(&text, ". Draw the forces and moments on each body.\n");
+        for (size_t i = 0; i < key->document.root->count; i++)
+            write_entry(&handout, &key->document.root->pairs[i]);
+        if (text.failed || arena.failed) {
+            diag_out_of_memory(errors);
+            text_free(&text);
+            text.data = NULL;
+        }
+    }
+    arena_free(&arena);
+    diag_end(&call);
+    return text.data;
+}

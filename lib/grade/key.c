@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The key that answers are held against, and what each student gets of it.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/call.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "grade/grade.h"
+#include "study/draws.h"
+#include "study/hash.h"
+
+/* ---- values of a student */
+
+const char *draw_for_student(struct arena *arena, const struct grading *grading,
+                             const struct drawn_parameter *drawn, const char *student)
+{
+    const struct draw_place place = {.seed = 1,
+                                     .member = hash_text(drawn->name, strlen(drawn->name)),
+                                     .index = hash_text(student, strlen(student))};
+    double value = draw(draw_uniform, drawn->low, drawn->high, place);
+    /* So many digits of the larger end: 20 to 40 deg in whole degrees. */
+    double largest = fmax(fabs(drawn->low), fabs(drawn->high));
+    double unit = pow(10, floor(log10(largest)) + 1 - grading->digits);
+    double rounded = fmin(fmax(round(value / unit) * unit, drawn->low), drawn->high);
+    const char *blank = *drawn->unit ? " " : "";
+    return arena_printf(arena, "%.*g%s%s", grading->digits + 2, rounded, blank, drawn->unit);
+}
+
+size_t drawn_overrides(struct arena *arena, const struct fbd_key *key, const char *student,
+                       const struct node *root, struct override **overrides)
+{
+    const struct grading *grading = &key->model->scene->grading;
+    const struct pair *parameters = node_find(root, "parameters");
+    size_t count = 0;
+    *overrides = ARENA_ARRAY(arena, grading->draw_count + 1, struct override);
+    for (size_t i = 0; *overrides && i < grading->draw_count; i++) {
+        const struct drawn_parameter *drawn = &grading->draws[i];
+        if (!parameters || !node_find(parameters->value, drawn->name)) continue;
+        const char *value = draw_for_student(arena, grading, drawn, student);
+        (*overrides)[count++] = (struct override){drawn->name, value};
+    }
+    return count;
+}
+
+/* ---- reading */
+
+static double points_of(const struct fbd_key *key)
+{
+    const struct scene *scene = key->model->scene;
+    const struct grading_points *points = &scene->grading.points;
+    double most = 0;
+    for (size_t b = 0; b < scene->body_count; b++)
+        most += points->force * (double)scene->bodies[b].load_count +
+                points->derivation * (double)scene->bodies[b].hand_count + points->inertia;
+    return most;
+}
+
+static bool has_points(struct fbd_key *key, fbd_errors *errors)
+{
+    const struct scene *scene = key->model->scene;
+    for (size_t b = 0; b < scene->body_count; b++) key->lines += scene->bodies[b].hand_count;
+    key->most = points_of(key);
+    if (key->most > 0) return true;
+    diag_add(errors, FBD_ERROR, "nothing-to-grade", (struct pos){0, 0},
+             "list the forces and moments that a right answer has, or derivations under `hand`",
+             "the key has nothing that brings points");
+    return false;
+}
+
+static bool compile_key(struct fbd_key *key, fbd_errors *errors)
+{
+    struct scene *scene = scene_make(&key->document, NULL, 0, errors);
+    if (!scene) return false;
+    if (fbd_errors_failed(errors) == 0)
+        key->model = model_compile(scene, errors);
+    else
+        scene_free(scene);
+    return key->model && has_points(key, errors);
+}
+
+static fbd_key *read_key(const char *path, fbd_errors *errors)
+{
+    size_t length;
+    fbd_key *key = calloc(1, sizeof *key);
+    if (!key) diag_out_of_memory(errors);
+    if (!key) return NULL;
+    key->source = file_text(path, &length, errors);
+    key->file = arena_text(&key->arena, file_name(path), strlen(file_name(path)));
+    bool opened = key->source && document_open(&key->document, key->source, length, key->file, errors);
+    key->document.split_hands = true;
+    if (opened && key->file && compile_key(key, errors)) return key;
+    if (key->arena.failed) diag_out_of_memory(errors);
+    fbd_key_free(key);
+    return NULL;
+}
+
+fbd_key *fbd_key_read(const char *path, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    fbd_key *key = path ? read_key(path, errors) : call_refuse(errors, "there is no path");
+    diag_end(&call);
+    return key;
+}
+
+void fbd_key_free(fbd_key *key)
+{
+    if (!key) return;
+    fbd_model_free(key->model);
+    document_close(&key->document);
+    free(key->source);
+    arena_free(&key->arena);
+    free(key);
+}

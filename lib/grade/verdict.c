@@ -1,0 +1,349 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What is right is paired first, by numbers alone; then what is left over, by name, kind and likeness.
+ */
+#include "grade/verdict.h"
+
+#include <string.h>
+
+#include "base/text.h"
+
+static const struct pos nowhere = {0, 0};
+
+static const struct grading *grading_of(const struct fbd_grade *grade)
+{
+    return &grade->key->model->scene->grading;
+}
+
+/* ---- bodies */
+
+static double worth(const struct fbd_grade *grade, const struct model_body *key)
+{
+    const struct grading_points *points = &grading_of(grade)->points;
+    return points->force * (double)key->source->load_count + points->inertia;
+}
+
+void verdict_body(struct fbd_grade *grade, const struct model_body *key)
+{
+    fbd_finding *finding = finding_add(grade, FBD_FINDING_BODY, key->name, "", nowhere);
+    finding->most = worth(grade, key);
+    finding_say(grade, finding, "the body is not in the answer");
+}
+
+void verdict_motion(struct fbd_grade *grade, const struct model_body *key, const struct model_body *body)
+{
+    fbd_finding *finding = finding_add(grade, FBD_FINDING_MOTION, key->name, "", body->source->motion.at);
+    finding->most = worth(grade, key);
+    finding_say(grade, finding,
+                "the body moves in another way than on the sheet: its forces are not compared");
+}
+
+static void verdict_superfluous(struct fbd_grade *grade, fbd_finding_kind kind, const char *body,
+                                const char *name, struct pos at, const char *message)
+{
+    fbd_finding *finding = finding_add(grade, kind, body, name, at);
+    finding->points = -grading_of(grade)->points.superfluous;
+    finding_say(grade, finding, message);
+}
+
+static bool has_body(const fbd_model *model, const char *name)
+{
+    for (size_t b = 0; b < model->body_count; b++)
+        if (strcmp(model->bodies[b].name, name) == 0) return true;
+    return false;
+}
+
+static bool has_coupling(const struct scene *scene, bool constraint, int kind)
+{
+    if (constraint) {
+        for (size_t i = 0; i < scene->constraint_count; i++)
+            if ((int)scene->constraints[i].kind == kind) return true;
+    } else {
+        for (size_t i = 0; i < scene->coupling_count; i++)
+            if ((int)scene->couplings[i].load.kind == kind) return true;
+    }
+    return false;
+}
+
+/* What joins bodies is given with the sheet: that it has been changed is said. */
+static void compare_couplings(struct fbd_grade *grade, const struct scene *key, const struct scene *answer)
+{
+    const char *lost = "a coupling of the sheet is not in the answer", *more = "it is not on the sheet";
+    for (size_t i = 0; i < key->constraint_count; i++)
+        if (!has_coupling(answer, true, (int)key->constraints[i].kind))
+            verdict_superfluous(grade, FBD_FINDING_MOTION, "", key->constraints[i].name, nowhere, lost);
+    for (size_t i = 0; i < key->coupling_count; i++)
+        if (!has_coupling(answer, false, (int)key->couplings[i].load.kind))
+            verdict_superfluous(grade, FBD_FINDING_MOTION, "", key->couplings[i].load.name, nowhere, lost);
+    for (size_t i = 0; i < answer->constraint_count; i++)
+        if (!has_coupling(key, true, (int)answer->constraints[i].kind))
+            verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, "", answer->constraints[i].name,
+                                answer->constraints[i].at, more);
+    for (size_t i = 0; i < answer->coupling_count; i++)
+        if (!has_coupling(key, false, (int)answer->couplings[i].load.kind))
+            verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, "", answer->couplings[i].load.name,
+                                answer->couplings[i].load.at, more);
+}
+
+void verdict_on_others(struct fbd_grade *grade, const fbd_model *answer)
+{
+    for (size_t b = 0; b < answer->body_count; b++)
+        if (!has_body(grade->sheet, answer->bodies[b].name))
+            verdict_superfluous(grade, FBD_FINDING_BODY, answer->bodies[b].name, "",
+                                answer->bodies[b].source->at, "the body is not on the sheet");
+    compare_couplings(grade, grade->sheet->scene, answer->scene);
+}
+
+/* ---- inertia */
+
+static bool near(double a, double b, double tolerance)
+{
+    return fabs(a - b) <= tolerance * fmax(fabs(a), fabs(b));
+}
+
+static const char *inertia_fault(const struct fbd_grade *grade, const struct model_body *key,
+                                 const struct model_body *body, double length, double force,
+                                 fbd_finding_kind *kind)
+{
+    double tolerance = grading_of(grade)->tolerance, I = force * length; /* kg m^2 = N m s^2 */
+    double I_G = I * body->inertia.I_G, I_O = I * body->I_O, mass = force / length * body->inertia.mass;
+    struct vec apart = vec_sub(vec_scale(length, body->inertia.G), key->inertia.G);
+    double size = tolerance * (vec_norm(key->inertia.G) + key->L) + 1e-12;
+    bool pivot = key->kind == motion_pivot, turns = pivot || key->kind == motion_planar;
+    *kind = FBD_FINDING_INERTIA;
+    if (!near(mass, key->inertia.mass, tolerance)) return "the mass is another one";
+    if (turns && vec_norm(apart) > size) return "the centre of mass is at another place";
+    if (!turns || near(pivot ? I_O : I_G, pivot ? key->I_O : key->inertia.I_G, tolerance)) return NULL;
+    *kind = FBD_FINDING_REFERENCE_POINT;
+    if (pivot && near(I_O, key->inertia.I_G, tolerance))
+        return "the moment of inertia about O is that about G: m L^2 is missing";
+    if (pivot && near(I_G, key->I_O, tolerance))
+        return "the moment of inertia about G is that about O: m L^2 is counted twice";
+    *kind = FBD_FINDING_INERTIA;
+    return "the moment of inertia is another one";
+}
+
+static void compare_inertia(struct fbd_grade *grade, const struct model_body *key,
+                            const struct model_body *body, double length, double force)
+{
+    const struct grading_points *points = &grading_of(grade)->points;
+    fbd_finding_kind kind;
+    const char *fault = inertia_fault(grade, key, body, length, force, &kind);
+    if (!fault && points->inertia == 0) return;
+    fbd_finding *finding =
+        finding_add(grade, fault ? kind : FBD_FINDING_RIGHT, key->name, "", body->source->at);
+    finding->most = points->inertia;
+    finding->points = !fault ? points->inertia : points->inertia > 0 ? 0 : -points->superfluous;
+    finding_say(grade, finding, fault ? fault : "mass and moment of inertia are right");
+}
+
+/* ---- pairs */
+
+static const char *noun(const struct load *load)
+{
+    return load->kind >= moment_applied && load->kind <= moment_potential ? "moment" : "force";
+}
+
+static void add_pair(struct fbd_grade *grade, const char *body, struct item *key, struct item *item,
+                     fbd_finding_kind kind, const char *message, const char *detail)
+{
+    double share = kind == FBD_FINDING_RIGHT ? 1 : grading_of(grade)->partial;
+    fbd_finding *finding = finding_add(grade, kind, body, item->source->name, item->source->at);
+    finding->most = grading_of(grade)->points.force;
+    finding->points = share * finding->most;
+    finding_say(grade, finding, message);
+    finding_tell(grade, finding, detail);
+    key->used = item->used = true;
+}
+
+static void add_right(struct fbd_grade *grade, const char *body, struct item *key, struct item *item,
+                      const char *message)
+{
+    struct text text = {0};
+    text_printf(&text, "it is `%s` of the key", key->source->name);
+    if (text.failed) grade->arena.failed = true;
+    add_pair(grade, body, key, item, FBD_FINDING_RIGHT, message, text.data ? text.data : "");
+    text_free(&text);
+}
+
+/* A weight that is off as the mass is: said of the mass. */
+static bool follows_mass(const struct item *key, const struct item *item, const struct difference *difference,
+                         double masses)
+{
+    return key->source->kind == load_gravity && item->source->kind == load_gravity &&
+           difference->relation == is_scaled && near(difference->ratio, masses, 1e-6);
+}
+
+static void pair_equal(struct fbd_grade *grade, const char *body, struct sides *sides, double masses)
+{
+    for (int same_kind = 1; same_kind >= 0; same_kind--)
+        for (size_t i = 0; i < sides->key_count; i++)
+            for (size_t j = 0; j < sides->count; j++) {
+                struct item *key = &sides->key[i], *item = &sides->items[j];
+                if (key->used || item->used || !key->source || !item->source) continue;
+                if (same_kind && key->source->kind != item->source->kind) continue;
+                struct difference difference = difference_of(sides, key, item);
+                if (difference.relation == is_same || follows_mass(key, item, &difference, masses))
+                    add_right(grade, body, key, item, "right");
+            }
+}
+
+/* Two components for one force, or one resultant for two. */
+static void pair_sums(struct fbd_grade *grade, const char *body, struct sides *sides)
+{
+    for (size_t k = 0; k < sides->key_count; k++)
+        for (size_t i = 0; i < sides->count && !sides->key[k].used; i++)
+            for (size_t j = i + 1; j < sides->count && !sides->key[k].used; j++) {
+                struct item *one = &sides->items[i], *other = &sides->items[j];
+                if (one->used || other->used || !adds_up(sides, one, other, &sides->key[k])) continue;
+                add_right(grade, body, &sides->key[k], one, "right, together with its other component");
+                other->used = true;
+            }
+    for (size_t j = 0; j < sides->count; j++)
+        for (size_t i = 0; i < sides->key_count && !sides->items[j].used; i++)
+            for (size_t k = i + 1; k < sides->key_count && !sides->items[j].used; k++) {
+                struct item *one = &sides->key[i], *other = &sides->key[k];
+                if (one->used || other->used || !adds_up(sides, one, other, &sides->items[j])) continue;
+                add_right(grade, body, one, &sides->items[j], "right, as a resultant");
+                sides->items[j].used = false;
+                add_right(grade, body, other, &sides->items[j], "right, as a resultant");
+            }
+}
+
+/* ---- what is left over, as what it was meant to be */
+
+/* Factors between units, and those of weight for mass. */
+static const char *unit_of_ratio(double ratio, double g)
+{
+    static const struct {
+        double factor;
+        const char *says;
+    } factors[] = {
+        {1e3, "its unit may be wrong: it is 1000 times too large"},
+        {1e-3, "its unit may be wrong: it is 1000 times too small"},
+        {1e2, "its unit may be wrong: it is 100 times too large"},
+        {1e-2, "its unit may be wrong: it is 100 times too small"},
+        {1e6, "its unit may be wrong: it is a million times too large"},
+        {1e-6, "its unit may be wrong: it is a million times too small"},
+        {4.4482216152605, "its unit may be wrong: pounds where newtons are meant"},
+        {1 / 4.4482216152605, "its unit may be wrong: newtons where pounds are meant"},
+        {57.29577951308232, "its unit may be wrong: degrees where radians are meant"},
+        {1 / 57.29577951308232, "its unit may be wrong: radians where degrees are meant"},
+        {0.3048, "its unit may be wrong: feet where metres are meant, or the other way"},
+        {1 / 0.3048, "its unit may be wrong: feet where metres are meant, or the other way"},
+    };
+    if (g > 0 && near(ratio, 1 / g, 1e-3)) return "it is a mass where a weight belongs: g is missing";
+    if (g > 0 && near(ratio, g, 1e-3)) return "g is in it once too often";
+    for (size_t i = 0; i < sizeof factors / sizeof *factors; i++)
+        if (near(ratio, factors[i].factor, 1e-3)) return factors[i].says;
+    return NULL;
+}
+
+static fbd_finding_kind kind_of(const struct difference *difference, double g)
+{
+    switch (difference->relation) {
+    case is_same: return FBD_FINDING_RIGHT;
+    case is_opposite: return FBD_FINDING_SENSE;
+    case is_elsewhere: return FBD_FINDING_PLACE;
+    case is_turned: return FBD_FINDING_DIRECTION;
+    case is_rougher: return FBD_FINDING_COEFFICIENT;
+    case is_scaled: return unit_of_ratio(difference->ratio, g) ? FBD_FINDING_UNIT : FBD_FINDING_MAGNITUDE;
+    case is_other: break;
+    }
+    return FBD_FINDING_DIRECTION;
+}
+
+/* How unlikely it is that one was meant to be the other; none means that it was not. */
+enum { no_pair = 9 };
+
+static int unlikeness(const struct item *key, const struct item *item, const struct difference *difference)
+{
+    static const int ranks[] = {[is_same] = 0,   [is_opposite] = 0, [is_elsewhere] = 1, [is_rougher] = 0,
+                                [is_turned] = 2, [is_scaled] = 3,   [is_other] = 6};
+    bool same_name = strcmp(key->source->name, item->source->name) == 0;
+    bool same_kind = key->source->kind == item->source->kind;
+    bool same_noun = strcmp(noun(key->source), noun(item->source)) == 0;
+    if (!same_noun) return no_pair + 1;
+    return (same_name ? 0 : 2) + (same_kind ? 0 : 3) + ranks[difference->relation];
+}
+
+static void say_pair(struct fbd_grade *grade, const char *body, struct item *key, struct item *item,
+                     const struct difference *difference)
+{
+    const double g = vec_norm(grade->sheet->scene->gravity), degree = 57.29577951308232;
+    const char *unit = unit_of_ratio(difference->ratio, g), *message = "it differs in size and direction";
+    struct text detail = {0};
+    text_printf(&detail, "compared with `%s` of the key", key->source->name);
+    switch (difference->relation) {
+    case is_opposite: message = "it points the opposite way"; break;
+    case is_elsewhere: message = "it acts at the wrong place: its line of action is another one"; break;
+    case is_rougher: message = "a coefficient of friction, or the speed of the surface, is wrong"; break;
+    case is_turned:
+        message = difference->exchanged ? "its direction is wrong: are sine and cosine exchanged?"
+                                        : "its direction is wrong";
+        if (isfinite(difference->angle))
+            text_printf(&detail, ": turned by %.4g deg", degree * difference->angle);
+        break;
+    case is_scaled:
+        message = unit ? unit : "its magnitude is wrong";
+        if (isfinite(difference->ratio)) text_printf(&detail, ": %.6g times as large", difference->ratio);
+        break;
+    case is_same:
+    case is_other: break;
+    }
+    if (detail.failed) grade->arena.failed = true;
+    add_pair(grade, body, key, item, kind_of(difference, g), message, detail.data ? detail.data : "");
+    text_free(&detail);
+}
+
+/* The closest pair of those that are left. */
+static bool pair_closest(struct fbd_grade *grade, const char *body, struct sides *sides)
+{
+    int best = no_pair;
+    struct item *best_key = NULL, *best_item = NULL;
+    struct difference best_difference = {.relation = is_other};
+    for (size_t i = 0; i < sides->key_count; i++)
+        for (size_t j = 0; j < sides->count; j++) {
+            struct item *key = &sides->key[i], *item = &sides->items[j];
+            if (key->used || item->used || !key->source || !item->source) continue;
+            struct difference difference = difference_of(sides, key, item);
+            int rank = unlikeness(key, item, &difference);
+            if (rank >= best) continue;
+            best = rank;
+            best_key = key;
+            best_item = item;
+            best_difference = difference;
+        }
+    if (best_key) say_pair(grade, body, best_key, best_item, &best_difference);
+    return best_key != NULL;
+}
+
+static void add_missing(struct fbd_grade *grade, const char *body, const struct load *load)
+{
+    struct text text = {0};
+    fbd_finding *finding = finding_add(grade, FBD_FINDING_MISSING, body, "", nowhere);
+    finding->most = grading_of(grade)->points.force;
+    text_printf(&text, "a %s is missing", noun(load));
+    finding_say(grade, finding, text.data ? text.data : "");
+    text.length = 0;
+    text_printf(&text, "it is `%s` of the key", load->name);
+    finding_tell(grade, finding, text.data ? text.data : "");
+    if (text.failed) grade->arena.failed = true;
+    text_free(&text);
+}
+
+void verdict_on(struct fbd_grade *grade, const struct model_body *key, const struct model_body *body,
+                struct sides *sides, double length, double force)
+{
+    double masses = force / length * body->inertia.mass / key->inertia.mass;
+    compare_inertia(grade, key, body, length, force);
+    pair_equal(grade, key->name, sides, masses);
+    pair_sums(grade, key->name, sides);
+    while (pair_closest(grade, key->name, sides)) continue;
+    for (size_t i = 0; i < sides->key_count; i++)
+        if (!sides->key[i].used) add_missing(grade, key->name, &key->source->loads[i]);
+    for (size_t j = 0; j < sides->count; j++)
+        if (!sides->items[j].used)
+            verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, key->name, body->source->loads[j].name,
+                                body->source->loads[j].at, "nothing exerts this on the body");
+}

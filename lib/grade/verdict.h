@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Verdict: what the comparison of a body means for the student.
+ */
+#ifndef FBD_GRADE_VERDICT_H
+#define FBD_GRADE_VERDICT_H
+
+#include "grade/compare.h"
+
+/* The body is not there; it moves in another way. */
+void verdict_body(struct fbd_grade *grade, const struct model_body *key);
+void verdict_motion(struct fbd_grade *grade, const struct model_body *key, const struct model_body *body);
+
+/* What it is and what it lists; units of length and force of the answer in those of the key. */
+void verdict_on(struct fbd_grade *grade, const struct model_body *key, const struct model_body *body,
+                struct sides *sides, double length, double force);
+
+/* Bodies and couplings that the key does not have, or the answer. */
+void verdict_on_others(struct fbd_grade *grade, const fbd_model *answer);
+
+#endif

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/language.h"
+
+static const struct field points_fields[] = {
+    FIELD_NUMBER(offsetof(struct grading, points.force), "force", a_number, not_negative,
+                 "of each force and moment of the sheet; default 1"),
+    FIELD_NUMBER(
+        offsetof(struct grading, points.inertia), "inertia", a_number, not_negative,
+        "of mass, centre of mass and moment of inertia of a body, where they are asked for; default 0"),
+    FIELD_NUMBER(offsetof(struct grading, points.derivation), "derivation", a_number, not_negative,
+                 "of each line of `hand`; default 2"),
+    FIELD_NUMBER(offsetof(struct grading, points.superfluous), "superfluous", a_number, not_negative,
+                 "taken off for each force that is not there, and for a wrong inertia; default 1"),
+};
+
+static const struct group points_group = {"`points`", NULL, FIELDS(points_fields),
+                                          NULL,       0,    "what the parts of an answer are worth"};
+
+static const struct field grading_fields[] = {
+    FIELD_ENTRIES(offsetof(struct grading_keys, draw), "draw", field_map, 0, each_pair, NULL,
+                  "parameters that each student has a value of: name: [low, high], both with the same unit"),
+    FIELD_NUMBER(offsetof(struct grading_keys, digits), "digits", a_number, positive,
+                 "decimal digits of the values that are drawn; default 2"),
+    FIELD_NUMBER(offsetof(struct grading_keys, grading.tolerance), "tolerance", a_number, positive,
+                 "how far a number may be off, as a share of it; default 0.01"),
+    FIELD_NUMBER(
+        offsetof(struct grading_keys, grading.partial), "partial", a_number, not_negative,
+        "what a force is worth that is there but is not right, as a share of its points; default 0.5"),
+    FIELD_NUMBER(offsetof(struct grading_keys, grading.pass), "pass", a_number, not_negative,
+                 "the share of all points that an answer passes with; default 1"),
+    FIELD_NODE(offsetof(struct grading_keys, points), "points", field_map, 0, &points_group,
+               "what the parts of an answer are worth"),
+};
+
+const struct group grading_group = {
+    "`grading`", NULL, FIELDS(grading_fields),
+    NULL,        0,    "how answers are graded that are held against this sheet"};
+
+const struct group *const grading_points_group = &points_group;

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/node_edit.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static int compare_pairs(const void *a, const void *b)
+{
+    return strcmp((*(struct pair *const *)a)->key, (*(struct pair *const *)b)->key);
+}
+
+static struct node *copy_of(struct arena *arena, const struct node *node)
+{
+    struct node *copy = ARENA_NEW(arena, struct node);
+    if (copy) *copy = *node;
+    return copy;
+}
+
+/* Sizes and heights bound walks; what is put in comes from trees that were bounded. */
+static void measure(struct node *node)
+{
+    node->size = 1;
+    node->height = 1;
+    for (size_t i = 0; i < node->count; i++) {
+        const struct node *child = node->kind == node_map ? node->pairs[i].value : node->items[i];
+        node->size += child->size;
+        if (child->height >= node->height) node->height = child->height + 1;
+    }
+}
+
+const struct node *node_with(struct arena *arena, const struct node *map, const char *key,
+                             const struct node *value)
+{
+    struct node *made = copy_of(arena, map);
+    struct pair *pairs = ARENA_ARRAY(arena, map->count + 1, struct pair);
+    struct pair **sorted = ARENA_ARRAY(arena, map->count + 1, struct pair *);
+    bool put = value == NULL;
+    if (!made || !pairs || !sorted) return NULL;
+    made->count = 0;
+    for (size_t i = 0; i < map->count; i++) {
+        bool here = strcmp(map->pairs[i].key, key) == 0;
+        if (here && !value) continue;
+        pairs[made->count] = map->pairs[i];
+        if (here) pairs[made->count].value = value;
+        put = put || here;
+        made->count++;
+    }
+    if (!put) pairs[made->count++] = (struct pair){.key = key, .at = value->at, .value = value};
+    for (size_t i = 0; i < made->count; i++) sorted[i] = &pairs[i];
+    if (made->count > 1) qsort(sorted, made->count, sizeof *sorted, compare_pairs);
+    made->pairs = pairs;
+    made->sorted = sorted;
+    measure(made);
+    return made;
+}
+
+const struct node *node_filtered(struct arena *arena, const struct node *list,
+                                 bool leave(const struct node *item, const void *context),
+                                 const void *context)
+{
+    struct node *made = copy_of(arena, list);
+    const struct node **items = ARENA_ARRAY(arena, list->count + 1, const struct node *);
+    if (!made || !items) return NULL;
+    made->count = 0;
+    for (size_t i = 0; i < list->count; i++)
+        if (!leave(list->items[i], context)) items[made->count++] = list->items[i];
+    made->items = items;
+    measure(made);
+    return made;
+}
+
+const struct node *node_empty_map(struct arena *arena)
+{
+    struct node *made = ARENA_NEW(arena, struct node);
+    if (made) *made = (struct node){.kind = node_map, .height = 1, .size = 1};
+    return made;
+}

@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * How answers are graded that are held against this file as a key (lib/grade).
+ */
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/fields.h"
+#include "scene/reader.h"
+#include "scene/values.h"
+
+enum { most_digits = 8 };
+
+/* A number with what stands behind it as its unit. */
+static bool read_end(const struct node *node, double *number, const char **unit)
+{
+    char *end = NULL;
+    errno = 0;
+    if (node->kind != node_scalar || node->length == 0) return false;
+    *number = strtod(node->text, &end);
+    *unit = end + strspn(end, " ");
+    return end != node->text && errno == 0;
+}
+
+static bool refuse(struct reader *reader, struct pos at, const char *name, const char *hint)
+{
+    diag_add(reader->errors, FBD_ERROR, "bad-draw", at, hint, "`%.80s` cannot be drawn", name);
+    return false;
+}
+
+static bool names_parameter(const struct reader *reader, const char *name)
+{
+    for (size_t i = 0; i < reader->scene->parameter_count; i++)
+        if (strcmp(reader->scene->parameters[i].name, name) == 0) return true;
+    return false;
+}
+
+static bool read_draw(struct reader *reader, const struct pair *pair, struct drawn_parameter *drawn)
+{
+    const struct node *ends = pair->value;
+    const char *unit;
+    if (!names_parameter(reader, pair->key))
+        return refuse(reader, pair->at, pair->key, "name one of the parameters of the file");
+    *drawn = (struct drawn_parameter){.name = pair->key, .at = pair->at};
+    if (ends->kind != node_list || ends->count != 2 || !read_end(ends->items[0], &drawn->low, &drawn->unit) ||
+        !read_end(ends->items[1], &drawn->high, &unit))
+        return refuse(reader, ends->at, pair->key, "write [low, high], as [20 deg, 40 deg]");
+    if (strcmp(unit, drawn->unit) != 0)
+        return refuse(reader, ends->items[1]->at, pair->key, "write both ends with the same unit");
+    if (!(drawn->low < drawn->high))
+        return refuse(reader, ends->at, pair->key, "write the lower end first, then a higher one");
+    struct value low, high; /* with what is wrong about the unit, if anything */
+    bool right = true;
+    for (size_t i = 0; i < 2; i++)
+        right = value_formula(reader, ends->items[i], pair->key, a_parameter, 0, &reader->constants,
+                              i == 0 ? &low : &high) &&
+                right;
+    return right;
+}
+
+static bool read_draws(struct reader *reader, const struct node *map, struct grading *grading)
+{
+    bool fine = true;
+    grading->draws = ARENA_ARRAY(reader->arena, map->count, struct drawn_parameter);
+    if (!grading->draws) return false;
+    for (size_t i = 0; i < map->count; i++)
+        if (read_draw(reader, &map->pairs[i], &grading->draws[grading->draw_count]))
+            grading->draw_count++;
+        else
+            fine = false;
+    return fine;
+}
+
+static bool in_range(struct reader *reader, const struct node *map, const char *key, double value,
+                     double most)
+{
+    const struct pair *pair = node_find(map, key);
+    if (!pair || value <= most) return true;
+    diag_add(reader->errors, FBD_ERROR, "out-of-range", pair->value->at, NULL, "`%s` must be at most %g", key,
+             most);
+    return false;
+}
+
+bool grading_read(struct reader *reader, const struct node *node)
+{
+    const struct pair *pair = node_find(reader->root, "grading");
+    struct grading_keys keys = {
+        .digits = 2, .grading = {.given = node != NULL, .tolerance = 0.01, .partial = 0.5, .pass = 1}};
+    struct grading *grading = &keys.grading;
+    grading->points = (struct grading_points){.force = 1, .derivation = 2, .superfluous = 1};
+    bool fine = !node || fields_read(reader, &grading_group, node, pair->at, &reader->constants, &keys);
+    if (fine && keys.points)
+        fine = fields_read(reader, grading_points_group, keys.points, keys.points->at, &reader->constants,
+                           grading);
+    if (keys.draw && !read_draws(reader, keys.draw, grading)) fine = false;
+    if (!in_range(reader, node, "digits", keys.digits, most_digits)) fine = false;
+    if (!in_range(reader, node, "tolerance", grading->tolerance, 0.5)) fine = false;
+    if (!in_range(reader, node, "partial", grading->partial, 1)) fine = false;
+    if (!in_range(reader, node, "pass", grading->pass, 1)) fine = false;
+    if (fine) grading->digits = keys.digits < 1 ? 1 : (int)keys.digits;
+    reader->scene->grading = *grading;
+    return fine;
+}
