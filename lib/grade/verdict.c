@@ -259,12 +259,15 @@ enum { no_pair = 9 };
 static int unlikeness(const struct item *key, const struct item *item, const struct difference *difference)
 {
     static const int ranks[] = {[is_same] = 0,   [is_opposite] = 0, [is_elsewhere] = 1, [is_rougher] = 0,
-                                [is_turned] = 2, [is_scaled] = 3,   [is_other] = 6};
+                                [is_turned] = 2, [is_scaled] = 3,   [is_other] = 7};
     bool same_name = strcmp(key->source->name, item->source->name) == 0;
     bool same_kind = key->source->kind == item->source->kind;
     bool same_noun = strcmp(noun(key->source), noun(item->source)) == 0;
     if (!same_noun) return no_pair + 1;
-    return (same_name ? 0 : 2) + (same_kind ? 0 : 3) + ranks[difference->relation];
+    /* Any two moments are along one line: only what is a constant share of the other is like it. */
+    bool alike = difference->relation != is_scaled || isfinite(difference->ratio);
+    if (!alike && !same_name) return no_pair;
+    return (same_name ? !same_kind : same_kind ? 2 : 5) + ranks[difference->relation];
 }
 
 static void say_pair(struct fbd_grade *grade, const char *body, struct item *key, struct item *item,

@@ -29,19 +29,34 @@ static bool refuse(struct reader *reader, struct pos at, const char *name, const
     return false;
 }
 
-static bool names_parameter(const struct reader *reader, const char *name)
+static const struct parameter *find_parameter(const struct reader *reader, const char *name)
 {
     for (size_t i = 0; i < reader->scene->parameter_count; i++)
-        if (strcmp(reader->scene->parameters[i].name, name) == 0) return true;
-    return false;
+        if (strcmp(reader->scene->parameters[i].name, name) == 0) return &reader->scene->parameters[i];
+    return NULL;
+}
+
+/* Both ends are values that the parameter can have. */
+static bool read_values(struct reader *reader, const struct node *ends, const struct parameter *parameter)
+{
+    for (size_t i = 0; i < 2; i++) {
+        struct value value;
+        if (!value_formula(reader, ends->items[i], parameter->name, a_parameter, 0, &reader->constants,
+                           &value))
+            return false;
+        if (parameter->bare || expr_is_bare(value.expr) || dim_equal(expr_dim(value.expr), parameter->dim))
+            continue;
+        return refuse(reader, ends->items[i]->at, parameter->name, "its unit is not one of this parameter");
+    }
+    return true;
 }
 
 static bool read_draw(struct reader *reader, const struct pair *pair, struct drawn_parameter *drawn)
 {
     const struct node *ends = pair->value;
     const char *unit;
-    if (!names_parameter(reader, pair->key))
-        return refuse(reader, pair->at, pair->key, "name one of the parameters of the file");
+    const struct parameter *parameter = find_parameter(reader, pair->key);
+    if (!parameter) return refuse(reader, pair->at, pair->key, "name one of the parameters of the file");
     *drawn = (struct drawn_parameter){.name = pair->key, .at = pair->at};
     if (ends->kind != node_list || ends->count != 2 || !read_end(ends->items[0], &drawn->low, &drawn->unit) ||
         !read_end(ends->items[1], &drawn->high, &unit))
@@ -50,13 +65,7 @@ static bool read_draw(struct reader *reader, const struct pair *pair, struct dra
         return refuse(reader, ends->items[1]->at, pair->key, "write both ends with the same unit");
     if (!(drawn->low < drawn->high))
         return refuse(reader, ends->at, pair->key, "write the lower end first, then a higher one");
-    struct value low, high; /* with what is wrong about the unit, if anything */
-    bool right = true;
-    for (size_t i = 0; i < 2; i++)
-        right = value_formula(reader, ends->items[i], pair->key, a_parameter, 0, &reader->constants,
-                              i == 0 ? &low : &high) &&
-                right;
-    return right;
+    return read_values(reader, ends, parameter);
 }
 
 static bool read_draws(struct reader *reader, const struct node *map, struct grading *grading)
@@ -77,8 +86,8 @@ static bool in_range(struct reader *reader, const struct node *map, const char *
 {
     const struct pair *pair = node_find(map, key);
     if (!pair || value <= most) return true;
-    diag_add(reader->errors, FBD_ERROR, "out-of-range", pair->value->at, NULL, "`%s` must be at most %g", key,
-             most);
+    diag_add(reader->errors, FBD_ERROR, "out-of-range", pair->value->at, "shares are written as 0.8",
+             "`%s` must be at most %g", key, most);
     return false;
 }
 
@@ -94,7 +103,7 @@ bool grading_read(struct reader *reader, const struct node *node)
         fine = fields_read(reader, grading_points_group, keys.points, keys.points->at, &reader->constants,
                            grading);
     if (keys.draw && !read_draws(reader, keys.draw, grading)) fine = false;
-    if (!in_range(reader, node, "digits", keys.digits, most_digits)) fine = false;
+    if (keys.digits > most_digits) fine = in_range(reader, node, "digits", keys.digits, most_digits);
     if (!in_range(reader, node, "tolerance", grading->tolerance, 0.5)) fine = false;
     if (!in_range(reader, node, "partial", grading->partial, 1)) fine = false;
     if (!in_range(reader, node, "pass", grading->pass, 1)) fine = false;

@@ -416,6 +416,48 @@ static void studies(void **context)
     fbd_effects_free(effects);
 }
 
+/* ---- grading */
+
+static void grades(void **state)
+{
+    (void)state;
+    REFUSES(fbd_key_read, !fbd_key_read(NULL, errors));
+    ANSWERS(fbd_key_read, !fbd_key_read("nowhere/at/all.yaml", NULL));
+    ENDURES(fbd_key_free, fbd_key_free(NULL));
+    REFUSES(fbd_key_handout, !fbd_key_handout(NULL, "anna", errors));
+    ANSWERS(fbd_finding_kind_name, strcmp(fbd_finding_kind_name((fbd_finding_kind)99), "") == 0);
+    ANSWERS(fbd_finding_kind_name, strcmp(fbd_finding_kind_name((fbd_finding_kind)-1), "") == 0);
+    ANSWERS(fbd_grade_new, !fbd_grade_new(NULL, "answer.yaml", NULL));
+    ENDURES(fbd_grade_free, fbd_grade_free(NULL));
+    ANSWERS(fbd_grade_points, fbd_grade_points(NULL) == 0);
+    ANSWERS(fbd_grade_most, fbd_grade_most(NULL) == 0);
+    ANSWERS(fbd_grade_passed, !fbd_grade_passed(NULL));
+    ANSWERS(fbd_grade_findings, fbd_grade_findings(NULL) == 0);
+    ANSWERS(fbd_grade_finding, !*fbd_grade_finding(NULL, 0).message);
+    ANSWERS(fbd_grade_text, !fbd_grade_text(NULL, true));
+    ANSWERS(fbd_grade_json, !fbd_grade_json(NULL, true));
+}
+
+static void a_key_without_an_answer(void **state)
+{
+    (void)state;
+    char path[1000];
+    const char *root = getenv("FBD_SOURCE_ROOT");
+    snprintf(path, sizeof path, "%s/models/kinetics/incline.yaml", root ? root : ".");
+    fbd_key *key = fbd_key_read(path, errors);
+    assert_non_null(key);
+    REFUSES(fbd_key_handout, !fbd_key_handout(key, NULL, errors));
+    ANSWERS(fbd_grade_new, !fbd_grade_new(key, NULL, NULL));
+    fbd_grade *grade = fbd_grade_new(key, "nowhere/at/all.yaml", "");
+    assert_non_null(grade);
+    assert_false(fbd_grade_passed(grade));
+    assert_true(fbd_grade_points(grade) == 0 && fbd_grade_most(grade) > 0);
+    assert_int_equal(fbd_grade_finding(grade, 0).kind, FBD_FINDING_NO_SUBMISSION);
+    ANSWERS(fbd_grade_finding, !*fbd_grade_finding(grade, past).message);
+    fbd_grade_free(grade);
+    fbd_key_free(key);
+}
+
 /* ---- all of them */
 
 static bool was_called(const char *name, size_t length)
@@ -471,6 +513,8 @@ int main(void)
         cmocka_unit_test(sweeps_that_cannot_be_made),
         cmocka_unit_test(sweeps),
         cmocka_unit_test(studies),
+        cmocka_unit_test(grades),
+        cmocka_unit_test(a_key_without_an_answer),
         cmocka_unit_test(no_function_is_forgotten),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
