@@ -74,25 +74,25 @@ static bool put_json(struct tables *tables, const fbd_grade *grade, bool details
 }
 
 static enum exit_code grade_one(const struct options *options, const fbd_key *key, const char *path,
-                                struct tables *tables)
+                                struct tables *tables, fbd_errors *errors)
 {
     char name[256];
     name_of(path, name, sizeof name);
     const char *student = options->student ? options->student : name;
-    fbd_grade *grade = fbd_grade_new(key, path, student);
+    fbd_grade *grade = fbd_grade_new(key, path, student, errors);
     bool silent = options->quiet || options_use_stdout(options);
     char *text = grade && !silent ? fbd_grade_text(grade, options->details) : NULL;
     bool done = grade && (silent || text) && (!options->json || put_json(tables, grade, options->details));
     if (done && text) fputs(text, stdout);
     if (done && options->csv) put_row(tables->csv.stream, grade, student, path);
     enum exit_code code = !done ? exit_failed : fbd_grade_passed(grade) ? exit_done : exit_hand_differs;
-    if (!done) complain("fbd-run: out of memory");
+    if (!done && grade) complain("fbd-run: out of memory");
     free(text);
     fbd_grade_free(grade);
     return code;
 }
 
-static enum exit_code grade_all(const struct options *options, const fbd_key *key)
+static enum exit_code grade_all(const struct options *options, const fbd_key *key, fbd_errors *errors)
 {
     struct tables tables = {.first = true};
     enum exit_code code = exit_done;
@@ -100,7 +100,7 @@ static enum exit_code grade_all(const struct options *options, const fbd_key *ke
     if (open && options->json) fputs("{\"answers\": [", tables.json.stream);
     if (open && options->csv) fputs("student,file,points,max_points,score,passed\n", tables.csv.stream);
     for (size_t i = 0; open && i < options->answer_count && code != exit_failed; i++) {
-        enum exit_code one = grade_one(options, key, options->answers[i], &tables);
+        enum exit_code one = grade_one(options, key, options->answers[i], &tables, errors);
         if (one != exit_done) code = one;
     }
     bool keep = open && code != exit_failed;
@@ -128,7 +128,7 @@ enum exit_code grading(const struct options *options)
     fbd_key *key = errors ? fbd_key_read(options->model, errors) : NULL;
     if (!errors) complain("fbd-run: out of memory");
     if (!errors) return exit_failed;
-    return finish(key, errors, key ? grade_all(options, key) : exit_bad_model);
+    return finish(key, errors, key ? grade_all(options, key, errors) : exit_bad_model);
 }
 
 enum exit_code handout(const struct options *options)

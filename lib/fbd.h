@@ -838,9 +838,10 @@ typedef struct fbd_finding {
 typedef struct fbd_grade fbd_grade;
 
 /* Hold an answer against a key by mechanics. `student` chooses the values that are drawn; NULL takes the name of the
- * file, without folders and `.yaml`. An answer that is not there, or cannot be read, has no points. NULL when memory
- * is out. The key must outlive it. */
-FBD_API fbd_grade *fbd_grade_new(const fbd_key *key, const char *path, const char *student);
+ * file, without folders and `.yaml`. An answer that is not there, or is no model, has no points. NULL with a note in
+ * `errors`: a file that is there cannot be read (`cannot-read`), or memory is out. The key must outlive it. */
+FBD_API fbd_grade *fbd_grade_new(const fbd_key *key, const char *path, const char *student,
+                                 fbd_errors *errors);
 FBD_API void fbd_grade_free(fbd_grade *grade);
 
 /* What was got, at least 0, and what is to be had. */

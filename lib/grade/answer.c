@@ -4,6 +4,7 @@
  */
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/file.h"
 #include "base/text.h"
@@ -215,14 +216,20 @@ static void note_absent(struct fbd_grade *grade, const char *message)
     finding_say(grade, finding, message);
 }
 
-static void open_answer(struct fbd_grade *grade, const char *path, struct answer *answer, fbd_errors *errors)
+static bool is_there(const char *path)
+{
+    struct stat status;
+    return strcmp(path, "-") == 0 || (stat(path, &status) == 0 && !S_ISDIR(status.st_mode));
+}
+
+static void open_answer(struct fbd_grade *grade, const char *path, struct answer *answer, fbd_errors *errors,
+                        fbd_errors *failures)
 {
     size_t length;
-    answer->text = file_text(path, &length, errors);
-    if (!answer->text) {
-        note_absent(grade, "there is no answer to read");
-        return;
-    }
+    bool there = is_there(path);
+    if (there) answer->text = file_text(path, &length, failures);
+    if (!there) note_absent(grade, "there is no answer to read");
+    if (!answer->text) return;
     grade->submitted = strspn(answer->text, " \t\r\n") < length;
     if (!grade->submitted) {
         note_absent(grade, "the answer is empty");
@@ -237,13 +244,13 @@ static void open_answer(struct fbd_grade *grade, const char *path, struct answer
         note_absent(grade, "the answer is no model");
 }
 
-bool answer_read(struct fbd_grade *grade, const char *path, struct answer *answer)
+bool answer_read(struct fbd_grade *grade, const char *path, struct answer *answer, fbd_errors *failures)
 {
     fbd_errors *errors = fbd_errors_new();
     *answer = (struct answer){.text = NULL};
     if (!errors) grade->arena.failed = true;
     if (!errors) return false;
-    open_answer(grade, path, answer, errors);
+    open_answer(grade, path, answer, errors, failures);
     if (answer->root && !says_something(answer->root)) {
         grade->submitted = false;
         note_absent(grade, "nothing is drawn on the sheet, and nothing derived");

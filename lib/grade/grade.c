@@ -42,38 +42,45 @@ static bool make_sheet(struct fbd_grade *grade)
     return done;
 }
 
-static void hold_against(struct fbd_grade *grade, const char *path)
+static void hold_against(struct fbd_grade *grade, const char *path, fbd_errors *errors)
 {
     struct answer answer;
-    if (answer_read(grade, path, &answer)) {
+    if (answer_read(grade, path, &answer, errors)) {
         grade_bodies(grade, answer.model);
         grade_lines(grade, answer.root);
     }
     answer_close(&answer);
 }
 
-static fbd_grade *make_grade(const fbd_key *key, const char *path, const char *student)
+static fbd_grade *make_grade(const fbd_key *key, const char *path, const char *student, fbd_errors *errors)
 {
     fbd_grade *grade = calloc(1, sizeof *grade);
+    if (!grade) diag_out_of_memory(errors);
     if (!grade) return NULL;
     grade->key = key;
     grade->student =
         student ? arena_text(&grade->arena, student, strlen(student)) : stem(&grade->arena, path);
     grade->file = arena_text(&grade->arena, path, strlen(path));
     if (grade->student && grade->file && make_sheet(grade)) {
-        if (grade->sheet) hold_against(grade, path);
+        if (grade->sheet) hold_against(grade, path, errors);
         fbd_model_free(grade->sheet);
         grade->sheet = NULL;
         if (grade->readable && grade->submitted) grade->points = fmax(0, sum(grade));
-        if (!grade->arena.failed) return grade;
+        if (!grade->arena.failed && fbd_errors_failed(errors) == 0) return grade;
     }
+    if (fbd_errors_failed(errors) == 0) diag_out_of_memory(errors);
     fbd_grade_free(grade);
     return NULL;
 }
 
-fbd_grade *fbd_grade_new(const fbd_key *key, const char *path, const char *student)
+fbd_grade *fbd_grade_new(const fbd_key *key, const char *path, const char *student, fbd_errors *list)
 {
-    return key && path ? make_grade(key, path, student) : NULL;
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    fbd_grade *grade = key && path ? make_grade(key, path, student, errors)
+                                   : call_refuse(errors, "there is no key, or no path of an answer");
+    diag_end(&call);
+    return grade;
 }
 
 void fbd_grade_free(fbd_grade *grade)

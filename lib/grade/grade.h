@@ -48,9 +48,8 @@ struct fbd_grade {
     /* while it is being made */
     struct override *drawn; /* the student's own values, of the document at hand */
     size_t drawn_count;
-    fbd_model *sheet;  /* the key with these values */
-    fbd_errors *notes; /* what was said of the answer last */
-    fbd_finding lost;  /* what is noted when memory is out: nobody reads it */
+    fbd_model *sheet; /* the key with these values */
+    fbd_finding lost; /* what is noted when memory is out: nobody reads it */
 };
 
 /* A parameter's value for a student, as text with its unit; NULL when memory is out. */
@@ -74,7 +73,7 @@ void finding_say(struct fbd_grade *grade, fbd_finding *finding, const char *mess
 void finding_tell(struct fbd_grade *grade, fbd_finding *finding, const char *detail);
 
 /* ---- reading (answer.c): the compiled answer, without what cannot be read of it, which is noted; NULL when
- * nothing is left. `root` is its tree. */
+ * nothing is left. `root` is its tree. `errors` has what is no fault of the answer: a file that cannot be read. */
 struct answer {
     struct document document;
     const struct node *root; /* without what was left out */
@@ -82,7 +81,7 @@ struct answer {
     char *text;
 };
 
-bool answer_read(struct fbd_grade *grade, const char *path, struct answer *answer);
+bool answer_read(struct fbd_grade *grade, const char *path, struct answer *answer, fbd_errors *errors);
 void answer_close(struct answer *answer);
 
 /* ---- comparing */

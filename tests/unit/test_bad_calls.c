@@ -427,7 +427,7 @@ static void grades(void **state)
     REFUSES(fbd_key_handout, !fbd_key_handout(NULL, "anna", errors));
     ANSWERS(fbd_finding_kind_name, strcmp(fbd_finding_kind_name((fbd_finding_kind)99), "") == 0);
     ANSWERS(fbd_finding_kind_name, strcmp(fbd_finding_kind_name((fbd_finding_kind)-1), "") == 0);
-    ANSWERS(fbd_grade_new, !fbd_grade_new(NULL, "answer.yaml", NULL));
+    REFUSES(fbd_grade_new, !fbd_grade_new(NULL, "answer.yaml", NULL, errors));
     ENDURES(fbd_grade_free, fbd_grade_free(NULL));
     ANSWERS(fbd_grade_points, fbd_grade_points(NULL) == 0);
     ANSWERS(fbd_grade_most, fbd_grade_most(NULL) == 0);
@@ -447,8 +447,9 @@ static void a_key_without_an_answer(void **state)
     fbd_key *key = fbd_key_read(path, errors);
     assert_non_null(key);
     REFUSES(fbd_key_handout, !fbd_key_handout(key, NULL, errors));
-    ANSWERS(fbd_grade_new, !fbd_grade_new(key, NULL, NULL));
-    fbd_grade *grade = fbd_grade_new(key, "nowhere/at/all.yaml", "");
+    REFUSES(fbd_grade_new, !fbd_grade_new(key, NULL, NULL, errors));
+    ANSWERS(fbd_grade_new, !fbd_grade_new(key, NULL, NULL, NULL));
+    fbd_grade *grade = fbd_grade_new(key, "nowhere/at/all.yaml", "", errors);
     assert_non_null(grade);
     assert_false(fbd_grade_passed(grade));
     assert_true(fbd_grade_points(grade) == 0 && fbd_grade_most(grade) > 0);
