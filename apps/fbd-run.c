@@ -137,6 +137,12 @@ static enum exit_code show_statics(const struct options *options, fbd_state *sta
     return written == exit_done ? code : written;
 }
 
+/* Does data on standard output, or --quiet, leave the text out? */
+static bool data_alone(const struct options *options)
+{
+    return options->quiet || place_is_stdout(options->svg) || place_is_stdout(options->json);
+}
+
 static enum exit_code show_state(const fbd_model *model, const struct options *options, fbd_errors *errors)
 {
     fbd_state *state = fbd_state_new(model);
@@ -145,15 +151,17 @@ static enum exit_code show_state(const fbd_model *model, const struct options *o
     if (code == exit_done && options->action == action_equations && !fbd_state_close(state, errors))
         code = exit_failed;
     if (code == exit_done && options->action == action_equations) {
-        if (!place_is_stdout(options->svg)) code = print(fbd_equations_text(state), exit_done);
+        if (!data_alone(options)) code = print(fbd_equations_text(state), exit_done);
+        if (code == exit_done && options->json) code = write_text(options->json, fbd_equations_json(state));
         if (code == exit_done) code = draw_state(options, state, errors);
     } else if (code == exit_done && options->action == action_static) {
         code = show_statics(options, state, errors);
     } else if (code == exit_done) {
         fbd_linearization *linear = fbd_linearize(state, errors);
         code = linear ? exit_done : exit_failed;
-        bool drawn_only = place_is_stdout(options->svg);
-        if (linear && !drawn_only) code = print(fbd_linearization_text(linear), exit_done);
+        if (linear && !data_alone(options)) code = print(fbd_linearization_text(linear), exit_done);
+        if (code == exit_done && options->json)
+            code = write_text(options->json, fbd_linearization_json(linear));
         if (code == exit_done && options->svg) code = write_text(options->svg, fbd_linearization_svg(linear));
         fbd_linearization_free(linear);
     }

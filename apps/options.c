@@ -25,7 +25,8 @@ static const char help[] =
     "  --csv FILE           the motion, one row for each output time and event\n"
     "  --every TIME         output interval of the rows, in seconds (default: 1/500 of the run)\n"
     "  --ledger             add columns for every force, its work, and the energies\n"
-    "  --json FILE          final state, events, forces, energy and cost as one object\n"
+    "  --json FILE          final state, events, forces, energy and cost as one object; with --equations,\n"
+    "                       --linearize or --static what they show\n"
     "  --error-bars         estimate the error of everything that is written, by a second run that goes "
     "along\n"
     "  --html FILE          one page that plays the motion, with plots, equations and events\n"
@@ -305,7 +306,8 @@ static bool options_agree(const struct options *options)
     if ((options->drawing.body || options->drawing.components) && !options->svg)
         return usage("--body and --components go with --svg", "");
     if (options->settle && !rests) return usage("--settle goes with --static", "");
-    if (stands_still && !rests && options->json) return usage("--json belongs to a run or to --static", "");
+    if (stands_still && !rests && !draws && options->json)
+        return usage("--json belongs to a run, --equations, --linearize, --static or --grade", "");
     if (stands_still && (options->csv || options->html || options->plot || options->gnuplot ||
                          options->ledger || options->every > 0))
         return usage("--csv, --html, --plot, --gnuplot, --ledger and --every belong to a run", "");

@@ -440,6 +440,9 @@ FBD_API char *fbd_result_html(fbd_result *result, fbd_errors *errors);
  * memory is out. */
 FBD_API char *fbd_equations_text(fbd_state *state);
 
+/* The same, and the free-body diagrams, as one JSON object. */
+FBD_API char *fbd_equations_json(fbd_state *state);
+
 /* The plan in words: effects that are simulated, with their number and why they are conservative or not,
  * those that are not and what would have to be listed, the right-hand side, events, structure, the method and
  * why. */
@@ -473,6 +476,7 @@ typedef struct fbd_mode {
 
 FBD_API fbd_mode fbd_linearization_mode(const fbd_linearization *linearization, size_t index);
 FBD_API char *fbd_linearization_text(const fbd_linearization *linearization);
+FBD_API char *fbd_linearization_json(const fbd_linearization *linearization);
 
 /* The eigenvalues in the complex plane, as an SVG document. */
 FBD_API char *fbd_linearization_svg(const fbd_linearization *linearization);

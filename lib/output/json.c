@@ -164,9 +164,10 @@ static void write_friction(struct text *text, struct fbd_state *state, int body,
     state_balance_of(state, body, state->scratch);
     struct friction_values values = friction_at(model, pair, &at, state->scratch);
     text_printf(text, ", \"mode\": \"%s\", ", state->slip[pair] == stick ? "stick" : "slip");
-    double margin = fabs(values.force) / values.limit; /* of next to nothing it is not a number of any use */
+    double share = fabs(values.force) / values.limit; /* of next to nothing it is not a number of any use */
     member(text, "limit", values.limit, false);
-    member(text, "margin", isfinite(margin) ? margin : NAN, true);
+    member(text, "utilisation", isfinite(share) ? share : NAN, false);
+    member(text, "margin", isfinite(share) ? share : NAN, true); /* its old name, kept for one version */
 }
 
 /* Where moments are taken about: the axis of a pivot, else the centre of mass. */

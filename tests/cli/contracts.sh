@@ -113,7 +113,7 @@ for force in forces.values():
     assert force["moment_O"] == force["moment"]
 rolls = run("couplings/disc_on_incline.yaml")["forces"]["ball"]["tread.friction"]
 slips = run("couplings/disc_on_incline.yaml", "--set", "mu=0.1")["forces"]["ball"]["tread.friction"]
-assert rolls["mode"] == "stick" and abs(rolls["margin"] - math.tan(math.pi / 6) / 3 / 0.5) < 1e-9, rolls
+assert rolls["mode"] == "stick" and abs(rolls["utilisation"] - math.tan(math.pi / 6) / 3 / 0.5) < 1e-9, rolls
 assert slips["mode"] == "slip" and abs(slips["margin"] - 1) < 1e-12, slips
 END
 check 'a title is data' sh -c '"$FBD_RUN" --json - title.yaml | python3 -m json.tool'

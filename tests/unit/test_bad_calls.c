@@ -185,6 +185,7 @@ static void equations(void **context)
     ANSWERS(fbd_equation_term, is_nan(fbd_equation_term(NULL, "spring")));
     ANSWERS(fbd_equation_term, is_nan(fbd_equation_term(fbd_equations_get(all, 0), NULL)));
     ANSWERS(fbd_equations_text, !fbd_equations_text(NULL));
+    ANSWERS(fbd_equations_json, !fbd_equations_json(NULL));
     fbd_equations_free(all);
     fbd_state_free(state);
 }
@@ -270,6 +271,7 @@ static void linearizations_and_derivations(void **context)
     ANSWERS(fbd_linearization_mode, is_nan(fbd_linearization_mode(NULL, 0).re));
     ANSWERS(fbd_linearization_mode, is_nan(fbd_linearization_mode(linear, past).im));
     ANSWERS(fbd_linearization_text, !fbd_linearization_text(NULL));
+    ANSWERS(fbd_linearization_json, !fbd_linearization_json(NULL));
     ANSWERS(fbd_linearization_svg, !fbd_linearization_svg(NULL));
     ANSWERS(fbd_check_hand, fbd_check_hand(NULL, 1, &text) == -1 && !text);
     ANSWERS(fbd_check_hand, fbd_check_hand(model, 1, NULL) == -1);

@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * A linearisation as one JSON object (docs/output.md).
+ */
+#include "base/text.h"
+#include "solve/linearize.h"
+
+static void member(struct text *text, const char *name, double value, const char *behind)
+{
+    text_json_key(text, name);
+    text_json_number(text, value);
+    text_add(text, behind);
+}
+
+static void write_equilibrium(struct text *text, const struct fbd_linearization *linear)
+{
+    text_add(text, "  \"equilibrium\": {");
+    for (int i = 0; i < linear->model->plan.n; i++)
+        member(text, linear->model->labels[i].name, linear->q[i], i + 1 < linear->model->plan.n ? ", " : "");
+    text_add(text, "},\n");
+}
+
+static void write_states(struct text *text, const struct fbd_linearization *linear)
+{
+    size_t n = linear->size / 2;
+    text_add(text, "  \"states\": [");
+    for (size_t i = 0; i < linear->size; i++) {
+        const struct label *label = &linear->model->labels[linear->which[i % n]];
+        text_add(text, i ? ", " : "");
+        text_json_string(text, i < n ? label->name : label->rate_name);
+    }
+    text_add(text, "],\n");
+}
+
+/* Rows of numbers. */
+static void write_matrix(struct text *text, const char *name, const double *values, size_t rows,
+                         size_t columns)
+{
+    text_add(text, "  ");
+    text_json_key(text, name);
+    text_add(text, "[");
+    for (size_t i = 0; i < rows; i++) {
+        text_add(text, i ? ",\n        [" : "\n        [");
+        for (size_t j = 0; j < columns; j++) {
+            text_add(text, j ? ", " : "");
+            text_json_number(text, values[i * columns + j]);
+        }
+        text_add(text, "]");
+    }
+    text_add(text, "],\n");
+}
+
+static void write_modes(struct text *text, const struct fbd_linearization *linear)
+{
+    text_add(text, "  \"eigenvalues\": [");
+    for (size_t i = 0; i < linear->size; i++) {
+        const fbd_mode *mode = &linear->modes[i];
+        text_add(text, i ? ",\n    {" : "\n    {");
+        member(text, "re", mode->re, ", ");
+        member(text, "im", mode->im, ", ");
+        member(text, "frequency", mode->frequency, ", ");
+        member(text, "damping_ratio", mode->damping_ratio, "}");
+    }
+    text_add(text, "\n  ],\n");
+}
+
+char *fbd_linearization_json(const fbd_linearization *linear)
+{
+    if (!linear) return NULL;
+    struct text text = {0};
+    text_add(&text, "{\n  ");
+    text_json_key(&text, "title");
+    text_json_string(&text, linear->model->scene->title);
+    text_add(&text, ",\n");
+    write_equilibrium(&text, linear);
+    write_states(&text, linear);
+    write_matrix(&text, "A", linear->A, linear->size, linear->size);
+    if (linear->way)
+        write_matrix(&text, "followers", linear->way, (size_t)linear->model->plan.n, linear->size / 2);
+    write_modes(&text, linear);
+    text_add(&text, "  ");
+    text_json_key(&text, "degenerate");
+    text_add(&text, linear->degenerate ? "true\n}\n" : "false\n}\n");
+    if (text.failed) text_free(&text);
+    return text.data;
+}
