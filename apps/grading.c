@@ -126,8 +126,10 @@ enum exit_code grading(const struct options *options)
 {
     fbd_errors *errors = fbd_errors_new();
     fbd_key *key = errors ? fbd_key_read(options->model, errors) : NULL;
-    if (!errors) complain("fbd-run: out of memory");
-    if (!errors) return exit_failed;
+    if (!errors) {
+        complain("fbd-run: out of memory");
+        return exit_failed;
+    }
     return finish(key, errors, key ? grade_all(options, key, errors) : exit_bad_model);
 }
 
@@ -135,8 +137,10 @@ enum exit_code handout(const struct options *options)
 {
     fbd_errors *errors = fbd_errors_new();
     fbd_key *key = errors ? fbd_key_read(options->model, errors) : NULL;
-    if (!errors) complain("fbd-run: out of memory");
-    if (!errors) return exit_failed;
+    if (!errors) {
+        complain("fbd-run: out of memory");
+        return exit_failed;
+    }
     char *text = key ? fbd_key_handout(key, options->student, errors) : NULL;
     if (text) fputs(text, stdout);
     enum exit_code code = text ? exit_done : key ? exit_failed : exit_bad_model;

@@ -158,6 +158,27 @@ void text_json_number(struct text *text, double value)
         text_add(text, "null");
 }
 
+void text_json_member(struct text *text, const char *name, double value, const char *behind)
+{
+    text_json_key(text, name);
+    text_json_number(text, value);
+    text_add(text, behind);
+}
+
+void text_json_words(struct text *text, const char *name, const char *value, const char *behind)
+{
+    text_json_key(text, name);
+    text_json_string(text, value);
+    text_add(text, behind);
+}
+
+void text_json_flag(struct text *text, const char *name, bool value, const char *behind)
+{
+    text_json_key(text, name);
+    text_add(text, value ? "true" : "false");
+    text_add(text, behind);
+}
+
 void text_free(struct text *text)
 {
     free(text->data);

@@ -44,6 +44,11 @@ void text_json_string(struct text *text, const char *string);
 void text_json_key(struct text *text, const char *name);
 void text_json_number(struct text *text, double value);
 
+/* A member of an object, `behind` what follows it: ", " or "}". */
+void text_json_member(struct text *text, const char *name, double value, const char *behind);
+void text_json_words(struct text *text, const char *name, const char *value, const char *behind);
+void text_json_flag(struct text *text, const char *name, bool value, const char *behind);
+
 void text_free(struct text *text);
 
 #endif

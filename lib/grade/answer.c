@@ -7,7 +7,6 @@
 #include <sys/stat.h>
 
 #include "base/file.h"
-#include "base/text.h"
 #include "grade/grade.h"
 #include "scene/node_edit.h"
 
@@ -39,7 +38,7 @@ static bool is_before(struct pos a, struct pos b)
  * moments or couplings that it is part of; NULL when it is part of none. */
 struct search {
     struct pos at, found;
-    const struct node *entry, *body;
+    const struct node *entry;
     const char *key;
 };
 
@@ -147,23 +146,8 @@ static const char *name_of(const struct node *entry)
 static void note_unreadable(struct fbd_grade *grade, const char *body, const struct node *entry,
                             const fbd_error *error)
 {
-    struct text text = {0};
     bool unit = strcmp(error->id, "wrong-dimension") == 0 && entry;
-    fbd_finding *finding = finding_add(grade, unit ? FBD_FINDING_UNIT : FBD_FINDING_UNREADABLE, body,
-                                       name_of(entry), (struct pos){error->line, error->column});
-    text_add(&text, error->message);
-    if (error->hint) text_printf(&text, " (%s)", error->hint);
-    if (text.failed) grade->arena.failed = true;
-    finding_say(grade, finding, text.data ? text.data : "");
-    text_free(&text);
-}
-
-static const fbd_error *first_error(fbd_errors *errors)
-{
-    const fbd_error *error;
-    for (size_t i = 0; (error = fbd_errors_get(errors, i)) != NULL; i++)
-        if (error->severity == FBD_ERROR) return error;
-    return NULL;
+    finding_of_error(grade, unit ? FBD_FINDING_UNIT : FBD_FINDING_UNREADABLE, body, name_of(entry), error);
 }
 
 /* Read the tree until nothing is wrong with it, each time without the entry of the first error. */
@@ -171,8 +155,10 @@ static void compile_rest(struct fbd_grade *grade, struct answer *answer)
 {
     while (answer->root && !answer->model && !grade->arena.failed) {
         fbd_errors *errors = fbd_errors_new();
-        if (!errors) grade->arena.failed = true;
-        if (!errors) return;
+        if (!errors) {
+            grade->arena.failed = true;
+            return;
+        }
         answer->model = grade_compile(grade, answer->root, grade->file, false, errors);
         const fbd_error *error = answer->model ? NULL : first_error(errors);
         if (errors->out_of_memory) grade->arena.failed = true;
@@ -225,7 +211,7 @@ static bool is_there(const char *path)
 static void open_answer(struct fbd_grade *grade, const char *path, struct answer *answer, fbd_errors *errors,
                         fbd_errors *failures)
 {
-    size_t length;
+    size_t length = 0;
     bool there = is_there(path);
     if (there) answer->text = file_text(path, &length, failures);
     if (!there) note_absent(grade, "there is no answer to read");
@@ -248,8 +234,10 @@ bool answer_read(struct fbd_grade *grade, const char *path, struct answer *answe
 {
     fbd_errors *errors = fbd_errors_new();
     *answer = (struct answer){.text = NULL};
-    if (!errors) grade->arena.failed = true;
-    if (!errors) return false;
+    if (!errors) {
+        grade->arena.failed = true;
+        return false;
+    }
     open_answer(grade, path, answer, errors, failures);
     if (answer->root && !says_something(answer->root)) {
         grade->submitted = false;

@@ -3,19 +3,19 @@
 
 #include "grade/compare.h"
 
-static const double rounding = 1e-9;
+static const double noise = 1e-9;
 
 /* ---- equal to the tolerance, at every state that counts */
 
 static bool near_force(const struct sides *sides, struct vec key, struct vec other)
 {
-    return vec_norm(vec_sub(key, other)) <= sides->tolerance * vec_norm(key) + rounding * sides->force;
+    return vec_norm(vec_sub(key, other)) <= sides->tolerance * vec_norm(key) + noise * sides->force;
 }
 
 static bool near_moment(const struct sides *sides, double key, double other, double force)
 {
     double size = fabs(key) + force * sides->arm;
-    return !sides->turns || fabs(key - other) <= sides->tolerance * size + rounding * sides->moment;
+    return !sides->turns || fabs(key - other) <= sides->tolerance * size + noise * sides->moment;
 }
 
 static bool near_wrench(const struct sides *sides, const struct wrench *key, const struct wrench *other)
@@ -77,8 +77,8 @@ static bool same_line(const struct sides *sides, const struct item *key, const s
     for (size_t s = 0; s < sides->samples && sides->turns; s++) {
         struct vec apart = vec_sub(item->at[s].point, key->at[s].point), f = key->at[s].force;
         double size = vec_norm(f);
-        if (size > rounding * sides->force &&
-            fabs(vec_cross(apart, f)) > (sides->tolerance * sides->arm + rounding) * size)
+        if (size > noise * sides->force &&
+            fabs(vec_cross(apart, f)) > (sides->tolerance * sides->arm + noise) * size)
             return false;
     }
     return true;
@@ -105,13 +105,13 @@ static struct difference of_reactions(const struct sides *sides, const struct it
 static double magnitude(const struct sides *sides, const struct wrench *wrench)
 {
     double force = vec_norm(wrench->force);
-    return force > rounding * sides->force ? force : fabs(wrench->moment);
+    return force > noise * sides->force ? force : fabs(wrench->moment);
 }
 
 static bool is_couple(const struct sides *sides, const struct item *item)
 {
     for (size_t s = 0; s < sides->samples; s++)
-        if (vec_norm(item->at[s].force) > rounding * sides->force) return false;
+        if (vec_norm(item->at[s].force) > noise * sides->force) return false;
     return true;
 }
 
@@ -133,8 +133,7 @@ static bool parallel(const struct sides *sides, const struct item *key, const st
     for (size_t s = 0; s < sides->samples; s++) {
         const struct wrench *a = &key->at[s], *b = &item->at[s];
         double size = magnitude(sides, a);
-        if (!counts(sides, key, item, s) || size <= rounding * (couple ? sides->moment : sides->force))
-            continue;
+        if (!counts(sides, key, item, s) || size <= noise * (couple ? sides->moment : sides->force)) continue;
         double across = couple ? 0 : vec_cross(a->force, b->force) / size;
         double along = couple ? b->moment * copysign(1, a->moment) : vec_dot(a->force, b->force) / size;
         if (fabs(across) > sides->tolerance * fabs(along)) return false;
@@ -156,7 +155,7 @@ static bool turned(const struct sides *sides, const struct item *key, const stru
     for (size_t s = 0; s < sides->samples; s++) {
         struct vec a = key->at[s].force, b = item->at[s].force;
         double size = vec_norm(a);
-        if (!counts(sides, key, item, s) || size <= rounding * sides->force) continue;
+        if (!counts(sides, key, item, s) || size <= noise * sides->force) continue;
         if (fabs(vec_norm(b) - size) > sides->tolerance * size) return false;
         struct vec cross = {a.y, a.x};
         *exchanged =

@@ -4,6 +4,7 @@
  */
 #include <string.h>
 
+#include "base/text.h"
 #include "grade/grade.h"
 
 static const char *copy(struct fbd_grade *grade, const char *text)
@@ -41,6 +42,26 @@ void finding_say(struct fbd_grade *grade, fbd_finding *finding, const char *mess
 void finding_tell(struct fbd_grade *grade, fbd_finding *finding, const char *detail)
 {
     finding->detail = copy(grade, detail);
+}
+
+const fbd_error *first_error(fbd_errors *errors)
+{
+    const fbd_error *error;
+    for (size_t i = 0; (error = fbd_errors_get(errors, i)) != NULL; i++)
+        if (error->severity == FBD_ERROR) return error;
+    return NULL;
+}
+
+void finding_of_error(struct fbd_grade *grade, fbd_finding_kind kind, const char *body, const char *name,
+                      const fbd_error *error)
+{
+    struct text text = {0};
+    fbd_finding *finding = finding_add(grade, kind, body, name, (struct pos){error->line, error->column});
+    text_add(&text, error->message);
+    if (error->hint) text_printf(&text, " (%s)", error->hint);
+    if (text.failed) grade->arena.failed = true;
+    finding_say(grade, finding, text.data ? text.data : "");
+    text_free(&text);
 }
 
 const char *fbd_finding_kind_name(fbd_finding_kind kind)

@@ -55,8 +55,10 @@ static void hold_against(struct fbd_grade *grade, const char *path, fbd_errors *
 static fbd_grade *make_grade(const fbd_key *key, const char *path, const char *student, fbd_errors *errors)
 {
     fbd_grade *grade = calloc(1, sizeof *grade);
-    if (!grade) diag_out_of_memory(errors);
-    if (!grade) return NULL;
+    if (!grade) {
+        diag_out_of_memory(errors);
+        return NULL;
+    }
     grade->key = key;
     grade->student =
         student ? arena_text(&grade->arena, student, strlen(student)) : stem(&grade->arena, path);

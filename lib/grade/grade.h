@@ -72,6 +72,11 @@ fbd_finding *finding_add(struct fbd_grade *grade, fbd_finding_kind kind, const c
 void finding_say(struct fbd_grade *grade, fbd_finding *finding, const char *message);
 void finding_tell(struct fbd_grade *grade, fbd_finding *finding, const char *detail);
 
+/* The first note that is no warning, and a finding that says what it says. */
+const fbd_error *first_error(fbd_errors *errors);
+void finding_of_error(struct fbd_grade *grade, fbd_finding_kind kind, const char *body, const char *name,
+                      const fbd_error *error);
+
 /* ---- reading (answer.c): the compiled answer, without what cannot be read of it, which is noted; NULL when
  * nothing is left. `root` is its tree. `errors` has what is no fault of the answer: a file that cannot be read. */
 struct answer {

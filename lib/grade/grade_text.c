@@ -72,39 +72,18 @@ char *fbd_grade_text(const fbd_grade *grade, bool details)
     return finish(&text);
 }
 
-static void member(struct text *text, const char *name, const char *value, const char *behind)
-{
-    text_json_key(text, name);
-    text_json_string(text, value);
-    text_add(text, behind);
-}
-
-static void number(struct text *text, const char *name, double value, const char *behind)
-{
-    text_json_key(text, name);
-    text_json_number(text, value);
-    text_add(text, behind);
-}
-
-static void flag(struct text *text, const char *name, bool value, const char *behind)
-{
-    text_json_key(text, name);
-    text_add(text, value ? "true" : "false");
-    text_add(text, behind);
-}
-
 static void write_finding(struct text *text, const fbd_finding *finding, bool details)
 {
     struct text name = {0};
     text_printf(&name, "%s%s%s", finding->body, *finding->body && *finding->name ? ": " : "", finding->name);
     text_add(text, "{");
-    member(text, "name", name.data ? name.data : "", ", ");
-    member(text, "kind", fbd_finding_kind_name(finding->kind), ", ");
-    number(text, "points", finding->points, ", ");
-    number(text, "max_points", finding->most, ", ");
+    text_json_words(text, "name", name.data ? name.data : "", ", ");
+    text_json_words(text, "kind", fbd_finding_kind_name(finding->kind), ", ");
+    text_json_member(text, "points", finding->points, ", ");
+    text_json_member(text, "max_points", finding->most, ", ");
     text_printf(text, "\"line\": %d, \"column\": %d, ", finding->line, finding->column);
-    member(text, "message", finding->message, details ? ", " : "}");
-    if (details) member(text, "output", finding->detail, "}");
+    text_json_words(text, "message", finding->message, details ? ", " : "}");
+    if (details) text_json_words(text, "output", finding->detail, "}");
     if (name.failed) text->failed = true;
     text_free(&name);
 }
@@ -115,15 +94,15 @@ char *fbd_grade_json(const fbd_grade *grade, bool details)
     if (!grade) return NULL;
     bool gradable = grade->submitted && grade->readable;
     text_add(&text, "{");
-    member(&text, "student", grade->student, ", ");
-    member(&text, "file", grade->file, ", ");
-    flag(&text, "gradable", gradable, ", ");
-    number(&text, "score", grade->points / grade->key->most, ", ");
-    number(&text, "points", grade->points, ", ");
-    number(&text, "max_points", grade->key->most, ", ");
-    flag(&text, "passed", fbd_grade_passed(grade), ", ");
-    member(&text, "message", gradable || !grade->first ? "" : grade->first->finding.message,
-           ",\n \"tests\": [");
+    text_json_words(&text, "student", grade->student, ", ");
+    text_json_words(&text, "file", grade->file, ", ");
+    text_json_flag(&text, "gradable", gradable, ", ");
+    text_json_member(&text, "score", grade->points / grade->key->most, ", ");
+    text_json_member(&text, "points", grade->points, ", ");
+    text_json_member(&text, "max_points", grade->key->most, ", ");
+    text_json_flag(&text, "passed", fbd_grade_passed(grade), ", ");
+    text_json_words(&text, "message", gradable || !grade->first ? "" : grade->first->finding.message,
+                    ",\n \"tests\": [");
     for (const struct finding *one = grade->first; one; one = one->next) {
         text_add(&text, one == grade->first ? "\n  " : ",\n  ");
         write_finding(&text, &one->finding, details);

@@ -86,8 +86,10 @@ static fbd_key *read_key(const char *path, fbd_errors *errors)
 {
     size_t length;
     fbd_key *key = calloc(1, sizeof *key);
-    if (!key) diag_out_of_memory(errors);
-    if (!key) return NULL;
+    if (!key) {
+        diag_out_of_memory(errors);
+        return NULL;
+    }
     key->source = file_text(path, &length, errors);
     key->file = arena_text(&key->arena, file_name(path), strlen(file_name(path)));
     bool opened = key->source && document_open(&key->document, key->source, length, key->file, errors);

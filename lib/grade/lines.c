@@ -113,41 +113,24 @@ static const struct node *without(struct arena *arena, const struct node *root, 
     return bodies ? node_with(arena, root, "bodies", bodies) : NULL;
 }
 
-static void note_line(struct fbd_grade *grade, const struct culprit *culprit, const fbd_error *error)
-{
-    struct text text = {0};
-    const char *name = culprit->item->kind == node_scalar ? culprit->item->text : "";
-    fbd_finding *finding = finding_add(grade, FBD_FINDING_UNREADABLE, culprit->body, name,
-                                       (struct pos){error->line, error->column});
-    text_printf(&text, "%s", error->message);
-    if (error->hint) text_printf(&text, " (%s)", error->hint);
-    finding_say(grade, finding, text.data ? text.data : "");
-    if (text.failed) grade->arena.failed = true;
-    text_free(&text);
-}
-
-static const fbd_error *first_error(fbd_errors *errors)
-{
-    const fbd_error *error;
-    for (size_t i = 0; (error = fbd_errors_get(errors, i)) != NULL; i++)
-        if (error->severity == FBD_ERROR) return error;
-    return NULL;
-}
-
 /* Compile until every line that is left can be read. */
 static void compile_lines(struct lines *lines)
 {
     struct fbd_grade *grade = lines->grade;
     while (lines->root && !lines->model && !grade->arena.failed) {
         fbd_errors *errors = fbd_errors_new();
-        if (!errors) grade->arena.failed = true;
-        if (!errors) return;
+        if (!errors) {
+            grade->arena.failed = true;
+            return;
+        }
         lines->model = grade_compile(grade, lines->root, grade->file, true, errors);
         const fbd_error *error = lines->model ? NULL : first_error(errors);
         if (errors->out_of_memory) grade->arena.failed = true;
         struct culprit culprit = {0};
         if (error) culprit = find_culprit(lines->root, (struct pos){error->line, error->column});
-        if (culprit.item) note_line(grade, &culprit, error);
+        if (culprit.item)
+            finding_of_error(grade, FBD_FINDING_UNREADABLE, culprit.body,
+                             culprit.item->kind == node_scalar ? culprit.item->text : "", error);
         if (!lines->model) lines->root = culprit.item ? without(&grade->arena, lines->root, &culprit) : NULL;
         fbd_errors_free(errors);
     }
@@ -244,7 +227,7 @@ static const char *unknown_of(const struct lines *lines, int body, unsigned says
     unsigned asked = unknowns(says);
     for (int k = 0; k < source->count; k++)
         if (asked & (1U << k)) return coordinates[k].acceleration_name;
-    return asked & (1U << hand_N) ? "N" : NULL;
+    return (asked & (1U << hand_N)) != 0 ? "N" : NULL;
 }
 
 /* Is a line of the key met, and by which share of its cases? */

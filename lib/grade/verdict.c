@@ -342,7 +342,8 @@ void verdict_on(struct fbd_grade *grade, const struct model_body *key, const str
     compare_inertia(grade, key, body, length, force);
     pair_equal(grade, key->name, sides, masses);
     pair_sums(grade, key->name, sides);
-    while (pair_closest(grade, key->name, sides)) continue;
+    bool paired = true;
+    while (paired) paired = pair_closest(grade, key->name, sides);
     for (size_t i = 0; i < sides->key_count; i++)
         if (!sides->key[i].used) add_missing(grade, key->name, &key->source->loads[i]);
     for (size_t j = 0; j < sides->count; j++)

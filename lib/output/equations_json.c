@@ -4,31 +4,18 @@
  */
 #include <stdlib.h>
 
+#include "dynamics/kinematics.h"
 #include "output/equations.h"
 #include "output/terms.h"
-
-static void member(struct text *text, const char *name, double value, const char *behind)
-{
-    text_json_key(text, name);
-    text_json_number(text, value);
-    text_add(text, behind);
-}
-
-static void words(struct text *text, const char *name, const char *value, const char *behind)
-{
-    text_json_key(text, name);
-    text_json_string(text, value);
-    text_add(text, behind);
-}
 
 /* A quantity with its name and unit. */
 static void quantity(struct text *text, const char *key, const char *name, double value, const char *unit)
 {
     text_json_key(text, key);
     text_add(text, "{");
-    words(text, "name", name, ", ");
-    member(text, "value", value, ", ");
-    words(text, "unit", unit, "}");
+    text_json_words(text, "name", name, ", ");
+    text_json_member(text, "value", value, ", ");
+    text_json_words(text, "unit", unit, "}");
 }
 
 static void write_coordinates(struct text *text, const struct fbd_state *state)
@@ -38,8 +25,8 @@ static void write_coordinates(struct text *text, const struct fbd_state *state)
     text_add(text, "  \"coordinates\": {");
     for (size_t i = 0; i < n; i++) {
         text_add(text, i ? ", " : "");
-        member(text, model->labels[i].name, state->y[i], ", ");
-        member(text, model->labels[i].rate_name, state->y[n + i], "");
+        text_json_member(text, model->labels[i].name, state->y[i], ", ");
+        text_json_member(text, model->labels[i].rate_name, state->y[n + i], "");
     }
     text_add(text, "},\n");
 }
@@ -51,9 +38,9 @@ static void write_term(struct text *text, struct fbd_state *state, const struct 
     if (!equation->jointed)
         term_remark(state, model->bodies[equation->body].first_load + (int)i, equation->part, remark);
     text_add(text, i ? ",\n       {" : "\n       {");
-    words(text, "name", equation->public.terms[i].name, ", ");
-    member(text, "value", equation->public.terms[i].value, remark[0] ? ", " : "}");
-    if (remark[0]) words(text, "remark", remark, "}");
+    text_json_words(text, "name", equation->public.terms[i].name, ", ");
+    text_json_member(text, "value", equation->public.terms[i].value, remark[0] ? ", " : "}");
+    if (remark[0]) text_json_words(text, "remark", remark, "}");
 }
 
 static void write_equation(struct text *text, struct fbd_state *state, const struct equation *equation)
@@ -61,16 +48,16 @@ static void write_equation(struct text *text, struct fbd_state *state, const str
     const fbd_equation *e = &equation->public;
     const char *mode = equation->jointed ? "" : term_mode(state, equation->body);
     text_add(text, "    {");
-    words(text, "body", e->body, ", ");
-    words(text, "coordinate", e->coordinate, ",\n     ");
+    text_json_words(text, "body", e->body, ", ");
+    text_json_words(text, "coordinate", e->coordinate, ",\n     ");
     quantity(text, "inertia", e->inertia_name, e->inertia, e->inertia_unit);
     text_add(text, ",\n     ");
     quantity(text, "acceleration", e->acceleration_name, e->acceleration, e->acceleration_unit);
     text_add(text, ",\n     ");
     quantity(text, "sum", "sum", e->sum, e->unit);
     text_add(text, ",\n     ");
-    member(text, "residual", e->inertia * e->acceleration - e->sum, ", ");
-    if (mode[0]) words(text, "mode", mode, ", ");
+    text_json_member(text, "residual", e->inertia * e->acceleration - e->sum, ", ");
+    if (mode[0]) text_json_words(text, "mode", mode, ", ");
     text_add(text, "\"terms\": [");
     for (size_t i = 0; i < e->term_count; i++) write_term(text, state, equation, i);
     text_add(text, "]}");
@@ -90,29 +77,41 @@ static void write_arrow(struct text *text, const fbd_arrow *arrow)
 {
     text_json_key(text, arrow->name);
     text_add(text, "{");
-    member(text, "fx", arrow->fx, ", ");
-    member(text, "fy", arrow->fy, ", ");
-    member(text, "x", arrow->x, ", ");
-    member(text, "y", arrow->y, ", ");
-    member(text, "couple", arrow->couple, ", ");
-    member(text, "moment", arrow->moment, ", ");
-    member(text, "power", arrow->power, "}");
+    text_json_member(text, "fx", arrow->fx, ", ");
+    text_json_member(text, "fy", arrow->fy, ", ");
+    text_json_member(text, "x", arrow->x, ", ");
+    text_json_member(text, "y", arrow->y, ", ");
+    text_json_member(text, "couple", arrow->couple, ", ");
+    text_json_member(text, "moment", arrow->moment, ", ");
+    text_json_member(text, "power", arrow->power, "}");
 }
 
-static void write_forces(struct text *text, struct fbd_state *state, fbd_arrow *arrows, size_t room)
+static void write_body(struct text *text, struct fbd_state *state, int b, struct arrow *arrows)
 {
     const struct fbd_model *model = state->model;
+    const struct model_body *body = &model->bodies[b];
+    struct instant at = state_instant(state);
+    struct pose pose = body_pose(body, &at);
+    struct vec about =
+        body->kind == motion_pivot ? pose.origin : point_motion(body, &pose, body->inertia.G).p;
+    size_t count = diagram_fill(model, b, &at, state->a, state->slots, arrows);
+    text_json_key(text, body->name);
+    text_add(text, "{");
+    for (size_t i = 0; i < count; i++) {
+        fbd_arrow arrow = public_arrow(&arrows[i], about);
+        text_add(text, i ? ",\n      " : "\n      ");
+        write_arrow(text, &arrow);
+    }
+    text_add(text, "}");
+}
+
+static void write_forces(struct text *text, struct fbd_state *state, struct arrow *arrows)
+{
     text_add(text, "  \"forces\": {");
-    for (size_t b = 0; b < model->body_count; b++) {
-        size_t count = fbd_diagram(state, b, arrows, room);
+    state_ready(state);
+    for (size_t b = 0; b < state->model->body_count; b++) {
         text_add(text, b ? ",\n    " : "\n    ");
-        text_json_key(text, model->bodies[b].name);
-        text_add(text, "{");
-        for (size_t i = 0; i < count && i < room; i++) {
-            text_add(text, i ? ",\n      " : "\n      ");
-            write_arrow(text, &arrows[i]);
-        }
-        text_add(text, "}");
+        write_body(text, state, (int)b, arrows);
     }
     text_add(text, "\n  }\n");
 }
@@ -122,16 +121,15 @@ char *fbd_equations_json(fbd_state *state)
     if (!state) return NULL;
     struct text text = {0};
     fbd_equations *all = fbd_assemble(state);
-    size_t room = diagram_most_arrows(state->model);
-    fbd_arrow *arrows = calloc(room, sizeof *arrows);
+    struct arrow *arrows = calloc(diagram_most_arrows(state->model), sizeof *arrows);
     if (all && arrows) {
         text_add(&text, "{\n  ");
-        words(&text, "title", state->model->scene->title, ",\n  ");
-        words(&text, "units", state->model->scene->units == unit_si ? "SI" : "US", ",\n  ");
-        member(&text, "t", state->t, ",\n");
+        text_json_words(&text, "title", state->model->scene->title, ",\n  ");
+        text_json_words(&text, "units", state->model->scene->units == unit_si ? "SI" : "US", ",\n  ");
+        text_json_member(&text, "t", state->t, ",\n");
         write_coordinates(&text, state);
         write_equations(&text, state, all);
-        write_forces(&text, state, arrows, room);
+        write_forces(&text, state, arrows);
         text_add(&text, "}\n");
     }
     if (!all || !arrows || text.failed) text_free(&text);

@@ -5,18 +5,12 @@
 #include "base/text.h"
 #include "solve/linearize.h"
 
-static void member(struct text *text, const char *name, double value, const char *behind)
-{
-    text_json_key(text, name);
-    text_json_number(text, value);
-    text_add(text, behind);
-}
-
 static void write_equilibrium(struct text *text, const struct fbd_linearization *linear)
 {
     text_add(text, "  \"equilibrium\": {");
     for (int i = 0; i < linear->model->plan.n; i++)
-        member(text, linear->model->labels[i].name, linear->q[i], i + 1 < linear->model->plan.n ? ", " : "");
+        text_json_member(text, linear->model->labels[i].name, linear->q[i],
+                         i + 1 < linear->model->plan.n ? ", " : "");
     text_add(text, "},\n");
 }
 
@@ -56,10 +50,10 @@ static void write_modes(struct text *text, const struct fbd_linearization *linea
     for (size_t i = 0; i < linear->size; i++) {
         const fbd_mode *mode = &linear->modes[i];
         text_add(text, i ? ",\n    {" : "\n    {");
-        member(text, "re", mode->re, ", ");
-        member(text, "im", mode->im, ", ");
-        member(text, "frequency", mode->frequency, ", ");
-        member(text, "damping_ratio", mode->damping_ratio, "}");
+        text_json_member(text, "re", mode->re, ", ");
+        text_json_member(text, "im", mode->im, ", ");
+        text_json_member(text, "frequency", mode->frequency, ", ");
+        text_json_member(text, "damping_ratio", mode->damping_ratio, "}");
     }
     text_add(text, "\n  ],\n");
 }

@@ -27,29 +27,15 @@ size_t fbd_statics_diagram(const fbd_statics *statics, size_t body, fbd_arrow *a
     return diagram->count;
 }
 
-static void member(struct text *text, const char *name, double value, const char *behind)
-{
-    text_json_key(text, name);
-    text_json_number(text, value);
-    text_add(text, behind);
-}
-
-static void flag(struct text *text, const char *name, bool value, const char *behind)
-{
-    text_json_key(text, name);
-    text_add(text, value ? "true" : "false");
-    text_add(text, behind);
-}
-
 static void write_verdict(struct text *text, const struct fbd_statics *statics)
 {
     text_add(text, "  ");
-    member(text, "t", statics->state->t, ",\n  \"coordinates\": {");
+    text_json_member(text, "t", statics->state->t, ",\n  \"coordinates\": {");
     for (int i = 0; i < statics->model->plan.n; i++)
-        member(text, statics->model->labels[i].name, statics->state->y[i],
-               i + 1 < statics->model->plan.n ? ", " : "");
+        text_json_member(text, statics->model->labels[i].name, statics->state->y[i],
+                         i + 1 < statics->model->plan.n ? ", " : "");
     text_add(text, "},\n  ");
-    flag(text, "equilibrium", fbd_statics_holds(statics), ",\n  ");
+    text_json_flag(text, "equilibrium", fbd_statics_holds(statics), ",\n  ");
     text_printf(text, "\"indeterminacy\": %zu,\n  \"mobility\": %zu,\n  \"undetermined\": [",
                 statics->indeterminacy, statics->mobility);
     for (size_t i = 0; i < statics->undetermined_count; i++) {
@@ -62,8 +48,8 @@ static void write_verdict(struct text *text, const struct fbd_statics *statics)
         text_add(text, i ? ", {\"coordinate\": " : "{\"coordinate\": ");
         text_json_string(text, one->coordinate);
         text_add(text, ", ");
-        member(text, "holding", one->holding, ", ");
-        flag(text, "alone", one->alone, "}");
+        text_json_member(text, "holding", one->holding, ", ");
+        text_json_flag(text, "alone", one->alone, "}");
     }
     text_add(text, "],\n  \"limits\": {");
     static const char *const kinds[] = {"normal", "friction", "rope"};
@@ -72,9 +58,9 @@ static void write_verdict(struct text *text, const struct fbd_statics *statics)
         text_add(text, i ? ",\n    " : "\n    ");
         text_json_key(text, limit->name);
         text_printf(text, "{\"kind\": \"%s\", ", kinds[limit->kind]);
-        member(text, "needed", limit->needed, ", ");
-        member(text, "limit", limit->limit, ", ");
-        flag(text, "holds", limit->holds, "}");
+        text_json_member(text, "needed", limit->needed, ", ");
+        text_json_member(text, "limit", limit->limit, ", ");
+        text_json_flag(text, "holds", limit->holds, "}");
     }
     text_add(text, statics->limit_count > 0 ? "\n  },\n" : "},\n");
 }
@@ -92,7 +78,7 @@ static void write_tensions(struct text *text, const struct fbd_statics *statics)
         any = true;
         text_json_string(text, tree->ties[i].name);
         text_add(text, ", ");
-        member(text, "tension", tension, "}");
+        text_json_member(text, "tension", tension, "}");
     }
     text_add(text, "],\n");
 }
@@ -111,12 +97,12 @@ static void write_body(struct text *text, const struct fbd_statics *statics, siz
         text_add(text, i ? ",\n      " : "\n      ");
         text_json_key(text, arrow->name);
         text_add(text, "{");
-        member(text, "fx", arrow->force.x, ", ");
-        member(text, "fy", arrow->force.y, ", ");
-        member(text, "x", arrow->point.x, ", ");
-        member(text, "y", arrow->point.y, ", ");
-        member(text, "couple", arrow->couple, ", ");
-        member(text, "moment_G", moment, "}");
+        text_json_member(text, "fx", arrow->force.x, ", ");
+        text_json_member(text, "fy", arrow->force.y, ", ");
+        text_json_member(text, "x", arrow->point.x, ", ");
+        text_json_member(text, "y", arrow->point.y, ", ");
+        text_json_member(text, "couple", arrow->couple, ", ");
+        text_json_member(text, "moment_G", moment, "}");
     }
     text_add(text, diagram->count > 0 ? "\n    }" : "}");
 }
@@ -133,9 +119,9 @@ static void write_bodies(struct text *text, const struct fbd_statics *statics)
         text_add(&sums, b ? ",\n    " : "\n    ");
         text_json_key(&sums, model->bodies[b].name);
         text_add(&sums, "{");
-        member(&sums, "fx", sum.force.x, ", ");
-        member(&sums, "fy", sum.force.y, ", ");
-        member(&sums, "moment_G", rest_turns(&model->bodies[b]) ? sum.moment : NAN, "}");
+        text_json_member(&sums, "fx", sum.force.x, ", ");
+        text_json_member(&sums, "fy", sum.force.y, ", ");
+        text_json_member(&sums, "moment_G", rest_turns(&model->bodies[b]) ? sum.moment : NAN, "}");
     }
     text_add(text, "\n  },\n  \"balance\": {");
     text_add(text, sums.data ? sums.data : "");
