@@ -70,7 +70,10 @@ static void write_zsh(const struct command_line *line)
                : strcmp(o->name, "completion") == 0 ? ":shell:(bash zsh fish)"
                                                     : ":value:");
     }
-    printf("        '*:model:_files -g \"*.yaml\"'\n}\ncompdef _%s %s\n", line->program, line->program);
+    printf("        '*:model:_files -g \"*.yaml\"'\n}\n"
+           /* loaded by its name, from the path of functions, it completes at once */
+           "if [ \"${funcstack[1]}\" = _%s ]; then\n    _%s \"$@\"\nelse\n    compdef _%s %s\nfi\n",
+           line->program, line->program, line->program, line->program);
 }
 
 static void write_fish(const struct command_line *line)

@@ -112,19 +112,34 @@ static bool take_option(const struct command_line *unused, int option, void *con
     }
 }
 
+enum { place_count = 4 };
+
+static void list_places(const struct cost_options *options, struct output_place places[place_count])
+{
+    bool table = !options->quiet && !place_is_stdout(options->csv) && !place_is_stdout(options->json) &&
+                 !place_is_stdout(options->svg);
+    places[0] = (struct output_place){"--csv", options->csv};
+    places[1] = (struct output_place){"--json", options->json};
+    places[2] = (struct output_place){"--svg", options->svg};
+    places[3] = (struct output_place){"the table", table ? "-" : NULL};
+}
+
 /* Options that would be passed over in silence are mistakes. */
 static bool options_agree(const struct cost_options *options)
 {
     const fbd_cost_options *study = &options->study;
     if (options->effects && (options->svg || study->methods || study->fixed_steps))
         return usage("--effects has no --svg, --methods or --fixed-steps", "");
-    bool table = !options->quiet && !place_is_stdout(options->csv) && !place_is_stdout(options->json) &&
-                 !place_is_stdout(options->svg);
-    const struct output_place places[] = {{"--csv", options->csv},
-                                          {"--json", options->json},
-                                          {"--svg", options->svg},
-                                          {"the table", table ? "-" : NULL}};
-    return places_differ(&line, options->model, places, sizeof places / sizeof *places);
+    struct output_place places[place_count];
+    list_places(options, places);
+    return places_differ(&line, options->model, places, place_count);
+}
+
+bool cost_options_spare(const struct cost_options *options, const fbd_errors *errors)
+{
+    struct output_place places[place_count];
+    list_places(options, places);
+    return places_spare(&line, errors, places, place_count);
 }
 
 bool cost_options_read(int argc, char **argv, struct cost_options *options, enum exit_code *code)

@@ -23,4 +23,7 @@ struct cost_options {
  * mistake). */
 bool cost_options_read(int argc, char **argv, struct cost_options *options, enum exit_code *code);
 
+/* False, with a message, when an output would be written over a file that was read. */
+bool cost_options_spare(const struct cost_options *options, const fbd_errors *errors);
+
 #endif

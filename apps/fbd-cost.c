@@ -151,7 +151,9 @@ static enum exit_code read_and_study(const struct cost_options *options)
     if (!errors) return no_memory();
     fbd_model *model = fbd_model_read(options->model, options->settings, options->setting_count, errors);
     enum exit_code code = exit_bad_model;
-    if (model)
+    if (model && !cost_options_spare(options, errors))
+        code = exit_usage;
+    else if (model)
         code = options->effects ? study_effects(model, options, errors) : study_cost(model, options, errors);
     fflush(stdout);
     fbd_errors_print(errors, stderr);

@@ -9,6 +9,7 @@
 
 #include "complain.h"
 #include "grading.h"
+#include "live_page.h"
 #include "options.h"
 #include "outputs.h"
 #include "place.h"
@@ -234,7 +235,7 @@ static enum exit_code carry_and_write(fbd_simulation *simulation, const struct o
                    ferror(outputs->files[output_csv].stream); /* said when it is closed */
     enum exit_code code = result ? exit_done : refused ? exit_failed : no_memory();
     if (result && !outputs_write(outputs, options, result, errors)) code = exit_failed;
-    bool closed = outputs_close(outputs, result && code == exit_done);
+    bool closed = outputs_close(outputs, result && code == exit_done) && outputs_announce(options, code);
     if (code == exit_done && report) code = print(fbd_result_report(result), exit_done);
     if (!closed) code = exit_failed;
     fbd_outcome outcome = result ? fbd_result_outcome(result) : FBD_FAILED;
@@ -289,7 +290,10 @@ static enum exit_code read_and_act(const struct options *options)
     fbd_errors *errors = fbd_errors_new();
     if (!errors) return no_memory();
     fbd_model *model = fbd_model_read(options->model, options->settings, options->setting_count, errors);
-    enum exit_code code = model ? act(model, options, errors) : exit_bad_model;
+    if (options->watched) watch_tell(options->watched, errors);
+    enum exit_code code = !model                           ? exit_bad_model
+                          : options_spare(options, errors) ? act(model, options, errors)
+                                                           : exit_usage;
     fflush(stdout);
     fbd_errors_print(errors, stderr);
     code = exit_code_for(code, errors);
@@ -298,15 +302,38 @@ static enum exit_code read_and_act(const struct options *options)
     return code;
 }
 
+/* ---- again and again */
+
+static enum exit_code run_watched(void *context, const struct watched_run *run)
+{
+    struct options *options = context;
+    options->watched = run;
+    return read_and_act(options);
+}
+
+static void end_watch(void *context)
+{
+    const struct options *options = context;
+    if (options->html) live_page_settle(options->html);
+}
+
+static enum exit_code run_again_and_again(struct options *options)
+{
+    struct watch watch = {"fbd-run", options->model, options->quiet, run_watched, end_watch, options};
+    return watch_files(&watch);
+}
+
 int main(int argc, char **argv)
 {
     struct options options;
     enum exit_code code;
     standard_streams_begin();
     gsl_set_error_handler_off(); /* every status is looked at instead */
-    if (options_read(argc, argv, &options, &code))
+    if (options_read(argc, argv, &options, &code)) {
         code = options.action == action_grade     ? grading(&options)
                : options.action == action_handout ? handout(&options)
+               : options.watch                    ? run_again_and_again(&options)
                                                   : read_and_act(&options);
+    }
     return (int)code;
 }

@@ -137,7 +137,7 @@ static int sweep_and_write(const struct ranks *ranks, const fbd_sweep *sweep,
 
 static int lead(const struct ranks *ranks, const struct sweep_options *options)
 {
-    if (!sweep_outputs_differ(options)) {
+    if (!sweep_outputs_differ(options, NULL)) {
         ranks_give(ranks, NULL, 0);
         return exit_usage;
     }
@@ -145,9 +145,11 @@ static int lead(const struct ranks *ranks, const struct sweep_options *options)
     if (!errors) return no_memory();
     fbd_sweep *sweep = fbd_sweep_read(options->model, &options->plan, errors);
     int code = sweep ? exit_done : (int)exit_code_for(blame(errors), errors);
+    bool spared = !sweep || sweep_outputs_differ(options, errors);
+    if (!spared) code = exit_usage;
     fbd_errors_print(errors, stderr);
     fbd_errors_free(errors);
-    if (sweep)
+    if (sweep && spared)
         code = sweep_and_write(ranks, sweep, options);
     else
         ranks_give(ranks, NULL, 0);

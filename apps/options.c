@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "gnuplot.h"
 #include "place.h"
@@ -38,6 +39,8 @@ static const char help[] =
     "  --body NAME          of this body alone\n"
     "  --components         with the components of each force\n"
     "  --quiet              no report\n"
+    "  --watch              again whenever the file changes, or data that it reads; a page of --html reloads "
+    "itself\n"
     "\n"
     "Instead of a run\n"
     "  --equations          the assembled equations, term by term\n"
@@ -104,6 +107,7 @@ enum {
     option_student,
     option_details,
     option_handout,
+    option_watch,
 };
 
 static const struct option long_options[] = {
@@ -140,6 +144,7 @@ static const struct option long_options[] = {
     {"student", required_argument, NULL, option_student},
     {"details", no_argument, NULL, option_details},
     {"handout", no_argument, NULL, option_handout},
+    {"watch", no_argument, NULL, option_watch},
     {"schema", no_argument, NULL, option_schema},
     COMMAND_LINE_END,
 };
@@ -200,6 +205,7 @@ static bool take_option(const struct command_line *unused, int option, void *con
     case option_ledger: options->ledger = true; return true;
     case option_error_bars: options->run.error_bars = true; return true;
     case option_quiet: options->quiet = true; return true;
+    case option_watch: options->watch = true; return true;
     case option_settle: options->settle = true; return true;
     case option_at:
         if (options->at_count == most_settings) return usage("too many --at", "");
@@ -275,11 +281,12 @@ static bool grading_agrees(const struct options *options)
     if (grades && options->student && options->answer_count != 1)
         return usage("--student goes with one answer; without it each is called as its file", "");
     if (!grades && !options->student) return usage("--handout needs --student NAME", "");
-    if (options->setting_count || options->at_count || options->run.method || options->run.tolerance > 0 ||
-        options->run.accuracy > 0 || options->run.step > 0 || options->run.no_structure ||
-        isfinite(options->run.until) || options->run.error_bars || options->settle || options->svg ||
-        options->html || options->plot || options->plot_of || options->gnuplot || options->ledger ||
-        options->every > 0 || options->drawing.body || options->drawing.components)
+    if (options->watch || options->setting_count || options->at_count || options->run.method ||
+        options->run.tolerance > 0 || options->run.accuracy > 0 || options->run.step > 0 ||
+        options->run.no_structure || isfinite(options->run.until) || options->run.error_bars ||
+        options->settle || options->svg || options->html || options->plot || options->plot_of ||
+        options->gnuplot || options->ledger || options->every > 0 || options->drawing.body ||
+        options->drawing.components)
         return usage("with --grade go --student, --details, --csv, --json and --quiet only; with --handout "
                      "--student only",
                      "");
@@ -288,6 +295,23 @@ static bool grading_agrees(const struct options *options)
     for (size_t i = 0; i < options->answer_count; i++)
         if (!places_differ(&line, options->answers[i], places, sizeof places / sizeof *places)) return false;
     return places_differ(&line, options->model, places, sizeof places / sizeof *places);
+}
+
+/* What is written again and again has to be a file, and what is read again too. */
+static bool can_be_watched(const struct options *options)
+{
+    struct output_place places[place_count];
+    struct stat status;
+    list_places(options, places);
+    if (strcmp(options->model, "-") == 0 || (stat(options->model, &status) == 0 && !S_ISREG(status.st_mode)))
+        return usage("--watch wants a model that is a file, not ", options->model);
+    for (size_t i = 0; i + 1 < place_count; i++) {
+        const char *path = places[i].path;
+        if (!path) continue;
+        if (place_descriptor(path) >= 0 || (stat(path, &status) == 0 && !S_ISREG(status.st_mode)))
+            return usage("--watch writes its outputs anew each time, which only files can be, not ", path);
+    }
+    return true;
 }
 
 /* Options that would be passed over in silence are mistakes. */
@@ -318,9 +342,17 @@ static bool options_agree(const struct options *options)
     if (!options->csv && !options->html && options->every > 0)
         return usage("--every goes with --csv or --html", "");
     if (stands_still && options->run.error_bars) return usage("--error-bars belongs to a run", "");
+    if (options->watch && !can_be_watched(options)) return false;
     struct output_place places[place_count];
     list_places(options, places);
     return places_differ(&line, options->model, places, place_count);
+}
+
+bool options_spare(const struct options *options, const fbd_errors *errors)
+{
+    struct output_place places[place_count];
+    list_places(options, places);
+    return places_spare(&line, errors, places, place_count);
 }
 
 bool options_read(int argc, char **argv, struct options *options, enum exit_code *code)

@@ -6,6 +6,7 @@
 #define FBD_APPS_OPTIONS_H
 
 #include "command_line.h"
+#include "watch.h"
 
 struct options {
     const char *model;
@@ -35,11 +36,16 @@ struct options {
     bool details;
     char **answers;
     size_t answer_count;
+    bool watch;
+    const struct watched_run *watched; /* of --watch, or NULL */
 };
 
 /* Read the command line. Returns true to go on; false with *code set when all is said (help, version, a
  * mistake). */
 bool options_read(int argc, char **argv, struct options *options, enum exit_code *code);
+
+/* False, with a message, when an output would be written over a file that was read. */
+bool options_spare(const struct options *options, const fbd_errors *errors);
 
 /* Does data go to standard output? Then the report stays out. */
 bool options_use_stdout(const struct options *options);

@@ -8,6 +8,7 @@
 #include "complain.h"
 #include "gnuplot.h"
 #include "interrupt.h"
+#include "live_page.h"
 
 bool outputs_close(struct outputs *outputs, bool keep)
 {
@@ -46,6 +47,15 @@ static bool put_text(struct whole_file *file, char *text)
     return text != NULL;
 }
 
+static char *page_of(const struct options *options, fbd_result *result, fbd_errors *errors)
+{
+    char *page = fbd_result_html(result, errors);
+    if (!page || !options->watched) return page;
+    page = live_page_make(page, options->watched->stamp);
+    if (!page) complain("fbd-run: out of memory");
+    return page;
+}
+
 static bool write_plot(struct outputs *outputs, const struct options *options, fbd_result *result,
                        fbd_errors *errors)
 {
@@ -64,11 +74,19 @@ bool outputs_write(struct outputs *outputs, const struct options *options, fbd_r
         return false;
     }
     if (outputs->files[output_html].stream &&
-        !put_text(&outputs->files[output_html], fbd_result_html(result, errors)))
+        !put_text(&outputs->files[output_html], page_of(options, result, errors)))
         return false;
     if (outputs->files[output_gnuplot].stream &&
         !put_text(&outputs->files[output_gnuplot],
                   fbd_result_gnuplot(result, options->plot, options->plot_of, errors)))
         return false;
     return !outputs->files[output_plot].stream || write_plot(outputs, options, result, errors);
+}
+
+bool outputs_announce(const struct options *options, enum exit_code code)
+{
+    if (code != exit_done || !options->html || !options->watched) return true;
+    if (live_page_announce(options->html, options->watched->stamp)) return true;
+    complain("fbd-run: cannot write the stamp of `%s`: %s", options->html, strerror(errno));
+    return false;
 }

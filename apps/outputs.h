@@ -21,6 +21,10 @@ bool outputs_open(struct outputs *outputs, const struct options *options);
 bool outputs_write(struct outputs *outputs, const struct options *options, fbd_result *result,
                    fbd_errors *errors);
 
+/* Under --watch: the page is in its place, when the run that has ended with this code has one. False with a
+ * message. */
+bool outputs_announce(const struct options *options, enum exit_code code);
+
 /* Put the files in their places, or leave nothing behind. False with a message. */
 bool outputs_close(struct outputs *outputs, bool keep);
 

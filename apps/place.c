@@ -157,6 +157,17 @@ static bool refuse(const struct command_line *line, const struct output_place *o
     return command_line_usage(line, message, output->path);
 }
 
+bool places_spare(const struct command_line *line, const fbd_errors *errors,
+                  const struct output_place *outputs, size_t count)
+{
+    const char *file;
+    for (size_t k = 0; (file = fbd_errors_file(errors, k)) != NULL; k++)
+        for (size_t i = 0; i < count; i++)
+            if (outputs[i].path && same_place(file, STDIN_FILENO, outputs[i].path))
+                return refuse(line, &outputs[i], "be written over what the model reads");
+    return true;
+}
+
 bool places_differ(const struct command_line *line, const char *model, const struct output_place *outputs,
                    size_t count)
 {

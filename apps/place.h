@@ -32,6 +32,11 @@ struct output_place {
     const char *option, *path;
 };
 
+/* False, with a message, when an output would be written over a file that was read, as the list of errors knows
+ * it. */
+bool places_spare(const struct command_line *line, const fbd_errors *errors,
+                  const struct output_place *outputs, size_t count);
+
 /* False, with a message, when an output would be written over the model file or over another output, however
  * these are spelled. Only /dev/null takes any number of them. */
 bool places_differ(const struct command_line *line, const char *model, const struct output_place *outputs,

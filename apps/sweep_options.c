@@ -137,7 +137,7 @@ static bool options_agree(const struct command_line *line, struct sweep_options 
 }
 
 /* The table grows under other names, which are as good as its own. */
-bool sweep_outputs_differ(const struct sweep_options *options)
+bool sweep_outputs_differ(const struct sweep_options *options, const fbd_errors *errors)
 {
     const struct command_line line = {"fbd-sweep", help, long_options, false};
     char target[place_size], part[place_size + 16] = "", key[place_size + 16] = "";
@@ -148,7 +148,8 @@ bool sweep_outputs_differ(const struct sweep_options *options)
     const struct output_place places[] = {{"--csv", options->csv ? options->csv : "-"},
                                           {"--csv", part[0] ? part : NULL},
                                           {"--csv", key[0] ? key : NULL}};
-    return places_differ(&line, options->model, places, sizeof places / sizeof *places);
+    size_t count = sizeof places / sizeof *places;
+    return places_differ(&line, options->model, places, count) && places_spare(&line, errors, places, count);
 }
 
 bool sweep_options_read(int argc, char **argv, bool silent, struct sweep_options *options,

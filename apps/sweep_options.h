@@ -25,6 +25,6 @@ bool sweep_options_read(int argc, char **argv, bool silent, struct sweep_options
                         enum exit_code *code);
 
 /* False, with a message, when the table would be written over the model file. */
-bool sweep_outputs_differ(const struct sweep_options *options);
+bool sweep_outputs_differ(const struct sweep_options *options, const fbd_errors *errors);
 
 #endif

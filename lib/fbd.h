@@ -60,6 +60,10 @@ FBD_API size_t fbd_errors_failed(const fbd_errors *errors);
 /* Note `index` in the order of position in the file, or NULL past the end; lives as long as the list. */
 FBD_API const fbd_error *fbd_errors_get(fbd_errors *errors, size_t index);
 
+/* File `index` that the calls with this list have read or tried to, right or wrong: the model file, and the
+ * data files of its tables; NULL past the last. Standard input is none. Lives as long as the list. */
+FBD_API const char *fbd_errors_file(const fbd_errors *errors, size_t index);
+
 /* Write every note as `file:line:col: error: message` and `    hint: ...`. */
 FBD_API void fbd_errors_print(fbd_errors *errors, FILE *stream);
 

@@ -135,6 +135,28 @@ void diag_in_file(fbd_errors *errors, const char *file)
     errors->file = file ? diag_hint(errors, "%s", file) : NULL;
 }
 
+void diag_reads(fbd_errors *errors, const char *path)
+{
+    struct diag_file **end = &errors->files;
+    for (; *end; end = &(*end)->next)
+        if (strcmp((*end)->path, path) == 0) return;
+    struct diag_file *file = ARENA_NEW(&errors->arena, struct diag_file);
+    const char *copy = file ? diag_hint(errors, "%s", path) : NULL;
+    if (!copy) {
+        diag_out_of_memory(errors);
+        return;
+    }
+    *file = (struct diag_file){.path = copy};
+    *end = file;
+}
+
+const char *fbd_errors_file(const fbd_errors *errors, size_t index)
+{
+    const struct diag_file *file = errors ? errors->files : NULL;
+    while (file && index-- > 0) file = file->next;
+    return file ? file->path : NULL;
+}
+
 fbd_errors *diag_begin(struct diag_call *call, fbd_errors *errors)
 {
     *call = (struct diag_call){.own.limit = most_notes, .errors = errors};

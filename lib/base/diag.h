@@ -19,9 +19,16 @@ struct diag_note {
     struct diag_note *next;
 };
 
+/* A file that was read, or that reading was tried of. */
+struct diag_file {
+    const char *path;
+    struct diag_file *next;
+};
+
 struct fbd_errors {
     struct arena arena;
     struct diag_note *first, *last;
+    struct diag_file *files;
     fbd_error **sorted; /* filled by fbd_errors_get */
     size_t count, errors, limit;
     const char *file; /* file name of notes that are added now */
@@ -46,6 +53,9 @@ void diag_out_of_memory(fbd_errors *errors);
 
 /* Notes that are added now are of this file (NULL: of none). The name is copied: notes outlive a model. */
 void diag_in_file(fbd_errors *errors, const char *file);
+
+/* This file is going to be read: fbd_errors_file tells of it, once. */
+void diag_reads(fbd_errors *errors, const char *path);
 
 /* A call of the public interface. Within it fbd_errors_failed counts the errors of this call alone, so that a
  * list with earlier ones can be used again; and a caller who gives no list gets none. */

@@ -52,6 +52,7 @@ static char *read_stream(FILE *stream, size_t *length, const char **why)
 char *file_text(const char *path, size_t *length, fbd_errors *errors)
 {
     bool standard = strcmp(path, "-") == 0;
+    if (!standard) diag_reads(errors, path);
     FILE *stream = standard ? stdin : fopen(path, "rb");
     if (!stream) {
         cannot_read(errors, path, errno == ENOMEM ? NULL : strerror(errno));

@@ -401,6 +401,7 @@ bool data_file_read(const char *path, const char *const wanted[2], const struct 
     size_t length = 0;
     bool fine = false;
     *columns = (struct data_columns){.count = 0};
+    diag_reads(errors, path);
     if (!is_plain_file(path, places->file, errors)) return false;
     diag_in_file(errors, path);
     columns->text = file_text(path, &length, errors);

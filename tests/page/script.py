@@ -12,7 +12,7 @@ from claims import claim, finish
 from fbd import SOURCE
 
 PAGE = SOURCE / "lib/draw/page"
-PARTS = ["data.js", "ties.js", "scene.js", "charts.js", "page.js"]
+PARTS = ["data.js", "ties.js", "scene.js", "charts.js", "page.js", "live.js"]
 RULES = {
     "root": True,
     "env": {"browser": True, "es6": True},

@@ -99,6 +99,8 @@ static void errors_and_models(void **state)
     ANSWERS(fbd_errors_count, fbd_errors_count(NULL) == 0);
     ANSWERS(fbd_errors_failed, fbd_errors_failed(NULL) == 0);
     ANSWERS(fbd_errors_get, !fbd_errors_get(NULL, 0));
+    ANSWERS(fbd_errors_file, !fbd_errors_file(NULL, 0));
+    ANSWERS(fbd_errors_file, !fbd_errors_file(errors, past));
     ANSWERS(fbd_errors_get, !fbd_errors_get(errors, past));
     char shown[4];
     ENDURES(fbd_shown, assert_int_equal(fbd_shown(NULL, shown, sizeof shown), 0));

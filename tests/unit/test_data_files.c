@@ -107,6 +107,23 @@ static void files_are_read_as_they_are_written(void **unused)
     checks_end(&checks);
 }
 
+static void files_that_are_read_are_known(void **unused)
+{
+    static const char text[] =
+        "fbd: 1\ntables: {f: {file: /nowhere/f.csv}, g: {file: /nowhere/f.csv}, h: {file: h.csv}}\n";
+    struct checks checks = {0};
+    (void)unused;
+    fbd_errors *errors = fbd_errors_new();
+    fbd_model *model = fbd_model_parse(text, strlen(text), "scenes/a.yaml", NULL, 0, errors);
+    const char *missing = fbd_errors_file(errors, 0), *beside = fbd_errors_file(errors, 1);
+    check_that(&checks, "none is a model", !model);
+    check_that(&checks, "what is missing", missing && strcmp(missing, "/nowhere/f.csv") == 0);
+    check_that(&checks, "once, then the next", beside && strcmp(beside, "scenes/h.csv") == 0);
+    check_that(&checks, "no more", !fbd_errors_file(errors, 2));
+    fbd_errors_free(errors);
+    checks_end(&checks);
+}
+
 /* ---- the models */
 
 /* The hammer by its trapezoids. */
@@ -256,6 +273,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_are_read_as_they_are_written),
+        cmocka_unit_test(files_that_are_read_are_known),
         cmocka_unit_test(a_measured_blow),
         cmocka_unit_test(the_quarter_car_follows_its_road),
     };

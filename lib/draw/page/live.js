@@ -1,0 +1,55 @@
+"use strict";
+
+// A page that `fbd-run --watch` writes again and again calls fbd.live(stamp) at its end. It then looks for
+// PAGE.stamp.js, which calls fbd.stamp with the stamp of the last run, and loads itself anew where that is another,
+// at the time and with the view that it had.
+
+const liveChoices = ["show-forces", "show-names", "show-velocity", "show-trace", "follow"];
+const live = { own: "", asking: 0, place: `fbd ${location.pathname}` };
+
+function liveKept() {
+  try { return JSON.parse(sessionStorage.getItem(live.place)) || {}; } catch { return {}; }
+}
+
+function keepView(stamp) {
+  const whole = plotWindow.from === run.start && plotWindow.to === run.end;
+  const kept = { stamp, t: player.t, playing: player.playing, speed: player.speed, body: chosenBody() === null ? null : chosenBodies()[0].name,
+    shows: liveChoices.map((id) => element(id).checked), zoom: whole ? null : [plotWindow.from, plotWindow.to], scroll: scrollY };
+  try { sessionStorage.setItem(live.place, JSON.stringify(kept)); } catch { return false; }
+  return true;
+}
+
+function takeView(kept) {
+  if (kept.t === undefined) return;
+  const body = run.bodies.findIndex((other) => other.name === kept.body);
+  element("body").value = String(kept.body === null ? allBodies : Math.max(body, 0));
+  makeDetails(chosenBodies());
+  liveChoices.forEach((id, i) => { element(id).checked = kept.shows[i]; });
+  fit();
+  if (kept.zoom) setWindow(Math.max(kept.zoom[0], run.start), Math.min(kept.zoom[1], run.end));
+  setSpeed(kept.speed);
+  seek(kept.t);
+  setPlaying(kept.playing);
+  scrollTo(0, kept.scroll);
+}
+
+function askForStamp() {
+  const script = document.createElement("script");
+  script.src = `${location.pathname.split("/").pop()}.stamp.js?${Date.now()}`;
+  script.onload = () => script.remove();
+  script.onerror = () => { script.remove(); clearInterval(live.asking); }; // the watch has ended
+  document.head.append(script);
+}
+
+window.fbd.live = (own) => {
+  live.own = own;
+  takeView(liveKept());
+  live.asking = setInterval(askForStamp, 500);
+};
+
+// A stamp that the page has been loaded anew for already is not to be had: better an old page than one that never rests.
+window.fbd.stamp = (stamp) => {
+  if (stamp === live.own || stamp === liveKept().stamp || !keepView(stamp)) return;
+  clearInterval(live.asking);
+  location.reload();
+};
