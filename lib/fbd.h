@@ -295,6 +295,12 @@ FBD_API fbd_simulation *fbd_simulation_new(const fbd_model *model, const fbd_opt
                                            fbd_errors *errors);
 FBD_API void fbd_simulation_free(fbd_simulation *simulation);
 
+/* A simulation at the start that goes through the very steps of another one, for looking anywhere in a run that
+ * is over: at the tolerance that was found where an accuracy was asked for, with error bars or without. NULL
+ * with a note in `errors` when memory is out. The other one is not needed any more. */
+FBD_API fbd_simulation *fbd_simulation_again(const fbd_simulation *simulation, bool error_bars,
+                                             fbd_errors *errors);
+
 /* Advance by one accepted step, or to the next event; with independent groups of bodies, by a step of the
  * group that is furthest behind. With options.accuracy this is a run at the tolerance of a first guess: only
  * fbd_simulation_run makes sure. */

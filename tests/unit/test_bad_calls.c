@@ -201,6 +201,7 @@ static void simulations(void **context)
     double from = 1, to = 1, bars[2];
     assert_non_null(simulation);
     REFUSES(fbd_simulation_new, !fbd_simulation_new(NULL, NULL, errors));
+    REFUSES(fbd_simulation_again, !fbd_simulation_again(NULL, true, errors));
     ENDURES(fbd_simulation_free, fbd_simulation_free(NULL));
     ANSWERS(fbd_simulation_advance, fbd_simulation_advance(NULL) == FBD_FAILED);
     ENDURES(fbd_simulation_interval, fbd_simulation_interval(NULL, &from, &to));

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The rows of a run as numbers: what the CSV says to the last bit, whether both are written or the numbers alone.
+ * The rows of a run as numbers: what the CSV says to the last bit, whether both are written or the numbers
+ * alone; and the same states by a simulation that goes through the same steps again.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -56,6 +57,29 @@ static void check_rows(const fbd_table *table, const char *csv)
     assert_true(table->rows > 1);
 }
 
+static void check_states(const fbd_model *model, fbd_simulation *run, const fbd_table *table)
+{
+    fbd_simulation *again = fbd_simulation_again(run, false, NULL);
+    fbd_state *state = fbd_state_new(model);
+    double from, to;
+    assert_true(again && state);
+    for (size_t row = 0; row < table->rows; row++) {
+        double t = table->values[row * table->columns];
+        fbd_outcome outcome = FBD_GOING;
+        fbd_simulation_interval(again, &from, &to);
+        for (; to < t && outcome == FBD_GOING; fbd_simulation_interval(again, &from, &to))
+            outcome = fbd_simulation_advance(again);
+        assert_true(fbd_simulation_state(again, t, state));
+        for (size_t i = 1; i < table->columns; i++) {
+            double value;
+            if (!fbd_state_get(state, table->heads[i].name, &value)) continue;
+            assert_true(value == table->values[row * table->columns + i]);
+        }
+    }
+    fbd_state_free(state);
+    fbd_simulation_free(again);
+}
+
 static void check_recording(const fbd_model *model, const fbd_options *options, bool ledger)
 {
     struct rows rows = {0};
@@ -69,6 +93,7 @@ static void check_recording(const fbd_model *model, const fbd_options *options, 
     check_rows(&table, rows.text);
     table = fbd_result_table(without);
     check_rows(&table, rows.text);
+    check_states(model, second, &table);
     fbd_result_free(with);
     fbd_result_free(without);
     fbd_simulation_free(first);

@@ -72,6 +72,9 @@ static bool run_and_write_with(const char *scene, fbd_options options)
     done = done && some(fbd_result_report(result)) && some(fbd_result_json(result));
     done = done && (!fbd_has_html() || some(fbd_result_html(result, errors)));
     done = done && some(fbd_result_gnuplot(result, "a.svg", NULL, errors));
+    fbd_simulation *again = done ? fbd_simulation_again(simulation, options.error_bars, errors) : NULL;
+    done = done && again;
+    fbd_simulation_free(again);
     fbd_result_free(result);
     fbd_simulation_free(simulation);
     fbd_model_free(model);
