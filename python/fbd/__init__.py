@@ -11,7 +11,7 @@ The module calls the C library libfbd and computes nothing by itself; names are 
 the manual.
 """
 from ._cost import Cost, CostPoint, Effect, Effects
-from ._library import lib as _lib
+from ._binding import lib as _lib
 from ._library import taken as _taken
 from ._library import text_at as _text_at
 from ._model import Model

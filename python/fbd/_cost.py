@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Mapping, Optional, Sequence, Tuple
 
-from ._library import checked, ffi, lib, names_of, number, owned, positive, taken, text_at
+from ._binding import ffi, lib
+from ._library import checked, names_of, number, owned, positive, taken, text_at
 from ._records import Stats, from_struct, picture, preformatted
 from ._watch import in_background
 

@@ -60,7 +60,7 @@ def path_of(path: Any) -> bytes:
 
 def text_at(pointer: Any) -> str:
     """A text that the library keeps; "" for none."""
-    return "" if pointer == ffi.NULL else ffi.string(pointer).decode("utf-8", "replace")
+    return "" if pointer == ffi.NULL else str(ffi.string(pointer), "utf-8", "replace")
 
 
 def taken(pointer: Any) -> str:
@@ -68,7 +68,7 @@ def taken(pointer: Any) -> str:
     if pointer == ffi.NULL:
         raise MemoryError("fbd: out of memory")
     try:
-        return ffi.string(pointer).decode("utf-8", "replace")
+        return str(ffi.string(pointer), "utf-8", "replace")
     finally:
         lib.glue_release(pointer)
 

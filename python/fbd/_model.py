@@ -6,7 +6,8 @@ import os
 from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _cost, _run, _sweep
-from ._library import bytes_of, checked, ffi, lib, owned, path_of, run_options, settings_of, taken, text_at, whole
+from ._binding import ffi, lib
+from ._library import bytes_of, checked, owned, path_of, run_options, settings_of, taken, text_at, whole
 from ._records import Coordinate, HandCheck, Inertia, Progress, from_struct, picture, preformatted
 from ._run import Run
 from ._state import Equations, Linearization, State, Statics, coordinates_of

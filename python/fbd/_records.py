@@ -11,7 +11,8 @@ from base64 import b64encode
 from dataclasses import dataclass, fields
 from typing import Any, Dict, Type, TypeVar
 
-from ._library import ffi, text_at
+from ._binding import ffi
+from ._library import text_at
 
 T = TypeVar("T")
 
@@ -19,7 +20,7 @@ T = TypeVar("T")
 def from_struct(record: Type[T], struct: Any, /, **others: Any) -> T:
     """A record from the fields of a struct that have its names."""
     values = dict(others)
-    for field in fields(record):  # type: ignore[arg-type]
+    for field in fields(record):
         if field.name not in values:
             value = getattr(struct, field.name)
             values[field.name] = text_at(value) if isinstance(value, ffi.CData) else value

@@ -9,17 +9,19 @@ import threading
 from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Tuple, Union, overload
 
 import numpy as np
+import numpy.typing as npt
 
-from ._library import bytes_of, checked, ffi, lib, number, owned, positive, run_options, taken, text_at, view
+from ._binding import ffi, lib
+from ._library import bytes_of, checked, number, owned, positive, run_options, taken, text_at, view
 from ._notes import AccuracyNotReached, Error, RunFailed, complaint, warn
 from ._records import Drift, Energy, Event, Progress, Stats, from_struct, preformatted
 from ._state import State
 from ._watch import Watch
 
 if TYPE_CHECKING:
-    import pandas
+    import pandas  # type: ignore[import]
 
-Column = "np.ndarray[Any, np.dtype[np.float64]]"
+Column = npt.NDArray[np.float64]
 
 _outcomes = {
     lib.FBD_DONE: "done",
@@ -48,7 +50,7 @@ class Run(Mapping[str, Column]):
 
     columns: Tuple[str, ...]  #: "t", then as in the CSV
     units: Dict[str, str]  #: of each column
-    values: "np.ndarray[Any, np.dtype[np.float64]]"  #: rows x columns
+    rows: Column  #: all of them, rows x columns
 
     def __init__(self, model: Any, options: Any, every: float, ledger: bool, watch: Watch, title: str):
         self._model, self._every, self._title = model, every, title
@@ -64,7 +66,7 @@ class Run(Mapping[str, Column]):
         heads = [table.heads[i] for i in range(table.columns)]
         self.columns = tuple(text_at(head.name) for head in heads)
         self.units = {text_at(head.name): text_at(head.unit) for head in heads}
-        self.values = view(table.values, (table.rows, table.columns), self._result)
+        self.rows = view(table.values, (table.rows, table.columns), self._result)
         self._places = {name: i for i, name in enumerate(self.columns)}
         self._events: Optional[Tuple[Event, ...]] = None
         self._replay: Any = None
@@ -139,7 +141,7 @@ class Run(Mapping[str, Column]):
             near = difflib.get_close_matches(str(name), self.columns, 1)
             hint = f"did you mean `{near[0]}`?" if near else "forces, works and energies are there with ledger=True"
             raise KeyError(f"no column is called `{name}`: {hint}")
-        return self.values[:, place]
+        return self.rows[:, place]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.columns)
@@ -162,7 +164,7 @@ class Run(Mapping[str, Column]):
         import pandas
 
         index = pandas.Index(self.t.copy(), name="t")
-        frame = pandas.DataFrame(self.values[:, 1:].copy(), index=index, columns=list(self.columns[1:]))
+        frame = pandas.DataFrame(self.rows[:, 1:].copy(), index=index, columns=list(self.columns[1:]))
         frame.attrs["units"] = dict(self.units)
         return frame
 
@@ -285,7 +287,7 @@ class Run(Mapping[str, Column]):
     def __repr__(self) -> str:
         title = f" of `{self._title}`" if self._title else ""
         why = f" ({self.reason})" if self.reason else ""
-        return (f"<fbd.Run{title}: {self._outcome} at t = {self.t_end:.9g} s{why}, {len(self.values)} rows, "
+        return (f"<fbd.Run{title}: {self._outcome} at t = {self.t_end:.9g} s{why}, {len(self.rows)} rows, "
                 f"{len(self.events)} events>")
 
     def _repr_html_(self) -> str:

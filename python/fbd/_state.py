@@ -7,7 +7,8 @@ from typing import Any, Dict, Iterator, Mapping, Optional, Tuple
 
 import numpy as np
 
-from ._library import bytes_of, checked, ffi, lib, number, owned, taken, text_at, view
+from ._binding import ffi, lib
+from ._library import bytes_of, checked, number, owned, taken, text_at, view
 from ._records import (Arrow, Coordinate, Equation, Limit, Mode, Unbalanced, from_struct, picture, preformatted)
 
 

@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any, Callable, Dict, List, Mapping, Optional, 
 
 import numpy as np
 
-from ._library import checked, ffi, lib, names_of, owned, quantity, run_options, settings_of, text_at, whole
+from ._binding import ffi, lib
+from ._library import checked, names_of, owned, quantity, run_options, settings_of, text_at, whole
 from ._notes import complaint, warn
 from ._watch import in_background
 
 if TYPE_CHECKING:
-    import pandas
+    import pandas  # type: ignore[import]
 
 Vary = Union[str, Sequence[str], Mapping[str, Any]]
 
@@ -114,10 +115,15 @@ def sweep(source: bytes, name: bytes, plan: Any, jobs: int,
     runs = lib.fbd_sweep_runs(handle)
     sheet = ffi.gc(ffi.new("glue_sheet *"), lib.glue_free)
     work, counts = _work(handle, sheet, jobs), ffi.new("fbd_sweep_counts *")
+
+    def look() -> None:
+        if progress:
+            progress(sheet.written, runs)
+
     end = in_background(
         lambda: lib.fbd_sweep_run(handle, work, counts),
         lambda: lib.glue_stop(sheet),
-        lambda: progress(sheet.written, runs) if progress else None,
+        look,
     )
     if end != lib.FBD_SWEEP_DONE:
         raise MemoryError("fbd: out of memory")

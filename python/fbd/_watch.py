@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import threading
-from typing import Any, Callable, Optional
+from typing import Any, Callable, List, Optional
 
-from ._library import ffi, lib
+from ._binding import ffi, lib
 from ._records import Progress, from_struct
 
 
@@ -39,17 +39,21 @@ def _keep(kind: Any, failure: Any, traceback: Any) -> None:
         ffi.from_handle(traceback.tb_frame.f_locals["handle"]).failure = failure
 
 
-@ffi.def_extern(error=1, onerror=_keep)
 def fbd_ask(handle: Any, progress: Any) -> int:
-    return ffi.from_handle(handle).ask(progress)
+    watch: Watch = ffi.from_handle(handle)
+    return watch.ask(progress)
 
 
-def in_background(work: Callable[[], Any], stop: Callable[[], None], look: Callable[[], None]) -> Any:
+ffi.def_extern(error=1, onerror=_keep)(fbd_ask)
+
+
+def in_background(work: Callable[[], Any], stop: Callable[[], Any], look: Callable[[], None]) -> Any:
     """Let a thread do what takes long and does not ask Python on its way, so that Ctrl-C is heard; `look` is
     called ten times a second. In another thread than the first, which hears no signals, it is simply done."""
     if threading.current_thread() is not threading.main_thread():
         return work()
-    done, failures = [], []
+    done: List[Any] = []
+    failures: List[BaseException] = []
 
     def run() -> None:
         try:
