@@ -138,7 +138,7 @@ class Effects(_Study):
 
 def _study(make: Any, free: Any, model: Any, options: Mapping[str, Any]) -> Any:
     chosen, kept = _options(**options)
-    made = in_background(lambda: (checked(make, model, chosen), kept), lambda: None, lambda: None)
+    made = in_background(lambda: (checked(make, model, chosen), kept))
     return owned(made[0], free, model)
 
 

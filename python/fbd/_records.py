@@ -169,6 +169,7 @@ class Mode:
 
     @property
     def eigenvalue(self) -> complex:
+        """re + im j [1/s]."""
         return complex(self.re, self.im)
 
 

@@ -75,7 +75,7 @@ def _table(header: str, rows: str) -> SweepTable:
         if i >= last - 1:
             columns.append(np.array(texts or [""], dtype=np.str_)[: len(texts)])
         else:
-            columns.append(_column(texts, np.int64 if i in (0, last - 2) else None))
+            columns.append(_column(texts, np.int64 if i == 0 else None))
     table = np.empty(len(read) - 1, dtype=[(n, c.dtype) for n, c in zip(names, columns)]).view(SweepTable)
     for name, column in zip(names, columns):
         table[name] = column
@@ -120,11 +120,10 @@ def sweep(source: bytes, name: bytes, plan: Any, jobs: int,
         if progress:
             progress(sheet.written, runs)
 
-    end = in_background(
-        lambda: lib.fbd_sweep_run(handle, work, counts),
-        lambda: lib.glue_stop(sheet),
-        look,
-    )
+    def make() -> Any:
+        return lib.fbd_sweep_run(handle, work, counts), sheet
+
+    end = in_background(make, lambda: lib.glue_stop(sheet), look)[0]
     if end != lib.FBD_SWEEP_DONE:
         raise MemoryError("fbd: out of memory")
     rows = "" if sheet.length == 0 else ffi.buffer(sheet.data, sheet.length)[:].decode("utf-8", "replace")

@@ -47,9 +47,14 @@ def fbd_ask(handle: Any, progress: Any) -> int:
 ffi.def_extern(error=1, onerror=_keep)(fbd_ask)
 
 
-def in_background(work: Callable[[], Any], stop: Callable[[], Any], look: Callable[[], None]) -> Any:
+def in_background(work: Callable[[], Any], stop: Optional[Callable[[], Any]] = None,
+                  look: Optional[Callable[[], None]] = None) -> Any:
     """Let a thread do what takes long and does not ask Python on its way, so that Ctrl-C is heard; `look` is
-    called ten times a second. In another thread than the first, which hears no signals, it is simply done."""
+    called ten times a second. In another thread than the first, which hears no signals, it is simply done.
+
+    `work` must hold all that the library works with: what cannot be stopped goes on when Ctrl-C has ended the
+    wait.
+    """
     if threading.current_thread() is not threading.main_thread():
         return work()
     done: List[Any] = []
@@ -66,9 +71,12 @@ def in_background(work: Callable[[], Any], stop: Callable[[], Any], look: Callab
     try:
         while thread.is_alive():
             thread.join(0.1)
-            look()
+            if look:
+                look()
     except BaseException:
-        stop()
+        if stop:
+            stop()
+            thread.join()
         raise
     if failures:
         raise failures[0]

@@ -8,7 +8,7 @@ import fbd
 import numpy as np
 import pandas
 import pytest
-from conftest import MODELS, PENDULUM, fbd_run
+from conftest import MODELS, PENDULUM, WRONG_START, fbd_run
 
 MOVING = ("hard/stick_slip_belt.yaml", "kinetics/incline.yaml", "couplings/slider_crank.yaml",
           "contact/bouncing_ball.yaml", "plane/projectile_with_drag.yaml", "hard/stiff_springs.yaml")
@@ -137,7 +137,7 @@ def test_stick_and_slip(incline):
 def test_energy_works_and_errors(incline):
     run = incline.run(error_bars=True, ledger=True)
     energy = run.energy
-    assert energy.work == pytest.approx(run.work("block", "friction") + run.work("block", "f1"), rel=1e-12)
+    assert energy.work == pytest.approx(run.work("block", "friction"), rel=1e-12)
     assert abs(energy.residual) < 1e-9 and run.work("block", "friction") < 0
     assert run.energy_error.kinetic >= 0
     assert 0 <= run.error("block.x") < 1e-8 and run.work_error("block", "friction") < 1e-6
@@ -180,13 +180,8 @@ def test_a_run_that_fails_is_raised_with_its_rows():
 
 
 def test_a_start_that_cannot_be_is_raised_with_its_place():
-    text = (MODELS / "couplings/four_bar.yaml").read_text()
-    import re
-
-    wrong = re.sub(r"assemble: true", "theta: 10 deg", text)
-    assert wrong != text
     with pytest.raises(fbd.RunFailed) as caught:
-        fbd.Model.parse(wrong, "four_bar.yaml").run()
+        fbd.Model.parse(WRONG_START, "four_bar.yaml").run()
     assert caught.value.id == "does-not-fit" and caught.value.file == "four_bar.yaml" and caught.value.line > 0
 
 
@@ -214,10 +209,10 @@ def test_an_accuracy_that_is_not_reached_is_raised(pendulum):
 
 def test_progress_is_told_and_may_end_the_run(pendulum):
     seen = []
-    run = pendulum.run(until=1e5, every=1e3, progress=seen.append)
+    run = pendulum.run(until=1e4, every=1e2, progress=seen.append)
     assert run.outcome == "done" and seen and all(a.t < b.t for a, b in zip(seen, seen[1:]))
-    assert seen[0].until == 1e5 and seen[0].steps > 0
-    plain = pendulum.run(until=1e5, every=1e3)
+    assert seen[0].until == 1e4 and seen[0].steps > 0
+    plain = pendulum.run(until=1e4, every=1e2)
     np.testing.assert_array_equal(run.rows, plain.rows)
     run = pendulum.run(until=1e9, every=1e7, progress=lambda progress: True)
     assert run.outcome == "interrupted" and 0 < run.t_end < 1e9

@@ -12,7 +12,7 @@ USE = """
 import fbd
 model = fbd.Model("pendulum.yaml", theta0="60 deg")
 run = model.run(accuracy=1e-9)
-reveal_type(run["pendulum.theta"][0])
+reveal_type(run["pendulum.theta"])
 reveal_type(model.equations(theta=1)["pendulum.theta"].terms["gravity"])
 reveal_type(run.at(1.0))
 reveal_type(run.at([1.0, 2.0]))
@@ -32,7 +32,7 @@ def test_hints_hold_for_the_module_and_for_its_users(tmp_path):
     said = subprocess.run([*mypy, "use.py"], cwd=tmp_path, stdout=subprocess.PIPE, text=True, check=False).stdout
     errors = [line for line in said.splitlines() if ": error:" in line]
     assert len(errors) == 1 and "methd" in errors[0], said
-    for kind in ("floating[numpy", "builtins.float", "State\"", "list[fbd._state.State]"):
+    for kind in ("numpy.ndarray[", "builtins.float", "State\"", "list[fbd._state.State]"):
         assert kind in said, said
 
 
