@@ -62,7 +62,7 @@ typedef struct glue_sheet {
     size_t length, room;
     bool lost; /* memory ran out */
     atomic_bool stopped;
-    size_t written, failed;
+    atomic_size_t written, failed; /* read while others write */
 } glue_sheet;
 
 /* An fbd_write. */

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any, Mapping, Optional, Sequence, Tuple
 
 from ._binding import ffi, lib
-from ._library import checked, names_of, number, owned, positive, taken, text_at
+from ._library import made, names_of, number, positive, taken, text_at
 from ._records import Stats, from_struct, picture, preformatted
 from ._watch import in_background
 
@@ -138,8 +138,7 @@ class Effects(_Study):
 
 def _study(make: Any, free: Any, model: Any, options: Mapping[str, Any]) -> Any:
     chosen, kept = _options(**options)
-    made = in_background(lambda: (checked(make, model, chosen), kept))
-    return owned(made[0], free, model)
+    return in_background(lambda: (made(make, free, (model,), model, chosen), kept))[0]
 
 
 def cost(model: Any, **options: Any) -> Cost:

@@ -152,8 +152,8 @@ def _note(error: Any) -> Note:
     )
 
 
-def checked(function: Callable[..., Any], *arguments: Any) -> Any:
-    """Call a function that takes a list of errors last. Errors are raised, warnings are warned of."""
+def _call(function: Callable[..., Any], arguments: Tuple[Any, ...]) -> Tuple[Any, Tuple[Note, ...]]:
+    """Call a function that takes a list of errors last. Errors are raised; its result, and what is left to warn of."""
     errors = owned(lib.fbd_errors_new(), lib.fbd_errors_free)
     result = function(*arguments, errors)
     notes = tuple(_note(lib.fbd_errors_get(errors, i)) for i in range(lib.fbd_errors_count(errors)))
@@ -161,9 +161,24 @@ def checked(function: Callable[..., Any], *arguments: Any) -> Any:
         raise MemoryError("fbd: out of memory")
     if lib.fbd_errors_failed(errors):
         raise Error(notes)
+    return result, notes
+
+
+def checked(function: Callable[..., Any], *arguments: Any) -> Any:
+    """The same, with the warnings."""
+    result, notes = _call(function, arguments)
     for note in notes:
         warn(note)
     return result
+
+
+def made(function: Callable[..., Any], free: Callable[[Any], None], owners: Tuple[Any, ...], *arguments: Any) -> Any:
+    """The same for an object, which is owned before a warning may be raised as an error."""
+    result, notes = _call(function, arguments)
+    handle = owned(result, free, *owners)
+    for note in notes:
+        warn(note)
+    return handle
 
 
 # ---- lists

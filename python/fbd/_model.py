@@ -7,8 +7,8 @@ from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple, Unio
 
 from . import _cost, _run, _sweep
 from ._binding import ffi, lib
-from ._library import bytes_of, checked, owned, path_of, run_options, settings_of, taken, text_at, whole
-from ._records import Coordinate, HandCheck, Inertia, Progress, from_struct, picture, preformatted
+from ._library import bytes_of, made, path_of, run_options, settings_of, taken, text_at, whole
+from ._records import Coordinate, HandCheck, Inertia, Progress, from_struct, picture
 from ._run import Run
 from ._state import Equations, Linearization, State, Statics, coordinates_of
 from ._sweep import SweepTable, Vary
@@ -28,7 +28,8 @@ class Model:
 
     def __init__(self, path: Union[str, "os.PathLike[str]"], /, **parameters: Any):
         settings, count, kept = settings_of(parameters)
-        self._begin(checked(lib.fbd_model_read, path_of(path), settings, count), path_of(path), parameters)
+        handle = made(lib.fbd_model_read, lib.fbd_model_free, (), path_of(path), settings, count)
+        self._begin(handle, path_of(path), parameters)
         del kept
 
     @classmethod
@@ -37,13 +38,14 @@ class Model:
         source, called = bytes_of(text, "the text"), bytes_of(name, "the name")
         settings, count, kept = settings_of(parameters)
         model = cls.__new__(cls)
-        model._begin(checked(lib.fbd_model_parse, source, len(source), called, settings, count), called, parameters)
+        handle = made(lib.fbd_model_parse, lib.fbd_model_free, (), source, len(source), called, settings, count)
+        model._begin(handle, called, parameters)
         del kept
         return model
 
     def _begin(self, handle: Any, name: bytes, parameters: Mapping[str, Any]) -> None:
-        self._model = owned(handle, lib.fbd_model_free)
-        self._name, self._parameters = name, dict(parameters)
+        self._model, self._parameters = handle, dict(parameters)
+        self._name = os.path.abspath(name)  # beside which a sweep looks for data files, wherever it is called
 
     # ---- what it is
 
@@ -179,5 +181,4 @@ class Model:
 
     def _repr_html_(self) -> str:
         """The free-body diagrams at the start."""
-        state = self.state()
-        return picture(state.svg()) + preformatted(self.title or "")
+        return picture(self.state().svg())

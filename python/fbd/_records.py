@@ -217,7 +217,7 @@ class HandCheck(int):
 
 def picture(svg: str) -> str:
     """An SVG document as an element of a page, whose ids cannot meet those of another one."""
-    return f'<img alt="diagram" src="data:image/svg+xml;base64,{b64encode(svg.encode()).decode()}">'
+    return f'<img alt="diagram" style="background: white" src="data:image/svg+xml;base64,{b64encode(svg.encode()).decode()}">'
 
 
 def preformatted(text: str) -> str:

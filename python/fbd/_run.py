@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._binding import ffi, lib
-from ._library import bytes_of, checked, number, owned, positive, run_options, taken, text_at, view
+from ._library import bytes_of, checked, made, number, owned, positive, run_options, taken, text_at, view
 from ._notes import AccuracyNotReached, Error, RunFailed, complaint, warn
 from ._records import Drift, Energy, Event, Progress, Stats, from_struct, preformatted
 from ._state import State
@@ -36,8 +36,11 @@ def _record(simulation: Any, watch: Watch, every: float, **recording: bool) -> A
     """Carry a simulation to its end; its result."""
     wanted = {"every": every, "progress": watch.function, "progress_context": watch.context, **recording}
     result = lib.fbd_simulation_run(simulation, ffi.new("fbd_recording *", wanted))
+    held = ffi.NULL if result == ffi.NULL else owned(result, lib.fbd_result_free, simulation)
     watch.end()
-    return owned(result, lib.fbd_result_free, simulation)
+    if held == ffi.NULL:
+        raise MemoryError("fbd: out of memory")
+    return held
 
 
 class Run(Mapping[str, Column]):
@@ -55,7 +58,7 @@ class Run(Mapping[str, Column]):
     def __init__(self, model: Any, options: Any, every: float, ledger: bool, watch: Watch, title: str):
         self._model, self._every, self._title = model, every, title
         self._lock = threading.RLock()
-        self._simulation = owned(checked(lib.fbd_simulation_new, model, options), lib.fbd_simulation_free, model)
+        self._simulation = made(lib.fbd_simulation_new, lib.fbd_simulation_free, (model,), model, options)
         self._bars = bool(options.error_bars)
         self._result = _record(self._simulation, watch, every, ledger=ledger, table=True)
         outcome = lib.fbd_result_outcome(self._result)
@@ -214,8 +217,7 @@ class Run(Mapping[str, Column]):
     # ---- anywhere
 
     def _again(self, error_bars: bool) -> Any:
-        again = checked(lib.fbd_simulation_again, self._simulation, error_bars)
-        return owned(again, lib.fbd_simulation_free, self._model)
+        return made(lib.fbd_simulation_again, lib.fbd_simulation_free, (self._model,), self._simulation, error_bars)
 
     def _seek(self, t: float) -> State:
         """From the step of the time before, or from the start. Called with the lock held."""

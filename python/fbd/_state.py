@@ -8,7 +8,7 @@ from typing import Any, Dict, Iterator, Mapping, Optional, Tuple
 import numpy as np
 
 from ._binding import ffi, lib
-from ._library import bytes_of, checked, number, owned, taken, text_at, view
+from ._library import bytes_of, checked, made, number, owned, taken, text_at, view
 from ._records import (Arrow, Coordinate, Equation, Limit, Mode, Unbalanced, from_struct, picture, preformatted)
 
 
@@ -84,7 +84,7 @@ class Linearization:
     equilibrium: Dict[str, float]  #: all coordinates there, in their units
 
     def __init__(self, state: "State"):
-        handle = owned(checked(lib.fbd_linearize, state._handle), lib.fbd_linearization_free, state._handle)
+        handle = made(lib.fbd_linearize, lib.fbd_linearization_free, (state._handle,), state._handle)
         size = lib.fbd_linearization_size(handle)
         every = coordinates_of(state._model)
         free = [every[lib.fbd_linearization_coordinate(handle, i)] for i in range(size // 2)]
@@ -125,7 +125,7 @@ class Statics:
     diagram: Dict[str, Tuple[Arrow, ...]]  #: of each body
 
     def __init__(self, state: "State"):
-        handle = owned(checked(lib.fbd_statics_new, state._handle), lib.fbd_statics_free, state._handle)
+        handle = made(lib.fbd_statics_new, lib.fbd_statics_free, (state._handle,), state._handle)
         self.holds = bool(lib.fbd_statics_holds(handle))
         self.indeterminacy = lib.fbd_statics_indeterminacy(handle)
         self.mobility = lib.fbd_statics_mobility(handle)

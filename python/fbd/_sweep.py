@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Callable, Dict, List, Mapping, Optional, 
 import numpy as np
 
 from ._binding import ffi, lib
-from ._library import checked, names_of, owned, quantity, run_options, settings_of, text_at, whole
+from ._library import made, names_of, quantity, run_options, settings_of, text_at, whole
 from ._notes import complaint, warn
 from ._watch import in_background
 
@@ -111,7 +111,7 @@ def _plan(vary: Vary, outputs: Union[str, Sequence[str]], zip: bool, seed: int, 
 def sweep(source: bytes, name: bytes, plan: Any, jobs: int,
           progress: Optional[Callable[[int, int], Any]]) -> SweepTable:
     """Make the rows of a plan, by threads."""
-    handle = owned(checked(lib.fbd_sweep_parse, source, len(source), name, plan), lib.fbd_sweep_free)
+    handle = made(lib.fbd_sweep_parse, lib.fbd_sweep_free, (), source, len(source), name, plan)
     runs = lib.fbd_sweep_runs(handle)
     sheet = ffi.gc(ffi.new("glue_sheet *"), lib.glue_free)
     work, counts = _work(handle, sheet, jobs), ffi.new("fbd_sweep_counts *")

@@ -71,6 +71,23 @@ def test_what_is_wrong_is_said(incline):
         incline.sweep({"mu_k": [float("nan")]})
 
 
+def test_data_files_are_found_wherever_python_has_gone(tmp_path, monkeypatch):
+    (tmp_path / "push.csv").write_text("t [s],f [N]\n0,0\n1,2\n2,2\n")
+    (tmp_path / "pushed.yaml").write_text("""fbd: 1
+parameters: {m: 1 kg}
+tables: {push: {file: push.csv, x: "t [s]", y: "f [N]"}}
+bodies:
+  block: {mass: m, motion: slide, forces: [applied: {name: push, value: push(t)}]}
+simulate: {until: 1 s}
+""")
+    monkeypatch.chdir(tmp_path)
+    models = fbd.Model("pushed.yaml"), fbd.Model.parse((tmp_path / "pushed.yaml").read_text(), "mine.yaml")
+    monkeypatch.chdir("/")
+    for model in models:
+        table = model.sweep({"m": [1, 2]}, "block.v")
+        np.testing.assert_allclose(table["block.v"], [1, 0.5], rtol=1e-12)
+
+
 def test_progress(pendulum):
     seen = []
     pendulum.sweep("theta0=uniform(0.1,1):3000", "pendulum.theta", progress=lambda *counts: seen.append(counts))

@@ -7,7 +7,6 @@ import sys
 import threading
 import time
 
-import fbd
 import numpy as np
 import pytest
 from conftest import PENDULUM
