@@ -14,6 +14,7 @@ from ._cost import Cost, CostPoint, Effect, Effects
 from ._binding import lib as _lib
 from ._library import taken as _taken
 from ._library import text_at as _text_at
+from ._grade import Finding, Grade, Key
 from ._model import Model
 from ._notes import AccuracyNotReached, Error, Note, RunFailed, Warning
 from ._records import (Arrow, Coordinate, Drift, Energy, Equation, Event, HandCheck, Inertia, Limit, Mode, Progress,
@@ -28,7 +29,7 @@ __version__: str = _text_at(_lib.fbd_version())
 # Without `Warning`, which would take the place of Python's own.
 __all__ = [
     "AccuracyNotReached", "Arrow", "Coordinate", "Cost", "CostPoint", "Drift", "Effect", "Effects", "Energy",
-    "Equation", "Equations", "Error", "Event", "HandCheck", "Inertia", "Limit", "Linearization", "Mode", "Model",
+    "Equation", "Equations", "Error", "Event", "Finding", "Grade", "HandCheck", "Inertia", "Key", "Limit", "Linearization", "Mode", "Model",
     "Note", "Progress", "Run", "RunFailed", "State", "Statics", "Stats", "SweepTable", "Unbalanced",
     "assert_derivation", "schema",
 ]

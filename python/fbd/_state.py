@@ -44,6 +44,7 @@ class Equations(Mapping[str, Equation]):
         handle = owned(lib.fbd_assemble(state._handle), lib.fbd_equations_free, state._handle)
         self._text = taken(lib.fbd_equations_text(state._handle))
         self._svg = taken(checked(lib.fbd_diagram_svg, state._handle, ffi.NULL))
+        self._json = taken(lib.fbd_equations_json(state._handle))
         self._equations: Dict[str, Equation] = {}
         for i in range(lib.fbd_equations_count(handle)):
             struct = lib.fbd_equations_get(handle, i)
@@ -64,6 +65,10 @@ class Equations(Mapping[str, Equation]):
     def svg(self) -> str:
         """The free-body diagrams as an SVG document."""
         return self._svg
+
+    def json(self) -> str:
+        """The equations and diagrams as one JSON object, as text."""
+        return self._json
 
     def __str__(self) -> str:
         return self._text
@@ -95,11 +100,16 @@ class Linearization:
         self.equilibrium = {c.name: state._get(c.name) for c in every}
         self._text = taken(lib.fbd_linearization_text(handle))
         self._svg = taken(lib.fbd_linearization_svg(handle))
+        self._json = taken(lib.fbd_linearization_json(handle))
 
     @property
     def svg(self) -> str:
         """The eigenvalues in the complex plane as an SVG document."""
         return self._svg
+
+    def json(self) -> str:
+        """One JSON object as text."""
+        return self._json
 
     def __str__(self) -> str:
         return self._text
