@@ -26,6 +26,8 @@ def test_equations_have_their_terms_by_name(pendulum):
 def test_the_text_is_that_of_the_program(pendulum):
     assert str(pendulum.equations(theta="0.3 rad")) in fbd_run("--equations", "--at", "theta=0.3", PENDULUM)
     assert str(pendulum.linearize()) in fbd_run("--linearize", PENDULUM)
+    for here, option in ((pendulum.equations(), "--equations"), (pendulum.linearize(), "--linearize")):
+        assert json.loads(here.json()) == json.loads(fbd_run(option, "--json", "-", PENDULUM))
 
 
 def test_terms_add_up_in_every_model():
