@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import numbers
 import os
-from typing import Any, Callable, Dict, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -196,8 +196,9 @@ def settings_of(parameters: Dict[str, Any]) -> Tuple[Any, int, Any]:
     return array, len(parameters), kept
 
 
-def names_of(texts: Sequence[str], what: str) -> Tuple[Any, int, Any]:
-    """The same for texts; none at all is NULL."""
+def names_of(texts: Union[str, Sequence[str]], what: str) -> Tuple[Any, int, Any]:
+    """The same for a text or several; none at all is NULL."""
+    texts = [texts] if isinstance(texts, str) else texts
     kept = [ffi.new("char[]", bytes_of(text, what)) for text in texts]
     return (ffi.new("char *[]", kept) if kept else ffi.NULL), len(kept), kept
 

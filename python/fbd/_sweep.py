@@ -96,7 +96,7 @@ def _work(sweep: Any, sheet: Any, jobs: int) -> Any:
 def _plan(vary: Vary, outputs: Union[str, Sequence[str]], zip: bool, seed: int, parameters: Mapping[str, Any],
           options: Mapping[str, Any]) -> Tuple[Any, Any]:
     texts, text_count, first = names_of(_texts(vary), "what varies")
-    asked, asked_count, second = names_of([outputs] if isinstance(outputs, str) else outputs, "what is noted")
+    asked, asked_count, second = names_of(outputs, "what is noted")
     varied = {name for text in _texts(vary) for name in re.findall(r"(?:^|;)\s*([^=;]+?)\s*=", str(text))}
     settings, setting_count, third = settings_of({n: v for n, v in parameters.items() if n not in varied})
     run, method = run_options(**options)

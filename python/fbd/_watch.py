@@ -28,9 +28,12 @@ class Watch:
         return 1 if self._progress(from_struct(Progress, progress[0])) else 0
 
     def end(self) -> None:
-        if self.failure is not None:
-            failure, self.failure = self.failure, None
-            raise failure
+        failure, self.failure = self.failure, None
+        try:
+            if failure is not None:
+                raise failure
+        finally:
+            del failure  # which knows this frame
 
 
 def _keep(kind: Any, failure: Any, traceback: Any) -> None:
