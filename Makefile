@@ -137,6 +137,12 @@ gallery: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	docs/make-gallery $(BUILD)/apps/fbd-run
 
+# The Python module with this build's library in it, in an environment of its own: build-python/bin/python.
+python: all
+	.ci/install-packages python
+	/usr/bin/python3 -m venv --system-site-packages $(BUILD)-python
+	PKG_CONFIG_PATH=$(CURDIR)/$(BUILD)/meson-uninstalled $(BUILD)-python/bin/pip install --no-build-isolation ./python
+
 install: all
 	meson install -C $(BUILD) --no-rebuild
 	cp $(BUILD)/meson-logs/install-log.txt $(BUILD)/installed.txt
@@ -197,5 +203,5 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars event-bars events late-times implicit impacts failures gallery check-format format lint install uninstall dist deb deb-check clean
+.PHONY: all run test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars event-bars events late-times implicit impacts failures gallery python check-format format lint install uninstall dist deb deb-check clean
 .SECONDARY:

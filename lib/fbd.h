@@ -96,6 +96,9 @@ FBD_API void fbd_model_free(fbd_model *model);
 /* The title of the file, "" when it has none. */
 FBD_API const char *fbd_model_title(const fbd_model *model);
 
+/* The text of the file as it was read, not terminated; lives as long as the model. */
+FBD_API const char *fbd_model_source(const fbd_model *model, size_t *length);
+
 FBD_API size_t fbd_model_bodies(const fbd_model *model);
 
 /* NULL past the last body. */
@@ -296,6 +299,12 @@ FBD_API fbd_simulation *fbd_simulation_new(const fbd_model *model, const fbd_opt
                                            fbd_errors *errors);
 FBD_API void fbd_simulation_free(fbd_simulation *simulation);
 
+/* A simulation at the start that goes through the very steps of another one, for looking anywhere in a run that
+ * is over: at the tolerance that was found where an accuracy was asked for, with error bars or without. NULL
+ * with a note in `errors` when memory is out. The other one is not needed any more. */
+FBD_API fbd_simulation *fbd_simulation_again(const fbd_simulation *simulation, bool error_bars,
+                                             fbd_errors *errors);
+
 /* Advance by one accepted step, or to the next event; with independent groups of bodies, by a step of the
  * group that is furthest behind. With options.accuracy this is a run at the tolerance of a first guess: only
  * fbd_simulation_run makes sure. */
@@ -368,7 +377,20 @@ typedef struct fbd_recording {
                          rows where a row has more than 16 000 numbers */
     fbd_watch *progress; /* or NULL */
     void *progress_context;
+    bool table; /* keep the rows that CSV has as numbers, see fbd_result_table; 8 bytes each */
 } fbd_recording;
+
+/* A column of the rows of a run: "t", "block.x", with error bars "block.x ±" beside it; and its unit. */
+typedef struct fbd_column {
+    const char *name, *unit;
+} fbd_column;
+
+/* The rows of a run: what CSV has, to the last bit. */
+typedef struct fbd_table {
+    size_t rows, columns;
+    const fbd_column *heads; /* of each column */
+    const double *values;    /* rows x columns, row by row; INFINITY for an error that is not known */
+} fbd_table;
 
 /* Energies of the scene, in its units of energy. work: what the forces without a potential have done since
  * the start; residual: change of kinetic + potential - work. */
@@ -388,6 +410,10 @@ typedef struct fbd_result fbd_result;
  * advanced already (the ledger has to see every step). The simulation must outlive the result. */
 FBD_API fbd_result *fbd_simulation_run(fbd_simulation *simulation, const fbd_recording *recording);
 FBD_API void fbd_result_free(fbd_result *result);
+
+/* The rows of a run that was recorded with `table`; without it there are no rows and columns. Lives as long as
+ * the result. */
+FBD_API fbd_table fbd_result_table(const fbd_result *result);
 
 FBD_API fbd_outcome fbd_result_outcome(const fbd_result *result);
 FBD_API fbd_state *fbd_result_state(fbd_result *result); /* the last good state; owned by the result */

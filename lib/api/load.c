@@ -77,6 +77,12 @@ const char *fbd_model_title(const fbd_model *model)
     return model->scene->title;
 }
 
+const char *fbd_model_source(const fbd_model *model, size_t *length)
+{
+    if (length) *length = model ? model->source_length : 0;
+    return model ? model->source : NULL;
+}
+
 size_t fbd_model_bodies(const fbd_model *model)
 {
     if (!model) return 0;

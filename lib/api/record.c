@@ -217,9 +217,9 @@ static bool record_into(fbd_result *result, const fbd_recording *recording)
     if (bars && !works) bars->ledger.any = false;
     state_copy(result->start, start);
     if (recording && recording->keep && !begin_record(result, recording)) return false;
-    if (!recording || !recording->csv) return carry(result, recording, NULL);
+    if (!recording || !(recording->csv || recording->table)) return carry(result, recording, NULL);
     struct csv csv = {0};
-    bool done = csv_begin(&csv, ensemble, &result->ledger, bars, recording) && carry(result, recording, &csv);
+    bool done = csv_begin(&csv, result, recording) && carry(result, recording, &csv);
     csv_free(&csv);
     return done;
 }
@@ -253,8 +253,19 @@ void fbd_result_free(fbd_result *result)
     if (result->record) record_free(result->record);
     free(result->record);
     ledger_free(&result->ledger);
+    numbers_free(&result->numbers);
     state_free(result->start);
     free(result);
+}
+
+fbd_table fbd_result_table(const fbd_result *result)
+{
+    if (!result || result->numbers.columns == 0) return (fbd_table){.rows = 0};
+    const struct numbers *numbers = &result->numbers;
+    return (fbd_table){.rows = numbers->whole / numbers->columns,
+                       .columns = numbers->columns,
+                       .heads = numbers->heads,
+                       .values = numbers->values};
 }
 
 fbd_outcome fbd_result_outcome(const fbd_result *result)

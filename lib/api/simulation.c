@@ -35,6 +35,21 @@ static bool choose_accuracy(const fbd_model *model, const fbd_options *options, 
     return fbd_errors_failed(errors) == before;
 }
 
+/* `simulation` is freed when memory is out. */
+static fbd_simulation *begin(fbd_simulation *simulation, const fbd_model *model,
+                             const struct run_options *options, bool error_bars, fbd_errors *errors)
+{
+    bool made = simulation != NULL;
+    if (made && error_bars) {
+        simulation->bars = calloc(1, sizeof *simulation->bars);
+        made = simulation->bars != NULL;
+    }
+    if (made && simulation_begin(simulation, model, options)) return simulation;
+    fbd_simulation_free(simulation);
+    diag_out_of_memory(errors);
+    return NULL;
+}
+
 static fbd_simulation *simulation_new(const fbd_model *model, const fbd_options *options, fbd_errors *errors)
 {
     struct run_options chosen;
@@ -42,17 +57,8 @@ static fbd_simulation *simulation_new(const fbd_model *model, const fbd_options 
     if (!options_choose(model, options, &chosen, errors)) return NULL;
     if (!choose_accuracy(model, options, &chosen, &accuracy, errors)) return NULL;
     fbd_simulation *simulation = calloc(1, sizeof *simulation);
-    bool made = simulation != NULL;
-    if (made) {
-        simulation->accuracy = accuracy;
-        if (options->error_bars || accuracy > 0) simulation->bars = calloc(1, sizeof *simulation->bars);
-        made = (simulation->bars || !(options->error_bars || accuracy > 0)) &&
-               simulation_begin(simulation, model, &chosen);
-    }
-    if (made) return simulation;
-    fbd_simulation_free(simulation);
-    diag_out_of_memory(errors);
-    return NULL;
+    if (simulation) simulation->accuracy = accuracy;
+    return begin(simulation, model, &chosen, options->error_bars || accuracy > 0, errors);
 }
 
 fbd_simulation *fbd_simulation_new(const fbd_model *model, const fbd_options *options, fbd_errors *list)
@@ -65,6 +71,21 @@ fbd_simulation *fbd_simulation_new(const fbd_model *model, const fbd_options *op
         model ? simulation_new(model, options, errors) : call_refuse(errors, "there is no model");
     diag_end(&call);
     return simulation;
+}
+
+fbd_simulation *fbd_simulation_again(const fbd_simulation *simulation, bool error_bars, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    fbd_simulation *again = NULL;
+    if (simulation) {
+        const struct ensemble *ensemble = simulation->ensemble;
+        again = begin(calloc(1, sizeof *again), ensemble->model, &ensemble->options, error_bars, errors);
+    } else {
+        call_refuse(errors, "there is no simulation");
+    }
+    diag_end(&call);
+    return again;
 }
 
 void fbd_simulation_free(fbd_simulation *simulation)

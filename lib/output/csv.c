@@ -12,13 +12,24 @@ enum { default_rows = 500 };
 /* ---- columns of forces: a slide shows the component along itself (normal force: across), a pivot the moment
  * about its axis, a body in the plane its components */
 
+static void head(struct csv *csv, const char *name, const char *unit)
+{
+    text_printf(&csv->line, "%s%s [%s]", csv->line.length > 0 ? "," : "", name, unit);
+    if (csv->numbers) numbers_head(csv->numbers, name, unit);
+}
+
 /* One column and, with error bars, that of its error: `a.b.part [unit],a.b.part ± [unit]`. `b` and `part` may
  * be empty. */
 static void header(struct csv *csv, const char *a, const char *b, const char *part, const char *unit)
 {
-    for (int error = 0; error <= (csv->bars ? 1 : 0); error++)
-        text_printf(&csv->line, ",%s%s%s%s%s%s [%s]", a, b[0] ? "." : "", b, part[0] ? "." : "", part,
-                    error ? " ±" : "", unit);
+    for (int error = 0; error <= (csv->bars ? 1 : 0); error++) {
+        struct text name = {0};
+        text_printf(&name, "%s%s%s%s%s%s", a, b[0] ? "." : "", b, part[0] ? "." : "", part,
+                    error ? " ±" : "");
+        csv->line.failed |= name.failed;
+        if (!name.failed) head(csv, name.data, unit);
+        text_free(&name);
+    }
 }
 
 static void force_headers(struct csv *csv, const struct model_body *body, const char *name)
@@ -77,7 +88,7 @@ static void ledger_headers(struct csv *csv, const struct fbd_state *start)
 static void headers(struct csv *csv, const struct fbd_state *start)
 {
     const struct fbd_model *model = csv->model;
-    text_add(&csv->line, "t [s]");
+    head(csv, "t", "s");
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
         const struct label *labels = model->labels + body->first;
@@ -93,19 +104,25 @@ static void headers(struct csv *csv, const struct fbd_state *start)
 
 /* ---- rows */
 
+/* The next field of the row; one whose number is not finite is empty. */
+static void field(struct csv *csv, double value)
+{
+    if (csv->numbers) numbers_add(csv->numbers, value);
+    if (!csv->recording->csv) return;
+    if (csv->line.length > 0) text_add(&csv->line, ",");
+    if (isfinite(value)) text_exact(&csv->line, value);
+}
+
 static void number(struct csv *csv, double value)
 {
     csv->odd |= !isfinite(value);
-    text_add(&csv->line, ",");
-    text_exact(&csv->line, value);
+    field(csv, value);
 }
 
-/* The field of an error that is not known is empty. */
+/* An error may be unknown. */
 static void error(struct csv *csv, double value)
 {
-    if (!csv->bars) return;
-    text_add(&csv->line, ",");
-    if (isfinite(value)) text_exact(&csv->line, value);
+    if (csv->bars) field(csv, value);
 }
 
 /* A quantity of the run and of its companion. */
@@ -198,12 +215,18 @@ static void ledger_values(struct csv *csv, const struct fbd_state *state)
 
 static bool put_line(struct csv *csv)
 {
-    text_add(&csv->line, "\n");
-    if (csv->line.failed ||
-        csv->recording->csv(csv->recording->csv_context, csv->line.data, csv->line.length) != 0)
-        csv->failed = true;
+    const fbd_recording *recording = csv->recording;
+    if (recording->csv) text_add(&csv->line, "\n");
+    csv->failed |= csv->line.failed;
+    if (recording->csv && !csv->failed)
+        csv->failed = recording->csv(recording->csv_context, csv->line.data, csv->line.length) != 0;
     csv->line.length = 0;
     return !csv->failed;
+}
+
+static bool put_row(struct csv *csv)
+{
+    return (!csv->numbers || numbers_end_row(csv->numbers)) && put_line(csv);
 }
 
 static void component(struct csv *csv, const struct fbd_state *state, int i)
@@ -217,6 +240,7 @@ static bool refuse_line(struct csv *csv, struct ensemble *ensemble)
 {
     csv->line.length = 0;
     csv->odd = false;
+    if (csv->numbers) numbers_drop_row(csv->numbers);
     if (result_finite(ensemble, csv->ledger, csv->work))
         ensemble_spoil(ensemble, "a number of the row at t = %.9g is not finite", ensemble->t);
     return ensemble->outcome == FBD_FAILED || ensemble->outcome == FBD_BROKEN;
@@ -237,7 +261,7 @@ static bool row(struct csv *csv, struct ensemble *ensemble)
     const struct fbd_model *model = csv->model;
     const struct fbd_state *state = ensemble_state(ensemble);
     csv->last = state->t;
-    text_exact(&csv->line, state->t);
+    field(csv, state->t);
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
         for (int k = 0; k < body->count; k++) component(csv, state, body->first + k);
@@ -245,21 +269,23 @@ static bool row(struct csv *csv, struct ensemble *ensemble)
     }
     for (size_t i = 0; i < model->scene->output_point_count; i++) point_values(csv, state, i);
     if (csv->ledger) ledger_values(csv, state);
-    return csv->odd ? refuse_line(csv, ensemble) : put_line(csv);
+    return csv->odd ? refuse_line(csv, ensemble) : put_row(csv);
 }
 
 /* ---- the file */
 
-bool csv_begin(struct csv *csv, struct ensemble *run, struct ledger *ledger, struct bars *bars,
-               const fbd_recording *recording)
+bool csv_begin(struct csv *csv, fbd_result *result, const fbd_recording *recording)
 {
+    struct ensemble *run = result->simulation->ensemble;
+    struct bars *bars = result->simulation->bars;
     const struct fbd_model *model = run->model;
     double start = run->t, until = run->options.until;
     double every = recording->every > 0 ? recording->every : model->scene->simulate.every;
     *csv = (struct csv){.model = model,
-                        .ledger = recording->ledger ? ledger : NULL,
+                        .ledger = recording->ledger ? &result->ledger : NULL,
                         .bars = bars,
                         .recording = recording,
+                        .numbers = recording->table ? &result->numbers : NULL,
                         .start = start,
                         .until = until,
                         .every = every > 0 ? every : (until - start) / default_rows,
@@ -271,7 +297,7 @@ bool csv_begin(struct csv *csv, struct ensemble *run, struct ledger *ledger, str
     struct fbd_state *state = ensemble_state(run);
     headers(csv, state);
     if (bars && !bars_look(bars, run, start, false, csv->ledger)) return false;
-    return put_line(csv) && row(csv, run);
+    return put_line(csv) && (!csv->numbers || numbers_begin(csv->numbers)) && row(csv, run);
 }
 
 double csv_next(const struct csv *csv)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * CSV: one header line, a row at every output time and at every event.
+ * CSV: one header line, a row at every output time and at every event; as text, as a table of numbers, or both.
  */
 #ifndef FBD_OUTPUT_CSV_H
 #define FBD_OUTPUT_CSV_H
@@ -12,6 +12,7 @@ struct csv {
     struct ledger *ledger;          /* NULL without force and energy columns */
     struct bars *bars;              /* NULL without columns of errors */
     const fbd_recording *recording; /* where to write, and whom to ask */
+    struct numbers *numbers;        /* where the numbers go, NULL without */
     double start, every, until;
     double near; /* a regular row and an event that are no further apart share a row */
     double last; /* time of the row before */
@@ -23,10 +24,9 @@ struct csv {
     bool failed;  /* memory or the writer */
 };
 
-/* Write the header and the row of the start, where the run is; `bars` may be NULL. False when memory is out
- * or the writer refused. */
-bool csv_begin(struct csv *csv, struct ensemble *run, struct ledger *ledger, struct bars *bars,
-               const fbd_recording *recording);
+/* Write the header and the row of the start, where the run of the result is. False when memory is out or the
+ * writer refused. */
+bool csv_begin(struct csv *csv, fbd_result *result, const fbd_recording *recording);
 
 /* The time up to which no row is due, but for events. */
 double csv_next(const struct csv *csv);

@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "output/bars.h"
 #include "output/ledger.h"
+#include "output/numbers.h"
 
 /* The simulation of the public interface: a run of the whole, its error bars, and where its time went. */
 struct fbd_simulation {
@@ -30,6 +31,7 @@ struct fbd_result {
     double ledger_seconds;   /* processor time of its integrals */
     struct fbd_state *start; /* the state at the start */
     struct record *record;   /* for the page and for plots (draw/record.h), NULL without */
+    struct numbers numbers;  /* the rows as numbers; empty without */
 };
 
 /* What happened, in a few words: "friction +4.81 N holds, limit 8.496 N". Writes at most `size` bytes. */

@@ -119,6 +119,9 @@ static void errors_and_models(void **state)
     ANSWERS(fbd_model_parse, !fbd_model_parse(NULL, 0, NULL, NULL, 0, NULL));
     ENDURES(fbd_model_free, fbd_model_free(NULL));
     ANSWERS(fbd_model_title, strcmp(fbd_model_title(NULL), "") == 0);
+    size_t length = 7;
+    ANSWERS(fbd_model_source, !fbd_model_source(NULL, &length) && length == 0);
+    ANSWERS(fbd_model_source, fbd_model_source(model, NULL));
     ANSWERS(fbd_model_bodies, fbd_model_bodies(NULL) == 0);
     ANSWERS(fbd_model_body_name, !fbd_model_body_name(NULL, 0));
     ANSWERS(fbd_model_body_name, !fbd_model_body_name(model, past));
@@ -200,6 +203,7 @@ static void simulations(void **context)
     double from = 1, to = 1, bars[2];
     assert_non_null(simulation);
     REFUSES(fbd_simulation_new, !fbd_simulation_new(NULL, NULL, errors));
+    REFUSES(fbd_simulation_again, !fbd_simulation_again(NULL, true, errors));
     ENDURES(fbd_simulation_free, fbd_simulation_free(NULL));
     ANSWERS(fbd_simulation_advance, fbd_simulation_advance(NULL) == FBD_FAILED);
     ENDURES(fbd_simulation_interval, fbd_simulation_interval(NULL, &from, &to));
@@ -235,6 +239,8 @@ static void results(void **context)
     assert_non_null(result);
     ENDURES(fbd_result_free, fbd_result_free(NULL));
     ANSWERS(fbd_result_outcome, fbd_result_outcome(NULL) == FBD_FAILED);
+    ANSWERS(fbd_result_table, fbd_result_table(NULL).columns == 0);
+    ANSWERS(fbd_result_table, !fbd_result_table(result).values); /* it was not recorded */
     ANSWERS(fbd_result_state, !fbd_result_state(NULL));
     ANSWERS(fbd_result_energy, is_nan(fbd_result_energy(NULL).kinetic));
     ANSWERS(fbd_result_work, is_nan(fbd_result_work(NULL, "block", "spring")));

@@ -66,12 +66,15 @@ static bool run_and_write_with(const char *scene, fbd_options options)
     fbd_model *model = load(scene, &errors);
     if (!model) return false;
     fbd_simulation *simulation = fbd_simulation_new(model, &options, errors);
-    fbd_recording recording = {.ledger = true, .csv = swallow, .keep = true};
+    fbd_recording recording = {.ledger = true, .csv = swallow, .keep = true, .table = true};
     fbd_result *result = simulation ? fbd_simulation_run(simulation, &recording) : NULL;
     bool done = result && fbd_result_outcome(result) == FBD_DONE;
     done = done && some(fbd_result_report(result)) && some(fbd_result_json(result));
     done = done && (!fbd_has_html() || some(fbd_result_html(result, errors)));
     done = done && some(fbd_result_gnuplot(result, "a.svg", NULL, errors));
+    fbd_simulation *again = done ? fbd_simulation_again(simulation, options.error_bars, errors) : NULL;
+    done = done && again;
+    fbd_simulation_free(again);
     fbd_result_free(result);
     fbd_simulation_free(simulation);
     fbd_model_free(model);

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Grading: answers of students held against a teacher's model by mechanics (docs/grading.md)."""
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import Optional, Tuple, Union
+
+from ._binding import ffi, lib
+from ._library import bytes_of, checked, made, path_of, taken, text_at
+from ._records import from_struct, preformatted
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One part of an answer. ``message`` names only what the student wrote, and may be shown; ``detail`` names the
+    key's."""
+
+    kind: str  #: "right", "missing", "superfluous", "sense", ...
+    body: str
+    name: str
+    line: int  #: in the answer, 0 when it is not there
+    column: int
+    points: float  #: got; below zero: taken off
+    most: float  #: to be had
+    message: str
+    detail: str
+
+
+class Grade:
+    """What an answer is worth, and why."""
+
+    points: float  #: at least 0
+    most: float  #: to be had
+    passed: bool  #: there is an answer, and its points are enough
+    findings: Tuple[Finding, ...]
+
+    def __init__(self, key: "Key", path: Path, student: Optional[str] = None):
+        name = ffi.NULL if student is None else ffi.new("char[]", bytes_of(student, "the student"))
+        handle = made(lib.fbd_grade_new, lib.fbd_grade_free, (key._handle,), key._handle, path_of(path), name)
+        self.points, self.most = lib.fbd_grade_points(handle), lib.fbd_grade_most(handle)
+        self.passed = bool(lib.fbd_grade_passed(handle))
+        structs = [lib.fbd_grade_finding(handle, i) for i in range(lib.fbd_grade_findings(handle))]
+        self.findings = tuple(
+            from_struct(Finding, struct, kind=text_at(lib.fbd_finding_kind_name(struct.kind))) for struct in structs)
+        self._handle = handle
+
+    def text(self, details: bool = False) -> str:
+        """As text; with ``details`` those that name the key's forces."""
+        return taken(lib.fbd_grade_text(self._handle, bool(details)))
+
+    def json(self, details: bool = False) -> str:
+        """As one JSON object, as text."""
+        return taken(lib.fbd_grade_json(self._handle, bool(details)))
+
+    def __str__(self) -> str:
+        return self.text()
+
+    __repr__ = __str__
+
+    def _repr_html_(self) -> str:
+        return preformatted(self.text())
+
+
+class Key:
+    """A teacher's model that answers are held against."""
+
+    def __init__(self, path: Path, /):
+        self._handle = made(lib.fbd_key_read, lib.fbd_key_free, (), path_of(path))
+
+    def handout(self, student: str) -> str:
+        """What a student gets of it, as the text of a model file, with the values drawn for that name."""
+        return taken(checked(lib.fbd_key_handout, self._handle, bytes_of(student, "the student")))
+
+    def grade(self, path: Path, student: Optional[str] = None) -> Grade:
+        """Hold an answer against it. ``student`` chooses the values that are drawn; else the name of the file does,
+        without ``.yaml``."""
+        return Grade(self, path, student)

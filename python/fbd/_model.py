@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A model: a file compiled, and what can be done with it."""
+from __future__ import annotations
+
+import os
+from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple, Union
+
+from . import _cost, _run, _sweep
+from ._binding import ffi, lib
+from ._library import bytes_of, made, path_of, run_options, settings_of, taken, text_at, whole
+from ._records import Coordinate, HandCheck, Inertia, Progress, from_struct, picture
+from ._run import Run
+from ._state import Equations, Linearization, State, Statics, coordinates_of
+from ._sweep import SweepTable, Vary
+
+Values = Optional[Mapping[str, Any]]
+
+
+class Model:
+    """A model file, read and compiled. It does not change, and threads may share it.
+
+    >>> model = fbd.Model("pendulum.yaml", theta0="60 deg")
+
+    Keywords set parameters of the file: texts with a unit, or numbers in the model's units (SI, or ``units: US``).
+    What is wrong is raised as :class:`fbd.Error`, all of it in its ``notes``; what is doubtful is an
+    :class:`fbd.Warning`.
+    """
+
+    def __init__(self, path: Union[str, "os.PathLike[str]"], /, **parameters: Any):
+        settings, count, kept = settings_of(parameters)
+        handle = made(lib.fbd_model_read, lib.fbd_model_free, (), path_of(path), settings, count)
+        self._begin(handle, path_of(path), parameters)
+        del kept
+
+    @classmethod
+    def parse(cls, text: str, name: str = "model", /, **parameters: Any) -> "Model":
+        """The same from a text; messages call it ``name``, and data files are looked for beside that."""
+        source, called = bytes_of(text, "the text"), bytes_of(name, "the name")
+        settings, count, kept = settings_of(parameters)
+        model = cls.__new__(cls)
+        handle = made(lib.fbd_model_parse, lib.fbd_model_free, (), source, len(source), called, settings, count)
+        model._begin(handle, called, parameters)
+        del kept
+        return model
+
+    def _begin(self, handle: Any, name: bytes, parameters: Mapping[str, Any]) -> None:
+        self._model, self._parameters = handle, dict(parameters)
+        self._name = os.path.abspath(name)  # beside which a sweep looks for data files, wherever it is called
+
+    # ---- what it is
+
+    @property
+    def title(self) -> str:
+        """The title of the file; "" without one."""
+        return text_at(lib.fbd_model_title(self._model))
+
+    def _source(self) -> bytes:
+        length = ffi.new("size_t *")
+        source = lib.fbd_model_source(self._model, length)
+        return bytes(ffi.buffer(source, length[0])) if length[0] else b""
+
+    @property
+    def source(self) -> str:
+        """The text of the file as it was read."""
+        return self._source().decode("utf-8", "replace")
+
+    @property
+    def bodies(self) -> Tuple[str, ...]:
+        """Names of the bodies."""
+        count = lib.fbd_model_bodies(self._model)
+        return tuple(text_at(lib.fbd_model_body_name(self._model, i)) for i in range(count))
+
+    @property
+    def coordinates(self) -> Tuple[Coordinate, ...]:
+        """The coordinates of the scene, with their rates and units."""
+        return coordinates_of(self._model)
+
+    def inertia(self, body: str) -> Inertia:
+        """Mass, moments of inertia and centre of mass of a body."""
+        struct = lib.fbd_model_inertia(self._model, self.bodies.index(body))
+        return from_struct(Inertia, struct, G=(struct.G[0], struct.G[1]))
+
+    def explain(self, **options: Any) -> str:
+        """The plan in words: what is simulated, what is not, by which method, and why. Options of a run."""
+        chosen, name = run_options(**options)
+        text = taken(lib.fbd_explain(self._model, chosen))
+        del name
+        return text
+
+    # ---- states
+
+    def state(self, values: Values = None, /, **named: Any) -> State:
+        """A state at the initial values of the file and t = 0, but for those that are given: by keyword
+        (``x=0.1``, ``theta="60 deg"``), or with full names in a mapping (``{"block.x": 0.1}``); ``t`` too."""
+        state = State(self._model)
+        state._set(values, named)
+        return state
+
+    def equations(self, values: Values = None, /, **named: Any) -> Equations:
+        """The assembled equations, term by term, at the start or where the values say (see :meth:`state`).
+
+        >>> model.equations(theta="60 deg")["pendulum.theta"].terms["gravity"]
+        """
+        return self.state(values, **named).fit().equations()
+
+    def linearize(self, values: Values = None, /, **named: Any) -> Linearization:
+        """Linearise about the equilibrium near the start, or near where the values say."""
+        return self.state(values, **named).linearize()
+
+    def statics(self, values: Values = None, /, *, settle: bool = False, **named: Any) -> Statics:
+        """The scene at rest at the start or where the values say, with every reaction. With ``settle`` it is
+        first let down to an equilibrium."""
+        state = self.state(values, **named)
+        return (state.settle() if settle else state).statics()
+
+    def check_hand(self, seed: int = 1) -> HandCheck:
+        """Hold every ``hand:`` derivation of the file against the assembly at random states. The number of those
+        that differ, with its ``text``."""
+        text = ffi.new("char **")
+        differ = lib.fbd_check_hand(self._model, whole(seed, "the seed", 2**32 - 1), text)
+        if differ < 0:
+            raise MemoryError("fbd: out of memory")
+        return HandCheck(differ, taken(text[0]))
+
+    # ---- runs
+
+    def run(self, *, until: Optional[float] = None, tolerance: Optional[float] = None, step: Optional[float] = None,
+            method: Optional[str] = None, accuracy: Optional[float] = None, error_bars: bool = False,
+            structure: bool = True, every: Optional[float] = None, ledger: bool = False,
+            progress: Optional[Callable[[Progress], Any]] = None) -> Run:
+        """Run the model from t = 0 to its end.
+
+        until: end time [s]; tolerance: relative error of a step; step: a fixed step [s]; method: "auto",
+        "rk8pd", ...; accuracy: the global accuracy to be delivered, whatever tolerance that takes; error_bars:
+        estimate the global errors; structure: False integrates all bodies together; every: interval of the rows
+        [s]; ledger: columns of each force, its work and the energies. What is not given is as in the file.
+
+        ``progress`` is called up to twenty times a second with an :class:`fbd.Progress`; what is true ends the
+        run there, as "interrupted". Ctrl-C ends it with KeyboardInterrupt.
+
+        A run that fails is raised as :class:`fbd.RunFailed`, one that does not reach its accuracy as
+        :class:`fbd.AccuracyNotReached`, both with the run; one that a lost contact ends is returned, with a warning.
+        """
+        return _run.start(self._model, self.title, progress, every, ledger, until=until, tolerance=tolerance,
+                          step=step, method=method, accuracy=accuracy, error_bars=error_bars, structure=structure)
+
+    def sweep(self, vary: Vary, outputs: Union[str, Sequence[str]] = (), *, zip: bool = False, seed: int = 1,
+              jobs: int = 0, until: Optional[float] = None, tolerance: Optional[float] = None,
+              step: Optional[float] = None, method: Optional[str] = None, structure: bool = True,
+              progress: Optional[Callable[[int, int], Any]] = None) -> SweepTable:
+        """Run the model under many values of its parameters; a structured array with a row for each run.
+
+        vary: texts of ``fbd-sweep --vary`` ("mu=0.1:0.6:51", "m=normal(2,0.1) kg:100"), or a mapping from names to
+        values ({"mu": [0.1, 0.2]}); each value is combined with each, with ``zip`` they go side by side. outputs:
+        names of what is noted ("block.x", "max(block.v)", "time(stick)"): docs/sweep.md. jobs: threads, 0 for all
+        processors; the rows do not depend on it. ``progress`` is called with the rows that are done, and all.
+        """
+        options: Dict[str, Any] = {"until": until, "tolerance": tolerance, "step": step, "method": method,
+                                   "structure": structure}
+        plan, kept = _sweep._plan(vary, outputs, zip, seed, self._parameters, options)
+        table = _sweep.sweep(self._source(), self._name, plan, whole(jobs, "jobs", 10000), progress)
+        del kept
+        return table
+
+    # ---- what it costs
+
+    def cost(self, *, until: Optional[float] = None, budget: float = 6, methods: Sequence[str] = (),
+             quantities: Sequence[str] = (), fixed_steps: bool = False) -> _cost.Cost:
+        """What accuracy costs: every method at every tolerance of a ladder, true error against time. ``budget``:
+        how long all may take [s]."""
+        return _cost.cost(self._model, until=until, budget=budget, methods=methods, quantities=quantities,
+                          fixed_steps=fixed_steps)
+
+    def effects(self, *, until: Optional[float] = None, budget: float = 6) -> _cost.Effects:
+        """What each effect changes and costs: each is left out in turn."""
+        return _cost.effects(self._model, until=until, budget=budget, methods=(), quantities=(), fixed_steps=False)
+
+    def __repr__(self) -> str:
+        title = f" `{self.title}`" if self.title else ""
+        return f"<fbd.Model{title}: {', '.join(self.bodies[:8])}{', ...' if len(self.bodies) > 8 else ''}>"
+
+    def _repr_html_(self) -> str:
+        """The free-body diagrams at the start."""
+        return picture(self.state().svg())

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Grading: the sheets and findings of fbd-run --grade."""
+import json
+import os
+import subprocess
+
+import fbd
+import pytest
+from conftest import SOURCE, fbd_run
+
+KEY = SOURCE / "examples/grading/key.yaml"
+RIGHT = "[gravity, applied: {name: pull, value: P, angle: beta, at: right}]"
+
+
+def graded(answer, *options):
+    """What the program says; an answer that does not pass is its exit code 4."""
+    command = [os.environ["FBD_RUN"], "--grade", KEY, "--student", "anna", *options, answer]
+    return subprocess.run(command, stdout=subprocess.PIPE, text=True, check=False).stdout
+
+
+def test_sheets_and_findings(tmp_path):
+    key, answer = fbd.Key(KEY), tmp_path / "answer.yaml"
+    sheet = key.handout("anna")
+    assert sheet == fbd_run("--handout", "--student", "anna", KEY)
+    answer.write_text(sheet.replace("forces: []", "forces: " + RIGHT))
+    half = key.grade(answer, "anna")
+    assert 0 < half.points < half.most and not half.passed
+    assert {finding.kind for finding in half.findings} == {"right", "missing"}
+    assert sum(finding.most for finding in half.findings) == half.most
+    assert half.text() in graded(answer) and half.text(details=True) in graded(answer, "--details")
+    assert json.loads(half.json())["points"] == half.points
+    hand = 'hand: ["I_O*theta_ddot = -m*g*L/2*cos(theta) + P*L*sin(beta - theta)"]'
+    answer.write_text(answer.read_text().replace("hand: []", hand))
+    whole = key.grade(answer, "anna")
+    assert whole.passed and whole.points == whole.most
+    answer.write_text(sheet)
+    assert key.grade(answer, "anna").points == 0
+    absent = key.grade(tmp_path / "absent.yaml")
+    assert absent.findings[0].kind == "no_submission" and absent._repr_html_().startswith("<pre>")
+
+
+def test_what_is_no_key_is_said(tmp_path):
+    (tmp_path / "empty.yaml").write_text("fbd: 1\nbodies: {a: {mass: 1 kg, motion: slide}}\nsimulate: {until: 1 s}\n")
+    with pytest.raises(fbd.Error) as caught:
+        fbd.Key(tmp_path / "empty.yaml")
+    assert caught.value.id == "nothing-to-grade"
+    for wrong in (None, 1, "\0", object()):
+        with pytest.raises((TypeError, ValueError)):
+            fbd.Key(wrong)
+        with pytest.raises((TypeError, ValueError)):
+            fbd.Key(KEY).handout(wrong)
+        with pytest.raises((TypeError, ValueError)):
+            fbd.Key(KEY).grade(wrong)
