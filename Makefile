@@ -128,7 +128,7 @@ check-format: $(BUILD)/.lint
 	.ci/lint $(BUILD) format
 
 format: $(BUILD)/.lint
-	find lib apps tests -name '*.[ch]' -exec clang-format -i {} +
+	find lib apps tests examples -name '*.[ch]' -exec clang-format -i {} +
 
 lint: $(BUILD)/.lint
 	.ci/lint $(BUILD)
@@ -139,6 +139,26 @@ gallery: $(BUILD)/.tests
 
 install: all
 	meson install -C $(BUILD) --no-rebuild
+	cp $(BUILD)/meson-logs/install-log.txt $(BUILD)/installed.txt
+
+# What the last `make install` from this folder has put there.
+uninstall:
+	cp $(BUILD)/installed.txt $(BUILD)/meson-logs/install-log.txt
+	ninja -C $(BUILD) uninstall
+
+# The source as a tarball, of what is committed: $(BUILD)/meson-dist.
+dist: $(BUILD)/build.ninja
+	meson dist -C $(BUILD) --no-tests
+
+# Packages for Debian, of what is committed; `deb-check` also asks lintian, installs them and tries them.
+DEBS = $(BUILD)-debian
+deb:
+	.ci/install-packages run test deb
+	tests/packaging/debian $(DEBS) build
+
+deb-check:
+	.ci/install-packages run test deb
+	tests/packaging/debian $(DEBS)
 
 clean:
 	rm -rf $(BUILD) $(BUILD)-*
@@ -174,5 +194,5 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars event-bars events late-times implicit impacts failures gallery check-format format lint install clean
+.PHONY: all run test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars event-bars events late-times implicit impacts failures gallery check-format format lint install uninstall dist deb deb-check clean
 .SECONDARY:
