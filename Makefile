@@ -163,9 +163,12 @@ deb-check:
 clean:
 	rm -rf $(BUILD) $(BUILD)-*
 
+# Where Debian looks for libraries. Meson knows it from dpkg-dev alone, and would else take lib64.
+LIBDIR = $(if $(wildcard /etc/debian_version),--libdir=lib/$(shell $(CC) -print-multiarch))
+
 $(BUILD)/build.ninja:
 	.ci/install-packages run
-	meson setup $(BUILD) $(MESON_OPTIONS)
+	meson setup $(BUILD) $(LIBDIR) $(MESON_OPTIONS)
 
 $(BUILD)-sanitize/build.ninja:
 	.ci/install-packages run
