@@ -125,6 +125,7 @@ static void read_bodies(struct reader *reader)
         bool prescribed = body_prescribed_read(reader, b);
         if (!initial || !loads || !hand || !exact || !prescribed) scene->bodies[b].complete = false;
     }
+    if (fbd_errors_failed(reader->errors) == 0) reactions_add(reader);
 }
 
 /* ---- the file */
