@@ -10,7 +10,6 @@
 #include "scene/quantity.h"
 
 #include <assert.h>
-#include <ctype.h>
 
 enum { most_terms = 16 };
 
@@ -164,7 +163,7 @@ static bool derive_angle(struct entry *entry, const char *sign, struct value *an
 
 static bool is_of_name(char c)
 {
-    return isalnum((unsigned char)c) || c == '_' || c == '.';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
 }
 
 /* The text of a force, with the distance in the place of its name. */
