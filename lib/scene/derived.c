@@ -94,7 +94,8 @@ static struct table_symbol look_up_table(void *context, const char *name, struct
 
 /* Each text in it compiled by itself: what can go wrong is that they are too long together, or that there are
  * too many places in the world. */
-static bool compile(struct derived *derived, enum quantity quantity, struct value *value)
+static bool compile_text(struct derived *derived, enum quantity quantity, fbd_errors *errors,
+                         struct value *value)
 {
     struct reader *reader = derived->entry->reader;
     const struct scope scope = {.lookup = look_up,
@@ -103,15 +104,28 @@ static bool compile(struct derived *derived, enum quantity quantity, struct valu
                                 .units = reader->scene->units};
     const struct expr_want want = {.dim = quantity_dim(quantity), .what = "force"};
     struct pos at = derived->entry->chosen.at;
-    const char *text = derived->text.failed ? NULL : derived->text.data;
-    *value = (struct value){text ? expr_compile(reader->arena, text, at, &scope, &want, NULL) : NULL, at};
-    bool no_memory = derived->text.failed || reader->arena->failed;
-    text_free(&derived->text);
-    derived->count = 0;
-    if (!value->expr && !no_memory)
-        entry_note(derived->entry, "expression-too-long", at, "name what is long as a table, or shorten it",
+    *value = (struct value){.at = at};
+    if (derived->text.failed || !errors) {
+        diag_out_of_memory(reader->errors);
+        return false;
+    }
+    value->expr = expr_compile(reader->arena, derived->text.data, at, &scope, &want, errors);
+    if (errors->out_of_memory) diag_out_of_memory(reader->errors);
+    if (!value->expr && !errors->out_of_memory && !reader->arena->failed)
+        entry_note(derived->entry, "expression-too-long", at,
+                   "shorten them, or put a part of them into a table",
                    "the expressions of this force are too long to be used together");
     return value->expr != NULL;
+}
+
+static bool compile(struct derived *derived, enum quantity quantity, struct value *value)
+{
+    fbd_errors *errors = fbd_errors_new(); /* warnings were given where the texts stand */
+    bool compiled = compile_text(derived, quantity, errors, value);
+    fbd_errors_free(errors);
+    text_free(&derived->text);
+    derived->count = 0;
+    return compiled;
 }
 
 /* ---- toward a point */
