@@ -91,6 +91,11 @@ static bool read_toward(struct entry *entry)
     load->toward = "a point of the ground";
     load->end = (struct point){.kind = point_fixed, .at = node->at};
     if (node->kind == node_list) return ground_point_read(entry->reader, node, "toward", &load->end.where);
+    if (node->kind == node_scalar && strcmp(node->text, "ground") == 0) {
+        entry_note(entry, "unknown-point", node->at, "name a point of it, `ground.P`, or write [x, y]",
+                   "`toward` needs a point: the ground has no centre");
+        return false;
+    }
     if (!coupling_end_read(entry->reader, node, "toward", &load->target, &load->end)) return false;
     load->toward = arena_text(entry->reader->arena, node->text, node->length);
     if (!load->toward) return false;
