@@ -120,6 +120,15 @@ static void no_direction_at_the_point_itself(void **unused)
                    NULL);
     check_close(&checks, "when", get(&trial, "t"), sqrt(5), 1e-9); /* 5 m at 2 m/s^2 */
     trial_close(&trial);
+    struct trial there = trial_parse("fbd: 1\nbodies:\n  b: {mass: 1, motion: particle, forces: [applied: "
+                                     "{name: pull, value: 2, toward: [0, 0]}]}\n"
+                                     "simulate: {until: 9}\n");
+    trial_run(&there, NULL);
+    check_that(&checks, "nor does it start there", there.outcome == FBD_FAILED);
+    check_that(&checks, "and says why",
+               strstr(fbd_simulation_reason(there.simulation), "which has no direction where it acts") !=
+                   NULL);
+    trial_close(&there);
     checks_end(&checks);
 }
 
