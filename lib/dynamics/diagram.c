@@ -65,6 +65,22 @@ struct vec applied_force(const struct model_load *load, const struct pose *pose,
     return source->body_frame ? vec_turn(pose->rotation, f) : f;
 }
 
+struct vec load_place(const struct model_load *load, struct vec point, const struct instant *at)
+{
+    if (!load_is_placed(load->source)) return point;
+    return vec_add(point,
+                   (struct vec){formula_value(&load->offset_x, at), formula_value(&load->offset_y, at)});
+}
+
+struct vec drag_of_load(const struct model_load *load, struct vec v, const struct instant *at)
+{
+    const struct load *source = load->source;
+    struct drag_law law = {source->linear, source->quadratic};
+    struct vec f = load_drags_still_air(source) ? drag_force(&law, v) : (struct vec){0, 0};
+    if (!load_has_wind(source)) return f;
+    return vec_add(f, (struct vec){formula_value(&load->fx, at), formula_value(&load->fy, at)});
+}
+
 static struct vec link_or_line_force(const struct model_body *body, const struct model_load *load,
                                      struct motion_of_point point, const struct instant *at)
 {
@@ -104,7 +120,7 @@ static void set_arrow(const struct fbd_model *model, const struct model_body *bo
 {
     const struct load *source = load->source;
     struct motion_of_point point = point_motion(body, pose, load->point);
-    arrow->point = point.p;
+    arrow->point = load_place(load, point.p, at);
     switch (source->kind) {
     case load_gravity: arrow->force = vec_scale(body->inertia.mass, model->scene->gravity); break;
     case load_drive:
@@ -118,11 +134,7 @@ static void set_arrow(const struct fbd_model *model, const struct model_body *bo
     case load_applied: arrow->force = applied_force(load, pose, at); break;
     case load_spring:
     case load_damper: arrow->force = link_or_line_force(body, load, point, at); break;
-    case load_drag: {
-        struct drag_law law = {source->linear, source->quadratic};
-        arrow->force = drag_force(&law, point.v);
-        break;
-    }
+    case load_drag: arrow->force = drag_of_load(load, point.v, at); break;
     case load_potential:
     case moment_potential: potential_arrow(body, load, at, arrow); break;
     case moment_applied: arrow->couple = formula_value(&load->value, at); break;

@@ -35,6 +35,12 @@ size_t diagram_fill(const struct fbd_model *model, int index, const struct insta
                     const double *slots, struct arrow *arrows);
 
 /* The world components of an applied force. */
+/* Where a load acts: `point`, the place of its point of the body, or beside it. */
+struct vec load_place(const struct model_load *load, struct vec point, const struct instant *at);
+
+/* The drag on a point that moves at `v`. */
+struct vec drag_of_load(const struct model_load *load, struct vec v, const struct instant *at);
+
 struct vec applied_force(const struct model_load *load, const struct pose *pose, const struct instant *at);
 
 /* The sums of a jointed body's diagram, about its centre of mass, beside what they are to be. */

@@ -67,6 +67,12 @@ static bool note_arrow(const struct fbd_model *model, const struct model_body *b
     struct pos at = place_of(model, body, arrow);
     const char *on = body->name, *name = arrow->name;
     const double force[] = {arrow->force.x, arrow->force.y};
+    const char *toward = arrow->load >= 0 ? model->loads[arrow->load].source->toward : NULL;
+    if (toward && not_finite_note(found, force[0], at,
+                                  "the force `%s` on `%s`, which has no direction where "
+                                  "it acts at the point that it is directed to (%s),",
+                                  name, on, toward))
+        return true;
     for (int k = 0; k < 2; k++)
         if (not_finite_note(found, force[k], at, "the force `%s` on `%s`", name, on)) return true;
     const double moments[] = {arrow->couple, arrow_moment(arrow, G)};

@@ -79,7 +79,7 @@ static struct arrow load_arrow(const struct fbd_model *model, int index, const s
     const struct load *source = load->source;
     struct pose pose = body_pose(body, at);
     struct motion_of_point point = point_motion(body, &pose, load->point);
-    struct arrow arrow = {.name = source->name, .load = index, .point = point.p};
+    struct arrow arrow = {.name = source->name, .load = index, .point = load_place(load, point.p, at)};
     switch (source->kind) {
     case load_gravity: arrow.force = vec_scale(body->inertia.mass, model->scene->gravity); break;
     case load_drive: {
@@ -98,11 +98,7 @@ static struct arrow load_arrow(const struct fbd_model *model, int index, const s
     case load_applied: arrow.force = applied_force(load, &pose, at); break;
     case load_spring:
     case load_damper: arrow.force = spring_force(model, body, load, point, at); break;
-    case load_drag: {
-        struct drag_law law = {source->linear, source->quadratic};
-        arrow.force = drag_force(&law, point.v);
-        break;
-    }
+    case load_drag: arrow.force = drag_of_load(load, point.v, at); break;
     case load_potential:
     case moment_potential: potential_arrow(body, load, at, &arrow); break;
     case moment_applied: arrow.couple = formula_value(&load->value, at); break;

@@ -57,7 +57,13 @@ static struct verdict judge_applied(const struct model_body *body, const struct 
                   formula_depends(body, &load->fx) | formula_depends(body, &load->fy);
     bool moment = load->source->kind == moment_applied, jointed = body->place.link > 0;
     bool one_coordinate = body->kind == motion_slide || body->kind == motion_pivot;
-    if (on & ~(unsigned)depends_place) return (struct verdict){potential_none, why_not(on)};
+    if (on & ~(unsigned)depends_place && !load->source->toward)
+        return (struct verdict){potential_none, why_not(on)};
+    bool turns = jointed || (body->kind != motion_slide && body->kind != motion_particle);
+    if (load->source->toward)
+        return (struct verdict){potential_none, "counted as work: it points to a place"};
+    if (load_is_placed(load->source) && turns)
+        return (struct verdict){potential_none, "counted as work: its place does not turn with the body"};
     struct odd_switches odd = odd_switches(load);
     if (odd.relay)
         return (struct verdict){potential_none, "not conservative: it depends on where the motion came from"};
@@ -95,9 +101,13 @@ static struct verdict judge(const struct model_body *body, const struct model_lo
     case load_spring:
         return (struct verdict){load->linked ? potential_link : potential_spring, linear_spring};
     case moment_spring: return (struct verdict){potential_spring, linear_spring};
+    case load_drag:
+        if (load_has_wind(load->source))
+            return (struct verdict){potential_none,
+                                    "not conservative: it depends on velocity and on the wind"};
+        return (struct verdict){potential_none, dissipative};
     case load_damper:
-    case moment_damper:
-    case load_drag: return (struct verdict){potential_none, dissipative};
+    case moment_damper: return (struct verdict){potential_none, dissipative};
     case load_friction:
     case moment_friction:
         return (struct verdict){potential_none,

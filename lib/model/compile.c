@@ -116,6 +116,9 @@ static void set_load(struct builder *builder, struct model_load *load, const str
     load->fx = builder_formula(builder, &source->fx, body, index);
     load->fy = builder_formula(builder, &source->fy, body, index);
     load->potential = builder_formula(builder, &source->potential, body, index);
+    load->offset_x = builder_formula(builder, &source->offset_x, body, index);
+    load->offset_y = builder_formula(builder, &source->offset_y, body, index);
+    load->couple = builder_formula(builder, &source->couple, body, index);
 }
 
 static void set_loads(struct builder *builder)
@@ -224,7 +227,6 @@ static bool set_output_points(struct fbd_model *model)
 static bool allocate(struct fbd_model *model)
 {
     const struct scene *scene = model->scene;
-    enum { formulas_of_a_load = 8 }; /* value, angle, fx, fy, potential, mu_s, mu_k, surface_speed */
     model->body_count = scene->body_count;
     for (size_t b = 0; b < scene->body_count; b++) model->listed_count += scene->bodies[b].load_count;
     model->coupled_count = model->listed_count + scene->coupling_count;
@@ -235,7 +237,7 @@ static bool allocate(struct fbd_model *model)
         model->load_count += scene->bodies[b].motion.prescribed.expr != NULL;
     model->bodies = ARENA_ARRAY(&model->arena, model->body_count, struct model_body);
     model->loads = ARENA_ARRAY(&model->arena, model->load_count, struct model_load);
-    size_t formulas = formulas_of_a_load * model->load_count + 2 * scene->event_count;
+    size_t formulas = most_formulas_of_a_load * model->load_count + 2 * scene->event_count;
     model->plan.watches = ARENA_ARRAY(&model->arena, scene->event_count, struct watch);
     model->plan.kinks = ARENA_ARRAY(&model->arena, formulas, struct kink);
     model->plan.poles = ARENA_ARRAY(&model->arena, formulas, struct pole);

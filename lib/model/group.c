@@ -26,9 +26,9 @@ static void copy_loads(const struct copy *copy, struct body *body)
     for (size_t i = 0; i < body->load_count; i++) {
         struct load *load = &body->loads[i];
         *load = from[i];
-        struct value *values[] = {&load->value, &load->angle,         &load->fx,       &load->fy, &load->mu_s,
-                                  &load->mu_k,  &load->surface_speed, &load->potential};
-        for (size_t k = 0; k < sizeof values / sizeof *values; k++) renumber(copy, &values[k]->expr);
+        struct value *formulas[most_formulas_of_a_load];
+        load_formulas(load, formulas);
+        for (size_t k = 0; k < most_formulas_of_a_load; k++) renumber(copy, &formulas[k]->expr);
     }
 }
 

@@ -73,6 +73,7 @@ struct model_load {
     bool linked;       /* spring or damper that has another end */
     int partner;       /* coupling: the body at the other end, where `anchor` is in its frame; else -1 */
     struct formula value, angle, fx, fy, potential;
+    struct formula offset_x, offset_y, couple; /* see struct load; zero at `point` itself */
     enum potential_kind potential_kind;
     double reference; /* potential_quadrature: the coordinate where V = 0 */
     const char *why;  /* conservative or not, and the reason */

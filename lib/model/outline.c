@@ -60,7 +60,13 @@ struct outline_part outline_of_part(const struct part *part)
     case shape_prism:
         set_rectangle(&outline, along, part->side[faces ? 1 : 0], part->side[part->axis == 'z' ? 1 : 2]);
         break;
-    case shape_given: outline.kind = outline_unknown; break;
+    case shape_given:
+        outline.kind = outline_unknown;
+        if (part->rim > 0) {
+            outline.center = part->hub;
+            set_circle(&outline, part->rim, 0);
+        }
+        break;
     }
     return outline;
 }

@@ -44,6 +44,12 @@ static void add_world_moment(struct builder *builder, int coordinate, struct vec
     add_sine(builder, coordinate, coordinate, -vec_dot(arm, f), vec_cross(arm, f));
 }
 
+/* A moment acts on the body's angle: its only coordinate, or the third of a planar body. */
+static int angle_coordinate(const struct model_body *body)
+{
+    return body->first + body->count - 1;
+}
+
 /* ---- constant forces */
 
 static void add_constant_force(struct builder *builder, const struct model_body *body, struct vec point,
@@ -119,6 +125,26 @@ static void add_directed_force(struct builder *builder, const struct model_body 
     }
 }
 
+/* Beside the body: the moment of the offset. Where that is constant and so is the direction, it goes with the
+ * formulas of the force itself, whose switches it then shares. */
+static void add_couple(struct builder *builder, const struct model_body *body, const struct model_load *load)
+{
+    const struct load *source = load->source;
+    struct vec arm = {load->offset_x.constant, load->offset_y.constant};
+    if (body->kind != motion_pivot && body->kind != motion_planar) return;
+    bool fixed =
+        formula_is_constant(&load->offset_x) && formula_is_constant(&load->offset_y) && !source->body_frame;
+    int i = angle_coordinate(body);
+    if (fixed && (source->fx.expr || source->fy.expr)) {
+        add_formula(builder, i, arm.x, &load->fy);
+        add_formula(builder, i, -arm.y, &load->fx);
+    } else if (fixed && formula_is_constant(&load->angle)) {
+        add_formula(builder, i, vec_cross(arm, vec_unit(load->angle.constant)), &load->value);
+    } else {
+        add_formula(builder, i, 1, &load->couple);
+    }
+}
+
 static void add_applied(struct builder *builder, const struct model_body *body, const struct model_load *load)
 {
     struct plan *plan = &builder->model->plan;
@@ -134,6 +160,7 @@ static void add_applied(struct builder *builder, const struct model_body *body, 
         plan->forces[plan->force_count++] = (struct force_term){(int)(body - builder->model->bodies),
                                                                 load->point, frame, load->value, load->angle};
     }
+    if (load_is_placed(load->source)) add_couple(builder, body, load);
 }
 
 /* ---- springs, dampers, drag */
@@ -169,6 +196,11 @@ static void add_drag(struct builder *builder, const struct model_body *body, con
 {
     struct plan *plan = &builder->model->plan;
     double linear = load->source->linear, quadratic = load->source->quadratic;
+    if (load_has_wind(load->source)) {
+        add_directed_force(builder, body, load, &load->fx, (struct vec){1, 0}, false);
+        add_directed_force(builder, body, load, &load->fy, (struct vec){0, 1}, false);
+    }
+    if (!load_drags_still_air(load->source)) return;
     struct vec arm = vec_sub(load->point, body->pin);
     double r = vec_norm(arm);
     int i = body->first;
@@ -184,12 +216,6 @@ static void add_drag(struct builder *builder, const struct model_body *body, con
         plan->drags[plan->drag_count++] =
             (struct drag_term){(int)(body - builder->model->bodies), load->point, linear, quadratic};
     }
-}
-
-/* A moment acts on the body's angle: its only coordinate, or the third of a planar body. */
-static int angle_coordinate(const struct model_body *body)
-{
-    return body->first + body->count - 1;
 }
 
 static void add_moment_spring(struct builder *builder, const struct model_body *body,
@@ -356,7 +382,7 @@ static bool allocate(struct builder *builder)
     plan->slot_constant = ARENA_ARRAY(arena, most_slots, bool);
     struct tree *tree = model->tree;
     if (tree) {
-        tree->following = ARENA_ARRAY(arena, 2 * loads, struct tree_following);
+        tree->following = ARENA_ARRAY(arena, 3 * loads, struct tree_following);
         tree->forces = ARENA_ARRAY(arena, 2 * loads, struct tree_force);
         tree->moments = ARENA_ARRAY(arena, loads, struct tree_moment);
         tree->springs = ARENA_ARRAY(arena, loads, struct tree_spring);

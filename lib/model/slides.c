@@ -17,6 +17,7 @@ static bool is_force(const struct fbd_model *model, const struct kink *kink)
         if (load->value.branch == branch && load->value.expr) return true;
         if (load->fx.branch == branch && load->fx.expr) return true;
         if (load->fy.branch == branch && load->fy.expr) return true;
+        if (load->couple.branch == branch && load->couple.expr) return true;
     }
     for (size_t i = 0; i < model->plan.friction_count; i++) {
         const struct formula *mu = &model->plan.frictions[i].mu_k;

@@ -181,6 +181,15 @@ static void add_following(struct builder *builder, const struct model_body *body
     tree->following[tree->following_count++] = (struct tree_following){body->place.link, turned, moment};
 }
 
+static void add_moment(struct builder *builder, const struct model_body *body, const struct formula *value)
+{
+    struct tree *tree = builder->model->tree;
+    if (formula_is_constant(value))
+        add_following(builder, body, (struct vec){0, 0}, (struct vec){0, 0}, value->constant);
+    else
+        tree->moments[tree->moment_count++] = (struct tree_moment){body->place.link, *value};
+}
+
 static void add_varying(struct builder *builder, const struct model_body *body, const struct model_load *load,
                         bool body_frame, const struct formula *value, struct formula angle)
 {
@@ -221,6 +230,23 @@ static void add_applied(struct builder *builder, const struct model_body *body, 
     } else {
         add_varying(builder, body, load, frame, &load->value, load->angle);
     }
+    if (load_is_placed(load->source)) add_moment(builder, body, &load->couple);
+}
+
+/* What wind adds, and the drag as in still air. */
+static void add_drag(struct builder *builder, const struct model_body *body, const struct model_load *load)
+{
+    const double up = 1.5707963267948966;
+    struct tree *tree = builder->model->tree;
+    const struct load *source = load->source;
+    if (load_has_wind(source)) {
+        add_directed(builder, body, load, &load->fx, 0, false);
+        add_directed(builder, body, load, &load->fy, up, false);
+    }
+    if (load_drags_still_air(source))
+        tree->drags[tree->drag_count++] =
+            (struct tree_drag){body->place.link, placement_point(&body->place, load->point), source->linear,
+                               source->quadratic};
 }
 
 static void add_spring(struct builder *builder, const struct model_body *body, const struct model_load *load)
@@ -255,18 +281,8 @@ static void add_joint_spring(struct builder *builder, const struct model_body *b
     term->c0 += source->stiffness * source->free_length;
 }
 
-static void add_moment(struct builder *builder, const struct model_body *body, const struct model_load *load)
-{
-    struct tree *tree = builder->model->tree;
-    if (formula_is_constant(&load->value))
-        add_following(builder, body, (struct vec){0, 0}, (struct vec){0, 0}, load->value.constant);
-    else
-        tree->moments[tree->moment_count++] = (struct tree_moment){body->place.link, load->value};
-}
-
 void tree_add_load(struct builder *builder, int index)
 {
-    struct tree *tree = builder->model->tree;
     const struct model_load *load = &builder->model->loads[index];
     const struct model_body *body = &builder->model->bodies[load->body];
     const struct load *source = load->source;
@@ -278,12 +294,8 @@ void tree_add_load(struct builder *builder, int index)
     case load_applied: add_applied(builder, body, load); break;
     case load_spring:
     case load_damper: add_spring(builder, body, load); break;
-    case load_drag:
-        tree->drags[tree->drag_count++] =
-            (struct tree_drag){body->place.link, placement_point(&body->place, load->point), source->linear,
-                               source->quadratic};
-        break;
-    case moment_applied: add_moment(builder, body, load); break;
+    case load_drag: add_drag(builder, body, load); break;
+    case moment_applied: add_moment(builder, body, &load->value); break;
     case moment_spring:
     case moment_damper: add_joint_spring(builder, body, source); break;
     case load_drive:
@@ -354,7 +366,8 @@ static bool *find_twisted(struct fbd_model *model)
     for (size_t i = 0; twisted && i < model->load_count; i++) {
         const struct model_load *load = &model->loads[i];
         bool at_origin = load->source->kind == load_potential;
-        if (is_off_center(&model->bodies[load->body], at_origin ? (struct vec){0, 0} : load->point))
+        if (load_is_placed(load->source) ||
+            is_off_center(&model->bodies[load->body], at_origin ? (struct vec){0, 0} : load->point))
             twisted[load->body] = true;
         if (load->partner >= 0 && is_off_center(&model->bodies[load->partner], load->anchor))
             twisted[load->partner] = true;

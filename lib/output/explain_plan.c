@@ -88,7 +88,7 @@ static void write_dependence(struct text *text, const struct fbd_model *model)
     } kinds[] = {{depends_time, "time"},
                  {depends_place, "the place"},
                  {depends_rate, "the velocity"},
-                 {depends_other, "the motion of other bodies"}};
+                 {depends_other, "other bodies, or places in the world"}};
     bool any = false;
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         size_t count = bodies_that_depend(model, kinds[i].on);

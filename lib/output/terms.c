@@ -82,7 +82,12 @@ static const char *plain_remark(const struct model_load *load, bool turns)
     case load_damper: return load->linked ? "-c l' along its line" : "-c v";
     case moment_damper: return "-c omega";
     case load_drag:
-        if (turns) return "drag at its point";
+        if (turns)
+            return load_has_wind(load->source) ? "drag at its point, in the wind" : "drag at its point";
+        if (load_has_wind(load->source))
+            return load->source->quadratic == 0 ? "-c (v - w)"
+                   : load->source->linear == 0  ? "-k |v - w| (v - w)"
+                                                : "-(c + k |v - w|) (v - w)";
         return load->source->quadratic == 0 ? "-c v"
                : load->source->linear == 0  ? "-k |v| v"
                                             : "-(c + k |v|) v";
@@ -102,6 +107,9 @@ void term_remark(struct fbd_state *state, int index, int part, char remark[stati
     case load_normal: normal_remark(state, body, remark); return;
     case load_friction:
     case moment_friction: friction_remark(state, load->body, remark); return;
+    case load_applied:
+        if (load->source->toward) snprintf(remark, term_remark_size, "toward %s", load->source->toward);
+        return;
     case load_gravity: snprintf(remark, term_remark_size, "%s", gravity_remark(model, body, part)); return;
     default:
         snprintf(remark, term_remark_size, "%s",

@@ -123,7 +123,8 @@ static const char *translated(fbd_errors *errors, const struct group *group, con
 static const char *behind_a_comma(const struct pair *pair)
 {
     if (pair->value->kind != node_null) return NULL;
-    if (pair->key[0] && strspn(pair->key, "0123456789") == strlen(pair->key))
+    size_t digits = strspn(pair->key, "0123456789");
+    if (digits > 0 && (pair->key[digits] == '\0' || pair->key[digits] == ' '))
         return "a comma separates entries inside braces: write a decimal point, as `2.5`";
     if (strchr(pair->key, ')'))
         return "a comma separates entries inside braces: put the expression in quotes, as `\"min(1, 2)\"`";

@@ -195,17 +195,22 @@ struct exact_keys {
 struct load_keys {
     struct load load;
     const char *name;
-    const struct node *value, *at, *to;
+    const struct node *value, *at, *to, *toward, *wind;
     double neutral;
     struct value coefficient;
     int side, frame;
+};
+
+/* `at` of an applied force, where it is more than a point. */
+struct place_keys {
+    const struct node *point, *offset;
 };
 
 enum { frame_world, frame_body };
 
 struct coupling_keys {
     const char *name;
-    const struct node *between, *through, *radii, *body, *on;
+    const struct node *between, *through, *radii, *body, *on, *center;
     double stiffness, free_length, coefficient, length, radius;
     bool inside;
     struct value mu_s, mu_k, restitution;
@@ -228,7 +233,7 @@ extern const struct choice method_choices[];
 extern const struct group scene_group, ground_group, line_group, simulate_group, output_group, event_group;
 extern const struct group contact_group, table_group, grading_group;
 extern const struct group *const grading_points_group;
-extern const struct group body_group, part_group, inertia_group, hand_group;
+extern const struct group body_group, part_group, inertia_group, hand_group, place_group;
 extern const struct group initial_groups[], exact_groups[]; /* by enum motion_kind */
 extern const struct kinds motion_kinds, force_kinds, moment_kinds, coupling_kinds;
 extern const struct kind *const contact_kind; /* among the couplings, or in a list of its own */

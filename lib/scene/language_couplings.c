@@ -67,6 +67,10 @@ static const struct field roll_fields[] = {
     FIELD_NODE(COUPLING(on), "on", field_scalar, required, NULL,
                "the line that it rolls on: of the ground, or a body on a slide"),
     FIELD_NUMBER(COUPLING(radius), "radius", a_length, positive, "its radius; default that of its shape"),
+    FIELD_NODE(
+        COUPLING(center), "center", field_any, 0, NULL,
+        "centre of its circle: a point of the body, a name or [x, y]; default that of its round shape, "
+        "without one G"),
     FIELD_VALUE(COUPLING(mu_s), "static", a_number, not_negative | slips_not,
                 "coefficient of static friction"),
     FIELD_VALUE(COUPLING(mu_k), "kinetic", a_number, not_negative | slips, "coefficient of kinetic friction"),

@@ -48,6 +48,15 @@ static const struct choice frames[] = {
     FIELD_NODE(offsetof(struct load_keys, to), "to", field_any, 0, NULL,                                     \
                "point of the ground: a name or [x, y]")
 
+static const struct field place_fields[] = {
+    FIELD_NODE(offsetof(struct place_keys, point), "point", field_any, 0, NULL,
+               "point of the body: a name or [x, y]; default G"),
+    FIELD_ENTRIES(offsetof(struct place_keys, offset), "offset", field_any, required, each_pair, NULL,
+                  "from there to where the force acts, [x, y] along the axes of the world, as [0.1 m, 0]: it "
+                  "does not turn with the body"),
+};
+const struct group place_group = {"`at`", "point", FIELDS(place_fields), NULL, 0, "where a force acts"};
+
 static const struct group gravity_group = BARE_GROUP("`gravity`", "the weight, at G");
 
 static const struct field normal_fields[] = {
@@ -75,9 +84,14 @@ static const struct field applied_fields[] = {
     FIELD_VALUE(LOAD(angle), "angle", an_angle, 0, "its direction, from the x axis of `frame`"),
     FIELD_VALUE(LOAD(fx), "fx", a_force, 0, "component along x"),
     FIELD_VALUE(LOAD(fy), "fy", a_force, 0, "component along y"),
+    FIELD_NODE(offsetof(struct load_keys, toward), "toward", field_any, 0, NULL,
+               "its direction: to a point of the ground ([x, y] or ground.P) or of another body (body.P), "
+               "which then feels the opposite"),
     FIELD_CHOICE(offsetof(struct load_keys, frame), "frame", frames,
                  "what angle and components refer to; default world"),
-    AT_ROW,
+    FIELD_NODE(offsetof(struct load_keys, at), "at", field_any, 0, &place_group,
+               "point of the body, a name or [x, y], default G; or {point: ..., offset: [x, y]}, that far "
+               "from it along the axes of the world"),
 };
 static const struct group applied_group =
     LOAD_GROUP("an applied force", "value", applied_fields, "a given force");
@@ -106,10 +120,12 @@ static const struct group damper_group =
 static const struct field drag_fields[] = {
     FIELD_NUMBER(LOAD(linear), "linear", a_damping, not_negative, "force per velocity"),
     FIELD_NUMBER(LOAD(quadratic), "quadratic", a_quadratic_drag, not_negative, "force per velocity squared"),
+    FIELD_ENTRIES(offsetof(struct load_keys, wind), "wind", field_any, 0, each_pair, NULL,
+                  "velocity of the air, [x, y]; default still air"),
     AT_ROW,
 };
 static const struct group drag_group =
-    LOAD_GROUP("`drag`", NULL, drag_fields, "resistance against the velocity of a point");
+    LOAD_GROUP("`drag`", NULL, drag_fields, "resistance against the velocity of a point through the air");
 
 static const struct field potential_fields[] = {
     FIELD_VALUE(LOAD(potential), "V", an_energy, required, "potential energy, of the body's coordinates"),

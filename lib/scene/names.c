@@ -120,6 +120,13 @@ static struct symbol absolute_slot(struct reader *reader, const struct absolute 
     return variable(coordinate_dim(angle, derivative), 1 + 2 * scene->coordinate_count + hand_slots + k);
 }
 
+struct symbol name_of_place(struct reader *reader, int body, const struct point *point,
+                            enum absolute_kind kind)
+{
+    const struct absolute absolute = {.body = body, .point = *point, .kind = kind};
+    return absolute_slot(reader, &absolute);
+}
+
 /* `angle`, `x`, `y` and their rates in the world; with `of_point` not `angle`. */
 static bool absolute_kind_of(const char *name, bool of_point, enum absolute_kind *kind)
 {
@@ -255,6 +262,19 @@ static struct symbol misplaced_slip(const struct names *names, struct pos at)
     return failed_before;
 }
 
+/* The distance to the point that a force points to. What it is follows when all else of the force is known
+ * (derived.c); until then any length that varies stands for it. */
+static struct symbol distance_symbol(struct names *names, struct pos at)
+{
+    names->distance_named = true;
+    names->reader->varies = true; /* to be noticed in every reading */
+    if (names->distance_known) return variable(DIM_LENGTH, 0);
+    diag_add(names->reader->errors, FBD_ERROR, "not-here", at,
+             "elsewhere write it out, as `hypot(a.G.x - b.G.x, a.G.y - b.G.y)`",
+             "`distance` is known in the `value` of a force with `toward` alone");
+    return failed_before;
+}
+
 /* What the assembly knows: see enum hand_slot. */
 static struct symbol hand_symbol(const struct names *names, const char *name)
 {
@@ -317,6 +337,7 @@ static struct symbol look_up(void *context, const char *name, struct pos at)
     if (pair) return parameter_symbol(reader, (size_t)(pair - reader->parameters->pairs), at);
     if (strcmp(name, "g") == 0) return gravity_symbol(reader, at);
     if (strcmp(name, "slip") == 0) return names->slip ? slip_symbol(names) : misplaced_slip(names, at);
+    if (names->place == place_load && strcmp(name, "distance") == 0) return distance_symbol(names, at);
     struct symbol other = other_symbol(names, name);
     if (other.kind == symbol_constant) reader->varies = true; /* who knows what it was made of */
     return other;
@@ -363,6 +384,7 @@ static void know_all(struct names *names)
     if (!constant) know(names, "t");
     if (names->place == place_load || names->place == place_exact) know(names, "m");
     if (names->slip != slip_unknown) know(names, "slip");
+    if (names->distance_known) know(names, "distance");
     if (names->place == place_contact) know(names, "approach");
     for (size_t i = 0; names->place == place_hand && i < sizeof of_hand / sizeof *of_hand; i++)
         if (hand_symbol(names, of_hand[i]).kind == symbol_variable) know(names, of_hand[i]);

@@ -51,11 +51,16 @@ struct names {
     enum place place;
     int body; /* whose coordinates need no prefix, or ground_body */
     enum slip_name slip;
-    bool slip_angular; /* it is an angular speed */
-    bool slip_named;   /* it was looked up */
+    bool slip_angular;                   /* it is an angular speed */
+    bool slip_named;                     /* it was looked up */
+    bool distance_known, distance_named; /* of the size of a force toward a point; it was looked up */
     const char **known;
     size_t known_count;
 };
+
+/* Where a point of a body is in the world, as a variable. */
+struct symbol name_of_place(struct reader *reader, int body, const struct point *point,
+                            enum absolute_kind kind);
 
 /* A scope for expr_compile; `names` must live as long. */
 struct scope names_scope(struct names *names);

@@ -200,6 +200,17 @@ static bool share_friction(struct reader *reader, const struct node *node, const
     return true;
 }
 
+/* What has no shape looks like what rolls. */
+static void set_rim(struct reader *reader, const struct constraint *constraint)
+{
+    struct body *body = &reader->scene->bodies[constraint->body[0]];
+    struct part *part = &body->parts[0];
+    const struct point *center = &constraint->point[0];
+    if (body->part_count != 1 || part->shape != shape_given) return;
+    part->rim = constraint->radius[0];
+    part->hub = center->kind == point_fixed ? center->where : body_centre_of_mass(body);
+}
+
 /* `on`: a line of the ground, or a body, whose x axis through its origin is the line. */
 static bool read_roll(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
 {
@@ -208,6 +219,10 @@ static bool read_roll(struct reader *reader, const struct coupling_keys *keys, s
     constraint->end_count = 2;
     constraint->body[1] = ground_body;
     if (!needs_body(reader, constraint, 0) || !set_circle(reader, constraint, 0, keys->radius)) return false;
+    if (keys->center &&
+        !body_point_read(reader, constraint->body[0], keys->center, "center", &constraint->point[0]))
+        return false;
+    set_rim(reader, constraint);
     constraint->point[1] = (struct point){.kind = point_fixed, .at = on->at};
     constraint->mu_s = keys->mu_s;
     constraint->mu_k = keys->mu_k;

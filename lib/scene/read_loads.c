@@ -2,100 +2,9 @@
  *
  * Loads: the forces and moments that a body lists.
  */
-#include "scene/fields.h"
-#include "scene/reader.h"
+#include "scene/load_entry.h"
 #include "scene/slip_law.h"
 #include "scene/values.h"
-
-/* One entry while it is read. */
-struct entry {
-    struct reader *reader;
-    int body;
-    const struct motion *motion; /* NULL when it is not known */
-    struct chosen chosen;
-    struct load_keys keys;
-    struct scope scope;
-};
-
-static void note(const struct entry *entry, const char *id, struct pos at, const char *hint,
-                 const char *message)
-{
-    diag_add(entry->reader->errors, FBD_ERROR, id, at, hint, "%s", message);
-}
-
-static bool has(const struct entry *entry, const char *key)
-{
-    return node_find(entry->chosen.node, key) != NULL;
-}
-
-static bool exclude(struct entry *entry, const char *key, const char *other, const char *hint)
-{
-    return fields_exclude(entry->reader, entry->chosen.node, key, other, hint);
-}
-
-static bool is_slide(const struct entry *entry)
-{
-    return entry->motion && entry->motion->kind == motion_slide;
-}
-
-/* ---- applied forces */
-
-static bool read_component(struct entry *entry, const struct node *node, const char *what,
-                           struct value *value)
-{
-    return value_formula(entry->reader, node, what, a_force, 0, &entry->scope, value);
-}
-
-static bool read_applied_value(struct entry *entry)
-{
-    const struct node *value = entry->keys.value;
-    struct load *load = &entry->keys.load;
-    if (value->kind != node_list) return read_component(entry, value, "value", &load->value);
-    if (value->count != 2) {
-        note(entry, "wrong-type", value->at, "write [fx, fy]", "`value` must be one force or a pair");
-        return false;
-    }
-    bool x = read_component(entry, value->items[0], "value", &load->fx);
-    return read_component(entry, value->items[1], "value", &load->fy) && x;
-}
-
-static bool fill_component(struct entry *entry, const char *key, struct value *value)
-{
-    if (value->expr || has(entry, key)) return value->expr != NULL;
-    *value = (struct value){expr_constant(entry->reader->arena, 0, DIM_FORCE), entry->chosen.at};
-    return value->expr != NULL;
-}
-
-/* A size needs a direction; on a slide it has one. */
-static bool check_direction(struct entry *entry)
-{
-    if (has(entry, "angle") || !entry->motion || is_slide(entry)) return true;
-    note(entry, "missing-key", entry->chosen.at,
-         "add its direction, `angle: 0 deg` for one along x, or write `value: [fx, fy]`",
-         "an applied force needs `angle`, unless it acts on a slide");
-    return false;
-}
-
-static bool finish_applied(struct entry *entry)
-{
-    struct load *load = &entry->keys.load;
-    const char *hint = "give its size (and angle) or its components";
-    bool components = has(entry, "fx") || has(entry, "fy");
-    bool pair = entry->keys.value && entry->keys.value->kind == node_list;
-    bool fine = exclude(entry, "value", "fx", hint) && exclude(entry, "value", "fy", hint);
-    if (components && !exclude(entry, "angle", has(entry, "fx") ? "fx" : "fy", hint)) fine = false;
-    if (pair && !exclude(entry, "angle", "value", hint)) fine = false;
-    load->body_frame = entry->keys.frame == frame_body;
-    if (entry->keys.value && !read_applied_value(entry)) return false;
-    if (components && !entry->keys.value)
-        return fill_component(entry, "fx", &load->fx) && fill_component(entry, "fy", &load->fy) && fine;
-    if (!entry->keys.value && !has(entry, "value")) {
-        note(entry, "missing-key", entry->chosen.at, "add for example `value: 5 N`",
-             "an applied force needs `value`");
-        return false;
-    }
-    return (pair || components || check_direction(entry)) && fine;
-}
 
 /* ---- springs and dampers */
 
@@ -103,14 +12,15 @@ static bool finish_anchored_spring(struct entry *entry)
 {
     struct load *load = &entry->keys.load;
     bool fine = true;
-    if (has(entry, "neutral")) {
-        note(entry, "not-here", node_find(entry->chosen.node, "neutral")->at,
-             "the length without force is `free_length`", "a spring between two points has no `neutral`");
+    if (entry_has(entry, "neutral")) {
+        entry_note(entry, "not-here", node_find(entry->chosen.node, "neutral")->at,
+                   "the length without force is `free_length`",
+                   "a spring between two points has no `neutral`");
         fine = false;
     }
     if (load->free_length < 0) {
-        note(entry, "out-of-range", node_find(entry->chosen.node, "free_length")->value->at, NULL,
-             "`free_length` must be zero or above");
+        entry_note(entry, "out-of-range", node_find(entry->chosen.node, "free_length")->value->at, NULL,
+                   "`free_length` must be zero or above");
         fine = false;
     }
     return fine;
@@ -124,10 +34,10 @@ static bool finish_link(struct entry *entry)
         bool anchor = ground_point_read(entry->reader, entry->keys.to, "to", &load->anchor.where);
         return finish_anchored_spring(entry) && anchor;
     }
-    if (!entry->motion || has(entry, "to")) return true;
-    if (is_slide(entry)) {
-        if (has(entry, "neutral")) load->free_length = entry->keys.neutral;
-        return exclude(entry, "free_length", "neutral", "on a slide without `to` they mean the same");
+    if (!entry->motion || entry_has(entry, "to")) return true;
+    if (entry_is_slide(entry)) {
+        if (entry_has(entry, "neutral")) load->free_length = entry->keys.neutral;
+        return entry_exclude(entry, "free_length", "neutral", "on a slide without `to` they mean the same");
     }
     diag_add(entry->reader->errors, FBD_ERROR, "missing-key", entry->chosen.at,
              "add its other end: `to: [x, y]`, or the name of a point of the ground", "%s needs `to`",
@@ -160,9 +70,9 @@ static bool share_friction(struct entry *entry, bool single)
         load->mu_k = entry->keys.coefficient;
         return share_coefficient(entry, "coefficient", &load->mu_k, slip_resting, &load->mu_s);
     }
-    if (!has(entry, "static"))
+    if (!entry_has(entry, "static"))
         return share_coefficient(entry, "kinetic", &load->mu_k, slip_resting, &load->mu_s);
-    if (!has(entry, "kinetic"))
+    if (!entry_has(entry, "kinetic"))
         return share_coefficient(entry, "static", &load->mu_s, slip_moving, &load->mu_k);
     return load->mu_s.expr && load->mu_k.expr;
 }
@@ -172,12 +82,12 @@ static bool finish_friction(struct entry *entry)
 {
     struct load *load = &entry->keys.load;
     const char *hint = "`coefficient` means both";
-    bool single = has(entry, "coefficient") || entry->keys.coefficient.expr;
-    bool fine =
-        exclude(entry, "coefficient", "static", hint) && exclude(entry, "coefficient", "kinetic", hint);
-    if (!single && !has(entry, "static") && !has(entry, "kinetic")) {
-        note(entry, "missing-key", entry->chosen.at, "add for example `static: 0.5, kinetic: 0.4`",
-             "`friction` needs `static`, `kinetic` or one `coefficient` for both");
+    bool single = entry_has(entry, "coefficient") || entry->keys.coefficient.expr;
+    bool fine = entry_exclude(entry, "coefficient", "static", hint) &&
+                entry_exclude(entry, "coefficient", "kinetic", hint);
+    if (!single && !entry_has(entry, "static") && !entry_has(entry, "kinetic")) {
+        entry_note(entry, "missing-key", entry->chosen.at, "add for example `static: 0.5, kinetic: 0.4`",
+                   "`friction` needs `static`, `kinetic` or one `coefficient` for both");
         return false;
     }
     if (!share_friction(entry, single)) return false;
@@ -194,19 +104,11 @@ static void finish_normal(struct entry *entry)
     const double upright = 1e-12; /* as where the side is chosen, in model/compile.c */
     struct load *load = &entry->keys.load;
     load->side = (enum normal_side)entry->keys.side;
-    if (load->side != side_up || load->two_sided || !is_slide(entry)) return;
+    if (load->side != side_up || load->two_sided || !entry_is_slide(entry)) return;
     if (fabs(vec_unit(entry->motion->along).x) > upright) return;
     diag_add(entry->reader->errors, FBD_WARNING, "no-side-up", entry->chosen.at,
              "write `normal: {side: left}` or `normal: {side: right}`, as seen along +x",
              "no side of a vertical line is up: the surface is taken to push to the left of +x");
-}
-
-static bool finish_drag(struct entry *entry)
-{
-    if (has(entry, "linear") || has(entry, "quadratic")) return true;
-    note(entry, "missing-key", entry->chosen.at, "add for example `linear: 0.5 N*s/m`",
-         "`drag` needs `linear` or `quadratic`");
-    return false;
 }
 
 /* Its slope is taken with respect to coordinates. */
@@ -217,8 +119,8 @@ static bool check_potential(const struct entry *entry)
     const int *slots;
     size_t count = expr_variables(V->expr, &slots), n = entry->reader->scene->coordinate_count;
     if (count == 0 || (size_t)slots[count - 1] <= 2 * n) return true;
-    note(entry, "not-here", V->at, "write V in the coordinates of the body",
-         "a potential cannot depend on a place in the world");
+    entry_note(entry, "not-here", V->at, "write V in the coordinates of the body",
+               "a potential cannot depend on a place in the world");
     return false;
 }
 
@@ -226,12 +128,12 @@ static bool finish(struct entry *entry)
 {
     struct load *load = &entry->keys.load;
     switch (load->kind) {
-    case load_applied: return finish_applied(entry);
+    case load_applied: return applied_finish(entry);
     case load_spring:
     case load_damper: return finish_link(entry);
     case load_friction:
     case moment_friction: return finish_friction(entry);
-    case load_drag: return finish_drag(entry);
+    case load_drag: return drag_finish(entry);
     case load_normal: finish_normal(entry); return true;
     case moment_spring: load->free_length = entry->keys.neutral; return true;
     case load_potential:
@@ -266,8 +168,7 @@ static bool read_entry(struct entry *entry, const struct kinds *kinds, const str
                             &entry->scope, &entry->keys);
     bool keyed = !entry->chosen.node || entry->chosen.node->kind == node_map;
     if (!fine && !keyed) return false;
-    if (entry->keys.at && !body_point_read(reader, entry->body, entry->keys.at, "at", &load->point))
-        fine = false;
+    if (entry->keys.at && !entry_place_read(entry)) fine = false;
     return finish(entry) && fine;
 }
 

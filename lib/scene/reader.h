@@ -165,6 +165,11 @@ bool body_point_read(struct reader *reader, int body, const struct node *node, c
 /* What acts on it (read_loads.c, load_names.c), and what the user derived (read_hand.c). */
 bool body_loads_read(struct reader *reader, int body);
 bool body_loads_name(struct reader *reader, int body, const char *const *names, const struct pos *places);
+/* When all is read and right: warn of surfaces that nothing presses on (presses.c). False when memory is out. */
+bool presses_note(struct reader *reader);
+
+/* When all loads are read: what bodies feel that forces of others point to (read_reactions.c). */
+bool reactions_add(struct reader *reader);
 bool body_hand_read(struct reader *reader, int body);
 
 /* The solution that the user knows (read_exact.c). */

@@ -125,6 +125,7 @@ static void read_bodies(struct reader *reader)
         bool prescribed = body_prescribed_read(reader, b);
         if (!initial || !loads || !hand || !exact || !prescribed) scene->bodies[b].complete = false;
     }
+    if (fbd_errors_failed(reader->errors) == 0) reactions_add(reader);
 }
 
 /* ---- the file */
@@ -148,6 +149,7 @@ static void read_scene(struct reader *reader, const struct override *overrides, 
     if (!is_hopeless(reader)) simulate_read(reader, &keys);
     if (!is_hopeless(reader)) grading_read(reader, keys.grading);
     if (fbd_errors_failed(reader->errors) > 0) return;
+    presses_note(reader);
     parameters_note_unused(reader);
     tables_note_unused(reader);
 }

@@ -71,6 +71,8 @@ struct part {
     double inertia;      /* shape_given: moment of inertia ... */
     struct point about;  /* ... about this point (point_G: about its own centre) */
     bool about_pivot;    /* ... or about the point that sits on the pivot */
+    double rim;          /* shape_given, where it rolls: its radius, for drawings; 0 when it does not, */
+    struct vec hub;      /* about this centre */
 };
 
 /* ---- motion */
@@ -130,6 +132,15 @@ struct load {
     bool body_frame;    /* angle and components turn with the body */
     struct point point; /* where it acts on the body; absent: at G */
 
+    /* applied force: where it acts, from `point` along the axes of the world, which do not turn with the body
+     * (expr NULL: at `point` itself), and the moment about `point` that follows. */
+    struct value offset_x, offset_y, couple;
+    const char *toward; /* where it points to, as the file says; `angle` follows from that. NULL: nowhere */
+    bool reaction;      /* what the body that it points to feels in return: `NAME.force` of body NAME */
+    int target;         /* while the file is read: the body that it points to, or ground_body, */
+    struct point end;   /* the point of it, */
+    struct value return_angle; /* and where the reaction points to */
+
     /* spring, damper: toward `anchor`, a point of the ground; without one, along the body's own coordinate */
     struct point anchor;
     double stiffness;   /* N/m or N m/rad */
@@ -137,6 +148,9 @@ struct load {
     double coefficient; /* damper: N s/m or N m s/rad */
 
     double linear, quadratic; /* drag: N s/m, N s^2/m^2 */
+    /* The wind that it is in, if any. What follows is in `fx` and `fy`: the part of linear drag that is beyond
+     * the drag in still air, c w, and the whole of any other, -(c + k |v - w|) (v - w). */
+    struct value wind_x, wind_y;
 
     /* friction: coefficients (force) or limits in N m (moment) */
     struct value mu_s, mu_k;
@@ -152,6 +166,33 @@ struct load {
     } side;         /* normal: which side of +x the surface pushes to */
     bool two_sided; /* normal: a guide that also pulls */
 };
+
+static inline bool load_is_placed(const struct load *load)
+{
+    return load->offset_x.expr != NULL;
+}
+
+static inline bool load_has_wind(const struct load *load)
+{
+    return load->wind_x.expr != NULL;
+}
+
+/* Drag as in still air: all of it, or the linear one beside what a wind adds. */
+static inline bool load_drags_still_air(const struct load *load)
+{
+    return !load_has_wind(load) || load->quadratic == 0;
+}
+
+/* The formulas that what acts depends on, each of which may be absent. */
+enum { most_formulas_of_a_load = 11 };
+
+static inline void load_formulas(struct load *load, struct value *formulas[static most_formulas_of_a_load])
+{
+    struct value *all[] = {&load->value,    &load->angle,    &load->fx,        &load->fy,
+                           &load->mu_s,     &load->mu_k,     &load->potential, &load->surface_speed,
+                           &load->offset_x, &load->offset_y, &load->couple};
+    for (int i = 0; i < most_formulas_of_a_load; i++) formulas[i] = all[i];
+}
 
 /* The most summands that are told apart. */
 enum { most_summands = 24 };

@@ -46,11 +46,10 @@ static int join_read(const struct scene *scene, int *parent, const struct expr *
 
 static void join_load(const struct scene *scene, int *parent, const struct load *load, int body)
 {
-    const struct value *values[] = {
-        &load->value, &load->angle,         &load->fx,       &load->fy, &load->mu_s,
-        &load->mu_k,  &load->surface_speed, &load->potential};
-    for (size_t k = 0; k < sizeof values / sizeof *values; k++)
-        join_read(scene, parent, values[k]->expr, body);
+    struct load copy = *load;
+    struct value *formulas[most_formulas_of_a_load];
+    load_formulas(&copy, formulas);
+    for (size_t k = 0; k < most_formulas_of_a_load; k++) join_read(scene, parent, formulas[k]->expr, body);
 }
 
 /* Join all bodies of a constraint and those that its coefficients of friction read; returns one of them. */

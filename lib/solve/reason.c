@@ -86,11 +86,20 @@ static void explain_not_finite(struct run *run)
 void run_fail_pole(struct run *run, const struct pole *pole)
 {
     const struct fbd_model *model = run->model;
+    const struct load *load = model->loads[pole->load].source;
+    if (load->toward && pole->formula.expr == load->angle.expr) {
+        run_fail(
+            run, FBD_FAILED,
+            "at t = %.9g `%s` of `%s` acts at the very point that it is directed to (%s), to the rounding "
+            "of the time: it has no direction there. End the run before by an event",
+            run_time(run), load->name, model->bodies[pole->body].name, load->toward);
+        return;
+    }
     run_fail(run, FBD_FAILED,
              "at t = %.9g `%s` of `%s` divides by zero, to the rounding of the time: the force is infinite "
              "there, and how the motion goes on depends on more digits than numbers have. End the run before "
              "by an event, or bound the force",
-             run_time(run), model->loads[pole->load].source->name, model->bodies[pole->body].name);
+             run_time(run), load->name, model->bodies[pole->body].name);
 }
 
 void run_fail_step(struct run *run, enum stepper_status status)

@@ -151,12 +151,14 @@ static double follow_course(void *context, double from, double to, bool coarse)
 static const struct formula *paced_formula(const struct fbd_model *model, size_t index)
 {
     size_t loads = model->load_count, frictions = model->plan.friction_count;
-    if (index < 5 * loads) {
-        const struct model_load *load = &model->loads[index / 5];
-        const struct formula *all[] = {&load->value, &load->angle, &load->fx, &load->fy, &load->potential};
-        return all[index % 5];
+    enum { each = 6 };
+    if (index < each * loads) {
+        const struct model_load *load = &model->loads[index / each];
+        const struct formula *all[] = {&load->value, &load->angle,     &load->fx,
+                                       &load->fy,    &load->potential, &load->couple};
+        return all[index % each];
     }
-    index -= 5 * loads;
+    index -= each * loads;
     if (index >= 4 * frictions) return NULL;
     const struct friction *friction = &model->plan.frictions[index / 4];
     const struct formula *all[] = {&friction->mu_s, &friction->mu_k, &friction->surface_speed,

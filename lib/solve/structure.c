@@ -82,11 +82,11 @@ static bool depends_on_velocity(const struct fbd_model *model, const struct load
     case load_potential:
     case moment_potential: break;
     }
-    const struct value *values[] = {
-        &load->value, &load->angle,         &load->fx,       &load->fy, &load->mu_s,
-        &load->mu_k,  &load->surface_speed, &load->potential};
-    for (size_t k = 0; k < sizeof values / sizeof *values; k++)
-        if (reads_rate(model, values[k])) return true;
+    struct load copy = *load;
+    struct value *formulas[most_formulas_of_a_load];
+    load_formulas(&copy, formulas);
+    for (size_t k = 0; k < most_formulas_of_a_load; k++)
+        if (reads_rate(model, formulas[k])) return true;
     return false;
 }
 
@@ -144,6 +144,8 @@ static enum expr_degree degree_of_applied(const struct fbd_model *model, const s
     enum expr_degree size = worse(degree_of(model, &source->value),
                                   worse(degree_of(model, &source->fx), degree_of(model, &source->fy)));
     if (degree_of(model, &source->angle) != expr_constant_between) return expr_nonlinear;
+    if (body->kind == motion_pivot || body->kind == motion_planar)
+        size = worse(size, degree_of(model, &source->couple));
     switch (body->kind) {
     case motion_slide: /* across the line, a force that varies changes the friction as well */
         if (size != expr_constant_between && body->friction >= 0 && (source->angle.expr || source->fx.expr))
@@ -188,11 +190,13 @@ static enum expr_degree degree_of_link(const struct model_body *body, const stru
 
 /* Linear drag on a body of one coordinate (the point keeps its distance from the axis), or that cannot turn,
  * or at the origin of its frame. */
-static enum expr_degree degree_of_drag(const struct model_body *body, const struct model_load *load)
+static enum expr_degree degree_of_drag(const struct fbd_model *model, const struct model_body *body,
+                                       const struct model_load *load)
 {
     bool at_origin = load->point.x == 0 && load->point.y == 0;
     bool linear = load->source->quadratic == 0 && (body->kind != motion_planar || at_origin);
-    return linear ? expr_affine : expr_nonlinear;
+    enum expr_degree still = linear ? expr_affine : expr_nonlinear;
+    return load_has_wind(load->source) ? worse(still, degree_of_applied(model, body, load)) : still;
 }
 
 /* How the share of a load in the accelerations of its body varies between events. Normal forces come with the
@@ -210,7 +214,7 @@ static enum expr_degree degree_of_load(const struct fbd_model *model, const stru
     case moment_applied: return degree_of(model, &source->value);
     case load_spring:
     case load_damper: return degree_of_link(body, load);
-    case load_drag: return degree_of_drag(body, load);
+    case load_drag: return degree_of_drag(model, body, load);
     case moment_spring:
     case moment_damper: return expr_affine;
     case load_rope:

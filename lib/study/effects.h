@@ -17,6 +17,7 @@ enum edit_kind {
     edit_uncouple,       /* a coupling */
     edit_static,         /* static friction: mu_s becomes mu_k */
     edit_surface,        /* the surface stands still */
+    edit_wind,           /* the air stands still */
     edit_part,           /* the mass of a part */
     edit_rotary,         /* the moment of inertia about the centre of mass */
     edit_linear_gravity, /* sin(theta) becomes theta about the equilibrium */

@@ -85,6 +85,24 @@ static void leave_out_load(struct body *body, int index)
     for (size_t i = (size_t)index; i < body->load_count; i++) body->loads[i] = body->loads[i + 1];
 }
 
+/* With what another body feels of it. */
+static void leave_out(struct scene *scene, int b, int index)
+{
+    const struct load *load = &scene->bodies[b].loads[index];
+    bool draws = load->toward && !load->reaction && load->target != ground_body;
+    struct body *other = draws ? &scene->bodies[load->target] : NULL;
+    size_t length = strlen(scene->bodies[b].name);
+    for (size_t i = 0; other && i < other->load_count; i++) {
+        const struct load *reaction = &other->loads[i];
+        if (!reaction->reaction || strncmp(reaction->name, scene->bodies[b].name, length) != 0 ||
+            reaction->name[length] != '.' || strcmp(reaction->name + length + 1, load->name) != 0)
+            continue;
+        leave_out_load(other, (int)i);
+        break;
+    }
+    leave_out_load(&scene->bodies[b], index);
+}
+
 static void uncouple(struct scene *scene, int index)
 {
     scene->coupling_count--;
@@ -127,10 +145,11 @@ void effect_edit(struct scene *scene, void *context, fbd_errors *errors)
     struct load *load = of_load ? &body->loads[edit->index] : NULL;
     for (size_t b = 0; b < scene->body_count; b++) scene->bodies[b].hand_count = 0; /* of another scene */
     switch (edit->kind) {
-    case edit_leave_out: leave_out_load(body, edit->index); break;
+    case edit_leave_out: leave_out(scene, edit->body, edit->index); break;
     case edit_uncouple: uncouple(scene, edit->index); break;
     case edit_static: load->mu_s = load->mu_k; break;
     case edit_surface: load->surface_speed = (struct value){0}; break;
+    case edit_wind: load->wind_x = load->wind_y = load->fx = load->fy = (struct value){0}; break;
     case edit_part: leave_out_part(body, edit->index); break;
     case edit_rotary: gather_mass(body, &edit->model->bodies[edit->body]); break;
     case edit_linear_gravity: linear_gravity(load, edit); break;

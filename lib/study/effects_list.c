@@ -42,6 +42,7 @@ static void add_load(struct fbd_effects *effects, int b, int i)
     const struct body *body = &effects->model->scene->bodies[b];
     const struct load *load = &body->loads[i], *friction = friction_of(body);
     struct edit edit = {.kind = edit_leave_out, .body = b, .index = i};
+    if (load->reaction) return; /* goes with the force that it is the other side of */
     if (load->kind == load_normal && friction)
         edit.refusal =
             arena_printf(&effects->arena, "`%s` needs it: nothing else presses the surfaces together",
@@ -146,7 +147,7 @@ static void add_linear_drag(struct fbd_effects *effects, int b, int i)
 {
     const struct model_body *body = &effects->model->bodies[b];
     const struct load *load = &body->source->loads[i];
-    if (load->quadratic == 0) return;
+    if (load->quadratic == 0 || load_has_wind(load)) return;
     double speed = largest_speed(effects, body, effects->model->loads[body->first_load + i].point);
     fbd_coordinate coordinate = fbd_model_coordinate(effects->model, (size_t)body->first);
     const char *unit = body->kind == motion_pivot ? "" : coordinate.rate_unit;
@@ -194,10 +195,28 @@ static bool is_beyond_quadratic(const struct fbd_effects *effects, const struct 
     return false;
 }
 
+/* Does it read a place in the world? That is no coordinate, and has no tangent in one. */
+static bool reads_places(const struct fbd_effects *effects, const struct expr *expr)
+{
+    const int *slots;
+    size_t count = expr ? expr_variables(expr, &slots) : 0;
+    return count > 0 && slots[count - 1] > 2 * effects->model->plan.n;
+}
+
+static void add_wind(struct fbd_effects *effects, int b, int i)
+{
+    const struct load *load = &effects->model->scene->bodies[b].loads[i];
+    if (load_has_wind(load))
+        add(effects, (struct edit){.kind = edit_wind, .body = b, .index = i}, load->name, "in still air");
+}
+
 static void add_linear_formula(struct fbd_effects *effects, int b, int i, struct equilibrium about)
 {
     const struct load *load = &effects->model->scene->bodies[b].loads[i];
     const struct expr *all[] = {load->value.expr, load->fx.expr, load->fy.expr, load->potential.expr};
+    for (int k = 0; k < 4; k++)
+        if (reads_places(effects, all[k])) return;
+    if (load->toward || load_is_placed(load)) return; /* their directions and moments would stay behind */
     bool nonlinear = is_beyond_quadratic(effects, load->potential.expr), timed = false;
     for (int k = 0; k < 3; k++) nonlinear = nonlinear || is_nonlinear(effects, all[k]);
     for (int k = 0; k < 4; k++) timed = timed || (all[k] && expr_uses_time(all[k]));
@@ -215,8 +234,9 @@ static bool any_uses_time(const struct scene *scene)
     for (size_t b = 0; b < scene->body_count; b++)
         for (size_t i = 0; i < scene->bodies[b].load_count; i++) {
             const struct load *load = &scene->bodies[b].loads[i];
-            const struct expr *all[] = {load->value.expr, load->fx.expr, load->fy.expr, load->potential.expr,
-                                        load->surface_speed.expr};
+            const struct expr *all[] = {
+                load->value.expr,         load->fx.expr,    load->fy.expr,    load->potential.expr,
+                load->surface_speed.expr, load->angle.expr, load->couple.expr};
             for (size_t k = 0; k < sizeof all / sizeof *all; k++)
                 if (all[k] && expr_uses_time(all[k])) return true;
         }
@@ -296,6 +316,7 @@ bool effects_list(struct fbd_effects *effects)
             bool rubs = load->kind == load_friction || load->kind == moment_friction;
             add_load(effects, b, i);
             if (rubs) add_friction(effects, b, i);
+            add_wind(effects, b, i);
             if (load->kind == load_gravity && alone) add_linear_gravity(effects, b, i);
             if (load->kind == load_drag && alone) add_linear_drag(effects, b, i);
             if (!rubs) add_linear_formula(effects, b, i, about);

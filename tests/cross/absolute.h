@@ -127,6 +127,9 @@ size_t row_bodies(const struct absolute *absolute, const struct row *row, int *b
 /* Fill J, gamma and D of all rows at the instant. */
 void absolute_rows(struct absolute *absolute);
 
+/* From where any force acts to the point that it points to: the shortest way, INFINITY without. */
+double shortest_pull(const struct absolute *absolute);
+
 /* loads.c: all forces that are no unknowns into `f`, and with `list` as wrenches by name. */
 void absolute_loads(struct absolute *absolute, double *f, bool list);
 struct wrench *wrench_of(struct absolute *absolute, int body, const char *name);

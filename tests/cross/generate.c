@@ -165,7 +165,7 @@ bool scene_settle(const struct scene *scene, struct absolute *absolute)
 bool scene_fit(struct scene *scene, struct absolute *absolute)
 {
     absolute_start(absolute, scene);
-    if (absolute_gap(absolute, true) > 1e-9) return false;
+    if (absolute_gap(absolute, true) > 1e-9 || shortest_pull(absolute) < 0.3) return false;
     absolute_project(absolute, false);
     keep_start(scene, absolute);
     absolute_start(absolute, scene);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "generate.h"
+#include "variants.h"
 
 static const double pi = 3.141592653589793;
 
@@ -265,8 +266,18 @@ static void add_roll(struct random *random, struct scene *scene, const struct ta
     }
     start(&absolute, scene);
     struct place e = direction_of(&absolute, base, along), O = point_of(&absolute, base, through);
-    body->q[0] = O.x.u + far * e.x.u - side * radius * e.y.u;
-    body->q[1] = O.y.u + far * e.y.u + side * radius * e.x.u;
+    struct vec2 centre = {0, 0};
+    if (random_chance(random, 0.5) && body->point_count < most_points) {
+        /* The circle about another point: the wheel is eccentric, but not so much that friction jams it. */
+        double off = random_between(random, 0, 0.5 * radius), angle = random_between(random, -pi, pi);
+        coupling->centered = true;
+        coupling->radius[0] = radius;
+        coupling->end[0].at.point = body->point_count;
+        body->points[body->point_count++] = (struct vec2){off * cos(angle), off * sin(angle)};
+        centre = turned(spot_of(body, &coupling->end[0].at), body->q[2]);
+    }
+    body->q[0] = O.x.u + far * e.x.u - side * radius * e.y.u - centre.x;
+    body->q[1] = O.y.u + far * e.y.u + side * radius * e.x.u - centre.y;
 }
 
 void random_coupling(struct random *random, struct scene *scene, const struct taste *taste)

@@ -152,6 +152,30 @@ static struct spot some_spot(struct random *random, struct body *body)
     return (struct spot){.point = random_point(random, body)};
 }
 
+/* To a place on the ground that is far, or to a point of another body: scene_fit sees whether that is apart. */
+static void turn_toward(struct random *random, struct scene *scene, int b, struct load *load)
+{
+    int other = random_below(random, scene->body_count);
+    load->form = toward_point;
+    load->follows = false;
+    load->target = other == b ? -1 : other;
+    load->end.point = at_G;
+    if (load->target >= 0 && random_chance(random, 0.5))
+        load->end.point = random_point(random, &scene->body[other]);
+    double far = random_chance(random, 0.5) ? 6 : -6;
+    load->to = (struct vec2){far + random_between(random, -1, 1), random_between(random, -4, 4)};
+    load->power = random_below(random, 3);
+    load->reach = random_between(random, 0.3, 1);
+}
+
+/* Two components; with `time` of nothing else, as an offset that goes with a velocity would make power of
+ * nothing. */
+static void random_pair(struct random *random, const struct scene *scene, int b, enum dimension dimension,
+                        double size, struct formula pair[2])
+{
+    for (int k = 0; k < 2; k++) pair[k] = random_formula(random, scene, b, dimension, size, false);
+}
+
 static void add_applied(struct random *random, struct scene *scene, int b, bool kinks)
 {
     struct load *load = add_load(scene, b, applied);
@@ -163,6 +187,9 @@ static void add_applied(struct random *random, struct scene *scene, int b, bool 
     load->value = random_formula(random, scene, b, dim_force, 10, kinks);
     load->second = load->form == components ? random_formula(random, scene, b, dim_force, 10, kinks)
                                             : random_formula(random, scene, b, dim_angle, 3, false);
+    if (load->form != components && random_chance(random, 0.4)) turn_toward(random, scene, b, load);
+    load->placed = random_chance(random, 0.4);
+    if (load->placed) random_pair(random, scene, b, dim_length, 0.6, load->offset);
 }
 
 static void add_link(struct random *random, struct scene *scene, int b, enum load_kind kind)
@@ -211,6 +238,8 @@ static void add_drag(struct random *random, struct scene *scene, int b)
     load->at = some_spot(random, &scene->body[b]);
     load->coefficient = random_between(random, 0, 1);
     load->quadratic = random_chance(random, 0.6) ? random_between(random, 0, 0.3) : 0;
+    load->windy = random_chance(random, 0.5);
+    if (load->windy) random_pair(random, scene, b, dim_speed, 4, load->wind);
 }
 
 static void add_potential(struct random *random, struct scene *scene, int b, bool moment)

@@ -76,6 +76,52 @@ static struct vec2 link_force(struct place one, struct place two, double k, doub
     return times(-pull / length.u, here(place_sub(one, two)));
 }
 
+/* Where an applied force acts: a point of its body, or beside that. */
+static struct vec2 place_of_load(const struct absolute *absolute, int b, const struct load *load)
+{
+    struct vec2 P = here(point_of(absolute, b, spot_of(&absolute->scene->body[b], &load->at)));
+    if (!load->placed) return P;
+    return sum(P, (struct vec2){formula_value(absolute, &load->offset[0]),
+                                formula_value(absolute, &load->offset[1])});
+}
+
+static struct vec2 pull_of_load(const struct absolute *absolute, int b, const struct load *load)
+{
+    struct vec2 end = load->target < 0 ? load->to : spot_of(&absolute->scene->body[load->target], &load->end);
+    return sum(here(point_of(absolute, load->target, end)), times(-1, place_of_load(absolute, b, load)));
+}
+
+double shortest_pull(const struct absolute *absolute)
+{
+    double shortest = INFINITY;
+    const struct scene *scene = absolute->scene;
+    for (int b = 0; b < scene->body_count; b++)
+        for (int i = 0; i < scene->body[b].load_count; i++) {
+            const struct load *load = &scene->body[b].load[i];
+            if (load->kind != applied || load->form != toward_point) continue;
+            struct vec2 way = pull_of_load(absolute, b, load);
+            shortest = fmin(shortest, hypot(way.x, way.y));
+        }
+    return shortest;
+}
+
+/* And what the body that it points to feels. */
+static void put_pull(const struct target *target, int b, const struct load *load)
+{
+    const struct absolute *absolute = target->absolute;
+    const struct scene *scene = absolute->scene;
+    struct vec2 way = pull_of_load(absolute, b, load);
+    double distance = hypot(way.x, way.y), size = formula_value(absolute, &load->value);
+    for (int i = 0; i < load->power; i++) size *= load->reach / distance;
+    struct vec2 f = times(size / distance, way);
+    put(target, b, load->name, f, place_of_load(absolute, b, load), 0);
+    if (load->target < 0) return;
+    char other[wrench_name_room];
+    snprintf(other, sizeof other, "%s.%s", scene->body[b].name, load->name);
+    struct vec2 end = here(point_of(absolute, load->target, spot_of(&scene->body[load->target], &load->end)));
+    put(target, load->target, other, times(-1, f), end, 0);
+}
+
 static struct vec2 applied_force(const struct target *target, int b, const struct load *load)
 {
     const struct absolute *absolute = target->absolute;
@@ -132,8 +178,11 @@ static void put_drag(const struct target *target, int b, const struct load *load
 {
     const struct absolute *absolute = target->absolute;
     struct place P = point_of(absolute, b, spot_of(&absolute->scene->body[b], &load->at));
-    double c = load->coefficient + load->quadratic * hypot(P.x.u1, P.y.u1);
-    put(target, b, load->name, (struct vec2){-c * P.x.u1, -c * P.y.u1}, here(P), 0);
+    struct vec2 u = {P.x.u1, P.y.u1}; /* through the air */
+    if (load->windy) u.x -= formula_value(absolute, &load->wind[0]);
+    if (load->windy) u.y -= formula_value(absolute, &load->wind[1]);
+    put(target, b, load->name, times(-(load->coefficient + load->quadratic * hypot(u.x, u.y)), u), here(P),
+        0);
 }
 
 static void put_load(const struct target *target, int b, const struct load *load)
@@ -146,8 +195,10 @@ static void put_load(const struct target *target, int b, const struct load *load
     switch (load->kind) {
     case gravity: put(target, b, load->name, times(absolute->mass[b].m, scene->gravity), G, 0); break;
     case applied: {
-        struct vec2 P = here(point_of(absolute, b, spot_of(body, &load->at)));
-        put(target, b, load->name, applied_force(target, b, load), P, 0);
+        if (load->form == toward_point)
+            put_pull(target, b, load);
+        else
+            put(target, b, load->name, applied_force(target, b, load), place_of_load(absolute, b, load), 0);
         break;
     }
     case spring:

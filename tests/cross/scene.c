@@ -70,7 +70,7 @@ double circle_of(const struct scene *scene, const struct coupling *coupling, int
     const struct body *body = &scene->body[end->body];
     const struct piece *piece = round_piece(body);
     double given = k < 2 ? coupling->radius[k] : 0;
-    *centre = piece ? piece->center : spot_of(body, &end->at);
+    *centre = piece && !coupling->centered ? piece->center : spot_of(body, &end->at);
     return given > 0 ? given : piece ? piece->size[0] : 0;
 }
 

@@ -141,7 +141,7 @@ enum load_kind {
     moment_potential,
 };
 
-enum applied_form { along_slide, along_angle, components };
+enum applied_form { along_slide, along_angle, components, toward_point };
 enum side { left_side, right_side };
 
 struct load {
@@ -154,6 +154,14 @@ struct load {
     bool to_ground;               /* spring, damper: to `to`; else along the slide */
     struct vec2 to;
     struct spot at;
+    int target;      /* toward: this body, or -1 for `to` on the ground; */
+    struct spot end; /* its point, by name or G; */
+    int power;       /* the size is `value` times (reach / distance)^power */
+    double reach;
+    bool placed; /* applied: beside `at`, along the axes of the world */
+    struct formula offset[2];
+    bool windy; /* drag */
+    struct formula wind[2];
     double stiffness, neutral, coefficient, quadratic;
     enum side side;
     bool two_sided;
@@ -196,7 +204,8 @@ struct coupling {
     double radius[2]; /* 0: that of the shape */
     double length;    /* 0: as at the start */
     bool inside;
-    int line; /* roll: of the ground, or -1 for the x axis of end[1] */
+    bool centered; /* roll: about end[0].at, not about the round part */
+    int line;      /* roll: of the ground, or -1 for the x axis of end[1] */
     bool has_friction;
     struct formula mu_s, mu_k;
 };

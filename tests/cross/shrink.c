@@ -39,6 +39,8 @@ static void each_formula(struct scene *scene, visit_formula *visit, void *contex
             visit(context, &body->load[i].value);
             visit(context, &body->load[i].second);
             visit(context, &body->load[i].surface);
+            for (int k = 0; k < 2; k++) visit(context, &body->load[i].offset[k]);
+            for (int k = 0; k < 2; k++) visit(context, &body->load[i].wind[k]);
         }
     }
     for (int c = 0; c < scene->coupling_count; c++) {
@@ -70,10 +72,18 @@ static void forget_body(void *context, struct formula *formula)
 
 /* ---- what can be left out */
 
+static bool points_to(const struct load *load, int b)
+{
+    return load->kind == applied && load->form == toward_point && load->target == b;
+}
+
 static bool is_needed(const struct scene *scene, int b)
 {
-    for (int i = 0; i < scene->body_count; i++)
+    for (int i = 0; i < scene->body_count; i++) {
         if (scene->body[i].on == b) return true;
+        for (int k = 0; k < scene->body[i].load_count; k++)
+            if (points_to(&scene->body[i].load[k], b)) return true;
+    }
     for (int c = 0; c < scene->coupling_count; c++)
         for (int k = 0; k < scene->coupling[c].count; k++)
             if (scene->coupling[c].end[k].body == b) return true;
@@ -86,6 +96,9 @@ static void remove_body(struct scene *scene, int b)
     memmove(&scene->body[b], &scene->body[b + 1], (size_t)(scene->body_count - b) * sizeof scene->body[0]);
     for (int i = 0; i < scene->body_count; i++)
         if (scene->body[i].on > b) scene->body[i].on--;
+    for (int i = 0; i < scene->body_count; i++)
+        for (int k = 0; k < scene->body[i].load_count; k++)
+            if (scene->body[i].load[k].target > b) scene->body[i].load[k].target--;
     for (int c = 0; c < scene->coupling_count; c++)
         for (int k = 0; k < scene->coupling[c].count; k++)
             if (scene->coupling[c].end[k].body > b) scene->coupling[c].end[k].body--;

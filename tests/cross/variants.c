@@ -118,6 +118,10 @@ static void replace_in_scene(const struct replacing *r, struct scene *scene)
             replace_all(r, &scene->body[b].load[i].value);
             replace_all(r, &scene->body[b].load[i].second);
             replace_all(r, &scene->body[b].load[i].surface);
+            for (int k = 0; k < 2; k++) {
+                replace_all(r, &scene->body[b].load[i].offset[k]);
+                replace_all(r, &scene->body[b].load[i].wind[k]);
+            }
         }
     }
 }
@@ -141,6 +145,8 @@ static void mirror_load(struct load *load)
     load->at.where.y *= -1;
     load->side = load->side == left_side ? right_side : left_side;
     if (load->kind == applied) scale_formula(&load->second, -1);
+    scale_formula(&load->offset[1], -1);
+    scale_formula(&load->wind[1], -1);
     if (load->kind == moment_applied) scale_formula(&load->value, -1);
     if (load->kind == moment_friction) scale_formula(&load->surface, -1);
     if (load->kind == moment_spring) load->neutral *= -1;
@@ -179,6 +185,23 @@ static void mirror(struct scene *scene)
 
 /* ---- turned: what is said in the world, in order of what moves on what */
 
+/* The components of a vector. */
+static void turn_pair(struct formula *x, struct formula *y, double angle)
+{
+    struct formula old_x = *x, old_y = *y;
+    x->count = y->count = 0;
+    for (int part = 0; part < 2; part++) {
+        const struct formula *from = part == 0 ? &old_x : &old_y;
+        for (int k = 0; k < from->count; k++) {
+            struct summand to_x = from->summand[k], to_y = from->summand[k];
+            to_x.factor *= part == 0 ? cos(angle) : -sin(angle);
+            to_y.factor *= part == 0 ? sin(angle) : cos(angle);
+            x->summand[x->count++] = to_x;
+            y->summand[y->count++] = to_y;
+        }
+    }
+}
+
 static void turn_load(struct load *load, enum motion motion, double world, double base, double own)
 {
     load->to = turned(load->to, world);
@@ -186,23 +209,13 @@ static void turn_load(struct load *load, enum motion motion, double world, doubl
     bool turns = motion == pivot || motion == planar;
     if (load->kind == moment_spring && turns) load->neutral += base;
     double angle = load->follows ? own : world;
-    if (load->kind != applied || load->form == along_slide) return;
-    if (load->form == along_angle) {
+    turn_pair(&load->offset[0], &load->offset[1], world);
+    turn_pair(&load->wind[0], &load->wind[1], world);
+    if (load->kind != applied || load->form == along_slide || load->form == toward_point) return;
+    if (load->form == along_angle)
         add_constant(&load->second, angle);
-        return;
-    }
-    struct formula fx = load->value, fy = load->second;
-    load->value.count = load->second.count = 0;
-    for (int part = 0; part < 2; part++) {
-        const struct formula *from = part == 0 ? &fx : &fy;
-        for (int k = 0; k < from->count; k++) {
-            struct summand to_x = from->summand[k], to_y = from->summand[k];
-            to_x.factor *= part == 0 ? cos(angle) : -sin(angle);
-            to_y.factor *= part == 0 ? sin(angle) : cos(angle);
-            load->value.summand[load->value.count++] = to_x;
-            load->second.summand[load->second.count++] = to_y;
-        }
-    }
+    else
+        turn_pair(&load->value, &load->second, angle);
 }
 
 static void turn_body(struct body *body, double world, double base, double own)
@@ -325,6 +338,11 @@ static void convert_load(struct load *load, double l, double f)
     scale_by_dimension(&load->value, l, f);
     scale_by_dimension(&load->second, l, f);
     scale_by_dimension(&load->surface, l, f);
+    load->reach *= l;
+    for (int k = 0; k < 2; k++) {
+        scale_by_dimension(&load->offset[k], l, f);
+        scale_by_dimension(&load->wind[k], l, f);
+    }
 }
 
 static void convert_body(struct body *body, double l, double f)

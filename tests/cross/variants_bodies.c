@@ -34,6 +34,9 @@ void vary_order(const struct scene *scene, struct random *random, struct scene *
             renumber(&body->load[i].value, place);
             renumber(&body->load[i].second, place);
             renumber(&body->load[i].surface, place);
+            for (int k = 0; k < 2; k++) renumber(&body->load[i].offset[k], place);
+            for (int k = 0; k < 2; k++) renumber(&body->load[i].wind[k], place);
+            if (body->load[i].target >= 0) body->load[i].target = place[body->load[i].target];
         }
     }
     for (int c = 0; c < scene->coupling_count; c++) {
@@ -51,6 +54,22 @@ static void pin_down(struct spot *spot, struct vec2 G)
     if (spot->point == at_G) *spot = (struct spot){at_pair, G};
 }
 
+/* What points to G of the body, too: it takes a point of a name. */
+static bool keep_ends(struct scene *scene, int b, struct vec2 G)
+{
+    struct body *body = &scene->body[b];
+    for (int i = 0; i < scene->body_count; i++)
+        for (int k = 0; k < scene->body[i].load_count; k++) {
+            struct load *load = &scene->body[i].load[k];
+            bool points = load->kind == applied && load->form == toward_point && load->target == b;
+            if (!points || load->end.point != at_G) continue;
+            if (body->point_count == most_points) return false;
+            body->points[body->point_count] = G;
+            load->end.point = body->point_count++;
+        }
+    return true;
+}
+
 /* What was said of G stays where it was. */
 static bool keep_centre(struct scene *scene, int b, struct vec2 G)
 {
@@ -60,6 +79,7 @@ static bool keep_centre(struct scene *scene, int b, struct vec2 G)
         if (body->load[i].kind != gravity) pin_down(&body->load[i].at, G);
     for (int i = 0; i < scene->body_count; i++)
         if (scene->body[i].on == b) pin_down(&scene->body[i].at, G);
+    if (!keep_ends(scene, b, G)) return false;
     for (int c = 0; c < scene->coupling_count; c++)
         for (int k = 0; k < scene->coupling[c].count; k++) {
             struct end *end = &scene->coupling[c].end[k];

@@ -1,17 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "write.h"
+#include "writer.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 
-struct writer {
-    const struct scene *scene;
-    char *text;
-    size_t length;
-    const char *between; /* two keys */
-};
-
-__attribute__((format(printf, 2, 3))) static void say(struct writer *w, const char *format, ...)
+void say(struct writer *w, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -32,13 +25,13 @@ static const char *number(double value, char text[32])
     return text;
 }
 
-static void say_number(struct writer *w, double value)
+void say_number(struct writer *w, double value)
 {
     char text[32];
     say(w, "%s", number(value, text));
 }
 
-static void say_pair(struct writer *w, struct vec2 p)
+void say_pair(struct writer *w, struct vec2 p)
 {
     char x[32], y[32];
     say(w, "[%s, %s]", number(p.x, x), number(p.y, y));
@@ -153,15 +146,8 @@ static void say_function(struct writer *w, int own, const struct summand *summan
     say(w, "%s", forms[summand->function].after);
 }
 
-static void say_formula(struct writer *w, int own, const struct formula *formula)
+void say_summands(struct writer *w, int own, const struct formula *formula)
 {
-    bool bare =
-        formula->count == 1 && formula->summand[0].function == f_one && formula->summand[0].parameter < 0;
-    if (bare) {
-        say_number(w, formula->summand[0].factor);
-        return;
-    }
-    say(w, "\"");
     for (int k = 0; k < formula->count; k++) {
         const struct summand *summand = &formula->summand[k];
         if (k > 0) say(w, " + ");
@@ -172,16 +158,28 @@ static void say_formula(struct writer *w, int own, const struct formula *formula
         if (summand->function != f_one) say_function(w, own, summand);
     }
     if (formula->count == 0) say(w, "0%s", unit_of(w->scene, formula->dimension));
+}
+
+void say_formula(struct writer *w, int own, const struct formula *formula)
+{
+    bool bare =
+        formula->count == 1 && formula->summand[0].function == f_one && formula->summand[0].parameter < 0;
+    if (bare) {
+        say_number(w, formula->summand[0].factor);
+        return;
+    }
+    say(w, "\"");
+    say_summands(w, own, formula);
     say(w, "\"");
 }
 
-static void key_formula(struct writer *w, const char *key, int own, const struct formula *formula)
+void key_formula(struct writer *w, const char *key, int own, const struct formula *formula)
 {
     say(w, "%s%s: ", w->between, key);
     say_formula(w, own, formula);
 }
 
-static void key_number(struct writer *w, const char *key, double value)
+void key_number(struct writer *w, const char *key, double value)
 {
     say(w, "%s%s: ", w->between, key);
     say_number(w, value);
@@ -189,7 +187,7 @@ static void key_number(struct writer *w, const char *key, double value)
 
 /* ---- bodies */
 
-static void say_spot(struct writer *w, int body, const struct spot *spot)
+void say_spot(struct writer *w, int body, const struct spot *spot)
 {
     if (spot->point == at_origin)
         say(w, "[0, 0]");
@@ -274,95 +272,6 @@ static void say_initial(struct writer *w, const struct body *body)
     say(w, "}\n");
 }
 
-/* ---- loads */
-
-static void say_applied(struct writer *w, int b, const struct load *load)
-{
-    if (load->form == components) {
-        key_formula(w, "fx", b, &load->value);
-        key_formula(w, "fy", b, &load->second);
-    } else {
-        key_formula(w, "value", b, &load->value);
-        if (load->form == along_angle) key_formula(w, "angle", b, &load->second);
-    }
-    if (load->follows && load->form != along_slide) say(w, ", frame: body");
-}
-
-static void say_at(struct writer *w, int b, const struct load *load)
-{
-    if (load->at.point == at_G) return;
-    say(w, ", at: ");
-    say_spot(w, b, &load->at);
-}
-
-static void say_friction(struct writer *w, int b, const struct load *load)
-{
-    key_formula(w, "static", b, &load->value);
-    key_formula(w, "kinetic", b, &load->second);
-    if (load->surface.count > 0) key_formula(w, "surface_speed", b, &load->surface);
-}
-
-static void say_link(struct writer *w, int b, const struct load *load)
-{
-    if (load->kind == spring) key_number(w, "stiffness", load->stiffness);
-    if (load->kind == damper) key_number(w, "coefficient", load->coefficient);
-    say_at(w, b, load);
-    if (load->to_ground) {
-        say(w, ", to: ");
-        say_pair(w, load->to);
-    }
-    if (load->kind == spring) key_number(w, load->to_ground ? "free_length" : "neutral", load->neutral);
-}
-
-static void say_load(struct writer *w, int b, const struct load *load)
-{
-    static const char *const kinds[] = {"gravity", "normal",   "friction",  "applied", "spring",
-                                        "damper",  "drag",     "potential", "applied", "spring",
-                                        "damper",  "friction", "potential"};
-    say(w, "      - %s: {name: %s", kinds[load->kind], load->name);
-    switch (load->kind) {
-    case gravity: break;
-    case normal:
-        say(w, ", side: %s", load->side == left_side ? "left" : "right");
-        if (load->two_sided) say(w, ", two_sided: true");
-        break;
-    case friction:
-    case moment_friction: say_friction(w, b, load); break;
-    case applied:
-        say_applied(w, b, load);
-        say_at(w, b, load);
-        break;
-    case spring:
-    case damper: say_link(w, b, load); break;
-    case drag:
-        key_number(w, "linear", load->coefficient);
-        key_number(w, "quadratic", load->quadratic);
-        say_at(w, b, load);
-        break;
-    case potential:
-    case moment_potential: key_formula(w, "V", b, &load->value); break;
-    case moment_applied: key_formula(w, "value", b, &load->value); break;
-    case moment_spring:
-        key_number(w, "stiffness", load->stiffness);
-        key_number(w, "neutral", load->neutral);
-        break;
-    case moment_damper: key_number(w, "coefficient", load->coefficient); break;
-    }
-    say(w, "}\n");
-}
-
-static void say_loads(struct writer *w, int b, bool moments)
-{
-    const struct body *body = &w->scene->body[b];
-    bool any = false;
-    for (int i = 0; i < body->load_count; i++) {
-        if ((body->load[i].kind >= moment_applied) != moments) continue;
-        if (!any) say(w, "    %s:\n", moments ? "moments" : "forces");
-        any = true;
-        say_load(w, b, &body->load[i]);
-    }
-}
-
 static void say_body(struct writer *w, int b)
 {
     const struct body *body = &w->scene->body[b];
@@ -414,6 +323,8 @@ static void say_roll(struct writer *w, int c)
         say(w, ", on: L%d", coupling->line);
     else
         say(w, ", on: %s", w->scene->body[coupling->end[1].body].name);
+    if (coupling->centered) say(w, ", center: ");
+    if (coupling->centered) say_spot(w, coupling->end[0].body, &coupling->end[0].at);
     if (coupling->has_friction) {
         key_formula(w, "static", -1, &coupling->mu_s);
         key_formula(w, "kinetic", -1, &coupling->mu_k);

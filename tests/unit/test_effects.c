@@ -20,7 +20,7 @@ enum { times = 241 }; /* of the grid, as documented */
 
 #define SCENE(BODY, UNTIL) "fbd: 1\nbodies:\n  b: {" BODY "}\nsimulate: {until: " UNTIL "}\n"
 
-enum { most_quantities = 4 };
+enum { most_quantities = 8 };
 
 /* A motion on the grid: all coordinates, then all rates. */
 struct motion_seen {
@@ -142,6 +142,35 @@ static void a_spring_between_bodies_is_an_effect(void **unused)
          JOINED(
              "couplings:\n  - spring: {name: s1, between: [a.G, b.G], stiffness: 5 N/m, free_length: 1 m}\n"),
          JOINED(""), 2, "s1", "left out");
+    checks_end(&checks);
+}
+
+static void a_pull_between_bodies_goes_with_its_reaction(void **unused)
+{
+#define DRAWN(FORCES)                                                                                        \
+    "fbd: 1\nbodies:\n  a: {mass: 3 kg, motion: particle, initial: {vx: 0.5 m/s}}\n  b: {mass: 1 kg, "       \
+    "motion: "                                                                                               \
+    "particle, initial: {x: 2 m, vy: 1 m/s}" FORCES "}\nsimulate: {until: 2 s}\n"
+    struct checks checks = {0};
+    const char *with = DRAWN(", forces: [applied: {name: pull, value: '3[N*m^2]/distance^2', toward: a}]");
+    (void)unused;
+    hold(&checks, with, DRAWN(""), 2, "pull", "left out");
+    struct study s = study(with);
+    for (size_t i = 0; i < fbd_effects_count(s.effects); i++)
+        check_that(&checks, "the reaction is no effect by itself",
+                   strcmp(fbd_effects_get(s.effects, i)->name, "b.pull") != 0);
+    end_study(&s);
+    checks_end(&checks);
+}
+
+static void wind_is_an_effect(void **unused)
+{
+    struct checks checks = {0};
+    (void)unused;
+    hold(&checks, SCENE(BLOCK ", forces: [gravity, drag: {linear: 0.4, wind: ['2[m/s^2]*t', 1 m/s]}]", "2 s"),
+         SCENE(BLOCK ", forces: [gravity, drag: {linear: 0.4}]", "2 s"), 2, "drag", "in still air");
+    hold(&checks, SCENE(BLOCK ", forces: [gravity, drag: {quadratic: 0.4, wind: [3 m/s, 1 m/s]}]", "2 s"),
+         SCENE(BLOCK ", forces: [gravity, drag: {quadratic: 0.4}]", "2 s"), 2, "drag", "in still air");
     checks_end(&checks);
 }
 
@@ -299,6 +328,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_force_left_out_is_a_scene_without_it),
         cmocka_unit_test(a_spring_between_bodies_is_an_effect),
+        cmocka_unit_test(a_pull_between_bodies_goes_with_its_reaction),
+        cmocka_unit_test(wind_is_an_effect),
         cmocka_unit_test(static_friction_becomes_kinetic),
         cmocka_unit_test(the_mass_of_a_rod_goes_with_the_rod),
         cmocka_unit_test(gravity_is_linear_about_where_the_body_hangs),

@@ -137,7 +137,7 @@ static void one_coefficient_of_friction_stands_for_both(void **state)
                  {"{static: 0, kinetic: 0}", 0, 0}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char lists[200];
-        snprintf(lists, sizeof lists, "    forces: [{friction: %s}, normal]", cases[i].friction);
+        snprintf(lists, sizeof lists, "    forces: [{friction: %s}, normal, gravity]", cases[i].friction);
         struct reading r = read_body("slide", lists);
         assert_close(expr_value(load_at(&r, 0)->mu_s.expr), cases[i].mu_s);
         assert_close(expr_value(load_at(&r, 0)->mu_k.expr), cases[i].mu_k);
@@ -234,7 +234,7 @@ static void parameters_shadow_all_but_coordinates(void **state)
                                   "  b:\n"
                                   "    mass: 5\n"
                                   "    motion: slide\n"
-                                  "    forces: [normal, {applied: m*g}]\n"
+                                  "    forces: [normal, {applied: m*g}, gravity]\n"
                                   "    hand: m*v_dot = N + a\n");
     const struct hand *hand = &r.scene->bodies[0].hands[0];
     assert_close(expr_value(r.scene->bodies[0].loads[1].value.expr), 6);

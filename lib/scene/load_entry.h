@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * One entry of `forces` or `moments` while it is read: what the files that read it share.
+ */
+#ifndef FBD_SCENE_LOAD_ENTRY_H
+#define FBD_SCENE_LOAD_ENTRY_H
+
+#include "scene/fields.h"
+#include "scene/reader.h"
+
+#include <string.h>
+
+struct entry {
+    struct reader *reader;
+    int body;
+    const struct motion *motion; /* NULL when it is not known */
+    struct chosen chosen;
+    struct load_keys keys;
+    const struct node *offset; /* of its place, along the axes of the world, or NULL */
+    struct scope scope;
+};
+
+static inline void entry_note(const struct entry *entry, const char *id, struct pos at, const char *hint,
+                              const char *message)
+{
+    diag_add(entry->reader->errors, FBD_ERROR, id, at, hint, "%s", message);
+}
+
+static inline bool entry_has(const struct entry *entry, const char *key)
+{
+    return node_find(entry->chosen.node, key) != NULL;
+}
+
+static inline bool entry_exclude(struct entry *entry, const char *key, const char *other, const char *hint)
+{
+    return fields_exclude(entry->reader, entry->chosen.node, key, other, hint);
+}
+
+static inline bool entry_is_slide(const struct entry *entry)
+{
+    return entry->motion && entry->motion->kind == motion_slide;
+}
+
+/* Where it acts: `at`. */
+bool entry_place_read(struct entry *entry);
+
+/* What an applied force and drag need beyond their keys (read_applied.c). */
+bool applied_finish(struct entry *entry);
+bool drag_finish(struct entry *entry);
+
+/* A pair of values, as [2 m/s, "sin(t)"]; `hint` says how it is written. */
+bool entry_pair_read(struct entry *entry, const struct node *node, const char *what, enum quantity quantity,
+                     const char *hint, struct value *x, struct value *y);
+
+/* ---- what follows from the entry (derived.c), compiled from text over the names of the file
+ *
+ * False when memory is out or, with a note, when a text of the file is too long to be used in another.
+ */
+
+/* The direction to `load.target` and `load.end`, and that of the reaction; `value` in terms of the distance where
+ * it names that. */
+bool derive_toward(struct entry *entry, bool distance_named);
+
+/* The moment about the point of the body of a force that acts beside it. */
+bool derive_couple(struct entry *entry, bool distance_named);
+
+/* The forces of drag in a wind. */
+bool derive_wind(struct entry *entry);
+
+#endif
