@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What the files of test_bad_calls share.
+ */
+#ifndef FBD_TESTS_BAD_CALLS_H
+#define FBD_TESTS_BAD_CALLS_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "fbd.h"
+
+/* A small model as text; two of it, and a list of errors, while the tests run. */
+extern const char bad_calls_scene[];
+extern fbd_model *model, *other;
+extern fbd_errors *errors;
+
+static const size_t past = SIZE_MAX;
+
+static inline bool is_nan(double value)
+{
+    return value != value;
+}
+
+/* This function has been called. */
+void note(const char *name);
+
+/* The function is called in this expression, which is true when it answers as it should. */
+#define ANSWERS(function, expression)                                                                        \
+    do {                                                                                                     \
+        (void)function;                                                                                      \
+        note(#function);                                                                                     \
+        if (!(expression)) fail_msg("%s", #expression);                                                      \
+    } while (0)
+
+/* The same, with a note for the list. */
+#define REFUSES(function, expression)                                                                        \
+    do {                                                                                                     \
+        size_t before_ = fbd_errors_count(errors);                                                           \
+        ANSWERS(function, expression);                                                                       \
+        assert_int_equal(fbd_errors_count(errors), before_ + 1);                                             \
+        assert_string_equal(fbd_errors_get(errors, before_)->id, "bad-call");                                \
+    } while (0)
+
+/* The same for what answers nothing. */
+#define ENDURES(function, statement)                                                                         \
+    do {                                                                                                     \
+        (void)function;                                                                                      \
+        note(#function);                                                                                     \
+        statement;                                                                                           \
+    } while (0)
+
+/* bad_calls_studies.c */
+void sweeps_that_cannot_be_made(void **context);
+void sweeps(void **context);
+void studies(void **context);
+void grades(void **context);
+void a_key_without_an_answer(void **context);
+
+#endif

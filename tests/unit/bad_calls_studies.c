@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Calls of sweeps, studies and grades that cannot be meant (test_bad_calls.c).
+ */
+#include "bad_calls.h"
+
+/* ---- sweeps */
+
+static int count_bytes(void *context, const char *rows, size_t length)
+{
+    (void)rows;
+    *(size_t *)context += length;
+    return 0;
+}
+
+void sweeps_that_cannot_be_made(void **context)
+{
+    (void)context;
+    static const char *const vary[] = {"k=1,2"}, *const hole[] = {NULL};
+    const fbd_sweep_plan plan = {.vary = vary, .vary_count = 1, .run = FBD_OPTIONS_DEFAULT};
+    fbd_sweep_plan holes[] = {plan, plan, plan, plan};
+    holes[0].vary = hole;
+    holes[1].vary = NULL;
+    holes[2].outputs = hole;
+    holes[2].output_count = 1;
+    holes[3].setting_count = 1;
+    for (size_t i = 0; i < sizeof holes / sizeof *holes; i++)
+        REFUSES(fbd_sweep_parse,
+                !fbd_sweep_parse(bad_calls_scene, strlen(bad_calls_scene), "scene", &holes[i], errors));
+    REFUSES(fbd_sweep_parse,
+            !fbd_sweep_parse(bad_calls_scene, strlen(bad_calls_scene), "scene", NULL, errors));
+    REFUSES(fbd_sweep_parse, !fbd_sweep_parse(NULL, 0, "scene", &plan, errors));
+    REFUSES(fbd_sweep_read, !fbd_sweep_read(NULL, &plan, errors));
+    REFUSES(fbd_sweep_read, !fbd_sweep_read("-", NULL, errors));
+}
+
+void sweeps(void **context)
+{
+    (void)context;
+    static const char *const vary[] = {"k=1,2"};
+    const fbd_sweep_plan plan = {.vary = vary, .vary_count = 1, .run = FBD_OPTIONS_DEFAULT};
+    fbd_sweep *sweep = fbd_sweep_parse(bad_calls_scene, strlen(bad_calls_scene), "scene", &plan, errors);
+    size_t length = 7, bytes = 0;
+    fbd_sweep_counts counts = {.written = 7};
+    const fbd_sweep_work idle = {.end = 2, .jobs = 1};
+    const fbd_sweep_work work = {
+        .end = 2, .jobs = 1, .helpers = 1, .write = count_bytes, .write_context = &bytes};
+    assert_non_null(sweep);
+    ENDURES(fbd_sweep_free, fbd_sweep_free(NULL));
+    ANSWERS(fbd_sweep_runs, fbd_sweep_runs(NULL) == 0);
+    ANSWERS(fbd_sweep_header, !fbd_sweep_header(NULL));
+    ANSWERS(fbd_sweep_key, !fbd_sweep_key(NULL));
+    ANSWERS(fbd_sweep_source, !fbd_sweep_source(NULL, &length) && length == 0);
+    ANSWERS(fbd_sweep_source, fbd_sweep_source(sweep, NULL));
+    ANSWERS(fbd_sweep_run, fbd_sweep_run(NULL, &work, &counts) == FBD_SWEEP_REFUSED && counts.written == 0);
+    ANSWERS(fbd_sweep_run, fbd_sweep_run(sweep, NULL, NULL) == FBD_SWEEP_REFUSED);
+    ANSWERS(fbd_sweep_run, fbd_sweep_run(sweep, &idle, NULL) == FBD_SWEEP_REFUSED);
+    ANSWERS(fbd_sweep_start, !fbd_sweep_start(NULL, &work));
+    ANSWERS(fbd_sweep_start, !fbd_sweep_start(sweep, NULL));
+    ANSWERS(fbd_sweep_start, !fbd_sweep_start(sweep, &idle));
+    fbd_sweep_crew *crew = fbd_sweep_start(sweep, &work);
+    fbd_sweep_share share = {0, 2, &bytes}; /* a ticket of nobody */
+    assert_non_null(crew);
+    ANSWERS(fbd_sweep_claim, fbd_sweep_claim(NULL, 1, &share) == -1);
+    ANSWERS(fbd_sweep_claim, fbd_sweep_claim(crew, 1, NULL) == -1);
+    ENDURES(fbd_sweep_deliver, fbd_sweep_deliver(NULL, &share, "x", 1, &counts));
+    ENDURES(fbd_sweep_deliver, fbd_sweep_deliver(crew, NULL, "x", 1, &counts));
+    ENDURES(fbd_sweep_deliver, fbd_sweep_deliver(crew, &share, "x", 1, &counts));
+    ENDURES(fbd_sweep_deliver, fbd_sweep_deliver(crew, &share, NULL, 1, &counts));
+    ANSWERS(fbd_sweep_finish, fbd_sweep_finish(NULL, &counts) == FBD_SWEEP_REFUSED);
+    ANSWERS(fbd_sweep_finish, fbd_sweep_finish(crew, NULL) == FBD_SWEEP_DONE); /* nothing was harmed */
+    assert_true(bytes > 10);
+    fbd_sweep_free(sweep);
+}
+
+/* ---- studies */
+
+void studies(void **context)
+{
+    (void)context;
+    static const char *const hole[] = {NULL}, *const methods[] = {"rkf45"};
+    fbd_cost_options options = FBD_COST_OPTIONS_DEFAULT, holes = FBD_COST_OPTIONS_DEFAULT;
+    options.budget = 0.05;
+    options.methods = methods;
+    options.method_count = 1;
+    holes.quantities = hole;
+    holes.quantity_count = 1;
+    fbd_cost *cost = fbd_cost_new(model, &options, errors);
+    fbd_effects *effects = fbd_effects_new(model, &options, errors);
+    assert_true(cost && effects);
+    REFUSES(fbd_cost_new, !fbd_cost_new(NULL, NULL, errors));
+    REFUSES(fbd_cost_new, !fbd_cost_new(model, &holes, errors));
+    ENDURES(fbd_cost_free, fbd_cost_free(NULL));
+    ANSWERS(fbd_cost_get_reference, is_nan(fbd_cost_get_reference(NULL).floor));
+    ANSWERS(fbd_cost_series_count, fbd_cost_series_count(NULL) == 0);
+    ANSWERS(fbd_cost_get_series, fbd_cost_get_series(NULL, 0).count == 0);
+    ANSWERS(fbd_cost_get_series, fbd_cost_get_series(cost, past).count == 0);
+    ANSWERS(fbd_cost_points, fbd_cost_points(NULL) == 0);
+    ANSWERS(fbd_cost_get_point, !fbd_cost_get_point(NULL, 0));
+    ANSWERS(fbd_cost_get_point, !fbd_cost_get_point(cost, past));
+    ANSWERS(fbd_cost_cheapest, !fbd_cost_cheapest(NULL, 1));
+    ANSWERS(fbd_cost_cheapest, !fbd_cost_cheapest(cost, NAN));
+    ANSWERS(fbd_cost_text, !fbd_cost_text(NULL));
+    ANSWERS(fbd_cost_csv, !fbd_cost_csv(NULL));
+    ANSWERS(fbd_cost_json, !fbd_cost_json(NULL));
+    ANSWERS(fbd_cost_svg, !fbd_cost_svg(NULL));
+    REFUSES(fbd_effects_new, !fbd_effects_new(NULL, &options, errors));
+    ENDURES(fbd_effects_free, fbd_effects_free(NULL));
+    ANSWERS(fbd_effects_count, fbd_effects_count(NULL) == 0);
+    ANSWERS(fbd_effects_get, !fbd_effects_get(NULL, 0));
+    ANSWERS(fbd_effects_get, !fbd_effects_get(effects, past));
+    ANSWERS(fbd_effects_text, !fbd_effects_text(NULL));
+    ANSWERS(fbd_effects_csv, !fbd_effects_csv(NULL));
+    ANSWERS(fbd_effects_json, !fbd_effects_json(NULL));
+    fbd_cost_free(cost);
+    fbd_effects_free(effects);
+}
+
+/* ---- grading */
+
+void grades(void **state)
+{
+    (void)state;
+    REFUSES(fbd_key_read, !fbd_key_read(NULL, errors));
+    ANSWERS(fbd_key_read, !fbd_key_read("nowhere/at/all.yaml", NULL));
+    ENDURES(fbd_key_free, fbd_key_free(NULL));
+    REFUSES(fbd_key_handout, !fbd_key_handout(NULL, "anna", errors));
+    ANSWERS(fbd_finding_kind_name, strcmp(fbd_finding_kind_name((fbd_finding_kind)99), "") == 0);
+    ANSWERS(fbd_finding_kind_name, strcmp(fbd_finding_kind_name((fbd_finding_kind)-1), "") == 0);
+    REFUSES(fbd_grade_new, !fbd_grade_new(NULL, "answer.yaml", NULL, errors));
+    ENDURES(fbd_grade_free, fbd_grade_free(NULL));
+    ANSWERS(fbd_grade_points, fbd_grade_points(NULL) == 0);
+    ANSWERS(fbd_grade_most, fbd_grade_most(NULL) == 0);
+    ANSWERS(fbd_grade_passed, !fbd_grade_passed(NULL));
+    ANSWERS(fbd_grade_findings, fbd_grade_findings(NULL) == 0);
+    ANSWERS(fbd_grade_finding, !*fbd_grade_finding(NULL, 0).message);
+    ANSWERS(fbd_grade_text, !fbd_grade_text(NULL, true));
+    ANSWERS(fbd_grade_json, !fbd_grade_json(NULL, true));
+}
+
+void a_key_without_an_answer(void **state)
+{
+    (void)state;
+    char path[1000];
+    const char *root = getenv("FBD_SOURCE_ROOT");
+    snprintf(path, sizeof path, "%s/models/kinetics/incline.yaml", root ? root : ".");
+    fbd_key *key = fbd_key_read(path, errors);
+    assert_non_null(key);
+    REFUSES(fbd_key_handout, !fbd_key_handout(key, NULL, errors));
+    REFUSES(fbd_grade_new, !fbd_grade_new(key, NULL, NULL, errors));
+    ANSWERS(fbd_grade_new, !fbd_grade_new(key, NULL, NULL, NULL));
+    fbd_grade *grade = fbd_grade_new(key, "nowhere/at/all.yaml", "", errors);
+    assert_non_null(grade);
+    assert_false(fbd_grade_passed(grade));
+    assert_true(fbd_grade_points(grade) == 0 && fbd_grade_most(grade) > 0);
+    assert_int_equal(fbd_grade_finding(grade, 0).kind, FBD_FINDING_NO_SUBMISSION);
+    ANSWERS(fbd_grade_finding, !*fbd_grade_finding(grade, past).message);
+    fbd_grade_free(grade);
+    fbd_key_free(key);
+}
