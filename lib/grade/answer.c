@@ -159,7 +159,7 @@ static void compile_rest(struct fbd_grade *grade, struct answer *answer)
             grade->arena.failed = true;
             return;
         }
-        answer->model = grade_compile(grade, answer->root, grade->file, false, errors);
+        answer->model = grade_compile(grade, answer->root, grade->key->file, false, errors);
         const fbd_error *error = answer->model ? NULL : first_error(errors);
         if (errors->out_of_memory) grade->arena.failed = true;
         struct search search = {0};
@@ -181,6 +181,30 @@ static const struct node *strip(struct fbd_grade *grade, const struct node *root
     for (size_t i = 0; root && i < sizeof unused / sizeof *unused; i++)
         root = node_with(&grade->arena, root, unused[i], NULL);
     return root && tables ? node_with(&grade->arena, root, "tables", tables->value) : root;
+}
+
+/* Nobody draws that many on one body: to pair them all would take long. */
+enum { most_entries = 60 };
+
+static const struct node *shorten_lists(struct fbd_grade *grade, const struct node *root)
+{
+    if (!root) return NULL;
+    static const char *const keys[] = {"forces", "moments", "hand"};
+    const struct pair *bodies = node_find(root, "bodies");
+    const struct node *made = bodies ? bodies->value : NULL;
+    for (size_t b = 0; made && bodies->value->kind == node_map && b < bodies->value->count; b++)
+        for (size_t k = 0; made && k < sizeof keys / sizeof *keys; k++) {
+            const char *name = bodies->value->pairs[b].key;
+            const struct node *body = node_find(made, name)->value;
+            const struct pair *pair = node_find(body, keys[k]);
+            if (!pair || pair->value->kind != node_list || pair->value->count <= most_entries) continue;
+            fbd_finding *finding = finding_add(grade, FBD_FINDING_UNREADABLE, name, keys[k], pair->at);
+            finding_say(grade, finding, "there are more than 60: the rest is not looked at");
+            const struct node *list = node_shortened(&grade->arena, pair->value, most_entries);
+            body = list ? node_with(&grade->arena, body, keys[k], list) : NULL;
+            made = body ? node_with(&grade->arena, made, name, body) : NULL;
+        }
+    return made ? node_with(&grade->arena, root, "bodies", made) : root;
 }
 
 /* Does any body have a list that is not empty? */
@@ -223,7 +247,7 @@ static void open_answer(struct fbd_grade *grade, const char *path, struct answer
     }
     bool open = document_open(&answer->document, answer->text, length, grade->file, errors);
     if (open && fbd_errors_failed(errors) == 0 && answer->document.root->kind == node_map)
-        answer->root = strip(grade, answer->document.root);
+        answer->root = shorten_lists(grade, strip(grade, answer->document.root));
     else if (first_error(errors))
         note_unreadable(grade, "", NULL, first_error(errors));
     else

@@ -30,6 +30,7 @@ struct comparison {
     gsl_rng *rng;
     double *start;
     double length, force; /* units of the answer in those of the key */
+    bool possible;        /* the state of the key */
 };
 
 /* ---- states */
@@ -60,21 +61,45 @@ static void follow(const struct comparison *comparison)
     if (!random_admissible(state)) state_evaluate(state);
 }
 
-/* State `s`: the start, then random ones. False when there are no more. */
-static bool next_state(struct comparison *comparison, size_t s)
+static bool is_driven(const fbd_model *model)
 {
-    enum { tries = 40 };
+    for (size_t k = 0; k < model->plan.friction_count; k++)
+        if (model->plan.frictions[k].kind == mode_drive) return true;
+    return false;
+}
+
+/* The start again, at another time: what sticks there sticks, while forces are others. */
+static bool start_at_another_time(struct comparison *comparison)
+{
+    const fbd_model *key = comparison->key;
     fbd_state *state = comparison->key_state;
+    const struct value *until = &key->scene->simulate.until;
+    if (is_driven(key)) return false;
+    state_copy(state, comparison->fresh);
+    memcpy(state->y, comparison->start, (size_t)key->plan.n * sizeof *state->y);
+    state->t = gsl_rng_uniform(comparison->rng) * (until->expr ? expr_value(until->expr) : 1);
+    return random_admissible(state);
+}
+
+/* State `s`: the start, then the start at other times and random ones in turn; where none of them is possible, since
+ * bodies would be in each other, one that is not: forces that do not follow from others are known there too. */
+static void next_state(struct comparison *comparison, size_t s)
+{
+    enum { tries = 12 };
+    fbd_state *state = comparison->key_state;
+    bool found = false;
     if (s == 0) {
         state_copy(state, comparison->fresh);
         if (comparison->key->assembles) state_project(state, true);
         memcpy(comparison->start, state->y, (size_t)comparison->key->plan.n * sizeof *state->y);
-        if (!random_admissible(state)) state_evaluate(state);
-        return true;
+        found = random_admissible(state);
+    } else if (s % 2 == 0) {
+        found = start_at_another_time(comparison);
     }
-    for (int k = 0; k < tries; k++)
-        if (random_state(comparison->rng, state, comparison->start) && random_admissible(state)) return true;
-    return false;
+    for (int k = 0; s > 0 && !found && k < tries; k++)
+        found = random_state(comparison->rng, state, comparison->start) && random_admissible(state);
+    if (!found) state_evaluate(state);
+    comparison->possible = found || s == 0;
 }
 
 /* ---- which body is which */
@@ -145,7 +170,9 @@ static void find_signs(struct comparison *comparison)
 
 static double coefficient(const struct value *value, const fbd_state *state)
 {
-    return value->expr ? expr_eval(value->expr, state->t, state->y, NULL) : 0;
+    if (!value->expr) return 0;
+    return expr_is_constant(value->expr) ? expr_value(value->expr)
+                                         : expr_eval(value->expr, state->t, state->y, NULL);
 }
 
 static void take_item(struct item *item, size_t s, const struct arrow *arrow, struct vec G,
@@ -155,7 +182,8 @@ static void take_item(struct item *item, size_t s, const struct arrow *arrow, st
     at->force = vec_scale(force, arrow->force);
     at->point = vec_scale(length, arrow->point);
     struct vec lever = vec_sub(at->point, G);
-    at->arm = vec_norm(at->force) > 0 ? vec_norm(lever) : 0;
+    double size = vec_norm(at->force);
+    at->arm = size > 0 ? fabs(vec_cross(lever, at->force)) / size : 0;
     at->moment = force * length * arrow->couple + vec_cross(lever, at->force);
     at->mu_s = coefficient(&item->source->mu_s, state);
     at->mu_k = coefficient(&item->source->mu_k, state);
@@ -197,6 +225,7 @@ static void take_state(struct comparison *comparison, size_t s)
         int slip = body->friction >= 0 ? comparison->key_state->slip[body->friction] : 0;
         if (s == 0) twin->slip = slip;
         twin->sides.like_start[s] = twin->slip == slip;
+        twin->sides.possible[s] = comparison->possible;
         twin->sides.samples = s + 1;
     }
 }
@@ -219,11 +248,12 @@ static bool make_sides(struct comparison *comparison)
     return true;
 }
 
-/* How large what is compared is, over all states. */
+/* How large what is compared is, over all states: by the key, since an answer may have forces of any size. */
 static void measure(struct sides *sides)
 {
-    for (size_t i = 0; i < sides->key_count + sides->count; i++)
+    for (size_t i = 0; i < sides->key_count; i++)
         for (size_t s = 0; s < sides->samples; s++) {
+            if (sides->key[i].follows && !sides->possible[s]) continue;
             const struct wrench *at = &sides->key[i].at[s];
             sides->force = fmax(sides->force, vec_norm(at->force));
             sides->moment = fmax(sides->moment, fabs(at->moment));
@@ -272,7 +302,8 @@ static void look_at_states(struct comparison *comparison)
     next_state(comparison, 1);
     follow(comparison);
     find_signs(comparison);
-    for (size_t s = 0; s < most_grade_samples && next_state(comparison, s); s++) {
+    for (size_t s = 0; s < most_grade_samples; s++) {
+        next_state(comparison, s);
         follow(comparison);
         take_state(comparison, s);
     }

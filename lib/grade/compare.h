@@ -11,7 +11,7 @@
 struct wrench {
     struct vec force, point;
     double moment;
-    double arm;                 /* of the point from there */
+    double arm;                 /* of its line of action from there */
     double mu_s, mu_k, surface; /* of friction */
 };
 
@@ -27,6 +27,7 @@ struct item {
 struct sides {
     size_t samples;
     bool like_start[most_grade_samples];  /* the body slips as it does at the start */
+    bool possible[most_grade_samples];    /* the key can move on from there: its reactions mean something */
     bool turns;                           /* moments about G matter */
     double tolerance, force, arm, moment; /* sizes of what is compared */
     size_t key_count, count;
@@ -45,8 +46,8 @@ struct difference {
 
 struct difference difference_of(const struct sides *sides, const struct item *key, const struct item *item);
 
-/* Is the sum of two items the third, at every state? */
-bool adds_up(const struct sides *sides, const struct item *one, const struct item *other,
+/* Is the sum of some items another one, at every state? */
+bool adds_up(const struct sides *sides, const struct item *const *parts, size_t count,
              const struct item *sum);
 
 #endif

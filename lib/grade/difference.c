@@ -24,10 +24,13 @@ static bool near_wrench(const struct sides *sides, const struct wrench *key, con
            near_moment(sides, key->moment, other->moment, vec_norm(key->force));
 }
 
-/* What follows from the others is compared with a formula where it slips as at the start: drawn for that moment. */
+/* What follows from the others is known only where the motion is possible; friction is compared with a formula where it
+ * slips, or sticks, as at the start: it is drawn for that moment. */
 static bool counts(const struct sides *sides, const struct item *key, const struct item *item, size_t s)
 {
-    return !key->follows || item->follows || sides->like_start[s];
+    if (!key->follows) return true;
+    if (!sides->possible[s]) return false;
+    return item->follows || key->source->kind == load_normal || sides->like_start[s];
 }
 
 static struct wrench reversed(struct wrench wrench)
@@ -46,13 +49,18 @@ static bool agree(const struct sides *sides, const struct item *key, const struc
     return true;
 }
 
-bool adds_up(const struct sides *sides, const struct item *one, const struct item *other,
-             const struct item *sum)
+bool adds_up(const struct sides *sides, const struct item *const *parts, size_t count, const struct item *sum)
 {
+    bool follows = sum->follows;
+    for (size_t i = 0; i < count; i++) follows = follows || parts[i]->follows;
     for (size_t s = 0; s < sides->samples; s++) {
-        struct wrench both = {.force = vec_add(one->at[s].force, other->at[s].force),
-                              .moment = one->at[s].moment + other->at[s].moment};
-        if (!near_wrench(sides, &sum->at[s], &both)) return false;
+        struct wrench all = {.moment = 0};
+        for (size_t i = 0; i < count; i++) {
+            all.force = vec_add(all.force, parts[i]->at[s].force);
+            all.moment += parts[i]->at[s].moment;
+        }
+        bool known = !follows || (sides->possible[s] && sides->like_start[s]);
+        if (known && !near_wrench(sides, &sum->at[s], &all)) return false;
     }
     return true;
 }
@@ -64,9 +72,9 @@ static bool same_coefficients(const struct sides *sides, const struct item *key,
     for (size_t s = 0; s < sides->samples; s++) {
         const struct wrench *a = &key->at[s], *b = &item->at[s];
         double tolerance = sides->tolerance;
-        if (fabs(a->mu_s - b->mu_s) > tolerance * fabs(a->mu_s) ||
-            fabs(a->mu_k - b->mu_k) > tolerance * fabs(a->mu_k) ||
-            fabs(a->surface - b->surface) > tolerance * fabs(a->surface))
+        if (!(fabs(a->mu_s - b->mu_s) <= tolerance * fabs(a->mu_s) &&
+              fabs(a->mu_k - b->mu_k) <= tolerance * fabs(a->mu_k) &&
+              fabs(a->surface - b->surface) <= tolerance * fabs(a->surface)))
             return false;
     }
     return true;
@@ -77,8 +85,8 @@ static bool same_line(const struct sides *sides, const struct item *key, const s
     for (size_t s = 0; s < sides->samples && sides->turns; s++) {
         struct vec apart = vec_sub(item->at[s].point, key->at[s].point), f = key->at[s].force;
         double size = vec_norm(f);
-        if (size > noise * sides->force &&
-            fabs(vec_cross(apart, f)) > (sides->tolerance * sides->arm + noise) * size)
+        if (sides->possible[s] && size > noise * sides->force &&
+            !(fabs(vec_cross(apart, f)) <= (sides->tolerance * sides->arm + noise) * size))
             return false;
     }
     return true;
@@ -111,7 +119,7 @@ static double magnitude(const struct sides *sides, const struct wrench *wrench)
 static bool is_couple(const struct sides *sides, const struct item *item)
 {
     for (size_t s = 0; s < sides->samples; s++)
-        if (vec_norm(item->at[s].force) > noise * sides->force) return false;
+        if (!(vec_norm(item->at[s].force) <= noise * sides->force)) return false;
     return true;
 }
 
@@ -136,7 +144,7 @@ static bool parallel(const struct sides *sides, const struct item *key, const st
         if (!counts(sides, key, item, s) || size <= noise * (couple ? sides->moment : sides->force)) continue;
         double across = couple ? 0 : vec_cross(a->force, b->force) / size;
         double along = couple ? b->moment * copysign(1, a->moment) : vec_dot(a->force, b->force) / size;
-        if (fabs(across) > sides->tolerance * fabs(along)) return false;
+        if (!(fabs(across) <= sides->tolerance * fabs(along))) return false;
         double now = along / size;
         if (isnan(first)) first = now;
         varies = varies || fabs(now - first) > sides->tolerance * fabs(first);
@@ -156,7 +164,7 @@ static bool turned(const struct sides *sides, const struct item *key, const stru
         struct vec a = key->at[s].force, b = item->at[s].force;
         double size = vec_norm(a);
         if (!counts(sides, key, item, s) || size <= noise * sides->force) continue;
-        if (fabs(vec_norm(b) - size) > sides->tolerance * size) return false;
+        if (!(fabs(vec_norm(b) - size) <= sides->tolerance * size)) return false;
         struct vec cross = {a.y, a.x};
         *exchanged =
             *exchanged && (near_force(sides, cross, b) || near_force(sides, vec_scale(-1, cross), b));

@@ -136,6 +136,14 @@ static void write_entry(const struct handout *handout, const struct pair *pair)
 {
     bool parameters = strcmp(pair->key, "parameters") == 0, bodies = strcmp(pair->key, "bodies") == 0;
     if (is_one_of(pair->key, kept_back)) return;
+    if (strcmp(pair->key, "simulate") == 0) { /* its events may name forces */
+        const struct pair *until = node_find(pair->value, "until");
+        if (!until) return;
+        text_add(handout->text, "simulate: {until: ");
+        write_value(handout->text, until->value);
+        text_add(handout->text, "}\n");
+        return;
+    }
     if ((!parameters && !bodies) || pair->value->kind != node_map) {
         write_pair(handout->text, 0, pair->key, pair->value);
         return;

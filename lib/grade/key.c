@@ -82,6 +82,19 @@ static bool compile_key(struct fbd_key *key, fbd_errors *errors)
     return key->model && has_points(key, errors);
 }
 
+/* A key whose own derivations are wrong is told: students who have the right ones would be told otherwise. */
+static void check_lines(const struct fbd_key *key, size_t length, fbd_errors *errors)
+{
+    fbd_model *model = key->lines > 0 ? fbd_model_parse(key->source, length, key->file, NULL, 0, NULL) : NULL;
+    char *text = NULL;
+    if (model && fbd_check_hand(model, 1, &text) > 0)
+        diag_add(errors, FBD_WARNING, "key-differs", (struct pos){0, 0},
+                 "`fbd-run --check-hand` says which, and how",
+                 "a derivation of the key does not agree with its mechanics");
+    free(text);
+    fbd_model_free(model);
+}
+
 static fbd_key *read_key(const char *path, fbd_errors *errors)
 {
     size_t length;
@@ -94,7 +107,10 @@ static fbd_key *read_key(const char *path, fbd_errors *errors)
     key->file = arena_text(&key->arena, file_name(path), strlen(file_name(path)));
     bool opened = key->source && document_open(&key->document, key->source, length, key->file, errors);
     key->document.split_hands = true;
-    if (opened && key->file && compile_key(key, errors)) return key;
+    if (opened && key->file && compile_key(key, errors)) {
+        check_lines(key, length, errors);
+        return key;
+    }
     if (key->arena.failed) diag_out_of_memory(errors);
     fbd_key_free(key);
     return NULL;

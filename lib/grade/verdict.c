@@ -15,6 +15,11 @@ static const struct grading *grading_of(const struct fbd_grade *grade)
     return &grade->key->model->scene->grading;
 }
 
+static bool near(double a, double b, double tolerance)
+{
+    return fabs(a - b) <= tolerance * fmax(fabs(a), fabs(b));
+}
+
 /* ---- bodies */
 
 static double worth(const struct fbd_grade *grade, const struct model_body *key)
@@ -53,14 +58,48 @@ static bool has_body(const fbd_model *model, const char *name)
     return false;
 }
 
-static bool has_coupling(const struct scene *scene, bool constraint, int kind)
+static const char *end_name(const struct scene *scene, int body)
 {
-    if (constraint) {
-        for (size_t i = 0; i < scene->constraint_count; i++)
-            if ((int)scene->constraints[i].kind == kind) return true;
-    } else {
-        for (size_t i = 0; i < scene->coupling_count; i++)
-            if ((int)scene->couplings[i].load.kind == kind) return true;
+    return body < 0 ? "" : scene->bodies[body].name;
+}
+
+static bool same_point(struct point a, struct point b)
+{
+    return a.kind == b.kind && vec_norm(vec_sub(a.where, b.where)) <= 1e-6 * (1e-3 + vec_norm(a.where));
+}
+
+static bool same_constraint(const struct scene *key, const struct constraint *a, const struct scene *answer,
+                            const struct constraint *b)
+{
+    if (a->kind != b->kind || a->end_count != b->end_count || a->length_given != b->length_given)
+        return false;
+    if (a->length_given && !near(a->length, b->length, 1e-6)) return false;
+    for (int i = 0; i < a->end_count; i++)
+        if (strcmp(end_name(key, a->body[i]), end_name(answer, b->body[i])) != 0 ||
+            !same_point(a->point[i], b->point[i]) || !near(a->radius[i], b->radius[i], 1e-6))
+            return false;
+    return true;
+}
+
+static bool has_constraint(const struct scene *scene, const struct scene *of, const struct constraint *one)
+{
+    for (size_t i = 0; i < scene->constraint_count; i++)
+        if (same_constraint(of, one, scene, &scene->constraints[i])) return true;
+    return false;
+}
+
+static bool has_coupling(const struct scene *scene, const struct scene *of, const struct coupling *one)
+{
+    for (size_t i = 0; i < scene->coupling_count; i++) {
+        const struct coupling *other = &scene->couplings[i];
+        bool same = one->load.kind == other->load.kind;
+        for (int k = 0; k < 2; k++)
+            same = same && strcmp(end_name(of, one->body[k]), end_name(scene, other->body[k])) == 0 &&
+                   same_point(one->point[k], other->point[k]);
+        if (same && near(one->load.stiffness, other->load.stiffness, 1e-6) &&
+            near(one->load.coefficient, other->load.coefficient, 1e-6) &&
+            near(one->load.free_length, other->load.free_length, 1e-6))
+            return true;
     }
     return false;
 }
@@ -68,21 +107,21 @@ static bool has_coupling(const struct scene *scene, bool constraint, int kind)
 /* What joins bodies is given with the sheet: that it has been changed is said. */
 static void compare_couplings(struct fbd_grade *grade, const struct scene *key, const struct scene *answer)
 {
-    const char *lost = "a coupling of the sheet is not in the answer", *more = "it is not on the sheet";
+    const char *lost = "a coupling of the sheet is not in the answer, or was changed",
+               *more = "it is not on the sheet";
+    if (key->units != answer->units) return;
     for (size_t i = 0; i < key->constraint_count; i++)
-        if (!has_coupling(answer, true, (int)key->constraints[i].kind))
+        if (!has_constraint(answer, key, &key->constraints[i]))
             verdict_superfluous(grade, FBD_FINDING_MOTION, "", key->constraints[i].name, nowhere, lost);
     for (size_t i = 0; i < key->coupling_count; i++)
-        if (!has_coupling(answer, false, (int)key->couplings[i].load.kind))
+        if (!has_coupling(answer, key, &key->couplings[i]))
             verdict_superfluous(grade, FBD_FINDING_MOTION, "", key->couplings[i].load.name, nowhere, lost);
-    for (size_t i = 0; i < answer->constraint_count; i++)
-        if (!has_coupling(key, true, (int)answer->constraints[i].kind))
-            verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, "", answer->constraints[i].name,
-                                answer->constraints[i].at, more);
-    for (size_t i = 0; i < answer->coupling_count; i++)
-        if (!has_coupling(key, false, (int)answer->couplings[i].load.kind))
-            verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, "", answer->couplings[i].load.name,
-                                answer->couplings[i].load.at, more);
+    for (size_t i = key->constraint_count; i < answer->constraint_count; i++)
+        verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, "", answer->constraints[i].name,
+                            answer->constraints[i].at, more);
+    for (size_t i = key->coupling_count; i < answer->coupling_count; i++)
+        verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, "", answer->couplings[i].load.name,
+                            answer->couplings[i].load.at, more);
 }
 
 void verdict_on_others(struct fbd_grade *grade, const fbd_model *answer)
@@ -95,11 +134,6 @@ void verdict_on_others(struct fbd_grade *grade, const fbd_model *answer)
 }
 
 /* ---- inertia */
-
-static bool near(double a, double b, double tolerance)
-{
-    return fabs(a - b) <= tolerance * fmax(fabs(a), fabs(b));
-}
 
 static const char *inertia_fault(const struct fbd_grade *grade, const struct model_body *key,
                                  const struct model_body *body, double length, double force,
@@ -188,26 +222,48 @@ static void pair_equal(struct fbd_grade *grade, const char *body, struct sides *
             }
 }
 
-/* Two components for one force, or one resultant for two. */
+/* Are these the parts of `whole`? Then they are used. */
+static bool take_parts(const struct sides *sides, struct item **parts, size_t count, const struct item *whole)
+{
+    for (size_t i = 0; i < count; i++)
+        if (parts[i]->used || !parts[i]->source) return false;
+    if (!adds_up(sides, (const struct item *const *)parts, count, whole)) return false;
+    for (size_t i = 0; i < count; i++) parts[i]->used = true;
+    return true;
+}
+
+/* Two or three of `items` that make one `whole`: how many, 0 when none do. */
+static size_t find_parts(const struct sides *sides, struct item *items, size_t count,
+                         const struct item *whole, struct item *parts[3])
+{
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = i + 1; j < count; j++) {
+            parts[0] = &items[i];
+            parts[1] = &items[j];
+            if (take_parts(sides, parts, 2, whole)) return 2;
+            for (size_t k = j + 1; k < count; k++) {
+                parts[2] = &items[k];
+                if (take_parts(sides, parts, 3, whole)) return 3;
+            }
+        }
+    return 0;
+}
+
+/* Components for one force, or one resultant for several. */
 static void pair_sums(struct fbd_grade *grade, const char *body, struct sides *sides)
 {
-    for (size_t k = 0; k < sides->key_count; k++)
-        for (size_t i = 0; i < sides->count && !sides->key[k].used; i++)
-            for (size_t j = i + 1; j < sides->count && !sides->key[k].used; j++) {
-                struct item *one = &sides->items[i], *other = &sides->items[j];
-                if (one->used || other->used || !adds_up(sides, one, other, &sides->key[k])) continue;
-                add_right(grade, body, &sides->key[k], one, "right, together with its other component");
-                other->used = true;
-            }
-    for (size_t j = 0; j < sides->count; j++)
-        for (size_t i = 0; i < sides->key_count && !sides->items[j].used; i++)
-            for (size_t k = i + 1; k < sides->key_count && !sides->items[j].used; k++) {
-                struct item *one = &sides->key[i], *other = &sides->key[k];
-                if (one->used || other->used || !adds_up(sides, one, other, &sides->items[j])) continue;
-                add_right(grade, body, one, &sides->items[j], "right, as a resultant");
-                sides->items[j].used = false;
-                add_right(grade, body, other, &sides->items[j], "right, as a resultant");
-            }
+    struct item *parts[3];
+    for (size_t k = 0; k < sides->key_count; k++) {
+        struct item *key = &sides->key[k];
+        if (!key->used && key->source && find_parts(sides, sides->items, sides->count, key, parts) > 0)
+            add_right(grade, body, key, parts[0], "right, together with its other components");
+    }
+    for (size_t j = 0; j < sides->count; j++) {
+        struct item *item = &sides->items[j];
+        bool left = !item->used && item->source;
+        size_t found = left ? find_parts(sides, sides->key, sides->key_count, item, parts) : 0;
+        for (size_t i = 0; i < found; i++) add_right(grade, body, parts[i], item, "right, as a resultant");
+    }
 }
 
 /* ---- what is left over, as what it was meant to be */
@@ -266,7 +322,8 @@ static int unlikeness(const struct item *key, const struct item *item, const str
     if (!same_noun) return no_pair + 1;
     /* Any two moments are along one line: only what is a constant share of the other is like it. */
     bool alike = difference->relation != is_scaled || isfinite(difference->ratio);
-    if (!alike && !same_name) return no_pair;
+    bool nothing = difference->relation == is_scaled && fabs(difference->ratio) < 1e-9;
+    if ((!alike && !same_name) || nothing) return no_pair;
     return (same_name ? !same_kind : same_kind ? 2 : 5) + ranks[difference->relation];
 }
 

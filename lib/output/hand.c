@@ -114,8 +114,9 @@ static void take_summands(struct hand_check *check, const struct hand *hand, dou
 }
 
 /* Which names the equation depends on: bit k for hand slot k, hand_others for accelerations of other bodies. An identity
- * depends on none. */
-static unsigned depends_on(const struct hand *hand, const struct fbd_model *model, double t, const double *y)
+ * depends on none. *size grows by what these contribute to a side. */
+static unsigned depends_on(const struct hand *hand, const struct fbd_model *model, double t, const double *y,
+                           double *size)
 {
     int first = 1 + 2 * model->plan.n;
     unsigned says = 0;
@@ -124,6 +125,7 @@ static unsigned depends_on(const struct hand *hand, const struct fbd_model *mode
         if (k >= hand_slots && model->absolutes[k - hand_slots].kind != absolute_acceleration) continue;
         expr_eval_slot(hand->left, t, y, first + k, NULL, &left);
         expr_eval_slot(hand->right, t, y, first + k, NULL, &right);
+        *size += fabs((left - right) * y[first + k - 1]);
         if (fabs(left - right) > 1e-9 * (fabs(left) + fabs(right)))
             says |= k < hand_slots ? 1U << k : hand_others;
     }
@@ -144,7 +146,8 @@ static void take_sample(struct hand_check *check, const struct hand *hand, struc
     sample.left = expr_eval(hand->left, state->t, y, NULL);
     sample.right = expr_eval(hand->right, state->t, y, NULL);
     if (!isfinite(sample.left) || !isfinite(sample.right)) return;
-    check->says |= depends_on(hand, model, state->t, y);
+    double named = 0;
+    check->says |= depends_on(hand, model, state->t, y, &named);
     double slope = 0, scale = 1;
     bool jointed = body->place.link > 0; /* several accelerations in one equation: side against side */
     int part = jointed ? -1 : accelerated_part(hand, model->plan.n, body->count, state->t, y, &slope);
@@ -166,6 +169,9 @@ static void take_sample(struct hand_check *check, const struct hand *hand, struc
         sample.terms[i] = arrows[i].share[part < 0 ? 0 : part];
         sample.size += fabs(sample.terms[i]);
     }
+    if (jointed) sample.size += named;
+    sample.mechanics = part >= 0 ? fabs(sample.I * sample.a) : sample.size;
+    for (int i = 0; part >= 0 && i < body->load_count; i++) sample.mechanics += fabs(sample.terms[i]);
     take_summands(check, hand, state->t, y, scale, &sample);
     take_factors(body, state, sample.factors);
     sample.I_G = body->inertia.I_G;

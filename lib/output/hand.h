@@ -42,6 +42,7 @@ struct hand_sample {
     int slip;               /* of the body's friction; 0 without */
     double lack;            /* I (a - a_hand), or left - right when no acceleration is in it */
     double size;            /* magnitude of what was added up */
+    double mechanics;       /* the same of the assembly alone, where the equation has one acceleration */
     double coefficient;     /* of the acceleration in the equation */
     double I, a, a_hand;    /* inertia and accelerations; I = 0 when no acceleration is in the equation */
     double I_G, m_L2, L;    /* of a pivot */

@@ -69,6 +69,30 @@ const struct node *node_filtered(struct arena *arena, const struct node *list,
     return made;
 }
 
+const struct node *node_appended(struct arena *arena, const struct node *list, const struct node *item)
+{
+    size_t count = list ? list->count : 0;
+    struct node *made = copy_of(arena, list ? list : item);
+    const struct node **items = ARENA_ARRAY(arena, count + 1, const struct node *);
+    if (!made || !items) return NULL;
+    made->kind = node_list;
+    made->count = count + 1;
+    for (size_t i = 0; i < count; i++) items[i] = list->items[i];
+    items[count] = item;
+    made->items = items;
+    measure(made);
+    return made;
+}
+
+const struct node *node_shortened(struct arena *arena, const struct node *list, size_t most)
+{
+    struct node *made = copy_of(arena, list);
+    if (!made) return NULL;
+    if (made->count > most) made->count = most;
+    measure(made);
+    return made;
+}
+
 const struct node *node_empty_map(struct arena *arena)
 {
     struct node *made = ARENA_NEW(arena, struct node);

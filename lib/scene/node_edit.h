@@ -18,6 +18,12 @@ const struct node *node_filtered(struct arena *arena, const struct node *list,
                                  bool leave(const struct node *item, const void *context),
                                  const void *context);
 
+/* A list with one item more; `list` may be NULL. */
+const struct node *node_appended(struct arena *arena, const struct node *list, const struct node *item);
+
+/* The first `most` items of a list. */
+const struct node *node_shortened(struct arena *arena, const struct node *list, size_t most);
+
 /* An empty mapping. */
 const struct node *node_empty_map(struct arena *arena);
 
