@@ -87,7 +87,56 @@ bodies:
       - gravity
 """
 
-KEYS = {"block": BLOCK, "pendulum": PENDULUM, "plate": PLATE, "ball": BALL, "pair": PAIR}
+# Bodies in contact at every random place; a rope, along which accelerations are the same whatever the forces are; and
+# a block that sticks.
+BOUNCE = """fbd: 1
+bodies:
+  ball:
+    shape: disc
+    radius: 0.1 m
+    mass: 1 kg
+    motion: {planar: {}}
+    initial: {y: 1 m}
+    forces:
+      - gravity
+ground: {lines: {floor: {along: 0 deg}}}
+contacts:
+  - {between: [ball, ground.floor], restitution: 0.5}
+simulate: {until: 2 s}
+"""
+
+ROPE = """fbd: 1
+parameters: {m_1: 3 kg, m_2: 2 kg}
+bodies:
+  one:
+    mass: m_1
+    motion: {slide: {along: -90 deg, through: [-0.1 m, -4 m]}}
+    forces: [gravity]
+    hand: m*(v_dot - g) + m_2*(v_dot + g) = 0*v_dot*m
+  two:
+    mass: m_2
+    motion: {slide: {along: -90 deg, through: [0.1 m, -4 m]}}
+    forces: [gravity]
+ground: {points: {left: [-0.1 m, 0], right: [0.1 m, 0]}}
+couplings:
+  - rope: {name: cable, through: [one.G, ground.left, ground.right, two.G]}
+simulate: {until: 1 s}
+"""
+
+REST = """fbd: 1
+bodies:
+  box:
+    mass: 2 kg
+    motion: slide
+    forces:
+      - gravity
+      - normal
+      - friction: {static: 0.9, kinetic: 0.8}
+      - applied: {name: shake, fx: "3[N]*cos(9[rad/s]*t)", fy: "2[N]*sin(3[rad/s]*t)"}
+simulate: {until: 2 s}
+"""
+
+KEYS = {"bounce": BOUNCE, "rope": ROPE, "rest": REST, "block": BLOCK, "pendulum": PENDULUM, "plate": PLATE, "ball": BALL, "pair": PAIR}
 
 NONE = ""
 
@@ -165,11 +214,38 @@ CASES = [
     ("pair", "slides the other way round", {"motion: {slide: {along: 0 deg}}": "motion: {pivot: {at: [0, 0]}}\n    initial: {theta: 1 rad}\n    shape: point\n    center: [1 m, 0]"}, "motion", ""),
 ]
 
+V_LINE = "m*v_dot = f1*cos(beta) - m*g*sin(phi) - sign(v)*mu_k*N"
+PUSH = "      - applied: {name: push, value: f1, angle: phi + beta}\n"
+
+# Points without mechanics.
+CASES += [
+    ("block", "a multiple of itself", {V_LINE: "m*v_dot = 1.001*m*v_dot"}, "derivation", None),
+    ("block", "drowned in numbers", {V_LINE: "m*v_dot + 1e15[N] = 1e15[N]"}, "derivation", None),
+    ("block", "a wave of the acceleration", {V_LINE: "sin(1e20*v_dot*1[s^2/m]) = 0"}, "derivation", None),
+    ("block", "next to nothing", {V_LINE: "m*v_dot*1e-320 = 0[N]"}, "derivation", None),
+    ("block", "nothing of N", {"N = m*g*cos(phi) - f1*sin(beta)": "exp(-(N/1[N])^2) = 0"}, "derivation", None),
+    ("block", "two that cancel", {PUSH: '      - applied: {name: up, value: "1e20[N]"}\n      - applied: {name: down, value: "-1e20[N]"}\n'},
+     "superfluous", "up"),
+    ("plate", "a wrong place beside a far one", {"angle: 30 deg, at: P": "angle: 30 deg, at: Q", "name: F2, fx": "name: far, fx",
+     "fy: 5 N, at: Q": "fy: 5 N, at: [1e12 m, 0]"}, "place", "F1"),
+    ("block", "a coefficient that is no number", {"kinetic: mu_k}": 'kinetic: "sqrt(-1 - (x/1[m])^2)"}'}, None, None),
+    ("block", "another m", {"m: 2 kg}": "m: 2 kg, g: 0.001 m/s^2}"}, None, None),
+    ("bounce", "right at the start only", {"- gravity": '- applied: {name: weight, fx: "1e6[N/s]*t", fy: "-9.81[N]*(1 + 1e6[1/s]*t)"}'},
+     "superfluous", "weight"),
+    ("rest", "friction of nothing", {"- friction: {static: 0.9, kinetic: 0.8}": "- applied: {name: rub, value: 0 N}"}, "superfluous", "rub"),
+    ("rest", "friction as at the start", {"- friction: {static: 0.9, kinetic: 0.8}": "- applied: {name: rub, value: -3 N}"}, "superfluous", "rub"),
+    ("rope", "kinematics", {"m*(v_dot - g) + m_2*(v_dot + g) = 0*v_dot*m": "v_dot = -two.v_dot"}, "derivation", None),
+]
+
 # The same mechanics, written in another way: all points.
 RIGHT = [
     ("block", "components", {"push, value: f1, angle: phi + beta": "p, fx: f1*cos(phi + beta), fy: f1*sin(phi + beta)"}),
     ("block", "in two parts", {"- applied: {name: push, value: f1, angle: phi + beta}":
      "- applied: {name: along, value: f1*cos(beta), angle: phi}\n      - applied: {name: across, value: f1*sin(beta), angle: phi + pi/2}"}),
+    ("block", "the weight in three parts", {"- gravity": "- applied: {name: a, value: m*g/3, angle: -90 deg}\n      - applied: "
+     "{name: b, value: m*g/3, angle: -90 deg}\n      - applied: {name: c, value: m*g/3, angle: -90 deg}"}),
+    ("rest", "friction by hand while it sticks", {"- friction: {static: 0.9, kinetic: 0.8}":
+     '- applied: {name: rub, value: "-3[N]*cos(9[rad/s]*t)"}'}),
     ("block", "the weight by hand", {"- gravity": "- applied: {name: weight, value: m*g, angle: -90 deg}"}),
     ("block", "friction by hand", {"- friction: {static: mu_s, kinetic: mu_k}":
      "- applied: {name: rub, value: mu_k*(m*g*cos(phi) - f1*sin(beta)), angle: phi + pi}"}),
