@@ -158,11 +158,11 @@ static bool look_again(struct watching *w, bool *all_there)
 
 static void wait_until_settled(struct watching *w)
 {
-    bool all_there = false, differs = true;
+    bool all_there = false;
     look_again(w, &all_there);
     for (int waited = 0; waited < most_settling && !interrupt_asked(&w->interrupt); waited += between_looks) {
         sleep_a_look();
-        differs = look_again(w, &all_there);
+        bool differs = look_again(w, &all_there);
         if (!differs && (all_there || waited >= most_absence)) return;
     }
 }
