@@ -121,7 +121,7 @@ static bool take_told(struct watching *w)
 {
     size_t count = 0, i = 0;
     for (const char *name = next_name(&w->told, NULL); name; name = next_name(&w->told, name)) count++;
-    struct look *looks = malloc((count + 1) * sizeof *looks);
+    struct look *looks = calloc(count + 1, sizeof *looks);
     if (!looks) return false;
     for (const char *name = next_name(&w->told, NULL); name; name = next_name(&w->told, name), i++)
         if (!known_look(w, name, &looks[i])) looks[i] = first_look(w, name);
