@@ -40,14 +40,11 @@ struct fbd_grade {
     const struct fbd_key *key;
     const char *student, *file;
     struct finding *first, *last;
-    fbd_finding **list; /* all of them */
     size_t count;
     double points;
     bool submitted, readable;
 
     /* while it is being made */
-    struct override *drawn; /* the student's own values, of the document at hand */
-    size_t drawn_count;
     fbd_model *sheet; /* the key with these values */
     fbd_finding lost; /* what is noted when memory is out: nobody reads it */
 };

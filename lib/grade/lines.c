@@ -9,8 +9,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "grade/grade.h"
-#include "output/hand.h"
+#include "grade/lines.h"
 #include "scene/node_edit.h"
 
 enum { slips = 3 }; /* of a body's friction: back, none, forth */
@@ -20,215 +19,51 @@ struct line {
     unsigned says;
     size_t seen[slips], agreed[slips];
     bool checked;
-    bool
-        dynamic; /* it fails when other forces act: it says something of the forces, not of the motion alone */
+    bool dynamic;    /* it fails when other forces act: it is not of the motion alone */
     unsigned met;    /* the unknowns of the line of the key that it has met */
     bool in_numbers; /* for the values of the sheet, not for others */
 };
 
-struct lines {
-    struct fbd_grade *grade;
-    const struct node *root; /* the key with the answer's derivations */
-    fbd_model *model;
-    const struct node *pushed_root; /* the same with other forces on all bodies */
-    fbd_model *pushed;
-    struct document probes;
-    struct hand_check check;
-    gsl_rng *rng;
-};
-
-/* ---- the key's scene with the answer's derivations */
-
-static const struct node *value_at(const struct node *map, const char *key)
-{
-    const struct pair *pair = node_find(map, key);
-    return pair ? pair->value : NULL;
-}
-
-/* What an equation calls so is not for an answer to say. */
-static bool is_taken(const char *name)
-{
-    static const char *const names[] = {"m",  "g",    "N",    "I_G",  "I_O",     "L",
-                                        "mu", "mu_s", "mu_k", "slip", "distance"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (strcmp(name, names[i]) == 0) return true;
-    return false;
-}
-
-/* Parameters that a derivation names beside those of the sheet. */
-static const struct node *with_parameters(struct arena *arena, const struct node *root,
-                                          const struct node *answer)
-{
-    const struct node *own = value_at(root, "parameters"), *more = value_at(answer, "parameters");
-    if (!more || more->kind != node_map) return root;
-    const struct node *all = own && own->kind == node_map ? own : node_empty_map(arena);
-    for (size_t i = 0; all && i < more->count; i++)
-        if (!node_find(all, more->pairs[i].key) && !is_taken(more->pairs[i].key))
-            all = node_with(arena, all, more->pairs[i].key, more->pairs[i].value);
-    return all ? node_with(arena, root, "parameters", all) : NULL;
-}
-
-static const struct node *with_lines(struct arena *arena, const struct node *root, const struct node *answer)
-{
-    const struct node *bodies = value_at(root, "bodies"), *others = value_at(answer, "bodies"),
-                      *made = bodies;
-    for (size_t b = 0; made && b < bodies->count; b++) {
-        const struct node *other = value_at(others, bodies->pairs[b].key);
-        const struct node *hand = value_at(other, "hand");
-        const struct node *body = node_with(arena, bodies->pairs[b].value, "hand", hand);
-        made = body ? node_with(arena, made, bodies->pairs[b].key, body) : NULL;
-    }
-    return made ? node_with(arena, root, "bodies", made) : NULL;
-}
-
-/* ---- lines that cannot be read */
-
-static bool is_behind(struct pos a, struct pos b)
-{
-    return a.line > b.line || (a.line == b.line && a.column > b.column);
-}
-
-struct culprit {
-    const struct node *item; /* the line, or all of `hand` */
-    const char *body;
-};
-
-static void consider(struct culprit *culprit, const struct node *item, const char *body, struct pos at)
-{
-    if (is_behind(item->at, at) || (culprit->item && is_behind(culprit->item->at, item->at))) return;
-    *culprit = (struct culprit){item, body};
-}
-
-static struct culprit find_culprit(const struct node *root, struct pos at)
-{
-    const struct node *bodies = value_at(root, "bodies");
-    struct culprit culprit = {0};
-    for (size_t b = 0; b < bodies->count; b++) {
-        const struct node *hand = value_at(bodies->pairs[b].value, "hand");
-        if (!hand) continue;
-        if (hand->kind != node_list) consider(&culprit, hand, bodies->pairs[b].key, at);
-        for (size_t i = 0; hand->kind == node_list && i < hand->count; i++)
-            consider(&culprit, hand->items[i], bodies->pairs[b].key, at);
-    }
-    return culprit;
-}
-
-static bool is_it(const struct node *item, const void *context)
-{
-    return item == context;
-}
-
-static const struct node *without(struct arena *arena, const struct node *root, const struct culprit *culprit)
-{
-    const struct node *bodies = value_at(root, "bodies"), *body = value_at(bodies, culprit->body);
-    const struct node *hand = value_at(body, "hand");
-    const struct node *left =
-        hand->kind == node_list ? node_filtered(arena, hand, is_it, culprit->item) : NULL;
-    body = node_with(arena, body, "hand", left);
-    bodies = body ? node_with(arena, bodies, culprit->body, body) : NULL;
-    return bodies ? node_with(arena, root, "bodies", bodies) : NULL;
-}
-
-/* Leave out every line that an error stands in; false when there is none. */
-static bool leave_out_wrong(struct lines *lines, fbd_errors *errors)
-{
-    struct fbd_grade *grade = lines->grade;
-    const struct node *root = lines->root;
-    const struct culprit *last = NULL;
-    struct culprit culprit = {0};
-    const fbd_error *error;
-    bool any = false;
-    for (size_t i = 0; lines->root && (error = fbd_errors_get(errors, i)) != NULL; i++) {
-        const struct node *before = culprit.item;
-        if (error->severity != FBD_ERROR) continue;
-        culprit = find_culprit(root, (struct pos){error->line, error->column});
-        if (!culprit.item || culprit.item == before) continue; /* notes are in the order of their places */
-        last = &culprit;
-        finding_of_error(grade, FBD_FINDING_UNREADABLE, last->body,
-                         culprit.item->kind == node_scalar ? culprit.item->text : "", error);
-        lines->root = without(&grade->arena, lines->root, &culprit);
-        any = true;
-    }
-    return any;
-}
-
-/* Compile `root`; the first error, if any, is a finding when `tell`. */
-static fbd_model *try_root(struct lines *lines, const struct node *root, bool hands, bool tell,
-                           fbd_errors *errors)
-{
-    struct fbd_grade *grade = lines->grade;
-    fbd_model *model = root ? grade_compile(grade, root, grade->key->file, hands, errors) : NULL;
-    const fbd_error *error = model ? NULL : first_error(errors);
-    if (errors->out_of_memory) grade->arena.failed = true;
-    if (error && tell) finding_of_error(grade, FBD_FINDING_UNREADABLE, "", "", error);
-    return model;
-}
-
-/* Parameters of the answer that do not go with the sheet are left out with a word. */
-static void check_parameters(struct lines *lines, const struct node *sheet)
-{
-    fbd_errors *errors = fbd_errors_new();
-    if (!errors) lines->grade->arena.failed = true;
-    if (errors) {
-        fbd_model *model = try_root(lines, lines->root, false, true, errors);
-        if (!model) lines->root = sheet;
-        fbd_model_free(model);
-    }
-    fbd_errors_free(errors);
-}
-
-/* Compile until every line that is left can be read. */
-static void compile_lines(struct lines *lines)
-{
-    while (lines->root && !lines->model && !lines->grade->arena.failed) {
-        fbd_errors *errors = fbd_errors_new();
-        if (!errors) {
-            lines->grade->arena.failed = true;
-            return;
-        }
-        lines->model = try_root(lines, lines->root, true, false, errors);
-        if (!lines->model && !leave_out_wrong(lines, errors)) lines->root = NULL;
-        fbd_errors_free(errors);
-    }
-}
-
 /* ---- the same scene with other forces */
 
-static const struct node *pushed_body(struct lines *lines, const struct node *body, const char *key)
+static const struct node *pushed_body(struct arena *arena, const struct node *probes, const struct pair *body)
 {
-    const struct node *probe = value_at(lines->probes.root, key), *forces = value_at(body, "forces");
-    if (!probe || (forces && forces->kind != node_list)) return body;
-    const struct node *list = node_appended(&lines->grade->arena, forces, probe);
-    return list ? node_with(&lines->grade->arena, body, "forces", list) : NULL;
+    const struct node *probe = lines_value(probes, body->key), *forces = lines_value(body->value, "forces");
+    if (!probe || (forces && forces->kind != node_list)) return body->value;
+    const struct node *list = node_appended(arena, forces, probe);
+    return list ? node_with(arena, body->value, "forces", list) : NULL;
 }
 
-/* A push on every body, off its centre where it can turn, by a share of its weight, so that ropes stay taut; `sign`
- * chooses its sense. */
-static void push(struct lines *lines, double sign)
+/* A push on every body, off its centre where it can turn, by a share of its weight, so that ropes stay taut. */
+static void write_pushes(const fbd_model *model, double sign, struct text *text)
 {
-    struct arena *arena = &lines->grade->arena;
-    const struct node *bodies = value_at(lines->root, "bodies"), *made = bodies;
-    struct text text = {0};
-    fbd_errors *errors = fbd_errors_new();
-    for (size_t b = 0; b < lines->model->body_count; b++) {
-        const struct model_body *body = &lines->model->bodies[b];
+    double pounds = model->scene->units == unit_us ? 14.6 : 1;
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
         bool turns = body->kind == motion_pivot || body->kind == motion_planar;
-        double weight = sign * 10 * body->inertia.mass * (lines->model->scene->units == unit_us ? 14.6 : 1);
-        text_printf(&text, "%s: {applied: {name: fbd_probe, fx: %.17g N, fy: %.17g N%s}}\n", body->name,
+        double weight = sign * 10 * body->inertia.mass * pounds;
+        text_printf(text, "%s: {applied: {name: fbd_probe, fx: %.17g N, fy: %.17g N%s}}\n", body->name,
                     0.17 * weight, -0.29 * weight, turns ? ", at: [0.21 m, 0.13 m]" : "");
     }
+}
+
+static void push(struct lines *lines, double sign, struct pushed *pushed)
+{
+    struct arena *arena = &lines->grade->arena;
+    const struct node *bodies = lines_value(lines->root, "bodies"), *made = bodies;
+    struct text text = {0};
+    if (pushed->made) return;
+    fbd_errors *errors = fbd_errors_new();
+    pushed->made = true;
+    write_pushes(lines->model, sign, &text);
     char *kept = errors && !text.failed ? arena_text(arena, text.data, text.length) : NULL;
-    document_close(&lines->probes);
-    lines->probes = (struct document){.file = NULL};
-    bool open = kept && document_open(&lines->probes, kept, text.length, NULL, errors);
+    bool open = kept && document_open(&pushed->probes, kept, text.length, NULL, errors);
     for (size_t b = 0; open && made && b < bodies->count; b++) {
-        const struct node *body = pushed_body(lines, bodies->pairs[b].value, bodies->pairs[b].key);
+        const struct node *body = pushed_body(arena, pushed->probes.root, &bodies->pairs[b]);
         made = body ? node_with(arena, made, bodies->pairs[b].key, body) : NULL;
     }
-    model_free(lines->pushed);
-    lines->pushed = NULL;
-    lines->pushed_root = open && made ? node_with(arena, lines->root, "bodies", made) : NULL;
-    if (lines->pushed_root) lines->pushed = try_root(lines, lines->pushed_root, true, false, errors);
+    pushed->root = open && made ? node_with(arena, lines->root, "bodies", made) : NULL;
+    if (pushed->root) pushed->model = lines_try(lines, pushed->root, true, false, errors);
     if (!errors || text.failed) lines->grade->arena.failed = true;
     fbd_errors_free(errors);
     text_free(&text);
@@ -275,7 +110,7 @@ static bool has_numbers(const char *text)
 static bool has_own_names(const struct lines *lines, const char *text)
 {
     const struct scene *scene = lines->model->scene;
-    const struct node *known = value_at(lines->grade->key->document.root, "parameters");
+    const struct node *known = lines_value(lines->grade->key->document.root, "parameters");
     for (size_t i = 0; i < scene->parameter_count; i++)
         if (!node_find(known, scene->parameters[i].name) && strstr(text, scene->parameters[i].name))
             return true;
@@ -297,13 +132,14 @@ static bool sample_line(struct lines *lines, const struct node *root, const fbd_
 static bool look_at_pushed(struct lines *lines, double tolerance, struct line *line)
 {
     line->dynamic = true;
-    for (int sign = 1; sign >= -1; sign -= 2) {
-        struct line pushed = {.says = 0};
-        push(lines, sign);
-        if (!lines->pushed) return !lines->grade->arena.failed;
-        if (!sample_line(lines, lines->pushed_root, lines->pushed, 0, tolerance, &pushed)) return false;
-        size_t seen = pushed.seen[0] + pushed.seen[1] + pushed.seen[2];
-        line->dynamic = 2 * (pushed.agreed[0] + pushed.agreed[1] + pushed.agreed[2]) < seen;
+    for (int k = 0; k < 2; k++) {
+        struct line other = {.says = 0};
+        struct pushed *pushed = &lines->pushed[k];
+        push(lines, k == 0 ? 1 : -1, pushed);
+        if (!pushed->model) return !lines->grade->arena.failed;
+        if (!sample_line(lines, pushed->root, pushed->model, 0, tolerance, &other)) return false;
+        size_t seen = other.seen[0] + other.seen[1] + other.seen[2];
+        line->dynamic = 2 * (other.agreed[0] + other.agreed[1] + other.agreed[2]) < seen;
         if (seen > 0) return true;
     }
     line->dynamic = line->says != 0;
@@ -460,8 +296,10 @@ static bool open_lines(struct lines *lines)
 
 static void close_lines(struct lines *lines)
 {
-    model_free(lines->pushed);
-    document_close(&lines->probes);
+    for (int k = 0; k < 2; k++) {
+        model_free(lines->pushed[k].model);
+        document_close(&lines->pushed[k].probes);
+    }
     free(lines->check.samples);
     if (lines->rng) gsl_rng_free(lines->rng);
 }
@@ -469,13 +307,9 @@ static void close_lines(struct lines *lines)
 void grade_lines(struct fbd_grade *grade, const struct node *root)
 {
     struct lines lines = {.grade = grade}, sheet = {.grade = grade, .model = grade->sheet};
-    const struct node *key = grade->key->document.root;
-    sheet.root = key;
+    sheet.root = grade->key->document.root;
     bool done = open_lines(&lines) && open_lines(&sheet);
-    const struct node *plain = with_lines(&grade->arena, key, root);
-    lines.root = plain ? with_parameters(&grade->arena, plain, root) : NULL;
-    if (done && lines.root) check_parameters(&lines, plain);
-    if (done) compile_lines(&lines);
+    if (done) lines_read(&lines, root);
     done = done && lines.model != NULL;
     for (size_t b = 0; done && b < lines.model->body_count; b++) done = grade_body(&lines, &sheet, (int)b);
     if (!done) grade->arena.failed = true;

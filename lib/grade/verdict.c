@@ -81,27 +81,48 @@ static bool same_constraint(const struct scene *key, const struct constraint *a,
     return true;
 }
 
-static bool has_constraint(const struct scene *scene, const struct scene *of, const struct constraint *one)
+/* How many of the first `count` constraints of a scene are like one of another scene. */
+static size_t constraints_like(const struct scene *scene, size_t count, const struct scene *of,
+                               const struct constraint *one)
 {
-    for (size_t i = 0; i < scene->constraint_count; i++)
-        if (same_constraint(of, one, scene, &scene->constraints[i])) return true;
-    return false;
+    size_t found = 0;
+    for (size_t i = 0; i < count; i++) found += same_constraint(of, one, scene, &scene->constraints[i]);
+    return found;
 }
 
-static bool has_coupling(const struct scene *scene, const struct scene *of, const struct coupling *one)
+/* Is number `index` of a scene one more than the other scene has of its like? */
+static bool is_constraint_more(const struct scene *scene, size_t index, const struct scene *other)
 {
-    for (size_t i = 0; i < scene->coupling_count; i++) {
-        const struct coupling *other = &scene->couplings[i];
-        bool same = one->load.kind == other->load.kind;
-        for (int k = 0; k < 2; k++)
-            same = same && strcmp(end_name(of, one->body[k]), end_name(scene, other->body[k])) == 0 &&
-                   same_point(one->point[k], other->point[k]);
-        if (same && near(one->load.stiffness, other->load.stiffness, 1e-6) &&
-            near(one->load.coefficient, other->load.coefficient, 1e-6) &&
-            near(one->load.free_length, other->load.free_length, 1e-6))
-            return true;
-    }
-    return false;
+    const struct constraint *one = &scene->constraints[index];
+    return constraints_like(scene, index + 1, scene, one) >
+           constraints_like(other, other->constraint_count, scene, one);
+}
+
+static bool same_coupling(const struct scene *key, const struct coupling *a, const struct scene *answer,
+                          const struct coupling *b)
+{
+    for (int k = 0; k < 2; k++)
+        if (strcmp(end_name(key, a->body[k]), end_name(answer, b->body[k])) != 0 ||
+            !same_point(a->point[k], b->point[k]))
+            return false;
+    return a->load.kind == b->load.kind && near(a->load.stiffness, b->load.stiffness, 1e-6) &&
+           near(a->load.coefficient, b->load.coefficient, 1e-6) &&
+           near(a->load.free_length, b->load.free_length, 1e-6);
+}
+
+static size_t couplings_like(const struct scene *scene, size_t count, const struct scene *of,
+                             const struct coupling *one)
+{
+    size_t found = 0;
+    for (size_t i = 0; i < count; i++) found += same_coupling(of, one, scene, &scene->couplings[i]);
+    return found;
+}
+
+static bool is_coupling_more(const struct scene *scene, size_t index, const struct scene *other)
+{
+    const struct coupling *one = &scene->couplings[index];
+    return couplings_like(scene, index + 1, scene, one) >
+           couplings_like(other, other->coupling_count, scene, one);
 }
 
 /* What joins bodies is given with the sheet: that it has been changed is said. */
@@ -110,18 +131,34 @@ static void compare_couplings(struct fbd_grade *grade, const struct scene *key, 
     const char *lost = "a coupling of the sheet is not in the answer, or was changed",
                *more = "it is not on the sheet";
     if (key->units != answer->units) return;
-    for (size_t i = 0; i < key->constraint_count; i++)
-        if (!has_constraint(answer, key, &key->constraints[i]))
-            verdict_superfluous(grade, FBD_FINDING_MOTION, "", key->constraints[i].name, nowhere, lost);
-    for (size_t i = 0; i < key->coupling_count; i++)
-        if (!has_coupling(answer, key, &key->couplings[i]))
-            verdict_superfluous(grade, FBD_FINDING_MOTION, "", key->couplings[i].load.name, nowhere, lost);
-    for (size_t i = key->constraint_count; i < answer->constraint_count; i++)
-        verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, "", answer->constraints[i].name,
-                            answer->constraints[i].at, more);
-    for (size_t i = key->coupling_count; i < answer->coupling_count; i++)
-        verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, "", answer->couplings[i].load.name,
-                            answer->couplings[i].load.at, more);
+    size_t changed = 0; /* of the answer's own, so many are those of the sheet as they were changed */
+    for (size_t i = 0; i < key->constraint_count; i++) {
+        if (!is_constraint_more(key, i, answer)) continue;
+        changed++;
+        verdict_superfluous(grade, FBD_FINDING_MOTION, "", key->constraints[i].name, nowhere, lost);
+    }
+    for (size_t i = 0; i < answer->constraint_count; i++) {
+        const struct constraint *one = &answer->constraints[i];
+        if (!is_constraint_more(answer, i, key)) continue;
+        if (changed > 0)
+            changed--;
+        else
+            verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, "", one->name, one->at, more);
+    }
+    changed = 0;
+    for (size_t i = 0; i < key->coupling_count; i++) {
+        if (!is_coupling_more(key, i, answer)) continue;
+        changed++;
+        verdict_superfluous(grade, FBD_FINDING_MOTION, "", key->couplings[i].load.name, nowhere, lost);
+    }
+    for (size_t i = 0; i < answer->coupling_count; i++) {
+        const struct load *one = &answer->couplings[i].load;
+        if (!is_coupling_more(answer, i, key)) continue;
+        if (changed > 0)
+            changed--;
+        else
+            verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, "", one->name, one->at, more);
+    }
 }
 
 void verdict_on_others(struct fbd_grade *grade, const fbd_model *answer)

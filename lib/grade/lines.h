@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Lines: the derivations of an answer on the mechanics of the key.
+ */
+#ifndef FBD_GRADE_LINES_H
+#define FBD_GRADE_LINES_H
+
+#include "grade/grade.h"
+#include "output/hand.h"
+
+/* A scene with a push on every body. */
+struct pushed {
+    bool made;
+    struct document probes;
+    const struct node *root;
+    fbd_model *model; /* NULL where it cannot be */
+};
+
+struct lines {
+    struct fbd_grade *grade;
+    const struct node *root; /* the key with the answer's derivations */
+    bool left_out;           /* all of these */
+    fbd_model *model;
+    struct pushed pushed[2]; /* the same with other forces on all bodies, and with their opposites */
+    struct hand_check check;
+    gsl_rng *rng;
+};
+
+/* The value of a key of a mapping, or NULL. */
+const struct node *lines_value(const struct node *map, const char *key);
+
+/* Compile `root`; the first error, if any, is a finding when `tell`. */
+fbd_model *lines_try(struct lines *lines, const struct node *root, bool hands, bool tell, fbd_errors *errors);
+
+/* Put the derivations of an answer into the scene of the key and compile it, without those that cannot be read, which
+ * are noted. No model when memory is out. */
+void lines_read(struct lines *lines, const struct node *answer);
+
+#endif

@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The derivations of an answer put into the scene of the key, without those that cannot be read.
+ */
+#include <string.h>
+
+#include "grade/lines.h"
+#include "scene/node_edit.h"
+
+/* ---- the key's scene with the answer's derivations */
+
+const struct node *lines_value(const struct node *map, const char *key)
+{
+    const struct pair *pair = node_find(map, key);
+    return pair ? pair->value : NULL;
+}
+
+/* What an equation calls so is not for an answer to say. */
+static bool is_taken(const char *name)
+{
+    static const char *const names[] = {"m",  "g",    "N",    "I_G",  "I_O",     "L",
+                                        "mu", "mu_s", "mu_k", "slip", "distance"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcmp(name, names[i]) == 0) return true;
+    return false;
+}
+
+/* Parameters that a derivation names beside those of the sheet. */
+static const struct node *with_parameters(struct arena *arena, const struct node *root,
+                                          const struct node *answer)
+{
+    const struct node *own = lines_value(root, "parameters"), *more = lines_value(answer, "parameters");
+    if (!more || more->kind != node_map) return root;
+    const struct node *all = own && own->kind == node_map ? own : node_empty_map(arena);
+    for (size_t i = 0; all && i < more->count; i++)
+        if (!node_find(all, more->pairs[i].key) && !is_taken(more->pairs[i].key))
+            all = node_with(arena, all, more->pairs[i].key, more->pairs[i].value);
+    return all ? node_with(arena, root, "parameters", all) : NULL;
+}
+
+static const struct node *with_lines(struct arena *arena, const struct node *root, const struct node *answer)
+{
+    const struct node *bodies = lines_value(root, "bodies"), *others = lines_value(answer, "bodies"),
+                      *made = bodies;
+    for (size_t b = 0; made && b < bodies->count; b++) {
+        const struct node *other = lines_value(others, bodies->pairs[b].key);
+        const struct node *hand = lines_value(other, "hand");
+        const struct node *body = node_with(arena, bodies->pairs[b].value, "hand", hand);
+        made = body ? node_with(arena, made, bodies->pairs[b].key, body) : NULL;
+    }
+    return made ? node_with(arena, root, "bodies", made) : NULL;
+}
+
+/* ---- lines that cannot be read */
+
+static bool is_behind(struct pos a, struct pos b)
+{
+    return a.line > b.line || (a.line == b.line && a.column > b.column);
+}
+
+struct culprit {
+    const struct node *item; /* the line, or all of `hand` */
+    const char *body;
+};
+
+static void consider(struct culprit *culprit, const struct node *item, const char *body, struct pos at)
+{
+    if (is_behind(item->at, at) || (culprit->item && is_behind(culprit->item->at, item->at))) return;
+    *culprit = (struct culprit){item, body};
+}
+
+static struct culprit find_culprit(const struct node *root, struct pos at)
+{
+    const struct node *bodies = lines_value(root, "bodies");
+    struct culprit culprit = {0};
+    for (size_t b = 0; b < bodies->count; b++) {
+        const struct node *hand = lines_value(bodies->pairs[b].value, "hand");
+        if (!hand) continue;
+        if (hand->kind != node_list) consider(&culprit, hand, bodies->pairs[b].key, at);
+        for (size_t i = 0; hand->kind == node_list && i < hand->count; i++)
+            consider(&culprit, hand->items[i], bodies->pairs[b].key, at);
+    }
+    return culprit;
+}
+
+static bool is_it(const struct node *item, const void *context)
+{
+    return item == context;
+}
+
+static const struct node *without(struct arena *arena, const struct node *root, const struct culprit *culprit)
+{
+    const struct node *bodies = lines_value(root, "bodies"), *body = lines_value(bodies, culprit->body);
+    const struct node *hand = lines_value(body, "hand");
+    const struct node *left =
+        hand->kind == node_list ? node_filtered(arena, hand, is_it, culprit->item) : NULL;
+    body = node_with(arena, body, "hand", left);
+    bodies = body ? node_with(arena, bodies, culprit->body, body) : NULL;
+    return bodies ? node_with(arena, root, "bodies", bodies) : NULL;
+}
+
+/* Leave out every line that an error stands in; false when there is none. */
+static bool leave_out_wrong(struct lines *lines, fbd_errors *errors)
+{
+    struct fbd_grade *grade = lines->grade;
+    const struct node *root = lines->root;
+    struct culprit culprit = {0};
+    const fbd_error *error;
+    bool any = false;
+    for (size_t i = 0; lines->root && (error = fbd_errors_get(errors, i)) != NULL; i++) {
+        const struct node *before = culprit.item;
+        if (error->severity != FBD_ERROR) continue;
+        culprit = find_culprit(root, (struct pos){error->line, error->column});
+        if (!culprit.item || culprit.item == before) continue; /* notes are in the order of their places */
+        finding_of_error(grade, FBD_FINDING_UNREADABLE, culprit.body,
+                         culprit.item->kind == node_scalar ? culprit.item->text : "", error);
+        lines->root = without(&grade->arena, lines->root, &culprit);
+        any = true;
+    }
+    return any;
+}
+
+fbd_model *lines_try(struct lines *lines, const struct node *root, bool hands, bool tell, fbd_errors *errors)
+{
+    struct fbd_grade *grade = lines->grade;
+    fbd_model *model = root ? grade_compile(grade, root, grade->key->file, hands, errors) : NULL;
+    const fbd_error *error = model ? NULL : first_error(errors);
+    if (errors->out_of_memory) grade->arena.failed = true;
+    if (error && tell) finding_of_error(grade, FBD_FINDING_UNREADABLE, "", "", error);
+    return model;
+}
+
+/* Parameters of the answer that do not go with the sheet are left out with a word. */
+static void check_parameters(struct lines *lines, const struct node *sheet)
+{
+    fbd_errors *errors = fbd_errors_new();
+    if (!errors) lines->grade->arena.failed = true;
+    if (errors) {
+        fbd_model *model = lines_try(lines, lines->root, false, true, errors);
+        if (!model) lines->root = sheet;
+        fbd_model_free(model);
+    }
+    fbd_errors_free(errors);
+}
+
+/* What is wrong with the lines stands in none of them: all are left out, with a word. */
+static void leave_out_all(struct lines *lines, fbd_errors *errors)
+{
+    struct fbd_grade *grade = lines->grade;
+    const struct node *key = grade->key->document.root;
+    const fbd_error *error = first_error(errors);
+    if (error) finding_of_error(grade, FBD_FINDING_UNREADABLE, "", "", error);
+    lines->root = lines->left_out ? NULL : with_lines(&grade->arena, key, NULL);
+    lines->left_out = true;
+}
+
+/* Compile until every line that is left can be read. */
+static void compile_lines(struct lines *lines)
+{
+    while (lines->root && !lines->model && !lines->grade->arena.failed) {
+        fbd_errors *errors = fbd_errors_new();
+        if (!errors) {
+            lines->grade->arena.failed = true;
+            return;
+        }
+        lines->model = lines_try(lines, lines->root, true, false, errors);
+        if (!lines->model && !leave_out_wrong(lines, errors)) leave_out_all(lines, errors);
+        fbd_errors_free(errors);
+    }
+}
+
+void lines_read(struct lines *lines, const struct node *answer)
+{
+    struct arena *arena = &lines->grade->arena;
+    const struct node *plain = with_lines(arena, lines->grade->key->document.root, answer);
+    lines->root = plain ? with_parameters(arena, plain, answer) : NULL;
+    if (lines->root) check_parameters(lines, plain);
+    compile_lines(lines);
+}
