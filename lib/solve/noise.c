@@ -36,6 +36,51 @@ static void measure_turns(struct run *run, const struct instant *at)
     }
 }
 
+/* ---- springs between distant points
+ *
+ * The force of a spring is the small difference of its length and its free length, which has the rounding of the
+ * places of its ends: a row of blocks of 1 kg on springs of 1e6 N/m, 1 to 16 m from the origin, has forces of 1e-9 N
+ * where it rests. A damper has that of the velocities of its ends. They count
+ * with a share of the roundings of gross forces, which are sums of many: these are differences of two numbers. */
+
+static void add_cancelled(struct run *run, int body, double force, double arm)
+{
+    run->cancelled[2 * body] += force;
+    run->cancelled[2 * body + 1] += force * arm;
+}
+
+static void cancel_in_tree(struct run *run, const struct instant *at)
+{
+    const struct tree *tree = run->model->tree;
+    for (size_t i = 0; i < tree->spring_count; i++) {
+        const struct tree_spring *spring = &tree->springs[i];
+        double far = fabs(spring->free_length), fast = 0, arm[2];
+        for (int end = 0; end < 2; end++) {
+            const struct tree_state *link = &at->tree->links[spring->link[end]];
+            arm[end] = vec_norm(spring->point[end]);
+            far += vec_norm(link->p) + arm[end];
+            fast += vec_norm(link->v) + fabs(link->omega) * arm[end];
+        }
+        double force = fabs(spring->stiffness) * far + fabs(spring->damping) * fast;
+        for (int end = 0; end < 2; end++)
+            if (spring->link[end] > 0)
+                add_cancelled(run, tree->links[spring->link[end]].body, force, arm[end]);
+    }
+}
+
+/* To the ground: what its length has beyond that of the anchor's distance is in its force. */
+static void measure_cancelled(struct run *run, const struct instant *at)
+{
+    const struct plan *plan = &run->model->plan;
+    memset(run->cancelled, 0, 2 * run->model->body_count * sizeof *run->cancelled);
+    for (size_t i = 0; i < plan->link_count; i++) {
+        const struct link_term *link = &plan->links[i];
+        double far = vec_norm(link->anchor) + fabs(link->free_length);
+        add_cancelled(run, link->body, fabs(link->stiffness) * far, vec_norm(link->point));
+    }
+    if (run->model->tree) cancel_in_tree(run, at);
+}
+
 /* The size of what has been added up for the share of an arrow in each coordinate of a jointed body. A moment
  * is small where the force points at O, and still has the rounding of its products, and of the angle. */
 static void add_jointed(const struct model_body *body, const struct tree_state *link, double angle,
@@ -49,6 +94,11 @@ static void add_jointed(const struct model_body *body, const struct tree_state *
     if (body->count > 0) gross[0] += body->kind == motion_pivot ? moment : along;
     if (body->count > 1) gross[1] += across;
     if (body->count > 2) gross[2] += moment;
+}
+
+static bool turns(const struct model_body *body, int k)
+{
+    return body->kind == motion_pivot || k == 2;
 }
 
 /* Add the sizes of what acts along each coordinate of a body. */
@@ -65,6 +115,8 @@ static void add_gross_forces(struct run *run, int b, const struct instant *at, d
         else
             for (int k = 0; k < body->count; k++) gross[k] += fabs(run->arrows[i].share[k]);
     }
+    const double share = 1.0 / 64;
+    for (int k = 0; k < body->count; k++) gross[k] += share * run->cancelled[2 * b + turns(body, k)];
 }
 
 /* What moves with the time and not by the integration: coordinates that are prescribed. */
@@ -96,18 +148,80 @@ static void changes(struct run *run, const struct instant *at, bool by_time, dou
     accelerations_along(run->model, at, &flow, slots, slots_along, along);
 }
 
+/* What a coordinate and its rate become in a short time, and the arm that makes a length of an angle: of a body
+ * that turns, the radius of gyration. */
+struct motion_size {
+    double place, rate, arm;
+};
+
+static struct motion_size motion_size(const struct run *run, const struct model_body *body, int k, double tau)
+{
+    int i = body->first + k;
+    double v = fabs(run->state->y[i + run->model->plan.n]), jerk = fabs(run->along[i]);
+    double a = fmax(fabs(run->state->a[i]), isfinite(jerk) ? tau * jerk : 0); /* drives start without one */
+    double arm = turns(body, k) ? 1 / sqrt(run->model->plan.inverse_inertia[i] * body->inertia.mass) : 1;
+    return (struct motion_size){v * tau + a * tau * tau, fmax(v, a * tau), arm};
+}
+
+/* The largest of all, as lengths and speeds: by what moves, or by what starts to where nothing moves yet, for near
+ * singular positions accelerations are far beyond what comes of them. */
+static struct motion_size largest_motion(const struct run *run, double tau)
+{
+    const int n = run->model->plan.n;
+    struct motion_size all = {.arm = 1};
+    bool moves = false;
+    for (int i = 0; i < n; i++) moves |= run->state->y[n + i] != 0;
+    for (size_t b = 0; b < run->model->body_count; b++) {
+        const struct model_body *body = &run->model->bodies[b];
+        for (int k = 0; k < body->count; k++) {
+            struct motion_size one = motion_size(run, body, k, tau);
+            double v = fabs(run->state->y[n + body->first + k]);
+            if (!isfinite(one.arm)) continue;
+            if (moves) one.place = v * tau, one.rate = v;
+            if (!moves && !(one.rate > tau * run->noise[body->first + k])) continue; /* it rests */
+            all.place = fmax(all.place, one.place * one.arm);
+            all.rate = fmax(all.rate, one.rate * one.arm);
+        }
+    }
+    return all;
+}
+
 /* A coordinate or rate that is exactly zero has no size that an error could be compared with, and a method of
  * low order needs one (Euler's first step from rest errs by all that the body moves). What the acceleration
  * does in a thousandth of the run is small, and enough; of the time for which it lasts, for a force that is
- * switched on may be large and short. */
-static void set_floors(struct run *run, int i, double lasts)
+ * switched on may be large and short. The last of a row of blocks on springs that is pulled at its other end
+ * starts as a high power of the time, or by rounding, which no step follows to a share of itself: what is a
+ * billionth of the largest motion has that for its size. */
+static void set_floors(struct run *run, double lasts)
 {
-    const double share = 1e-3;
-    size_t position = (size_t)i, rate = position + (size_t)run->model->plan.n;
-    double tau = share * lasts, v = fabs(run->state->y[rate]), jerk = fabs(run->along[i]);
-    double a = fmax(fabs(run->state->a[i]), isfinite(jerk) ? tau * jerk : 0); /* drives start without one */
-    if (run->state->y[position] == 0) switcher_set_floor(run->stepper, position, v * tau + a * tau * tau);
-    if (v == 0) switcher_set_floor(run->stepper, rate, a * tau);
+    const double share = 1e-3, negligible = 1e-9, tau = share * lasts;
+    struct motion_size all = largest_motion(run, tau);
+    for (size_t b = 0; b < run->model->body_count; b++) {
+        const struct model_body *body = &run->model->bodies[b];
+        for (int k = 0; k < body->count; k++) {
+            size_t position = (size_t)(body->first + k), rate = position + (size_t)run->model->plan.n;
+            struct motion_size own = motion_size(run, body, k, tau);
+            bool sized = own.arm > 0 && isfinite(own.arm); /* what is driven need have no mass */
+            double place = sized ? negligible * all.place / own.arm : 0;
+            double speed = sized ? negligible * all.rate / own.arm : 0;
+            if (run->state->y[position] == 0) place = fmax(place, own.place);
+            if (run->state->y[rate] == 0) speed = fmax(speed, own.rate);
+            switcher_set_floor(run->stepper, position, place);
+            switcher_set_floor(run->stepper, rate, speed);
+        }
+    }
+}
+
+/* Is there a number that is zero, or rounding beside the largest? */
+static bool any_is_small(const struct run *run)
+{
+    const int n = run->model->plan.n;
+    double most = 0, least = INFINITY;
+    for (int i = 0; i < 2 * n; i++) {
+        most = fmax(most, fabs(run->state->y[i]));
+        least = fmin(least, fabs(run->state->y[i]));
+    }
+    return n > 0 && least <= DBL_EPSILON * most;
 }
 
 /* Roundings of its gross forces that the acceleration of a body is known to. Measured with chains of 16 to
@@ -129,6 +243,7 @@ static void set_noise(struct run *run)
     const struct instant *at = &here;
     changes(run, at, true, run->along);
     if (run->model->tree) measure_turns(run, at);
+    measure_cancelled(run, at);
     for (size_t b = 0; b < run->model->body_count; b++) {
         const struct model_body *body = &run->model->bodies[b];
         double gross[most_coordinates_of_a_body] = {0},
@@ -139,22 +254,21 @@ static void set_noise(struct run *run)
             double of_time = fabs(at->t * run->along[i]),
                    of_sum = roundings * gross[k] * plan->inverse_inertia[i];
             double noise = DBL_EPSILON * (of_sum + of_time);
-            switcher_set_noise(run->stepper, (size_t)i, isfinite(noise) ? noise : 0);
+            run->noise[i] = isfinite(noise) ? noise : 0;
+            switcher_set_noise(run->stepper, (size_t)i, run->noise[i]);
         }
     }
 }
 
 void run_set_noise(struct run *run)
 {
-    const int n = run->model->plan.n;
-    bool any = false;
     set_noise(run);
-    for (int i = 0; i < 2 * n; i++) any |= run->state->y[i] == 0;
-    double lasts = any ? run_time_to_switch(run) : 0;
-    struct instant at = state_instant(run->state);
-    if (any) changes(run, &at, false, run->along);
-    for (int i = 0; any && i < n; i++) set_floors(run, i, lasts);
     run->since_noise = 0;
+    if (!any_is_small(run)) return;
+    double lasts = run_time_to_switch(run);
+    struct instant at = state_instant(run->state);
+    changes(run, &at, false, run->along);
+    set_floors(run, lasts);
 }
 
 void run_renew_noise(struct run *run)

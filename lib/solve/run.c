@@ -67,7 +67,7 @@ static bool make_run(struct run *run)
     run->state = state_new(run->model);
     run->during = state_new(run->model);
     size_t links = run->model->tree ? (size_t)run->model->tree->count : 0;
-    run->y = calloc(11 * n + 2 * links + 1, sizeof *run->y);
+    run->y = calloc(12 * n + 2 * links + 2 * run->model->body_count + 1, sizeof *run->y);
     if (!run->state || !run->during || !run->y || !run_make_scans(run)) return false;
     if (run->state->tree) run->state->tree->accuracy = run->during->tree->accuracy = run->options.tolerance;
     if (!poles_init(&run->poles, run->model)) return false;
@@ -76,7 +76,9 @@ static bool make_run(struct run *run)
     run->sample = run->f + 2 * n;
     run->aside = run->sample + 2 * n;
     run->along = run->aside + 4 * n;
-    run->turned = run->along + n;
+    run->noise = run->along + n;
+    run->turned = run->noise + n;
+    run->cancelled = run->turned + 2 * links;
     size_t functions = 2 * run->moving.count, timed = 3 * run->timed.count;
     run->values = calloc((functions > timed ? functions : timed) + 1, sizeof *run->values);
     run->kept = calloc(4 * n + 1, sizeof *run->kept);

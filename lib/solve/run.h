@@ -109,7 +109,9 @@ struct run {
     double *y, *f, *sample;    /* 2 n each; y: the end of the last step, before its events */
     double *aside;             /* 4 n: a sample made in another way */
     double *along;             /* n: how the accelerations change along the motion, when the noise was set */
+    double *noise;             /* n: what accelerations are known to */
     double *turned;            /* twice the links of the tree: see noise.c */
+    double *cancelled;         /* for each body a force and its moment: see noise.c */
     unsigned long since_noise; /* steps */
     double *values;            /* event functions of a set, their rates, the roundings of timed ones */
     double *kept;              /* 4 n: y and f while user events are looked for */

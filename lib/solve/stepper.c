@@ -289,8 +289,7 @@ static enum stepper_status give_up(const struct stepper *s, double *y, double *f
     return status;
 }
 
-/* What the right-hand side said is not covered up by what comes of it: with steps of a few roundings, an
- * implicit equation may be unsolvable. */
+/* What the right-hand side said is not covered up by what comes of it: steps of roundings are not solvable. */
 static void count_rejection(struct stepper *s, enum rejection why, bool again)
 {
     bool telling = s->counts.last == rejected_rhs || s->counts.last == rejected_not_finite;
@@ -342,6 +341,7 @@ enum stepper_status stepper_step(struct stepper *s, struct counted_system *syste
             double next = plan.h * (rejected ? fmin(outcome.factor, 1) : outcome.factor);
             *h = fmin(plan.cut ? fmax(next, proposal) : next, s->h_max);
             *t = plan.t1;
+            s->counts.growth = outcome.factor;
             keep(s, system, t0, plan.t1, y, f);
             return stepper_ok;
         }
@@ -353,7 +353,7 @@ enum stepper_status stepper_step(struct stepper *s, struct counted_system *syste
     }
 }
 
-/* The state at the end of a step of size h by the same method from the start of the last one. */
+/* A step of size h by the same method from the start of the last one. */
 static int redo(struct stepper *s, double h, double *y, double *f)
 {
     memcpy(y, s->y0, s->n * sizeof *y);

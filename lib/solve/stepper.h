@@ -49,6 +49,8 @@ struct stepper_counts {
     unsigned long accepted;
     unsigned long rejected[rejection_kinds];
     enum rejection last; /* in the latest step with any; rhs or not finite if that was among its reasons */
+    double
+        growth; /* by how much longer than the last step the next may be, for all that errors and stability say */
 };
 
 /* NULL when memory is out or an option is unusable. */

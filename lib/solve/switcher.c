@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solve/switcher.h"
 
+#include <float.h>
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -74,6 +75,14 @@ static double last_rate(struct switcher *s)
     return jacobian ? stiffness_rate(s->n, jacobian, s->rate_work) : NAN;
 }
 
+/* Is the explicit method confined to steps for which the implicit one makes no error at all? Then this says that it
+ * could make longer ones. In free flight and at rest the steps of both grow as long as they may. */
+static bool is_confined(const struct switcher *s)
+{
+    const double freely = 4;
+    return s->now == 0 && stepper_get_counts(s->steppers[0])->growth < freely;
+}
+
 /* Let the other method try the step that has just been made, and go on with it if it is the better one from
  * here. */
 static enum stepper_status consider(struct switcher *s, struct counted_system *system, struct moment t0,
@@ -85,6 +94,7 @@ static enum stepper_status consider(struct switcher *s, struct counted_system *s
     /* What lies beyond the limit may be another motion, and there is no room for a step that long. */
     bool fits = moment_since(t_limit, t0) >= size;
     double ratio = fits ? stepper_attempt(s->steppers[other], system, t0.t, s->y0, s->f0, size) : INFINITY;
+    if (ratio == 0 && is_confined(s)) ratio = DBL_MIN;
     double h_rate = s->now == 1 ? size * last_rate(s) : 0;
     if (!stiffness_decide(&s->stiffness, ratio, s->methods[other]->estimate_order, h_rate)) return stepper_ok;
     /* The counters of the system, not of the step, take the evaluations; a reset that fails leaves things as
