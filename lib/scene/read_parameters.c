@@ -292,8 +292,13 @@ struct symbol parameter_symbol(struct reader *reader, size_t index, struct pos a
 
 void parameters_finish(struct reader *reader)
 {
-    for (size_t i = 0; i < reader->scene->parameter_count; i++)
-        resolve(reader, i, reader->scene->parameters[i].at);
+    for (size_t i = 0; i < reader->scene->parameter_count; i++) {
+        struct parameter *parameter = &reader->scene->parameters[i];
+        char unit[64];
+        resolve(reader, i, parameter->at);
+        unit_name(parameter->dim, reader->scene->units, unit, sizeof unit);
+        parameter->unit = arena_text(reader->arena, unit, strlen(unit));
+    }
 }
 
 void parameters_note_unused(struct reader *reader)

@@ -306,6 +306,7 @@ struct coordinate {
 
 struct parameter {
     const char *name, *description; /* description "" when not given */
+    const char *unit;               /* coherent; "" for a pure number, or when nothing says which */
     struct pos at;
     double value;
     struct dim dim;
