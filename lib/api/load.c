@@ -124,6 +124,23 @@ fbd_coordinate fbd_model_coordinate(const fbd_model *model, size_t index)
                             .body = (size_t)model->scene->coordinates[index].body};
 }
 
+size_t fbd_model_parameters(const fbd_model *model)
+{
+    return model ? model->scene->parameter_count : 0;
+}
+
+fbd_parameter fbd_model_parameter(const fbd_model *model, size_t index)
+{
+    if (index >= fbd_model_parameters(model)) return (fbd_parameter){.value = NAN};
+    const struct parameter *parameter = &model->scene->parameters[index];
+    return (fbd_parameter){.name = parameter->name,
+                           .unit = parameter->unit,
+                           .description = parameter->description,
+                           .value = parameter->value,
+                           .input = parameter->input,
+                           .derived = parameter->derived};
+}
+
 char *fbd_schema(void)
 {
     struct text text = {0};

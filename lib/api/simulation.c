@@ -93,7 +93,62 @@ void fbd_simulation_free(fbd_simulation *simulation)
     if (!simulation) return;
     simulation_end(simulation);
     free(simulation->bars);
+    state_free(simulation->start);
     free(simulation);
+}
+
+/* ---- from a state */
+
+/* An accuracy is reached by runs from the start of the file, and only they are judged by error bars. */
+static bool begins_plainly(const fbd_options *options, fbd_errors *errors)
+{
+    if (!options->error_bars && options->accuracy == 0) return true;
+    bad_accuracy(errors, "a tolerance can be asked for",
+                 "a run from a state has no error bars and no accuracy that is made sure of");
+    return false;
+}
+
+static bool options_from(const fbd_state *state, const fbd_options *options, struct run_options *chosen,
+                         fbd_errors *errors)
+{
+    double accuracy;
+    if (!begins_plainly(options, errors) || !options_choose(state->model, options, chosen, errors) ||
+        !choose_accuracy(state->model, options, chosen, &accuracy, errors))
+        return false;
+    if (chosen->until >= state->t) return true;
+    diag_in_file(errors, NULL);
+    diag_add(errors, FBD_ERROR, "bad-option", (struct pos){0, 0}, "give a later end",
+             "the end time lies before the state");
+    return false;
+}
+
+static fbd_simulation *simulation_from(const fbd_state *state, const fbd_options *options, fbd_errors *errors)
+{
+    struct run_options chosen;
+    if (!options_from(state, options, &chosen, errors)) return NULL;
+    fbd_simulation *simulation = calloc(1, sizeof *simulation);
+    if (simulation) simulation->start = state_new(state->model);
+    if (simulation && simulation->start) {
+        state_copy(simulation->start, state);
+        state_still(simulation->start, chosen.until - state->t);
+        chosen.start = simulation->start;
+        if (simulation_begin(simulation, state->model, &chosen)) return simulation;
+    }
+    fbd_simulation_free(simulation);
+    diag_out_of_memory(errors);
+    return NULL;
+}
+
+fbd_simulation *fbd_simulation_from(const fbd_state *state, const fbd_options *options, fbd_errors *list)
+{
+    static const fbd_options defaults = FBD_OPTIONS_DEFAULT;
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    if (!options) options = &defaults;
+    fbd_simulation *simulation =
+        state ? simulation_from(state, options, errors) : call_refuse(errors, "there is no state");
+    diag_end(&call);
+    return simulation;
 }
 
 /* ---- step by step */

@@ -29,9 +29,11 @@ static bool check_table_name(struct reader *reader, const struct pair *pair)
                  "`%s` cannot be a table: it is the time, a number or a coordinate", pair->key);
         return false;
     }
-    if (!reader->parameters || !node_find(reader->parameters, pair->key)) return true;
+    const struct node *inputs = reader->inputs, *parameters = reader->parameters;
+    bool input = inputs && node_find(inputs, pair->key);
+    if (!input && (!parameters || !node_find(parameters, pair->key))) return true;
     diag_add(reader->errors, FBD_ERROR, "duplicate-name", pair->at, "choose another name",
-             "a parameter is called `%s`, too", pair->key);
+             "%s is called `%s`, too", input ? "an input" : "a parameter", pair->key);
     return false;
 }
 
