@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Contacts at the start, of the scene or of a motion that goes on: on which side of a line a body is, what touches and rests already, and what is in
- * each other.
+ * Contacts at the start, of the scene or of a motion that goes on: on which side of a line a body is, what touches and
+ * rests already, and what is in each other.
  */
 #include <float.h>
 
