@@ -40,7 +40,7 @@ static bool draw_model(const struct document *document, const fbd_model *model, 
         text_number(&text, scene->parameters[i].value * between(rng, 1 - spread, 1 + spread), 17);
         if (text.failed) break;
         overrides[i] =
-            (struct override){scene->parameters[i].name, arena_text(&arena, text.data, text.length)};
+            (struct override){.name = scene->parameters[i].name, .value = arena_text(&arena, text.data, text.length)};
     }
     bool done = errors && !arena.failed && !text.failed;
     if (done) {
