@@ -928,6 +928,25 @@ FBD_API fbd_finding fbd_grade_finding(const fbd_grade *grade, size_t index);
 FBD_API char *fbd_grade_text(const fbd_grade *grade, bool details);
 FBD_API char *fbd_grade_json(const fbd_grade *grade, bool details);
 
+/* ---------------------------------------------------------------- models for other simulators */
+
+/* A model as a Functional Mock-up Unit (fmi-standard.org): docs/fmi.md. */
+typedef struct fbd_fmu_options {
+    int version;            /* of FMI: 3, or 2 for tools that do not know that; 0 is 3 */
+    const char *library;    /* the binary that goes in, as fbd is installed with it (fbd-fmu.so), ... */
+    size_t library_length;  /* ... and how many bytes it has */
+    const char *name;       /* of the FMU; NULL for that of the model file */
+    const fbd_setting *settings; /* those that the model was read with: they become its start values */
+    size_t setting_count;
+    fbd_options run; /* without error bars and accuracy */
+} fbd_fmu_options;
+
+/* The FMU for co-simulation by that binary as bytes of a zip archive, to be freed with free(); *length is their number.
+ * NULL with notes in `errors`: those of wrong options (see fbd_simulation_new), of a start that no motion begins at (see
+ * fbd_state_close), `cannot-read` for the data file of a table, `bad-call`, or memory is out. */
+FBD_API char *fbd_fmu(const fbd_model *model, const fbd_fmu_options *options, size_t *length,
+                      fbd_errors *errors);
+
 FBD_API const char *fbd_version(void);
 
 #ifdef __cplusplus

@@ -17,7 +17,7 @@ static fbd_model *compile(char *text, size_t length, const char *name, const fbd
     fbd_model *model = NULL;
     if (overrides) {
         for (size_t i = 0; i < count; i++)
-            overrides[i] = (struct override){settings[i].name, settings[i].value};
+            overrides[i] = (struct override){.name = settings[i].name, .value = settings[i].value};
         struct scene *scene = scene_read(text, length, name, overrides, count, NULL, errors);
         model = scene ? model_compile(scene, errors) : NULL;
     } else {

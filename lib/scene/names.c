@@ -324,10 +324,13 @@ static struct symbol other_symbol(const struct names *names, const char *name)
     return unknown;
 }
 
-static struct symbol time_symbol(void)
+static struct symbol time_symbol(const struct names *names)
 {
+    const struct override *input = names->reader->time;
     struct symbol time = variable(DIM_TIME, 0);
     time.because = "is the time";
+    if (input && names->place != place_constant)
+        time = (struct symbol){.kind = symbol_constant, .dim = DIM_TIME, .value = input->now};
     return time;
 }
 
@@ -338,7 +341,9 @@ static struct symbol constant_symbol(struct names *names, size_t index, struct p
     struct symbol symbol = parameter_symbol(reader, index, at);
     bool input = reader->scene->parameters[index].input;
     if (input) reader->names_inputs = true;
-    if (!input || names->place != place_constant || symbol.kind != symbol_constant) return symbol;
+    bool is_time = reader->time && strcmp(reader->time->name, reader->scene->parameters[index].name) == 0;
+    bool varies = input && (names->place == place_constant || is_time);
+    if (!varies || symbol.kind != symbol_constant) return symbol;
     symbol = variable(symbol.dim, 0);
     symbol.because = "is an input, which may change during a run";
     return symbol;
@@ -350,7 +355,7 @@ static struct symbol look_up(void *context, const char *name, struct pos at)
     struct reader *reader = names->reader;
     const char *dot = strchr(name, '.');
     if (dot) return dotted_symbol(names, name, dot);
-    if (strcmp(name, "t") == 0) return time_symbol();
+    if (strcmp(name, "t") == 0) return time_symbol(names);
     struct symbol own = own_symbol(names, name);
     size_t parameter;
     if (own.kind != symbol_unknown) return own;

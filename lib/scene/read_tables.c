@@ -287,6 +287,7 @@ static bool read_table(struct reader *reader, size_t index, struct table *table)
     const char *path = draft->override ? resolve_path(reader, draft->override->value, true)
                        : keys.file     ? resolve_path(reader, keys.file, false)
                                        : NULL;
+    reader->scene->tables[index].path = path;
     bool fine = path ? read_file(reader, index, pair->value, &keys, path, &columns, &points)
                      : read_points(reader, pair->value, &keys, &points);
     fine = fine && check_order(reader, path, &points) && make_table(reader, pair, &keys, &points, table);

@@ -93,6 +93,7 @@ struct reader {
     bool varies;                  /* the expression that is being compiled holds for this reading only */
     bool names_parameters;        /* the table or definition that is being read names some, or gravity */
     bool names_inputs;            /* what has been compiled names some */
+    const struct override *time;  /* of the input that stands in its place, or NULL */
 
     struct names constant_names;
     struct scope constants; /* parameters, g, pi */

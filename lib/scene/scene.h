@@ -431,6 +431,9 @@ struct scene {
 struct override {
     const char *name;
     const char *value; /* NULL: that of the file, but other readings of the document may have another */
+    bool as_time;      /* an input stands in the place of the time, and the time is the constant `now`: derivatives by
+                          time are by it */
+    double now;
 };
 
 /* A model file as a tree of its YAML: constant once it is open, shareable by threads. Scenes under other
