@@ -70,13 +70,29 @@ static void variable_of(const struct package *package, size_t index, struct text
     text_add(xml, "/>\n");
 }
 
-/* Accelerations alone follow the inputs at once. */
+/* Coordinates and rates are states: no input changes them at once. */
+static void unknown(const struct package *package, const char *element, size_t index, struct text *xml)
+{
+    enum fmi_kind kind = package->variables.list[index].kind;
+    text_printf(xml, "    <%s valueReference=\"%zu\"", element, index);
+    if (kind == fmi_coordinate || kind == fmi_rate) {
+        if (fmi_has_derivatives(package->model))
+            text_printf(xml, " dependencies=\"%zu\" dependenciesKind=\"constant\"", index);
+        else
+            text_add(xml, " dependencies=\"\"");
+    }
+    text_add(xml, "/>\n");
+}
+
 static void structure(const struct package *package, struct text *xml)
 {
     const struct fmi_variables *variables = &package->variables;
     text_add(xml, "  <ModelStructure>\n");
     for (size_t i = 0; i < variables->count; i++)
-        if (fmi_is_output(&variables->list[i])) text_printf(xml, "    <Output valueReference=\"%zu\"/>\n", i);
+        if (fmi_is_output(&variables->list[i])) unknown(package, "Output", i, xml);
+    for (size_t i = 0; i < variables->count; i++)
+        if (variables->list[i].integral > 0 && fmi_has_derivatives(package->model))
+            unknown(package, "ContinuousStateDerivative", i, xml);
     for (size_t i = 0; i < variables->count; i++)
         if (fmi_is_output(&variables->list[i]) || variables->list[i].kind == fmi_calculated)
             text_printf(xml, "    <InitialUnknown valueReference=\"%zu\"/>\n", i);

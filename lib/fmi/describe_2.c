@@ -72,19 +72,54 @@ static void variable_of(const struct package *package, size_t index, struct text
     text_add(xml, "/></ScalarVariable>\n");
 }
 
-static void structure(const struct package *package, struct text *xml)
+/* Coordinates and rates are states: no input changes them at once. */
+static void unknown(const struct package *package, size_t index, struct text *xml)
+{
+    enum fmi_kind kind = package->variables.list[index].kind;
+    text_printf(xml, "      <Unknown index=\"%zu\"", index + 1);
+    if (kind == fmi_coordinate || kind == fmi_rate) {
+        if (fmi_has_derivatives(package->model))
+            text_printf(xml, " dependencies=\"%zu\" dependenciesKind=\"constant\"", index + 1);
+        else
+            text_add(xml, " dependencies=\"\"");
+    }
+    text_add(xml, "/>\n");
+}
+
+static bool is_derivative(const struct fmi_variable *variable)
+{
+    return variable->integral > 0;
+}
+
+static bool is_initial_unknown(const struct fmi_variable *variable)
+{
+    return fmi_is_output(variable) || variable->kind == fmi_calculated;
+}
+
+/* The variables that belong to a list of the structure, if there are any; with what they depend on. */
+static void list(const struct package *package, const char *name, bool belongs(const struct fmi_variable *),
+                 bool depends, struct text *xml)
 {
     const struct fmi_variables *variables = &package->variables;
-    bool any = variables->count > 0 && fmi_is_output(&variables->list[variables->count - 1]);
-    text_add(xml, "  <ModelStructure>\n");
-    if (any) text_add(xml, "    <Outputs>\n");
-    for (size_t i = 0; i < variables->count; i++)
-        if (fmi_is_output(&variables->list[i])) text_printf(xml, "      <Unknown index=\"%zu\"/>\n", i + 1);
-    if (any) text_add(xml, "    </Outputs>\n    <InitialUnknowns>\n");
-    for (size_t i = 0; any && i < variables->count; i++)
-        if (fmi_is_output(&variables->list[i]) || variables->list[i].kind == fmi_calculated)
+    bool any = false;
+    for (size_t i = 0; i < variables->count; i++) {
+        if (!belongs(&variables->list[i])) continue;
+        if (!any) text_printf(xml, "    <%s>\n", name);
+        any = true;
+        if (depends)
+            unknown(package, i, xml);
+        else
             text_printf(xml, "      <Unknown index=\"%zu\"/>\n", i + 1);
-    if (any) text_add(xml, "    </InitialUnknowns>\n");
+    }
+    if (any) text_printf(xml, "    </%s>\n", name);
+}
+
+static void structure(const struct package *package, struct text *xml)
+{
+    text_add(xml, "  <ModelStructure>\n");
+    list(package, "Outputs", fmi_is_output, true, xml);
+    if (fmi_has_derivatives(package->model)) list(package, "Derivatives", is_derivative, true, xml);
+    list(package, "InitialUnknowns", is_initial_unknown, false, xml);
     text_add(xml, "  </ModelStructure>\n");
 }
 

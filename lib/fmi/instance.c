@@ -11,20 +11,38 @@
 
 const char *const log_category_names[log_categories] = {"logStatusError", "logStatusWarning", "logEvents"};
 
+/* The copy of GSL in this binary is its own; every status is looked at. */
+__attribute__((constructor)) static void prepare(void)
+{
+    gsl_set_error_handler_off();
+}
+
 /* ---- messages */
 
 enum { longest_message = 700 };
 
+/* The standard has `#` begin the reference of a variable, and `##` be one. */
+static void double_hashes(const char *from, char *to, size_t room)
+{
+    size_t used = 0;
+    for (; *from && used + 3 < room; from++) {
+        to[used++] = *from;
+        if (*from == '#') to[used++] = '#';
+    }
+    to[used] = '\0';
+}
+
 void instance_say(const struct instance *instance, enum instance_status status, enum log_category category,
                   const char *format, ...)
 {
-    char message[longest_message];
+    char message[longest_message], escaped[longest_message];
     va_list args;
     if (!instance->log || !instance->logs[category]) return;
     va_start(args, format);
     format_list(message, sizeof message, format, args);
     va_end(args);
-    instance->log(instance, status, log_category_names[category], message);
+    double_hashes(message, escaped, sizeof escaped);
+    instance->log(instance, status, log_category_names[category], escaped);
 }
 
 enum instance_status instance_fail(struct instance *instance, const char *function, const char *what)
@@ -78,8 +96,14 @@ static void say_notes(const struct instance *instance, fbd_errors *errors)
     const fbd_error *note;
     for (size_t i = 0; (note = fbd_errors_get(errors, i)) != NULL; i++) {
         bool error = note->severity == FBD_ERROR;
-        instance_say(instance, error ? instance_error : instance_warning, error ? log_error : log_warning,
-                     "model.yaml:%d:%d: %s", note->line, note->column, note->message);
+        enum instance_status status = error ? instance_error : instance_warning;
+        enum log_category category = error ? log_error : log_warning;
+        const char *file = note->file ? note->file : "model.yaml";
+        if (note->line > 0)
+            instance_say(instance, status, category, "%s:%d:%d: %s", file, note->line, note->column,
+                         note->message);
+        else
+            instance_say(instance, status, category, "%s: %s", file, note->message);
     }
 }
 
@@ -93,7 +117,6 @@ static bool is_own_token(const struct instance *instance, const char *token)
 
 bool instance_open(struct instance *instance, const char *name, const char *resources, const char *token)
 {
-    gsl_set_error_handler_off(); /* of the copy of GSL in this binary */
     instance->phase = phase_instantiated;
     instance->name = strdup(name ? name : "");
     fbd_errors *errors = fbd_errors_new();

@@ -206,6 +206,32 @@ static void simulations(void **context)
     fbd_simulation_free(simulation);
 }
 
+static void fmus(void **context)
+{
+    (void)context;
+    size_t length = 7;
+    const fbd_setting nameless = {NULL, "3"};
+    fbd_fmu_options options = {.library = "binary", .library_length = 6, .run = FBD_OPTIONS_DEFAULT},
+                    wrong = options;
+    REFUSES(fbd_fmu, !fbd_fmu(NULL, &options, &length, errors));
+    assert_int_equal(length, 0);
+    REFUSES(fbd_fmu, !fbd_fmu(model, NULL, &length, errors));
+    REFUSES(fbd_fmu, !fbd_fmu(model, &options, NULL, errors));
+    wrong.library = NULL;
+    REFUSES(fbd_fmu, !fbd_fmu(model, &wrong, &length, errors));
+    wrong = options;
+    wrong.setting_count = 1;
+    REFUSES(fbd_fmu, !fbd_fmu(model, &wrong, &length, errors));
+    wrong.settings = &nameless;
+    REFUSES(fbd_fmu, !fbd_fmu(model, &wrong, &length, errors));
+    wrong = options;
+    wrong.version = 1;
+    ANSWERS(fbd_fmu, !fbd_fmu(model, &wrong, &length, NULL));
+    char *bytes = fbd_fmu(model, &options, &length, NULL);
+    assert_true(bytes && length > 1000 && memcmp(bytes, "PK", 2) == 0);
+    free(bytes);
+}
+
 static void results(void **context)
 {
     (void)context;
@@ -342,6 +368,7 @@ int main(void)
         cmocka_unit_test(states),
         cmocka_unit_test(equations),
         cmocka_unit_test(simulations),
+        cmocka_unit_test(fmus),
         cmocka_unit_test(results),
         cmocka_unit_test(linearizations_and_derivations),
         cmocka_unit_test(statics),
