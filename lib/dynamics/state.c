@@ -85,7 +85,8 @@ struct fbd_state *state_new_from(const struct fbd_model *model, const struct sta
     if (!state) return NULL;
     state->t = start->t;
     memcpy(state->y, start->y, 2 * (size_t)model->plan.n * sizeof *state->y);
-    if (start->branch) memcpy(state->branch, start->branch, (size_t)model->plan.branches * sizeof *state->branch);
+    if (start->branch)
+        memcpy(state->branch, start->branch, (size_t)model->plan.branches * sizeof *state->branch);
     modes_drive(state);
     state_start_constraints(state);
     if (state->tree) ties_keep(state, start->ties);

@@ -11,6 +11,8 @@
 #include "fmi/fmi2.h"
 #include "fmi/instance.h"
 
+/* NOLINTBEGIN(readability-non-const-parameter): the standard dictates the parameters. */
+
 const char *fmi2GetTypesPlatform(void)
 {
     return "default";
@@ -69,7 +71,12 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
 {
     (void)visible;
     struct instance *instance = calloc(1, sizeof *instance);
-    if (!instance) return NULL;
+    if (!instance) {
+        if (functions && functions->logger && logging)
+            functions->logger(functions->componentEnvironment, name ? name : "", fmi2Error,
+                              log_category_names[log_error], "%s", "out of memory");
+        return NULL;
+    }
     instance->log = log_message;
     instance->callback = functions ? (void (*)(void))functions->logger : NULL;
     instance->environment = functions ? functions->componentEnvironment : NULL;
@@ -321,3 +328,5 @@ fmi2Status fmi2GetStringStatus(fmi2Component component, fmi2StatusKind kind, fmi
     (void)kind;
     return unasked(component, "fmi2GetStringStatus", value != NULL);
 }
+
+/* NOLINTEND(readability-non-const-parameter) */

@@ -10,6 +10,8 @@
 #include "fmi/fmi3.h"
 #include "fmi/instance.h"
 
+/* NOLINTBEGIN(readability-non-const-parameter,readability-function-size): the standard dictates the parameters. */
+
 const char *fmi3GetVersion(void)
 {
     return "3.0";
@@ -31,10 +33,12 @@ static void log_message(const struct instance *instance, enum instance_status st
     if (callback) callback(instance->environment, (fmi3Status)status, category, message);
 }
 
-static void refuse(fmi3LogMessageCallback callback, fmi3Boolean logging, fmi3InstanceEnvironment environment)
+static const char other_kind[] = "this FMU is for co-simulation only";
+
+static void refuse(fmi3LogMessageCallback callback, fmi3Boolean logging, fmi3InstanceEnvironment environment,
+                   const char *why)
 {
-    if (callback && logging)
-        callback(environment, fmi3Error, log_category_names[log_error], "this FMU is for co-simulation only");
+    if (callback && logging) callback(environment, fmi3Error, log_category_names[log_error], why);
 }
 
 fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources,
@@ -43,7 +47,7 @@ fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi
                                           fmi3LogMessageCallback callback)
 {
     (void)name, (void)token, (void)resources, (void)visible;
-    refuse(callback, logging, environment);
+    refuse(callback, logging, environment, other_kind);
     return NULL;
 }
 
@@ -53,7 +57,7 @@ fmi3Instance fmi3InstantiateScheduledExecution(
     fmi3LockPreemptionCallback lock, fmi3UnlockPreemptionCallback unlock)
 {
     (void)name, (void)token, (void)resources, (void)visible, (void)update, (void)lock, (void)unlock;
-    refuse(callback, logging, environment);
+    refuse(callback, logging, environment, other_kind);
     return NULL;
 }
 
@@ -66,7 +70,10 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
 {
     (void)visible, (void)intermediate, (void)intermediate_count, (void)update;
     struct instance *instance = calloc(1, sizeof *instance);
-    if (!instance) return NULL;
+    if (!instance) {
+        refuse(callback, logging, environment, "out of memory");
+        return NULL;
+    }
     instance->log = log_message;
     instance->callback = (void (*)(void))callback;
     instance->environment = environment;
@@ -258,3 +265,5 @@ fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueRefere
                                    known_count, seed,     sensitivity,   true};
     return (fmi3Status)derivative_get(instance, &call);
 }
+
+/* NOLINTEND(readability-non-const-parameter,readability-function-size) */

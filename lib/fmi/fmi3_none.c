@@ -6,6 +6,8 @@
 #include "fmi/fmi3.h"
 #include "fmi/instance.h"
 
+/* NOLINTBEGIN(readability-non-const-parameter): the standard dictates the parameters. */
+
 static fmi3Status none(struct instance *instance, const char *function)
 {
     if (!instance) return fmi3Error;
@@ -172,3 +174,5 @@ fmi3Status fmi3ActivateModelPartition(fmi3Instance instance, fmi3ValueReference 
     (void)clock, (void)time;
     return none(instance, "fmi3ActivateModelPartition");
 }
+
+/* NOLINTEND(readability-non-const-parameter) */

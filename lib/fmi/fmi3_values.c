@@ -5,6 +5,8 @@
 #include "fmi/fmi3.h"
 #include "fmi/instance.h"
 
+/* NOLINTBEGIN(readability-non-const-parameter): the standard dictates the parameters. */
+
 fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
                           fmi3Float64 values[], size_t value_count)
 {
@@ -84,3 +86,5 @@ fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference referenc
     (void)references, (void)values;
     return none(instance, "fmi3SetClock", count);
 }
+
+/* NOLINTEND(readability-non-const-parameter) */

@@ -122,6 +122,8 @@ bool instance_open(struct instance *instance, const char *name, const char *reso
     fbd_errors *errors = fbd_errors_new();
     if (instance->name && errors && resources) instance->plant = plant_open(resources, errors);
     if (errors) say_notes(instance, errors);
+    if (!errors || !instance->name)
+        instance_say(instance, instance_error, log_error, "Instantiate: out of memory");
     fbd_errors_free(errors);
     if (!resources) instance_say(instance, instance_error, log_error, "there is no path of the resources");
     if (instance->plant && token && is_own_token(instance, token)) return true;

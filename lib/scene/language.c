@@ -56,8 +56,8 @@ static const struct field input_fields[] = {
     FIELD_TEXT(offsetof(struct input_keys, description), "description", "one line that says what it is"),
 };
 
-const struct group input_group = {"an input", "value", FIELDS(input_fields), NULL, 0,
-                                  "a quantity that comes from outside"};
+const struct group input_group = {"an input", "value", FIELDS(input_fields),
+                                  NULL,       0,       "a quantity that comes from outside"};
 
 const struct group output_group = {"`output`", NULL, FIELDS(output_fields), NULL, 0, "what a run writes"};
 

@@ -38,7 +38,8 @@ static size_t count_of(const struct node *map)
 static const struct pair *pair_of(const struct reader *reader, size_t index)
 {
     size_t parameters = count_of(reader->parameters);
-    return index < parameters ? &reader->parameters->pairs[index] : &reader->inputs->pairs[index - parameters];
+    return index < parameters ? &reader->parameters->pairs[index]
+                              : &reader->inputs->pairs[index - parameters];
 }
 
 bool parameters_find(const struct reader *reader, const char *name, size_t *index)

@@ -431,7 +431,8 @@ struct scene {
 struct override {
     const char *name;
     const char *value; /* NULL: that of the file, but other readings of the document may have another */
-    bool as_time;      /* an input stands in the place of the time, and the time is the constant `now`: derivatives by
+    bool
+        as_time; /* an input stands in the place of the time, and the time is the constant `now`: derivatives by
                           time are by it */
     double now;
 };

@@ -25,7 +25,7 @@ static void part_of_start(const struct ensemble *ensemble, const struct group *g
 
 bool ensemble_make_run(struct ensemble *ensemble, struct group *group)
 {
-    struct state_start part;
+    struct state_start part = {0};
     const struct plan *plan = &group->model->plan;
     const struct state_start *begin = ensemble->options.start ? &part : NULL;
     double *memory = begin ? calloc(2 * (size_t)plan->n + (size_t)plan->branches + 1, sizeof *memory) : NULL;
