@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import traceback
+import unittest
 from pathlib import Path
 
 from fmu import RUN, Fmu, make_fmu
@@ -96,29 +97,34 @@ def refused(instance, *words):
     assert any(status == 3 and all(word in text for word in words) for status, _, text in fresh), (words, fresh)
 
 
-def run_claims(claims):
-    """Each claim is a function whose name says it. What FMUs print counts as the last one."""
+def judge(claim):
+    """Its word in TAP, and notes."""
+    try:
+        claim()
+    except unittest.SkipTest as reason:
+        return "ok", f" # SKIP {reason}", ""
+    except Exception:  # pylint: disable=broad-except
+        return "not ok", "", traceback.format_exc()
+    return "ok", "", ""
+
+
+def run_claims(claims, silent=True):
+    """Each claim is a function whose name says it. With `silent` it is the last one that FMUs have printed nothing."""
     real = os.dup(1)
     with tempfile.TemporaryFile() as printed:
         os.dup2(printed.fileno(), 1)
         os.dup2(printed.fileno(), 2)
-        failed = 0
-        for number, claim in enumerate(claims, 1):
-            notes, fine = "", True
-            try:
-                claim()
-            except Exception:  # pylint: disable=broad-except
-                notes, fine = traceback.format_exc(), False
-            failed += not fine
-            words = claim.__name__.replace("_", " ")
-            notes = "".join(f"# {line}\n" for line in notes.splitlines())
-            os.write(real, f"{notes}{'ok' if fine else 'not ok'} {number} - {words}\n".encode())
+        lines = []
+        for claim in claims:
+            lines.append((claim.__name__.replace("_", " "), *judge(claim)))
         sys.stdout.flush()
         printed.seek(0)
-        said = printed.read()
-    silent = not said
-    notes = "".join(f"# {line}\n" for line in said.decode(errors="replace").splitlines())
-    os.write(real, f"{notes}{'ok' if silent else 'not ok'} {len(claims) + 1} - nothing is printed\n"
-                   f"1..{len(claims) + 1}\n".encode())
+        said = printed.read().decode(errors="replace")
+    if silent:
+        lines.append(("nothing is printed", "not ok" if said else "ok", "", said))
+    for number, (words, verdict, skipped, notes) in enumerate(lines, 1):
+        notes = "".join(f"# {line}\n" for line in notes.splitlines())
+        os.write(real, f"{notes}{verdict} {number} - {words}{skipped}\n".encode())
+    os.write(real, f"1..{len(lines)}\n".encode())
     FOLDER.cleanup()
-    return failed > 0 or not silent
+    return any(verdict != "ok" for _, verdict, _, _ in lines)
