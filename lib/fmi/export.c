@@ -89,12 +89,20 @@ static const char license[] =
     "SPDX-License-Identifier: GPL-3.0-or-later\n\n"
     "The binary of this FMU holds libfbd and the GNU Scientific Library, free software under the GNU General "
     "Public\n"
-    "License, version 3 or (at your option) any later version, without any warranty; and libyaml, under the "
-    "MIT\n"
-    "License. Who passes the FMU on passes on, or offers, the source of fbd " FBD_VERSION
-    " and of the GNU Scientific Library\n"
-    "as that license says: https://www.gnu.org/licenses/gpl-3.0.html.\n"
+    "License, version 3 or (at your option) any later version, without any warranty: gpl-3.0.txt; and "
+    "libyaml, under\n"
+    "the MIT license: libyaml.txt. Who passes the FMU on passes on, or offers, the source of fbd " FBD_VERSION
+    " and of the\n"
+    "GNU Scientific Library as the first license says.\n"
     "The model in resources/ is its author's; it is read by the binary, and no part of it.\n";
+
+static void add_licenses(struct zip *zip)
+{
+    zip_add(zip, "documentation/licenses/license.txt", license, strlen(license));
+    zip_add(zip, "documentation/licenses/gpl-3.0.txt", (const char *)license_of_gpl, license_of_gpl_length);
+    zip_add(zip, "documentation/licenses/libyaml.txt", (const char *)license_of_libyaml,
+            license_of_libyaml_length);
+}
 
 static void add_text(struct zip *zip, const char *name, struct text *text)
 {
@@ -148,7 +156,7 @@ static char *pack(const struct package *package, size_t *length, fbd_errors *err
     zip_add(&zip, "resources/settings", package->settings.data, package->settings.length);
     bool whole = add_tables(&zip, model->scene, errors);
     zip_add(&zip, "documentation/index.html", page, strlen(page));
-    zip_add(&zip, "documentation/licenses/license.txt", license, strlen(license));
+    add_licenses(&zip);
     char *bytes = zip_finish(&zip, length);
     if (whole && bytes) return bytes;
     if (whole) diag_out_of_memory(errors);

@@ -48,6 +48,10 @@ void package_token(const char *text, size_t length, const char *settings, char t
 void package_describe(const struct package *package, struct text *xml);
 void package_describe_2(const struct package *package, struct text *xml);
 
+/* Texts of licences (licenses.c, made by embed). */
+extern const unsigned char license_of_gpl[], license_of_libyaml[];
+extern const size_t license_of_gpl_length, license_of_libyaml_length;
+
 /* ---- what both have in common */
 
 /* A text between the quotes of an attribute. */

@@ -85,20 +85,23 @@ bool fmi_has_derivatives(const struct fbd_model *model)
     return model->scene->output_point_count == 0;
 }
 
-double fmi_value(const struct fmi_variable *variable, const struct fbd_state *state)
+static double value_of_point(const struct fmi_variable *variable, const struct fbd_state *state)
 {
     double values[world_parts];
+    const struct fbd_model *model = state->model;
+    int body = model->scene->output_points[variable->index].body;
+    world_values(state, body, model->output_points[variable->index], values);
+    return values[variable->part];
+}
+
+double fmi_value(const struct fmi_variable *variable, const struct fbd_state *state)
+{
     switch (variable->kind) {
     case fmi_time: return state->t;
     case fmi_coordinate:
     case fmi_rate: return state->y[variable->index];
     case fmi_acceleration: return state->a[variable->index];
-    case fmi_point: {
-        const struct fbd_model *model = state->model;
-        int body = model->scene->output_points[variable->index].body;
-        world_values(state, body, model->output_points[variable->index], values);
-        return values[variable->part];
-    }
+    case fmi_point: return value_of_point(variable, state);
     default: return NAN;
     }
 }

@@ -42,14 +42,20 @@ static const struct pair *pair_of(const struct reader *reader, size_t index)
                               : &reader->inputs->pairs[index - parameters];
 }
 
+/* The place of `name` in a mapping, which may be NULL; false when it is not there. */
+static bool find_in(const struct node *map, const char *name, size_t *index)
+{
+    const struct pair *pair = map ? node_find(map, name) : NULL;
+    if (pair) *index = (size_t)(pair - map->pairs);
+    return pair != NULL;
+}
+
 bool parameters_find(const struct reader *reader, const char *name, size_t *index)
 {
-    const struct pair *pair = reader->parameters ? node_find(reader->parameters, name) : NULL;
-    if (pair) *index = (size_t)(pair - reader->parameters->pairs);
-    if (pair) return true;
-    pair = reader->inputs ? node_find(reader->inputs, name) : NULL;
-    if (pair) *index = count_of(reader->parameters) + (size_t)(pair - reader->inputs->pairs);
-    return pair != NULL;
+    if (find_in(reader->parameters, name, index)) return true;
+    bool found = find_in(reader->inputs, name, index);
+    if (found) *index += count_of(reader->parameters);
+    return found;
 }
 
 static void note_unknown_override(struct reader *reader, const struct override *override)

@@ -11,28 +11,38 @@
 
 /* ---- making and freeing */
 
-/* The part of the start that is a group's, in `memory`. */
-static void part_of_start(const struct ensemble *ensemble, const struct group *group, double *memory,
-                          struct state_start *part)
+/* The part of the start that is a group's, in two arrays. */
+static void part_of_start(const struct ensemble *ensemble, const struct group *group, double *y, int *branch)
 {
     const struct fbd_state *whole = ensemble->options.start;
-    size_t size = 2 * (size_t)group->model->plan.n;
-    int branches = group->model->plan.branches, *branch = (int *)(memory + size);
-    for (size_t i = 0; i < size; i++) memory[i] = whole->y[group_component(ensemble->model, group, i)];
-    for (int i = 0; i < branches; i++) branch[i] = whole->branch[group->branch ? group->branch[i] : i];
-    *part = (struct state_start){whole->t, memory, branch, whole};
+    const struct plan *plan = &group->model->plan;
+    for (size_t i = 0; i < 2 * (size_t)plan->n; i++)
+        y[i] = whole->y[group_component(ensemble->model, group, i)];
+    for (int i = 0; i < plan->branches; i++) branch[i] = whole->branch[group->branch ? group->branch[i] : i];
+}
+
+/* A run that goes on from the start of the ensemble. */
+static struct run *run_from_start(const struct ensemble *ensemble, const struct group *group)
+{
+    const struct plan *plan = &group->model->plan;
+    double *y = calloc(2 * (size_t)plan->n + 1, sizeof *y);
+    int *branch = calloc((size_t)plan->branches + 1, sizeof *branch);
+    struct run *run = NULL;
+    if (y && branch) {
+        const struct fbd_state *whole = ensemble->options.start;
+        const struct state_start part = {whole->t, y, branch, whole};
+        part_of_start(ensemble, group, y, branch);
+        run = run_new(group->model, &ensemble->options, &part);
+    }
+    free(y);
+    free(branch);
+    return run;
 }
 
 bool ensemble_make_run(struct ensemble *ensemble, struct group *group)
 {
-    struct state_start part = {0};
-    const struct plan *plan = &group->model->plan;
-    const struct state_start *begin = ensemble->options.start ? &part : NULL;
-    double *memory = begin ? calloc(2 * (size_t)plan->n + (size_t)plan->branches + 1, sizeof *memory) : NULL;
-    if (begin && !memory) return false;
-    if (begin) part_of_start(ensemble, group, memory, &part);
-    group->run = run_new(group->model, &ensemble->options, begin);
-    free(memory);
+    group->run = ensemble->options.start ? run_from_start(ensemble, group)
+                                         : run_new(group->model, &ensemble->options, NULL);
     return group->run && group->run->outcome != FBD_OUT_OF_MEMORY;
 }
 

@@ -58,13 +58,15 @@ def an_archive_has_its_files():
         machine = "linux64" if version == 2 else f"{os.uname().machine}-linux"
         assert set(fmu.names) == {"modelDescription.xml", f"binaries/{machine}/{fmu.identifier}.so", "resources/model.yaml",
                                   "resources/settings", "resources/tables/F", "documentation/index.html",
-                                  "documentation/licenses/license.txt"}
+                                  *(f"documentation/licenses/{name}.txt" for name in ("license", "gpl-3.0", "libyaml"))}
         source = MODELS / "data/measured_push"
         inside = Path(fmu.resources)
         assert (inside / "model.yaml").read_bytes() == source.with_suffix(".yaml").read_bytes()
         assert (inside / "tables/F").read_bytes() == source.with_suffix(".csv").read_bytes()
         license_text = (inside / "../documentation/licenses/license.txt").read_text(encoding="utf-8")
         assert "GPL-3.0-or-later" in license_text and fmu.xml.get("license") == "GPL-3.0-or-later"
+        text = (inside / "../documentation/licenses/gpl-3.0.txt").read_bytes()
+        assert text == (MODELS / "../LICENSE").read_bytes() and b"GNU GENERAL PUBLIC LICENSE" in text
         again = Path(FOLDER.name) / "again.fmu"
         for target in (again, "-"):
             with open(Path(FOLDER.name) / "stdout", "wb") as out:

@@ -201,7 +201,7 @@ static bool make_both(void)
         size_t length;
         char *bytes = fbd_fmu(model, &options, &length, errors);
         assert_true(bytes || fbd_errors_failed(errors) > 0);
-        made = made && some(bytes);
+        made = some(bytes) && made;
         fbd_model_free(model);
         fbd_errors_free(errors);
     }
