@@ -8,6 +8,8 @@
 #include <string.h>
 
 #include "base/format.h"
+#include "output/result.h"
+#include "solve/ensemble.h"
 
 const char *const log_category_names[log_categories] = {"logStatusError", "logStatusWarning", "logEvents"};
 
@@ -242,10 +244,12 @@ static const char *why_no_step(const struct instance *instance, double t, double
 static void log_step_events(const struct instance *instance, double from)
 {
     fbd_simulation *simulation = instance->plant->simulation;
+    size_t count = fbd_simulation_events(simulation), first = count;
     if (!instance->logs[log_events]) return;
-    for (size_t i = 0; i < fbd_simulation_events(simulation); i++) {
+    while (first > 0 && simulation->ensemble->events[first - 1].t > from) first--;
+    for (size_t i = first; i < count; i++) {
         fbd_event event = fbd_simulation_event(simulation, i);
-        if (event.t <= from || event.t > instance->plant->t) continue;
+        if (event.t > instance->plant->t) break;
         instance_say(instance, instance_ok, log_events, "t = %.9g s: %s %s %s", event.t,
                      fbd_event_kind_name(event.kind), event.body[0] ? event.body : event.name, event.detail);
     }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fmi/package.h"
 
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -108,18 +107,21 @@ void package_says(const struct package *package, const struct fmi_variable *vari
 
 /* ---- the token */
 
-/* FNV-1a of 64 bits (RFC 9923), begun at two places: against accidents, not against malice. */
-static uint64_t hash(uint64_t start, const char *text, size_t length)
+const uint64_t package_hash_start = UINT64_C(0xCBF29CE484222325);
+
+/* FNV-1a of 64 bits (RFC 9923). */
+uint64_t package_hash(uint64_t before, const void *bytes, size_t length)
 {
-    for (size_t i = 0; i < length; i++) start = (start ^ (unsigned char)text[i]) * UINT64_C(0x100000001B3);
-    return start;
+    const unsigned char *byte = bytes;
+    for (size_t i = 0; i < length; i++) before = (before ^ byte[i]) * UINT64_C(0x100000001B3);
+    return before;
 }
 
 void package_token(const char *text, size_t length, const char *settings, char token[package_token_size])
 {
-    uint64_t a = hash(UINT64_C(0xCBF29CE484222325), text, length);
-    uint64_t b = hash(a, FBD_VERSION "\n", strlen(FBD_VERSION) + 1);
-    b = hash(b, settings, strlen(settings));
+    uint64_t a = package_hash(package_hash_start, text, length);
+    uint64_t b = package_hash(a, FBD_VERSION "\n", strlen(FBD_VERSION) + 1);
+    b = package_hash(b, settings, strlen(settings));
     snprintf(token, package_token_size, "{%08X-%04X-%04X-%04X-%012llX}", (unsigned)(a >> 32),
              (unsigned)(a >> 16 & 0xFFFFu), (unsigned)(a & 0xFFFFu), (unsigned)(b >> 48),
              (unsigned long long)(b & UINT64_C(0xFFFFFFFFFFFF)));

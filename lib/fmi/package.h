@@ -12,6 +12,8 @@
 #ifndef FBD_FMI_PACKAGE_H
 #define FBD_FMI_PACKAGE_H
 
+#include <stdint.h>
+
 #include "base/text.h"
 #include "fbd.h"
 #include "fmi/variables.h"
@@ -43,6 +45,10 @@ void package_settings_free(struct package_settings *settings);
 
 /* The token of a model's text under such settings. */
 void package_token(const char *text, size_t length, const char *settings, char token[package_token_size]);
+
+/* A number that tells bytes from others, from that of what stands before them: against accidents, not against malice. */
+extern const uint64_t package_hash_start;
+uint64_t package_hash(uint64_t before, const void *bytes, size_t length);
 
 /* modelDescription.xml of FMI 3.0 and of 2.0. */
 void package_describe(const struct package *package, struct text *xml);

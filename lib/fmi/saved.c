@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,6 +10,7 @@ struct saved_head {
     char token[package_token_size];
     unsigned phase, stopped;
     size_t count;
+    uint64_t check; /* of all the rest */
 };
 
 struct saved {
@@ -17,6 +19,15 @@ struct saved {
 };
 
 static const char magic[8] = {'f', 'b', 'd', ' ', 'f', 'm', 'u', '1'};
+
+/* What `check` is: of the head with 0 in its place, and of the numbers. */
+static uint64_t check_of(const struct saved *saved)
+{
+    struct saved_head head = saved->head;
+    head.check = 0;
+    uint64_t check = package_hash(package_hash_start, &head, sizeof head);
+    return package_hash(check, saved->numbers, saved->head.count * sizeof(double));
+}
 
 static bool is_one(const struct saved_head *head, size_t size)
 {
@@ -37,6 +48,7 @@ enum instance_status saved_get(struct instance *instance, struct saved **saved)
     new->head.stopped = instance->stopped;
     new->head.count = count;
     plant_save(plant, new->numbers);
+    new->head.check = check_of(new);
     free(*saved);
     *saved = new;
     return instance_ok;
@@ -80,6 +92,9 @@ struct saved *saved_from_bytes(const unsigned char *bytes, size_t size)
     if (!bytes || size < sizeof head) return NULL;
     memcpy(&head, bytes, sizeof head);
     struct saved *saved = is_one(&head, size) ? malloc(size) : NULL;
-    if (saved) memcpy(saved, bytes, size);
-    return saved;
+    if (!saved) return NULL;
+    memcpy(saved, bytes, size);
+    if (saved->head.check == check_of(saved)) return saved;
+    free(saved);
+    return NULL;
 }
