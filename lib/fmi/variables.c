@@ -78,11 +78,20 @@ bool fmi_is_output(const struct fmi_variable *variable)
     return variable->kind >= fmi_coordinate;
 }
 
+/* Does an expression remember (`hysteresis`)? With the time as a constant it may have no place for that. */
+static bool remembers(const struct plan *plan)
+{
+    for (size_t i = 0; i < plan->kink_count; i++)
+        for (size_t k = 0; k < plan->kinks[i].count; k++)
+            if (expr_switch_remembers(plan->kinks[i].formula.expr, k)) return true;
+    return false;
+}
+
 bool fmi_has_derivatives(const struct fbd_model *model)
 {
     for (size_t i = 0; i < model->plan.friction_count; i++)
         if (model->plan.frictions[i].kind == mode_drive) return false;
-    return model->scene->output_point_count == 0;
+    return model->scene->output_point_count == 0 && !remembers(&model->plan);
 }
 
 static double value_of_point(const struct fmi_variable *variable, const struct fbd_state *state)

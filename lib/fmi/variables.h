@@ -40,7 +40,8 @@ void fmi_variables_free(struct fmi_variables *variables);
 
 bool fmi_is_output(const struct fmi_variable *variable);
 
-/* Can directional derivatives be had of all outputs? Not of points, and not where a motion is prescribed. */
+/* Can directional derivatives be had of all outputs? Not of points, not where a motion is prescribed, and not with a
+ * memory. */
 bool fmi_has_derivatives(const struct fbd_model *model);
 
 /* The value of one that is no parameter or input; the state has been evaluated. */

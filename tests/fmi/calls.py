@@ -115,7 +115,7 @@ def sequences(fmu, seed, events):
                   "step": ["step"] * 9 + (["enter event"] * 2 if events else []),
                   "event": ["update", "enter step", "enter step"], "terminated": ["reset"]}[phase]
         moves += ["set"] if phase in settable else []
-        moves += ["derivative"] if phase != "instantiated" else []
+        moves += ["derivative"] if phase != "instantiated" and fmu.has_derivatives else []
         moves += ["terminate"] * (dice.random() < 0.1) if phase in ("step", "event") else []
         move = dice.choice(moves)
         status = OK

@@ -90,7 +90,7 @@ def derivatives_are_those_of_differences():
 
 
 def derivatives_by_inputs_hold_on_the_way():
-    for model in (STICKS, SMOOTH, SLIPS):
+    for model in (STICKS.replace("0.4[N]*hysteresis(theta, -0.2[rad], 0.3[rad])", "0.4[N]*max(theta/1[rad], sin(2*t))"), SMOOTH, SLIPS):
         fmu = fmu_of(model, 3)
         instance = fmu.open(events=True)
         assert instance.call("EnterStepMode") == OK
@@ -161,9 +161,9 @@ def what_has_none_says_so():
     driven = "couplings/driven_slider_crank.yaml"
     points = SLIPS + "output: {points: [block]}\n"
     for version in (2, 3):
-        for model in (driven, points):
+        for model in (driven, points, STICKS):
             fmu = fmu_of(model, version)
-            assert not any("Derivative" in key for key in fmu.co_simulation.attrib)
+            assert not fmu.has_derivatives
             instance = fmu.open()
             assert instance.derivative(fmu.outputs[:1], fmu.outputs[:1], [1.0]) == 3
             instance.free()

@@ -43,6 +43,7 @@ class Fmu:
         self.xml = ElementTree.parse(os.path.join(self.folder, "modelDescription.xml")).getroot()
         self.version = int(self.xml.get("fmiVersion")[0])
         self.co_simulation = self.xml.find("CoSimulation")
+        self.has_derivatives = any("irectionalDerivative" in key for key in self.co_simulation.attrib)
         self.identifier = self.co_simulation.get("modelIdentifier")
         self.token = self.xml.get("instantiationToken") or self.xml.get("guid")
         self.variables = {}
