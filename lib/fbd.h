@@ -932,9 +932,10 @@ FBD_API char *fbd_grade_json(const fbd_grade *grade, bool details);
 
 /* A model as a Functional Mock-up Unit (fmi-standard.org): docs/fmi.md. */
 typedef struct fbd_fmu_options {
-    int version;                 /* of FMI: 3, or 2 for tools that do not know that; 0 is 3 */
-    const char *library;         /* the binary that goes in, as fbd is installed with it (fbd-fmu.so), ... */
-    size_t library_length;       /* ... and how many bytes it has */
+    int version; /* of FMI: 3, or 2 for tools that do not know that; 0 is 3 */
+    const char
+        *library; /* the binary that goes in, of this version of fbd: fbd-run carries it, and each FMU ... */
+    size_t library_length;       /* ... has it under binaries/; and how many bytes it has */
     const char *name;            /* of the FMU; NULL for that of the model file */
     const fbd_setting *settings; /* those that the model was read with: they become its start values */
     size_t setting_count;

@@ -203,8 +203,12 @@ def an_event_of_the_file_that_stops_ends_it():
     assert instance.go_to(2) == (OK, False, True, True)
     assert instance.t == final["t"]
     check_close(instance.get(["object.v"]), {"object.v": final["object"]["v"]}, 1e-12)
-    with refused(instance, "DoStep", "ended"):
-        assert instance.step(0.1)[0] == ERROR
+    saved = instance.save()
+    for _ in range(2):  # a state that is restored has ended, too
+        with refused(instance, "DoStep", "ended"):
+            assert instance.step(0.1)[0] == ERROR
+        assert instance.restore(saved) == OK
+    instance.forget(saved)
     instance.free()
     instance = fmu_of(model, 2).open()
     assert instance.go_to(2) == (DISCARD, False, True, False) and instance.t == final["t"]
