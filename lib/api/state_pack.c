@@ -60,6 +60,7 @@ static void put_tie(struct packing *packing, const struct tie_state *tie)
     }
 }
 
+/* NOLINTNEXTLINE(readability-non-const-parameter): `put` writes them */
 size_t fbd_state_pack(const fbd_state *state, double *numbers, size_t room)
 {
     if (!state) return 0;

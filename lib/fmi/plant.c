@@ -42,7 +42,7 @@ static bool fail_by(struct plant *plant, fbd_errors *errors)
 static bool is_own(const struct plant *plant, size_t index)
 {
     const struct parameter *parameter = &plant->first->scene->parameters[index];
-    return !parameter->derived && memcmp(&plant->values[index], &parameter->value, sizeof(double)) != 0;
+    return !parameter->derived && plant->values[index] != parameter->value;
 }
 
 /* Settings of the file, then what differs from it. */
@@ -305,7 +305,7 @@ static bool make_run(struct plant *plant)
 static bool values_differ(const struct plant *plant)
 {
     for (size_t i = 0; i < plant->parameter_count; i++)
-        if (memcmp(&plant->values[i], &plant->base.values[i], sizeof(double)) != 0) return true;
+        if (plant->values[i] != plant->base.values[i]) return true;
     return false;
 }
 
