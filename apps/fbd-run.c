@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "complain.h"
+#include "fmu.h"
 #include "grading.h"
 #include "live_page.h"
 #include "options.h"
@@ -274,6 +275,7 @@ static enum exit_code act(const fbd_model *model, const struct options *options,
     switch (options->action) {
     case action_check: return check_start(model, errors);
     case action_check_hand: return check_hand(model, options);
+    case action_fmu: return write_fmu(model, options, errors);
     case action_explain: return print(fbd_explain(model, &options->run), exit_done);
     case action_equations:
     case action_static:

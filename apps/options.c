@@ -5,6 +5,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "fmu.h"
 #include "gnuplot.h"
 #include "place.h"
 
@@ -55,6 +56,8 @@ static const char help[] =
     "  --check-hand         hold the file's hand derivations against the assembly\n"
     "  --seed NUMBER        seed of the random states for that (default 1)\n"
     "  --check              read the file and say what is wrong with it, or with its start\n"
+    "  --fmu FILE           the model as an FMU, for other simulators (ends in .fmu)\n"
+    "  --fmu-version 2|3    of the standard that it keeps to, FMI 2.0 or 3.0 (default 3)\n"
     "\n"
     "Answers of students (fbd-run --grade KEY.yaml ANSWER.yaml...)\n"
     "  --grade KEY          hold each answer against the forces, moments and derivations of this model file\n"
@@ -108,6 +111,8 @@ enum {
     option_details,
     option_handout,
     option_watch,
+    option_fmu,
+    option_fmu_version,
 };
 
 static const struct option long_options[] = {
@@ -145,6 +150,8 @@ static const struct option long_options[] = {
     {"details", no_argument, NULL, option_details},
     {"handout", no_argument, NULL, option_handout},
     {"watch", no_argument, NULL, option_watch},
+    {"fmu", required_argument, NULL, option_fmu},
+    {"fmu-version", required_argument, NULL, option_fmu_version},
     {"schema", no_argument, NULL, option_schema},
     COMMAND_LINE_END,
 };
@@ -159,10 +166,10 @@ static bool usage(const char *message, const char *what)
 static bool choose_action(struct options *options, enum action action)
 {
     if (options->action != action_run && options->action != action)
-        return usage(
-            "only one of --equations, --linearize, --static, --explain, --check-hand, --check, --grade and "
-            "--handout at a time",
-            "");
+        return usage("only one of --equations, --linearize, --static, --explain, --check-hand, --check, "
+                     "--fmu, --grade "
+                     "and --handout at a time",
+                     "");
     options->action = action;
     return true;
 }
@@ -184,6 +191,23 @@ static bool take_number(const char *name, double least, double *value)
 static bool take_time(const char *name, double least, double *value)
 {
     return command_line_time(&line, name, optarg, least, value);
+}
+
+static bool fmu_can_be_made(void)
+{
+    size_t length;
+    if (fmu_binary(&length)) return true;
+    return usage("this fbd was built without --fmu: on Linux it needs the archives of GSL and libyaml at "
+                 "build time (Debian: libgsl-dev, libyaml-dev)",
+                 "");
+}
+
+static bool take_fmu_version(int *version)
+{
+    unsigned long value;
+    if (!command_line_whole(&line, "--fmu-version wants 2 or 3, not ", optarg, 2, 3, &value)) return false;
+    *version = (int)value;
+    return true;
 }
 
 static bool take_option(const struct command_line *unused, int option, void *context)
@@ -235,6 +259,8 @@ static bool take_option(const struct command_line *unused, int option, void *con
     case option_student: options->student = optarg; return true;
     case option_details: options->details = true; return true;
     case option_handout: return choose_action(options, action_handout);
+    case option_fmu: options->fmu = optarg; return fmu_can_be_made() && choose_action(options, action_fmu);
+    case option_fmu_version: return take_fmu_version(&options->fmu_version);
     default: return usage("unknown option, or an option without its value", "");
     }
 }
@@ -252,7 +278,7 @@ static bool plot_can_be_written(const char *file)
     return true;
 }
 
-enum { place_count = 7 };
+enum { place_count = 8 };
 
 /* Where outputs go. The report comes last and goes where `>` leads, unless data goes there. */
 static void list_places(const struct options *options, struct output_place places[place_count])
@@ -260,7 +286,7 @@ static void list_places(const struct options *options, struct output_place place
     const struct output_place all[place_count] = {
         {"--csv", options->csv},   {"--json", options->json}, {"--svg", options->svg},
         {"--html", options->html}, {"--plot", options->plot}, {"--gnuplot", options->gnuplot},
-        {"the report", "-"},
+        {"--fmu", options->fmu},   {"the report", "-"},
     };
     memcpy(places, all, sizeof all);
     if (options->quiet || options_use_stdout(options)) places[place_count - 1].path = NULL;
@@ -270,7 +296,7 @@ bool options_use_stdout(const struct options *options)
 {
     return place_is_stdout(options->csv) || place_is_stdout(options->json) || place_is_stdout(options->svg) ||
            place_is_stdout(options->html) || place_is_stdout(options->plot) ||
-           place_is_stdout(options->gnuplot);
+           place_is_stdout(options->gnuplot) || place_is_stdout(options->fmu);
 }
 
 /* Neither the key nor an answer is written over. */
@@ -284,9 +310,9 @@ static bool grading_agrees(const struct options *options)
     if (options->watch || options->setting_count || options->at_count || options->run.method ||
         options->run.tolerance > 0 || options->run.accuracy > 0 || options->run.step > 0 ||
         options->run.no_structure || isfinite(options->run.until) || options->run.error_bars ||
-        options->settle || options->svg || options->html || options->plot || options->plot_of ||
-        options->gnuplot || options->ledger || options->every > 0 || options->drawing.body ||
-        options->drawing.components)
+        options->settle || options->fmu_version || options->svg || options->html || options->plot ||
+        options->plot_of || options->gnuplot || options->ledger || options->every > 0 ||
+        options->drawing.body || options->drawing.components)
         return usage("with --grade go --student, --details, --csv, --json and --quiet only; with --handout "
                      "--student only",
                      "");
@@ -329,6 +355,7 @@ static bool options_agree(const struct options *options)
         return usage("--svg belongs to a run, --equations or --linearize", "");
     if ((options->drawing.body || options->drawing.components) && !options->svg)
         return usage("--body and --components go with --svg", "");
+    if (options->fmu_version && !options->fmu) return usage("--fmu-version goes with --fmu", "");
     if (options->settle && !rests) return usage("--settle goes with --static", "");
     if (stands_still && !rests && !draws && options->json)
         return usage("--json belongs to a run, --equations, --linearize, --static or --grade", "");

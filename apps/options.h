@@ -20,6 +20,7 @@ struct options {
         action_static,
         action_grade,   /* `model` is the key of `answers` */
         action_handout, /* `model` is the key */
+        action_fmu,
     } action;
     fbd_setting settings[most_settings];
     size_t setting_count;
@@ -36,6 +37,8 @@ struct options {
     bool details;
     char **answers;
     size_t answer_count;
+    const char *fmu;
+    int fmu_version; /* 0 when it is not given */
     bool watch;
     const struct watched_run *watched; /* of --watch, or NULL */
 };

@@ -141,7 +141,7 @@ bool whole_file_close(struct whole_file *file, bool keep)
     return written;
 }
 
-bool whole_file_put(const char *path, const char *text)
+bool whole_file_put_bytes(const char *path, const char *bytes, size_t length)
 {
     struct whole_file file;
     struct interrupt interrupt;
@@ -149,11 +149,16 @@ bool whole_file_put(const char *path, const char *text)
     if (beside) interrupt_hold(&interrupt);
     bool written = whole_file_open(&file, path);
     if (written) {
-        whole_file_write(&file, text, strlen(text)); /* an error shows when the file is closed */
+        whole_file_write(&file, bytes, length); /* an error shows when the file is closed */
         written = whole_file_close(&file, true);
     }
     int reason = errno;
     if (beside) interrupt_release(&interrupt);
     errno = reason;
     return written;
+}
+
+bool whole_file_put(const char *path, const char *text)
+{
+    return whole_file_put_bytes(path, text, strlen(text));
 }

@@ -32,6 +32,7 @@ bool whole_file_close(struct whole_file *file, bool keep);
 /* All of it at once: a file with this text. False with errno set. A signal that ends the process comes before
  * or after it. */
 bool whole_file_put(const char *path, const char *text);
+bool whole_file_put_bytes(const char *path, const char *bytes, size_t length);
 
 /* A stream into what cannot be replaced; `stdout` itself for "-" and its other names. NULL with errno set. */
 FILE *whole_file_straight(const char *path);

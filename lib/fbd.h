@@ -123,6 +123,21 @@ typedef struct fbd_coordinate {
 FBD_API size_t fbd_model_coordinates(const fbd_model *model);
 FBD_API fbd_coordinate fbd_model_coordinate(const fbd_model *model, size_t index);
 
+/* A parameter or an input of the file, as it is in this model: set from outside, or with the file's value. Texts live
+ * as long as the model. */
+typedef struct fbd_parameter {
+    const char *name, *unit; /* coherent unit of the value; "" for a pure number, also one that takes whatever
+                                dimension its use needs */
+    const char *description; /* of an input, "" without */
+    double value;
+    bool input;   /* of `inputs`: it may change while the motion goes on */
+    bool derived; /* the file defines it by other parameters, or gravity */
+} fbd_parameter;
+
+/* Those of `parameters` in the order of the file, then those of `inputs`. Past the last one: without a name. */
+FBD_API size_t fbd_model_parameters(const fbd_model *model);
+FBD_API fbd_parameter fbd_model_parameter(const fbd_model *model, size_t index);
+
 /* ---------------------------------------------------------------- states and assembled equations */
 
 /* Time, coordinates, rates and modes (stick or slip) of one run; belongs to one thread. */
@@ -131,6 +146,18 @@ typedef struct fbd_state fbd_state;
 /* A state at the file's initial values and t = 0, modes settled. NULL when memory is out. */
 FBD_API fbd_state *fbd_state_new(const fbd_model *model);
 FBD_API void fbd_state_free(fbd_state *state);
+
+/* Make `to` equal to `from`. False when they are not of the same model. */
+FBD_API bool fbd_state_copy(fbd_state *to, const fbd_state *from);
+
+/* All that a motion goes on from, as numbers: the time, coordinates and rates, what expressions with a memory
+ * (`hysteresis`) remember, and what couplings keep of their start, for example the length of a rope. Fills at most
+ * `room` of them; returns how many there are. */
+FBD_API size_t fbd_state_pack(const fbd_state *state, double *numbers, size_t room);
+
+/* Put such numbers into a state of the same model, or of a model of the same text under other settings. Modes are
+ * settled anew by the next call that needs them. False, and nothing is changed, when they are not of such a state. */
+FBD_API bool fbd_state_unpack(fbd_state *state, const double *numbers, size_t count);
 
 /* Set or get "t", "body.coordinate" or "body.rate" ("block.x", "pendulum.omega"). False for an unknown name
  * or a value that is not finite. Modes are settled anew by the next call that needs them, as at the start of
@@ -304,6 +331,13 @@ FBD_API void fbd_simulation_free(fbd_simulation *simulation);
  * with a note in `errors` when memory is out. The other one is not needed any more. */
 FBD_API fbd_simulation *fbd_simulation_again(const fbd_simulation *simulation, bool error_bars,
                                              fbd_errors *errors);
+
+/* A simulation that begins at a state, at its time: what sticks, is taut or touches there is found as at the start of
+ * a run. The state is copied; its model must outlive the simulation. Where the file asks for an accuracy, the
+ * tolerance is the first guess for that. NULL with notes in `errors`: as fbd_simulation_new, and `bad-option` for
+ * error bars, an accuracy, or an end before the state. */
+FBD_API fbd_simulation *fbd_simulation_from(const fbd_state *state, const fbd_options *options,
+                                            fbd_errors *errors);
 
 /* Advance by one accepted step, or to the next event; with independent groups of bodies, by a step of the
  * group that is furthest behind. With options.accuracy this is a run at the tolerance of a first guess: only
@@ -893,6 +927,26 @@ FBD_API fbd_finding fbd_grade_finding(const fbd_grade *grade, size_t index);
  * free(); NULL when memory is out. */
 FBD_API char *fbd_grade_text(const fbd_grade *grade, bool details);
 FBD_API char *fbd_grade_json(const fbd_grade *grade, bool details);
+
+/* ---------------------------------------------------------------- models for other simulators */
+
+/* A model as a Functional Mock-up Unit (fmi-standard.org): docs/fmi.md. */
+typedef struct fbd_fmu_options {
+    int version; /* of FMI: 3, or 2 for tools that do not know that; 0 is 3 */
+    const char
+        *library; /* the binary that goes in, of this version of fbd: fbd-run carries it, and each FMU ... */
+    size_t library_length;       /* ... has it under binaries/; and how many bytes it has */
+    const char *name;            /* of the FMU; NULL for that of the model file */
+    const fbd_setting *settings; /* those that the model was read with: they become its start values */
+    size_t setting_count;
+    fbd_options run; /* without error bars and accuracy */
+} fbd_fmu_options;
+
+/* The FMU for co-simulation by that binary as bytes of a zip archive, to be freed with free(); *length is their number.
+ * NULL with notes in `errors`: those of wrong options (see fbd_simulation_new), of a start that no motion begins at (see
+ * fbd_state_close), `cannot-read` for the data file of a table, `bad-call`, or memory is out. */
+FBD_API char *fbd_fmu(const fbd_model *model, const fbd_fmu_options *options, size_t *length,
+                      fbd_errors *errors);
 
 FBD_API const char *fbd_version(void);
 

@@ -17,7 +17,7 @@ static fbd_model *compile(char *text, size_t length, const char *name, const fbd
     fbd_model *model = NULL;
     if (overrides) {
         for (size_t i = 0; i < count; i++)
-            overrides[i] = (struct override){settings[i].name, settings[i].value};
+            overrides[i] = (struct override){.name = settings[i].name, .value = settings[i].value};
         struct scene *scene = scene_read(text, length, name, overrides, count, NULL, errors);
         model = scene ? model_compile(scene, errors) : NULL;
     } else {
@@ -122,6 +122,23 @@ fbd_coordinate fbd_model_coordinate(const fbd_model *model, size_t index)
                             .rate_name = label->rate_name,
                             .rate_unit = label->rate_unit,
                             .body = (size_t)model->scene->coordinates[index].body};
+}
+
+size_t fbd_model_parameters(const fbd_model *model)
+{
+    return model ? model->scene->parameter_count : 0;
+}
+
+fbd_parameter fbd_model_parameter(const fbd_model *model, size_t index)
+{
+    if (index >= fbd_model_parameters(model)) return (fbd_parameter){.value = NAN};
+    const struct parameter *parameter = &model->scene->parameters[index];
+    return (fbd_parameter){.name = parameter->name,
+                           .unit = parameter->unit,
+                           .description = parameter->description,
+                           .value = parameter->value,
+                           .input = parameter->input,
+                           .derived = parameter->derived};
 }
 
 char *fbd_schema(void)

@@ -35,16 +35,22 @@ static bool choose_accuracy(const fbd_model *model, const fbd_options *options, 
     return fbd_errors_failed(errors) == before;
 }
 
-/* `simulation` is freed when memory is out. */
+/* `simulation` is freed when memory is out. A start that the options name is copied. */
 static fbd_simulation *begin(fbd_simulation *simulation, const fbd_model *model,
                              const struct run_options *options, bool error_bars, fbd_errors *errors)
 {
+    struct run_options own = *options;
     bool made = simulation != NULL;
     if (made && error_bars) {
         simulation->bars = calloc(1, sizeof *simulation->bars);
         made = simulation->bars != NULL;
     }
-    if (made && simulation_begin(simulation, model, options)) return simulation;
+    if (made && options->start) {
+        own.start = simulation->start = state_new(model);
+        made = simulation->start != NULL;
+        if (made) state_copy(simulation->start, options->start);
+    }
+    if (made && simulation_begin(simulation, model, &own)) return simulation;
     fbd_simulation_free(simulation);
     diag_out_of_memory(errors);
     return NULL;
@@ -73,6 +79,14 @@ fbd_simulation *fbd_simulation_new(const fbd_model *model, const fbd_options *op
     return simulation;
 }
 
+/* An accuracy is reached by runs from the start of the file, and only they are judged by error bars. */
+static bool no_bars(fbd_errors *errors)
+{
+    bad_accuracy(errors, "a tolerance can be asked for",
+                 "a run from a state has no error bars and no accuracy that is made sure of");
+    return false;
+}
+
 fbd_simulation *fbd_simulation_again(const fbd_simulation *simulation, bool error_bars, fbd_errors *list)
 {
     struct diag_call call;
@@ -80,7 +94,8 @@ fbd_simulation *fbd_simulation_again(const fbd_simulation *simulation, bool erro
     fbd_simulation *again = NULL;
     if (simulation) {
         const struct ensemble *ensemble = simulation->ensemble;
-        again = begin(calloc(1, sizeof *again), ensemble->model, &ensemble->options, error_bars, errors);
+        if (!error_bars || !ensemble->options.start || no_bars(errors))
+            again = begin(calloc(1, sizeof *again), ensemble->model, &ensemble->options, error_bars, errors);
     } else {
         call_refuse(errors, "there is no simulation");
     }
@@ -93,7 +108,55 @@ void fbd_simulation_free(fbd_simulation *simulation)
     if (!simulation) return;
     simulation_end(simulation);
     free(simulation->bars);
+    state_free(simulation->start);
     free(simulation);
+}
+
+/* ---- from a state */
+
+static bool options_from(const fbd_state *state, const fbd_options *options, struct run_options *chosen,
+                         fbd_errors *errors)
+{
+    double accuracy;
+    bool plain = !options->error_bars && options->accuracy == 0;
+    if ((!plain && !no_bars(errors)) || !options_choose(state->model, options, chosen, errors) ||
+        !choose_accuracy(state->model, options, chosen, &accuracy, errors))
+        return false;
+    if (chosen->until >= state->t) return true;
+    diag_in_file(errors, NULL);
+    diag_add(errors, FBD_ERROR, "bad-option", (struct pos){0, 0}, "give a later end",
+             "the end time lies before the state");
+    return false;
+}
+
+static fbd_simulation *simulation_from(const fbd_state *state, const fbd_options *options, fbd_errors *errors)
+{
+    struct run_options chosen;
+    if (!options_from(state, options, &chosen, errors)) return NULL;
+    struct fbd_state *start = state_new(state->model);
+    fbd_simulation *simulation = NULL;
+    if (start) {
+        state_copy(start, state);
+        state_still(start, chosen.until - state->t);
+        chosen.start = start;
+        simulation = begin(calloc(1, sizeof *simulation), state->model, &chosen, false, errors);
+    } else {
+        diag_out_of_memory(errors);
+    }
+    state_free(start);
+    return simulation;
+}
+
+fbd_simulation *fbd_simulation_from(const fbd_state *state, const fbd_options *options, fbd_errors *list)
+{
+    static const fbd_options defaults = FBD_OPTIONS_DEFAULT;
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    if (!options) options = &defaults;
+    fbd_simulation *simulation =
+        state ? simulation_from(state, options, errors) : call_refuse(errors, "there is no state");
+    diag_end(&call);
+    return simulation;
 }
 
 /* ---- step by step */

@@ -26,6 +26,13 @@ void fbd_state_free(fbd_state *state)
     state_free(state);
 }
 
+bool fbd_state_copy(fbd_state *to, const fbd_state *from)
+{
+    if (!to || !from || to->model != from->model) return false;
+    if (to != from) state_copy(to, from);
+    return true;
+}
+
 /* Where a named quantity is kept, or NULL. */
 static double *find(const fbd_state *state, const char *name)
 {

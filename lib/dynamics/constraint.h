@@ -54,6 +54,10 @@ enum { no_feature = -1 };
 /* Set what the ties keep, from where the links are. */
 void constraints_start(const struct fbd_model *model, const struct instant *at);
 
+/* What the ties keep of their start is that of `from`, a state of the same scene or of one that has these ties and
+ * others. */
+void ties_keep(struct fbd_state *state, const struct fbd_state *from);
+
 /* Note how far the pieces of ropes have turned, where the links are: a rope may wind itself round a pulley
  * any number of times, and an angle by itself does not tell how often. From there on they may turn by less
  * than half a turn before it is noted again. */

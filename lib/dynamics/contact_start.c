@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Contacts at the start: on which side of a line a body is, what touches and rests already, and what is in
- * each other.
+ * Contacts at the start, of the scene or of a motion that goes on: on which side of a line a body is, what touches and
+ * rests already, and what is in each other.
  */
 #include <float.h>
 
@@ -22,7 +22,7 @@ static void choose_side(const struct fbd_model *model, struct tree_work *work, c
 {
     const double share = 1e-6;
     const struct contact_shape *body = &meeting->shape[0], *line = &meeting->shape[1];
-    if (line->kind != contact_line) return;
+    if (line->kind != contact_line || work->kept) return;
     const struct tree_link *link = &model->tree->links[body->link];
     struct vec n = vec_perp(line->e), G = vec_scale(1 / link->mass, link->moment);
     struct vec middle = vec_sub(in_world(work, body->link, body->center), line->center);

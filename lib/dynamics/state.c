@@ -8,6 +8,8 @@
 #include "dynamics/rest_system.h"
 #include "dynamics/tree_system.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,7 +23,7 @@ static size_t scratch_size(const struct plan *plan)
     return 2 * (size_t)plan->slots + 3 * (size_t)plan->n;
 }
 
-struct fbd_state *state_new(const struct fbd_model *model)
+static struct fbd_state *allocate(const struct fbd_model *model)
 {
     const struct plan *plan = &model->plan;
     size_t n = (size_t)plan->n, extended = extended_size(model);
@@ -57,14 +59,37 @@ struct fbd_state *state_new(const struct fbd_model *model)
     state->slip_forced = state->slip_before + plan->friction_count;
     state->slip_driven = state->slip_forced + plan->friction_count;
     state->slip_barely = state->slip_driven + plan->friction_count;
+    for (size_t i = 0; i < plan->friction_count; i++) state->pull[i] = 1;
+    return state;
+}
+
+struct fbd_state *state_new(const struct fbd_model *model)
+{
+    size_t n = (size_t)model->plan.n;
+    struct fbd_state *state = allocate(model);
+    if (!state) return NULL;
     for (size_t i = 0; i < n; i++) {
         state->y[i] = model->scene->coordinates[i].initial;
         state->y[n + i] = model->scene->coordinates[i].initial_rate;
     }
-    for (size_t i = 0; i < plan->friction_count; i++) state->pull[i] = 1;
     modes_drive(state);
     state_start_constraints(state);
     if (model->assembles) state_project(state, true);
+    contacts_start(state);
+    return state;
+}
+
+struct fbd_state *state_new_from(const struct fbd_model *model, const struct state_start *start)
+{
+    struct fbd_state *state = allocate(model);
+    if (!state) return NULL;
+    state->t = start->t;
+    memcpy(state->y, start->y, 2 * (size_t)model->plan.n * sizeof *state->y);
+    if (start->branch)
+        memcpy(state->branch, start->branch, (size_t)model->plan.branches * sizeof *state->branch);
+    modes_drive(state);
+    state_start_constraints(state);
+    if (state->tree) ties_keep(state, start->ties);
     contacts_start(state);
     return state;
 }
@@ -89,6 +114,19 @@ void state_copy(struct fbd_state *to, const struct fbd_state *from)
     if (to->tree) memcpy(to->tree->ties, from->tree->ties, tie_bytes(from->model));
     memcpy(to->pull, from->pull, plan->friction_count * sizeof *to->pull);
     memcpy(to->slip_driven, from->slip_driven, plan->friction_count * sizeof *to->slip_driven);
+}
+
+void state_still(struct fbd_state *state, double duration)
+{
+    size_t n = (size_t)state->model->plan.n;
+    const struct coordinate *coordinates = state->model->scene->coordinates;
+    double size[2] = {0, 1}; /* of lengths, and of angles */
+    for (size_t i = 0; i < n; i++) {
+        double *most = &size[coordinates[i].angle];
+        *most = fmax(*most, fabs(state->y[i]));
+    }
+    for (size_t i = 0; i < n; i++)
+        if (fabs(state->y[n + i]) * duration < DBL_EPSILON * size[coordinates[i].angle]) state->y[n + i] = 0;
 }
 
 /* What constraints leave open. */

@@ -39,10 +39,26 @@ struct fbd_state {
 
 /* A state at the scene's initial values, t = 0, modes not yet settled. NULL when memory is out. */
 struct fbd_state *state_new(const struct fbd_model *model);
+
+/* What a motion goes on from: a time, 2 n coordinates and rates, the branches of what remembers them, and what
+ * the ties keep of their start, for example the length of a rope. */
+struct state_start {
+    double t;
+    const double *y;
+    const int *branch;
+    const struct fbd_state *ties; /* a state of this scene, or of one that has its couplings and others */
+};
+
+/* The same from there: what sticks, is taut or touches follows from it as it does at the start. */
+struct fbd_state *state_new_from(const struct fbd_model *model, const struct state_start *start);
 void state_free(struct fbd_state *state);
 
 /* Make `to` equal to `from`; both belong to the same model. */
 void state_copy(struct fbd_state *to, const struct fbd_state *from);
+
+/* Rates that move nothing are zero: in all of `duration` less than a rounding of the coordinates of their kind. What
+ * has come to rest does not begin to move by them. */
+void state_still(struct fbd_state *state, double duration);
 
 /* The switches that it slides on, if there are any. */
 static inline struct sliding *state_sliding(const struct fbd_state *state)

@@ -87,6 +87,7 @@ struct tree_work {
     bool projecting;     /* the system is set up for a projection: no friction */
     bool shared;         /* what constraints leave open is shared in them, see rest_system.h */
     double shared_size;  /* then: the largest force that was there before, which has given its rounding */
+    bool kept;           /* ties_keep: on which side of a line a body is stays as it has been */
     bool complete;       /* A and F of the links are final, see tree_complete */
     double fastest;      /* the speed of the fastest link; negative: to be found, see constraint.c; */
     double spin;         /* then with the largest angular speed */

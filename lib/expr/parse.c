@@ -81,13 +81,12 @@ static struct operand parse_number(struct parser *p)
     return result;
 }
 
-static struct operand not_constant(struct parser *p, struct token name)
+static struct operand not_constant(struct parser *p, struct token name, const char *because)
 {
     const char *text = p->lexer.text + name.start;
-    bool is_time = lex_is(&p->lexer, &name, "t");
     diag_add(p->errors, FBD_ERROR, "not-constant", name.at, "use numbers and parameters only",
              "`%s` must be constant, but `%.*s` %s", p->want->what ? p->want->what : "this", (int)name.length,
-             text, is_time ? "is the time" : "changes with the motion");
+             text, because ? because : "changes with the motion");
     return parse_failed(p, name.at);
 }
 
@@ -100,7 +99,7 @@ static struct operand parse_symbol(struct parser *p, struct token name)
     switch (symbol.kind) {
     case symbol_constant: kind.free = symbol.free; return build_constant(symbol.value, kind, name.at);
     case symbol_variable:
-        if (p->want->constant) return not_constant(p, name);
+        if (p->want->constant) return not_constant(p, name, symbol.because);
         return build_variable(symbol.slot, kind, name.at);
     case symbol_unknown: explain_unknown_name(p, name); return parse_failed(p, name.at);
     default: return parse_failed(p, name.at);

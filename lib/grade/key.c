@@ -41,7 +41,7 @@ size_t drawn_overrides(struct arena *arena, const struct fbd_key *key, const cha
         const struct drawn_parameter *drawn = &grading->draws[i];
         if (!parameters || !node_find(parameters->value, drawn->name)) continue;
         const char *value = draw_for_student(arena, grading, drawn, student);
-        (*overrides)[count++] = (struct override){drawn->name, value};
+        (*overrides)[count++] = (struct override){.name = drawn->name, .value = value};
     }
     return count;
 }

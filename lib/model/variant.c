@@ -13,8 +13,8 @@ static struct override *parameters_as_they_are(struct arena *arena, const struct
         struct text text = {0};
         text_number(&text, scene->parameters[i].value, 17);
         if (!text.failed)
-            overrides[i] =
-                (struct override){scene->parameters[i].name, arena_text(arena, text.data, text.length)};
+            overrides[i] = (struct override){.name = scene->parameters[i].name,
+                                             .value = arena_text(arena, text.data, text.length)};
         text_free(&text);
         if (!overrides[i].value) return NULL;
     }

@@ -25,8 +25,8 @@ bool random_model(const struct document *document, const fbd_model *model, gsl_r
         text.length = 0;
         text_number(&text, scene->parameters[i].value * between(rng, 1 - spread, 1 + spread), 17);
         if (text.failed) break;
-        overrides[i] =
-            (struct override){scene->parameters[i].name, arena_text(&arena, text.data, text.length)};
+        overrides[i] = (struct override){.name = scene->parameters[i].name,
+                                         .value = arena_text(&arena, text.data, text.length)};
     }
     bool done = errors && !arena.failed && !text.failed;
     if (done) {

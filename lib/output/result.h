@@ -21,6 +21,7 @@ struct fbd_simulation {
     double seconds_spent;             /* in all of them, companions and ledgers included */
     double *event_errors;             /* of the times of run->events; NULL until asked for */
     size_t main_events, other_events; /* ... when both runs had that many */
+    struct fbd_state *start;          /* that it begins with; NULL for the file's */
     char **details;                   /* texts of events, made when they are asked for */
     size_t detail_count;
 };

@@ -20,6 +20,8 @@ static const struct field scene_fields[] = {
                  "height y at which the potential energy of gravity is zero"),
     FIELD_ENTRIES(offsetof(struct scene_keys, parameters), "parameters", field_map, 0, each_number, NULL,
                   "named constants: name: quantity or expression of other parameters"),
+    FIELD_ENTRIES(offsetof(struct scene_keys, inputs), "inputs", field_map, 0, each_group, &input_group,
+                  "what comes from outside while the motion goes on, with its value at the start"),
     FIELD_ENTRIES(offsetof(struct scene_keys, tables), "tables", field_map, 0, each_group, &table_group,
                   "functions given by points or files of data, called as `name(t)` in expressions"),
     FIELD_NODE(offsetof(struct scene_keys, ground), "ground", field_map, 0, &ground_group,
@@ -47,6 +49,15 @@ static const struct field output_fields[] = {
                   "points of bodies, as `rod.right`: columns of their places, velocities and accelerations "
                   "in the world"),
 };
+
+static const struct field input_fields[] = {
+    FIELD_NODE(offsetof(struct input_keys, value), "value", field_scalar, required, NULL,
+               "its value at the start, with its unit: it keeps that until it is given another"),
+    FIELD_TEXT(offsetof(struct input_keys, description), "description", "one line that says what it is"),
+};
+
+const struct group input_group = {"an input", "value", FIELDS(input_fields),
+                                  NULL,       0,       "a quantity that comes from outside"};
 
 const struct group output_group = {"`output`", NULL, FIELDS(output_fields), NULL, 0, "what a run writes"};
 

@@ -105,8 +105,8 @@ struct scene_keys {
     const char *title, *description;
     int units;
     double datum;
-    const struct node *gravity, *parameters, *tables, *ground, *bodies, *couplings, *contacts, *simulate,
-        *output, *grading;
+    const struct node *gravity, *parameters, *inputs, *tables, *ground, *bodies, *couplings, *contacts,
+        *simulate, *output, *grading;
 };
 
 struct grading_keys {
@@ -119,6 +119,11 @@ struct table_keys {
     const char *file, *x, *y;
     const struct node *points;
     int interpolation, beyond; /* enum table_interpolation, enum table_beyond */
+};
+
+struct input_keys {
+    const struct node *value;
+    const char *description;
 };
 
 struct output_keys {
@@ -231,7 +236,7 @@ struct hand_keys {
 extern const struct choice method_choices[];
 
 extern const struct group scene_group, ground_group, line_group, simulate_group, output_group, event_group;
-extern const struct group contact_group, table_group, grading_group;
+extern const struct group contact_group, input_group, table_group, grading_group;
 extern const struct group *const grading_points_group;
 extern const struct group body_group, part_group, inertia_group, hand_group, place_group;
 extern const struct group initial_groups[], exact_groups[]; /* by enum motion_kind */

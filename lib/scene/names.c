@@ -324,17 +324,42 @@ static struct symbol other_symbol(const struct names *names, const char *name)
     return unknown;
 }
 
+static struct symbol time_symbol(const struct names *names)
+{
+    const struct override *input = names->reader->time;
+    struct symbol time = variable(DIM_TIME, 0);
+    time.because = "is the time";
+    if (input && names->place != place_constant)
+        time = (struct symbol){.kind = symbol_constant, .dim = DIM_TIME, .value = input->now};
+    return time;
+}
+
+/* A parameter; or an input, which is none: it may change while the motion goes on. */
+static struct symbol constant_symbol(struct names *names, size_t index, struct pos at)
+{
+    struct reader *reader = names->reader;
+    struct symbol symbol = parameter_symbol(reader, index, at);
+    bool input = reader->scene->parameters[index].input;
+    if (input) reader->names_inputs = true;
+    bool is_time = reader->time && strcmp(reader->time->name, reader->scene->parameters[index].name) == 0;
+    bool varies = input && (names->place == place_constant || is_time);
+    if (!varies || symbol.kind != symbol_constant) return symbol;
+    symbol = variable(symbol.dim, 0);
+    symbol.because = "is an input, which may change during a run";
+    return symbol;
+}
+
 static struct symbol look_up(void *context, const char *name, struct pos at)
 {
     struct names *names = context;
     struct reader *reader = names->reader;
     const char *dot = strchr(name, '.');
     if (dot) return dotted_symbol(names, name, dot);
-    if (strcmp(name, "t") == 0) return variable(DIM_TIME, 0);
+    if (strcmp(name, "t") == 0) return time_symbol(names);
     struct symbol own = own_symbol(names, name);
+    size_t parameter;
     if (own.kind != symbol_unknown) return own;
-    const struct pair *pair = node_find(reader->parameters, name);
-    if (pair) return parameter_symbol(reader, (size_t)(pair - reader->parameters->pairs), at);
+    if (parameters_find(reader, name, &parameter)) return constant_symbol(names, parameter, at);
     if (strcmp(name, "g") == 0) return gravity_symbol(reader, at);
     if (strcmp(name, "slip") == 0) return names->slip ? slip_symbol(names) : misplaced_slip(names, at);
     if (names->place == place_load && strcmp(name, "distance") == 0) return distance_symbol(names, at);
@@ -378,8 +403,8 @@ static void know_all(struct names *names)
     struct reader *reader = names->reader;
     bool constant = names->place == place_constant, moves = !constant && names->place != place_exact;
     if (moves && names->body != ground_body) know_coordinates(names, names->body, false);
-    for (size_t i = 0; reader->parameters && i < reader->parameters->count; i++)
-        know(names, reader->parameters->pairs[i].key);
+    for (size_t i = 0; i < reader->scene->parameter_count; i++)
+        if (!constant || !reader->scene->parameters[i].input) know(names, reader->scene->parameters[i].name);
     know(names, "g");
     if (!constant) know(names, "t");
     if (names->place == place_load || names->place == place_exact) know(names, "m");

@@ -31,7 +31,7 @@ bool name_is_reserved(const char *name);
 bool name_check(fbd_errors *errors, const char *name, struct pos at, const char *what);
 
 enum place {
-    place_constant, /* parameters and g; t and coordinates are known, to be refused as varying */
+    place_constant, /* parameters and g; t, coordinates and inputs are known, to be refused as varying */
     place_load,     /* also t, coordinates, m */
     place_event,    /* t, coordinates; those of the only body without its name */
     place_contact,  /* also the speed of approach, in the slot of the first acceleration */

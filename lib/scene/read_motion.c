@@ -102,6 +102,7 @@ bool body_prescribed_read(struct reader *reader, int index)
     struct names names = {.reader = reader, .place = place_load, .body = index};
     struct scope scope = names_scope(&names);
     const int *slots;
+    reader->names_inputs = false;
     if (!value_formula(reader, node, name, turns ? an_angle : a_length, 0, &scope, &body->motion.prescribed))
         return false;
     const struct expr *expr = body->motion.prescribed.expr;
@@ -109,6 +110,11 @@ bool body_prescribed_read(struct reader *reader, int index)
     if (!expr_is_constant(expr) && expr_variables(expr, &slots) > 0) {
         diag_add(reader->errors, FBD_ERROR, "not-here", node->at, "write it as an expression of t",
                  "a prescribed `%s` cannot depend on a motion", name);
+        fine = false;
+    }
+    if (reader->names_inputs) {
+        diag_add(reader->errors, FBD_ERROR, "not-here", node->at, "let a force or a spring follow the input",
+                 "a prescribed `%s` cannot name an input: the place would jump with it", name);
         fine = false;
     }
     const struct pair *initial = node_find(draft->node, "initial");

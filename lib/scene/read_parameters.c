@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Parameters, and gravity: constants that are evaluated when they are first named, so that they may stand in
+ * Parameters, inputs and gravity: constants that are evaluated when they are first named, so that they may stand in
  * any order. What is being evaluated is chained on the stack; naming it again closes a circle.
  */
 #include "scene/reader.h"
@@ -30,6 +30,34 @@ static const char *enter_override(struct reader *reader, const struct override *
     return file;
 }
 
+static size_t count_of(const struct node *map)
+{
+    return map ? map->count : 0;
+}
+
+static const struct pair *pair_of(const struct reader *reader, size_t index)
+{
+    size_t parameters = count_of(reader->parameters);
+    return index < parameters ? &reader->parameters->pairs[index]
+                              : &reader->inputs->pairs[index - parameters];
+}
+
+/* The place of `name` in a mapping, which may be NULL; false when it is not there. */
+static bool find_in(const struct node *map, const char *name, size_t *index)
+{
+    const struct pair *pair = map ? node_find(map, name) : NULL;
+    if (pair) *index = (size_t)(pair - map->pairs);
+    return pair != NULL;
+}
+
+bool parameters_find(const struct reader *reader, const char *name, size_t *index)
+{
+    if (find_in(reader->parameters, name, index)) return true;
+    bool found = find_in(reader->inputs, name, index);
+    if (found) *index += count_of(reader->parameters);
+    return found;
+}
+
 static void note_unknown_override(struct reader *reader, const struct override *override)
 {
     size_t parameters = reader->scene->parameter_count, count = parameters + reader->scene->table_count;
@@ -42,7 +70,7 @@ static void note_unknown_override(struct reader *reader, const struct override *
     const char *file = enter_override(reader, override);
     diag_add(reader->errors, FBD_ERROR, "unknown-parameter", (struct pos){0, 0},
              count ? diag_nearest(reader->errors, override->name, names, count)
-                   : "the file has no `parameters`",
+                   : "the file has no `parameters` and no `inputs`",
              "the model has no parameter `%.40s` to set", override->name);
     reader->errors->file = file;
 }
@@ -56,10 +84,11 @@ static struct table_draft *find_table(struct reader *reader, const char *name)
 static bool apply_overrides(struct reader *reader, const struct override *overrides, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        const struct node *map = reader->parameters;
-        const struct pair *pair = map ? node_find(map, overrides[i].name) : NULL;
-        struct definition *definition = pair ? &reader->definitions[pair - map->pairs] : NULL;
+        size_t index;
+        struct definition *definition =
+            parameters_find(reader, overrides[i].name, &index) ? &reader->definitions[index] : NULL;
         struct table_draft *table = find_table(reader, overrides[i].name);
+        if (overrides[i].as_time) reader->time = &overrides[i];
         if (table) {
             table->override = overrides[i].value ? &overrides[i] : NULL;
             table->varies = !overrides[i].value;
@@ -73,34 +102,48 @@ static bool apply_overrides(struct reader *reader, const struct override *overri
     return !reader->arena->failed;
 }
 
-static bool check_parameter_name(struct reader *reader, const struct pair *pair)
+static bool check_parameter_name(struct reader *reader, const struct pair *pair, bool input)
 {
-    if (!name_check(reader->errors, pair->key, pair->at, "a parameter")) return false;
+    const char *what = input ? "an input" : "a parameter";
+    if (!name_check(reader->errors, pair->key, pair->at, what)) return false;
+    if (input && reader->parameters && node_find(reader->parameters, pair->key)) {
+        diag_add(reader->errors, FBD_ERROR, "duplicate-name", pair->at, "choose another name",
+                 "a parameter is called `%s`, too", pair->key);
+        return false;
+    }
     if (!name_is_reserved(pair->key)) return true;
     diag_add(reader->errors, FBD_ERROR, "reserved-name", pair->at,
              diag_hint(reader->errors, "choose another name, such as `%s0`", pair->key),
-             "`%s` cannot be a parameter: it is %s", pair->key,
+             "`%s` cannot be %s: it is %s", pair->key, what,
              !strcmp(pair->key, "t")    ? "the time"
              : !strcmp(pair->key, "pi") ? "the number 3.14..."
                                         : "a coordinate");
     return false;
 }
 
+/* One entry of `parameters` or `inputs`: its name is known, its value is not asked for yet. */
+static void define(struct reader *reader, size_t index)
+{
+    const struct pair *pair = pair_of(reader, index);
+    struct parameter *parameter = &reader->scene->parameters[index];
+    struct definition *definition = &reader->definitions[index];
+    parameter->name = arena_text(reader->arena, pair->key, strlen(pair->key));
+    parameter->description = "";
+    parameter->at = pair->at;
+    parameter->input = index >= count_of(reader->parameters);
+    definition->node = parameter->input ? input_read(reader, pair, parameter) : pair->value;
+    if (!check_parameter_name(reader, pair, parameter->input) || !definition->node)
+        definition->progress = failed;
+}
+
 bool parameters_start(struct reader *reader, const struct override *overrides, size_t count)
 {
     struct scene *scene = reader->scene;
-    const struct node *map = reader->parameters;
-    scene->parameter_count = map ? map->count : 0;
+    scene->parameter_count = count_of(reader->parameters) + count_of(reader->inputs);
     scene->parameters = ARENA_ARRAY(reader->arena, scene->parameter_count, struct parameter);
     reader->definitions = ARENA_ARRAY(reader->arena, scene->parameter_count, struct definition);
     if (!scene->parameters || !reader->definitions) return false;
-    for (size_t i = 0; i < scene->parameter_count; i++) {
-        const struct pair *pair = &map->pairs[i];
-        scene->parameters[i].name = arena_text(reader->arena, pair->key, strlen(pair->key));
-        scene->parameters[i].at = pair->at;
-        reader->definitions[i].node = pair->value;
-        if (!check_parameter_name(reader, pair)) reader->definitions[i].progress = failed;
-    }
+    for (size_t i = 0; i < scene->parameter_count; i++) define(reader, i);
     return apply_overrides(reader, overrides, count);
 }
 
@@ -211,7 +254,11 @@ static bool evaluate(struct reader *reader, size_t index)
 {
     struct parameter *parameter = &reader->scene->parameters[index];
     const struct definition *definition = &reader->definitions[index];
+    bool outer = reader->names_parameters;
+    reader->names_parameters = false;
     const struct expr *expr = compile_parameter(reader, definition->node, parameter->name);
+    parameter->derived = reader->names_parameters;
+    reader->names_parameters = outer;
     if (!expr) return false;
     parameter->value = expr_value(expr);
     parameter->dim = expr_dim(expr);
@@ -253,8 +300,13 @@ struct symbol parameter_symbol(struct reader *reader, size_t index, struct pos a
 
 void parameters_finish(struct reader *reader)
 {
-    for (size_t i = 0; i < reader->scene->parameter_count; i++)
-        resolve(reader, i, reader->scene->parameters[i].at);
+    for (size_t i = 0; i < reader->scene->parameter_count; i++) {
+        struct parameter *parameter = &reader->scene->parameters[i];
+        char unit[64];
+        resolve(reader, i, parameter->at);
+        unit_name(parameter->dim, reader->scene->units, unit, sizeof unit);
+        parameter->unit = arena_text(reader->arena, unit, strlen(unit));
+    }
 }
 
 void parameters_note_unused(struct reader *reader)
@@ -263,7 +315,8 @@ void parameters_note_unused(struct reader *reader)
         const struct parameter *parameter = &reader->scene->parameters[i];
         if (!parameter->used)
             diag_add(reader->errors, FBD_WARNING, "unused-parameter", parameter->at,
-                     "delete it, or use it in the model", "nothing uses the parameter `%s`", parameter->name);
+                     "delete it, or use it in the model", "nothing uses the %s `%s`",
+                     parameter->input ? "input" : "parameter", parameter->name);
     }
 }
 

@@ -29,9 +29,11 @@ static bool check_table_name(struct reader *reader, const struct pair *pair)
                  "`%s` cannot be a table: it is the time, a number or a coordinate", pair->key);
         return false;
     }
-    if (!reader->parameters || !node_find(reader->parameters, pair->key)) return true;
+    const struct node *inputs = reader->inputs, *parameters = reader->parameters;
+    bool input = inputs && node_find(inputs, pair->key);
+    if (!input && (!parameters || !node_find(parameters, pair->key))) return true;
     diag_add(reader->errors, FBD_ERROR, "duplicate-name", pair->at, "choose another name",
-             "a parameter is called `%s`, too", pair->key);
+             "%s is called `%s`, too", input ? "an input" : "a parameter", pair->key);
     return false;
 }
 
@@ -285,6 +287,7 @@ static bool read_table(struct reader *reader, size_t index, struct table *table)
     const char *path = draft->override ? resolve_path(reader, draft->override->value, true)
                        : keys.file     ? resolve_path(reader, keys.file, false)
                                        : NULL;
+    reader->scene->tables[index].path = path;
     bool fine = path ? read_file(reader, index, pair->value, &keys, path, &columns, &points)
                      : read_points(reader, pair->value, &keys, &points);
     fine = fine && check_order(reader, path, &points) && make_table(reader, pair, &keys, &points, table);

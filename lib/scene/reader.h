@@ -68,8 +68,9 @@ struct reader {
     struct arena *arena; /* of the scene */
     fbd_errors *errors;
 
-    /* Mappings of the file, or NULL. Entry i of a mapping is parameter, body, point or line i. */
-    const struct node *root, *parameters, *tables, *bodies, *points, *lines, *polygons;
+    /* Mappings of the file, or NULL. Entry i of a mapping is parameter, body, point or line i; inputs
+     * are numbered behind the parameters. */
+    const struct node *root, *parameters, *inputs, *tables, *bodies, *points, *lines, *polygons;
     bool without_hands, split_hands; /* see struct document */
     struct definition *definitions;
     struct table_draft *table_drafts;
@@ -90,7 +91,9 @@ struct reader {
     const struct programs *known; /* of an earlier reading of the same file, or NULL */
     struct programs *keep;        /* where those go that hold for later readings, or NULL */
     bool varies;                  /* the expression that is being compiled holds for this reading only */
-    bool names_parameters;        /* the table that is being read names some, or gravity */
+    bool names_parameters;        /* the table or definition that is being read names some, or gravity */
+    bool names_inputs;            /* what has been compiled names some */
+    const struct override *time;  /* of the input that stands in its place, or NULL */
 
     struct names constant_names;
     struct scope constants; /* parameters, g, pi */
@@ -106,7 +109,10 @@ void parameters_finish(struct reader *reader);
 /* To be called when the whole file was read and is right. */
 void parameters_note_unused(struct reader *reader);
 
-/* What parameter `index`, named at `at`, means. */
+/* Which parameter or input `name` is; false when it is none. */
+bool parameters_find(const struct reader *reader, const char *name, size_t *index);
+
+/* What parameter or input `index`, named at `at`, means. */
 struct symbol parameter_symbol(struct reader *reader, size_t index, struct pos at);
 
 /* The magnitude of gravity, named at `at`. */
@@ -116,6 +122,11 @@ struct symbol gravity_symbol(struct reader *reader, struct pos at);
 bool definition_open(struct reader *reader, struct open_definition *open, const char *name, struct pos at);
 void definition_close(struct reader *reader, const struct open_definition *open);
 void definition_note_circle(struct reader *reader, const char *name, struct pos at);
+
+/* ---- inputs (read_inputs.c): parameters that may change while a motion goes on */
+
+/* What `inputs` says of one; NULL with a note when nothing that can be read says its value. */
+const struct node *input_read(struct reader *reader, const struct pair *pair, struct parameter *input);
 
 /* ---- tables (read_tables.c), as parameters */
 

@@ -135,6 +135,7 @@ static void read_scene(struct reader *reader, const struct override *overrides, 
     struct scene_keys keys = {0};
     reader->scene->units = find_units(reader->root);
     reader->parameters = mapping(reader->root, "parameters");
+    reader->inputs = mapping(reader->root, "inputs");
     reader->tables = mapping(reader->root, "tables");
     reader->bodies = mapping(reader->root, "bodies");
     reader->constant_names = (struct names){.reader = reader, .place = place_constant, .body = ground_body};

@@ -346,12 +346,15 @@ struct coordinate {
 /* ---- the rest */
 
 struct parameter {
-    const char *name;
+    const char *name, *description; /* description "" when not given */
+    const char *unit;               /* coherent; "" for a pure number, or when nothing says which */
     struct pos at;
     double value;
     struct dim dim;
     bool bare; /* given without a unit */
     bool used;
+    bool derived; /* the file defines it by other parameters, or gravity */
+    bool input;   /* of `inputs`: no constant, though it is one for a whole run of a program */
 };
 
 struct user_event {
@@ -409,7 +412,7 @@ struct scene {
     struct vec gravity; /* acceleration, straight down by default */
     double datum;       /* height y at which the potential energy of gravity is zero */
     size_t parameter_count, table_count, body_count, event_count, coupling_count, constraint_count;
-    struct parameter *parameters;
+    struct parameter *parameters; /* of `parameters`, then of `inputs` */
     struct scene_table *tables;
     struct body *bodies;
     struct user_event *events;
@@ -428,6 +431,10 @@ struct scene {
 struct override {
     const char *name;
     const char *value; /* NULL: that of the file, but other readings of the document may have another */
+    bool
+        as_time; /* an input stands in the place of the time, and the time is the constant `now`: derivatives by
+                          time are by it */
+    double now;
 };
 
 /* A model file as a tree of its YAML: constant once it is open, shareable by threads. Scenes under other

@@ -22,6 +22,7 @@ struct scene_table {
     const char *name;
     struct pos at;
     const char *file;            /* the file that was set from outside (`--set name=file`), or NULL */
+    const char *path;            /* of the file that was read for this scene, or NULL */
     struct shared_table *shared; /* NULL where it is wrong */
     bool names_parameters;       /* its points are those of one reading */
 };

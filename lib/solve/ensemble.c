@@ -11,16 +11,44 @@
 
 /* ---- making and freeing */
 
+/* The part of the start that is a group's, in two arrays. */
+static void part_of_start(const struct ensemble *ensemble, const struct group *group, double *y, int *branch)
+{
+    const struct fbd_state *whole = ensemble->options.start;
+    const struct plan *plan = &group->model->plan;
+    for (size_t i = 0; i < 2 * (size_t)plan->n; i++)
+        y[i] = whole->y[group_component(ensemble->model, group, i)];
+    for (int i = 0; i < plan->branches; i++) branch[i] = whole->branch[group->branch ? group->branch[i] : i];
+}
+
+/* A run that goes on from the start of the ensemble. */
+static struct run *run_from_start(const struct ensemble *ensemble, const struct group *group)
+{
+    const struct plan *plan = &group->model->plan;
+    double *y = calloc(2 * (size_t)plan->n + 1, sizeof *y);
+    int *branch = calloc((size_t)plan->branches + 1, sizeof *branch);
+    struct run *run = NULL;
+    if (y && branch) {
+        const struct fbd_state *whole = ensemble->options.start;
+        const struct state_start part = {whole->t, y, branch, whole};
+        part_of_start(ensemble, group, y, branch);
+        run = run_new(group->model, &ensemble->options, &part);
+    }
+    free(y);
+    free(branch);
+    return run;
+}
+
 bool ensemble_make_run(struct ensemble *ensemble, struct group *group)
 {
-    group->run = run_new(group->model, &ensemble->options);
+    group->run = ensemble->options.start ? run_from_start(ensemble, group)
+                                         : run_new(group->model, &ensemble->options, NULL);
     return group->run && group->run->outcome != FBD_OUT_OF_MEMORY;
 }
 
 static bool make_group(struct ensemble *ensemble, struct group *group)
 {
-    if (group->selection) group->model = group->owned = model_group(ensemble->model, group->selection);
-    if (!group->model || !ensemble_make_run(ensemble, group)) return false;
+    if (!ensemble_make_run(ensemble, group)) return false;
     group->probe = state_new(group->model);
     const struct run *run = group->run;
     group->quiet = run->watchers.timed.count + run->watchers.moving.count == 0;
@@ -102,10 +130,15 @@ static bool make_groups(struct ensemble *ensemble)
     for (size_t p = 0; p < ensemble->count; p++) {
         struct group *group = &ensemble->groups[p];
         group->model = ensemble->model;
-        if (divided) group->selection = &ensemble->division.selections[p];
-        if (!make_group(ensemble, group)) return false;
+        if (!divided) continue;
+        group->selection = &ensemble->division.selections[p];
+        group->model = group->owned = model_group(ensemble->model, group->selection);
+        if (!group->model) return false;
     }
-    return !divided || make_maps(ensemble);
+    if (divided && !make_maps(ensemble)) return false;
+    for (size_t p = 0; p < ensemble->count; p++)
+        if (!make_group(ensemble, &ensemble->groups[p])) return false;
+    return true;
 }
 
 struct ensemble *ensemble_new(const struct fbd_model *model, const struct run_options *options)
@@ -115,6 +148,7 @@ struct ensemble *ensemble_new(const struct fbd_model *model, const struct run_op
     ensemble->model = model;
     ensemble->options = *options;
     ensemble->reason = "";
+    ensemble->from = ensemble->t = options->start ? options->start->t : 0;
     ensemble->next_told = HUGE_VAL;
     ensemble->state = state_new(model);
     ensemble->arrows = calloc(diagram_most_arrows(model), sizeof *ensemble->arrows);

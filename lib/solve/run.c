@@ -60,11 +60,11 @@ static bool make_decided(struct decided *decided, const struct plan *plan)
     return true;
 }
 
-static bool make_run(struct run *run)
+static bool make_run(struct run *run, const struct state_start *begin)
 {
     const struct plan *plan = &run->model->plan;
     size_t n = (size_t)plan->n;
-    run->state = state_new(run->model);
+    run->state = begin ? state_new_from(run->model, begin) : state_new(run->model);
     run->during = state_new(run->model);
     size_t links = run->model->tree ? (size_t)run->model->tree->count : 0;
     run->y = calloc(12 * n + 2 * links + 2 * run->model->body_count + 1, sizeof *run->y);
@@ -119,6 +119,7 @@ static void start(struct run *run)
     struct lack lack;
     run->restart = true;
     run->from = run->state->t;
+    run->event = run_end(run);
     if (!run_start_contacts(run, &lack)) {
         refuse(run, &lack);
         return;
@@ -133,14 +134,15 @@ static void start(struct run *run)
     if (!(run->options.until > run->state->t)) run->outcome = FBD_DONE;
 }
 
-struct run *run_new(const struct fbd_model *model, const struct run_options *options)
+struct run *run_new(const struct fbd_model *model, const struct run_options *options,
+                    const struct state_start *begin)
 {
     struct run *run = calloc(1, sizeof *run);
     if (!run) return NULL;
     run->model = model;
     run->options = *options;
     run->last_event = -HUGE_VAL;
-    if (!make_run(run)) {
+    if (!make_run(run, begin)) {
         run_free(run);
         return NULL;
     }

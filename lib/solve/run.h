@@ -39,6 +39,7 @@ struct run_options {
     bool automatic; /* switch to the stiff method and back as the motion demands */
     bool structure; /* use what the plan shows: see structure.h; with `automatic` it may choose the method */
     bool apart;     /* a companion's: other steps than a run without this makes, where events set them */
+    const struct fbd_state *start; /* where it begins, a state of the whole; NULL for the start of the file */
 };
 
 /* What an impact was: impulses along normal and tangent, the work that they did, and the velocities of the
@@ -133,7 +134,8 @@ struct run {
 };
 
 /* A run at the start of the model, modes settled, events of t = 0 applied. NULL when memory is out. */
-struct run *run_new(const struct fbd_model *model, const struct run_options *options);
+struct run *run_new(const struct fbd_model *model, const struct run_options *options,
+                    const struct state_start *start);
 void run_free(struct run *run);
 
 /* One turn of the loop. */

@@ -184,8 +184,8 @@ static bool copy_settings(struct fbd_sweep *sweep, const fbd_sweep_plan *plan)
     sweep->fixed = ARENA_ARRAY(&sweep->arena, plan->setting_count, struct override);
     for (size_t i = 0; sweep->fixed && i < plan->setting_count; i++) {
         const char *name = plan->settings[i].name, *value = plan->settings[i].value;
-        sweep->fixed[i] = (struct override){arena_text(&sweep->arena, name, strlen(name)),
-                                            arena_text(&sweep->arena, value, strlen(value))};
+        sweep->fixed[i] = (struct override){.name = arena_text(&sweep->arena, name, strlen(name)),
+                                            .value = arena_text(&sweep->arena, value, strlen(value))};
     }
     sweep->fixed_count = plan->setting_count;
     sweep->options = plan->run;

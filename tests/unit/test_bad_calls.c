@@ -96,6 +96,9 @@ static void errors_and_models(void **state)
     ANSWERS(fbd_model_coordinate, !fbd_model_coordinate(model, past).rate_unit);
     REFUSES(fbd_model_has_columns, !fbd_model_has_columns(NULL, "block.x", errors));
     REFUSES(fbd_model_has_columns, !fbd_model_has_columns(model, NULL, errors));
+    ANSWERS(fbd_model_parameters, fbd_model_parameters(NULL) == 0);
+    ANSWERS(fbd_model_parameter, !fbd_model_parameter(NULL, 0).name);
+    ANSWERS(fbd_model_parameter, is_nan(fbd_model_parameter(model, past).value));
     ANSWERS(fbd_explain, !fbd_explain(NULL, NULL));
     char *plan = fbd_explain(model, NULL);
     assert_non_null(plan);
@@ -113,10 +116,19 @@ static void a_model_may_have_no_name(void **state)
 static void states(void **context)
 {
     (void)context;
-    fbd_state *state = fbd_state_new(model);
+    fbd_state *state = fbd_state_new(model), *foreign = fbd_state_new(other);
     double value;
     assert_non_null(state);
     ANSWERS(fbd_state_new, !fbd_state_new(NULL));
+    ANSWERS(fbd_state_copy, !fbd_state_copy(NULL, state));
+    ANSWERS(fbd_state_copy, !fbd_state_copy(state, NULL));
+    ANSWERS(fbd_state_copy, !fbd_state_copy(state, foreign));
+    ANSWERS(fbd_state_pack, fbd_state_pack(NULL, &value, 1) == 0);
+    ANSWERS(fbd_state_pack, fbd_state_pack(state, NULL, past) > 0);
+    ANSWERS(fbd_state_unpack, !fbd_state_unpack(NULL, &value, 1));
+    ANSWERS(fbd_state_unpack, !fbd_state_unpack(state, NULL, 1));
+    ANSWERS(fbd_state_unpack, !fbd_state_unpack(state, &value, 0));
+    fbd_state_free(foreign);
     ENDURES(fbd_state_free, fbd_state_free(NULL));
     ANSWERS(fbd_state_set, !fbd_state_set(NULL, "block.x", 1));
     ANSWERS(fbd_state_set, !fbd_state_set(state, NULL, 1));
@@ -168,6 +180,7 @@ static void simulations(void **context)
     assert_non_null(simulation);
     REFUSES(fbd_simulation_new, !fbd_simulation_new(NULL, NULL, errors));
     REFUSES(fbd_simulation_again, !fbd_simulation_again(NULL, true, errors));
+    REFUSES(fbd_simulation_from, !fbd_simulation_from(NULL, NULL, errors));
     ENDURES(fbd_simulation_free, fbd_simulation_free(NULL));
     ANSWERS(fbd_simulation_advance, fbd_simulation_advance(NULL) == FBD_FAILED);
     ENDURES(fbd_simulation_interval, fbd_simulation_interval(NULL, &from, &to));
@@ -191,6 +204,32 @@ static void simulations(void **context)
     fbd_state_free(state);
     fbd_state_free(foreign);
     fbd_simulation_free(simulation);
+}
+
+static void fmus(void **context)
+{
+    (void)context;
+    size_t length = 7;
+    const fbd_setting nameless = {NULL, "3"};
+    fbd_fmu_options options = {.library = "binary", .library_length = 6, .run = FBD_OPTIONS_DEFAULT},
+                    wrong = options;
+    REFUSES(fbd_fmu, !fbd_fmu(NULL, &options, &length, errors));
+    assert_int_equal(length, 0);
+    REFUSES(fbd_fmu, !fbd_fmu(model, NULL, &length, errors));
+    REFUSES(fbd_fmu, !fbd_fmu(model, &options, NULL, errors));
+    wrong.library = NULL;
+    REFUSES(fbd_fmu, !fbd_fmu(model, &wrong, &length, errors));
+    wrong = options;
+    wrong.setting_count = 1;
+    REFUSES(fbd_fmu, !fbd_fmu(model, &wrong, &length, errors));
+    wrong.settings = &nameless;
+    REFUSES(fbd_fmu, !fbd_fmu(model, &wrong, &length, errors));
+    wrong = options;
+    wrong.version = 1;
+    ANSWERS(fbd_fmu, !fbd_fmu(model, &wrong, &length, NULL));
+    char *bytes = fbd_fmu(model, &options, &length, NULL);
+    assert_true(bytes && length > 1000 && memcmp(bytes, "PK", 2) == 0);
+    free(bytes);
 }
 
 static void results(void **context)
@@ -329,6 +368,7 @@ int main(void)
         cmocka_unit_test(states),
         cmocka_unit_test(equations),
         cmocka_unit_test(simulations),
+        cmocka_unit_test(fmus),
         cmocka_unit_test(results),
         cmocka_unit_test(linearizations_and_derivations),
         cmocka_unit_test(statics),

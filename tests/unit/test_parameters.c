@@ -56,7 +56,7 @@ static void a_file_may_be_read_with_other_values(void **state)
         {"f2", "-2*f1", 5, 2, -10},     {"f1", "-1.5e1", -15, 2, -45},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const struct override override = {cases[i].name, cases[i].value};
+        const struct override override = {.name = cases[i].name, .value = cases[i].value};
         struct reading r = read_with(text, &override, 1);
         if (i == 3) { /* f2 is made of f1 */
             assert_int_equal(count_notes(&r, "circular-parameter"), 1);
@@ -89,7 +89,7 @@ static void a_value_from_outside_is_checked_like_one_of_the_file(void **state)
         {"f1", "5 +", "expression-syntax"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const struct override override = {cases[i].name, cases[i].value};
+        const struct override override = {.name = cases[i].name, .value = cases[i].value};
         struct reading r = read_with(text, &override, 1);
         const fbd_error *note = fbd_errors_get(r.errors, 0);
         assert_non_null(note);
@@ -107,7 +107,7 @@ static void an_unknown_parameter_is_answered_by_the_nearest(void **state)
     (void)state;
     static const char text[] = "fbd: 1\nparameters: {phi: 1, force: 5}\n"
                                "bodies: {b: {mass: phi, motion: slide, forces: [{applied: force}]}}\n";
-    const struct override override = {"forcee", "2"};
+    const struct override override = {.name = "forcee", .value = "2"};
     struct reading r = read_with(text, &override, 1);
     assert_string_equal(fbd_errors_get(r.errors, 0)->hint, "did you mean `force`?");
     end_reading(&r);

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fmu.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "complain.h"
+#include "whole_file.h"
+
+/* What was asked for wrongly is a mistake of the command line, unless it stands in the file. */
+static enum exit_code blame(fbd_errors *errors)
+{
+    const fbd_error *first = fbd_errors_get(errors, 0);
+    bool asked = first && (strcmp(first->id, "bad-option") == 0 || strcmp(first->id, "no-end-time") == 0 ||
+                           strcmp(first->id, "unknown-method") == 0);
+    return asked && first->line == 0 ? exit_usage : exit_failed;
+}
+
+enum exit_code write_fmu(const fbd_model *model, const struct options *options, fbd_errors *errors)
+{
+    fbd_fmu_options chosen = {.version = options->fmu_version,
+                              .settings = options->settings,
+                              .setting_count = options->setting_count,
+                              .run = options->run};
+    size_t length;
+    chosen.library = fmu_binary(&chosen.library_length);
+    char *bytes = fbd_fmu(model, &chosen, &length, errors);
+    if (!bytes) return blame(errors);
+    bool written = whole_file_put_bytes(options->fmu, bytes, length);
+    if (!written) complain("fbd-run: cannot write `%s`: %s", options->fmu, strerror(errno));
+    free(bytes);
+    return written ? exit_done : exit_failed;
+}

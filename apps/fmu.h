@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * fbd-run --fmu: a model as an FMU.
+ */
+#ifndef FBD_APPS_FMU_H
+#define FBD_APPS_FMU_H
+
+#include "options.h"
+
+/* Write the FMU of the model to options->fmu. */
+enum exit_code write_fmu(const fbd_model *model, const struct options *options, fbd_errors *errors);
+
+/* The binary of an FMU, which this program carries within itself; NULL when it has been built without. */
+const char *fmu_binary(size_t *length);
+
+#endif

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Public interface: what a motion goes on from, as numbers.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "dynamics/constraint.h"
+#include "dynamics/state.h"
+
+/* Of a tie: zero, sides, directions and turns of a rope's ends. */
+enum { numbers_of_a_tie = 7 };
+
+static size_t tie_count(const struct fbd_model *model)
+{
+    return model->tree ? (size_t)model->tree->tie_count : 0;
+}
+
+/* The branch of memory `index` among all switches, or -1 past the last one. */
+static int find_memory(const struct plan *plan, size_t index)
+{
+    for (size_t i = 0; i < plan->kink_count; i++) {
+        const struct formula *formula = &plan->kinks[i].formula;
+        for (size_t k = 0; k < plan->kinks[i].count; k++)
+            if (expr_switch_remembers(formula->expr, k) && index-- == 0) return formula->branch + (int)k;
+    }
+    return -1;
+}
+
+static size_t memory_count(const struct plan *plan)
+{
+    size_t count = 0;
+    while (find_memory(plan, count) >= 0) count++;
+    return count;
+}
+
+static size_t size_of(const struct fbd_model *model)
+{
+    return 1 + 2 * (size_t)model->plan.n + memory_count(&model->plan) + numbers_of_a_tie * tie_count(model);
+}
+
+struct packing {
+    double *numbers;
+    size_t count, room;
+};
+
+static void put(struct packing *packing, double number)
+{
+    if (packing->count < packing->room) packing->numbers[packing->count] = number;
+    packing->count++;
+}
+
+static void put_tie(struct packing *packing, const struct tie_state *tie)
+{
+    put(packing, tie->zero);
+    for (int end = 0; end < 2; end++) {
+        put(packing, tie->side[end]);
+        put(packing, tie->psi[end]);
+        put(packing, tie->turned[end]);
+    }
+}
+
+/* NOLINTNEXTLINE(readability-non-const-parameter): `put` writes them */
+size_t fbd_state_pack(const fbd_state *state, double *numbers, size_t room)
+{
+    if (!state) return 0;
+    const struct plan *plan = &state->model->plan;
+    struct packing packing = {numbers, 0, numbers ? room : 0};
+    int branch;
+    put(&packing, state->t);
+    for (size_t i = 0; i < 2 * (size_t)plan->n; i++) put(&packing, state->y[i]);
+    for (size_t i = 0; (branch = find_memory(plan, i)) >= 0; i++) put(&packing, state->branch[branch]);
+    for (size_t i = 0; i < tie_count(state->model); i++) put_tie(&packing, &state->tree->ties[i]);
+    return packing.count;
+}
+
+/* A branch of what remembers, and a side, is 1 or -1; a side may also be 0. */
+static bool is_sign(double number, bool or_zero)
+{
+    return number == 1 || number == -1 || (or_zero && number == 0);
+}
+
+static bool are_signs(const struct fbd_model *model, const double *memories, const double *ties)
+{
+    size_t count = memory_count(&model->plan);
+    for (size_t i = 0; i < count; i++)
+        if (!is_sign(memories[i], false)) return false;
+    for (size_t i = 0; i < tie_count(model); i++, ties += numbers_of_a_tie)
+        if (!is_sign(ties[1], true) || !is_sign(ties[4], true)) return false;
+    return true;
+}
+
+static void take_tie(const double *numbers, struct tie_state *tie)
+{
+    tie->zero = numbers[0];
+    for (int end = 0; end < 2; end++) {
+        tie->side[end] = (int)numbers[1 + 3 * end];
+        tie->psi[end] = numbers[2 + 3 * end];
+        tie->turned[end] = numbers[3 + 3 * end];
+    }
+}
+
+bool fbd_state_unpack(fbd_state *state, const double *numbers, size_t count)
+{
+    if (!state || !numbers || count != size_of(state->model)) return false;
+    const struct plan *plan = &state->model->plan;
+    size_t size = 2 * (size_t)plan->n;
+    const double *memories = numbers + 1 + size, *ties = memories + memory_count(plan);
+    int branch;
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(numbers[i])) return false;
+    if (!are_signs(state->model, memories, ties)) return false;
+    state->t = numbers[0];
+    state->rest = 0;
+    memcpy(state->y, numbers + 1, size * sizeof *state->y);
+    for (size_t i = 0; (branch = find_memory(plan, i)) >= 0; i++) state->branch[branch] = (int)memories[i];
+    for (size_t i = 0; i < tie_count(state->model); i++)
+        take_tie(ties + numbers_of_a_tie * i, &state->tree->ties[i]);
+    state->settled = false;
+    return true;
+}

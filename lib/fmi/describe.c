@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * modelDescription.xml by FMI 3.0.2, sections 2.4 and 4.4.
+ */
+#include "fmi/package.h"
+#include "model/model.h"
+
+static void begin(const struct package *package, struct text *xml)
+{
+    const char *title = package->model->scene->title;
+    text_add(xml, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription fmiVersion=\"3.0\"");
+    xml_attribute(xml, "modelName", package->name);
+    xml_attribute(xml, "instantiationToken", package->token);
+    if (title[0]) xml_attribute(xml, "description", title);
+    xml_attribute(xml, "license", "GPL-3.0-or-later");
+    xml_attribute(xml, "generationTool", "fbd " FBD_VERSION);
+    xml_attribute(xml, "variableNamingConvention", "structured");
+    text_add(xml, ">\n  <CoSimulation");
+    xml_attribute(xml, "modelIdentifier", package->name);
+    text_add(xml, " canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\"");
+    if (fmi_has_derivatives(package->model))
+        text_add(xml, " providesDirectionalDerivatives=\"true\" providesAdjointDerivatives=\"true\"");
+    text_add(xml, " canHandleVariableCommunicationStepSize=\"true\" mightReturnEarlyFromDoStep=\"true\""
+                  " hasEventMode=\"true\"/>\n");
+}
+
+static void experiment(const struct package *package, struct text *xml)
+{
+    text_add(xml, "  <LogCategories>\n"
+                  "    <Category name=\"logStatusError\" description=\"what went wrong\"/>\n"
+                  "    <Category name=\"logStatusWarning\" description=\"what deserves a look\"/>\n"
+                  "    <Category name=\"logEvents\" description=\"events of the motion\"/>\n"
+                  "  </LogCategories>\n  <DefaultExperiment startTime=\"0\"");
+    xml_number(xml, "stopTime", package->until);
+    xml_number(xml, "tolerance", package->tolerance);
+    text_add(xml, "/>\n");
+}
+
+static const char *causality(enum fmi_kind kind)
+{
+    switch (kind) {
+    case fmi_time: return "independent";
+    case fmi_parameter: return "parameter";
+    case fmi_calculated: return "calculatedParameter";
+    case fmi_input: return "input";
+    default: return "output";
+    }
+}
+
+static void variable_of(const struct package *package, size_t index, struct text *xml)
+{
+    const struct fmi_variable *variable = &package->variables.list[index];
+    bool parameter = variable->kind == fmi_parameter, calculated = variable->kind == fmi_calculated;
+    struct text says = {0};
+    package_says(package, variable, &says);
+    text_add(xml, "    <Float64");
+    xml_attribute(xml, "name", variable->name);
+    text_printf(xml, " valueReference=\"%zu\"", index);
+    if (!says.failed && says.data) xml_attribute(xml, "description", says.data);
+    xml->failed |= says.failed;
+    text_free(&says);
+    xml_attribute(xml, "causality", causality(variable->kind));
+    xml_attribute(xml, "variability", parameter || calculated ? "fixed" : "continuous");
+    if (parameter) xml_attribute(xml, "initial", "exact");
+    if (calculated || fmi_is_output(variable)) xml_attribute(xml, "initial", "calculated");
+    if (variable->unit[0]) xml_attribute(xml, "unit", variable->unit);
+    if (variable->integral > 0) text_printf(xml, " derivative=\"%u\"", variable->integral);
+    if (parameter || variable->kind == fmi_input)
+        xml_number(xml, "start", package->model->scene->parameters[variable->index].value);
+    text_add(xml, "/>\n");
+}
+
+/* Coordinates and rates are states: no input changes them at once. */
+static void unknown(const struct package *package, const char *element, size_t index, struct text *xml)
+{
+    enum fmi_kind kind = package->variables.list[index].kind;
+    text_printf(xml, "    <%s valueReference=\"%zu\"", element, index);
+    if (kind == fmi_coordinate || kind == fmi_rate) {
+        if (fmi_has_derivatives(package->model))
+            text_printf(xml, " dependencies=\"%zu\" dependenciesKind=\"constant\"", index);
+        else
+            text_add(xml, " dependencies=\"\"");
+    }
+    text_add(xml, "/>\n");
+}
+
+static void structure(const struct package *package, struct text *xml)
+{
+    const struct fmi_variables *variables = &package->variables;
+    text_add(xml, "  <ModelStructure>\n");
+    for (size_t i = 0; i < variables->count; i++)
+        if (fmi_is_output(&variables->list[i])) unknown(package, "Output", i, xml);
+    for (size_t i = 0; i < variables->count; i++)
+        if (variables->list[i].integral > 0 && fmi_has_derivatives(package->model))
+            unknown(package, "ContinuousStateDerivative", i, xml);
+    for (size_t i = 0; i < variables->count; i++)
+        if (fmi_is_output(&variables->list[i]) || variables->list[i].kind == fmi_calculated)
+            text_printf(xml, "    <InitialUnknown valueReference=\"%zu\"/>\n", i);
+    text_add(xml, "  </ModelStructure>\n");
+}
+
+void package_describe(const struct package *package, struct text *xml)
+{
+    begin(package, xml);
+    package_units(package, xml);
+    experiment(package, xml);
+    text_add(xml, "  <ModelVariables>\n");
+    for (size_t i = 0; i < package->variables.count; i++) variable_of(package, i, xml);
+    text_add(xml, "  </ModelVariables>\n");
+    structure(package, xml);
+    text_add(xml, "</fmiModelDescription>\n");
+}

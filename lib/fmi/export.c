@@ -1,0 +1,237 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Public interface: a model as an FMU.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "api/record.h"
+#include "base/call.h"
+#include "base/file.h"
+#include "fmi/package.h"
+#include "fmi/zip.h"
+#include "model/model.h"
+#include "solve/options.h"
+#include "solve/start.h"
+
+/* ---- its name */
+
+static bool is_letter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+/* The name of the file without folder and ending, made an identifier of C. */
+static void name_package(struct package *package)
+{
+    const char *path = package->options->name ? package->options->name : package->model->scene->file;
+    const char *slash = path ? strrchr(path, '/') : NULL, *name = slash ? slash + 1 : path;
+    size_t used = 0;
+    if (!name || !is_letter(name[0])) package->name[used++] = 'm';
+    for (; name && *name && *name != '.' && used < package_name_size - 1; name++) {
+        bool fits = is_letter(*name) || (*name >= '0' && *name <= '9' && used > 0);
+        package->name[used++] = fits ? *name : '_';
+    }
+    package->name[used] = '\0';
+}
+
+/* ---- settings */
+
+static void put_number(struct text *text, const char *key, double value)
+{
+    text_printf(text, "%s ", key);
+    text_exact(text, value);
+    text_add(text, "\n");
+}
+
+static bool is_table(const struct scene *scene, const char *name)
+{
+    for (size_t i = 0; i < scene->table_count; i++)
+        if (strcmp(scene->tables[i].name, name) == 0) return true;
+    return false;
+}
+
+static void put_settings(struct package *package, const struct run_options *run)
+{
+    const fbd_fmu_options *options = package->options;
+    const struct scene *scene = package->model->scene;
+    struct text *text = &package->settings;
+    put_number(text, "until", package->until);
+    put_number(text, "tolerance", package->tolerance);
+    if (run->step > 0) put_number(text, "step", run->step);
+    text_printf(text, "method %s\n", options_method(run));
+    if (!run->structure) text_add(text, "structure no\n");
+    for (size_t i = 0; i < options->setting_count; i++) {
+        const fbd_setting *setting = &options->settings[i];
+        if (is_table(scene, setting->name)) continue;
+        text_printf(text, "set %s ", setting->name);
+        for (const char *c = setting->value; *c; c++) text_add_bytes(text, *c == '\n' ? " " : c, 1);
+        text_add(text, "\n");
+    }
+    for (size_t i = 0; i < scene->table_count; i++)
+        if (scene->tables[i].path) text_printf(text, "table %s\n", scene->tables[i].name);
+}
+
+/* ---- files */
+
+static const char page[] =
+    "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>FMU made by "
+    "fbd</title></head><body>\n"
+    "<p>This Functional Mock-up Unit was made by fbd " FBD_VERSION
+    ", free-body diagrams that run. The model is\n"
+    "<code>resources/model.yaml</code>; <code>modelDescription.xml</code> lists parameters, inputs and "
+    "outputs.\n"
+    "An input is constant between communication points. The binary holds libfbd, the GNU Scientific Library "
+    "and\n"
+    "libyaml; see <a href=\"licenses/license.txt\">their licences</a>.</p>\n</body></html>\n";
+
+static const char license[] =
+    "SPDX-License-Identifier: GPL-3.0-or-later\n\n"
+    "The binary of this FMU holds libfbd and the GNU Scientific Library, free software under the GNU General "
+    "Public\n"
+    "License, version 3 or (at your option) any later version, without any warranty: gpl-3.0.txt; and "
+    "libyaml, under\n"
+    "the MIT license: libyaml.txt. Who passes the FMU on passes on, or offers, the source of fbd " FBD_VERSION
+    " and of the\n"
+    "GNU Scientific Library as the first license says.\n"
+    "The model in resources/ is its author's; it is read by the binary, and no part of it.\n";
+
+static void add_licenses(struct zip *zip)
+{
+    zip_add(zip, "documentation/licenses/license.txt", license, strlen(license));
+    zip_add(zip, "documentation/licenses/gpl-3.0.txt", (const char *)license_of_gpl, license_of_gpl_length);
+    zip_add(zip, "documentation/licenses/libyaml.txt", (const char *)license_of_libyaml,
+            license_of_libyaml_length);
+}
+
+static void add_text(struct zip *zip, const char *name, struct text *text)
+{
+    if (text->failed || !text->data)
+        zip->failed = true;
+    else
+        zip_add(zip, name, text->data, text->length);
+    text_free(text);
+}
+
+static void add_binary(struct zip *zip, const struct package *package)
+{
+    struct text name = {0};
+    const char *place = package->options->version == 2 ? "linux64" : FBD_FMI_PLATFORM;
+    text_printf(&name, "binaries/%s/%s.so", place, package->name);
+    if (!name.failed) zip_add(zip, name.data, package->options->library, package->options->library_length);
+    zip->failed |= name.failed;
+    text_free(&name);
+}
+
+static bool add_tables(struct zip *zip, const struct scene *scene, fbd_errors *errors)
+{
+    for (size_t i = 0; i < scene->table_count; i++) {
+        const struct scene_table *table = &scene->tables[i];
+        size_t length;
+        if (!table->path) continue;
+        char *bytes = file_text(table->path, &length, errors);
+        struct text name = {0};
+        text_printf(&name, "resources/tables/%s", table->name);
+        if (bytes && !name.failed) zip_add(zip, name.data, bytes, length);
+        zip->failed |= name.failed;
+        text_free(&name);
+        free(bytes);
+        if (!bytes) return false;
+    }
+    return true;
+}
+
+static char *pack(const struct package *package, size_t *length, fbd_errors *errors)
+{
+    struct zip zip = {0};
+    struct text xml = {0};
+    const struct fbd_model *model = package->model;
+    if (package->options->version == 2)
+        package_describe_2(package, &xml);
+    else
+        package_describe(package, &xml);
+    add_text(&zip, "modelDescription.xml", &xml);
+    add_binary(&zip, package);
+    zip_add(&zip, "resources/model.yaml", model->source, model->source_length);
+    zip_add(&zip, "resources/settings", package->settings.data, package->settings.length);
+    bool whole = add_tables(&zip, model->scene, errors);
+    zip_add(&zip, "documentation/index.html", page, strlen(page));
+    add_licenses(&zip);
+    char *bytes = zip_finish(&zip, length);
+    if (whole && bytes) return bytes;
+    if (whole) diag_out_of_memory(errors);
+    free(bytes);
+    return NULL;
+}
+
+/* ---- may it be exported? */
+
+static bool has_start(const struct fbd_model *model, fbd_errors *errors)
+{
+    struct fbd_state *state = state_new(model);
+    if (!state) diag_out_of_memory(errors);
+    bool fine = state && start_check(state, "the start", errors);
+    state_free(state);
+    return fine;
+}
+
+static bool refuse(fbd_errors *errors, const char *hint, const char *message)
+{
+    diag_add(errors, FBD_ERROR, "bad-option", (struct pos){0, 0}, hint, "%s", message);
+    return false;
+}
+
+static bool options_fit(const fbd_fmu_options *options, fbd_errors *errors)
+{
+    if (options->version != 2 && options->version != 3)
+        return refuse(errors, "3, or 2 for tools that do not know that",
+                      "there is no such version of FMI here");
+    if (options->version == 2 && strcmp(FBD_FMI_PLATFORM, "x86_64-linux") != 0)
+        return refuse(errors, "FMI 3.0 does", "FMI 2.0 has no name for this platform");
+    if (options->run.error_bars || options->run.accuracy != 0)
+        return refuse(errors, "ask for a tolerance",
+                      "an FMU has no error bars, and no accuracy that is made sure of");
+    return true;
+}
+
+static char *make(struct package *package, size_t *length, fbd_errors *errors)
+{
+    struct run_options run;
+    const struct fbd_model *model = package->model;
+    if (!options_fit(package->options, errors) ||
+        !options_choose(model, &package->options->run, &run, errors) || !has_start(model, errors))
+        return NULL;
+    bool accurate =
+        model->scene->simulate.accuracy > 0 && package->options->run.tolerance == 0 && run.step == 0;
+    package->until = run.until;
+    package->tolerance = accurate ? accuracy_first_guess(model->scene->simulate.accuracy) : run.tolerance;
+    name_package(package);
+    put_settings(package, &run);
+    bool made = fmi_variables_init(&package->variables, model) && !package->settings.failed;
+    if (!made) diag_out_of_memory(errors);
+    if (made) package_token(model->source, model->source_length, package->settings.data, package->token);
+    char *bytes = made ? pack(package, length, errors) : NULL;
+    fmi_variables_free(&package->variables);
+    text_free(&package->settings);
+    return bytes;
+}
+
+char *fbd_fmu(const fbd_model *model, const fbd_fmu_options *options, size_t *length, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    bool meant = model && options && options->library && length &&
+                 call_has_settings(options->settings, options->setting_count);
+    if (length) *length = 0;
+    if (!meant)
+        call_refuse(errors, "there is no model, binary or place for the length, or a setting has no value");
+    char *bytes = NULL;
+    if (meant) {
+        fbd_fmu_options chosen = *options;
+        if (chosen.version == 0) chosen.version = 3;
+        struct package package = {.model = model, .options = &chosen};
+        bytes = make(&package, length, errors);
+    }
+    diag_end(&call);
+    return bytes;
+}

@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Instance: a plant with the state machine of the standard around it, whatever its version. Functions answer a status
+ * of the standard, whose first five have the same numbers in both versions: 0 ok, 1 warning, 2 discard, 3 error.
+ *
+ * A call that is not allowed where the instance is answers an error with a message, and ends the simulation, as the
+ * standard says of every error; a state that was saved, or a reset, brings it back.
+ */
+#ifndef FBD_FMI_INSTANCE_H
+#define FBD_FMI_INSTANCE_H
+
+#include "fmi/plant.h"
+
+enum phase {
+    phase_instantiated = 1,
+    phase_initialization = 2,
+    phase_step = 4,
+    phase_event = 8,
+    phase_terminated = 16,
+    phase_running = phase_step | phase_event,
+    phase_begun = phase_initialization | phase_running | phase_terminated,
+    phase_any = phase_instantiated | phase_begun,
+};
+
+enum instance_status { instance_ok, instance_warning, instance_discard, instance_error };
+
+enum log_category { log_error, log_warning, log_events, log_categories };
+extern const char *const log_category_names[log_categories];
+
+struct instance;
+typedef void instance_log(const struct instance *instance, enum instance_status status, const char *category,
+                          const char *message);
+
+struct instance {
+    struct plant *plant;
+    enum phase phase;
+    bool logs[log_categories];
+    bool event_mode, early_return; /* what the importer can do */
+    bool stopped;                  /* an event of the file has ended the run */
+    instance_log *log;
+    char *name;
+    void *environment;
+    void (*callback)(void); /* of the version that it is */
+};
+
+/* What is read from `resources`, when `token` is that of it. False with messages; the instance has no plant then. */
+bool instance_open(struct instance *instance, const char *name, const char *resources, const char *token);
+void instance_close(struct instance *instance);
+
+void instance_say(const struct instance *instance, enum instance_status status, enum log_category category,
+                  const char *format, ...) __attribute__((format(printf, 4, 5)));
+
+/* Say what is wrong in `function`; ends the simulation. */
+enum instance_status instance_fail(struct instance *instance, const char *function, const char *what);
+
+/* May `function` be called in these phases? `instance` may be NULL. */
+bool instance_allows(struct instance *instance, unsigned phases, const char *function);
+
+enum instance_status instance_set_logging(struct instance *instance, bool on, size_t count,
+                                          const char *const categories[]);
+
+enum instance_status instance_initialize(struct instance *instance, double start, double stop,
+                                         double tolerance);
+enum instance_status instance_begin(struct instance *instance);
+enum instance_status instance_reset(struct instance *instance);
+
+/* Values of variables by reference. */
+enum instance_status instance_get(struct instance *instance, const char *function, const unsigned *references,
+                                  size_t count, double *values);
+enum instance_status instance_set(struct instance *instance, const char *function, const unsigned *references,
+                                  size_t count, const double *values);
+
+/* One communication step from t to t + h. */
+struct instance_step {
+    bool event, terminate, early;
+    double reached;
+};
+enum instance_status instance_step(struct instance *instance, double t, double h, struct instance_step *step);
+
+/* ---- saved states (saved.c): bytes with a head that tells them from anything else */
+
+struct saved;
+enum instance_status saved_get(struct instance *instance, struct saved **saved);
+enum instance_status saved_set(struct instance *instance, const struct saved *saved);
+size_t saved_size(const struct saved *saved);
+const unsigned char *saved_bytes(const struct saved *saved);
+/* NULL when they are no such state, or memory is out. */
+struct saved *saved_from_bytes(const unsigned char *bytes, size_t size);
+
+#endif

@@ -1,0 +1,497 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fmi/plant.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/format.h"
+#include "model/model.h"
+#include "output/equations.h"
+#include "output/result.h"
+#include "solve/ensemble.h"
+
+static bool fail(struct plant *plant, const char *reason)
+{
+    plant->reason = reason;
+    return false;
+}
+
+static bool no_memory(struct plant *plant)
+{
+    return fail(plant, "out of memory");
+}
+
+/* The first note is the reason. */
+static bool fail_by(struct plant *plant, fbd_errors *errors)
+{
+    const fbd_error *first = fbd_errors_get(errors, 0);
+    for (size_t i = 0; first && first->severity == FBD_WARNING; i++) first = fbd_errors_get(errors, i);
+    if (!first) return no_memory(plant);
+    if (first->line > 0)
+        format_into(plant->own_reason, sizeof plant->own_reason, "model.yaml:%d:%d: %s", first->line,
+                    first->column, first->message);
+    else
+        format_into(plant->own_reason, sizeof plant->own_reason, "%s", first->message);
+    return fail(plant, plant->own_reason);
+}
+
+/* ---- models */
+
+static bool is_own(const struct plant *plant, size_t index)
+{
+    const struct parameter *parameter = &plant->first->scene->parameters[index];
+    return !parameter->derived && plant->values[index] != parameter->value;
+}
+
+/* Settings of the file, then what differs from it. */
+static fbd_setting *list_settings(const struct plant *plant, struct arena *arena, size_t *count)
+{
+    size_t most = plant->settings.count + plant->parameter_count;
+    fbd_setting *list = ARENA_ARRAY(arena, most + 1, fbd_setting);
+    if (!list) return NULL;
+    for (*count = 0; *count < plant->settings.count; ++*count) list[*count] = plant->settings.list[*count];
+    for (size_t i = 0; i < plant->parameter_count; i++) {
+        char number[40];
+        if (!is_own(plant, i)) continue;
+        format_shortest(number, sizeof number, plant->values[i]);
+        const char *text = arena_text(arena, number, strlen(number));
+        if (!text) return NULL;
+        list[(*count)++] = (fbd_setting){plant->first->scene->parameters[i].name, text};
+    }
+    return list;
+}
+
+/* The model with the values as they are. */
+static struct fbd_model *make_model(struct plant *plant)
+{
+    struct arena arena = {0};
+    size_t count;
+    fbd_errors *errors = fbd_errors_new();
+    const fbd_setting *settings = errors ? list_settings(plant, &arena, &count) : NULL;
+    struct fbd_model *model = NULL;
+    if (settings) model = fbd_model_parse(plant->text, plant->length, plant->path, settings, count, errors);
+    if (!settings)
+        no_memory(plant);
+    else if (!model)
+        fail_by(plant, errors);
+    arena_free(&arena);
+    fbd_errors_free(errors);
+    return model;
+}
+
+/* ---- opening */
+
+/* A copy that ends with a zero, in the place of `content`. */
+static char *terminate(char *content, size_t length, fbd_errors *errors)
+{
+    char *text = content ? malloc(length + 1) : NULL;
+    if (content && !text) diag_out_of_memory(errors);
+    if (text) {
+        memcpy(text, content, length);
+        text[length] = '\0';
+    }
+    free(content);
+    return text;
+}
+
+/* A file of the resources and its path, both to be freed. */
+static char *read_resource(const char *resources, const char *name, size_t *length, char **path,
+                           fbd_errors *errors)
+{
+    struct text text = {0};
+    text_printf(&text, "%s/%s", resources, name);
+    if (text.failed) diag_out_of_memory(errors);
+    *path = text.data;
+    return text.failed ? NULL : file_text(text.data, length, errors);
+}
+
+static bool read_files(struct plant *plant, const char *resources, fbd_errors *errors)
+{
+    size_t length = 0;
+    char *path = NULL, *settings = NULL;
+    plant->text = read_resource(resources, "model.yaml", &plant->length, &plant->path, errors);
+    if (plant->text) settings = read_resource(resources, "settings", &length, &path, errors);
+    plant->settings_text = terminate(settings, length, errors);
+    free(path);
+    if (!plant->settings_text) return false;
+    package_token(plant->text, plant->length, plant->settings_text, plant->token);
+    if (package_settings_read(&plant->settings, plant->settings_text, resources)) return true;
+    diag_add(errors, FBD_ERROR, "cannot-read", (struct pos){0, 0}, NULL, "`%s/settings` is not understood",
+             resources);
+    return false;
+}
+
+static bool open_model(struct plant *plant, fbd_errors *errors)
+{
+    plant->first = fbd_model_parse(plant->text, plant->length, plant->path, plant->settings.list,
+                                   plant->settings.count, errors);
+    if (!plant->first) return false;
+    size_t count = plant->parameter_count = plant->first->scene->parameter_count;
+    plant->values = calloc(2 * count + 1, sizeof *plant->values);
+    plant->base.values = plant->values + count;
+    if (!plant->values || !fmi_variables_init(&plant->variables, plant->first)) {
+        diag_out_of_memory(errors);
+        return false;
+    }
+    plant_reset(plant);
+    return true;
+}
+
+struct plant *plant_open(const char *resources, fbd_errors *errors)
+{
+    struct plant *plant = calloc(1, sizeof *plant);
+    if (plant && read_files(plant, resources, errors) && open_model(plant, errors)) return plant;
+    if (!plant) diag_out_of_memory(errors);
+    plant_close(plant);
+    return NULL;
+}
+
+/* Free what was made of the base. */
+static void drop_run(struct plant *plant)
+{
+    fbd_state_free(plant->state);
+    fbd_simulation_free(plant->simulation);
+    fbd_model_free(plant->model);
+    plant->state = NULL;
+    plant->simulation = NULL;
+    plant->model = NULL;
+}
+
+void plant_close(struct plant *plant)
+{
+    if (!plant) return;
+    drop_run(plant);
+    fbd_model_free(plant->first);
+    fmi_variables_free(&plant->variables);
+    package_settings_free(&plant->settings);
+    free(plant->base.numbers);
+    free(plant->values);
+    free(plant->text);
+    free(plant->path);
+    free(plant->settings_text);
+    free(plant);
+}
+
+static void take_values(struct plant *plant)
+{
+    if (plant->parameter_count > 0)
+        memcpy(plant->base.values, plant->values, plant->parameter_count * sizeof *plant->values);
+}
+
+void plant_reset(struct plant *plant)
+{
+    drop_run(plant);
+    for (size_t i = 0; i < plant->parameter_count; i++)
+        plant->values[i] = plant->first->scene->parameters[i].value;
+    take_values(plant);
+    plant->base.of_file = true;
+    plant->base.until = plant->settings.run.until;
+    plant->base.number_count = 0;
+    plant->running = false;
+    plant->start = plant->t = 0;
+    plant->stop = NAN;
+    plant->tolerance = 0;
+    plant->reason = "";
+}
+
+void plant_set(struct plant *plant, size_t parameter, double value)
+{
+    plant->values[parameter] = value;
+}
+
+/* ---- the start */
+
+static fbd_options options_of(const struct plant *plant)
+{
+    fbd_options options = plant->settings.run;
+    options.until = plant->base.until;
+    if (plant->tolerance > 0) options.tolerance = fmin(options.tolerance, plant->tolerance);
+    return options;
+}
+
+void plant_begin(struct plant *plant, double start, double stop, double tolerance)
+{
+    const double least = 1e-14; /* what numbers resolve */
+    drop_run(plant);
+    plant->running = true;
+    plant->start = plant->t = start;
+    plant->stop = stop;
+    plant->tolerance = tolerance > 0 ? fmax(tolerance, least) : 0;
+    double length = plant->settings.run.until > 0 ? plant->settings.run.until : 1;
+    plant->base.until = !isnan(stop)                        ? stop
+                        : start < plant->settings.run.until ? plant->settings.run.until
+                                                            : start + length;
+    plant->base.of_file = true;
+}
+
+/* The state that the base says, of its model. */
+static fbd_state *state_of_base(struct plant *plant)
+{
+    fbd_state *state = fbd_state_new(plant->model);
+    bool fine = state != NULL;
+    if (fine && plant->base.of_file) {
+        state->t = plant->start;
+        state->settled = false;
+    } else if (fine && !fbd_state_unpack(state, plant->base.numbers, plant->base.number_count)) {
+        fail(plant,
+             "with these inputs the model has another memory: an input that switches `hysteresis`, or a "
+             "coupling, on and off cannot be changed");
+        fbd_state_free(state);
+        return NULL;
+    }
+    if (!fine) no_memory(plant);
+    return state;
+}
+
+static bool start_simulation(struct plant *plant)
+{
+    fbd_options options = options_of(plant);
+    fbd_errors *errors = fbd_errors_new();
+    if (!errors) return no_memory(plant);
+    bool plain = plant->base.of_file && plant->start == 0;
+    plant->state = state_of_base(plant);
+    if (plant->state)
+        plant->simulation = plain ? fbd_simulation_new(plant->model, &options, errors)
+                                  : fbd_simulation_from(plant->state, &options, errors);
+    if (plant->state && !plant->simulation) fail_by(plant, errors);
+    fbd_errors_free(errors);
+    return plant->simulation != NULL;
+}
+
+/* ---- looking and going on */
+
+static bool has_failed(const struct plant *plant)
+{
+    fbd_outcome outcome = plant->simulation->ensemble->outcome;
+    return outcome != FBD_GOING && outcome != FBD_DONE && outcome != FBD_STOPPED;
+}
+
+static bool fail_by_run(struct plant *plant)
+{
+    format_into(plant->own_reason, sizeof plant->own_reason, "%s", fbd_simulation_reason(plant->simulation));
+    return fail(plant, plant->own_reason);
+}
+
+static double reached(const struct plant *plant)
+{
+    double to;
+    fbd_simulation_interval(plant->simulation, NULL, &to);
+    return to;
+}
+
+static bool look(struct plant *plant, double t)
+{
+    if (!fbd_simulation_state(plant->simulation, t, plant->state))
+        return fail(plant, "the state cannot be had: memory is out, or a force is not finite");
+    plant->t = t;
+    return true;
+}
+
+/* Make the simulation of the base, and let it make the steps that cover t. */
+static bool make_run(struct plant *plant)
+{
+    drop_run(plant);
+    plant->model = make_model(plant);
+    if (!plant->model || !start_simulation(plant)) return false;
+    while (reached(plant) < plant->t && plant->simulation->ensemble->outcome == FBD_GOING)
+        fbd_simulation_advance(plant->simulation);
+    if (reached(plant) < plant->t || (has_failed(plant) && reached(plant) <= plant->t))
+        return fail_by_run(plant);
+    return look(plant, plant->t);
+}
+
+static bool values_differ(const struct plant *plant)
+{
+    for (size_t i = 0; i < plant->parameter_count; i++)
+        if (plant->values[i] != plant->base.values[i]) return true;
+    return false;
+}
+
+/* What follows begins at the state that there is. */
+static bool take_state(struct plant *plant, double until)
+{
+    size_t count = fbd_state_pack(plant->state, NULL, 0);
+    double *numbers = realloc(plant->base.numbers, (count + 1) * sizeof *numbers);
+    if (!numbers) return no_memory(plant);
+    fbd_state_pack(plant->state, numbers, count);
+    plant->base.numbers = numbers;
+    plant->base.number_count = count;
+    plant->base.of_file = false;
+    plant->base.until = until;
+    return true;
+}
+
+bool plant_update(struct plant *plant)
+{
+    bool differ = values_differ(plant), fresh = plant->simulation != NULL;
+    bool started = plant->running && !(plant->base.of_file && plant->t == plant->start);
+    if (fresh && !differ) return true;
+    if (!started) {
+        take_values(plant);
+        return make_run(plant);
+    }
+    /* The state with the values before is what goes on. */
+    if (!fresh) {
+        double *wanted = malloc((plant->parameter_count + 1) * sizeof *wanted);
+        size_t size = plant->parameter_count * sizeof *wanted;
+        if (!wanted) return no_memory(plant);
+        memcpy(wanted, plant->values, size);
+        memcpy(plant->values, plant->base.values, size);
+        bool made = make_run(plant);
+        memcpy(plant->values, wanted, size);
+        free(wanted);
+        if (!made) return false;
+    }
+    if (!differ) return true;
+    if (!take_state(plant, plant->base.until)) return false;
+    take_values(plant);
+    return make_run(plant);
+}
+
+/* The end that its steps know of is reached, and the importer goes on: so do they, for as long again. */
+static bool prolong(struct plant *plant)
+{
+    double until = plant->base.until, length = fmax(until - plant->start, plant->settings.run.until);
+    if (!(length > 0)) length = 1;
+    return look(plant, until) && take_state(plant, until + length) && make_run(plant);
+}
+
+/* The first event after t that the simulation has come to, or NAN. */
+static double next_event(const struct plant *plant)
+{
+    const struct ensemble *ensemble = plant->simulation->ensemble;
+    double next = NAN;
+    for (size_t i = ensemble->event_count; i > 0 && ensemble->events[i - 1].t > plant->t; i--)
+        next = ensemble->events[i - 1].t;
+    return next;
+}
+
+static enum plant_step arrive(struct plant *plant, double t, enum plant_step how)
+{
+    return look(plant, t) ? how : plant_failed;
+}
+
+enum plant_step plant_step(struct plant *plant, double target, bool pause)
+{
+    if (!plant_update(plant)) return plant_failed;
+    for (;;) {
+        double to = reached(plant), event = next_event(plant);
+        fbd_outcome outcome = plant->simulation->ensemble->outcome;
+        bool happens = event <= target && event <= to;
+        if (pause && happens && event < target) return arrive(plant, event, plant_event);
+        if (outcome == FBD_STOPPED && to <= target) return arrive(plant, to, plant_stopped);
+        if (to >= target && !(to == target && has_failed(plant)))
+            return arrive(plant, target, happens && event == target ? plant_event : plant_arrived);
+        if (has_failed(plant)) return fail_by_run(plant) ? plant_arrived : plant_failed;
+        if (outcome == FBD_DONE && !prolong(plant)) return plant_failed;
+        if (outcome == FBD_GOING) fbd_simulation_advance(plant->simulation);
+    }
+}
+
+double plant_get(const struct plant *plant, const struct fmi_variable *variable)
+{
+    switch (variable->kind) {
+    case fmi_parameter:
+    case fmi_input: return plant->values[variable->index];
+    case fmi_calculated: return plant->model->scene->parameters[variable->index].value;
+    default: return fmi_value(variable, plant->state);
+    }
+}
+
+/* ---- saving */
+
+/* The numbers before those of the state. */
+enum {
+    save_running,
+    save_start,
+    save_stop,
+    save_has_stop,
+    save_t,
+    save_tolerance,
+    save_of_file,
+    save_until,
+    save_values
+};
+
+size_t plant_save(const struct plant *plant, double *numbers)
+{
+    const struct plant_base *base = &plant->base;
+    size_t parameters = plant->parameter_count, states = base->of_file ? 0 : base->number_count;
+    size_t count = save_values + 2 * parameters + states;
+    if (!numbers) return count;
+    numbers[save_running] = plant->running;
+    numbers[save_start] = plant->start;
+    numbers[save_has_stop] = !isnan(plant->stop);
+    numbers[save_stop] = isnan(plant->stop) ? 0 : plant->stop;
+    numbers[save_t] = plant->t;
+    numbers[save_tolerance] = plant->tolerance;
+    numbers[save_of_file] = base->of_file;
+    numbers[save_until] = base->until;
+    for (size_t i = 0; i < parameters; i++) {
+        numbers[save_values + i] = plant->values[i];
+        numbers[save_values + parameters + i] = base->values[i];
+    }
+    for (size_t i = 0; i < states; i++) numbers[save_values + 2 * parameters + i] = base->numbers[i];
+    return count;
+}
+
+static bool are_finite(const double *numbers, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(numbers[i])) return false;
+    return true;
+}
+
+/* Is the simulation that there is the one of these numbers, and does its last step cover their time? */
+static bool is_there(const struct plant *plant, const double *numbers, size_t count)
+{
+    size_t parameters = plant->parameter_count;
+    double from;
+    if (!plant->simulation || plant->state == NULL) return false;
+    const struct plant_base *base = &plant->base;
+    size_t states = base->of_file ? 0 : base->number_count;
+    bool same = count == save_values + 2 * parameters + states &&
+                plant->running == (numbers[save_running] != 0) && plant->start == numbers[save_start] &&
+                plant->tolerance == numbers[save_tolerance] &&
+                base->of_file == (numbers[save_of_file] != 0) && base->until == numbers[save_until] &&
+                memcmp(base->values, numbers + save_values + parameters, parameters * sizeof *numbers) == 0;
+    if (!same || memcmp(base->numbers ? base->numbers : numbers, numbers + save_values + 2 * parameters,
+                        states * sizeof *numbers) != 0)
+        return false;
+    fbd_simulation_interval(plant->simulation, &from, NULL);
+    return from <= numbers[save_t] && numbers[save_t] <= reached(plant);
+}
+
+bool plant_restore(struct plant *plant, const double *numbers, size_t count)
+{
+    size_t parameters = plant->parameter_count, before = save_values + 2 * parameters;
+    struct plant_base *base = &plant->base;
+    if (count < before || !are_finite(numbers, count)) return false;
+    bool there = is_there(plant, numbers, count), of_file = numbers[save_of_file] != 0;
+    double *states = of_file ? NULL : malloc((count - before + 1) * sizeof *states);
+    if (!of_file && !states) return false;
+    plant->running = numbers[save_running] != 0;
+    plant->start = numbers[save_start];
+    plant->stop = numbers[save_has_stop] != 0 ? numbers[save_stop] : NAN;
+    plant->tolerance = numbers[save_tolerance];
+    base->of_file = of_file;
+    base->until = numbers[save_until];
+    for (size_t i = 0; i < parameters; i++) {
+        plant->values[i] = numbers[save_values + i];
+        base->values[i] = numbers[save_values + parameters + i];
+    }
+    if (!of_file) {
+        memcpy(states, numbers + before, (count - before) * sizeof *states);
+        free(base->numbers);
+        base->numbers = states;
+        base->number_count = count - before;
+    }
+    plant->t = numbers[save_t];
+    if (!there)
+        drop_run(plant);
+    else if (!look(plant, plant->t))
+        return false;
+    return true;
+}

@@ -1,0 +1,218 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Usage: descriptions.py: what is in an FMU, and what fbd-run --fmu refuses. Prints TAP."""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+from fmu import OK, RUN, Fmu
+from workshop import FOLDER, MODELS, close, fmu_of, place, run_claims
+
+NAMED = """fbd: 1
+title: "Names & <signs> that \\"XML\\" minds: größer"
+units: US
+parameters: {w: 64.4 lbf, m: w/g, alpha: 30 deg, n: 3}
+inputs: {push: {value: 2 lbf, description: "<to> the \\"right\\" & back"}}
+bodies:
+  sled: {mass: m, motion: {slide: {along: alpha}}, forces: [gravity, applied: {value: n*push}]}
+  wheel:
+    motion: {pivot: {at: [0, 0]}}
+    inertia: {about: G, value: 2 slug*ft^2}
+    mass: 1 slug
+    moments: [applied: {value: "push*1[ft]"}]
+simulate: {until: 2 s}
+"""
+# FMI 3.0.2, appendix: fmi3Functions.h; FMI 2.0.5: fmi2Functions.h without model exchange.
+TYPES = ["Float32", "Float64", "Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64", "Boolean", "String",
+         "Binary", "Clock", "IntervalDecimal", "IntervalFraction", "ShiftDecimal", "ShiftFraction", "ContinuousStates", "FMUState"]
+FUNCTIONS_3 = {"fmi3" + name for name in """
+    GetVersion SetDebugLogging InstantiateModelExchange InstantiateCoSimulation InstantiateScheduledExecution FreeInstance
+    EnterInitializationMode ExitInitializationMode EnterEventMode Terminate Reset GetNumberOfVariableDependencies
+    GetVariableDependencies FreeFMUState SerializedFMUStateSize SerializeFMUState DeserializeFMUState
+    GetDirectionalDerivative GetAdjointDerivative EnterConfigurationMode ExitConfigurationMode EvaluateDiscreteStates
+    UpdateDiscreteStates EnterContinuousTimeMode CompletedIntegratorStep SetTime GetContinuousStateDerivatives
+    GetEventIndicators GetNominalsOfContinuousStates GetNumberOfEventIndicators GetNumberOfContinuousStates EnterStepMode
+    GetOutputDerivatives DoStep ActivateModelPartition""".split() + [way + kind for kind in TYPES for way in ("Get", "Set")]}
+FUNCTIONS_2 = {"fmi2" + name for name in """
+    GetTypesPlatform GetVersion SetDebugLogging Instantiate FreeInstance SetupExperiment EnterInitializationMode
+    ExitInitializationMode Terminate Reset GetReal GetInteger GetBoolean GetString SetReal SetInteger SetBoolean SetString
+    GetFMUstate SetFMUstate FreeFMUstate SerializedFMUstateSize SerializeFMUstate DeSerializeFMUstate
+    GetDirectionalDerivative SetRealInputDerivatives GetRealOutputDerivatives DoStep CancelStep GetStatus GetRealStatus
+    GetIntegerStatus GetBooleanStatus GetStringStatus""".split()}
+
+
+def fails(code, *arguments, words=""):
+    done = subprocess.run([RUN, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
+    said = done.stderr.decode()
+    assert done.returncode == code and words in said and said, (arguments, done.returncode, said)
+    assert not done.stdout
+
+
+def an_archive_has_its_files():
+    for version in (2, 3):
+        fmu = fmu_of("data/measured_push.yaml", version)
+        machine = "linux64" if version == 2 else f"{os.uname().machine}-linux"
+        assert set(fmu.names) == {"modelDescription.xml", f"binaries/{machine}/{fmu.identifier}.so", "resources/model.yaml",
+                                  "resources/settings", "resources/tables/F", "documentation/index.html",
+                                  *(f"documentation/licenses/{name}.txt" for name in ("license", "gpl-3.0", "libyaml"))}
+        source = MODELS / "data/measured_push"
+        inside = Path(fmu.resources)
+        assert (inside / "model.yaml").read_bytes() == source.with_suffix(".yaml").read_bytes()
+        assert (inside / "tables/F").read_bytes() == source.with_suffix(".csv").read_bytes()
+        license_text = (inside / "../documentation/licenses/license.txt").read_text(encoding="utf-8")
+        assert "GPL-3.0-or-later" in license_text and fmu.xml.get("license") == "GPL-3.0-or-later"
+        text = (inside / "../documentation/licenses/gpl-3.0.txt").read_bytes()
+        assert text == (MODELS / "../LICENSE").read_bytes() and b"GNU GENERAL PUBLIC LICENSE" in text
+        again = Path(FOLDER.name) / "again.fmu"
+        for target in (again, "-"):
+            with open(Path(FOLDER.name) / "stdout", "wb") as out:
+                subprocess.run([RUN, "--fmu", target, "--fmu-version", str(version), place("data/measured_push.yaml")],
+                               stdout=out, check=True)
+        assert (Path(FOLDER.name) / "stdout").read_bytes() == again.read_bytes()
+        with zipfile.ZipFile(again) as archive:
+            assert all(one.compress_type == zipfile.ZIP_STORED and one.extract_version <= 20 for one in archive.infolist())
+
+
+def the_binary_shows_the_functions_of_the_standard_and_needs_the_C_library():
+    binary = fmu_of(NAMED, 3).binary
+    said = subprocess.run(["nm", "-D", "--defined-only", binary], stdout=subprocess.PIPE, check=True, text=True).stdout
+    assert {line.split()[2] for line in said.splitlines()} == FUNCTIONS_2 | FUNCTIONS_3
+    said = subprocess.run(["readelf", "-d", binary], stdout=subprocess.PIPE, check=True, text=True).stdout
+    assert set(re.findall(r"NEEDED.*\[(\w+)", said)) <= {"libc", "libm", "ld"}, said
+    assert "RPATH" not in said and "RUNPATH" not in said and "TEXTREL" not in said
+
+
+def variables_are_those_of_the_model():
+    for version in (2, 3):
+        fmu = fmu_of(NAMED, version)
+        found = {name: (one.causality, one.unit) for name, one in fmu.variables.items()}
+        want = {
+            "time": ("independent", "s"), "w": ("parameter", "lbf"), "m": ("calculatedParameter", "slug"),
+            "alpha": ("parameter", ""), "n": ("parameter", ""), "push": ("input", "lbf"),
+            "sled.x": ("output", "ft"), "sled.v": ("output", "ft/s"), "sled.v_dot": ("output", "ft/s^2"),
+            "wheel.theta": ("output", "rad"), "wheel.omega": ("output", "rad/s"), "wheel.omega_dot": ("output", "rad/s^2")}
+        assert found == want, found
+        assert fmu.variables["push"].description == '<to> the "right" & back'
+        assert fmu.xml.get("description") == 'Names & <signs> that "XML" minds: größer'
+        starts = {name: float(one.start) for name, one in fmu.variables.items() if one.start}
+        assert set(starts) == {"w", "alpha", "n", "push"} and close(starts["alpha"], 0.5235987755982988, 1, 0)
+        instance = fmu.open()
+        assert instance.get(list(starts)) == starts
+        instance.free()
+
+
+BASES = {"kg", "m", "s", "rad"}
+FACTORS = {"lbf": 4.4482216152605, "slug": 14.593902937206364, "ft": 0.3048, "ft/s": 0.3048, "ft/s^2": 0.3048}
+
+
+def units_have_their_dimension_and_size():
+    for version in (2, 3):
+        fmu = fmu_of(NAMED, version)
+        units = {one.get("name"): one.find("BaseUnit").attrib for one in fmu.xml.find("UnitDefinitions")}
+        assert set(units) == {one.unit for one in fmu.variables.values()} - {""}
+        dimension = {name: {k: int(v) for k, v in base.items() if k in BASES} for name, base in units.items()}
+        assert dimension["lbf"] == {"kg": 1, "m": 1, "s": -2} and dimension["rad/s^2"] == {"rad": 1, "s": -2}
+        assert dimension["ft/s"] == {"m": 1, "s": -1} and dimension["slug"] == {"kg": 1}
+        for name, base in units.items():
+            want = FACTORS.get(name, 1)
+            assert close(float(base.get("factor", 1)), want, want, 1e-12), (name, base)
+
+
+def the_structure_lists_what_the_standard_asks_for():
+    for version in (2, 3):
+        for model in (NAMED, "trees/double_pendulum.yaml", "couplings/driven_slider_crank.yaml"):
+            fmu = fmu_of(model, version)
+            listed = {"outputs": [], "derivatives": [], "initial": []}
+            order = list(fmu.variables)
+            by_reference = {one.reference: name for name, one in fmu.variables.items()}
+            assert len(by_reference) == len(order)
+            for element in fmu.xml.find("ModelStructure").iter():
+                reference, index = element.get("valueReference"), element.get("index")
+                if reference is None and index is None:
+                    group = element.tag
+                    continue
+                name = by_reference[int(reference)] if version == 3 else order[int(index) - 1]
+                kind = {"Output": "outputs", "Outputs": "outputs", "ContinuousStateDerivative": "derivatives",
+                        "Derivatives": "derivatives", "InitialUnknown": "initial", "InitialUnknowns": "initial"}[
+                            element.tag if version == 3 else group]
+                listed[kind].append(name)
+            calculated = [one.name for one in fmu.variables.values() if one.causality == "calculatedParameter"]
+            assert listed["outputs"] == fmu.outputs
+            assert sorted(listed["initial"]) == sorted(fmu.outputs + calculated)
+            rates = [one.name for one in fmu.variables.values() if one.derivative]
+            capable = any("irectionalDerivative" in key for key in fmu.co_simulation.attrib)
+            assert listed["derivatives"] == (rates if capable else [])
+            for name in rates:
+                number = int(fmu.variables[name].derivative)
+                state = by_reference[number] if version == 3 else order[number - 1]
+                assert state.split(".")[0] == name.split(".")[0] and fmu.variables[state].unit + "/s" in (
+                    fmu.variables[name].unit, fmu.variables[name].unit.replace("/s^2", "/s/s"))
+
+
+def tokens_tell_models_apart():
+    plain, other = fmu_of(NAMED, 3), fmu_of(NAMED, 3, "--set", "n=4")
+    assert plain.token == fmu_of(NAMED, 2).token and plain.token != other.token
+    assert re.fullmatch(r"\{[0-9A-F]{8}(-[0-9A-F]{4}){3}-[0-9A-F]{12}\}", plain.token)
+    instance = other.open()
+    assert instance.get(["n"]) == {"n": 4}
+    instance.free()
+
+
+def settings_go_along():
+    arguments = ["--set", "w=10 lbf", "--set", "alpha=-20 deg", "--until", "0.75", "--tolerance", "1e-7", "--method", "rk8pd",
+                 "--no-structure"]
+    fmu = fmu_of(NAMED, 3, *arguments)
+    experiment = fmu.xml.find("DefaultExperiment").attrib
+    assert experiment == {"startTime": "0", "stopTime": "0.75", "tolerance": "1e-07"} or float(experiment["tolerance"]) == 1e-7
+    assert float(experiment["stopTime"]) == 0.75
+    assert float(fmu.variables["w"].start) == 10 and close(float(fmu.variables["alpha"].start), -0.3490658503988659, 1, 0)
+    done = subprocess.run([RUN, "--quiet", "--csv", "-", "--every", "0.75", *arguments, place(NAMED)],
+                          stdout=subprocess.PIPE, check=True, text=True).stdout.splitlines()[-1].split(",")
+    instance = fmu.open()
+    assert instance.go_to(0.75)[0] == OK
+    got = instance.get(["sled.x", "sled.v", "wheel.theta", "wheel.omega"])
+    assert list(got.values()) == list(map(float, done[1:])), (got, done)
+    instance.free()
+
+
+def an_FMU_is_moved_and_its_table_goes_along():
+    source = Path(FOLDER.name) / "source"
+    shutil.copytree(MODELS / "data", source)
+    target = Path(FOLDER.name) / "moved.fmu"
+    other = source / "other.csv"
+    other.write_text("t [ms],F [N]\n0,0\n10,100\n20,0\n", encoding="utf-8")
+    subprocess.run([RUN, "--fmu", target, "--set", f"F={other}", source / "measured_push.yaml"], check=True)
+    shutil.rmtree(source)
+    instance = Fmu(target, Path(FOLDER.name) / "moved").open()
+    assert instance.go_to(0.2)[0] == OK, instance.messages
+    assert close(instance.get(["block.v"])["block.v"], 1 / 3, 1, 1e-9)
+    instance.free()
+
+
+def what_makes_no_sense_is_refused():
+    model, target = place("forcing/pushed_oscillator.yaml"), Path(FOLDER.name) / "wrong.fmu"
+    for arguments in (["--fmu-version", "1"], ["--fmu-version", "three"], ["--csv", "o.csv"], ["--accuracy", "1e-6"],
+                      ["--error-bars"], ["--svg", "o.svg"], ["--at", "1"], ["--check"], ["--ledger"], ["--method", "nonsense"],
+                      ["--until", "-1"], ["--tolerance", "2"]):
+        fails(2, "--fmu", target, *arguments, model)
+    fails(2, "--fmu-version", "2", model, words="--fmu")
+    fails(2, "--fmu", model, model)
+    fails(1, "--fmu", "/nowhere/o.fmu", model, words="cannot write")
+    fails(3, "--fmu", target, "--set", "m=-1", model)
+    fails(3, "--fmu", target, "--set", "nothing=3", model)
+    fails(1, "--fmu", target, place("fbd: 1\nground: {lines: {floor: {through: [0, 0], along: 0 deg}}}\nbodies:\n  a: "
+                                    "{shape: sphere, mass: 1 kg, radius: 1 m, motion: planar, initial: {y: 0.2 m}}\n"
+                                    "contacts: [{between: [a, ground.floor]}]\nsimulate: {until: 1 s}\n"))
+    assert not target.exists()
+
+
+CLAIMS = [an_archive_has_its_files, the_binary_shows_the_functions_of_the_standard_and_needs_the_C_library,
+          variables_are_those_of_the_model, units_have_their_dimension_and_size,
+          the_structure_lists_what_the_standard_asks_for, tokens_tell_models_apart, settings_go_along,
+          an_FMU_is_moved_and_its_table_goes_along, what_makes_no_sense_is_refused]
+
+sys.exit(run_claims(CLAIMS))

@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Usage: published.py: FMUs of all models against what is published of the standard, and driven by FMPy. None of that is
+part of this project; what is not there is skipped. FBD_FMI_3 and FBD_FMI_2 name folders with `headers` and `schema` of the
+standard (github.com/modelica/fmi-standard, v3.0.2 and v2.0.5), PYTHONPATH may lead to FMPy. Prints TAP."""
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+import zipfile
+from pathlib import Path
+
+from fmu import make_fmu
+from workshop import FOLDER, MODELS, close, run_claims, run_csv
+
+SOURCES = Path(os.environ["FBD_SOURCE_ROOT"]) / "lib"
+# Runs that fail, as they should.
+FAILING = {"not_a_number_beyond.yaml", "singular_reached.yaml"}
+
+
+def published(version):
+    place = os.environ.get(f"FBD_FMI_{version}")
+    if not place:
+        raise unittest.SkipTest(f"FBD_FMI_{version} names no folder of the standard")
+    return Path(place)
+
+
+def models():
+    return [path for path in sorted(MODELS.rglob("*.yaml")) if path.name not in FAILING]
+
+
+def the_binary_compiles_with_the_published_headers():
+    include = [word for version in (2, 3) for word in ("-I", published(version) / "headers")]
+    for source in sorted((SOURCES / "fmi").glob("fmi[23]*.c")):
+        subprocess.run([*os.environ.get("CC", "cc").split(), "-std=c17", "-D_POSIX_C_SOURCE=200809L", "-DFBD_FMI_HEADERS",
+                        "-DFBD_VERSION=\"\"", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only", "-I", SOURCES, *include,
+                        source], check=True)
+
+
+def validate(version):
+    schema = published(version) / "schema" / f"fmi{version}ModelDescription.xsd"
+    with tempfile.TemporaryDirectory() as folder:
+        files = []
+        for number, model in enumerate(models()):
+            fmu = make_fmu(model, f"{folder}/{number}.fmu", "--fmu-version", version)
+            with zipfile.ZipFile(fmu) as archive:
+                files.append(f"{folder}/{number}.xml")
+                Path(files[-1]).write_bytes(archive.read("modelDescription.xml"))
+            os.remove(fmu)
+        subprocess.run(["xmllint", "--noout", "--schema", schema, *files], check=True)
+
+
+def descriptions_are_valid_by_the_schema_of_FMI_3():
+    validate(3)
+
+
+def descriptions_are_valid_by_the_schema_of_FMI_2():
+    validate(2)
+
+
+def compare(result, rows, until):
+    """Where both have a row at the same time, to the rounding of times."""
+    size = {name: max(abs(row[name]) for row in rows) + 1e-300 for name in rows[0]}
+    times, compared = list(result["time"]), 0
+    for row in rows:
+        found = [k for k, t in enumerate(times) if abs(t - row["t"]) <= 1e-12 * until]
+        if len(found) != 1:
+            continue
+        compared += 1
+        for name in set(result.dtype.names) & set(row):
+            assert close(result[name][found[0]], row[name], size[name], 1e-9), (row["t"], name, result[name], row[name])
+    assert compared > 5, compared
+
+
+def drive(version):
+    try:
+        import fmpy  # pylint: disable=import-outside-toplevel
+        from fmpy.validation import validate_fmu  # pylint: disable=import-outside-toplevel
+    except ImportError as error:
+        raise unittest.SkipTest("FMPy is not installed") from error
+    for model in models():
+        path = make_fmu(model, str(Path(FOLDER.name) / "one.fmu"), "--fmu-version", version)
+        assert not validate_fmu(path), model
+        until = float(fmpy.read_model_description(path).defaultExperiment.stopTime)
+        result = fmpy.simulate_fmu(path, fmi_type="CoSimulation", stop_time=until, output_interval=until / 20)
+        compare(result, run_csv(str(model.relative_to(MODELS)), "--every", repr(until / 20)), until)
+
+
+def FMPy_drives_FMI_3():
+    drive(3)
+
+
+def FMPy_drives_FMI_2():
+    drive(2)
+
+
+CLAIMS = [the_binary_compiles_with_the_published_headers, descriptions_are_valid_by_the_schema_of_FMI_3,
+          descriptions_are_valid_by_the_schema_of_FMI_2, FMPy_drives_FMI_3, FMPy_drives_FMI_2]
+
+sys.exit(run_claims(CLAIMS, silent=False))
