@@ -124,6 +124,15 @@ static void write_final(const struct page *page)
         if (body->friction >= 0) write_friction(text, state, (int)b);
         text_add(text, "\n");
     }
+    for (int i = 0; i < model->plan.own; i++) {
+        size_t component = (size_t)(2 * model->plan.n + i);
+        text_printf(text, "  %s", model->own_labels[i].name);
+        text_pad(text, 16);
+        text_add(text, " = ");
+        text_number(text, state->y[component], digits);
+        if (page->bars) plus_minus(page, bars_component(page->bars, state, component));
+        text_printf(text, " %s\n", model->own_labels[i].unit);
+    }
 }
 
 /* A number and its error, `other` being the companion's. */

@@ -105,7 +105,7 @@ struct scene_keys {
     const char *title, *description;
     int units;
     double datum;
-    const struct node *gravity, *parameters, *tables, *ground, *bodies, *couplings, *contacts, *simulate,
+    const struct node *gravity, *parameters, *tables, *own, *ground, *bodies, *couplings, *contacts, *simulate,
         *output, *grading;
 };
 
@@ -119,6 +119,10 @@ struct table_keys {
     const char *file, *x, *y;
     const struct node *points;
     int interpolation, beyond; /* enum table_interpolation, enum table_beyond */
+};
+
+struct own_state_keys {
+    const struct node *rate, *initial, *unit;
 };
 
 struct output_keys {
@@ -231,7 +235,7 @@ struct hand_keys {
 extern const struct choice method_choices[];
 
 extern const struct group scene_group, ground_group, line_group, simulate_group, output_group, event_group;
-extern const struct group contact_group, table_group, grading_group;
+extern const struct group contact_group, table_group, own_state_group, grading_group;
 extern const struct group *const grading_points_group;
 extern const struct group body_group, part_group, inertia_group, hand_group, place_group;
 extern const struct group initial_groups[], exact_groups[]; /* by enum motion_kind */

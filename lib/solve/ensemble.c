@@ -53,7 +53,7 @@ static void map_branches(struct ensemble *ensemble)
     for (size_t i = 0; i < plan->kink_count; i++) {
         const struct kink *kink = &plan->kinks[i];
         int p = kink->body >= 0 ? division->group_of_body[kink->body] : 0;
-        if (kink->body < 0) { /* of a user event: the one whose formula begins with this branch */
+        if (kink->body < 0 && kink->own < 0) { /* of a user event: the one whose formula begins with this branch */
             int first = kink->formula.branch;
             while (plan->watches[watch].left.branch != first && plan->watches[watch].right.branch != first)
                 watch++;
@@ -339,8 +339,8 @@ bool ensemble_coordinates(struct ensemble *ensemble, double t, double *y)
 
 size_t group_component(const struct fbd_model *whole, const struct group *group, size_t i)
 {
-    size_t n = (size_t)group->model->plan.n, q = i % n;
     if (!group->selection) return i;
+    size_t n = (size_t)group->model->plan.n, q = i % n;
     int b = group->model->scene->coordinates[q].body;
     const struct model_body *from = &group->model->bodies[b];
     const struct model_body *to = &whole->bodies[group_body(group, b)];
@@ -351,7 +351,7 @@ void ensemble_pass_on(const struct ensemble *ensemble, size_t index, struct fbd_
 {
     const struct group *group = &ensemble->groups[index];
     const struct run *run = group->run;
-    for (size_t i = 0; i < 2 * (size_t)group->model->plan.n; i++)
+    for (size_t i = 0; i < plan_size(&group->model->plan); i++)
         state->y[group_component(ensemble->model, group, i)] += run->state->y[i] - run->y[i];
     scatter_modes(group, run->state, state);
 }

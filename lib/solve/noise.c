@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "dynamics/constraint.h"
+#include "dynamics/own.h"
 #include "solve/run.h"
 
 /* How much the links from the ground to each have turned in all: an angle in the world is their sum, and has
@@ -72,7 +73,7 @@ static void take_driven(const struct run *run, double *dy)
 {
     const struct plan *plan = &run->model->plan;
     size_t n = (size_t)plan->n;
-    memset(dy, 0, 2 * n * sizeof *dy);
+    memset(dy, 0, plan_size(plan) * sizeof *dy);
     for (size_t pair = 0; pair < plan->friction_count; pair++) {
         if (plan->frictions[pair].kind != mode_drive) continue;
         size_t i = (size_t)plan->frictions[pair].coordinate;
@@ -83,17 +84,18 @@ static void take_driven(const struct run *run, double *dy)
 
 /* How fast the accelerations change: along the motion, or by the time alone, which is what its rounding does
  * to them: where no force names it, and nothing is prescribed, nothing, as steps have the size that they say.
- * `along` has n entries. */
+ * `along` has plan_rates entries: the rates of states change likewise. */
 static void changes(struct run *run, const struct instant *at, bool by_time, double *along)
 {
     const struct plan *plan = &run->model->plan;
     size_t n = (size_t)plan->n;
     double *slots = run->state->scratch, *slots_along = slots + plan->slots, *dy = run->sample;
     memcpy(dy, run->state->y + n, n * sizeof *dy);
-    memcpy(dy + n, run->state->a, n * sizeof *dy);
+    memcpy(dy + n, run->state->a, plan_rates(plan) * sizeof *dy);
     if (by_time) take_driven(run, dy);
     struct direction flow = {1, dy};
     accelerations_along(run->model, at, &flow, slots, slots_along, along);
+    if (plan->own > 0) own_rates_along(run->model, at, &flow, along + n);
 }
 
 /* A coordinate or rate that is exactly zero has no size that an error could be compared with, and a method of
@@ -108,6 +110,18 @@ static void set_floors(struct run *run, int i, double lasts)
     double a = fmax(fabs(run->state->a[i]), isfinite(jerk) ? tau * jerk : 0); /* drives start without one */
     if (run->state->y[position] == 0) switcher_set_floor(run->stepper, position, v * tau + a * tau * tau);
     if (v == 0) switcher_set_floor(run->stepper, rate, a * tau);
+}
+
+/* Likewise a state that starts from zero. */
+static void set_own_floor(struct run *run, int i, double lasts)
+{
+    const double share = 1e-3;
+    const struct plan *plan = &run->model->plan;
+    size_t state = 2 * (size_t)plan->n + (size_t)i, rate = (size_t)(plan->n + i);
+    double tau = share * lasts, change = fabs(run->along[rate]);
+    if (run->state->y[state] != 0) return;
+    switcher_set_floor(run->stepper, state,
+                       tau * fabs(run->state->a[rate]) + (isfinite(change) ? tau * tau * change : 0));
 }
 
 /* Roundings of its gross forces that the acceleration of a body is known to. Measured with chains of 16 to
@@ -146,14 +160,16 @@ static void set_noise(struct run *run)
 
 void run_set_noise(struct run *run)
 {
-    const int n = run->model->plan.n;
+    const struct plan *plan = &run->model->plan;
+    const int n = plan->n, size = (int)plan_size(plan);
     bool any = false;
     set_noise(run);
-    for (int i = 0; i < 2 * n; i++) any |= run->state->y[i] == 0;
+    for (int i = 0; i < size; i++) any |= run->state->y[i] == 0;
     double lasts = any ? run_time_to_switch(run) : 0;
     struct instant at = state_instant(run->state);
     if (any) changes(run, &at, false, run->along);
     for (int i = 0; any && i < n; i++) set_floors(run, i, lasts);
+    for (int i = 0; any && i < plan->own; i++) set_own_floor(run, i, lasts);
     run->since_noise = 0;
 }
 
