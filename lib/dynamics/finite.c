@@ -161,9 +161,10 @@ enum finite finite_check(const struct fbd_state *state, struct not_finite *found
 {
     struct arrow *arrows = calloc(diagram_most_arrows(state->model), sizeof *arrows);
     if (!arrows) return finite_no_memory;
-    bool odd = note_coordinates(state, found) || note_own(state, found) || note_arrows(state, arrows, false, found) ||
-               note_accelerations(state, found) || note_arrows(state, arrows, true, found) ||
-               note_limits(state, found) || note_energies(state, found);
+    bool odd = note_coordinates(state, found) || note_own(state, found) ||
+               note_arrows(state, arrows, false, found) || note_accelerations(state, found) ||
+               note_arrows(state, arrows, true, found) || note_limits(state, found) ||
+               note_energies(state, found);
     free(arrows);
     return odd ? finite_not : finite_all;
 }

@@ -393,7 +393,8 @@ struct rates_census rates_census(const struct rates *rates)
     struct rates_census census = {0};
     for (int i = 0; i < rates->count; i++) {
         rates_function *function = rates->rows[i].function;
-        int *count = function == steady_row     ? &census.steady
+        int *count = function == own_row        ? &census.own
+                     : function == steady_row   ? &census.steady
                      : function == held_row     ? &census.held
                      : function == affine_row   ? &census.affine
                      : function == sine_row     ? &census.sine

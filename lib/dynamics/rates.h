@@ -51,7 +51,7 @@ struct fbd_state *rates_state(void *params);
 
 /* How many rows of each kind there are, for those who want to know. */
 struct rates_census {
-    int steady, held, affine, sine, parts, formulas, particles, bodies;
+    int steady, held, affine, sine, parts, formulas, particles, own, bodies;
 };
 
 struct rates_census rates_census(const struct rates *rates);

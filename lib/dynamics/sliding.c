@@ -19,8 +19,8 @@ static size_t double_count(const struct fbd_model *model)
 {
     const struct plan *plan = &model->plan;
     size_t room = (size_t)plan->slide_count, n = (size_t)plan->n, size = plan_size(plan);
-    return 2 * room * room + n * room + 3 * room + 3 * most_switches(plan) + 2 * (size_t)plan->slots + 3 * n + 6 * size +
-           extended_size(model) + size;
+    return 2 * room * room + n * room + 3 * room + 3 * most_switches(plan) + 2 * (size_t)plan->slots + 3 * n +
+           6 * size + extended_size(model) + size;
 }
 
 static size_t int_count(const struct plan *plan)

@@ -8,7 +8,8 @@ struct formula formula_constant(double value)
     return (struct formula){.constant = value};
 }
 
-static struct formula make_formula(struct builder *builder, const struct value *value, int body, int load, int own)
+static struct formula make_formula(struct builder *builder, const struct value *value, int body, int load,
+                                   int own)
 {
     struct formula formula = {.branch = -1};
     if (!value->expr) return formula;
@@ -298,10 +299,10 @@ static struct fbd_model *compile(struct scene *scene, bool labels, fbd_errors *e
         set_couplings(&builder);
         model->own_labels = own_labels_make(&model->arena, scene);
         if (labels) model->labels = labels_make(&model->arena, scene);
-        done = model->own_labels && (model->labels || !labels) && set_named_ties(&builder) && set_drives(&builder) &&
-               set_absolutes(model) && set_output_points(model) && tree_number(model) &&
-               tree_name_reactions(model) && arrows_name(model) && plan_build(&builder) &&
-               classify_loads(&builder);
+        done = model->own_labels && (model->labels || !labels) && set_named_ties(&builder) &&
+               set_drives(&builder) && set_absolutes(model) && set_output_points(model) &&
+               tree_number(model) && tree_name_reactions(model) && arrows_name(model) &&
+               plan_build(&builder) && classify_loads(&builder);
         set_rates(&builder);
         set_watches(&builder);
         if (done) done = slips_find(model);

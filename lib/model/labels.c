@@ -27,7 +27,9 @@ const struct own_label *own_labels_make(struct arena *arena, const struct scene 
         labels[i] = (struct own_label){
             .name = arena_printf(arena, "states.%s", state->name),
             .unit = unit_or(arena, state->dim, scene->units, "1"),
-            .rate_unit = unit_or(arena, dim_over(state->dim, DIM_TIME), scene->units, "1"),
+            .rate_unit = dim_equal(state->dim, DIM_NONE)
+                             ? "1/s"
+                             : unit_or(arena, dim_over(state->dim, DIM_TIME), scene->units, "1"),
         };
     }
     return arena->failed ? NULL : labels;

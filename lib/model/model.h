@@ -92,7 +92,7 @@ struct fbd_model {
     size_t coupled_count; /* with the latter; behind them one for each rolling body: its friction */
     struct model_body *bodies;
     struct model_load *loads;
-    const struct label *labels; /* of the coordinates */
+    const struct label *labels;         /* of the coordinates */
     const struct own_label *own_labels; /* of the states of the file's own */
     size_t absolute_count;
     struct model_absolute *absolutes;

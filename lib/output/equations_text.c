@@ -101,8 +101,8 @@ static void write_states(struct text *text, const struct fbd_state *state)
         const struct own_label *label = &model->own_labels[i];
         text_printf(text, "  %s = ", label->name);
         text_number(text, state->y[2 * n + i], 9);
-        text_printf(text, " %s\n", label->unit);
-        write_row(text, "rate", state->a[n + i], label->rate_unit, "");
+        text_printf(text, "%s%s\n", unit_word(label->unit)[0] ? " " : "", unit_word(label->unit));
+        write_row(text, "rate", state->a[n + i], unit_word(label->rate_unit), "");
     }
 }
 

@@ -59,6 +59,11 @@ static void write_coordinates(struct text *text, const struct fbd_model *model)
     }
     if (model->body_count > most_bodies)
         text_printf(text, "  and those of %zu more bodies\n", model->body_count - most_bodies);
+    if (model->plan.own == 0) return;
+    text_printf(text, "States by equations of their own (%d):", model->plan.own);
+    for (int i = 0; i < model->plan.own && i < (int)most_bodies; i++)
+        text_printf(text, " %s [%s]", model->scene->own[i].name, model->own_labels[i].unit);
+    text_add(text, model->plan.own > (int)most_bodies ? " ...\n" : "\n");
 }
 
 /* ---- effects that are simulated: loads of one kind and one reason together */
@@ -202,7 +207,7 @@ static void write_method(struct text *text, const struct fbd_model *model, const
     text_printf(text, "\nMethod: auto, because no other is asked for\n  %s%s (%s)\n",
                 structure ? "what the structure above allows; where it is nothing in particular, " : "",
                 method_at(0)->name, method_at(0)->description);
-    if (2 * model->plan.n <= method_most_stiff_states)
+    if (plan_size(&model->plan) <= method_most_stiff_states)
         text_printf(text,
                     "  %s (%s)\n    where a trial step shows that it could go on by much longer steps\n",
                     stiff->name, stiff->description);

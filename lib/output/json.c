@@ -32,7 +32,8 @@ static const char *outcome_name(fbd_outcome outcome)
 }
 
 /* The states of the file's own. */
-static void write_own(struct text *text, const struct fbd_model *model, const double *values, const char *before)
+static void write_own(struct text *text, const struct fbd_model *model, const double *values,
+                      const char *before)
 {
     if (model->plan.own == 0) return;
     text_add(text, before);

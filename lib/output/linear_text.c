@@ -24,7 +24,7 @@ static void write_equilibrium(struct text *text, const struct fbd_linearization 
         const struct own_label *label = &linear->model->own_labels[i];
         text_printf(text, "  %s = ", label->name);
         text_number(text, linear->q[linear->model->plan.n + i], digits);
-        text_printf(text, " %s\n", label->unit);
+        text_printf(text, "%s%s\n", unit_word(label->unit)[0] ? " " : "", unit_word(label->unit));
     }
 }
 
@@ -64,8 +64,7 @@ static void write_matrix(struct text *text, const struct fbd_linearization *line
         return;
     }
     text_add(text, "\nx' = A x for the deviations x = (");
-    for (size_t i = 0; i < size; i++)
-        text_printf(text, "%s%s", i ? ", " : "", linearization_name(linear, i));
+    for (size_t i = 0; i < size; i++) text_printf(text, "%s%s", i ? ", " : "", linearization_name(linear, i));
     text_add(text, "), A =\n");
     for (size_t i = 0; i < size; i++) {
         for (size_t j = 0; j < size; j++) {

@@ -125,13 +125,14 @@ static void write_final(const struct page *page)
         text_add(text, "\n");
     }
     for (int i = 0; i < model->plan.own; i++) {
+        const struct own_label *label = &model->own_labels[i];
         size_t component = (size_t)(2 * model->plan.n + i);
-        text_printf(text, "  %s", model->own_labels[i].name);
+        text_printf(text, "  %s", label->name);
         text_pad(text, 16);
         text_add(text, " = ");
         text_number(text, state->y[component], digits);
         if (page->bars) plus_minus(page, bars_component(page->bars, state, component));
-        text_printf(text, " %s\n", model->own_labels[i].unit);
+        text_printf(text, "%s%s\n", unit_word(label->unit)[0] ? " " : "", unit_word(label->unit));
     }
 }
 

@@ -105,8 +105,8 @@ struct scene_keys {
     const char *title, *description;
     int units;
     double datum;
-    const struct node *gravity, *parameters, *tables, *own, *ground, *bodies, *couplings, *contacts, *simulate,
-        *output, *grading;
+    const struct node *gravity, *parameters, *tables, *own, *ground, *bodies, *couplings, *contacts,
+        *simulate, *output, *grading;
 };
 
 struct grading_keys {

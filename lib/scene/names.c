@@ -283,14 +283,10 @@ static struct symbol hand_symbol(const struct names *names, const char *name)
         int slot;
         struct dim dim;
     } known[] = {
-        {"m", hand_mass, {dim_unit, 0, 0}},
-        {"I_G", hand_I_G, {dim_unit, 2 * dim_unit, 0}},
-        {"I_O", hand_I_O, {dim_unit, 2 * dim_unit, 0}},
-        {"L", hand_L, {0, dim_unit, 0}},
-        {"N", hand_N, {dim_unit, dim_unit, -2 * dim_unit}},
-        {"mu_s", hand_mu_s, {0, 0, 0}},
-        {"mu_k", hand_mu_k, {0, 0, 0}},
-        {"mu", hand_mu_k, {0, 0, 0}},
+        {"m", hand_mass, DIM_INIT(1, 0, 0)},    {"I_G", hand_I_G, DIM_INIT(1, 2, 0)},
+        {"I_O", hand_I_O, DIM_INIT(1, 2, 0)},   {"L", hand_L, DIM_INIT(0, 1, 0)},
+        {"N", hand_N, DIM_INIT(1, 1, -2)},      {"mu_s", hand_mu_s, DIM_INIT(0, 0, 0)},
+        {"mu_k", hand_mu_k, DIM_INIT(0, 0, 0)}, {"mu", hand_mu_k, DIM_INIT(0, 0, 0)},
     };
     const struct reader *reader = names->reader;
     const struct draft *draft = &reader->drafts[names->body];

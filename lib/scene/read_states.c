@@ -39,8 +39,9 @@ static bool check_bodies(struct reader *reader)
 {
     const struct pair *body = reader->bodies ? node_find(reader->bodies, "states") : NULL;
     if (!body || reader->scene->own_count == 0) return true;
-    diag_add(reader->errors, FBD_ERROR, "reserved-name", body->at, "choose another name",
-             "a body cannot be called `states` beside the states of the file, which are called `states.name`");
+    diag_add(
+        reader->errors, FBD_ERROR, "reserved-name", body->at, "choose another name",
+        "a body cannot be called `states` beside the states of the file, which are called `states.name`");
     return false;
 }
 
@@ -87,7 +88,8 @@ bool own_states_start(struct reader *reader)
 static bool read_unit(struct reader *reader, const struct node *node, struct unit *unit)
 {
     *unit = (struct unit){.factor = 1};
-    if (node->length == 0) return value_refuse(reader, node, "unit", "a unit", "write for example `unit: N*s`");
+    if (node->length == 0)
+        return value_refuse(reader, node, "unit", "a unit", "write for example `unit: N*s`");
     if (strcmp(node->text, "1") == 0) return true;
     return unit_parse(node->text, node->length, reader->scene->units, reader->errors, node->text_at, unit);
 }

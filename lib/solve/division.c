@@ -27,7 +27,9 @@ static int body_of_slot(const struct scene *scene, int slot)
 {
     size_t n = scene->coordinate_count, size = scene_size(scene), index = (size_t)slot - 1;
     if (index < 2 * n) return scene->coordinates[index % n].body;
-    return index < size ? 0 : scene->absolutes[index - size - hand_slots].body; /* with states all are one group */
+    return index < size
+               ? 0
+               : scene->absolutes[index - size - hand_slots].body; /* with states all are one group */
 }
 
 /* Join the bodies whose coordinates or places an expression reads with `body`, or with each other where that

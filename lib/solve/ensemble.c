@@ -53,7 +53,8 @@ static void map_branches(struct ensemble *ensemble)
     for (size_t i = 0; i < plan->kink_count; i++) {
         const struct kink *kink = &plan->kinks[i];
         int p = kink->body >= 0 ? division->group_of_body[kink->body] : 0;
-        if (kink->body < 0 && kink->own < 0) { /* of a user event: the one whose formula begins with this branch */
+        if (kink->body < 0 &&
+            kink->own < 0) { /* of a user event: the one whose formula begins with this branch */
             int first = kink->formula.branch;
             while (plan->watches[watch].left.branch != first && plan->watches[watch].right.branch != first)
                 watch++;

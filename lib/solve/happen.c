@@ -33,7 +33,8 @@ struct run_event *run_note(struct run *run, fbd_event_kind kind, int body, int l
         run->event_room = room;
     }
     struct run_event *event = &run->events[run->event_count++];
-    *event = (struct run_event){.t = run_time(run), .kind = kind, .body = body, .load = load, .watch = watch, .own = -1};
+    *event = (struct run_event){
+        .t = run_time(run), .kind = kind, .body = body, .load = load, .watch = watch, .own = -1};
     return event;
 }
 

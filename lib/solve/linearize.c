@@ -391,8 +391,8 @@ static bool is_finite(const struct fbd_linearization *linear, struct fbd_state *
         diag_add(errors, FBD_ERROR, "not-finite", (struct pos){0, 0}, NULL,
                  "at the equilibrium the slope of %s `%s` with `%s` is not finite: %s",
                  row < 2 * f ? "the acceleration along" : "the rate of",
-                 linearization_name(linear, row < 2 * f ? row % f : row), linearization_name(linear, i % size),
-                 not_finite_reason(linear->A[i]));
+                 linearization_name(linear, row < 2 * f ? row % f : row),
+                 linearization_name(linear, i % size), not_finite_reason(linear->A[i]));
         return false;
     }
     return true;

@@ -22,7 +22,7 @@ struct fbd_linearization {
     size_t size;  /* twice that, and the states of the file's own */
     int *which;   /* count: which they are, ascending */
     double *way;  /* n x count: how all coordinates follow them; NULL without couplings */
-    double *A;   /* size x size, row by row (and df/dt behind it) */
+    double *A;    /* size x size, row by row (and df/dt behind it) */
     fbd_mode *modes;
     double *q;       /* plan_rates: the equilibrium, [q, z] */
     bool degenerate; /* forces without a slope there have been told, and their rows of A are zero */

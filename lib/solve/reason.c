@@ -89,7 +89,8 @@ static void explain_not_finite(struct run *run)
                            : "it is beyond the largest number (a division by zero, or an overflow)";
     if (element >= 2 * n) {
         run_fail(run, FBD_FAILED,
-                 "the rate of the state `%s` is not finite at t = %.9g, just beyond the last good state at t = %.9g: %s. "
+                 "the rate of the state `%s` is not finite at t = %.9g, just beyond the last good state at t "
+                 "= %.9g: %s. "
                  "End the run before by an event, or restrict the expression",
                  run->model->scene->own[element - 2 * n].name, run->system.last_time, run_time(run), what);
         return;
@@ -106,7 +107,8 @@ void run_fail_pole(struct run *run, const struct pole *pole)
     const struct fbd_model *model = run->model;
     if (pole->own >= 0) {
         run_fail(run, FBD_FAILED,
-                 "at t = %.9g the rate of the state `%s` divides by zero, to the rounding of the time: it is infinite "
+                 "at t = %.9g the rate of the state `%s` divides by zero, to the rounding of the time: it is "
+                 "infinite "
                  "there. End the run before by an event, or bound the rate",
                  run_time(run), model->scene->own[pole->own].name);
         return;

@@ -37,8 +37,10 @@ bool equilibrium_refuse_states(struct fbd_state *state, fbd_errors *errors)
     }
     for (int i = 0; i < model->plan.own; i++) {
         if (!goes_on(state, i)) continue;
-        diag_add(errors, FBD_ERROR, "not-at-rest", model->scene->own[i].rate.at, "leave the state out, or simulate it",
-                 "the state `%s` is never at rest: nothing brings its rate to zero", model->scene->own[i].name);
+        diag_add(errors, FBD_ERROR, "not-at-rest", model->scene->own[i].rate.at,
+                 "leave the state out, or simulate it",
+                 "the state `%s` is never at rest: nothing brings its rate to zero",
+                 model->scene->own[i].name);
         return true;
     }
     return false;
@@ -52,8 +54,9 @@ bool statics_refuse_states(const struct fbd_state *state, fbd_errors *errors)
         if (fabs(rate) <= rest_digits * own_rate_size(state, i)) continue;
         diag_add(errors, FBD_ERROR, "not-at-rest", model->scene->own[i].rate.at,
                  "look where it rests (--settle), or give it an `initial` value at which its rate is zero",
-                 "the state `%s` changes while all bodies are at rest, by %.6g %s: forces that depend on it do not last",
-                 model->scene->own[i].name, rate, model->own_labels[i].rate_unit);
+                 "the state `%s` changes while all bodies are at rest, by %.6g %s: forces that depend on it "
+                 "do not last",
+                 model->scene->own[i].name, rate, unit_word(model->own_labels[i].rate_unit));
         return true;
     }
     return false;

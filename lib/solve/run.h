@@ -127,9 +127,10 @@ struct run {
     int crowd;
     struct moment event; /* the start, or when events happened last */
     double interval[2];  /* between the last three of these; 0 where there are none */
-    double *anchor; /* 2 plan_size: the state around which events have happened lately; the largest |y_i| before the
+    double *
+        anchor; /* 2 plan_size: the state around which events have happened lately; the largest |y_i| before the
                        last step */
-    int around;     /* how many */
+    int around; /* how many */
 };
 
 /* A run at the start of the model, modes settled, events of t = 0 applied. NULL when memory is out. */
