@@ -199,7 +199,6 @@ void state_rates(const struct fbd_model *model, const struct instant *at, double
         if (holds_coordinate(plan, at, pair))
             dydt[plan->frictions[pair].coordinate] =
                 friction_surface_speed(&plan->frictions[pair], at, &acceleration);
-    if (plan->own > 0) own_rates(model, at, dydt + 2 * n);
 }
 
 void state_jacobian(const struct fbd_model *model, const struct instant *at, double *scratch, double *dfdy,

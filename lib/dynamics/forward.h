@@ -40,7 +40,7 @@ void body_accelerations(const struct fbd_model *model, int b, const struct insta
 void accelerations_along(const struct fbd_model *model, const struct instant *at,
                          const struct direction *along, double *slots, double *slots_along, double *a_along);
 
-/* dydt[plan_size] for an integrator. A sticking coordinate moves with its surface. */
+/* dydt[2 n] for an integrator, without the states of the file's own (own.h). A sticking coordinate moves with its surface. */
 void state_rates(const struct fbd_model *model, const struct instant *at, double *slots, double *dydt);
 
 /* The entries of body `b` alone, which is not jointed, in a model whose expressions name no places. */

@@ -353,16 +353,16 @@ void rates_bind(struct rates *rates)
     rates->count = 0;
     if (model->tree || model->absolute_count > 0 || state_sliding(rates->state)) { /* one solution for all */
         rates->rows[rates->count++] = (struct row){.function = whole_row, .all = rates};
-        return;
+    } else {
+        for (int b = 0; b < (int)rates->state->model->body_count; b++) bind_body(rates, b);
     }
-    for (int b = 0; b < (int)rates->state->model->body_count; b++) bind_body(rates, b);
     if (model->plan.own > 0)
         rates->rows[rates->count++] = (struct row){.function = own_row, .all = rates, .q = 2 * model->plan.n};
 }
 
 struct rates *rates_new(struct fbd_state *state, enum rates_kind kind)
 {
-    size_t most = (size_t)state->model->plan.n + 1; /* a body that is a row has a coordinate at least */
+    size_t most = (size_t)state->model->plan.n + 2; /* a body that is a row has a coordinate at least */
     struct rates *rates = calloc(1, sizeof *rates + most * sizeof *rates->rows);
     if (!rates) return NULL;
     rates->state = state;

@@ -184,6 +184,7 @@ struct plan {
     int n;                   /* coordinates */
     int slots;               /* n + normal slots */
     int own;                 /* states of the file's own: entries 2 n and on of y */
+    size_t size;             /* 2 n + own: the length of y = [q, v, z] */
     struct formula *rates;   /* own: what they change by */
     double *inverse_inertia; /* n: 1/m, 1/I_O or 1/I_G */
 
@@ -212,16 +213,15 @@ struct plan {
     bool *slot_constant; /* slots: the sum never changes */
 };
 
-/* The length of y = [q, v, z]. */
 static inline size_t plan_size(const struct plan *plan)
 {
-    return 2 * (size_t)plan->n + (size_t)plan->own;
+    return plan->size;
 }
 
 /* The length of [a, z']: what the rates of y are behind v. */
 static inline size_t plan_rates(const struct plan *plan)
 {
-    return (size_t)plan->n + (size_t)plan->own;
+    return plan->size - (size_t)plan->n;
 }
 
 #endif

@@ -15,7 +15,7 @@
 #undef I
 #include <stdlib.h>
 
-#include "dynamics/state.h"
+#include "dynamics/rates.h"
 #include "random_numbers.h"
 #include "run_checks.h"
 
@@ -314,25 +314,29 @@ static void the_jacobian_is_exact(void **unused)
     struct checks checks = {0};
     (void)unused;
     struct trial trial = trial_parse(tangle);
-    double J[size * size], dfdt[size], y[size], plus[size], minus[size], slots[40];
+    double J[size * size], dfdt[size], y[size], plus[size], minus[size];
+    void *params;
     trial_set(&trial, "states.z", 0.3);
     trial_set(&trial, "states.w", 0.4);
     struct fbd_state *state = (struct fbd_state *)trial.state;
     assert_int_equal(plan_size(&state->model->plan), size);
     memcpy(y, state->y, sizeof y);
     struct instant at = state_instant_at(state, 0, y);
+    struct rates *made = rates_new(state, rates_by_rows);
+    assert_non_null(made);
     state_jacobian(state->model, &at, state->scratch, J, dfdt);
     for (int j = 0; j < size; j++) {
         double kept = y[j];
         y[j] = kept + h;
-        state_rates(state->model, &at, slots, plus);
+        rates_call(made, &params)(0, y, plus, params);
         y[j] = kept - h;
-        state_rates(state->model, &at, slots, minus);
+        rates_call(made, &params)(0, y, minus, params);
         y[j] = kept;
         for (int i = 0; i < size; i++)
             check_close(&checks, "slope", J[i * size + j], (plus[i] - minus[i]) / (2 * h),
                         1e-7 * (1 + fabs(J[i * size + j])));
     }
+    rates_free(made);
     trial_close(&trial);
     checks_end(&checks);
 }
