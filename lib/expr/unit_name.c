@@ -44,7 +44,7 @@ static const struct quantity quantities[] = {
     {DIM_ALL(1, 2, -2, -2, 0), "inductance", "H", NULL, "H, mH, V*s/A"},
     {DIM_ALL(1, 2, -2, -1, 0), "magnetic flux", "V*s", NULL, "V*s, N*m/A"},
     {DIM_ALL(0, 0, 1, 1, 0), "electric charge", "C", "C", "C, A*s"},
-    {DIM_ALL(-1, -2, 4, 2, 0), "capacitance", "F", NULL, "F, uF"},
+    {DIM_ALL(-1, -2, 4, 2, 0), "capacitance", "C/V", NULL, "C/V"},
     {DIM_ALL(0, 0, 0, 0, 1), "temperature", "K", "K", "K"},
     {DIM_INIT(1, -3, 0), "density", NULL, NULL, "kg/m^3, g/cm^3, slug/ft^3, lbm/ft^3"},
 };

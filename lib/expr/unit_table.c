@@ -91,8 +91,6 @@ static const struct unit_row table[] = {
     {"H", DIM_ALL(1, 2, -2, -2, 0), {{1, 1}, {1e16, LBF_FT_E16}}, false},
     {"mH", DIM_ALL(1, 2, -2, -2, 0), {{1, 1000}, {1e13, LBF_FT_E16}}, false},
     {"C", DIM_ALL(0, 0, 1, 1, 0), SAME(1, 1), false},
-    {"F", DIM_ALL(-1, -2, 4, 2, 0), {{1, 1}, {LBF_FT_E16, 1e16}}, false},
-    {"uF", DIM_ALL(-1, -2, 4, 2, 0), {{1, 1e6}, {LBF_FT_E16, 1e22}}, false},
 
     {"K", DIM_ALL(0, 0, 0, 0, 1), SAME(1, 1), false},
 };
@@ -188,7 +186,7 @@ static const char *const habits[][2] = {
     {"kohm", "1 kohm is 1000 ohm"},
     {"Ohm", "write `ohm`"},
     {"uH", "1 uH is 0.001 mH"},
-    {"nF", "1 nF is 0.001 uF"},
+    {"uF", "a farad is 1 C/V"},
     {"Wb", "write `V*s`"},
     {"T", "write `V*s/m^2`"},
 };
@@ -208,8 +206,7 @@ static const char *const words[][2] = {
     {"rad", "rad"},        {"degree", "deg"},    {"deg", "deg"},        {"turn", "rev"},
     {"revolution", "rev"}, {"rev", "rev"},       {"cycle", "rev"},      {"hertz", "Hz"},
     {"lbf", "lbf"},        {"lbm", "lbm"},       {"ampere", "A"},       {"amp", "A"},
-    {"volt", "V"},         {"henry", "H"},       {"coulomb", "C"},      {"farad", "F"},
-    {"kelvin", "K"},
+    {"volt", "V"},         {"henry", "H"},       {"coulomb", "C"},      {"kelvin", "K"},
 };
 
 static char small(char c)
