@@ -109,6 +109,19 @@ static void write_effect(struct text *text, const struct fbd_model *model, const
             write_name(text, &shown, model->bodies[load->body].name, load->source->name);
     }
     end_names(text, shown);
+    for (size_t i = 0; i < model->load_count; i++) {
+        const struct model_load *load = &model->loads[i];
+        const struct spread *spread = &load->source->spread;
+        if (!same_effect(first, load) || spread->length == 0) continue;
+        text_printf(text, "      %s.%s is the resultant of a load over ", model->bodies[load->body].name,
+                    load->source->name);
+        text_number(text, spread->length, 9);
+        text_add(text, " ");
+        text_add(text, length_unit(model));
+        text_add(text, ", ");
+        text_number(text, spread->center, 9);
+        text_printf(text, " %s from its start\n", length_unit(model));
+    }
 }
 
 static void write_effects(struct text *text, const struct fbd_model *model)

@@ -199,9 +199,9 @@ struct exact_keys {
 struct load_keys {
     struct load load;
     const char *name;
-    const struct node *value, *at, *to, *toward, *wind;
+    const struct node *value, *at, *from, *to, *toward, *wind;
     double neutral;
-    struct value coefficient;
+    struct value coefficient, factor;
     int side, frame;
 };
 

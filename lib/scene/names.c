@@ -325,6 +325,7 @@ static struct symbol look_up(void *context, const char *name, struct pos at)
     struct names *names = context;
     struct reader *reader = names->reader;
     const char *dot = strchr(name, '.');
+    if (names->along && strcmp(name, "s") == 0) return variable(DIM_LENGTH, 1);
     if (own_states_name(reader, name)) return own_state_symbol(names, name + strlen("states."), at);
     if (dot) return dotted_symbol(names, name, dot);
     if (strcmp(name, "t") == 0) return variable(DIM_TIME, 0);
@@ -386,6 +387,7 @@ static void know_all(struct names *names)
     if (names->place == place_load || names->place == place_exact) know(names, "m");
     if (names->slip != slip_unknown) know(names, "slip");
     if (names->distance_known) know(names, "distance");
+    if (names->along) know(names, "s");
     if (names->place == place_contact) know(names, "approach");
     for (size_t i = 0; names->place == place_hand && i < sizeof of_hand / sizeof *of_hand; i++)
         if (hand_symbol(names, of_hand[i]).kind == symbol_variable) know(names, of_hand[i]);

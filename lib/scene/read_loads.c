@@ -128,7 +128,9 @@ static bool finish(struct entry *entry)
 {
     struct load *load = &entry->keys.load;
     switch (load->kind) {
-    case load_applied: return applied_finish(entry);
+    case load_applied:
+        return strcmp(entry->chosen.kind->name, "distributed") == 0 ? distributed_finish(entry)
+                                                                    : applied_finish(entry);
     case load_spring:
     case load_damper: return finish_link(entry);
     case load_friction:

@@ -122,6 +122,11 @@ enum load_kind {
     load_contact, /* not listed: a contact, likewise */
 };
 
+/* A distributed load along a line: how long that is, and how far from its start the resultant acts. */
+struct spread {
+    double length, center;
+};
+
 /* One entry of `forces` or `moments`. Fields that a kind does not use are zero. */
 struct load {
     enum load_kind kind;
@@ -137,10 +142,11 @@ struct load {
     /* applied force: where it acts, from `point` along the axes of the world, which do not turn with the body
      * (expr NULL: at `point` itself), and the moment about `point` that follows. */
     struct value offset_x, offset_y, couple;
-    const char *toward; /* where it points to, as the file says; `angle` follows from that. NULL: nowhere */
-    bool reaction;      /* what the body that it points to feels in return: `NAME.force` of body NAME */
-    int target;         /* while the file is read: the body that it points to, or ground_body, */
-    struct point end;   /* the point of it, */
+    const char *toward;   /* where it points to, as the file says; `angle` follows from that. NULL: nowhere */
+    struct spread spread; /* of a distributed load, whose resultant this is; length 0: of no such load */
+    bool reaction;        /* what the body that it points to feels in return: `NAME.force` of body NAME */
+    int target;           /* while the file is read: the body that it points to, or ground_body, */
+    struct point end;     /* the point of it, */
     struct value return_angle; /* and where the reaction points to */
 
     /* spring, damper: toward `anchor`, a point of the ground; without one, along the body's own coordinate */
