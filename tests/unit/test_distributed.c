@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * Distributed loads: resultants of random polynomials, of kinks, jumps and tables against their integrals; reactions of
- * beams; a gate against its equation by GSL.
+ * beams; a gate against its equation by GSL; a chain that hangs off a table.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,7 +21,8 @@ static void check_resultant(struct checks *checks, const char *what, const char 
 {
     char text[text_room];
     snprintf(text, sizeof text,
-             "fbd: 1\n%sbodies:\n  b:\n    {mass: 1, inertia: 1, motion: planar, forces: [distributed: {name: d, from: "
+             "fbd: 1\n%sbodies:\n  b:\n    {mass: 1, inertia: 1, motion: planar, forces: [distributed: "
+             "{name: d, from: "
              "[%.17g, 0], to: [%.17g, 0], value: %s, angle: 90 deg}]}\n",
              extra, from, to, value);
     struct trial trial = trial_parse(text);
@@ -40,8 +41,9 @@ static void polynomials(void **unused)
     char value[300];
     (void)unused;
     for (int i = 0; i < trials; i++) {
-        double a = random_between(&numbers, 1, 5), b = random_between(&numbers, -1, 3), c = random_between(&numbers, 0, 2),
-               x0 = random_between(&numbers, -2, 2), l = random_between(&numbers, 0.1, 3);
+        double a = random_between(&numbers, 1, 5), b = random_between(&numbers, -1, 3),
+               c = random_between(&numbers, 0, 2), x0 = random_between(&numbers, -2, 2),
+               l = random_between(&numbers, 0.1, 3);
         double F = a * l + b * l * l / 2 + c * l * l * l / 3,
                M = a * l * l / 2 + b * l * l * l / 3 + c * l * l * l * l / 4;
         snprintf(value, sizeof value, "'%.17g[N/m] + %.17g[N/m^2]*s + %.17g[N/m^3]*s^2'", a, b, c);
@@ -65,8 +67,8 @@ static void kinks_jumps_and_tables(void **unused)
     check_resultant(&checks, "jump", "'if(s < 0.7[m], 2[N/m], 5[N/m])'", "", 0, 2, 2 * 0.7 + 5 * 1.3,
                     2 * 0.7 * 0.7 / 2 + 5 * (4 - 0.49) / 2);
     check_resultant(&checks, "root", "'sqrt(s/1[m])*3[N/m]'", "", 0, 1, 2, 3.0 / 2.5);
-    check_resultant(&checks, "table", "'f(s)'",
-                    "tables: {f: {points: [[0, 0], [1 m, 6 N/m], [3 m, 0]]}}\n", 0, 3, 9, 1 * 3 * 2.0 / 3 + 6 * 5.0 / 3);
+    check_resultant(&checks, "table", "'f(s)'", "tables: {f: {points: [[0, 0], [1 m, 6 N/m], [3 m, 0]]}}\n",
+                    0, 3, 9, 1 * 3 * 2.0 / 3 + 6 * 5.0 / 3);
     checks_end(&checks);
 }
 
@@ -119,6 +121,22 @@ static void a_loaded_beam(void **unused)
     checks_end(&checks);
 }
 
+/* x0 cosh(t sqrt(g/l)) is l as the end of the chain leaves the table. */
+static void a_chain_slides_off(void **unused)
+{
+    const double l = 2, x0 = 0.1, rate = sqrt(g / l);
+    struct checks checks = {0};
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    (void)unused;
+    options.tolerance = 1e-12;
+    struct trial trial = trial_open("kinetics/chain_off_table.yaml", NULL);
+    trial_run(&trial, &options);
+    check_close(&checks, "when", get(&trial, "t"), acosh(l / x0) / rate, same);
+    check_close(&checks, "speed", get(&trial, "chain.v"), rate * sqrt(l * l - x0 * x0), same);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -126,6 +144,7 @@ int main(void)
         cmocka_unit_test(kinks_jumps_and_tables),
         cmocka_unit_test(a_flood_gate),
         cmocka_unit_test(a_loaded_beam),
+        cmocka_unit_test(a_chain_slides_off),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
