@@ -258,11 +258,14 @@ void run_apply_touched(struct run *run, bool at_event)
 }
 
 /* `load` is what `name` names, or -1: an event of the file, or an expression in one. */
-static void fail_chatter(struct run *run, int load, const char *name)
+static void fail_chatter(struct run *run, int load, bool state, const char *name)
 {
     run_fail(run, FBD_FAILED,
              "at t = %.9g events chatter: `%s` changes again and again while hardly any time passes. %s",
-             run_time(run), name, unsettled_advice(run->model, load));
+             run_time(run), name,
+             state ? "A rate that jumps against its state leaves it no way on: give it two thresholds, "
+                     "`hysteresis`, or a slope between"
+                   : unsettled_advice(run->model, load));
 }
 
 /* A switch that has just been crossed and whose new branch already ends: the forces on both sides push back
@@ -293,7 +296,7 @@ static void refuse_sliding(struct run *run, const bool *moving)
             if (!same || back->end == watcher->end || !(rate[k] < 0)) continue;
             const struct kink *kink = &run->model->plan.kinks[watcher->index];
             const char *name = run_kink_name(run, kink);
-            fail_chatter(run, kink->load, name ? name : "an event");
+            fail_chatter(run, kink->load, kink->own >= 0, name ? name : "an event");
         }
     }
 }
@@ -306,7 +309,7 @@ void run_fail_chatter(struct run *run)
                        : event->watch >= 0 ? run->model->plan.watches[event->watch].source->name
                        : event->own >= 0   ? run->model->scene->own[event->own].name
                                            : "an expression";
-    fail_chatter(run, event->load, name);
+    fail_chatter(run, event->load, event->own >= 0, name);
 }
 
 double run_instant(const struct run *run)

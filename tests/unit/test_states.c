@@ -242,6 +242,7 @@ static void what_has_no_way_on_is_refused(void **unused)
         "slide}}\nsimulate: {until: 3}\n");
     check_that(&checks, "relay", relay.outcome == FBD_FAILED);
     check_that(&checks, "by name", strstr(fbd_simulation_reason(relay.simulation), "`z`") != NULL);
+    check_that(&checks, "with advice", strstr(fbd_simulation_reason(relay.simulation), "hysteresis") != NULL);
     trial_close(&relay);
     struct trial away =
         run_of("fbd: 1\nstates: {z: {rate: 'states.z^2*1[1/s^2]', initial: 1, unit: s}}\nbodies: {b: "
