@@ -9,11 +9,11 @@
 #include "dynamics/state.h"
 
 /* rates[plan.own] at an instant. */
-void own_rates(const struct fbd_model *model, const struct instant *at, double *rates);
+void own_rates(const struct fbd_model *model, const struct instant *given, double *rates);
 
 /* Their variations along a direction. */
-void own_rates_along(const struct fbd_model *model, const struct instant *at, const struct direction *along,
-                     double *rates_along);
+void own_rates_along(const struct fbd_model *model, const struct instant *given,
+                     const struct direction *direction, double *rates_along);
 
 /* How large the rate of state `own` is at a state of rest, as a sum of magnitudes: what zero is measured against. Of each
  * number that it depends on its size counts, at least 1 rad or a thousandth. */

@@ -169,8 +169,8 @@ static bool newton_new(struct newton *newton, size_t n)
                               .q = gsl_vector_alloc(n),
                               .f = gsl_vector_alloc(n),
                               .J = gsl_matrix_alloc(n, n),
-                              .matrix = calloc(n * n + n, sizeof(double)),
-                              .pivot = calloc(n, sizeof(size_t))};
+                              .matrix = calloc(n * n + n + 1, sizeof(double)),
+                              .pivot = calloc(n + 1, sizeof(size_t))};
     if (!newton->q || !newton->f || !newton->J || !newton->matrix || !newton->pivot) return false;
     newton->d = newton->matrix + n * n;
     return true;

@@ -140,10 +140,8 @@ static void a_chain_slides_off(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(polynomials),
-        cmocka_unit_test(kinks_jumps_and_tables),
-        cmocka_unit_test(a_flood_gate),
-        cmocka_unit_test(a_loaded_beam),
+        cmocka_unit_test(polynomials),        cmocka_unit_test(kinks_jumps_and_tables),
+        cmocka_unit_test(a_flood_gate),       cmocka_unit_test(a_loaded_beam),
         cmocka_unit_test(a_chain_slides_off),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
