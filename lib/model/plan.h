@@ -218,6 +218,12 @@ static inline size_t plan_size(const struct plan *plan)
     return plan->size;
 }
 
+/* Where the states of the file's own begin in y. */
+static inline size_t plan_own_place(const struct plan *plan)
+{
+    return 2 * (size_t)plan->n;
+}
+
 /* The length of [a, z']: what the rates of y are behind v. */
 static inline size_t plan_rates(const struct plan *plan)
 {

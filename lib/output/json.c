@@ -60,7 +60,7 @@ static void write_final(struct text *text, const struct fbd_model *model, const 
                    k + 1 == body->count);
         text_add(text, "}");
     }
-    write_own(text, model, state->y + 2 * model->plan.n, ",\n    ");
+    write_own(text, model, state->y + plan_own_place(&model->plan), ",\n    ");
     text_add(text, "\n  },\n");
 }
 
@@ -91,8 +91,8 @@ static void write_own_errors(struct text *text, struct bars *bars, const struct 
     text_json_key(text, "states");
     text_add(text, "{");
     for (int i = 0; i < plan->own; i++)
-        member(text, state->model->scene->own[i].name, bars_component(bars, state, (size_t)(2 * plan->n + i)),
-               i + 1 == plan->own);
+        member(text, state->model->scene->own[i].name,
+               bars_component(bars, state, plan_own_place(plan) + (size_t)i), i + 1 == plan->own);
     text_add(text, "}");
 }
 

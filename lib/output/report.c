@@ -126,7 +126,7 @@ static void write_final(const struct page *page)
     }
     for (int i = 0; i < model->plan.own; i++) {
         const struct own_label *label = &model->own_labels[i];
-        size_t component = (size_t)(2 * model->plan.n + i);
+        size_t component = plan_own_place(&model->plan) + (size_t)i;
         text_printf(text, "  %s", label->name);
         text_pad(text, 16);
         text_add(text, " = ");
