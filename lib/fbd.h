@@ -138,6 +138,16 @@ typedef struct fbd_parameter {
 FBD_API size_t fbd_model_parameters(const fbd_model *model);
 FBD_API fbd_parameter fbd_model_parameter(const fbd_model *model, size_t index);
 
+/* A state of the file's own, from `states`: its qualified name ("states.charge"), its unit and that of its rate, "1" for
+ * a pure number. They live as long as the model, and are NULL past the last one. fbd_state_get and fbd_state_set know it
+ * by that name. */
+typedef struct fbd_own_state {
+    const char *name, *unit, *rate_unit;
+} fbd_own_state;
+
+FBD_API size_t fbd_model_states(const fbd_model *model);
+FBD_API fbd_own_state fbd_model_state(const fbd_model *model, size_t index);
+
 /* ---------------------------------------------------------------- states and assembled equations */
 
 /* Time, coordinates, rates and modes (stick or slip) of one run; belongs to one thread. */
@@ -517,14 +527,15 @@ typedef struct fbd_linearization fbd_linearization;
 
 /* Find the equilibrium near `state` (GSL's hybrid Newton method on the accelerations, rates zero), take the
  * exact Jacobian and its eigenvalues. NULL with a note in `errors` when there is none near
- * (`no-equilibrium`), friction holds a body (`sticks`), a motion is prescribed or the couplings are in a
+ * (`no-equilibrium`), a state of the file's own never rests (`not-at-rest`), friction holds a body (`sticks`), a motion is prescribed or the couplings are in a
  * singular position (`not-independent`), or what holds is about to give way (`at-limit`). Forces whose slope dies out at the equilibrium are noted (`degenerate-equilibrium`, a
  * warning); their rows of A are zero. `state` is moved to the equilibrium. */
 FBD_API fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *errors);
 FBD_API void fbd_linearization_free(fbd_linearization *linearization);
 
-/* The system matrix A of x' = A x, x = (q - q0, v) of the independent coordinates q, row by row, size x size;
- * size is twice their number, which without couplings is that of all coordinates. */
+/* The system matrix A of x' = A x, x = (q - q0, v, z - z0) of the independent coordinates q and the states z of the
+ * file's own, row by row, size x size; size is twice the number of the former, which without couplings is that of all
+ * coordinates, and once that of the latter. */
 FBD_API size_t fbd_linearization_size(const fbd_linearization *linearization);
 FBD_API const double *fbd_linearization_matrix(const fbd_linearization *linearization);
 
@@ -547,7 +558,7 @@ FBD_API char *fbd_linearization_svg(const fbd_linearization *linearization);
 
 /* Move `state` to an equilibrium: to where the scene comes to rest when it is let down slowly from there
  * (downhill in the sense of the masses, couplings kept), or, where that has no end because forces have no
- * potential, to the balance nearest to it. Rates become zero. False with a note in `errors` when none was
+ * potential or the file has states of its own, to the balance nearest to it. Rates become zero, those of states too. False with a note in `errors` when none was
  * found (`no-equilibrium`), dry friction of a slide or a bearing holds in a range of places (`sticks`), or a
  * motion is prescribed (`not-independent`); the state is then anywhere. */
 FBD_API bool fbd_find_equilibrium(fbd_state *state, fbd_errors *errors);

@@ -35,13 +35,13 @@ bool fbd_simulation_errors(fbd_simulation *simulation, double t, double *errors)
     if (!simulation || !errors) return false;
     struct ensemble *run = simulation->ensemble;
     struct bars *bars = simulation->bars;
-    size_t n = (size_t)run->model->plan.n;
+    size_t size = plan_size(&run->model->plan);
     struct fbd_state *state = bars && t >= run->from && t <= run->t ? state_new(run->model) : NULL;
     if (!state) return false;
     bool event = t == run->t && run->event_count > 0 && run->events[run->event_count - 1].t == t;
     bool fine = ensemble_look(run, t, state);
     if (fine && !bars_looked(bars, t)) fine = bars_look(bars, run, t, event, false);
-    for (size_t i = 0; fine && i < 2 * n; i++) errors[i] = bars_component(bars, state, i);
+    for (size_t i = 0; fine && i < size; i++) errors[i] = bars_component(bars, state, i);
     state_free(state);
     return fine;
 }

@@ -141,6 +141,19 @@ fbd_parameter fbd_model_parameter(const fbd_model *model, size_t index)
                            .derived = parameter->derived};
 }
 
+size_t fbd_model_states(const fbd_model *model)
+{
+    if (!model) return 0;
+    return model->scene->own_count;
+}
+
+fbd_own_state fbd_model_state(const fbd_model *model, size_t index)
+{
+    if (!model || index >= model->scene->own_count) return (fbd_own_state){.name = NULL};
+    const struct own_label *label = &model->own_labels[index];
+    return (fbd_own_state){.name = label->name, .unit = label->unit, .rate_unit = label->rate_unit};
+}
+
 char *fbd_schema(void)
 {
     struct text text = {0};

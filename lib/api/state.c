@@ -66,15 +66,18 @@ static bool set_text(fbd_state *state, const char *name, const char *text, fbd_e
     if (index < 0) {
         diag_add(errors, FBD_ERROR, "unknown-coordinate", (struct pos){0, 0},
                  n > 0 ? diag_hint(errors, "as `%s`", model->labels[0].name) : NULL,
-                 "there is no coordinate `%s`", name);
+                 "there is no coordinate%s `%s`", model->plan.own > 0 ? " and no state" : "", name);
         return false;
     }
-    const struct coordinate *c = &model->scene->coordinates[index % n];
     struct scope scope = {.lookup = no_name, .units = model->scene->units};
-    struct expr_want want = {.dim = index < n ? c->dim : c->rate_dim,
-                             .constant = true,
-                             .angle = c->angle && index < n,
-                             .what = name};
+    struct expr_want want = {.constant = true, .what = name};
+    if (index < 2 * n) {
+        const struct coordinate *c = &model->scene->coordinates[index % n];
+        want.dim = index < n ? c->dim : c->rate_dim;
+        want.angle = c->angle && index < n;
+    } else {
+        want.dim = model->scene->own[index - 2 * n].dim;
+    }
     struct arena arena = {0};
     const struct expr *expr = expr_compile(&arena, text, (struct pos){0, 0}, &scope, &want, errors);
     if (expr) {

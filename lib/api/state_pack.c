@@ -36,7 +36,7 @@ static size_t memory_count(const struct plan *plan)
 
 static size_t size_of(const struct fbd_model *model)
 {
-    return 1 + 2 * (size_t)model->plan.n + memory_count(&model->plan) + numbers_of_a_tie * tie_count(model);
+    return 1 + plan_size(&model->plan) + memory_count(&model->plan) + numbers_of_a_tie * tie_count(model);
 }
 
 struct packing {
@@ -68,7 +68,7 @@ size_t fbd_state_pack(const fbd_state *state, double *numbers, size_t room)
     struct packing packing = {numbers, 0, numbers ? room : 0};
     int branch;
     put(&packing, state->t);
-    for (size_t i = 0; i < 2 * (size_t)plan->n; i++) put(&packing, state->y[i]);
+    for (size_t i = 0; i < plan_size(plan); i++) put(&packing, state->y[i]);
     for (size_t i = 0; (branch = find_memory(plan, i)) >= 0; i++) put(&packing, state->branch[branch]);
     for (size_t i = 0; i < tie_count(state->model); i++) put_tie(&packing, &state->tree->ties[i]);
     return packing.count;
@@ -104,7 +104,7 @@ bool fbd_state_unpack(fbd_state *state, const double *numbers, size_t count)
 {
     if (!state || !numbers || count != size_of(state->model)) return false;
     const struct plan *plan = &state->model->plan;
-    size_t size = 2 * (size_t)plan->n;
+    size_t size = plan_size(plan);
     const double *memories = numbers + 1 + size, *ties = memories + memory_count(plan);
     int branch;
     for (size_t i = 0; i < count; i++)

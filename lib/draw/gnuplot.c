@@ -79,7 +79,7 @@ static void choose_usual(struct choice *choice)
     for (size_t c = 0; c < record->column_count; c++) {
         enum record_kind kind = record->columns[c].kind;
         bool residual = (int)c == record->energy + 3;
-        if (kind == record_coordinate || (kind == record_energy && !residual))
+        if (kind == record_coordinate || kind == record_own || (kind == record_energy && !residual))
             choice->columns[choice->count++] = (int)c;
     }
 }

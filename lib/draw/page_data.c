@@ -10,6 +10,7 @@
  * - bodies: {name, motion, parent, frame: 3 columns, shapes, G, axis | line, arrows, equations}
  * - links: springs and dampers that have another end; ties: couplings that hold (both: page_links.c)
  * - energy: 4 columns
+ * - states: those of the file's own
  * - events: {kinds, labels, times, of: index into labels, details}
  *
  * Names and titles are data, never markup: the script puts them into the page as text.
@@ -397,6 +398,7 @@ bool page_data_write(struct text *text, fbd_result *result, struct record *recor
     page_ties_write(text, result, record);
     write_events(text, result->simulation->ensemble);
     json_columns_member(text, "energy", record->energy, 4);
+    json_columns_member(text, "states", record->energy + 4, record->model->plan.own);
     text_add(text, "\"version\":1}");
     pack_end(&pack);
     return !text->failed;

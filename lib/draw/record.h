@@ -25,6 +25,7 @@ enum record_kind {
     record_arrow, /* fx, fy; point in the body frame; couple */
     record_work,
     record_energy, /* kinetic, potential, work, residual */
+    record_own,    /* states of the file's own */
 };
 
 struct record_column {

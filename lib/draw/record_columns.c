@@ -141,7 +141,7 @@ static bool define_arrows(struct record *record, int b, struct fbd_state *state)
 bool record_define(struct record *record, struct fbd_state *start)
 {
     const struct fbd_model *model = record->model;
-    size_t most = 4;
+    size_t most = 4 + (size_t)model->plan.own;
     for (size_t b = 0; b < model->body_count; b++) most += 20 + 13 * diagram_arrows(model, (int)b);
     record->columns = ARENA_ARRAY(&record->arena, most, struct record_column);
     record->bodies = ARENA_ARRAY(&record->arena, model->body_count, struct record_of_body);
@@ -156,6 +156,8 @@ bool record_define(struct record *record, struct fbd_state *start)
     define(record, record_energy, -1, "energy.potential", energy);
     define(record, record_energy, -1, "energy.work", energy);
     define(record, record_energy, -1, "energy.residual", energy);
+    for (int i = 0; i < model->plan.own; i++)
+        define(record, record_own, -1, model->own_labels[i].name, model->own_labels[i].unit);
     return !record->failed && !record->arena.failed;
 }
 
@@ -248,4 +250,5 @@ void record_fill(struct record *record, struct fbd_state *state, bool energies)
     *out++ = energy.potential;
     *out++ = energy.work;
     *out++ = energy.residual;
+    for (int i = 0; i < model->plan.own; i++) *out++ = state->y[2 * model->plan.n + i];
 }

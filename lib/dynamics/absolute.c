@@ -8,8 +8,7 @@
 
 size_t extended_size(const struct fbd_model *model)
 {
-    size_t n = (size_t)model->plan.n;
-    return 2 * n + (model->absolute_count > 0 ? hand_slots + model->absolute_count : 0);
+    return plan_size(&model->plan) + (model->absolute_count > 0 ? hand_slots + model->absolute_count : 0);
 }
 
 static double choose(enum absolute_kind kind, struct motion_of_point at, double angle, double omega)
@@ -66,7 +65,7 @@ static double slip_along(const struct fbd_model *model, const struct model_absol
 
 void absolutes_write(const struct fbd_model *model, const struct instant *at, double *y)
 {
-    double *places = y + 2 * (size_t)model->plan.n + hand_slots;
+    double *places = y + plan_size(&model->plan) + hand_slots;
     for (size_t k = 0; k < model->absolute_count; k++) {
         const struct model_absolute *absolute = &model->absolutes[k];
         const struct model_body *body = &model->bodies[absolute->body];
@@ -84,8 +83,7 @@ struct instant instant_extend(const struct fbd_model *model, const struct instan
 {
     struct instant extended = *at;
     if (model->absolute_count == 0) return extended;
-    size_t n = (size_t)model->plan.n;
-    if (at->y != at->extended) memcpy(at->extended, at->y, 2 * n * sizeof *at->extended);
+    if (at->y != at->extended) memcpy(at->extended, at->y, plan_size(&model->plan) * sizeof *at->extended);
     extended.y = at->extended;
     if (model->tree) tree_move(model, &extended);
     absolutes_write(model, &extended, at->extended);
@@ -124,11 +122,11 @@ struct direction direction_extend(const struct fbd_model *model, const struct in
                                   const struct direction *along)
 {
     if (model->absolute_count == 0) return *along;
-    size_t n = (size_t)model->plan.n;
+    size_t size = plan_size(&model->plan);
     double *dy = at->extended + extended_size(model);
-    if (along->dy != dy) memcpy(dy, along->dy, 2 * n * sizeof *dy);
+    if (along->dy != dy) memcpy(dy, along->dy, size * sizeof *dy);
     if (model->tree) tree_move_along(model, at, along);
     for (size_t k = 0; k < model->absolute_count; k++)
-        dy[2 * n + hand_slots + k] = varied(model, &model->absolutes[k], at, along);
+        dy[size + hand_slots + k] = varied(model, &model->absolutes[k], at, along);
     return (struct direction){along->dt, dy};
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * Places in the world that expressions name: `rod.right.x`, `rod.angle`. They are functions of coordinates
- * and rates, and follow these in an extended vector: [q, v, the slots of derivations by hand, places].
+ * and rates, and follow these in an extended vector: [q, v, z, the slots of derivations by hand, places].
  *
  * A model without such names has none of this: an instant then stays as it is.
  */
@@ -10,7 +10,7 @@
 
 #include "dynamics/kinematics.h"
 
-/* The length of an extended vector, 2 n without places. */
+/* The length of an extended vector, that of y without places. */
 size_t extended_size(const struct fbd_model *model);
 
 /* The instant with its y extended, in at->extended. For jointed bodies the links are moved there. */

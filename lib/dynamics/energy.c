@@ -64,7 +64,7 @@ static double by_quadrature(const struct fbd_model *model, const struct model_lo
     enum { intervals = 200 };
     const struct model_body *body = &model->bodies[load->body];
     struct integrand integrand = {body, load, *at, scratch};
-    memset(scratch, 0, 2 * (size_t)model->plan.n * sizeof *scratch);
+    memset(scratch, 0, plan_size(&model->plan) * sizeof *scratch);
     integrand.at.y = scratch;
     integrand.at.branch = NULL; /* plain values: the integral crosses kinks */
     integrand.at.sliding = NULL;

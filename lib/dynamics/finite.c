@@ -42,6 +42,19 @@ static bool note_coordinates(const struct fbd_state *state, struct not_finite *f
     return false;
 }
 
+static bool note_own(const struct fbd_state *state, struct not_finite *found)
+{
+    const struct fbd_model *model = state->model;
+    const int n = model->plan.n;
+    for (int i = 0; i < model->plan.own; i++) {
+        const struct own_state *own = &model->scene->own[i];
+        if (not_finite_note(found, state->y[2 * n + i], own->at, "the state `%s`", own->name) ||
+            not_finite_note(found, state->a[n + i], own->rate.at, "the rate of the state `%s`", own->name))
+            return true;
+    }
+    return false;
+}
+
 static bool note_accelerations(const struct fbd_state *state, struct not_finite *found)
 {
     const struct fbd_model *model = state->model;
@@ -148,9 +161,10 @@ enum finite finite_check(const struct fbd_state *state, struct not_finite *found
 {
     struct arrow *arrows = calloc(diagram_most_arrows(state->model), sizeof *arrows);
     if (!arrows) return finite_no_memory;
-    bool odd = note_coordinates(state, found) || note_arrows(state, arrows, false, found) ||
-               note_accelerations(state, found) || note_arrows(state, arrows, true, found) ||
-               note_limits(state, found) || note_energies(state, found);
+    bool odd = note_coordinates(state, found) || note_own(state, found) ||
+               note_arrows(state, arrows, false, found) || note_accelerations(state, found) ||
+               note_arrows(state, arrows, true, found) || note_limits(state, found) ||
+               note_energies(state, found);
     free(arrows);
     return odd ? finite_not : finite_all;
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "dynamics/absolute.h"
+#include "dynamics/own.h"
 #include "dynamics/sliding.h"
 #include "dynamics/tree.h"
 
@@ -204,7 +205,7 @@ void state_jacobian(const struct fbd_model *model, const struct instant *at, dou
                     double *dfdt)
 {
     const struct plan *plan = &model->plan;
-    size_t n = (size_t)plan->n, size = 2 * n, slot_count = (size_t)plan->slots;
+    size_t n = (size_t)plan->n, size = plan_size(plan), slot_count = (size_t)plan->slots;
     double *slots = scratch, *slots_along = slots + slot_count, *dy = slots_along + slot_count,
            *column = dy + size;
     memset(dfdy, 0, size * size * sizeof *dfdy);
@@ -213,13 +214,15 @@ void state_jacobian(const struct fbd_model *model, const struct instant *at, dou
         struct direction along = {0, dy};
         dy[j] = 1;
         accelerations_along(model, at, &along, slots, slots_along, column);
+        if (plan->own > 0) own_rates_along(model, at, &along, column + n);
         dy[j] = 0;
-        for (size_t i = 0; i < n; i++) dfdy[(n + i) * size + j] = column[i];
-        if (j >= n) dfdy[(j - n) * size + j] = 1;
+        for (size_t i = 0; i < size - n; i++) dfdy[(n + i) * size + j] = column[i];
+        if (j >= n && j < 2 * n) dfdy[(j - n) * size + j] = 1;
     }
     struct direction in_time = {1, dy};
     memset(dfdt, 0, n * sizeof *dfdt);
     accelerations_along(model, at, &in_time, slots, slots_along, dfdt + n);
+    if (plan->own > 0) own_rates_along(model, at, &in_time, dfdt + 2 * n);
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
         if (!holds_coordinate(plan, at, pair)) continue;
         size_t i = (size_t)plan->frictions[pair].coordinate;

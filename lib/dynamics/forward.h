@@ -40,13 +40,14 @@ void body_accelerations(const struct fbd_model *model, int b, const struct insta
 void accelerations_along(const struct fbd_model *model, const struct instant *at,
                          const struct direction *along, double *slots, double *slots_along, double *a_along);
 
-/* dydt[2 n] for an integrator. A sticking coordinate moves with its surface. */
+/* dydt[2 n] for an integrator, without the states of the file's own (own.h). A sticking coordinate moves with its surface. */
 void state_rates(const struct fbd_model *model, const struct instant *at, double *slots, double *dydt);
 
 /* The entries of body `b` alone, which is not jointed, in a model whose expressions name no places. */
 void body_rates(const struct fbd_model *model, int b, const struct instant *at, double *slots, double *dydt);
 
-/* The exact Jacobian: dfdy[2n x 2n] row by row and dfdt[2n]. `scratch` has 2 plan.slots + 3 n entries. */
+/* The exact Jacobian: dfdy[plan_size x plan_size] row by row and dfdt[plan_size]. `scratch` has 2 plan.slots + 3 n
+ * + 2 own entries. */
 void state_jacobian(const struct fbd_model *model, const struct instant *at, double *scratch, double *dfdy,
                     double *dfdt);
 

@@ -2,7 +2,7 @@
  *
  * Instant: where a scene is, and in which discrete modes.
  *
- * y = [q_1 .. q_n, v_1 .. v_n]. Between events the modes are fixed and everything is a smooth function of (t,
+ * y = [q_1 .. q_n, v_1 .. v_n, z_1 .. z_m] with the states z of the file's own. Between events the modes are fixed and everything is a smooth function of (t,
  * y); the modes change at located events only.
  */
 #ifndef FBD_DYNAMICS_INSTANT_H

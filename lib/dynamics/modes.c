@@ -77,14 +77,14 @@ static void lean(const struct fbd_state *state, double *dy)
     }
 }
 
-/* The direction in which the state goes on: (1, v, a). Stored in the last 2 n entries of the scratch. */
+/* The direction in which the state goes on: (1, v, a, z'). Stored behind the slots in the scratch. */
 static struct direction flow_of(struct fbd_state *state)
 {
     const struct plan *plan = &state->model->plan;
     size_t n = (size_t)plan->n;
     double *dy = state->scratch + 2 * (size_t)plan->slots;
     memcpy(dy, state->y + n, n * sizeof *dy);
-    memcpy(dy + n, state->a, n * sizeof *dy);
+    memcpy(dy + n, state->a, plan_rates(plan) * sizeof *dy);
     if (plan->kink_count > 0) lean(state, dy);
     struct direction flow = {1, dy};
     if (!state->extended) return flow;

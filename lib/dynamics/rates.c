@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "dynamics/laws.h"
+#include "dynamics/own.h"
 
 struct row {
     rates_function *function;
@@ -190,6 +191,16 @@ static int whole_row(double t, const double y[], double dydt[], void *params)
     return 0;
 }
 
+/* The states of the file's own. */
+static int own_row(double t, const double y[], double dydt[], void *params)
+{
+    const struct row *row = params;
+    const struct fbd_state *state = row->all->state;
+    struct instant at = {t, y, state->branch, state->slip, state->pull, state->tree, state->extended, NULL};
+    own_rates(state->model, &at, dydt + row->q);
+    return 0;
+}
+
 static int all_rows(double t, const double y[], double dydt[], void *params)
 {
     struct row *row = params;
@@ -342,14 +353,16 @@ void rates_bind(struct rates *rates)
     rates->count = 0;
     if (model->tree || model->absolute_count > 0 || state_sliding(rates->state)) { /* one solution for all */
         rates->rows[rates->count++] = (struct row){.function = whole_row, .all = rates};
-        return;
+    } else {
+        for (int b = 0; b < (int)rates->state->model->body_count; b++) bind_body(rates, b);
     }
-    for (int b = 0; b < (int)rates->state->model->body_count; b++) bind_body(rates, b);
+    if (model->plan.own > 0)
+        rates->rows[rates->count++] = (struct row){.function = own_row, .all = rates, .q = 2 * model->plan.n};
 }
 
 struct rates *rates_new(struct fbd_state *state, enum rates_kind kind)
 {
-    size_t most = (size_t)state->model->plan.n; /* a body that is a row has a coordinate at least */
+    size_t most = (size_t)state->model->plan.n + 2; /* a body that is a row has a coordinate at least */
     struct rates *rates = calloc(1, sizeof *rates + most * sizeof *rates->rows);
     if (!rates) return NULL;
     rates->state = state;
@@ -380,7 +393,8 @@ struct rates_census rates_census(const struct rates *rates)
     struct rates_census census = {0};
     for (int i = 0; i < rates->count; i++) {
         rates_function *function = rates->rows[i].function;
-        int *count = function == steady_row     ? &census.steady
+        int *count = function == own_row        ? &census.own
+                     : function == steady_row   ? &census.steady
                      : function == held_row     ? &census.held
                      : function == affine_row   ? &census.affine
                      : function == sine_row     ? &census.sine

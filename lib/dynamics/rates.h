@@ -17,6 +17,7 @@
  *     parts        (... + scale (sum of c u^k, c sin(w u + p)) - F) / m   one formula of this shape (expr/parts.h)
  *     formulas     (... + sum of scale f(t, q, v) - F) / m
  *     body         the stages of forward.h                                everything else
+ *     own          z' = f(t, q, v, z)                                     the states of the file's own
  *
  * Each row adds up in the order of forces.c and multiplies by the same 1/m: the bits are those of
  * state_rates.
@@ -26,7 +27,7 @@
 
 #include "dynamics/state.h"
 
-/* As in gsl_odeiv2_system: 0, and dydt[2n]. */
+/* As in gsl_odeiv2_system: 0, and dydt[plan_size]. */
 typedef int rates_function(double t, const double y[], double dydt[], void *params);
 
 /* What is asked for: the whole, or always the general path (to hold the rows against). */
@@ -50,7 +51,7 @@ struct fbd_state *rates_state(void *params);
 
 /* How many rows of each kind there are, for those who want to know. */
 struct rates_census {
-    int steady, held, affine, sine, parts, formulas, particles, bodies;
+    int steady, held, affine, sine, parts, formulas, particles, own, bodies;
 };
 
 struct rates_census rates_census(const struct rates *rates);

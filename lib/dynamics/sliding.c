@@ -18,9 +18,9 @@ static size_t most_switches(const struct plan *plan)
 static size_t double_count(const struct fbd_model *model)
 {
     const struct plan *plan = &model->plan;
-    size_t room = (size_t)plan->slide_count, n = (size_t)plan->n;
-    return 2 * room * room + n * room + 3 * room + 3 * most_switches(plan) + 2 * (size_t)plan->slots + 2 * n +
-           13 * n + extended_size(model) + 2 * n;
+    size_t room = (size_t)plan->slide_count, n = (size_t)plan->n, size = plan_size(plan);
+    return 2 * room * room + n * room + 3 * room + 3 * most_switches(plan) + 2 * (size_t)plan->slots + 3 * n +
+           6 * size + extended_size(model) + size;
 }
 
 static size_t int_count(const struct plan *plan)
@@ -40,7 +40,8 @@ size_t sliding_size(const struct fbd_model *model)
 void sliding_init(struct sliding *sliding, const struct fbd_model *model, void *memory)
 {
     const struct plan *plan = &model->plan;
-    size_t room = (size_t)plan->slide_count, n = (size_t)plan->n, switches = most_switches(plan);
+    size_t room = (size_t)plan->slide_count, n = (size_t)plan->n, size = plan_size(plan),
+           switches = most_switches(plan);
     sliding->slides = memory;
     double *next = (double *)(sliding->slides + room);
     double **const parts[] = {&sliding->M,        &sliding->lu,     &sliding->B,           &sliding->c,
@@ -62,14 +63,14 @@ void sliding_init(struct sliding *sliding, const struct fbd_model *model, void *
                             (size_t)plan->slots,
                             n,
                             n,
-                            2 * n,
-                            2 * n,
-                            2 * n,
-                            2 * n,
-                            2 * n,
+                            size,
+                            size,
+                            size,
+                            size,
+                            size,
                             n,
-                            2 * n,
-                            extended_size(model) + 2 * n};
+                            size,
+                            extended_size(model) + size};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         *parts[i] = next;
         next += sizes[i];

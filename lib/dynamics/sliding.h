@@ -60,7 +60,7 @@ struct sliding {
     double *u, *rate, *rounding; /* of the switches of one formula */
     double *slots, *slots_along, *a, *a_along, *flow, *zero, *shifted, *own_y, *own_dy, *best, *moved;
     int *kept;      /* 2 plan.branches + 2 plan.friction_count: modes while others are tried */
-    double *kept_y; /* 2 n */
+    double *kept_y; /* plan_size */
 };
 
 size_t sliding_size(const struct fbd_model *model);
@@ -93,7 +93,7 @@ bool sliding_is_held(const struct fbd_model *model, const struct instant *at, in
 double sliding_watched(struct sliding *sliding, const struct fbd_model *model, const struct instant *given,
                        const struct kink *kink, int part);
 
-/* What a switch watches as a surface to be slid on, and its rate along (dt, dy); dy has 2 n. Of one that
+/* What a switch watches as a surface to be slid on, and its rate along (dt, dy); dy has plan_size. Of one that
  * watches places that is u', whose rate along (dt, dx, dv) is that of u along (0, dv, 0). */
 double sliding_surface(struct sliding *sliding, const struct fbd_model *model, const struct instant *given,
                        const struct kink *kink, int part);
@@ -101,7 +101,7 @@ double sliding_surface_rate(struct sliding *sliding, const struct fbd_model *mod
                             const struct instant *given, const struct kink *kink, int part, double dt,
                             const double *dy);
 
-/* The rates of the surfaces, one for each unit, along (dt, dy); dy has 2 n. */
+/* The rates of the surfaces, one for each unit, along (dt, dy); dy has plan_size. */
 void sliding_rates(const struct fbd_model *model, const struct instant *given, double dt, const double *dy,
                    double *rates);
 

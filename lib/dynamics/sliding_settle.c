@@ -46,7 +46,7 @@ static double rate_along(const struct question *q, const struct asked *asked, do
 static double slope(const struct question *q, const struct asked *asked, size_t i)
 {
     double *dy = q->state->sliding->flow;
-    size_t size = 2 * (size_t)q->state->model->plan.n;
+    size_t size = plan_size(&q->state->model->plan);
     memset(dy, 0, size * sizeof *dy);
     if (i > 0) dy[i - 1] = 1;
     return rate_along(q, asked, i == 0, dy);
@@ -112,7 +112,7 @@ static bool gather(struct question *q, const struct decided *decided)
 static double ratio_of(const struct question *q, const struct asked *a, const struct asked *b)
 {
     const double rounding = 1e-10;
-    size_t size = 2 * (size_t)q->state->model->plan.n;
+    size_t size = plan_size(&q->state->model->plan);
     double aa = 0, bb = 0, ab = 0;
     for (size_t i = 0; i <= size; i++) {
         double x = slope(q, a, i), y = slope(q, b, i);
@@ -195,6 +195,8 @@ static double size_of_rate(const struct question *q, const struct asked *asked)
         size += fabs(slope(q, asked, 1 + i) * state->y[n + i]);
         size += fabs(slope(q, asked, 1 + n + i)) * q->most;
     }
+    for (size_t i = 0; i < (size_t)state->model->plan.own; i++)
+        size += fabs(slope(q, asked, 1 + 2 * n + i) * state->a[n + i]);
     return size;
 }
 
@@ -237,7 +239,7 @@ static bool agrees(struct question *q)
         }
         double zero = rounding * size_of_rate(q, asked), *flow = s->flow;
         memcpy(flow, state->y + n, n * sizeof *flow);
-        memcpy(flow + n, state->a, n * sizeof *flow);
+        memcpy(flow + n, state->a, plan_rates(&state->model->plan) * sizeof *flow);
         double rate = rate_along(q, asked, 1, flow);
         if (branch == 0 ? fabs(rate) > zero : branch * rate < -zero) return false;
     }
@@ -258,14 +260,14 @@ static void keep_modes(const struct fbd_state *state, bool back)
 {
     const struct plan *plan = &state->model->plan;
     struct sliding *s = state->sliding;
-    size_t branches = (size_t)plan->branches, pairs = plan->friction_count, n = (size_t)plan->n;
+    size_t branches = (size_t)plan->branches, pairs = plan->friction_count;
     int *parts[] = {state->branch, state->slip, state->pull}, *kept = s->kept;
     const size_t sizes[] = {branches, pairs, pairs};
     for (int k = 0; k < 3; k++) {
         memcpy(back ? parts[k] : kept, back ? kept : parts[k], sizes[k] * sizeof *kept);
         kept += sizes[k];
     }
-    memcpy(back ? state->y : s->kept_y, back ? s->kept_y : state->y, 2 * n * sizeof *state->y);
+    memcpy(back ? state->y : s->kept_y, back ? s->kept_y : state->y, plan_size(plan) * sizeof *state->y);
 }
 
 /* Choice number `choice`: a digit for each surface, 0 slides, 1 and 2 its sides. False for one that slides

@@ -10,6 +10,7 @@
 
 #include "dynamics/absolute.h"
 #include "dynamics/forward.h"
+#include "dynamics/own.h"
 #include "dynamics/state.h"
 
 /* ---- the surfaces */
@@ -155,7 +156,7 @@ static int held_coordinate(const struct fbd_model *model, const struct instant *
     int n = model->plan.n, first = 0, count = 0, held = not_held;
     while (s->slides[first].unit != unit) first++;
     const struct kink *kink = &model->plan.kinks[s->slides[first].kink];
-    memset(s->flow, 0, 2 * (size_t)n * sizeof *s->flow);
+    memset(s->flow, 0, plan_size(&model->plan) * sizeof *s->flow);
     for (int i = 0; s->slides[first].places && i < n; i++) {
         s->flow[n + i] = 1;
         double slope = sliding_surface_rate(s, model, at, kink, s->slides[first].part, 0, s->flow);
@@ -184,14 +185,22 @@ static void put_held(const struct sliding *s, const double *slots, const double 
     }
 }
 
+/* How the motion goes on with the accelerations of the scratch. */
+static void take_flow(const struct fbd_model *model, const struct instant *at)
+{
+    struct sliding *s = at->sliding;
+    size_t n = (size_t)model->plan.n;
+    memcpy(s->flow, at->y + n, n * sizeof *s->flow);
+    memcpy(s->flow + n, s->a, n * sizeof *s->flow);
+    if (model->plan.own > 0) own_rates(model, at, s->flow + 2 * n);
+}
+
 /* c: the rates of the surfaces at the shares as they are. */
 static void residuals(const struct fbd_model *model, const struct instant *at)
 {
     struct sliding *s = at->sliding;
-    size_t n = (size_t)model->plan.n;
     accelerations_at_shares(model, at, s->slots, s->a);
-    memcpy(s->flow, at->y + n, n * sizeof *s->flow);
-    memcpy(s->flow + n, s->a, n * sizeof *s->flow);
+    take_flow(model, at);
     sliding_rates(model, at, 1, s->flow, s->c);
     put_held(s, s->slots, s->delta, s->c);
 }
@@ -206,7 +215,7 @@ static void responses(const struct fbd_model *model, const struct instant *at)
         for (int j = 0; j < s->count; j++)
             s->slides[j].along = s->slides[j].unit == unit ? s->slides[j].sign : 0;
         accelerations_along_at_shares(model, at, &none, s->slots, s->slots_along, s->a_along);
-        memset(s->flow, 0, n * sizeof *s->flow);
+        memset(s->flow, 0, plan_size(&model->plan) * sizeof *s->flow);
         memcpy(s->flow + n, s->a_along, n * sizeof *s->flow);
         memcpy(s->B + (size_t)unit * n, s->a_along, n * sizeof *s->B);
         sliding_rates(model, at, 0, s->flow, s->step);
@@ -258,15 +267,15 @@ static void add_curvature(const struct fbd_model *model, const struct instant *a
                           const struct direction *along, double *sum)
 {
     struct sliding *s = at->sliding;
-    size_t n = (size_t)model->plan.n;
+    size_t count = plan_size(&model->plan);
     double size = fabs(along->dt), place = 1 + fabs(at->t);
-    for (size_t i = 0; i < 2 * n; i++) size = fmax(size, fabs(along->dy[i]));
+    for (size_t i = 0; i < count; i++) size = fmax(size, fabs(along->dy[i]));
     if (size == 0) return;
     double h = 1e-5 * place / size;
     struct instant beside = *at;
     beside.y = s->shifted;
     for (int side = 1; side >= -1; side -= 2) {
-        for (size_t i = 0; i < 2 * n; i++) s->shifted[i] = at->y[i] + side * h * along->dy[i];
+        for (size_t i = 0; i < count; i++) s->shifted[i] = at->y[i] + side * h * along->dy[i];
         beside.t = at->t + side * h * along->dt;
         sliding_rates(model, &beside, 1, s->flow, s->step);
         for (int k = 0; k < s->units; k++) sum[k] += side * s->step[k] / (2 * h);
@@ -281,19 +290,20 @@ void sliding_solve_along(const struct fbd_model *model, const struct instant *gi
     for (int j = 0; j < s->count; j++) s->slides[j].along = 0;
     if (s->failed) return;
     /* Both may stand in the room for places, which others pass through. */
-    memcpy(s->own_y, given->y, 2 * n * sizeof *s->own_y);
-    memcpy(s->own_dy, direction->dy, 2 * n * sizeof *s->own_dy);
+    size_t size = plan_size(&model->plan);
+    memcpy(s->own_y, given->y, size * sizeof *s->own_y);
+    memcpy(s->own_dy, direction->dy, size * sizeof *s->own_dy);
     struct instant at = *given;
     at.y = s->own_y;
     const struct direction along = {direction->dt, s->own_dy};
     accelerations_along_at_shares(model, &at, &along, s->slots, s->slots_along, s->a_along);
     memcpy(s->flow, along.dy + n, n * sizeof *s->flow);
     memcpy(s->flow + n, s->a_along, n * sizeof *s->flow);
+    if (model->plan.own > 0) own_rates_along(model, &at, &along, s->flow + 2 * n);
     sliding_rates(model, &at, 0, s->flow, s->c);
     put_held(s, s->slots_along, NULL, s->c);
     accelerations_at_shares(model, &at, s->slots, s->a);
-    memcpy(s->flow, at.y + n, n * sizeof *s->flow);
-    memcpy(s->flow + n, s->a, n * sizeof *s->flow);
+    take_flow(model, &at);
     add_curvature(model, &at, &along, s->c);
     solve(s, s->c);
     for (int j = 0; j < s->count; j++) s->slides[j].along = -s->slides[j].sign * s->c[s->slides[j].unit];
@@ -329,7 +339,7 @@ static void project_places(struct fbd_state *state)
         const struct instant at = state_instant(state);
         double unused;
         if (!slide->places || s->held[slide->unit] != not_held) continue;
-        memset(s->flow, 0, n * sizeof *s->flow);
+        memset(s->flow, 0, plan_size(&state->model->plan) * sizeof *s->flow);
         memcpy(s->flow + n, B, n * sizeof *B);
         double reach = sliding_surface_rate(s, state->model, &at, kink, slide->part, 0, s->flow);
         double u = switching(s, state->model, &at, kink, slide->part, 0, s->zero, &unused);

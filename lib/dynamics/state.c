@@ -4,6 +4,7 @@
 #include "dynamics/absolute.h"
 #include "dynamics/contact.h"
 #include "dynamics/modes.h"
+#include "dynamics/own.h"
 #include "dynamics/project.h"
 #include "dynamics/rest_system.h"
 #include "dynamics/tree_system.h"
@@ -20,15 +21,15 @@ static size_t tie_bytes(const struct fbd_model *model)
 
 static size_t scratch_size(const struct plan *plan)
 {
-    return 2 * (size_t)plan->slots + 3 * (size_t)plan->n;
+    return 2 * (size_t)plan->slots + 3 * (size_t)plan->n + 2 * (size_t)plan->own;
 }
 
 static struct fbd_state *allocate(const struct fbd_model *model)
 {
     const struct plan *plan = &model->plan;
-    size_t n = (size_t)plan->n, extended = extended_size(model);
+    size_t rates = plan_rates(plan), extended = extended_size(model);
     size_t extra = model->absolute_count > 0 ? 2 * extended : 0;
-    size_t doubles = extended + n + (size_t)plan->slots + scratch_size(plan) + extra;
+    size_t doubles = extended + rates + (size_t)plan->slots + scratch_size(plan) + extra;
     size_t ints = 2 * (size_t)plan->branches + 6 * plan->friction_count;
     size_t tree = model->tree ? sizeof(struct tree_work) + tree_work_size(model) : 0;
     size_t sliding = plan->slide_count > 0 ? sizeof(struct sliding) + sliding_size(model) : 0;
@@ -47,7 +48,7 @@ static struct fbd_state *allocate(const struct fbd_model *model)
     }
     state->y = (void *)(behind + tree + sliding);
     state->a = state->y + extended;
-    state->slots = state->a + n;
+    state->slots = state->a + rates;
     state->scratch = state->slots + plan->slots;
     state->extended = extra > 0 ? state->scratch + scratch_size(plan) : NULL;
     void *behind_doubles = state->scratch + scratch_size(plan) + extra; /* aligned for an int as well */
@@ -72,6 +73,7 @@ struct fbd_state *state_new(const struct fbd_model *model)
         state->y[i] = model->scene->coordinates[i].initial;
         state->y[n + i] = model->scene->coordinates[i].initial_rate;
     }
+    for (int i = 0; i < model->plan.own; i++) state->y[2 * n + (size_t)i] = model->scene->own[i].initial;
     modes_drive(state);
     state_start_constraints(state);
     if (model->assembles) state_project(state, true);
@@ -84,7 +86,7 @@ struct fbd_state *state_new_from(const struct fbd_model *model, const struct sta
     struct fbd_state *state = allocate(model);
     if (!state) return NULL;
     state->t = start->t;
-    memcpy(state->y, start->y, 2 * (size_t)model->plan.n * sizeof *state->y);
+    memcpy(state->y, start->y, plan_size(&model->plan) * sizeof *state->y);
     if (start->branch)
         memcpy(state->branch, start->branch, (size_t)model->plan.branches * sizeof *state->branch);
     modes_drive(state);
@@ -102,11 +104,10 @@ void state_free(struct fbd_state *state)
 void state_copy(struct fbd_state *to, const struct fbd_state *from)
 {
     const struct plan *plan = &from->model->plan;
-    size_t n = (size_t)plan->n;
     state_set_moment(to, state_moment(from));
     to->settled = from->settled;
-    memcpy(to->y, from->y, 2 * n * sizeof *to->y);
-    memcpy(to->a, from->a, n * sizeof *to->a);
+    memcpy(to->y, from->y, plan_size(plan) * sizeof *to->y);
+    memcpy(to->a, from->a, plan_rates(plan) * sizeof *to->a);
     memcpy(to->slots, from->slots, (size_t)plan->slots * sizeof *to->slots);
     memcpy(to->branch, from->branch, (size_t)plan->branches * sizeof *to->branch);
     memcpy(to->slip, from->slip, plan->friction_count * sizeof *to->slip);
@@ -151,6 +152,7 @@ void state_evaluate_unshared(struct fbd_state *state)
     accelerations(state->model, &at, state->slots, state->a);
     if (state->tree) tree_complete(state->model, state->tree);
     if (state->extended) absolutes_write(state->model, &at, state->y);
+    if (state->model->plan.own > 0) own_rates(state->model, &at, state->a + state->model->plan.n);
 }
 
 void state_evaluate(struct fbd_state *state)

@@ -24,14 +24,15 @@ struct fbd_state {
     bool settled;               /* the modes agree with t and y */
     struct holds_trouble holds; /* of the last settling */
     double t, rest;             /* the time, and what its rounding leaves: see base/moment.h */
-    double *y;     /* 2 n: coordinates, then rates; then what absolute.h adds, by state_evaluate */
-    double *a;     /* n: accelerations, by state_evaluate */
+    double *y;     /* plan_size: coordinates, rates, states of the file's own; then what absolute.h adds, by
+                      state_evaluate */
+    double *a;     /* plan_rates: accelerations, then the rates of those states, by state_evaluate */
     double *slots; /* plan.slots: generalized forces, by state_evaluate */
     int *branch, *slip, *pull;                    /* modes, see instant.h */
     int *branch_before;                           /* scratch for settling: plan.branches */
     int *slip_before, *slip_forced, *slip_barely; /* and plan.friction_count each */
     int *slip_driven;        /* and: the side on which drives alone make it slip, 0 where forces do */
-    double *scratch;         /* 2 plan.slots + 3 n */
+    double *scratch;         /* 2 plan.slots + 3 n + 2 own */
     double *extended;        /* scratch of absolute.h */
     struct sliding *sliding; /* NULL when no switch can be slid on */
     struct tree_work *tree;  /* of the jointed bodies, by state_evaluate; NULL when there are none */
@@ -40,7 +41,7 @@ struct fbd_state {
 /* A state at the scene's initial values, t = 0, modes not yet settled. NULL when memory is out. */
 struct fbd_state *state_new(const struct fbd_model *model);
 
-/* What a motion goes on from: a time, 2 n coordinates and rates, the branches of what remembers them, and what
+/* What a motion goes on from: a time, the plan_size numbers of y, the branches of what remembers them, and what
  * the ties keep of their start, for example the length of a rope. */
 struct state_start {
     double t;

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "dynamics/own.h"
+
 void tree_evaluate(struct fbd_state *state, double *slots, double *slots_along)
 {
     const struct fbd_model *model = state->model;
@@ -10,8 +12,9 @@ void tree_evaluate(struct fbd_state *state, double *slots, double *slots_along)
     double *dy = state->scratch + 2 * (size_t)model->plan.slots;
     struct instant at = state_instant(state);
     accelerations(model, &at, slots, state->a);
+    if (model->plan.own > 0) own_rates(model, &at, state->a + n);
     memcpy(dy, state->y + n, n * sizeof *dy);
-    memcpy(dy + n, state->a, n * sizeof *dy);
+    memcpy(dy + n, state->a, plan_rates(&model->plan) * sizeof *dy);
     struct direction flow = {1, dy};
     force_balance(model, &at, slots);
     force_balance_along(model, &at, &flow, slots, slots_along);

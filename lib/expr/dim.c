@@ -14,17 +14,20 @@ static short exponent(int twelfths)
 
 bool dim_equal(struct dim a, struct dim b)
 {
-    return a.mass == b.mass && a.length == b.length && a.time == b.time;
+    return a.mass == b.mass && a.length == b.length && a.time == b.time && a.current == b.current &&
+           a.temperature == b.temperature;
 }
 
 struct dim dim_times(struct dim a, struct dim b)
 {
-    return (struct dim){exponent(a.mass + b.mass), exponent(a.length + b.length), exponent(a.time + b.time)};
+    return (struct dim){exponent(a.mass + b.mass), exponent(a.length + b.length), exponent(a.time + b.time),
+                        exponent(a.current + b.current), exponent(a.temperature + b.temperature)};
 }
 
 struct dim dim_over(struct dim a, struct dim b)
 {
-    return (struct dim){exponent(a.mass - b.mass), exponent(a.length - b.length), exponent(a.time - b.time)};
+    return (struct dim){exponent(a.mass - b.mass), exponent(a.length - b.length), exponent(a.time - b.time),
+                        exponent(a.current - b.current), exponent(a.temperature - b.temperature)};
 }
 
 static bool scale(short from, int numerator, int denominator, short *to)
@@ -41,5 +44,7 @@ bool dim_power(struct dim a, int numerator, int denominator, struct dim *result)
 {
     return denominator != 0 && scale(a.mass, numerator, denominator, &result->mass) &&
            scale(a.length, numerator, denominator, &result->length) &&
-           scale(a.time, numerator, denominator, &result->time);
+           scale(a.time, numerator, denominator, &result->time) &&
+           scale(a.current, numerator, denominator, &result->current) &&
+           scale(a.temperature, numerator, denominator, &result->temperature);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Physical dimensions: powers of mass, length and time.
+ * Physical dimensions: powers of mass, length and time, and for states beside the motion of electric current and
+ * temperature.
  *
  * Plane angle carries no dimension (1 rad = 1), as in the SI. Exponents are kept in twelfths, so that square,
  * cube and fourth roots stay exact.
@@ -14,13 +15,14 @@
 enum { dim_unit = 12 }; /* an exponent of one */
 
 struct dim {
-    short mass, length, time; /* in twelfths */
+    short mass, length, time, current, temperature; /* in twelfths */
 };
 
 /* Whole powers of mass, length and time: DIM_INIT initializes an object (a static one too), DIM is a value.
  */
 /* clang-format off */
-#define DIM_INIT(M, L, T) {(M) * dim_unit, (L) * dim_unit, (T) * dim_unit}
+#define DIM_INIT(M, L, T)          DIM_ALL(M, L, T, 0, 0)
+#define DIM_ALL(M, L, T, A, K)     {(M) * dim_unit, (L) * dim_unit, (T) * dim_unit, (A) * dim_unit, (K) * dim_unit}
 /* clang-format on */
 #define DIM(M, L, T) ((struct dim)DIM_INIT(M, L, T))
 

@@ -266,7 +266,8 @@ bool unit_parse(const char *text, size_t length, enum unit_system system, fbd_er
     if (!read_product(&r, &whole)) return false;
     if (r.at < length) return refuse_character(&r);
     double factor = whole.factor.over / whole.factor.under;
-    if (is_absurd(whole.dim.mass) || is_absurd(whole.dim.length) || is_absurd(whole.dim.time))
+    if (is_absurd(whole.dim.mass) || is_absurd(whole.dim.length) || is_absurd(whole.dim.time) ||
+        is_absurd(whole.dim.current) || is_absurd(whole.dim.temperature))
         return refuse(&r, NULL, "the exponents are too large");
     if (!isnormal(factor)) return refuse(&r, NULL, "the factor of this unit is out of range");
     *result = (struct unit){whole.dim, factor, whole.angle, whole.hertz};

@@ -38,6 +38,14 @@ static const struct quantity quantities[] = {
     {DIM_INIT(1, -1, 0), "quadratic drag or mass per length", NULL, NULL, "N*s^2/m^2, kg/m, lbf*s^2/ft^2"},
     {DIM_INIT(1, 1, -1), "momentum or impulse", NULL, NULL, "N*s, kg*m/s, lbf*s"},
     {DIM_INIT(1, -1, -2), "pressure", "Pa", NULL, "Pa, kPa, MPa, GPa, psi"},
+    {DIM_ALL(0, 0, 0, 1, 0), "electric current", "A", "A", "A, mA"},
+    {DIM_ALL(1, 2, -3, -1, 0), "voltage", "V", NULL, "V, mV"},
+    {DIM_ALL(1, 2, -3, -2, 0), "resistance", "ohm", NULL, "ohm, V/A"},
+    {DIM_ALL(1, 2, -2, -2, 0), "inductance", "H", NULL, "H, mH, V*s/A"},
+    {DIM_ALL(1, 2, -2, -1, 0), "magnetic flux", "V*s", NULL, "V*s, N*m/A"},
+    {DIM_ALL(0, 0, 1, 1, 0), "electric charge", "C", "C", "C, A*s"},
+    {DIM_ALL(-1, -2, 4, 2, 0), "capacitance", "C/V", NULL, "C/V"},
+    {DIM_ALL(0, 0, 0, 0, 1), "temperature", "K", "K", "K"},
     {DIM_INIT(1, -3, 0), "density", NULL, NULL, "kg/m^3, g/cm^3, slug/ft^3, lbm/ft^3"},
 };
 
@@ -136,12 +144,16 @@ void unit_name(struct dim dim, enum unit_system system, char *buffer, size_t siz
     if (dim.mass == dim_unit && dim.time < 0) {
         struct power by_force[] = {{system == unit_si ? "N" : "lbf", dim_unit},
                                    {length, dim.length - dim_unit},
-                                   {"s", dim.time + 2 * dim_unit}};
+                                   {"s", dim.time + 2 * dim_unit},
+                                   {"A", dim.current},
+                                   {"K", dim.temperature}};
         compose(by_force, sizeof by_force / sizeof by_force[0], buffer, size);
         return;
     }
     struct power by_mass[] = {{system == unit_si ? "kg" : "slug", dim.mass},
                               {length, dim.length},
-                              {"s", dim.time}};
+                              {"s", dim.time},
+                              {"A", dim.current},
+                              {"K", dim.temperature}};
     compose(by_mass, sizeof by_mass / sizeof by_mass[0], buffer, size);
 }

@@ -23,6 +23,8 @@
 #define POWER    DIM_INIT(1, 2, -3)
 #define RATE     DIM_INIT(0, 0, -1)
 #define ANGLE    DIM_INIT(0, 0, 0)
+#define CURRENT  DIM_ALL(0, 0, 0, 1, 0)
+#define VOLTAGE  DIM_ALL(1, 2, -3, -1, 0)
 
 #define SAME(over, under)                                                                                    \
     {                                                                                                        \
@@ -80,6 +82,17 @@ static const struct unit_row table[] = {
     {"rev", ANGLE, SAME(2 * PI, 1), true},
     {"rpm", RATE, SAME(PI, 30), true},
     {"Hz", RATE, SAME(1, 1), false},
+
+    {"A", CURRENT, SAME(1, 1), false},
+    {"mA", CURRENT, SAME(1, 1000), false},
+    {"V", VOLTAGE, {{1, 1}, {1e16, LBF_FT_E16}}, false},
+    {"mV", VOLTAGE, {{1, 1000}, {1e13, LBF_FT_E16}}, false},
+    {"ohm", DIM_ALL(1, 2, -3, -2, 0), {{1, 1}, {1e16, LBF_FT_E16}}, false},
+    {"H", DIM_ALL(1, 2, -2, -2, 0), {{1, 1}, {1e16, LBF_FT_E16}}, false},
+    {"mH", DIM_ALL(1, 2, -2, -2, 0), {{1, 1000}, {1e13, LBF_FT_E16}}, false},
+    {"C", DIM_ALL(0, 0, 1, 1, 0), SAME(1, 1), false},
+
+    {"K", DIM_ALL(0, 0, 0, 0, 1), SAME(1, 1), false},
 };
 
 enum { row_count = sizeof table / sizeof table[0] };
@@ -167,7 +180,15 @@ static const char *const habits[][2] = {
     {"l", "a litre is 1000 cm^3"},
     {"e", "the exponent of a number takes no blank: 1e3"},
     {"E", "the exponent of a number takes no blank: 1e3"},
-    {"K", "temperatures do not occur here; kilo is a small k, as in `kg`"},
+    {"degC", "a difference of temperature is in `K`; count temperatures from a reference"},
+    {"degF", "a difference of temperature is in `K`: 1 degF is 0.5556 K"},
+    {"kV", "1 kV is 1000 V"},
+    {"kohm", "1 kohm is 1000 ohm"},
+    {"Ohm", "write `ohm`"},
+    {"uH", "1 uH is 0.001 mH"},
+    {"uF", "a farad is 1 C/V"},
+    {"Wb", "write `V*s`"},
+    {"T", "write `V*s/m^2`"},
 };
 
 /* Words for units, each also with an `s` for the plural, and in any case. */
@@ -184,7 +205,8 @@ static const char *const words[][2] = {
     {"watt", "W"},         {"kilowatt", "kW"},   {"horsepower", "hp"},  {"radian", "rad"},
     {"rad", "rad"},        {"degree", "deg"},    {"deg", "deg"},        {"turn", "rev"},
     {"revolution", "rev"}, {"rev", "rev"},       {"cycle", "rev"},      {"hertz", "Hz"},
-    {"lbf", "lbf"},        {"lbm", "lbm"},
+    {"lbf", "lbf"},        {"lbm", "lbm"},       {"ampere", "A"},       {"amp", "A"},
+    {"volt", "V"},         {"henry", "H"},       {"coulomb", "C"},      {"kelvin", "K"},
 };
 
 static char small(char c)

@@ -101,6 +101,7 @@ void package_says(const struct package *package, const struct fmi_variable *vari
     case fmi_coordinate: text_add(text, "coordinate"); break;
     case fmi_rate:
     case fmi_acceleration: text_printf(text, "rate of change of %s", list[variable->integral].name); break;
+    case fmi_state: text_add(text, "state of the model file"); break;
     case fmi_point: text_add(text, "of a point, in the world"); break;
     }
 }

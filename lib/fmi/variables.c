@@ -41,6 +41,13 @@ static void add_motion(struct fmi_variables *variables, const struct fbd_model *
     }
 }
 
+static void add_states(struct fmi_variables *variables, const struct fbd_model *model)
+{
+    for (size_t i = 0; i < model->scene->own_count; i++)
+        add(variables, fmi_state, model->own_labels[i].name, model->own_labels[i].unit,
+            2 * model->scene->coordinate_count + i);
+}
+
 static void add_points(struct fmi_variables *variables, const struct fbd_model *model)
 {
     const struct scene *scene = model->scene;
@@ -55,7 +62,7 @@ static void add_points(struct fmi_variables *variables, const struct fbd_model *
 bool fmi_variables_init(struct fmi_variables *variables, const struct fbd_model *model)
 {
     const struct scene *scene = model->scene;
-    size_t most = 1 + scene->parameter_count + 3 * scene->coordinate_count +
+    size_t most = 1 + scene->parameter_count + 3 * scene->coordinate_count + scene->own_count +
                   (size_t)world_parts * scene->output_point_count;
     *variables = (struct fmi_variables){0};
     variables->list = ARENA_ARRAY(&variables->arena, most, struct fmi_variable);
@@ -63,6 +70,7 @@ bool fmi_variables_init(struct fmi_variables *variables, const struct fbd_model 
     add(variables, fmi_time, "time", "s", 0);
     add_parameters(variables, scene);
     add_motion(variables, model);
+    add_states(variables, model);
     add_points(variables, model);
     return !variables->arena.failed;
 }
@@ -91,7 +99,7 @@ bool fmi_has_derivatives(const struct fbd_model *model)
 {
     for (size_t i = 0; i < model->plan.friction_count; i++)
         if (model->plan.frictions[i].kind == mode_drive) return false;
-    return model->scene->output_point_count == 0 && !remembers(&model->plan);
+    return model->scene->output_point_count == 0 && model->plan.own == 0 && !remembers(&model->plan);
 }
 
 static double value_of_point(const struct fmi_variable *variable, const struct fbd_state *state)
@@ -108,7 +116,8 @@ double fmi_value(const struct fmi_variable *variable, const struct fbd_state *st
     switch (variable->kind) {
     case fmi_time: return state->t;
     case fmi_coordinate:
-    case fmi_rate: return state->y[variable->index];
+    case fmi_rate:
+    case fmi_state: return state->y[variable->index];
     case fmi_acceleration: return state->a[variable->index];
     case fmi_point: return value_of_point(variable, state);
     default: return NAN;

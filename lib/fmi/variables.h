@@ -17,6 +17,7 @@ enum fmi_kind {
     fmi_coordinate,
     fmi_rate,
     fmi_acceleration,
+    fmi_state, /* of `states` */
     fmi_point, /* a place, velocity or acceleration of `output: {points: ...}` */
 };
 

@@ -42,6 +42,21 @@ static int coordinate_of(const fbd_model *model, const char *name)
     return -1;
 }
 
+/* States of the file's own go by their names; `scale` of a unit follows from its dimension. */
+static void follow_states(const struct comparison *comparison)
+{
+    const fbd_model *key = comparison->key, *answer = comparison->answer;
+    for (int i = 0; i < key->plan.own; i++) {
+        int to = model_find_component(answer, key->own_labels[i].name, false);
+        struct dim dim = key->scene->own[i].dim;
+        double mass = comparison->force / comparison->length;
+        if (to < 0) continue;
+        comparison->state->y[to] = comparison->key_state->y[2 * key->plan.n + i] *
+                                   pow(comparison->length, -(double)dim.length / dim_unit) *
+                                   pow(mass, -(double)dim.mass / dim_unit);
+    }
+}
+
 /* The answer in the state of the key. */
 static void follow(const struct comparison *comparison)
 {
@@ -58,6 +73,7 @@ static void follow(const struct comparison *comparison)
             state->y[answer->plan.n + to] = twin->sign * scale * y[key->plan.n + from];
         }
     }
+    follow_states(comparison);
     if (!random_admissible(state)) state_evaluate(state);
 }
 

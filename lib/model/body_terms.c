@@ -25,7 +25,7 @@ unsigned formula_depends(const struct model_body *body, const struct formula *fo
 /* Does a slot stand for how fast the body slips on its surface? */
 static bool is_own_slip(const struct fbd_model *model, const struct model_body *body, int slot)
 {
-    int first = 1 + 2 * model->plan.n + hand_slots;
+    int first = 1 + (int)plan_size(&model->plan) + hand_slots;
     const struct absolute *absolute = slot < first ? NULL : &model->scene->absolutes[slot - first];
     return absolute && absolute->kind == absolute_slip && absolute->roll == 0 &&
            &model->bodies[absolute->body] == body;

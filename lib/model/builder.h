@@ -18,6 +18,9 @@ struct builder {
 /* The formula of a value of the scene; registers its switches. */
 struct formula builder_formula(struct builder *builder, const struct value *value, int body, int load);
 
+/* The same of the rate of a state. */
+struct formula builder_rate(struct builder *builder, const struct value *value, int own);
+
 struct formula formula_constant(double value);
 static inline bool formula_given(const struct formula *formula)
 {

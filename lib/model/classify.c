@@ -138,7 +138,7 @@ static double reference_of(const struct fbd_model *model, const struct model_loa
 bool classify_loads(struct builder *builder)
 {
     struct fbd_model *model = builder->model;
-    const double *origin = ARENA_ARRAY(&model->arena, 2 * model->scene->coordinate_count, double);
+    const double *origin = ARENA_ARRAY(&model->arena, scene_size(model->scene), double);
     if (!origin) return false;
     for (size_t i = 0; i < model->load_count; i++) {
         struct model_load *load = &model->loads[i];

@@ -8,7 +8,8 @@ struct formula formula_constant(double value)
     return (struct formula){.constant = value};
 }
 
-struct formula builder_formula(struct builder *builder, const struct value *value, int body, int load)
+static struct formula make_formula(struct builder *builder, const struct value *value, int body, int load,
+                                   int own)
 {
     struct formula formula = {.branch = -1};
     if (!value->expr) return formula;
@@ -19,10 +20,21 @@ struct formula builder_formula(struct builder *builder, const struct value *valu
     if (switches > 0) {
         formula.branch = plan->branches;
         plan->branches += (int)switches;
-        plan->kinks[plan->kink_count++] = (struct kink){formula, body, load, switches, false, 0};
+        plan->kinks[plan->kink_count++] = (struct kink){formula, body, load, own, switches, false, 0};
     }
-    if (poles > 0 && body >= 0) plan->poles[plan->pole_count++] = (struct pole){formula, body, load, poles};
+    if (poles > 0 && (body >= 0 || own >= 0))
+        plan->poles[plan->pole_count++] = (struct pole){formula, body, load, own, poles};
     return formula;
+}
+
+struct formula builder_formula(struct builder *builder, const struct value *value, int body, int load)
+{
+    return make_formula(builder, value, body, load, -1);
+}
+
+struct formula builder_rate(struct builder *builder, const struct value *value, int own)
+{
+    return make_formula(builder, value, -1, -1, own);
 }
 
 /* ---- bodies */
@@ -237,11 +249,19 @@ static bool allocate(struct fbd_model *model)
         model->load_count += scene->bodies[b].motion.prescribed.expr != NULL;
     model->bodies = ARENA_ARRAY(&model->arena, model->body_count, struct model_body);
     model->loads = ARENA_ARRAY(&model->arena, model->load_count, struct model_load);
-    size_t formulas = most_formulas_of_a_load * model->load_count + 2 * scene->event_count;
+    size_t formulas = most_formulas_of_a_load * model->load_count + 2 * scene->event_count + scene->own_count;
+    model->plan.rates = ARENA_ARRAY(&model->arena, scene->own_count, struct formula);
     model->plan.watches = ARENA_ARRAY(&model->arena, scene->event_count, struct watch);
     model->plan.kinks = ARENA_ARRAY(&model->arena, formulas, struct kink);
     model->plan.poles = ARENA_ARRAY(&model->arena, formulas, struct pole);
     return !model->arena.failed;
+}
+
+static void set_rates(struct builder *builder)
+{
+    struct fbd_model *model = builder->model;
+    for (int i = 0; i < (int)model->scene->own_count; i++)
+        model->plan.rates[i] = builder_rate(builder, &model->scene->own[i].rate, i);
 }
 
 /* User events come last, so that loads keep the first branches. */
@@ -277,11 +297,13 @@ static struct fbd_model *compile(struct scene *scene, bool labels, fbd_errors *e
         for (size_t b = 0; b < scene->body_count; b++) model->assembles |= scene->bodies[b].assemble;
         set_loads(&builder);
         set_couplings(&builder);
+        model->own_labels = own_labels_make(&model->arena, scene);
         if (labels) model->labels = labels_make(&model->arena, scene);
-        done = (model->labels || !labels) && set_named_ties(&builder) && set_drives(&builder) &&
-               set_absolutes(model) && set_output_points(model) && tree_number(model) &&
-               tree_name_reactions(model) && arrows_name(model) && plan_build(&builder) &&
-               classify_loads(&builder);
+        done = model->own_labels && (model->labels || !labels) && set_named_ties(&builder) &&
+               set_drives(&builder) && set_absolutes(model) && set_output_points(model) &&
+               tree_number(model) && tree_name_reactions(model) && arrows_name(model) &&
+               plan_build(&builder) && classify_loads(&builder);
+        set_rates(&builder);
         set_watches(&builder);
         if (done) done = slips_find(model);
         if (done) {

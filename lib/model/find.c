@@ -16,6 +16,8 @@ int model_find_component(const struct fbd_model *model, const char *name, bool p
         if (strcmp(label->name, name) == 0 || (plain && strcmp(c->name, name) == 0)) return i;
         if (strcmp(label->rate_name, name) == 0 || (plain && strcmp(c->rate_name, name) == 0)) return n + i;
     }
+    for (int i = 0; i < model->plan.own; i++)
+        if (strcmp(model->own_labels[i].name, name) == 0) return 2 * n + i;
     return -1;
 }
 

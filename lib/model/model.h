@@ -92,7 +92,8 @@ struct fbd_model {
     size_t coupled_count; /* with the latter; behind them one for each rolling body: its friction */
     struct model_body *bodies;
     struct model_load *loads;
-    const struct label *labels; /* of the coordinates */
+    const struct label *labels;         /* of the coordinates */
+    const struct own_label *own_labels; /* of the states of the file's own */
     size_t absolute_count;
     struct model_absolute *absolutes;
     struct vec *output_points; /* scene->output_points, in the frames of their bodies */
@@ -110,8 +111,8 @@ void model_free(struct fbd_model *model);
 
 /* ---- by name (find.c); -1 when there is none */
 
-/* The component of a state (n coordinates, then n rates) that is called "block.x", "block.v", ...; with
- * `plain` also "x" where the scene has one body. */
+/* The component of a state (n coordinates, n rates, then the states of the file's own) that is called "block.x",
+ * "block.v", "states.charge", ...; with `plain` also "x" where the scene has one body. */
 int model_find_component(const struct fbd_model *model, const char *name, bool plain);
 
 /* The force or moment `load` of a body. */

@@ -364,6 +364,8 @@ static bool allocate(struct builder *builder)
     most_slots += 2 * ties;
     plan->n = (int)model->scene->coordinate_count;
     plan->slots = plan->n;
+    plan->own = (int)model->scene->own_count;
+    plan->size = scene_size(model->scene);
     plan->inverse_inertia = ARENA_ARRAY(arena, (size_t)plan->n, double);
     plan->affine = builder->affine = ARENA_ARRAY(arena, most_slots, struct affine_term);
     plan->sine = builder->sine = ARENA_ARRAY(arena, most_slots, struct sine_term);

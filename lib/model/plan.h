@@ -123,7 +123,8 @@ struct contact {
 /* The switches of one formula (see expr.h). */
 struct kink {
     struct formula formula;
-    int body, load; /* where it stands; -1 for a user event */
+    int body, load; /* where it stands; -1 for a user event and for the rate of a state */
+    int own;        /* that state, or -1 */
     size_t count;
     bool slides;     /* some of its switches may be slid on: see dynamics/sliding.h */
     unsigned places; /* a bit for each that watches a sum of coordinates: to be slid on in second order */
@@ -137,7 +138,8 @@ static inline bool kink_watches_places(const struct kink *kink, int part)
 /* The divisions of one formula (see expr.h). */
 struct pole {
     struct formula formula;
-    int body, load; /* where it stands */
+    int body, load; /* where it stands; -1 for the rate of a state */
+    int own;        /* that state, or -1 */
     size_t count;
 };
 
@@ -181,6 +183,9 @@ struct body_terms {
 struct plan {
     int n;                   /* coordinates */
     int slots;               /* n + normal slots */
+    int own;                 /* states of the file's own: entries 2 n and on of y */
+    size_t size;             /* 2 n + own: the length of y = [q, v, z] */
+    struct formula *rates;   /* own: what they change by */
     double *inverse_inertia; /* n: 1/m, 1/I_O or 1/I_G */
 
     size_t affine_count, sine_count, square_count, formula_count, potential_count, link_count, drag_count,
@@ -207,5 +212,22 @@ struct plan {
     int slide_count;     /* switches that may be slid on */
     bool *slot_constant; /* slots: the sum never changes */
 };
+
+static inline size_t plan_size(const struct plan *plan)
+{
+    return plan->size;
+}
+
+/* Where the states of the file's own begin in y. */
+static inline size_t plan_own_place(const struct plan *plan)
+{
+    return 2 * (size_t)plan->n;
+}
+
+/* The length of [a, z']: what the rates of y are behind v. */
+static inline size_t plan_rates(const struct plan *plan)
+{
+    return plan->size - (size_t)plan->n;
+}
 
 #endif

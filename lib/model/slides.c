@@ -29,12 +29,13 @@ static bool is_force(const struct fbd_model *model, const struct kink *kink)
 /* Does it read a velocity: a rate, or one in the world? */
 static bool reads_velocity(const struct fbd_model *model, const struct expr *expr)
 {
-    const int *slots, n = model->plan.n;
+    const int *slots, n = model->plan.n, size = (int)plan_size(&model->plan);
     size_t count = expr_variables(expr, &slots);
     for (size_t i = 0; i < count; i++) {
         if (slots[i] <= n) continue;
         if (slots[i] <= 2 * n) return true;
-        enum absolute_kind kind = model->scene->absolutes[slots[i] - 1 - 2 * n - hand_slots].kind;
+        if (slots[i] <= size) continue;
+        enum absolute_kind kind = model->scene->absolutes[slots[i] - 1 - size - hand_slots].kind;
         if (kind != absolute_x && kind != absolute_y && kind != absolute_angle) return true;
     }
     return false;

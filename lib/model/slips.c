@@ -44,19 +44,20 @@ bool slips_find(struct fbd_model *model)
     const struct scene *scene = model->scene;
     size_t n = (size_t)model->plan.n;
     if (model->absolute_count == 0) return true;
-    double *y = calloc(2 * n + hand_slots + model->absolute_count, sizeof *y);
+    double *y = calloc(plan_size(&model->plan) + hand_slots + model->absolute_count, sizeof *y);
     if (!y) return false;
     for (size_t i = 0; i < n; i++) {
         y[i] = scene->coordinates[i].initial;
         y[n + i] = scene->coordinates[i].initial_rate;
     }
+    for (size_t i = 0; i < scene->own_count; i++) y[2 * n + i] = scene->own[i].initial;
     for (size_t k = 0; k < model->absolute_count; k++) {
         struct model_absolute *absolute = &model->absolutes[k];
         if (absolute->kind != absolute_slip) continue;
         absolute->pair = pair_of(model, &scene->absolutes[k]);
         if (absolute->pair < 0) continue;
         const struct formula *law = &model->plan.frictions[absolute->pair].mu_k;
-        absolute->even = ends_at_rest(law, y, 2 * n + hand_slots + k);
+        absolute->even = ends_at_rest(law, y, plan_size(&model->plan) + hand_slots + k);
     }
     free(y);
     return true;

@@ -95,6 +95,8 @@ static void headers(struct csv *csv, const struct fbd_state *start)
         for (int k = 0; k < body->count; k++) header(csv, labels[k].name, "", "", labels[k].unit);
         for (int k = 0; k < body->count; k++) header(csv, labels[k].rate_name, "", "", labels[k].rate_unit);
     }
+    for (int i = 0; i < model->plan.own; i++)
+        header(csv, model->own_labels[i].name, "", "", model->own_labels[i].unit);
     for (size_t i = 0; i < model->scene->output_point_count; i++)
         for (int part = 0; part < world_parts; part++)
             header(csv, model->scene->output_points[i].name, world_part_name((enum world_part)part), "",
@@ -267,6 +269,7 @@ static bool row(struct csv *csv, struct ensemble *ensemble)
         for (int k = 0; k < body->count; k++) component(csv, state, body->first + k);
         for (int k = 0; k < body->count; k++) component(csv, state, body->first_rate + k);
     }
+    for (int i = 0; i < model->plan.own; i++) component(csv, state, 2 * model->plan.n + i);
     for (size_t i = 0; i < model->scene->output_point_count; i++) point_values(csv, state, i);
     if (csv->ledger) ledger_values(csv, state);
     return csv->odd ? refuse_line(csv, ensemble) : put_row(csv);

@@ -31,6 +31,25 @@ static void write_coordinates(struct text *text, const struct fbd_state *state)
     text_add(text, "},\n");
 }
 
+/* The states of the file's own, their values and rates. */
+static void write_states(struct text *text, const struct fbd_state *state)
+{
+    const struct fbd_model *model = state->model;
+    const int n = model->plan.n, own = model->plan.own;
+    if (own == 0) return;
+    text_add(text, "  \"states\": {");
+    for (int i = 0; i < own; i++) {
+        text_add(text, i ? ",\n    " : "\n    ");
+        text_json_key(text, model->scene->own[i].name);
+        text_add(text, "{");
+        text_json_member(text, "value", state->y[2 * n + i], ", ");
+        text_json_words(text, "unit", model->own_labels[i].unit, ", ");
+        text_json_member(text, "rate", state->a[n + i], ", ");
+        text_json_words(text, "rate_unit", model->own_labels[i].rate_unit, "}");
+    }
+    text_add(text, "\n  },\n");
+}
+
 static void write_term(struct text *text, struct fbd_state *state, const struct equation *equation, size_t i)
 {
     const struct fbd_model *model = state->model;
@@ -128,6 +147,7 @@ char *fbd_equations_json(fbd_state *state)
         text_json_words(&text, "units", state->model->scene->units == unit_si ? "SI" : "US", ",\n  ");
         text_json_member(&text, "t", state->t, ",\n");
         write_coordinates(&text, state);
+        write_states(&text, state);
         write_equations(&text, state, all);
         write_forces(&text, state, arrows);
         text_add(&text, "}\n");

@@ -91,6 +91,21 @@ static void write_body(struct text *text, const struct fbd_state *state, int b)
     text_printf(text, " %s\n", model->scene->units == unit_si ? "m" : "ft");
 }
 
+/* Of the file's own: their rates. */
+static void write_states(struct text *text, const struct fbd_state *state)
+{
+    const struct fbd_model *model = state->model;
+    const int n = model->plan.n;
+    if (model->plan.own > 0) text_add(text, "  states, by equations of their own\n");
+    for (int i = 0; i < model->plan.own; i++) {
+        const struct own_label *label = &model->own_labels[i];
+        text_printf(text, "  %s = ", label->name);
+        text_number(text, state->y[2 * n + i], 9);
+        text_printf(text, "%s%s\n", unit_word(label->unit)[0] ? " " : "", unit_word(label->unit));
+        write_row(text, "rate", state->a[n + i], unit_word(label->rate_unit), "");
+    }
+}
+
 void equations_write(struct text *text, struct fbd_state *state)
 {
     fbd_equations *all = fbd_assemble(state);
@@ -107,6 +122,7 @@ void equations_write(struct text *text, struct fbd_state *state)
         last = all->equations[i].body;
         write_equation(text, state, &all->equations[i]);
     }
+    write_states(text, state);
     fbd_equations_free(all);
 }
 

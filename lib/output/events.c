@@ -42,6 +42,7 @@ const char *event_body(const struct fbd_model *model, const struct run_event *ev
 const char *event_name(const struct fbd_model *model, const struct run_event *event)
 {
     if (event->watch >= 0) return model->plan.watches[event->watch].source->name;
+    if (event->own >= 0) return model->scene->own[event->own].name;
     return event->load >= 0 ? model->loads[event->load].source->name : "";
 }
 

@@ -59,6 +59,11 @@ static void write_coordinates(struct text *text, const struct fbd_model *model)
     }
     if (model->body_count > most_bodies)
         text_printf(text, "  and those of %zu more bodies\n", model->body_count - most_bodies);
+    if (model->plan.own == 0) return;
+    text_printf(text, "States by equations of their own (%d):", model->plan.own);
+    for (int i = 0; i < model->plan.own && i < (int)most_bodies; i++)
+        text_printf(text, " %s [%s]", model->scene->own[i].name, model->own_labels[i].unit);
+    text_add(text, model->plan.own > (int)most_bodies ? " ...\n" : "\n");
 }
 
 /* ---- effects that are simulated: loads of one kind and one reason together */
@@ -104,6 +109,19 @@ static void write_effect(struct text *text, const struct fbd_model *model, const
             write_name(text, &shown, model->bodies[load->body].name, load->source->name);
     }
     end_names(text, shown);
+    for (size_t i = 0; i < model->load_count; i++) {
+        const struct model_load *load = &model->loads[i];
+        const struct spread *spread = &load->source->spread;
+        if (!same_effect(first, load) || spread->length == 0) continue;
+        text_printf(text, "      %s.%s is the resultant of a load over ", model->bodies[load->body].name,
+                    load->source->name);
+        text_number(text, spread->length, 9);
+        text_add(text, " ");
+        text_add(text, length_unit(model));
+        text_add(text, ", ");
+        text_number(text, spread->center, 9);
+        text_printf(text, " %s from its start\n", length_unit(model));
+    }
 }
 
 static void write_effects(struct text *text, const struct fbd_model *model)
@@ -202,7 +220,7 @@ static void write_method(struct text *text, const struct fbd_model *model, const
     text_printf(text, "\nMethod: auto, because no other is asked for\n  %s%s (%s)\n",
                 structure ? "what the structure above allows; where it is nothing in particular, " : "",
                 method_at(0)->name, method_at(0)->description);
-    if (2 * model->plan.n <= method_most_stiff_states)
+    if (plan_size(&model->plan) <= method_most_stiff_states)
         text_printf(text,
                     "  %s (%s)\n    where a trial step shows that it could go on by much longer steps\n",
                     stiff->name, stiff->description);

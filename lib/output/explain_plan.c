@@ -43,12 +43,13 @@ static void write_terms(struct text *text, const struct plan *plan, const struct
     write_list(text, plan->link_count, "spring or damper between two points");
     write_list(text, plan->drag_count, "drag in the plane");
     write_list(text, plan->force_count, "formula whose direction changes");
+    write_list(text, (size_t)plan->own, "state with an equation of its own");
     write_list(text, plan->friction_count, "dry friction, as modes stick and slip");
     if (tree) write_tree(text, tree);
     write_list(text, plan->offset_count, "body whose frame is not at its centre of mass");
     if (!tree && plan->affine_count + plan->sine_count + plan->square_count + plan->formula_count +
                          plan->potential_count + plan->link_count + plan->drag_count + plan->force_count +
-                         plan->friction_count + plan->offset_count ==
+                         plan->friction_count + plan->offset_count + (size_t)plan->own ==
                      0)
         text_add(text, "  none\n");
 }
@@ -74,6 +75,7 @@ static void write_rows(struct text *text, const struct fbd_model *model, struct 
         {rows.parts, "one power or harmonic of a formula: one line, no program"},
         {rows.formulas, "with formulas"},
         {rows.particles, "particle with springs, dampers or drag at its points"},
+        {rows.own, "rates of the states of the file"},
         {rows.bodies, model->tree ? "jointed bodies, all together" : "body by the general path"},
     };
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
@@ -82,13 +84,14 @@ static void write_rows(struct text *text, const struct fbd_model *model, struct 
 
 static void write_dependence(struct text *text, const struct fbd_model *model)
 {
-    static const struct {
+    const struct {
         unsigned on;
         const char *words;
     } kinds[] = {{depends_time, "time"},
                  {depends_place, "the place"},
                  {depends_rate, "the velocity"},
-                 {depends_other, "other bodies, or places in the world"}};
+                 {depends_other, model->plan.own > 0 ? "other bodies, states, or places in the world"
+                                                     : "other bodies, or places in the world"}};
     bool any = false;
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         size_t count = bodies_that_depend(model, kinds[i].on);

@@ -25,13 +25,13 @@ static void extend(const struct fbd_state *state, int b, const struct arrow *arr
 {
     const struct fbd_model *model = state->model;
     const struct model_body *body = &model->bodies[b];
-    size_t n = (size_t)model->plan.n;
-    double *extra = y + 2 * n;
-    memcpy(y, state->y, 2 * n * sizeof *y);
+    size_t size = plan_size(&model->plan);
+    double *extra = y + size;
+    memcpy(y, state->y, size * sizeof *y);
     memset(extra, 0, hand_slots * sizeof *extra);
     for (int k = 0; k < body->count; k++) extra[hand_acceleration + k] = state->a[body->first + k];
     if (model->absolute_count > 0)
-        memcpy(extra + hand_slots, state->y + 2 * n + hand_slots, model->absolute_count * sizeof *extra);
+        memcpy(extra + hand_slots, state->y + size + hand_slots, model->absolute_count * sizeof *extra);
     for (size_t k = 0; k < model->absolute_count; k++)
         if (model->absolutes[k].kind == absolute_acceleration)
             extra[hand_slots + k] = state->a[model->absolutes[k].coordinate];
@@ -56,13 +56,13 @@ static double inertia_of(const struct model_body *body, int part)
 
 /* The slope of left - right with respect to each acceleration; the one that is not zero names the coordinate.
  */
-static int accelerated_part(const struct hand *hand, int n, int count, double t, const double *y,
+static int accelerated_part(const struct hand *hand, int size, int count, double t, const double *y,
                             double *slope)
 {
     int part = -1;
     for (int k = 0; k < count; k++) {
         double left, right;
-        int slot = 1 + 2 * n + hand_acceleration + k;
+        int slot = 1 + size + hand_acceleration + k;
         expr_eval_slot(hand->left, t, y, slot, NULL, &left);
         expr_eval_slot(hand->right, t, y, slot, NULL, &right);
         if (left - right == 0) continue;
@@ -103,7 +103,7 @@ static void take_factors(const struct model_body *body, const struct fbd_state *
 static void take_summands(struct hand_check *check, const struct hand *hand, double t, const double *y,
                           double scale, struct hand_sample *sample)
 {
-    int slot = 1 + 2 * check->model->plan.n + hand_acceleration + check->part;
+    int slot = 1 + (int)plan_size(&check->model->plan) + hand_acceleration + check->part;
     for (size_t j = 0; j < hand->summand_count; j++) {
         const struct hand_summand *summand = &hand->summands[j];
         double slope = 0;
@@ -118,7 +118,7 @@ static void take_summands(struct hand_check *check, const struct hand *hand, dou
 static unsigned depends_on(const struct hand *hand, const struct fbd_model *model, double t, const double *y,
                            double *size)
 {
-    int first = 1 + 2 * model->plan.n;
+    int first = 1 + (int)plan_size(&model->plan);
     unsigned says = 0;
     for (int k = 0; k < hand_slots + (int)model->absolute_count; k++) {
         double left, right;
@@ -150,7 +150,8 @@ static void take_sample(struct hand_check *check, const struct hand *hand, struc
     check->says |= depends_on(hand, model, state->t, y, &named);
     double slope = 0, scale = 1;
     bool jointed = body->place.link > 0; /* several accelerations in one equation: side against side */
-    int part = jointed ? -1 : accelerated_part(hand, model->plan.n, body->count, state->t, y, &slope);
+    int part =
+        jointed ? -1 : accelerated_part(hand, (int)plan_size(&model->plan), body->count, state->t, y, &slope);
     check->part = part;
     if (part >= 0) {
         sample.coefficient = slope;
@@ -191,7 +192,7 @@ static bool sample_model(struct hand_check *check, const fbd_model *model, gsl_r
 {
     const struct hand *hand = &model->scene->bodies[check->body].hands[check->index];
     struct fbd_state *state = state_new(model);
-    size_t n = (size_t)model->plan.n, extended = 2 * n + hand_slots + model->absolute_count;
+    size_t n = (size_t)model->plan.n, extended = plan_size(&model->plan) + hand_slots + model->absolute_count;
     double *y = calloc(extended + n + 1, sizeof *y), *start = y ? y + extended : NULL;
     if (state && model->assembles) state_project(state, true);
     if (y && state) memcpy(start, state->y, n * sizeof *start);

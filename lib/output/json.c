@@ -31,6 +31,19 @@ static const char *outcome_name(fbd_outcome outcome)
     return "";
 }
 
+/* The states of the file's own. */
+static void write_own(struct text *text, const struct fbd_model *model, const double *values,
+                      const char *before)
+{
+    if (model->plan.own == 0) return;
+    text_add(text, before);
+    text_json_key(text, "states");
+    text_add(text, "{");
+    for (int i = 0; i < model->plan.own; i++)
+        member(text, model->scene->own[i].name, values[i], i + 1 == model->plan.own);
+    text_add(text, "}");
+}
+
 static void write_final(struct text *text, const struct fbd_model *model, const struct fbd_state *state)
 {
     text_add(text, "  \"final\": {");
@@ -47,6 +60,7 @@ static void write_final(struct text *text, const struct fbd_model *model, const 
                    k + 1 == body->count);
         text_add(text, "}");
     }
+    write_own(text, model, state->y + plan_own_place(&model->plan), ",\n    ");
     text_add(text, "\n  },\n");
 }
 
@@ -67,6 +81,19 @@ static void write_points(struct text *text, const struct fbd_model *model, const
         text_add(text, "}");
     }
     text_add(text, "\n  },\n");
+}
+
+static void write_own_errors(struct text *text, struct bars *bars, const struct fbd_state *state)
+{
+    const struct plan *plan = &state->model->plan;
+    if (plan->own == 0) return;
+    text_add(text, ",\n    ");
+    text_json_key(text, "states");
+    text_add(text, "{");
+    for (int i = 0; i < plan->own; i++)
+        member(text, state->model->scene->own[i].name,
+               bars_component(bars, state, plan_own_place(plan) + (size_t)i), i + 1 == plan->own);
+    text_add(text, "}");
 }
 
 /* As `final`, without the time. */
@@ -91,6 +118,7 @@ static void write_final_errors(struct text *text, const fbd_simulation *simulati
         }
         text_add(text, "}");
     }
+    write_own_errors(text, simulation->bars, state);
     text_add(text, "\n  },\n");
 }
 

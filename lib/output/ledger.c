@@ -19,7 +19,7 @@ bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fb
     ledger->integrated = calloc(loads + 1, sizeof *ledger->integrated);
     ledger->work = calloc(5 * loads + 1, sizeof *ledger->work);
     ledger->arrows = calloc(diagram_most_arrows(model), sizeof *ledger->arrows);
-    ledger->scratch = calloc(2 * (size_t)model->plan.n + 1, sizeof *ledger->scratch);
+    ledger->scratch = calloc(plan_size(&model->plan) + 1, sizeof *ledger->scratch);
     if (!ledger->integrated || !ledger->work || !ledger->arrows || !ledger->scratch) {
         ledger_free(ledger);
         return false;

@@ -8,20 +8,20 @@
 static void write_equilibrium(struct text *text, const struct fbd_linearization *linear)
 {
     text_add(text, "  \"equilibrium\": {");
-    for (int i = 0; i < linear->model->plan.n; i++)
-        text_json_member(text, linear->model->labels[i].name, linear->q[i],
-                         i + 1 < linear->model->plan.n ? ", " : "");
+    const struct fbd_model *model = linear->model;
+    const int n = model->plan.n, count = n + model->plan.own;
+    for (int i = 0; i < count; i++)
+        text_json_member(text, i < n ? model->labels[i].name : model->own_labels[i - n].name, linear->q[i],
+                         i + 1 < count ? ", " : "");
     text_add(text, "},\n");
 }
 
 static void write_states(struct text *text, const struct fbd_linearization *linear)
 {
-    size_t n = linear->size / 2;
     text_add(text, "  \"states\": [");
     for (size_t i = 0; i < linear->size; i++) {
-        const struct label *label = &linear->model->labels[linear->which[i % n]];
         text_add(text, i ? ", " : "");
-        text_json_string(text, i < n ? label->name : label->rate_name);
+        text_json_string(text, linearization_name(linear, i));
     }
     text_add(text, "],\n");
 }
@@ -70,7 +70,7 @@ char *fbd_linearization_json(const fbd_linearization *linear)
     write_states(&text, linear);
     write_matrix(&text, "A", linear->A, linear->size, linear->size);
     if (linear->way)
-        write_matrix(&text, "followers", linear->way, (size_t)linear->model->plan.n, linear->size / 2);
+        write_matrix(&text, "followers", linear->way, (size_t)linear->model->plan.n, linear->count);
     write_modes(&text, linear);
     text_add(&text, "  ");
     text_json_key(&text, "degenerate");

@@ -20,6 +20,12 @@ static void write_equilibrium(struct text *text, const struct fbd_linearization 
         text_number(text, linear->q[i], digits);
         text_printf(text, " %s\n", label->unit);
     }
+    for (int i = 0; i < linear->model->plan.own; i++) {
+        const struct own_label *label = &linear->model->own_labels[i];
+        text_printf(text, "  %s = ", label->name);
+        text_number(text, linear->q[linear->model->plan.n + i], digits);
+        text_printf(text, "%s%s\n", unit_word(label->unit)[0] ? " " : "", unit_word(label->unit));
+    }
 }
 
 /* How coordinates that are not independent follow the others. */
@@ -27,7 +33,7 @@ static void write_ways(struct text *text, const struct fbd_linearization *linear
 {
     const struct label *labels = linear->model->labels;
     const double rounding = 1e-12;
-    size_t n = (size_t)linear->model->plan.n, count = linear->size / 2;
+    size_t n = (size_t)linear->model->plan.n, count = linear->count;
     if (!linear->way || count == n) return;
     text_add(text, "\nBy the couplings the other coordinates follow, to the first order\n");
     for (size_t i = 0, k = 0; i < n; i++) {
@@ -51,17 +57,14 @@ static void write_ways(struct text *text, const struct fbd_linearization *linear
 
 static void write_matrix(struct text *text, const struct fbd_linearization *linear)
 {
-    size_t size = linear->size, n = size / 2;
+    size_t size = linear->size;
     enum { largest = 12, width = 17 };
     if (size > largest) {
         text_printf(text, "\nA is %zu x %zu\n", size, size);
         return;
     }
     text_add(text, "\nx' = A x for the deviations x = (");
-    for (size_t i = 0; i < size; i++)
-        text_printf(text, "%s%s", i ? ", " : "",
-                    i < n ? linear->model->labels[linear->which[i]].name
-                          : linear->model->labels[linear->which[i - n]].rate_name);
+    for (size_t i = 0; i < size; i++) text_printf(text, "%s%s", i ? ", " : "", linearization_name(linear, i));
     text_add(text, "), A =\n");
     for (size_t i = 0; i < size; i++) {
         for (size_t j = 0; j < size; j++) {

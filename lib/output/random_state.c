@@ -95,6 +95,10 @@ bool random_state(gsl_rng *rng, struct fbd_state *state, const double *start)
         state->y[i] = between(rng, -reach, reach);
         state->y[n + i] = between(rng, -speed, speed);
     }
+    for (size_t i = 0; i < scene->own_count; i++) {
+        double reach = fmax(1, 2 * fabs(scene->own[i].initial));
+        state->y[2 * n + i] = between(rng, -reach, reach);
+    }
     state->settled = false;
     return draw_closed(rng, state, start);
 }

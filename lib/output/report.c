@@ -124,6 +124,16 @@ static void write_final(const struct page *page)
         if (body->friction >= 0) write_friction(text, state, (int)b);
         text_add(text, "\n");
     }
+    for (int i = 0; i < model->plan.own; i++) {
+        const struct own_label *label = &model->own_labels[i];
+        size_t component = plan_own_place(&model->plan) + (size_t)i;
+        text_printf(text, "  %s", label->name);
+        text_pad(text, 16);
+        text_add(text, " = ");
+        text_number(text, state->y[component], digits);
+        if (page->bars) plus_minus(page, bars_component(page->bars, state, component));
+        text_printf(text, "%s%s\n", unit_word(label->unit)[0] ? " " : "", unit_word(label->unit));
+    }
 }
 
 /* A number and its error, `other` being the companion's. */

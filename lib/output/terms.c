@@ -33,7 +33,7 @@ static void slip_remark(const struct fbd_state *state, int pair, char *remark)
     const struct fbd_model *model = state->model;
     bool bearing = model->plan.frictions[pair].normal_slot < 0;
     const char *law = bearing ? "M_k" : "mu_k N", *sign = state->slip[pair] > 0 ? "-" : "+";
-    const double *places = state->y + 2 * (size_t)model->plan.n + hand_slots;
+    const double *places = state->y + plan_size(&model->plan) + hand_slots;
     for (size_t k = 0; k < model->absolute_count; k++) {
         if (model->absolutes[k].kind != absolute_slip || model->absolutes[k].pair != pair) continue;
         format_into(remark, term_remark_size, "slips: %s%s at slip = %.9g", sign, law, places[k]);

@@ -310,6 +310,18 @@ bool derive_couple(struct entry *entry, bool distance_named)
     return compile(&derived, a_moment, &load->couple);
 }
 
+/* ---- distributed loads */
+
+bool derive_scaled(struct entry *entry, double size)
+{
+    struct derived derived = {.entry = entry};
+    if (!entry->keys.factor.expr) return false;
+    add_constant(&derived, size, DIM_FORCE);
+    text_add(&derived.text, "*");
+    add_value(&derived, node_of(entry, "factor"), &entry->keys.factor, a_number);
+    return compile(&derived, a_force, &entry->keys.load.value);
+}
+
 /* ---- drag in a wind */
 
 /* The velocity through the air along x or y. */

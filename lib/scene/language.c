@@ -24,6 +24,9 @@ static const struct field scene_fields[] = {
                   "what comes from outside while the motion goes on, with its value at the start"),
     FIELD_ENTRIES(offsetof(struct scene_keys, tables), "tables", field_map, 0, each_group, &table_group,
                   "functions given by points or files of data, called as `name(t)` in expressions"),
+    FIELD_ENTRIES(
+        offsetof(struct scene_keys, own), "states", field_map, 0, each_group, &own_state_group,
+        "quantities with equations of first order of their own, which expressions call `states.name`"),
     FIELD_NODE(offsetof(struct scene_keys, ground), "ground", field_map, 0, &ground_group,
                "named points and lines that do not move"),
     FIELD_ENTRIES(offsetof(struct scene_keys, bodies), "bodies", field_map, required, each_group, &body_group,
@@ -41,6 +44,19 @@ static const struct field scene_fields[] = {
 };
 
 const struct group scene_group = {"the file", NULL, FIELDS(scene_fields), NULL, 0, "a model"};
+
+static const struct field own_state_fields[] = {
+    FIELD_NODE(offsetof(struct own_state_keys, rate), "rate", field_scalar, required, NULL,
+               "how fast it changes: an expression of the time, coordinates, rates and states"),
+    FIELD_NODE(offsetof(struct own_state_keys, initial), "initial", field_scalar, 0, NULL,
+               "its value at the start; default 0"),
+    FIELD_NODE(offsetof(struct own_state_keys, unit), "unit", field_scalar, 0, NULL,
+               "its unit, where `initial` does not say it; `1` for a pure number"),
+};
+
+const struct group own_state_group = {
+    "a state", "rate", FIELDS(own_state_fields),
+    NULL,      0,      "a quantity with its equation: its rate, and where it starts"};
 
 static const struct field output_fields[] = {
     FIELD_NUMBER(offsetof(struct output_keys, every), "every", a_time, positive,

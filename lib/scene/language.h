@@ -105,7 +105,7 @@ struct scene_keys {
     const char *title, *description;
     int units;
     double datum;
-    const struct node *gravity, *parameters, *inputs, *tables, *ground, *bodies, *couplings, *contacts,
+    const struct node *gravity, *parameters, *inputs, *tables, *own, *ground, *bodies, *couplings, *contacts,
         *simulate, *output, *grading;
 };
 
@@ -124,6 +124,10 @@ struct table_keys {
 struct input_keys {
     const struct node *value;
     const char *description;
+};
+
+struct own_state_keys {
+    const struct node *rate, *initial, *unit;
 };
 
 struct output_keys {
@@ -200,9 +204,9 @@ struct exact_keys {
 struct load_keys {
     struct load load;
     const char *name;
-    const struct node *value, *at, *to, *toward, *wind;
+    const struct node *value, *at, *from, *to, *toward, *wind;
     double neutral;
-    struct value coefficient;
+    struct value coefficient, factor;
     int side, frame;
 };
 
@@ -236,7 +240,7 @@ struct hand_keys {
 extern const struct choice method_choices[];
 
 extern const struct group scene_group, ground_group, line_group, simulate_group, output_group, event_group;
-extern const struct group contact_group, input_group, table_group, grading_group;
+extern const struct group contact_group, input_group, table_group, own_state_group, grading_group;
 extern const struct group *const grading_points_group;
 extern const struct group body_group, part_group, inertia_group, hand_group, place_group;
 extern const struct group initial_groups[], exact_groups[]; /* by enum motion_kind */

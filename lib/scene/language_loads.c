@@ -96,6 +96,23 @@ static const struct field applied_fields[] = {
 static const struct group applied_group =
     LOAD_GROUP("an applied force", "value", applied_fields, "a given force");
 
+static const struct field distributed_fields[] = {
+    FIELD_NODE(offsetof(struct load_keys, from), "from", field_any, required, NULL,
+               "where it begins: a point of the body, a name or [x, y]"),
+    FIELD_NODE(offsetof(struct load_keys, to), "to", field_any, required, NULL, "where it ends, likewise"),
+    FIELD_NODE(
+        offsetof(struct load_keys, value), "value", field_any, required, NULL,
+        "force per length: an expression of `s`, the length from `from`, or a pair of its values at both "
+        "ends"),
+    FIELD_VALUE(LOAD(angle), "angle", an_angle, 0, "its direction, from the x axis of `frame`"),
+    FIELD_CHOICE(offsetof(struct load_keys, frame), "frame", frames,
+                 "what the angle refers to; default world"),
+    FIELD_VALUE(offsetof(struct load_keys, factor), "factor", a_number, 0,
+                "what the whole of it is multiplied by, as `sin(w*t)`; default 1"),
+};
+static const struct group distributed_group =
+    LOAD_GROUP("a distributed load", NULL, distributed_fields, "a force per length along a line of the body");
+
 static const struct field spring_fields[] = {
     FIELD_NUMBER(LOAD(stiffness), "stiffness", a_stiffness, required | not_negative, "force per length"),
     FIELD_NUMBER(LOAD(free_length), "free_length", a_length, 0, "length without force; default 0"),
@@ -140,6 +157,7 @@ static const struct kind forces[] = {
     {"friction", load_friction, &friction_group, on_slide,
      "dry friction of a surface belongs to a slide; a rubbing pivot has `friction` under `moments`"},
     {"applied", load_applied, &applied_group, on_all, NULL},
+    {"distributed", load_applied, &distributed_group, on_all, NULL},
     {"spring", load_spring, &spring_group, on_all, NULL},
     {"damper", load_damper, &damper_group, on_all, NULL},
     {"drag", load_drag, &drag_group, on_all, NULL},

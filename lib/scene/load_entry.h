@@ -48,6 +48,9 @@ bool entry_place_read(struct entry *entry);
 bool applied_finish(struct entry *entry);
 bool drag_finish(struct entry *entry);
 
+/* A distributed load as its resultant (read_distributed.c). */
+bool distributed_finish(struct entry *entry);
+
 /* A pair of values, as [2 m/s, "sin(t)"]; `hint` says how it is written. */
 bool entry_pair_read(struct entry *entry, const struct node *node, const char *what, enum quantity quantity,
                      const char *hint, struct value *x, struct value *y);
@@ -63,6 +66,9 @@ bool derive_toward(struct entry *entry, bool distance_named);
 
 /* The moment about the point of the body of a force that acts beside it. */
 bool derive_couple(struct entry *entry, bool distance_named);
+
+/* The size of a force, `size` times its factor. */
+bool derive_scaled(struct entry *entry, double size);
 
 /* The forces of drag in a wind. */
 bool derive_wind(struct entry *entry);

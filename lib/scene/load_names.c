@@ -106,11 +106,13 @@ bool body_loads_name(struct reader *reader, int index, const char *const *given,
         if (given[i]) names[count++] = (struct given_name){given[i], places[i]};
     if (count > 0) qsort(names, count, sizeof *names, compare);
     bool fine = check_given(reader, index, names, count);
-    int numbers[moment_potential + 1] = {0};
+    int numbers[moment_potential + 1] = {0}, spread = 0;
     for (size_t i = 0; i < body->load_count; i++) {
         struct load *load = &body->loads[i];
-        int *number = &numbers[counter_of(load->kind)];
-        load->name = given[i] ? given[i] : next_name(reader, kind_name(load->kind), number, names, count);
+        bool spreads = load->spread.length > 0;
+        int *number = spreads ? &spread : &numbers[counter_of(load->kind)];
+        const char *kind = spreads ? "distributed" : kind_name(load->kind);
+        load->name = given[i] ? given[i] : next_name(reader, kind, number, names, count);
     }
     return fine && !reader->arena->failed;
 }

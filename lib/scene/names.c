@@ -117,7 +117,7 @@ static struct symbol absolute_slot(struct reader *reader, const struct absolute 
     bool angle = wanted->kind == absolute_angle || wanted->kind == absolute_angle_dot || wanted->angular;
     if (wanted->kind == absolute_acceleration)
         angle = scene->coordinates[scene->bodies[wanted->body].first + wanted->part].angle;
-    return variable(coordinate_dim(angle, derivative), 1 + 2 * scene->coordinate_count + hand_slots + k);
+    return variable(coordinate_dim(angle, derivative), 1 + scene_size(scene) + hand_slots + k);
 }
 
 struct symbol name_of_place(struct reader *reader, int body, const struct point *point,
@@ -186,7 +186,7 @@ static struct symbol acceleration_symbol(const struct names *names, const char *
         if (matches(name, list[i].acceleration, list[i].acceleration) ||
             matches(name, list[i].acceleration_alias[0], list[i].acceleration_alias[1]))
             return variable(coordinate_dim(list[i].angle, 2),
-                            1 + 2 * scene->coordinate_count + (size_t)(hand_acceleration + i));
+                            1 + scene_size(scene) + (size_t)(hand_acceleration + i));
     return unknown;
 }
 
@@ -283,14 +283,10 @@ static struct symbol hand_symbol(const struct names *names, const char *name)
         int slot;
         struct dim dim;
     } known[] = {
-        {"m", hand_mass, {dim_unit, 0, 0}},
-        {"I_G", hand_I_G, {dim_unit, 2 * dim_unit, 0}},
-        {"I_O", hand_I_O, {dim_unit, 2 * dim_unit, 0}},
-        {"L", hand_L, {0, dim_unit, 0}},
-        {"N", hand_N, {dim_unit, dim_unit, -2 * dim_unit}},
-        {"mu_s", hand_mu_s, {0, 0, 0}},
-        {"mu_k", hand_mu_k, {0, 0, 0}},
-        {"mu", hand_mu_k, {0, 0, 0}},
+        {"m", hand_mass, DIM_INIT(1, 0, 0)},    {"I_G", hand_I_G, DIM_INIT(1, 2, 0)},
+        {"I_O", hand_I_O, DIM_INIT(1, 2, 0)},   {"L", hand_L, DIM_INIT(0, 1, 0)},
+        {"N", hand_N, DIM_INIT(1, 1, -2)},      {"mu_s", hand_mu_s, DIM_INIT(0, 0, 0)},
+        {"mu_k", hand_mu_k, DIM_INIT(0, 0, 0)}, {"mu", hand_mu_k, DIM_INIT(0, 0, 0)},
     };
     const struct reader *reader = names->reader;
     const struct draft *draft = &reader->drafts[names->body];
@@ -302,7 +298,7 @@ static struct symbol hand_symbol(const struct names *names, const char *name)
         if ((slot == hand_I_O || slot == hand_L) && !pivot) return unknown;
         if (slot == hand_N && !draft->has_normal) return unknown;
         if ((slot == hand_mu_s || slot == hand_mu_k) && !draft->has_friction) return unknown;
-        return variable(known[i].dim, 1 + 2 * reader->scene->coordinate_count + (size_t)slot);
+        return variable(known[i].dim, 1 + scene_size(reader->scene) + (size_t)slot);
     }
     return acceleration_symbol(names, name);
 }
@@ -320,7 +316,7 @@ static struct symbol other_symbol(const struct names *names, const char *name)
     if (names->place == place_load || names->place == place_exact) return load_symbol(names, name);
     if (names->place == place_hand) return hand_symbol(names, name);
     if (names->place == place_contact && strcmp(name, "approach") == 0)
-        return variable(DIM_VELOCITY, 1 + 2 * names->reader->scene->coordinate_count + hand_acceleration);
+        return variable(DIM_VELOCITY, 1 + scene_size(names->reader->scene) + hand_acceleration);
     return unknown;
 }
 
@@ -354,12 +350,16 @@ static struct symbol look_up(void *context, const char *name, struct pos at)
     struct names *names = context;
     struct reader *reader = names->reader;
     const char *dot = strchr(name, '.');
+    if (names->along && strcmp(name, "s") == 0) return variable(DIM_LENGTH, 1);
+    if (own_states_name(reader, name)) return own_state_symbol(names, name + strlen("states."), at);
     if (dot) return dotted_symbol(names, name, dot);
     if (strcmp(name, "t") == 0) return time_symbol(names);
     struct symbol own = own_symbol(names, name);
     size_t parameter;
     if (own.kind != symbol_unknown) return own;
     if (parameters_find(reader, name, &parameter)) return constant_symbol(names, parameter, at);
+    struct symbol state = own_state_symbol(names, name, at);
+    if (state.kind != symbol_unknown) return state;
     if (strcmp(name, "g") == 0) return gravity_symbol(reader, at);
     if (strcmp(name, "slip") == 0) return names->slip ? slip_symbol(names) : misplaced_slip(names, at);
     if (names->place == place_load && strcmp(name, "distance") == 0) return distance_symbol(names, at);
@@ -406,10 +406,13 @@ static void know_all(struct names *names)
     for (size_t i = 0; i < reader->scene->parameter_count; i++)
         if (!constant || !reader->scene->parameters[i].input) know(names, reader->scene->parameters[i].name);
     know(names, "g");
+    for (size_t i = 0; moves && i < reader->scene->own_count; i++)
+        know(names, arena_printf(reader->arena, "states.%s", reader->scene->own[i].name));
     if (!constant) know(names, "t");
     if (names->place == place_load || names->place == place_exact) know(names, "m");
     if (names->slip != slip_unknown) know(names, "slip");
     if (names->distance_known) know(names, "distance");
+    if (names->along) know(names, "s");
     if (names->place == place_contact) know(names, "approach");
     for (size_t i = 0; names->place == place_hand && i < sizeof of_hand / sizeof *of_hand; i++)
         if (hand_symbol(names, of_hand[i]).kind == symbol_variable) know(names, of_hand[i]);

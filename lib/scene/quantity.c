@@ -28,7 +28,7 @@ static const struct {
 struct dim quantity_dim(enum quantity quantity)
 {
     return (struct dim){(short)(dim_unit * table[quantity].mass), (short)(dim_unit * table[quantity].length),
-                        (short)(dim_unit * table[quantity].time)};
+                        (short)(dim_unit * table[quantity].time), 0, 0};
 }
 
 const char *quantity_name(enum quantity quantity)

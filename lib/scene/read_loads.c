@@ -120,7 +120,7 @@ static bool check_potential(const struct entry *entry)
     size_t count = expr_variables(V->expr, &slots), n = entry->reader->scene->coordinate_count;
     if (count == 0 || (size_t)slots[count - 1] <= 2 * n) return true;
     entry_note(entry, "not-here", V->at, "write V in the coordinates of the body",
-               "a potential cannot depend on a place in the world");
+               "a potential cannot depend on a place in the world or on a state");
     return false;
 }
 
@@ -128,7 +128,9 @@ static bool finish(struct entry *entry)
 {
     struct load *load = &entry->keys.load;
     switch (load->kind) {
-    case load_applied: return applied_finish(entry);
+    case load_applied:
+        return strcmp(entry->chosen.kind->name, "distributed") == 0 ? distributed_finish(entry)
+                                                                    : applied_finish(entry);
     case load_spring:
     case load_damper: return finish_link(entry);
     case load_friction:

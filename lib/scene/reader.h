@@ -41,6 +41,14 @@ struct table_draft {
     bool varies, used; /* see struct definition */
 };
 
+/* What is known of a state beside its place in the scene. */
+struct own_draft {
+    const struct node *node, *rate, *initial, *unit;
+    enum progress progress; /* of its dimension */
+    double factor;          /* of its unit */
+    const struct expr *start;
+};
+
 struct ground_line {
     struct vec through;
     double along;
@@ -70,10 +78,11 @@ struct reader {
 
     /* Mappings of the file, or NULL. Entry i of a mapping is parameter, body, point or line i; inputs
      * are numbered behind the parameters. */
-    const struct node *root, *parameters, *inputs, *tables, *bodies, *points, *lines, *polygons;
+    const struct node *root, *parameters, *inputs, *tables, *own, *bodies, *points, *lines, *polygons;
     bool without_hands, split_hands; /* see struct document */
     struct definition *definitions;
     struct table_draft *table_drafts;
+    struct own_draft *own_drafts;
     const struct scene *tables_of; /* an earlier reading of the same text, whose tables serve here, or NULL */
     bool same_parameters;          /* it had the same values of all parameters, */
     bool same_files;               /* and the files of tables that were set from outside hold on */
@@ -136,6 +145,19 @@ void tables_note_unused(struct reader *reader);
 
 /* The table that is called as `name(...)` at `at`. */
 struct table_symbol table_symbol(struct reader *reader, const char *name, struct pos at);
+
+/* ---- states with equations of their own (read_states.c) */
+
+bool own_states_start(struct reader *reader);
+
+/* When all coordinates are numbered. */
+bool own_states_read(struct reader *reader);
+
+/* Does a name begin with `states.`, in a file that has some? */
+bool own_states_name(const struct reader *reader, const char *name);
+
+/* The state called `name`; symbol_unknown when there is none, or none here. */
+struct symbol own_state_symbol(const struct names *names, const char *name, struct pos at);
 
 /* ---- the ground (read_ground.c) */
 

@@ -137,15 +137,17 @@ static void read_scene(struct reader *reader, const struct override *overrides, 
     reader->parameters = mapping(reader->root, "parameters");
     reader->inputs = mapping(reader->root, "inputs");
     reader->tables = mapping(reader->root, "tables");
+    reader->own = mapping(reader->root, "states");
     reader->bodies = mapping(reader->root, "bodies");
     reader->constant_names = (struct names){.reader = reader, .place = place_constant, .body = ground_body};
     reader->constants = names_scope(&reader->constant_names);
     start_gravity(reader);
     if (!tables_start(reader) || !parameters_start(reader, overrides, override_count) ||
-        !bodies_start(reader))
+        !own_states_start(reader) || !bodies_start(reader))
         return;
     read_top(reader, &keys);
     read_bodies(reader);
+    if (!is_hopeless(reader) && reader->scene->coordinates) own_states_read(reader);
     if (!is_hopeless(reader) && reader->bodies) couplings_read(reader, keys.couplings, keys.contacts);
     if (!is_hopeless(reader)) simulate_read(reader, &keys);
     if (!is_hopeless(reader)) grading_read(reader, keys.grading);

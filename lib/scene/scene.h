@@ -5,8 +5,10 @@
  * Every number is in the coherent units of the scene's own system, angles in radians. Positions point into
  * the file, so that later stages can name the line of what they refuse. The scene owns all its memory.
  *
- * Coordinates are numbered through all bodies in file order: coordinate i has position q[i] and rate v[i]; in
- * expressions slot 0 is t, slot 1 + i is q[i], slot 1 + n + i is v[i], with n coordinates in all.
+ * Coordinates are numbered through all bodies in file order: coordinate i has position q[i] and rate v[i], and
+ * further state k, whose equation of first order the file gives, has the value z[k]. The vector of all is y = [q, v, z]
+ * with scene_size entries. In expressions slot 0 is t, slot 1 + i is q[i], slot 1 + n + i is v[i], and slot
+ * 1 + 2 n + k is z[k], with n coordinates in all.
  */
 #ifndef FBD_SCENE_SCENE_H
 #define FBD_SCENE_SCENE_H
@@ -120,6 +122,11 @@ enum load_kind {
     load_contact, /* not listed: a contact, likewise */
 };
 
+/* A distributed load along a line: how long that is, and how far from its start the resultant acts. */
+struct spread {
+    double length, center;
+};
+
 /* One entry of `forces` or `moments`. Fields that a kind does not use are zero. */
 struct load {
     enum load_kind kind;
@@ -135,10 +142,11 @@ struct load {
     /* applied force: where it acts, from `point` along the axes of the world, which do not turn with the body
      * (expr NULL: at `point` itself), and the moment about `point` that follows. */
     struct value offset_x, offset_y, couple;
-    const char *toward; /* where it points to, as the file says; `angle` follows from that. NULL: nowhere */
-    bool reaction;      /* what the body that it points to feels in return: `NAME.force` of body NAME */
-    int target;         /* while the file is read: the body that it points to, or ground_body, */
-    struct point end;   /* the point of it, */
+    const char *toward;   /* where it points to, as the file says; `angle` follows from that. NULL: nowhere */
+    struct spread spread; /* of a distributed load, whose resultant this is; length 0: of no such load */
+    bool reaction;        /* what the body that it points to feels in return: `NAME.force` of body NAME */
+    int target;           /* while the file is read: the body that it points to, or ground_body, */
+    struct point end;     /* the point of it, */
     struct value return_angle; /* and where the reaction points to */
 
     /* spring, damper: toward `anchor`, a point of the ground; without one, along the body's own coordinate */
@@ -286,7 +294,7 @@ struct hand {
     struct hand_summand *summands;
 };
 
-/* A hand equation may use more names than a force: slot 1 + 2 n + k for k in this list. */
+/* A hand equation may use more names than a force: slot 1 + scene_size + k for k in this list. */
 enum hand_slot {
     hand_acceleration, /* v_dot, or the body's coordinates in order */
     hand_mass = hand_acceleration + most_coordinates_of_a_body, /* m */
@@ -316,7 +324,7 @@ struct body {
 };
 
 /* Where a point of a body is in the world, how its frame is turned, or how fast it slips: an expression may
- * name it though it is no coordinate. Number k has slot 1 + 2 n + hand_slots + k. */
+ * name it though it is no coordinate. Number k has slot 1 + scene_size + hand_slots + k. */
 struct absolute {
     int body;
     struct point point;
@@ -333,6 +341,15 @@ struct absolute {
     int part;
     int roll; /* absolute_slip of a rolling body: 1 + index of its constraint; 0: of the body's own pair */
     bool angular; /* absolute_slip of a bearing */
+};
+
+/* A state of the file's own: z' = rate. */
+struct own_state {
+    const char *name;
+    struct pos at;
+    struct dim dim;
+    double initial;
+    struct value rate;
 };
 
 struct coordinate {
@@ -425,7 +442,15 @@ struct scene {
     size_t coordinate_count, absolute_count;
     struct coordinate *coordinates;
     struct absolute *absolutes;
+    size_t own_count; /* of `states` */
+    struct own_state *own;
 };
+
+/* The length of y. */
+static inline size_t scene_size(const struct scene *scene)
+{
+    return 2 * scene->coordinate_count + scene->own_count;
+}
 
 /* Parameters set from outside, as text: `--set f1=50 N`; of a table the file: `--set road=b.csv`. */
 struct override {

@@ -21,7 +21,7 @@ static bool has_ties(const struct run *run)
 static double tolerances_apart(const struct run *run, const double *from, const double *to)
 {
     size_t n = (size_t)run->model->plan.n;
-    const double *most = run->anchor + 2 * n;
+    const double *most = run->anchor + plan_size(&run->model->plan);
     double apart = 0;
     for (size_t i = 0; i < 2 * n; i++) {
         double moved = fabs(to[i] - from[i]);
@@ -30,12 +30,12 @@ static double tolerances_apart(const struct run *run, const double *from, const 
     return apart;
 }
 
-/* y[2n] at time t, brought back; by how much. */
+/* y at time t, brought back; by how much. */
 static double close_at(struct run *run, double t, double *y)
 {
     struct instant at = state_instant(run->during);
     double *before = run->sample;
-    memcpy(before, y, 2 * (size_t)run->model->plan.n * sizeof *y);
+    memcpy(before, y, plan_size(&run->model->plan) * sizeof *y);
     at.t = t;
     return_to_constraints(run->model, &at, y);
     return tolerances_apart(run, before, y);
@@ -49,11 +49,11 @@ void run_close_within(struct run *run, double t, double *y)
     if (moved <= far) return;
     /* The curve through a step that passes a singular position may be off by more than the step's end is: no
      * error estimate covers what it is made of. Steps that end at t have one. */
-    size_t n = (size_t)run->model->plan.n;
-    double *other = run->aside, *f = other + 2 * n;
+    size_t size = plan_size(&run->model->plan);
+    double *other = run->aside, *f = other + size;
     int code = switcher_walk(run->stepper, moment_at(t), other, f);
     if (code == GSL_ENOMEM) run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
-    if (code == GSL_SUCCESS && close_at(run, t, other) < moved) memcpy(y, other, 2 * n * sizeof *y);
+    if (code == GSL_SUCCESS && close_at(run, t, other) < moved) memcpy(y, other, size * sizeof *y);
 }
 
 /* What rounding may do in the last step: in a scene at rest accelerations are what is left of forces that

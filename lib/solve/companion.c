@@ -33,7 +33,7 @@ static double sample_interval(const struct companion *companion)
 struct companion *companion_new(const struct fbd_model *model, const struct run_options *options)
 {
     struct companion *companion = calloc(1, sizeof *companion);
-    size_t n = (size_t)model->plan.n;
+    size_t size = plan_size(&model->plan);
     struct run_options own = {.until = options->until,
                               .tolerance = tolerance_for(options),
                               .method = method_at(0),
@@ -44,17 +44,17 @@ struct companion *companion_new(const struct fbd_model *model, const struct run_
     companion->model = model;
     companion->ensemble = ensemble_new(model, &own);
     companion->probe = state_new(model);
-    companion->scale = calloc(8 * n + 1, sizeof *companion->scale);
+    companion->scale = calloc(4 * size + 1, sizeof *companion->scale);
     companion->unknown_from = HUGE_VAL;
     if (!companion->ensemble || !companion->scale || !companion->probe) {
         companion_free(companion);
         return NULL;
     }
-    companion->worst = companion->scale + 2 * n;
-    companion->y = companion->scale + 4 * n;
+    companion->worst = companion->scale + size;
+    companion->y = companion->scale + 2 * size;
     companion->next = options->until > 0 ? sample_interval(companion) : HUGE_VAL;
     const double *start = ensemble_state(companion->ensemble)->y;
-    for (size_t i = 0; i < 2 * n; i++) companion->scale[i] = fabs(start[i]);
+    for (size_t i = 0; i < size; i++) companion->scale[i] = fabs(start[i]);
     return companion;
 }
 
@@ -91,6 +91,7 @@ static bool go_beyond(struct ensemble *own, double t, struct fbd_state *state)
         state->y[i] += s * (state->y[n + i] + s / 2 * state->a[i]);
         state->y[n + i] += s * state->a[i];
     }
+    for (size_t i = 0; i < (size_t)own->model->plan.own; i++) state->y[2 * n + i] += s * state->a[n + i];
     state_set_moment(state, moment_at(t));
     state_evaluate(state);
     return true;
@@ -133,13 +134,13 @@ bool companion_look(struct companion *companion, const struct ensemble *main, do
 /* The size of the motion up to t. */
 static void note_sizes(struct companion *companion, const struct ensemble *main, const double *y)
 {
-    size_t n = (size_t)companion->model->plan.n;
-    for (size_t i = 0; i < 2 * n; i++) companion->scale[i] = fmax(companion->scale[i], fabs(y[i]));
+    size_t size = plan_size(&companion->model->plan);
+    for (size_t i = 0; i < size; i++) companion->scale[i] = fmax(companion->scale[i], fabs(y[i]));
     for (size_t p = 0; p < main->count; p++) {
         const struct group *group = &main->groups[p];
-        size_t own = (size_t)group->model->plan.n;
-        const double *most = group->run->anchor + 2 * own;
-        for (size_t i = 0; i < 2 * own; i++) {
+        size_t own = plan_size(&group->model->plan);
+        const double *most = group->run->anchor + own;
+        for (size_t i = 0; i < own; i++) {
             double *scale = &companion->scale[group_component(companion->model, group, i)];
             *scale = fmax(*scale, most[i]);
         }
@@ -194,7 +195,7 @@ static bool coordinates(struct companion *companion, const struct ensemble *main
     if (!event && own->t >= t && own->outcome != FBD_FAILED) return ensemble_coordinates(own, t, y);
     struct fbd_state *state = companion->probe;
     if (!companion_look(companion, main, t, event, state)) return false;
-    memcpy(y, state->y, 2 * (size_t)companion->model->plan.n * sizeof *y);
+    memcpy(y, state->y, plan_size(&companion->model->plan) * sizeof *y);
     return true;
 }
 
@@ -205,13 +206,13 @@ void companion_lose(struct companion *companion, double t)
 
 void companion_sample(struct companion *companion, struct ensemble *main, double t)
 {
-    size_t n = (size_t)companion->model->plan.n;
-    double *mine = companion->y, *other = mine + 2 * n;
+    size_t size = plan_size(&companion->model->plan);
+    double *mine = companion->y, *other = mine + size;
     if (ensemble_coordinates(main, t, mine)) {
         note_sizes(companion, main, mine);
         bool known = coordinates(companion, main, t, other);
         if (!known) companion_lose(companion, t);
-        for (size_t i = 0; known && i < 2 * n; i++) {
+        for (size_t i = 0; known && i < size; i++) {
             double error = fabs(mine[i] - other[i]);
             companion->worst[i] = fmax(companion->worst[i], isfinite(error) ? error : HUGE_VAL);
         }
@@ -229,6 +230,7 @@ static double size_of(const struct companion *companion, size_t i)
     size_t n = (size_t)companion->model->plan.n, q = i % n;
     const double *scale = companion->scale, *kind = scale + (i - q);
     double size = scale[i], duration = companion->ensemble->options.until;
+    if (i >= 2 * n) return size; /* a state is of a kind of its own */
     for (size_t k = 0; k < n; k++)
         if (scene->coordinates[k].body == scene->coordinates[q].body &&
             scene->coordinates[k].angle == scene->coordinates[q].angle)
@@ -238,10 +240,10 @@ static double size_of(const struct companion *companion, size_t i)
 
 double companion_global(const struct companion *companion)
 {
-    size_t n = (size_t)companion->model->plan.n;
+    size_t count = plan_size(&companion->model->plan);
     double worst = 0;
     if (companion->unknown_from < HUGE_VAL) return HUGE_VAL;
-    for (size_t i = 0; i < 2 * n; i++) {
+    for (size_t i = 0; i < count; i++) {
         double size = size_of(companion, i), error = companion->worst[i] + floor_of(companion->scale[i]);
         if (error > 0) worst = fmax(worst, error / size);
     }

@@ -65,7 +65,7 @@ void run_wake_contacts(struct run *run, double end)
         struct distance at = meeting_distance(run->model, trial->tree, i);
         work->asleep[i] = at.apart > speeds * span * at.speed;
     }
-    memcpy(trial->y, run->y, 2 * (size_t)run->model->plan.n * sizeof *trial->y);
+    memcpy(trial->y, run->y, plan_size(&run->model->plan) * sizeof *trial->y);
     trial->t = end;
     impulse_look(trial);
     for (int i = 0; i < tree_of(run)->meeting_count; i++) {

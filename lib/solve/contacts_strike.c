@@ -22,7 +22,7 @@ double contacts_restitution(struct run *run, int meeting, double approach)
     const struct constraint *source = &model->scene->constraints[tree_of(run)->meetings[meeting].constraint];
     const struct expr *expr = source->contact.restitution.expr;
     if (!expr) return source->contact.e;
-    size_t n = 2 * (size_t)model->plan.n;
+    size_t n = plan_size(&model->plan);
     double *y = run->contacts.y;
     memcpy(y, run->state->y, n * sizeof *y);
     y[n] = approach;

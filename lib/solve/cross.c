@@ -39,7 +39,7 @@ static void check_drive(struct run *run, const struct kink *kink)
     const int *before = run->during->branch + kink->formula.branch,
               *after = run->state->branch + kink->formula.branch;
     if (memcmp(before, after, kink->count * sizeof *before) == 0) return;
-    const double *y = run->state->y, *most = run->anchor + 2 * (size_t)model->plan.n;
+    const double *y = run->state->y, *most = run->anchor + plan_size(&model->plan);
     const struct model_body *body = &model->bodies[kink->body];
     double v[2], x[2] = {expr_eval_slot(law, run->state->t, y, 0, before, &v[0]),
                          expr_eval_slot(law, run->state->t, y, 0, after, &v[1])};
@@ -65,9 +65,9 @@ void run_check_counts(struct run *run)
                      "at t = %.9g %s%s%s is past its 2^31st step, where steps are no longer told apart: "
                      "subtract whole "
                      "periods from its argument",
-                     run_time(run), kink->load >= 0 ? "`" : "",
-                     kink->load >= 0 ? run->model->loads[kink->load].source->name : "an expression",
-                     kink->load >= 0 ? "`" : "");
+                     run_time(run), run_kink_name(run, kink) ? "`" : "",
+                     run_kink_name(run, kink) ? run_kink_name(run, kink) : "an expression",
+                     run_kink_name(run, kink) ? "`" : "");
         }
     }
 }
@@ -107,4 +107,5 @@ void run_cross(struct run *run, const struct watcher *watcher)
     passages_remember(run, watcher);
     struct run_event *event = run_note(run, FBD_EVENT_SWITCH, kink->body, kink->load, -1);
     if (event) event->branch = index;
+    if (event) event->own = kink->own;
 }

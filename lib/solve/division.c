@@ -25,9 +25,11 @@ static void join(int *parent, int a, int b)
 /* The body whose coordinate, rate or place in the world a slot stands for. */
 static int body_of_slot(const struct scene *scene, int slot)
 {
-    size_t n = scene->coordinate_count, index = (size_t)slot - 1;
-    return index < 2 * n ? scene->coordinates[index % n].body
-                         : scene->absolutes[index - 2 * n - hand_slots].body;
+    size_t n = scene->coordinate_count, size = scene_size(scene), index = (size_t)slot - 1;
+    if (index < 2 * n) return scene->coordinates[index % n].body;
+    return index < size
+               ? 0
+               : scene->absolutes[index - size - hand_slots].body; /* with states all are one group */
 }
 
 /* Join the bodies whose coordinates or places an expression reads with `body`, or with each other where that
@@ -78,6 +80,7 @@ static void join_all(const struct scene *scene, int *parent, struct division *di
             join(parent, (int)b, 0);
         for (size_t i = 0; i < body->load_count; i++) join_load(scene, parent, &body->loads[i], (int)b);
     }
+    for (size_t b = 1; scene->own_count > 0 && b < scene->body_count; b++) join(parent, (int)b, 0);
     for (size_t i = 0; i < scene->event_count; i++) {
         int read = join_read(scene, parent, scene->events[i].left, -1);
         read = join_read(scene, parent, scene->events[i].right, read);
@@ -183,7 +186,8 @@ static void renumber(const struct scene *scene, struct selection *selection, int
         }
     }
     for (size_t i = 0; i < selection->absolute_count; i++)
-        moved[1 + 2 * n + hand_slots + (size_t)selection->absolutes[i]] = 1 + 2 * all + hand_slots + (int)i;
+        moved[1 + scene_size(scene) + hand_slots + (size_t)selection->absolutes[i]] =
+            1 + 2 * all + (int)scene->own_count + hand_slots + (int)i;
 }
 
 /* One block for all lists; `sorted` and what follows it behind those of the division. */
@@ -191,7 +195,7 @@ static bool allocate(struct division *division, const struct scene *scene, int *
 {
     size_t bodies = scene->body_count, events = scene->event_count, couplings = scene->coupling_count,
            constraints = scene->constraint_count, absolutes = scene->absolute_count;
-    size_t slots = 1 + 2 * scene->coordinate_count + hand_slots + absolutes;
+    size_t slots = 1 + scene_size(scene) + hand_slots + absolutes;
     size_t things = bodies + events + couplings + constraints + absolutes;
     division->memory = calloc(3 * bodies + slots + 2 * things, sizeof *division->memory);
     if (!division->memory) return false;

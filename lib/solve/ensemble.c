@@ -16,7 +16,7 @@ static void part_of_start(const struct ensemble *ensemble, const struct group *g
 {
     const struct fbd_state *whole = ensemble->options.start;
     const struct plan *plan = &group->model->plan;
-    for (size_t i = 0; i < 2 * (size_t)plan->n; i++)
+    for (size_t i = 0; i < plan_size(plan); i++)
         y[i] = whole->y[group_component(ensemble->model, group, i)];
     for (int i = 0; i < plan->branches; i++) branch[i] = whole->branch[group->branch ? group->branch[i] : i];
 }
@@ -25,7 +25,7 @@ static void part_of_start(const struct ensemble *ensemble, const struct group *g
 static struct run *run_from_start(const struct ensemble *ensemble, const struct group *group)
 {
     const struct plan *plan = &group->model->plan;
-    double *y = calloc(2 * (size_t)plan->n + 1, sizeof *y);
+    double *y = calloc(plan_size(plan) + 1, sizeof *y);
     int *branch = calloc((size_t)plan->branches + 1, sizeof *branch);
     struct run *run = NULL;
     if (y && branch) {
@@ -81,7 +81,8 @@ static void map_branches(struct ensemble *ensemble)
     for (size_t i = 0; i < plan->kink_count; i++) {
         const struct kink *kink = &plan->kinks[i];
         int p = kink->body >= 0 ? division->group_of_body[kink->body] : 0;
-        if (kink->body < 0) { /* of a user event: the one whose formula begins with this branch */
+        if (kink->body < 0 &&
+            kink->own < 0) { /* of a user event: the one whose formula begins with this branch */
             int first = kink->formula.branch;
             while (plan->watches[watch].left.branch != first && plan->watches[watch].right.branch != first)
                 watch++;
@@ -373,8 +374,8 @@ bool ensemble_coordinates(struct ensemble *ensemble, double t, double *y)
 
 size_t group_component(const struct fbd_model *whole, const struct group *group, size_t i)
 {
-    size_t n = (size_t)group->model->plan.n, q = i % n;
     if (!group->selection) return i;
+    size_t n = (size_t)group->model->plan.n, q = i % n;
     int b = group->model->scene->coordinates[q].body;
     const struct model_body *from = &group->model->bodies[b];
     const struct model_body *to = &whole->bodies[group_body(group, b)];
@@ -385,7 +386,7 @@ void ensemble_pass_on(const struct ensemble *ensemble, size_t index, struct fbd_
 {
     const struct group *group = &ensemble->groups[index];
     const struct run *run = group->run;
-    for (size_t i = 0; i < 2 * (size_t)group->model->plan.n; i++)
+    for (size_t i = 0; i < plan_size(&group->model->plan); i++)
         state->y[group_component(ensemble->model, group, i)] += run->state->y[i] - run->y[i];
     scatter_modes(group, run->state, state);
 }

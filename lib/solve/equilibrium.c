@@ -9,6 +9,7 @@
 #include "base/call.h"
 #include "base/diag.h"
 #include "dynamics/modes.h"
+#include "dynamics/own.h"
 #include "dynamics/project.h"
 #include "dynamics/rates.h"
 #include "dynamics/statics.h"
@@ -23,25 +24,45 @@ struct balance {
     double *share; /* with couplings 1 - P, n x n, else NULL */
     double k;      /* acceleration for a length off the couplings */
     double zero;   /* an acceleration that is none, beside those of the start */
-    double *start; /* n: where the search began */
+    double *start; /* unknowns: where the search began */
+    double *scale; /* unknowns: what makes the rates of states as large as accelerations */
     double *Q;     /* n: generalized forces without those of couplings, which do no work along a step */
     double *slots, *lambda; /* of rest_forces; lambda is zero */
 };
 
-static size_t coordinates_of(const struct balance *balance)
+/* The unknowns: coordinates, and the states of the file's own, whose rates are to be zero beside accelerations. */
+static size_t unknowns_of(const struct balance *balance)
 {
-    return (size_t)balance->state->model->plan.n;
+    return plan_rates(&balance->state->model->plan);
+}
+
+/* Where unknown i is in y. */
+static size_t place_of(const struct fbd_state *state, size_t i)
+{
+    size_t n = (size_t)state->model->plan.n;
+    return i < n ? i : n + i;
+}
+
+static void keep_place(const struct fbd_state *state, double *x)
+{
+    for (size_t i = 0; i < plan_rates(&state->model->plan); i++) x[i] = state->y[place_of(state, i)];
+}
+
+/* At rest there. */
+static void put_place(struct fbd_state *state, const double *x)
+{
+    size_t n = (size_t)state->model->plan.n;
+    for (size_t i = 0; i < plan_rates(&state->model->plan); i++) state->y[place_of(state, i)] = x[i];
+    memset(state->y + n, 0, n * sizeof *state->y);
 }
 
 /* At rest at q, or at the place on the couplings that is nearest to it. */
 static void set_coordinates(struct balance *balance, const gsl_vector *q)
 {
     struct fbd_state *state = balance->state;
-    size_t n = coordinates_of(balance);
-    for (size_t i = 0; i < n; i++) {
-        state->y[i] = gsl_vector_get(q, i);
-        state->y[n + i] = 0;
-    }
+    size_t n = (size_t)state->model->plan.n;
+    for (size_t i = 0; i < q->size; i++) state->y[place_of(state, i)] = gsl_vector_get(q, i);
+    memset(state->y + n, 0, n * sizeof *state->y);
     if (balance->share) state_project(state, false);
 }
 
@@ -52,30 +73,49 @@ static int forces(const gsl_vector *q, void *context, gsl_vector *f)
     set_coordinates(balance, q);
     state_evaluate(state);
     for (size_t i = 0; i < f->size; i++) {
-        double off = balance->share ? state->y[i] - gsl_vector_get(q, i) : 0;
-        gsl_vector_set(f, i, state->a[i] + balance->k * off);
+        double off = balance->share ? state->y[place_of(state, i)] - gsl_vector_get(q, i) : 0;
+        gsl_vector_set(f, i, balance->scale[i] * state->a[i] + balance->k * off);
     }
     return GSL_SUCCESS;
+}
+
+/* The slope of residual i with unknown j, as far as the couplings let it go. */
+static double slope_of(const struct balance *balance, size_t i, size_t j)
+{
+    const struct plan *plan = &balance->state->model->plan;
+    size_t n = (size_t)plan->n;
+    const double *row = balance->work + (n + i) * plan_size(plan);
+    if (!balance->share || j >= n) return balance->scale[i] * row[place_of(balance->state, j)];
+    double slope = 0;
+    for (size_t l = 0; l < n; l++) slope += row[l] * balance->share[l * n + j];
+    slope *= balance->scale[i];
+    if (i < n) slope += balance->k * (balance->share[i * n + j] - (i == j));
+    return slope;
+}
+
+/* A state whose rate nothing changes here stays where it is. */
+static void hold_inert(const struct balance *balance, gsl_matrix *J)
+{
+    for (size_t i = (size_t)balance->state->model->plan.n; i < J->size1; i++) {
+        double most = 0;
+        for (size_t j = 0; j < J->size2; j++) most = larger(most, fabs(gsl_matrix_get(J, i, j)));
+        if (most == 0) gsl_matrix_set(J, i, i, -1);
+    }
 }
 
 static int slopes(const gsl_vector *q, void *context, gsl_matrix *J)
 {
     struct balance *balance = context;
     struct fbd_state *state = balance->state;
-    size_t n = J->size1, size = 2 * n;
+    size_t size = plan_size(&state->model->plan);
     double *dfdy = balance->work, *dfdt = dfdy + size * size;
     set_coordinates(balance, q);
     if (balance->share) independent_share(state, balance->share);
     struct instant at = state_instant(state);
     state_jacobian(state->model, &at, state->scratch, dfdy, dfdt);
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j < n; j++) {
-            double slope = balance->share ? 0 : dfdy[(n + i) * size + j];
-            for (size_t l = 0; balance->share && l < n; l++)
-                slope += dfdy[(n + i) * size + l] * balance->share[l * n + j];
-            if (balance->share) slope += balance->k * (balance->share[i * n + j] - (i == j));
-            gsl_matrix_set(J, i, j, slope);
-        }
+    for (size_t i = 0; i < J->size1; i++)
+        for (size_t j = 0; j < J->size2; j++) gsl_matrix_set(J, i, j, slope_of(balance, i, j));
+    hold_inert(balance, J);
     return GSL_SUCCESS;
 }
 
@@ -86,7 +126,7 @@ static int both(const gsl_vector *q, void *context, gsl_vector *f, gsl_matrix *J
 }
 
 /* The size that accelerations have at a place where nothing balances: what zero is measured against. */
-static double typical_acceleration(const struct fbd_state *state)
+double equilibrium_size(const struct fbd_state *state)
 {
     double most = vec_norm(state->model->scene->gravity);
     for (int i = 0; i < state->model->plan.n; i++) most = larger(most, fabs(state->a[i]));
@@ -129,8 +169,8 @@ static bool newton_new(struct newton *newton, size_t n)
                               .q = gsl_vector_alloc(n),
                               .f = gsl_vector_alloc(n),
                               .J = gsl_matrix_alloc(n, n),
-                              .matrix = calloc(n * n + n, sizeof(double)),
-                              .pivot = calloc(n, sizeof(size_t))};
+                              .matrix = calloc(n * n + n + 1, sizeof(double)),
+                              .pivot = calloc(n + 1, sizeof(size_t))};
     if (!newton->q || !newton->f || !newton->J || !newton->matrix || !newton->pivot) return false;
     newton->d = newton->matrix + n * n;
     return true;
@@ -153,14 +193,15 @@ static bool newton_step(struct newton *newton, double h)
 /* The size of coordinate i, here or at the start: 1 rad, or the length that it is. */
 static double size_of(const struct balance *balance, size_t i, double q)
 {
-    if (balance->state->model->scene->coordinates[i].angle) return 1;
+    const struct fbd_model *model = balance->state->model;
+    if (i < (size_t)model->plan.n && model->scene->coordinates[i].angle) return 1;
     return fmax(fabs(q), 1e-3);
 }
 
 /* Put what the state has, which is on the couplings, back into q. */
 static void take_coordinates(const struct balance *balance, gsl_vector *q)
 {
-    for (size_t i = 0; i < q->size; i++) gsl_vector_set(q, i, balance->state->y[i]);
+    for (size_t i = 0; i < q->size; i++) gsl_vector_set(q, i, balance->state->y[place_of(balance->state, i)]);
 }
 
 /* The work of the forces along the step, as far as the couplings let it go. */
@@ -278,7 +319,8 @@ static void set_start(gsl_vector *q, const struct fbd_model *model, const double
 {
     double share = trial == 0 ? 0 : ldexp(0.1, (trial - 1) / 2) * (trial % 2 ? -1 : 1);
     for (size_t i = 0; i < q->size; i++) {
-        double size = model->scene->coordinates[i].angle ? 1 : fmax(fabs(origin[i]), 1e-3);
+        bool angle = i < (size_t)model->plan.n && model->scene->coordinates[i].angle;
+        double size = angle ? 1 : fmax(fabs(origin[i]), 1e-3);
         gsl_vector_set(q, i, origin[i] + share * size);
     }
 }
@@ -295,25 +337,25 @@ static int search(struct balance *balance)
 {
     enum { most_trials = 11 };
     struct fbd_state *state = balance->state;
-    size_t n = coordinates_of(balance);
+    size_t n = unknowns_of(balance);
     gsl_vector *q = gsl_vector_alloc(n);
-    double *origin = calloc(2 * n + 1, sizeof *origin), *best = origin ? origin + n : NULL,
-           nearest = HUGE_VAL;
+    double *origin = calloc(3 * n + 1, sizeof *origin), *best = origin ? origin + n : NULL,
+           *there = origin ? best + n : NULL, nearest = HUGE_VAL;
     gsl_multiroot_fdfsolver *solver = gsl_multiroot_fdfsolver_alloc(gsl_multiroot_fdfsolver_hybridsj, n);
     bool made = q && origin && solver;
-    if (made) memcpy(origin, state->y, n * sizeof *origin);
+    if (made) keep_place(state, origin);
     for (int trial = 0; made && trial < most_trials; trial++) {
         set_start(q, state->model, origin, trial);
         if (!find_balance_from(balance, q, solver)) continue;
-        double distance = distance_between(state->y, origin, n);
+        keep_place(state, there);
+        double distance = distance_between(there, origin, n);
         /* Of two that rounding tells apart the first one stays. */
         if (!(distance < nearest * (1 - 1e-9))) continue;
         nearest = distance;
-        memcpy(best, state->y, n * sizeof *best);
+        memcpy(best, there, n * sizeof *best);
     }
     if (made && nearest < HUGE_VAL) {
-        memcpy(state->y, best, n * sizeof *best);
-        memset(state->y + n, 0, n * sizeof *best);
+        put_place(state, best);
         state_evaluate(state);
     }
     if (solver) gsl_multiroot_fdfsolver_free(solver);
@@ -336,12 +378,17 @@ static double reach_of(const struct fbd_state *state)
 static bool measure(struct balance *balance)
 {
     struct fbd_state *state = balance->state;
-    size_t n = coordinates_of(balance);
+    size_t n = (size_t)state->model->plan.n;
     memset(state->y + n, 0, n * sizeof *state->y);
     if (balance->share) state_project(state, false);
     state_evaluate(state);
-    double size = typical_acceleration(state);
+    double size = equilibrium_size(state);
     balance->zero = 1e-13 * size;
+    for (size_t i = 0; i < unknowns_of(balance); i++) balance->scale[i] = 1;
+    for (size_t i = n; i < unknowns_of(balance); i++) {
+        double rate = fabs(state->a[i]) + own_rate_size(state, (int)(i - n));
+        if (rate > 0 && size > 0 && isfinite(rate)) balance->scale[i] = size / rate;
+    }
     if (balance->share) balance->k = size / reach_of(state);
     return isfinite(size);
 }
@@ -356,19 +403,21 @@ static void balance_free(struct balance *balance)
 /* 1 made, 0 the start is not finite, -1 out of memory. */
 static int balance_new(struct balance *balance, struct fbd_state *state)
 {
-    size_t n = (size_t)state->model->plan.n, size = 2 * n;
+    size_t n = (size_t)state->model->plan.n, size = plan_size(&state->model->plan),
+           unknowns = plan_rates(&state->model->plan);
     bool tied = state->model->tree && state->model->tree->tie_count > 0;
     size_t slots = (size_t)state->model->plan.slots;
     size_t rows = tied ? (size_t)state->model->tree->row_count : 0;
     *balance = (struct balance){.state = state,
                                 .work = calloc(size * size + size + 1, sizeof(double)),
                                 .share = tied ? calloc(n * n + 1, sizeof(double)) : NULL,
-                                .start = calloc(2 * n + slots + rows + 1, sizeof(double))};
+                                .start = calloc(2 * unknowns + n + slots + rows + 1, sizeof(double))};
     if (!balance->work || !balance->start || (tied && !balance->share)) return -1;
-    balance->Q = balance->start + n;
+    balance->scale = balance->start + unknowns;
+    balance->Q = balance->scale + unknowns;
     balance->slots = balance->Q + n;
     balance->lambda = balance->slots + slots;
-    memcpy(balance->start, state->y, n * sizeof *balance->start);
+    keep_place(state, balance->start);
     return measure(balance);
 }
 
@@ -382,97 +431,20 @@ int equilibrium_search(struct fbd_state *state)
 
 /* Where it comes to rest; where forces without a potential drive it round and round, the nearest balance. 1
  * found, 0 none, -1 out of memory. */
-static int settle(struct fbd_state *state)
+int equilibrium_settle(struct fbd_state *state)
 {
     struct balance balance;
     struct newton newton = {0};
-    size_t n = (size_t)state->model->plan.n;
     int made = balance_new(&balance, state);
-    if (made > 0 && !newton_new(&newton, n)) made = -1;
-    int found = made > 0 ? let_down(&balance, &newton) && arrived(&balance, &newton) : made;
+    if (made > 0 && !newton_new(&newton, unknowns_of(&balance))) made = -1;
+    bool downhill = state->model->plan.own == 0; /* states have no energy to go down with */
+    int found = made > 0 ? downhill && let_down(&balance, &newton) && arrived(&balance, &newton) : made;
     if (made > 0 && found == 0) {
-        memcpy(state->y, balance.start, n * sizeof *state->y);
+        put_place(state, balance.start);
         found = search(&balance);
         if (found > 0) found = arrived(&balance, &newton);
     }
     newton_free(&newton);
     balance_free(&balance);
-    return found;
-}
-
-/* ---- the whole */
-
-/* What has no single place of rest, or none: dry friction holds in a range of places, and a prescribed motion
- * does not rest. */
-static bool refuse(const struct fbd_state *state, fbd_errors *errors)
-{
-    const struct fbd_model *model = state->model;
-    for (size_t pair = 0; pair < model->plan.friction_count; pair++) {
-        const struct friction *friction = &model->plan.frictions[pair];
-        if (friction->tie >= 0) continue;
-        diag_add(errors, FBD_ERROR, friction->kind == mode_drive ? "not-independent" : "sticks",
-                 friction->kind == mode_drive ? model->bodies[friction->body].source->motion.at
-                                              : model->loads[friction->load].source->at,
-                 friction->kind == mode_drive
-                     ? "give it a place, --at, or a motion without `theta` or `x`"
-                     : "leave the friction out to find the balance of the other forces",
-                 friction->kind == mode_drive
-                     ? "the motion of `%s` is prescribed: it is never at rest"
-                     : "`%s` has dry friction: it rests in a range of places, not in one",
-                 model->bodies[friction->body].name);
-        return true;
-    }
-    return false;
-}
-
-bool equilibrium_holds(struct fbd_state *state)
-{
-    const double rounding = 1e-6;
-    double most = 0;
-    if (state->model->plan.kink_count == 0) return true;
-    if (!modes_settle(state, NULL)) return false;
-    for (int i = 0; i < state->model->plan.n; i++) most = larger(most, fabs(state->a[i]));
-    return most <= rounding * typical_acceleration(state);
-}
-
-void equilibrium_refuse(fbd_errors *errors)
-{
-    diag_add(errors, FBD_ERROR, "no-equilibrium", (struct pos){0, 0}, "look from another state, with --at",
-             "forces balance only on a branch of an expression that has been left by then");
-}
-
-static bool find_equilibrium(fbd_state *state, fbd_errors *errors)
-{
-    diag_in_file(errors, state->model->scene->file);
-    if (refuse(state, errors)) return false;
-    if (!rest_begin(state)) {
-        if (state->holds.found == holds_no_memory)
-            diag_out_of_memory(errors);
-        else
-            diag_add(errors, FBD_ERROR, "unsettled", (struct pos){0, 0}, "look from another state, with --at",
-                     "at rest no choice of branches agrees with the forces");
-        return false;
-    }
-    if (!start_question(state, false, errors)) return false; /* wherever it starts, it is let down */
-    int found = settle(state);
-    if (state->holds.found == holds_no_memory) found = -1;
-    state->settled = false;
-    if (found > 0 && !start_question(state, true, errors)) return false;
-    if (found > 0 && equilibrium_holds(state)) return true;
-    if (found > 0) equilibrium_refuse(errors);
-    if (found < 0) diag_out_of_memory(errors);
-    if (found == 0)
-        diag_add(errors, FBD_ERROR, "no-equilibrium", (struct pos){0, 0},
-                 "start nearer to it: set the initial values, or give --at",
-                 "no equilibrium was found near the start");
-    return false;
-}
-
-bool fbd_find_equilibrium(fbd_state *state, fbd_errors *list)
-{
-    struct diag_call call;
-    fbd_errors *errors = diag_begin(&call, list);
-    bool found = state ? find_equilibrium(state, errors) : call_refuse(errors, "there is no state") != NULL;
-    diag_end(&call);
     return found;
 }

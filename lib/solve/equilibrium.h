@@ -20,6 +20,16 @@
  */
 int equilibrium_search(struct fbd_state *state);
 
+/* Where it comes to rest; where forces without a potential drive it round and round, or states of the file's own have
+ * rates to be brought to zero, the nearest balance. 1 found, 0 none, -1 out of memory. */
+int equilibrium_settle(struct fbd_state *state);
+
+/* The size that accelerations have at a place where nothing balances: what zero is measured against. */
+double equilibrium_size(const struct fbd_state *state);
+
+/* Say of a state of the file's own that its rate is never zero at rest; the state is put to rest for that. */
+bool equilibrium_refuse_states(struct fbd_state *state, fbd_errors *errors);
+
 /* Do forces balance with the branches that expressions have at the state, which need not be those in which it was
  * found? Its modes are settled by that. And saying that they do not. */
 bool equilibrium_holds(struct fbd_state *state);

@@ -33,7 +33,8 @@ struct run_event *run_note(struct run *run, fbd_event_kind kind, int body, int l
         run->event_room = room;
     }
     struct run_event *event = &run->events[run->event_count++];
-    *event = (struct run_event){.t = run_time(run), .kind = kind, .body = body, .load = load, .watch = watch};
+    *event = (struct run_event){
+        .t = run_time(run), .kind = kind, .body = body, .load = load, .watch = watch, .own = -1};
     return event;
 }
 
@@ -66,7 +67,7 @@ static void drop_rounding(struct run *run)
 {
     const double rounding = 1e-14;
     size_t n = (size_t)run->model->plan.n;
-    const double *most = run->anchor + 2 * n;
+    const double *most = run->anchor + plan_size(&run->model->plan);
     for (size_t i = n; i < 2 * n; i++)
         if (fabs(run->state->y[i]) <= rounding * most[i]) run->state->y[i] = 0;
 }
@@ -257,11 +258,14 @@ void run_apply_touched(struct run *run, bool at_event)
 }
 
 /* `load` is what `name` names, or -1: an event of the file, or an expression in one. */
-static void fail_chatter(struct run *run, int load, const char *name)
+static void fail_chatter(struct run *run, int load, bool state, const char *name)
 {
     run_fail(run, FBD_FAILED,
              "at t = %.9g events chatter: `%s` changes again and again while hardly any time passes. %s",
-             run_time(run), name, unsettled_advice(run->model, load));
+             run_time(run), name,
+             state ? "A rate that jumps against its state leaves it no way on: give it two thresholds, "
+                     "`hysteresis`, or a slope between"
+                   : unsettled_advice(run->model, load));
 }
 
 /* A switch that has just been crossed and whose new branch already ends: the forces on both sides push back
@@ -290,20 +294,22 @@ static void refuse_sliding(struct run *run, const bool *moving)
             bool same =
                 back->kind == watch_kink && back->index == watcher->index && back->part == watcher->part;
             if (!same || back->end == watcher->end || !(rate[k] < 0)) continue;
-            int load = run->model->plan.kinks[watcher->index].load;
-            fail_chatter(run, load, load >= 0 ? run->model->loads[load].source->name : "an event");
+            const struct kink *kink = &run->model->plan.kinks[watcher->index];
+            const char *name = run_kink_name(run, kink);
+            fail_chatter(run, kink->load, kink->own >= 0, name ? name : "an event");
         }
     }
 }
 
 void run_fail_chatter(struct run *run)
 {
-    static const struct run_event nothing = {.load = -1, .watch = -1};
+    static const struct run_event nothing = {.load = -1, .watch = -1, .own = -1};
     const struct run_event *event = run->event_count > 0 ? &run->events[run->event_count - 1] : &nothing;
     const char *name = event->load >= 0    ? run->model->loads[event->load].source->name
                        : event->watch >= 0 ? run->model->plan.watches[event->watch].source->name
+                       : event->own >= 0   ? run->model->scene->own[event->own].name
                                            : "an expression";
-    fail_chatter(run, event->load, name);
+    fail_chatter(run, event->load, event->own >= 0, name);
 }
 
 double run_instant(const struct run *run)
@@ -335,15 +341,16 @@ static void count_around(struct run *run)
 {
     enum { most_around = 100000 };
     const double place = 1e-6, speed = 1e-3;
-    size_t n = (size_t)run->model->plan.n;
+    size_t n = (size_t)run->model->plan.n, size = plan_size(&run->model->plan);
     double *anchor = run->anchor;
-    const double *most = anchor + 2 * n;
+    const double *most = anchor + size;
     bool away = false;
-    for (size_t i = 0; i < 2 * n; i++) {
+    for (size_t i = 0; i < size; i++) {
         double y = run->state->y[i];
-        away |= i < n ? fabs(y - anchor[i]) > place * most[i] : fabs(y) > speed * most[i];
+        bool rate = i >= n && i < 2 * n;
+        away |= rate ? fabs(y) > speed * most[i] : fabs(y - anchor[i]) > place * most[i];
     }
-    if (away) memcpy(anchor, run->state->y, 2 * n * sizeof *anchor);
+    if (away) memcpy(anchor, run->state->y, size * sizeof *anchor);
     run->around = away ? 0 : run->around + 1;
     if (run->around > most_around && run->outcome == FBD_GOING) run_fail_chatter(run);
 }

@@ -148,16 +148,17 @@ static bool refuse_limits(struct fbd_state *state, fbd_errors *errors)
 
 static fbd_linearization *linearization_new(const struct fbd_model *model)
 {
-    size_t n = (size_t)model->plan.n, size = 2 * n;
+    size_t n = (size_t)model->plan.n, size = plan_size(&model->plan);
     fbd_linearization *linear = calloc(1, sizeof *linear);
     if (!linear) return NULL;
     *linear = (struct fbd_linearization){
         .model = model,
+        .count = n,
         .size = size,
         .which = calloc(n + 1, sizeof(int)),
         .A = calloc(size * size + size + 1, sizeof(double)), /* df/dt behind it */
         .modes = calloc(size + 1, sizeof(fbd_mode)),
-        .q = calloc(n + 1, sizeof(double)),
+        .q = calloc(plan_rates(&model->plan) + 1, sizeof(double)),
     };
     for (size_t i = 0; linear->which && i < n; i++) linear->which[i] = (int)i;
     if (linear->which && linear->A && linear->modes && linear->q) return linear;
@@ -183,11 +184,11 @@ static void looking_free(struct looking *looking)
 
 static bool looking_new(struct looking *looking, struct fbd_linearization *linear, struct fbd_state *state)
 {
-    size_t n = (size_t)state->model->plan.n, size = 2 * n;
+    size_t n = (size_t)state->model->plan.n, size = plan_size(&state->model->plan);
     *looking = (struct looking){.linear = linear, .state = state};
-    looking->origin = calloc(4 * n + 1, sizeof *looking->origin);
+    looking->origin = calloc(plan_rates(&state->model->plan) + 3 * n + 1, sizeof *looking->origin);
     if (!looking->origin) return false;
-    looking->before = looking->origin + n;
+    looking->before = looking->origin + plan_rates(&state->model->plan);
     looking->beside = looking->before + n;
     looking->there = looking->beside + n;
     if (!is_tied(state->model)) return true;
@@ -195,22 +196,34 @@ static bool looking_new(struct looking *looking, struct fbd_linearization *linea
     return looking->full && independent_new(&looking->independent, state);
 }
 
-/* A of the independent coordinates from the Jacobian of all. */
+/* One row of A from that of the Jacobian of all. */
+static void reduce_row(const struct independent *independent, size_t own, const double *full, double *row)
+{
+    size_t n = independent->n, f = independent->count;
+    for (size_t l = 0; l < f; l++)
+        for (size_t j = 0; j < n; j++) {
+            row[l] += full[j] * independent->way[j * f + l];
+            row[f + l] += full[n + j] * independent->way[j * f + l];
+        }
+    for (size_t i = 0; i < own; i++) row[2 * f + i] = full[2 * n + i];
+}
+
+/* A of the independent coordinates and the states from the Jacobian of all. */
 static void reduce(const struct looking *looking)
 {
     const struct independent *independent = &looking->independent;
-    size_t n = independent->n, f = independent->count, size = 2 * f;
+    const struct plan *plan = &looking->state->model->plan;
+    size_t n = independent->n, f = independent->count, own = (size_t)plan->own, size = 2 * f + own,
+           wide = plan_size(plan);
     double *A = looking->linear->A;
     memset(A, 0, size * size * sizeof *A);
     for (size_t k = 0; k < f; k++) {
-        const double *row = looking->full + (n + (size_t)independent->which[k]) * 2 * n;
         A[k * size + f + k] = 1;
-        for (size_t l = 0; l < f; l++)
-            for (size_t j = 0; j < n; j++) {
-                A[(f + k) * size + l] += row[j] * independent->way[j * f + l];
-                A[(f + k) * size + f + l] += row[n + j] * independent->way[j * f + l];
-            }
+        reduce_row(independent, own, looking->full + (n + (size_t)independent->which[k]) * wide,
+                   A + (f + k) * size);
     }
+    for (size_t i = 0; i < own; i++)
+        reduce_row(independent, own, looking->full + (2 * n + i) * wide, A + (2 * f + i) * size);
 }
 
 /* The Jacobian at the state, and the largest slope that each acceleration has along a coordinate. False where
@@ -219,14 +232,14 @@ static bool slopes_at(struct looking *looking, double *most)
 {
     struct fbd_state *state = looking->state;
     struct fbd_linearization *linear = looking->linear;
-    size_t n = (size_t)state->model->plan.n, f = linear->size / 2;
+    size_t all = plan_size(&state->model->plan), f = linear->count;
     if (looking->full) {
         state_project(state, false);
         if (!independent_follow(&looking->independent, state)) return false;
     }
     struct instant at = state_instant(state);
     double *work = looking->full ? looking->full : linear->A;
-    state_jacobian(state->model, &at, state->scratch, work, work + 4 * n * n);
+    state_jacobian(state->model, &at, state->scratch, work, work + all * all);
     if (looking->full) reduce(looking);
     for (size_t i = 0; i < f; i++) {
         most[i] = 0;
@@ -242,7 +255,7 @@ static void drop_dying_slopes(const struct looking *looking, fbd_errors *errors)
 {
     const double died_out = 1e-4, of_beside = 0.1;
     struct fbd_linearization *linear = looking->linear;
-    size_t n = linear->size / 2;
+    size_t n = linear->count;
     for (size_t i = 0; i < n; i++) {
         double there = looking->there[i];
         if (!(there < died_out * looking->before[i] && there < of_beside * looking->beside[i])) continue;
@@ -283,9 +296,20 @@ static bool choose_coordinates(struct looking *looking, fbd_errors *errors)
                  "nothing can move: the couplings, `%s` among them, leave no freedom", tree->ties[0].name);
         return false;
     }
-    linear->size = 2 * independent->count;
+    linear->count = independent->count;
+    linear->size = 2 * independent->count + (size_t)linear->model->plan.own;
     memcpy(linear->which, independent->which, independent->count * sizeof *linear->which);
     return true;
+}
+
+/* Keep, or put back, [q, z]. */
+static void move_place(struct fbd_state *state, double *place, bool back)
+{
+    size_t n = (size_t)state->model->plan.n, own = (size_t)state->model->plan.own;
+    double *const ours[] = {state->y, state->y + 2 * n}, *const theirs[] = {place, place + n};
+    const size_t counts[] = {n, own};
+    for (int k = 0; k < 2; k++)
+        memcpy(back ? ours[k] : theirs[k], back ? theirs[k] : ours[k], counts[k] * sizeof *place);
 }
 
 /* The slopes where it starts, a little back from the equilibrium, and there, where the state stays. */
@@ -293,13 +317,13 @@ static bool look_around(struct looking *looking)
 {
     const double little = 1e-3; /* of the way back to the start */
     struct fbd_state *state = looking->state;
-    const double *q = looking->linear->q;
-    size_t n = (size_t)state->model->plan.n;
-    memcpy(state->y, looking->origin, n * sizeof *q);
+    double *q = looking->linear->q, *from = looking->origin;
+    move_place(state, from, true);
     slopes_at(looking, looking->before);
-    for (size_t i = 0; i < n; i++) state->y[i] = q[i] + little * (looking->origin[i] - q[i]);
+    for (size_t i = 0; i < plan_rates(&state->model->plan); i++) from[i] = q[i] + little * (from[i] - q[i]);
+    move_place(state, from, true);
     slopes_at(looking, looking->beside);
-    memcpy(state->y, q, n * sizeof *q);
+    move_place(state, q, true);
     state_evaluate(state);
     return slopes_at(looking, looking->there); /* leaves the Jacobian in A */
 }
@@ -312,7 +336,7 @@ static int check_branches(const struct fbd_linearization *linear, const struct f
     struct fbd_state *there = state_new(state->model);
     if (!there) return -1;
     state_copy(there, state);
-    memcpy(there->y, linear->q, n * sizeof *linear->q);
+    move_place(there, linear->q, true);
     memset(there->y + n, 0, n * sizeof *there->y);
     bool holds = equilibrium_holds(there), memory = there->holds.found != holds_no_memory;
     state_free(there);
@@ -324,13 +348,12 @@ static int check_branches(const struct fbd_linearization *linear, const struct f
 /* Find the balance and A there; 1 found, 0 none near, -1 out of memory, -2 it is said why not. */
 static int find_matrix(struct fbd_linearization *linear, struct fbd_state *state, fbd_errors *errors)
 {
-    size_t n = (size_t)state->model->plan.n;
     struct looking looking;
     bool made = looking_new(&looking, linear, state);
-    if (made) memcpy(looking.origin, state->y, n * sizeof *looking.origin);
+    if (made) move_place(state, looking.origin, false);
     int found = made ? equilibrium_search(state) : -1;
     if (found > 0) {
-        memcpy(linear->q, state->y, n * sizeof *linear->q);
+        move_place(state, linear->q, false);
         if (refuse_limits(state, errors) || !choose_coordinates(&looking, errors))
             found = -2;
         else if (!look_around(&looking)) {
@@ -348,20 +371,28 @@ static int find_matrix(struct fbd_linearization *linear, struct fbd_state *state
     return found;
 }
 
+const char *linearization_name(const struct fbd_linearization *linear, size_t i)
+{
+    const struct fbd_model *model = linear->model;
+    size_t f = linear->count;
+    if (i >= 2 * f) return model->own_labels[i - 2 * f].name;
+    const struct label *label = &model->labels[linear->which[i % f]];
+    return i < f ? label->name : label->rate_name;
+}
+
 /* The balance, and every slope there. */
 static bool is_finite(const struct fbd_linearization *linear, struct fbd_state *state, fbd_errors *errors)
 {
-    const struct fbd_model *model = linear->model;
-    size_t size = linear->size, n = size / 2;
+    size_t size = linear->size;
     if (!start_question(state, true, errors)) return false;
     for (size_t i = 0; i < size * size; i++) {
         if (isfinite(linear->A[i])) continue;
-        size_t row = i / size % n, column = i % size;
-        const struct label *label = &model->labels[linear->which[column % n]];
+        size_t row = i / size, f = linear->count;
         diag_add(errors, FBD_ERROR, "not-finite", (struct pos){0, 0}, NULL,
-                 "at the equilibrium the slope of the acceleration along `%s` with `%s` is not finite: %s",
-                 model->labels[linear->which[row]].name, column < n ? label->name : label->rate_name,
-                 not_finite_reason(linear->A[i]));
+                 "at the equilibrium the slope of %s `%s` with `%s` is not finite: %s",
+                 row < 2 * f ? "the acceleration along" : "the rate of",
+                 linearization_name(linear, row < 2 * f ? row % f : row),
+                 linearization_name(linear, i % size), not_finite_reason(linear->A[i]));
         return false;
     }
     return true;
@@ -397,7 +428,7 @@ static fbd_linearization *linearize(fbd_state *state, fbd_errors *errors)
         memset(state->y + n, 0, n * sizeof *state->y);
     bool settled = modes_settle(state, NULL);
     if (!start_question(state, settled, errors) || refuse_driven(state, errors) ||
-        refuse_sticking(state, errors))
+        refuse_sticking(state, errors) || equilibrium_refuse_states(state, errors))
         return NULL;
     fbd_linearization *linear = linearization_new(model);
     int found = linear && settled ? find_matrix(linear, state, errors) : -1;
@@ -443,7 +474,7 @@ const double *fbd_linearization_matrix(const fbd_linearization *linearization)
 
 size_t fbd_linearization_coordinate(const fbd_linearization *linearization, size_t index)
 {
-    bool there = linearization && index < linearization->size / 2;
+    bool there = linearization && index < linearization->count;
     return there ? (size_t)linearization->which[index] : (size_t)-1;
 }
 

@@ -18,13 +18,17 @@
 
 struct fbd_linearization {
     const struct fbd_model *model;
-    size_t size; /* twice the number of independent coordinates */
-    int *which;  /* size / 2: which they are, ascending */
-    double *way; /* n x size / 2: how all coordinates follow them; NULL without couplings */
-    double *A;   /* size x size, row by row (and df/dt behind it) */
+    size_t count; /* of independent coordinates */
+    size_t size;  /* twice that, and the states of the file's own */
+    int *which;   /* count: which they are, ascending */
+    double *way;  /* n x count: how all coordinates follow them; NULL without couplings */
+    double *A;    /* size x size, row by row (and df/dt behind it) */
     fbd_mode *modes;
-    double *q;       /* the equilibrium */
+    double *q;       /* plan_rates: the equilibrium, [q, z] */
     bool degenerate; /* forces without a slope there have been told, and their rows of A are zero */
 };
+
+/* What entry i of x = [q, v, z] is called. */
+const char *linearization_name(const struct fbd_linearization *linear, size_t i);
 
 #endif

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "dynamics/constraint.h"
+#include "dynamics/own.h"
 #include "solve/run.h"
 
 /* How much the links from the ground to each have turned in all: an angle in the world is their sum, and has
@@ -124,7 +125,7 @@ static void take_driven(const struct run *run, double *dy)
 {
     const struct plan *plan = &run->model->plan;
     size_t n = (size_t)plan->n;
-    memset(dy, 0, 2 * n * sizeof *dy);
+    memset(dy, 0, plan_size(plan) * sizeof *dy);
     for (size_t pair = 0; pair < plan->friction_count; pair++) {
         if (plan->frictions[pair].kind != mode_drive) continue;
         size_t i = (size_t)plan->frictions[pair].coordinate;
@@ -135,17 +136,18 @@ static void take_driven(const struct run *run, double *dy)
 
 /* How fast the accelerations change: along the motion, or by the time alone, which is what its rounding does
  * to them: where no force names it, and nothing is prescribed, nothing, as steps have the size that they say.
- * `along` has n entries. */
+ * `along` has plan_rates entries: the rates of states change likewise. */
 static void changes(struct run *run, const struct instant *at, bool by_time, double *along)
 {
     const struct plan *plan = &run->model->plan;
     size_t n = (size_t)plan->n;
     double *slots = run->state->scratch, *slots_along = slots + plan->slots, *dy = run->sample;
     memcpy(dy, run->state->y + n, n * sizeof *dy);
-    memcpy(dy + n, run->state->a, n * sizeof *dy);
+    memcpy(dy + n, run->state->a, plan_rates(plan) * sizeof *dy);
     if (by_time) take_driven(run, dy);
     struct direction flow = {1, dy};
     accelerations_along(run->model, at, &flow, slots, slots_along, along);
+    if (plan->own > 0) own_rates_along(run->model, at, &flow, along + n);
 }
 
 /* What a coordinate and its rate become in a short time, and the arm that makes a length of an angle: of a body
@@ -224,6 +226,18 @@ static bool any_is_small(const struct run *run)
     return n > 0 && least <= DBL_EPSILON * most;
 }
 
+/* Likewise a state that starts from zero. */
+static void set_own_floor(struct run *run, int i, double lasts)
+{
+    const double share = 1e-3;
+    const struct plan *plan = &run->model->plan;
+    size_t state = 2 * (size_t)plan->n + (size_t)i, rate = (size_t)(plan->n + i);
+    double tau = share * lasts, change = fabs(run->along[rate]);
+    if (run->state->y[state] != 0) return;
+    switcher_set_floor(run->stepper, state,
+                       tau * fabs(run->state->a[rate]) + (isfinite(change) ? tau * tau * change : 0));
+}
+
 /* Roundings of its gross forces that the acceleration of a body is known to. Measured with chains of 16 to
  * 128 rods, error estimates of dop853 are up to 4 roundings of the gross forces of the worst rod, seldom 10.
  * The worst of many is worse: one of a thousand rods that lie still but for rounding is above 16 in every
@@ -262,13 +276,17 @@ static void set_noise(struct run *run)
 
 void run_set_noise(struct run *run)
 {
+    const struct plan *plan = &run->model->plan;
     set_noise(run);
     run->since_noise = 0;
-    if (!any_is_small(run)) return;
+    bool coordinates = any_is_small(run), own = false;
+    for (int i = 2 * plan->n; i < (int)plan_size(plan); i++) own |= run->state->y[i] == 0;
+    if (!coordinates && !own) return;
     double lasts = run_time_to_switch(run);
     struct instant at = state_instant(run->state);
     changes(run, &at, false, run->along);
-    set_floors(run, lasts);
+    if (coordinates) set_floors(run, lasts);
+    for (int i = 0; i < plan->own; i++) set_own_floor(run, i, lasts);
 }
 
 void run_renew_noise(struct run *run)

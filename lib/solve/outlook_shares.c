@@ -84,7 +84,7 @@ bool outlook_knows_shares(const struct fbd_state *state)
         if (expr_switch_degree(kink->formula.expr, (size_t)s->slides[j].part, 2 * n) != expr_affine)
             return false;
         for (size_t k = 0; k < count; k++) {
-            if (slots[k] > 2 * n) return false;
+            if (slots[k] > 2 * n) return false; /* states and places */
             if (!knows_body(state, model->scene->coordinates[(slots[k] - 1) % n].body)) return false;
         }
     }
@@ -152,7 +152,7 @@ static void write_equation(const struct outlook *o, int unit, struct equations *
         take_force(o, s->held[unit], 1, e, unit);
         return;
     }
-    memset(s->flow, 0, 2 * n * sizeof *s->flow);
+    memset(s->flow, 0, plan_size(plan) * sizeof *s->flow);
     for (size_t i = 0; i < 2 * n; i++) {
         s->flow[i] = 1;
         double slope = sliding_surface_rate(s, state->model, &at, kink, s->slides[first].part, 0, s->flow);

@@ -48,9 +48,9 @@ static double size_of(struct run *run, const struct kink *kink, int part)
     struct fbd_state *state = run->state;
     const struct instant at = state_instant(state);
     size_t n = (size_t)run->model->plan.n;
-    const double *most = run->anchor + 2 * n;
-    double size = 0, *dy = run->sample; /* scratch of 2 n */
-    memset(dy, 0, 2 * n * sizeof *dy);
+    const double *most = run->anchor + plan_size(&run->model->plan);
+    double size = 0, *dy = run->sample; /* scratch */
+    memset(dy, 0, plan_size(&run->model->plan) * sizeof *dy);
     for (size_t i = 0; i < n; i++) {
         dy[n + i] = 1;
         size += fabs(sliding_surface_rate(state->sliding, run->model, &at, kink, part, 0, dy)) * most[i];

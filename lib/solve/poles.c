@@ -17,7 +17,7 @@ bool poles_init(struct poles *poles, const struct fbd_model *model)
     for (size_t i = 0; i < plan->pole_count; i++) poles->count += plan->poles[i].count;
     if (poles->count == 0) return true;
     size_t count = poles->count;
-    poles->most = calloc(7 * count + 2 * (size_t)plan->n, sizeof(double));
+    poles->most = calloc(7 * count + plan_size(plan), sizeof(double));
     poles->grows = calloc(count, sizeof(bool));
     if (!poles->most || !poles->grows) {
         poles_free(poles);
@@ -85,7 +85,7 @@ double poles_longest_step(struct poles *poles, const struct fbd_state *state, co
     if (poles->count == 0) return longest;
     struct instant now = state_instant(state), at = instant_extend(state->model, &now);
     memcpy(poles->dy, state->y + n, n * sizeof(double));
-    memcpy(poles->dy + n, state->a, n * sizeof(double));
+    memcpy(poles->dy + n, state->a, plan_rates(plan) * sizeof(double));
     const struct direction motion = {1, poles->dy}, flow = direction_extend(state->model, &at, &motion);
     divisors_at(plan, &at, &flow, poles->start, poles->rate);
     for (size_t i = 0; i < plan->pole_count; i++) {

@@ -16,7 +16,7 @@
 static double wrap_at(struct run *run, int tie, const double *y)
 {
     struct fbd_state *state = run->during;
-    memcpy(state->y, y, 2 * (size_t)run->model->plan.n * sizeof *state->y);
+    memcpy(state->y, y, plan_size(&run->model->plan) * sizeof *state->y);
     state_misfit(state); /* puts the links in their places */
     return rope_wrap(run->model, state->tree, tie);
 }

@@ -27,20 +27,31 @@ double run_time(const struct run *run)
     return fabs(run->state->t) < nothing * run->first_step ? 0 : run->state->t;
 }
 
+const char *run_kink_name(const struct run *run, const struct kink *kink)
+{
+    if (kink->load >= 0) return run->model->loads[kink->load].source->name;
+    return kink->own >= 0 ? run->model->scene->own[kink->own].name : NULL;
+}
+
 static const char *body_of(const struct run *run, size_t element)
 {
     size_t n = (size_t)run->model->plan.n;
     const struct scene *scene = run->model->scene;
+    if (element >= 2 * n) return scene->own[element - 2 * n].name;
     return run->model->bodies[scene->coordinates[element % n].body].name;
 }
 
-/* The coordinate whose motion is the fastest: where a solution runs away, it is this one. */
+/* The coordinate or state whose motion is the fastest: where a solution runs away, it is this one. */
 static size_t fastest(const struct run *run)
 {
     size_t n = (size_t)run->model->plan.n, worst = 0;
     double most = -1;
     for (size_t i = 0; i < n; i++) {
         double v = fabs(run->y[n + i]), a = fabs(run->f[n + i]), rate = v > 0 ? a / v : 0;
+        if (rate > most) most = rate, worst = i;
+    }
+    for (size_t i = 2 * n; i < plan_size(&run->model->plan); i++) {
+        double z = fabs(run->y[i]), rate = z > 0 ? fabs(run->f[i]) / z : 0;
         if (rate > most) most = rate, worst = i;
     }
     return worst;
@@ -71,11 +82,19 @@ static bool explain_blocked_rope(struct run *run)
 static void explain_not_finite(struct run *run)
 {
     if (explain_blocked_rope(run)) return;
-    size_t n = (size_t)run->model->plan.n, element = run->system.last_element % (2 * n);
+    size_t n = (size_t)run->model->plan.n, element = run->system.last_element % plan_size(&run->model->plan);
     const char *what = isnan(run->system.last_value)
                            ? "an expression leaves its domain there (a root or logarithm of a negative "
                              "number, 0/0, beyond the end of a table, thresholds of `hysteresis` that cross)"
                            : "it is beyond the largest number (a division by zero, or an overflow)";
+    if (element >= 2 * n) {
+        run_fail(run, FBD_FAILED,
+                 "the rate of the state `%s` is not finite at t = %.9g, just beyond the last good state at t "
+                 "= %.9g: %s. "
+                 "End the run before by an event, or restrict the expression",
+                 run->model->scene->own[element - 2 * n].name, run->system.last_time, run_time(run), what);
+        return;
+    }
     run_fail(
         run, FBD_FAILED,
         "a force on `%s` is not finite at t = %.9g, just beyond the last good state at t = %.9g: %s. End the "
@@ -86,6 +105,14 @@ static void explain_not_finite(struct run *run)
 void run_fail_pole(struct run *run, const struct pole *pole)
 {
     const struct fbd_model *model = run->model;
+    if (pole->own >= 0) {
+        run_fail(run, FBD_FAILED,
+                 "at t = %.9g the rate of the state `%s` divides by zero, to the rounding of the time: it is "
+                 "infinite "
+                 "there. End the run before by an event, or bound the rate",
+                 run_time(run), model->scene->own[pole->own].name);
+        return;
+    }
     const struct load *load = model->loads[pole->load].source;
     if (load->toward && pole->formula.expr == load->angle.expr) {
         run_fail(

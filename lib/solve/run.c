@@ -40,10 +40,12 @@ static bool make_stepper(struct run *run)
         run->options.method = structure_method(run->kind);
     }
     struct stepper_options options = {.method = run->options.method,
-                                      .layout = {.pairs = n, .angle = angle},
+                                      .layout = {.pairs = n,
+                                                 .extra = (size_t)run->model->plan.own,
+                                                 .angle = angle},
                                       .tolerance = run->options.tolerance,
                                       .h_fixed = run->options.step};
-    bool automatic = run->options.automatic && 2 * n <= method_most_stiff_states;
+    bool automatic = run->options.automatic && plan_size(&run->model->plan) <= method_most_stiff_states;
     automatic = automatic && !structure_is_exact(run->kind);
     run->stepper = switcher_alloc(&options, automatic ? method_find("rodas5p") : NULL);
     free(angle);
@@ -63,27 +65,28 @@ static bool make_decided(struct decided *decided, const struct plan *plan)
 static bool make_run(struct run *run, const struct state_start *begin)
 {
     const struct plan *plan = &run->model->plan;
-    size_t n = (size_t)plan->n;
+    size_t n = (size_t)plan->n, size = plan_size(plan);
     run->state = begin ? state_new_from(run->model, begin) : state_new(run->model);
     run->during = state_new(run->model);
     size_t links = run->model->tree ? (size_t)run->model->tree->count : 0;
-    run->y = calloc(12 * n + 2 * links + 2 * run->model->body_count + 1, sizeof *run->y);
+    size_t sizes = n + 2 * links + 2 * run->model->body_count;
+    run->y = calloc(5 * size + plan_rates(plan) + sizes + 1, sizeof *run->y);
     if (!run->state || !run->during || !run->y || !run_make_scans(run)) return false;
     if (run->state->tree) run->state->tree->accuracy = run->during->tree->accuracy = run->options.tolerance;
     if (!poles_init(&run->poles, run->model)) return false;
     if (!mechanisms_init(&run->mechanisms, run->model)) return false;
-    run->f = run->y + 2 * n;
-    run->sample = run->f + 2 * n;
-    run->aside = run->sample + 2 * n;
-    run->along = run->aside + 4 * n;
-    run->noise = run->along + n;
+    run->f = run->y + size;
+    run->sample = run->f + size;
+    run->aside = run->sample + size;
+    run->along = run->aside + 2 * size;
+    run->noise = run->along + plan_rates(plan);
     run->turned = run->noise + n;
     run->cancelled = run->turned + 2 * links;
     size_t functions = 2 * run->moving.count, timed = 3 * run->timed.count;
     run->values = calloc((functions > timed ? functions : timed) + 1, sizeof *run->values);
-    run->kept = calloc(4 * n + 1, sizeof *run->kept);
+    run->kept = calloc(2 * size + 1, sizeof *run->kept);
     run->crossed = calloc(run->moving.count + 1, sizeof *run->crossed);
-    run->anchor = calloc(4 * n + 1, sizeof *run->anchor);
+    run->anchor = calloc(2 * size + 1, sizeof *run->anchor);
     run->arrows = calloc(diagram_most_arrows(run->model), sizeof *run->arrows);
     if (!contacts_work_init(&run->contacts, run->model) || !passages_init(run)) return false;
     run->watchers.asleep = run->contacts.asleep;
@@ -94,11 +97,11 @@ static bool make_run(struct run *run, const struct state_start *begin)
         return false;
     run->rates = rates_new(run->during, rates_by_rows);
     if (!run->rates) return false;
-    gsl_odeiv2_system system = {.jacobian = jacobian, .dimension = 2 * n};
+    gsl_odeiv2_system system = {.jacobian = jacobian, .dimension = size};
     system.function = rates_call(run->rates, &system.params);
     counted_system_init(&run->system, &system);
     if (!make_decided(&run->decided, plan) || !make_stepper(run)) return false;
-    return run->kind != structure_linear || linear_pace_init(&run->pace, 2 * n);
+    return run->kind != structure_linear || linear_pace_init(&run->pace, size);
 }
 
 static void refuse(struct run *run, struct lack *lack)
@@ -183,7 +186,7 @@ void run_free(struct run *run)
 /* Start the stepper at the present state. */
 static bool restart(struct run *run)
 {
-    memcpy(run->y, run->state->y, 2 * (size_t)run->model->plan.n * sizeof *run->y);
+    memcpy(run->y, run->state->y, plan_size(&run->model->plan) * sizeof *run->y);
     scan_forget(&run->timed);
     scan_forget(&run->moving);
     if (!structure_is_exact(run->kind)) run_set_noise(run);
@@ -225,9 +228,15 @@ static struct moment next_time(struct run *run, bool *found)
 /* A coordinate that has grown beyond all numbers, though its rate has not; the step is not taken. */
 static bool is_beyond_numbers(struct run *run, double t)
 {
-    size_t n = (size_t)run->model->plan.n;
-    for (size_t i = 0; i < 2 * n; i++) {
+    size_t n = (size_t)run->model->plan.n, size = plan_size(&run->model->plan);
+    for (size_t i = 0; i < size; i++) {
         if (isfinite(run->y[i])) continue;
+        if (i >= 2 * n) {
+            run_fail(run, FBD_FAILED,
+                     "the state `%s` is not finite at t = %.9g: %s. The last good state is that at t = %.9g",
+                     run->model->scene->own[i - 2 * n].name, t, not_finite_reason(run->y[i]), run->state->t);
+            return true;
+        }
         const struct coordinate *c = &run->model->scene->coordinates[i % n];
         run_fail(run, FBD_FAILED,
                  "`%s.%s` is not finite at t = %.9g: %s. The last good state is that at t = %.9g",
@@ -240,17 +249,17 @@ static bool is_beyond_numbers(struct run *run, double t)
 
 static void accept(struct run *run, struct moment t)
 {
-    size_t n = (size_t)run->model->plan.n;
-    double *most = run->anchor + 2 * n;
+    size_t size = plan_size(&run->model->plan);
+    double *most = run->anchor + size;
     if (is_beyond_numbers(run, t.t)) return;
-    for (size_t i = 0; i < 2 * n; i++) most[i] = fmax(most[i], fabs(run->state->y[i]));
+    for (size_t i = 0; i < size; i++) most[i] = fmax(most[i], fabs(run->state->y[i]));
     state_set_moment(run->state, t);
-    memcpy(run->state->y, run->y, 2 * n * sizeof *run->y);
+    memcpy(run->state->y, run->y, size * sizeof *run->y);
     modes_hold(run->state);
     run_close_step(run);
     run_check_overlap(run);
     run->restart |= run_has_gone_astray(run);
-    memcpy(run->y, run->state->y, 2 * n * sizeof *run->y);
+    memcpy(run->y, run->state->y, size * sizeof *run->y);
 }
 
 /* On the brink of a place that cannot be passed, a method without a fine sense of error goes on by roundings

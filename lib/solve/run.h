@@ -54,6 +54,7 @@ struct run_event {
     double t;
     fbd_event_kind kind;
     int body, load, watch; /* -1 where it does not apply */
+    int own;               /* a switch in the rate of this state, or -1 */
     int branch;            /* of a switch */
     size_t group, order;   /* of an ensemble, and its place in the log of that group */
     double force, limit;   /* friction: the force after the event (that holds or slides) and the static limit;
@@ -107,15 +108,16 @@ struct run {
     struct linear_pace pace; /* of a linear system */
     struct counted_system system;
     struct rates *rates;       /* in the modes of `during` */
-    double *y, *f, *sample;    /* 2 n each; y: the end of the last step, before its events */
-    double *aside;             /* 4 n: a sample made in another way */
-    double *along;             /* n: how the accelerations change along the motion, when the noise was set */
+    double *y, *f, *sample;    /* plan_size each; y: the end of the last step, before its events */
+    double *aside;             /* 2 plan_size: a sample made in another way */
+    double *along;             /* plan_rates: how accelerations and the rates of states change along the
+                                  motion, when the noise was set */
     double *noise;             /* n: what accelerations are known to */
     double *turned;            /* twice the links of the tree: see noise.c */
     double *cancelled;         /* for each body a force and its moment: see noise.c */
     unsigned long since_noise; /* steps */
     double *values;            /* event functions of a set, their rates, the roundings of timed ones */
-    double *kept;              /* 4 n: y and f while user events are looked for */
+    double *kept;              /* 2 plan_size: y and f while user events are looked for */
     bool *crossed;             /* moving: likewise */
     struct decided decided;
     struct contacts_work contacts;
@@ -128,9 +130,10 @@ struct run {
     int crowd;
     struct moment event; /* the start, or when events happened last */
     double interval[2];  /* between the last three of these; 0 where there are none */
-    double *anchor; /* 4 n: the state around which events have happened lately; the largest |y_i| before the
+    double *
+        anchor; /* 2 plan_size: the state around which events have happened lately; the largest |y_i| before the
                        last step */
-    int around;     /* how many */
+    int around; /* how many */
 };
 
 /* A run at the start of the model, modes settled, events of t = 0 applied. NULL when memory is out. */
@@ -145,7 +148,7 @@ fbd_outcome run_advance(struct run *run);
  * are there). */
 bool run_look(struct run *run, struct moment t, struct fbd_state *state);
 
-/* Only coordinates and rates there, 2 n, without evaluating anything but the dense output. */
+/* Only coordinates, rates and states there, plan_size, without evaluating anything but the dense output. */
 bool run_coordinates(struct run *run, struct moment t, double *y);
 
 /* The ends of the last step. */
@@ -260,6 +263,9 @@ double run_time(const struct run *run);
 void run_fail_step(struct run *run, enum stepper_status status);
 void run_fail_pole(struct run *run, const struct pole *pole);
 void run_fail_chatter(struct run *run);
+/* What a switch belongs to: a load or a state; NULL for an event of the user. */
+const char *run_kink_name(const struct run *run, const struct kink *kink);
+
 void run_fail(struct run *run, fbd_outcome outcome, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

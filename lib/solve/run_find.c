@@ -177,7 +177,7 @@ static int find_told(struct run *run, struct moment *t)
 int run_find_event(struct run *run, struct moment *t)
 {
     if (stay_before_poles(run, t) < 0) return -1;
-    size_t size = 2 * (size_t)run->model->plan.n, bytes = size * sizeof *run->y;
+    size_t size = plan_size(&run->model->plan), bytes = size * sizeof *run->y;
     course_start(&run->course);
     run_wake_contacts(run, t->t);
     int change = find_change(run, t);

@@ -18,7 +18,7 @@ int run_panels(const struct run *run)
 bool run_coordinates(struct run *run, struct moment t, double *y)
 {
     if (moment_equal(t, run_end(run))) {
-        memcpy(y, run->state->y, 2 * (size_t)run->model->plan.n * sizeof *y);
+        memcpy(y, run->state->y, plan_size(&run->model->plan) * sizeof *y);
         return true;
     }
     if (switcher_dense(run->stepper, t, y) != GSL_SUCCESS) return false;

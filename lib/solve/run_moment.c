@@ -68,7 +68,7 @@ struct moment run_pin_moving(struct run *run, double t, double move, struct mome
     bool is_near = fabs(move) <= near * DBL_EPSILON * fabs(t);
     if (!is_near || !(moment_since(there, run_start(run)) > 0 && moment_since(end, there) > 0))
         return moment_at(t);
-    for (size_t i = 0; i < 2 * (size_t)run->model->plan.n; i++) run->y[i] += move * run->f[i];
+    for (size_t i = 0; i < plan_size(&run->model->plan); i++) run->y[i] += move * run->f[i];
     return before_end(there, run->options.until);
 }
 

@@ -181,12 +181,13 @@ static double radians_of(const struct run *run, const struct formula *formula, c
 static double size_of(const struct run *run, size_t i, double reach, double speed)
 {
     const struct fbd_model *model = run->model;
-    size_t n = (size_t)model->plan.n;
+    size_t n = (size_t)model->plan.n, all = plan_size(&model->plan);
     if (i < 2 * n) {
         double size = i < n ? reach : speed;
         return model->scene->coordinates[i % n].angle ? size / reach : size;
     }
-    switch (model->absolutes[i - 2 * n - hand_slots].kind) {
+    if (i < all) return 0; /* a state: nothing is known of its size */
+    switch (model->absolutes[i - all - hand_slots].kind) {
     case absolute_x:
     case absolute_y: return reach;
     case absolute_angle: return 1;
@@ -287,7 +288,7 @@ static bool make_course(struct run *run)
     if (!used) return false;
     watchers_mark_used(run->model, &run->watchers.moving, used);
     mark_paced(run, used);
-    for (size_t i = 2 * (size_t)run->model->plan.n; i < size; i++) run->follows_places |= used[i];
+    for (size_t i = plan_size(&run->model->plan); i < size; i++) run->follows_places |= used[i];
     bool made = course_init(&run->course, size, used);
     free(used);
     return made;

@@ -36,8 +36,9 @@ static bool put_to_rest(struct fbd_state *state, fbd_errors *errors)
     bool settled = rest_begin(state);
     if (settled && !fits(state, errors)) return false;
     if (settled && !is_finite(state, errors)) return false;
-    if (settled && rest_begin(state)) return true; /* once more, where the start was brought to */
-    if (!is_finite(state, errors)) return false;   /* nothing settles then */
+    if (settled && rest_begin(state)) /* once more, where the start was brought to */
+        return !statics_refuse_states(state, errors);
+    if (!is_finite(state, errors)) return false; /* nothing settles then */
     if (state->holds.found == holds_no_memory) {
         diag_out_of_memory(errors);
         return false;

@@ -57,6 +57,9 @@ static inline double rest_tension(const struct fbd_statics *statics, int tie)
     return -statics->state->tree->rows[of->first_row].lambda;
 }
 
+/* Say of a state of the file's own that it does not rest with the bodies. */
+bool statics_refuse_states(const struct fbd_state *state, fbd_errors *errors);
+
 /* The names of the reactions that equilibrium does not determine, into statics->undetermined. */
 bool rest_name_undetermined(struct fbd_statics *statics, const struct rest_system *system);
 

@@ -43,12 +43,12 @@ const struct method *structure_method(enum structure structure)
 
 /* ---- velocities */
 
-/* Does a slot stand for a velocity? Those above n are rates, above 2 n places in the world and theirs. */
+/* Does a slot stand for a velocity? Those above n are rates, above 2 n states and then places in the world and theirs. */
 static bool is_rate(const struct fbd_model *model, int slot)
 {
-    int n = model->plan.n;
-    if (slot <= 2 * n) return slot > n;
-    enum absolute_kind kind = model->absolutes[slot - 1 - 2 * n - hand_slots].kind;
+    int n = model->plan.n, size = (int)plan_size(&model->plan);
+    if (slot <= size) return slot > n && slot <= 2 * n;
+    enum absolute_kind kind = model->absolutes[slot - 1 - size - hand_slots].kind;
     return kind != absolute_x && kind != absolute_y && kind != absolute_angle;
 }
 
@@ -258,6 +258,7 @@ static enum expr_degree slides_vary(const struct fbd_model *model)
 
 enum structure structure_of(const struct fbd_model *model)
 {
+    if (model->plan.own > 0) return structure_general; /* the exact ways are for coordinates alone */
     enum expr_degree degree = worse(accelerations_vary(model), slides_vary(model));
     if (degree == expr_constant_between) return structure_constant;
     if (degree == expr_affine && model->plan.n <= linear_most_pairs) return structure_linear;

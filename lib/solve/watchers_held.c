@@ -41,7 +41,7 @@ static double move_away(const struct fbd_state *state, unsigned *count, double *
     const struct plan *plan = &state->model->plan;
     size_t n = (size_t)plan->n;
     double t = other_than(state->t, count), acceleration;
-    for (size_t i = 0; i < 2 * n; i++) y[i] = other_than(state->y[i], count);
+    for (size_t i = 0; i < plan_size(plan); i++) y[i] = other_than(state->y[i], count);
     struct instant at = state_instant_at(state, t, y);
     for (size_t pair = 0; pair < plan->friction_count; pair++) {
         const struct friction *friction = &plan->frictions[pair];
@@ -75,7 +75,7 @@ static bool can_be_asked(const struct fbd_model *model, const struct kink *kink)
 {
     const int *slots;
     size_t count = expr_variables(kink->formula.expr, &slots);
-    return count > 0 && (!model->tree || slots[count - 1] <= 2 * model->plan.n);
+    return count > 0 && (!model->tree || slots[count - 1] <= (int)plan_size(&model->plan));
 }
 
 static bool any_sticks(const struct fbd_state *state)
@@ -97,7 +97,7 @@ void watchers_hold(struct watchers *watchers, const struct fbd_state *state)
     unsigned count = 0;
     for (int place = 0; asked && place < places; place++) {
         double t = place == 0 ? state->t : move_away(state, &count, watchers->place);
-        if (place == 0) memcpy(watchers->place, state->y, 2 * (size_t)plan->n * sizeof *watchers->place);
+        if (place == 0) memcpy(watchers->place, state->y, plan_size(plan) * sizeof *watchers->place);
         for (size_t i = 0; i < plan->kink_count; i++)
             if (can_be_asked(model, &plan->kinks[i]))
                 count_zeros(watchers, state, &plan->kinks[i], t, watchers->place,

@@ -10,6 +10,7 @@
 #include "dynamics/contact.h"
 #include "dynamics/friction.h"
 #include "dynamics/modes.h"
+#include "dynamics/own.h"
 #include "dynamics/rest_system.h"
 #include "dynamics/tree_driven.h"
 #include "solve/watchers.h"
@@ -229,6 +230,7 @@ static void set_flow(struct view *view, bool forces)
     const struct plan *plan = &state->model->plan;
     double *slots = state->scratch, *slots_along = slots + plan->slots, *dy = slots_along + plan->slots;
     state_rates(state->model, &view->at, slots, dy);
+    if (plan->own > 0) own_rates(state->model, &view->at, dy + plan_own_place(plan));
     view->flow = (struct direction){1, dy};
     if (state->model->absolute_count > 0) {
         view->at = instant_extend(state->model, &view->at);

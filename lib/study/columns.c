@@ -43,12 +43,14 @@ static const char *title(struct list *list, const char *name, const char *unit)
 static const char *name_in_y(const struct fbd_model *model, int index)
 {
     int n = model->plan.n;
+    if (index >= 2 * n) return model->own_labels[index - 2 * n].name;
     return index < n ? model->labels[index].name : model->labels[index - n].rate_name;
 }
 
 static const char *unit_in_y(const struct fbd_model *model, int index)
 {
     int n = model->plan.n;
+    if (index >= 2 * n) return model->own_labels[index - 2 * n].unit;
     return index < n ? model->labels[index].unit : model->labels[index - n].rate_unit;
 }
 
@@ -161,6 +163,7 @@ static bool add_group(struct list *list, const char *name)
             for (int k = 0; k < body->count; k++) fine = fine && add_final(list, body->first + k);
             for (int k = 0; k < body->count; k++) fine = fine && add_final(list, body->first_rate + k);
         }
+        for (int i = 0; i < model->plan.own; i++) fine = fine && add_final(list, 2 * model->plan.n + i);
         return fine;
     }
     if (strcmp(name, "times") == 0) {

@@ -21,14 +21,23 @@ const fbd_model *cost_model(const struct fbd_cost *cost)
 const char *quantity_name_of(const fbd_model *model, size_t quantity)
 {
     size_t n = fbd_model_coordinates(model);
+    if (quantity >= 2 * n) return fbd_model_state(model, quantity - 2 * n).name;
     fbd_coordinate coordinate = fbd_model_coordinate(model, quantity < n ? quantity : quantity - n);
     return quantity < n ? coordinate.name : coordinate.rate_name;
+}
+
+const char *quantity_unit_of(const fbd_model *model, size_t quantity)
+{
+    size_t n = fbd_model_coordinates(model);
+    if (quantity >= 2 * n) return fbd_model_state(model, quantity - 2 * n).unit;
+    fbd_coordinate coordinate = fbd_model_coordinate(model, quantity < n ? quantity : quantity - n);
+    return quantity < n ? coordinate.unit : coordinate.rate_unit;
 }
 
 static bool choose_quantity(const fbd_model *model, const char *name, bool *chosen, fbd_errors *errors)
 {
     enum { most_names = 40 };
-    size_t size = 2 * fbd_model_coordinates(model), count = 0;
+    size_t size = quantity_count(model), count = 0;
     const char *names[most_names];
     int index = model_find_component(model, name, true);
     if (index >= 0) {
@@ -47,7 +56,7 @@ bool quantities_choose(const fbd_model *model, const fbd_cost_options *options, 
     *chosen = NULL;
     diag_in_file(errors, model->scene->file);
     if (!options->quantities) return true;
-    *chosen = ARENA_ARRAY(arena, 2 * fbd_model_coordinates(model) + 1, bool);
+    *chosen = ARENA_ARRAY(arena, quantity_count(model) + 1, bool);
     if (!*chosen) {
         diag_out_of_memory(errors);
         return false;

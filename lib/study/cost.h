@@ -50,8 +50,9 @@ const fbd_model *cost_model(const struct fbd_cost *cost);
 const char *reference_says(struct arena *arena, const struct certified_reference *reference,
                            const fbd_model *model);
 
-/* The name of a quantity. */
+/* The name of a quantity, and its unit. */
 const char *quantity_name_of(const fbd_model *model, size_t quantity);
+const char *quantity_unit_of(const fbd_model *model, size_t quantity);
 
 /* Marks of the quantities that are named; *chosen is NULL for all. False with a note (`unknown-quantity`). */
 bool quantities_choose(const fbd_model *model, const fbd_cost_options *options, struct arena *arena,

@@ -137,9 +137,9 @@ static void json_reference(struct text *text, const fbd_cost *cost)
 
 static void json_scales(struct text *text, const fbd_cost *cost)
 {
-    size_t n = fbd_model_coordinates(cost->model);
+    size_t size = quantity_count(cost->model);
     text_add(text, "  \"scales\": {");
-    for (size_t i = 0, shown = 0; i < 2 * n; i++) {
+    for (size_t i = 0, shown = 0; i < size; i++) {
         if (!(cost->reference.scale[i] > 0)) continue;
         text_printf(text, "%s\"%s\": ", shown++ ? ", " : "", quantity_name_of(cost->model, i));
         text_exact(text, cost->reference.scale[i]);

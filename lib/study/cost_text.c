@@ -144,19 +144,18 @@ static void paragraph(struct text *text, const char *sentences)
 static void measure(struct text *text, const struct fbd_cost *cost)
 {
     const struct certified_reference *reference = &cost->reference;
-    size_t n = fbd_model_coordinates(cost->model);
+    size_t size = quantity_count(cost->model);
     text_add(text, "\nReference\n");
     paragraph(text, cost->says);
     text_add(text, "\nErrors are divided by the size of each quantity: ");
     size_t shown = 0, counted = 0;
     enum { most_shown = 6 };
-    for (size_t i = 0; i < 2 * n; i++) counted += reference->scale[i] > 0;
-    for (size_t i = 0; i < 2 * n && shown < most_shown; i++) {
+    for (size_t i = 0; i < size; i++) counted += reference->scale[i] > 0;
+    for (size_t i = 0; i < size && shown < most_shown; i++) {
         if (!(reference->scale[i] > 0)) continue;
-        fbd_coordinate coordinate = fbd_model_coordinate(cost->model, i < n ? i : i - n);
-        text_printf(text, "%s%s ", shown ? ", " : "", i < n ? coordinate.name : coordinate.rate_name);
+        text_printf(text, "%s%s ", shown ? ", " : "", quantity_name_of(cost->model, i));
         text_number(text, reference->scale[i], 3);
-        text_printf(text, " %s", i < n ? coordinate.unit : coordinate.rate_unit);
+        text_printf(text, " %s", quantity_unit_of(cost->model, i));
         shown++;
     }
     if (counted > shown) text_printf(text, " and %zu more", counted - shown);

@@ -62,19 +62,20 @@ static bool climb(struct search *search, int c, double seconds)
 void reference_scales(double *scale, const struct track *track, const bool *chosen, const fbd_model *model)
 {
     const double least_share = 1e-6;
-    size_t n = track->size / 2;
+    size_t n = model->scene->coordinate_count;
     for (size_t i = 0; i < track->size; i++) {
         scale[i] = 0;
         for (size_t k = 0; k < track->reached; k++)
             scale[i] = fmax(scale[i], fabs(track->y[k * track->size + i]));
     }
     double largest[2][2] = {{0}}; /* rate or not, angle or not */
-    for (size_t i = 0; i < track->size; i++) {
+    for (size_t i = 0; i < 2 * n; i++) {
         double *most = &largest[i >= n][model->scene->coordinates[i < n ? i : i - n].angle];
         *most = fmax(*most, scale[i]);
     }
-    for (size_t i = 0; i < track->size; i++) {
-        double least = least_share * largest[i >= n][model->scene->coordinates[i < n ? i : i - n].angle];
+    for (size_t i = 0; i < track->size; i++) { /* a state has no fellows to be small beside */
+        double least =
+            i < 2 * n ? least_share * largest[i >= n][model->scene->coordinates[i < n ? i : i - n].angle] : 0;
         scale[i] = chosen && !chosen[i] ? 0 : fmax(scale[i], least);
     }
 }
@@ -191,6 +192,7 @@ static void finish(struct certified_reference *reference, const struct search *s
 static bool exact_value(const struct fbd_model *model, size_t i, double t, double *value, double *rounding)
 {
     size_t n = model->scene->coordinate_count;
+    if (i >= 2 * n) return false;
     const struct body *body = &model->scene->bodies[model->scene->coordinates[i < n ? i : i - n].body];
     size_t k = (i < n ? i : i - n) - (size_t)body->first, count = (size_t)body->count;
     const struct expr *own = body->exact[i < n ? k : count + k].expr, *position = body->exact[k].expr;
@@ -272,7 +274,7 @@ static bool no_reference(const struct search *search)
 bool reference_make(struct certified_reference *reference, const fbd_model *model, double until,
                     const bool *chosen, double seconds, struct arena *arena, fbd_errors *errors)
 {
-    size_t size = 2 * fbd_model_coordinates(model);
+    size_t size = quantity_count(model);
     *reference =
         (struct certified_reference){.grid = {.until = until, .count = grid_intervals + 1}, .tenfold = NAN};
     reference->scale = ARENA_ARRAY(arena, size + 1, double);

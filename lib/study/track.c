@@ -18,6 +18,11 @@ fbd_options setting_options(const struct setting *setting, double until)
     return options;
 }
 
+size_t quantity_count(const fbd_model *model)
+{
+    return 2 * fbd_model_coordinates(model) + fbd_model_states(model);
+}
+
 double grid_time(const struct grid *grid, size_t index)
 {
     if (index + 1 == grid->count) return grid->until;
@@ -97,7 +102,7 @@ bool track_make(struct track *track, const fbd_model *model, const struct settin
                 const struct grid *grid, double most_seconds, struct arena *arena, fbd_errors *errors)
 {
     fbd_options options = setting_options(setting, grid->until);
-    *track = (struct track){.size = 2 * fbd_model_coordinates(model)};
+    *track = (struct track){.size = quantity_count(model)};
     fbd_simulation *simulation = fbd_simulation_new(model, &options, errors);
     if (!simulation) return false;
     fbd_state *state = fbd_state_new(model);

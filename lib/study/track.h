@@ -2,7 +2,8 @@
  *
  * Track: one run as it was seen at the times of a grid, with its events and its counts.
  *
- * A quantity is a coordinate or a rate: quantity i < n is coordinate i, quantity n + i its rate.
+ * A quantity is a coordinate, a rate or a state of the file's own: quantity i < n is coordinate i, quantity n + i its
+ * rate, quantity 2 n + i state i.
  */
 #ifndef FBD_STUDY_TRACK_H
 #define FBD_STUDY_TRACK_H
@@ -22,6 +23,9 @@ struct setting {
 
 /* The options of a run with this setting. */
 fbd_options setting_options(const struct setting *setting, double until);
+
+/* How many quantities a model has. */
+size_t quantity_count(const fbd_model *model);
 
 struct grid {
     double until;

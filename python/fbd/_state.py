@@ -22,6 +22,12 @@ def coordinates_of(model: Any) -> Tuple[Coordinate, ...]:
     return tuple(found)
 
 
+def states_of(model: Any) -> Dict[str, str]:
+    """The states of the file's own of a C model, by name with their units."""
+    found = (lib.fbd_model_state(model, i) for i in range(lib.fbd_model_states(model)))
+    return {text_at(state.name): text_at(state.unit) for state in found}
+
+
 def _fill(function: Any, handle: Any, body: int) -> Tuple[Arrow, ...]:
     count = function(handle, body, ffi.NULL, 0)
     arrows = ffi.new("fbd_arrow[]", max(1, count))
@@ -84,20 +90,21 @@ class Linearization:
 
     A: "np.ndarray[Any, np.dtype[np.float64]]"  #: size x size; rows of rates in 1/s^2, of accelerations 1/s^2 or 1/s
     coordinates: Tuple[str, ...]  #: the independent ones, "pendulum.theta"
-    states: Tuple[str, ...]  #: what x stands for: coordinates, then rates
+    states: Tuple[str, ...]  #: what x stands for: coordinates, then rates, then states of the file's own
     modes: Tuple[Mode, ...]  #: eigenvalues of A
-    equilibrium: Dict[str, float]  #: all coordinates there, in their units
+    equilibrium: Dict[str, float]  #: all coordinates and states there, in their units
 
     def __init__(self, state: "State"):
         handle = made(lib.fbd_linearize, lib.fbd_linearization_free, (state._handle,), state._handle)
         size = lib.fbd_linearization_size(handle)
-        every = coordinates_of(state._model)
-        free = [every[lib.fbd_linearization_coordinate(handle, i)] for i in range(size // 2)]
+        every, own = coordinates_of(state._model), states_of(state._model)
+        count = (size - len(own)) // 2
+        free = [every[lib.fbd_linearization_coordinate(handle, i)] for i in range(count)]
         self.A = view(lib.fbd_linearization_matrix(handle), (size, size), handle)
         self.coordinates = tuple(c.name for c in free)
-        self.states = self.coordinates + tuple(c.rate_name for c in free)
+        self.states = self.coordinates + tuple(c.rate_name for c in free) + tuple(own)
         self.modes = tuple(from_struct(Mode, lib.fbd_linearization_mode(handle, i)) for i in range(size))
-        self.equilibrium = {c.name: state._get(c.name) for c in every}
+        self.equilibrium = {name: state._get(name) for name in (*(c.name for c in every), *own)}
         self._text = taken(lib.fbd_linearization_text(handle))
         self._svg = taken(lib.fbd_linearization_svg(handle))
         self._json = taken(lib.fbd_linearization_json(handle))
@@ -176,8 +183,9 @@ class State(Mapping[str, float]):
         self._handle = owned(lib.fbd_state_new(model), lib.fbd_state_free, model)
         self._lock = threading.RLock()
         coordinates = coordinates_of(model)
-        self._names = ("t", *(c.name for c in coordinates), *(c.rate_name for c in coordinates))
-        self._units = ("s", *(c.unit for c in coordinates), *(c.rate_unit for c in coordinates))
+        own = states_of(model)
+        self._names = ("t", *(c.name for c in coordinates), *(c.rate_name for c in coordinates), *own)
+        self._units = ("s", *(c.unit for c in coordinates), *(c.rate_unit for c in coordinates), *own.values())
 
     # ---- by name
 

@@ -94,6 +94,9 @@ static void errors_and_models(void **state)
     ANSWERS(fbd_model_coordinates, fbd_model_coordinates(NULL) == 0);
     ANSWERS(fbd_model_coordinate, !fbd_model_coordinate(NULL, 0).name);
     ANSWERS(fbd_model_coordinate, !fbd_model_coordinate(model, past).rate_unit);
+    ANSWERS(fbd_model_states, fbd_model_states(NULL) == 0);
+    ANSWERS(fbd_model_state, !fbd_model_state(NULL, 0).name);
+    ANSWERS(fbd_model_state, !fbd_model_state(model, past).name);
     REFUSES(fbd_model_has_columns, !fbd_model_has_columns(NULL, "block.x", errors));
     REFUSES(fbd_model_has_columns, !fbd_model_has_columns(model, NULL, errors));
     ANSWERS(fbd_model_parameters, fbd_model_parameters(NULL) == 0);

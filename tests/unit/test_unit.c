@@ -262,7 +262,11 @@ static void coherent_units_are_written_as_engineers_write_them(void **state)
         {DIM_PRESSURE, "Pa", "lbf/ft^2"},
         {DIM(1, 0, -3), "N/(m*s)", "lbf/(ft*s)"},
         {DIM(0, 0, -3), "1/s^3", "1/s^3"},
-        {{0, dim_unit / 2, 0}, "m^(1/2)", "ft^(1/2)"},
+        {{0, dim_unit / 2, 0, 0, 0}, "m^(1/2)", "ft^(1/2)"},
+        {DIM_ALL(0, 0, 0, 1, 0), "A", "A"},
+        {DIM_ALL(1, 2, -3, -1, 0), "V", "lbf*ft/(s*A)"},
+        {DIM_ALL(1, 2, -3, -2, 0), "ohm", "lbf*ft/(s*A^2)"},
+        {DIM_ALL(1, 2, -2, 0, -1), "N*m/K", "lbf*ft/K"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char text[64];
@@ -282,7 +286,7 @@ static void a_written_unit_reads_back_with_factor_one(void **state)
                 for (int system = unit_si; system <= unit_us; system++) {
                     char text[64];
                     struct dim dim = {(short)(mass * dim_unit), (short)(length * dim_unit),
-                                      (short)(time * dim_unit)};
+                                      (short)(time * dim_unit), 0, 0};
                     unit_name(dim, (enum unit_system)system, text, sizeof text);
                     if (!text[0]) continue;
                     struct unit unit = read_unit(text, (enum unit_system)system);
@@ -300,7 +304,7 @@ static void every_example_of_a_dimension_has_that_dimension(void **state)
             for (int time = -3; time <= 2; time++) {
                 char examples[200];
                 struct dim dim = {(short)(mass * dim_unit), (short)(length * dim_unit),
-                                  (short)(time * dim_unit)};
+                                  (short)(time * dim_unit), 0, 0};
                 unit_examples(dim, examples, sizeof examples);
                 assert_true((unit_quantity(dim) != NULL) == (examples[0] != '\0'));
                 for (char *word = strtok(examples, ","); word; word = strtok(NULL, ",")) {

@@ -24,6 +24,7 @@ function chartSpecs(bodies) {
     const columns = body.arrows.reduce((list, arrow) => list.concat(arrow.force), []);
     specs = specs.concat(byUnit("Forces and moments on " + body.name, columns));
   }
+  specs = specs.concat(byUnit("States", run.states));
   specs.push({ title: "Energy", unit: run.units.energy, columns: [kinetic, potential, work] });
   specs.push({ title: "Energy residual", unit: run.units.energy, columns: [residual] });
   return specs;

@@ -75,6 +75,7 @@ function makeTables(bodies) {
   const ledger = element("ledger"), energy = unit(run.units.energy);
   ledger.textContent = "";
   for (const index of run.energy) addChanging(ledger, run.columns[index].n.replace(".", ": "), valueIn(index), energy);
+  for (const index of run.states) addChanging(ledger, run.columns[index].n, valueIn(index), unit(run.columns[index].u));
   for (const body of bodies)
     for (const arrow of body.arrows)
       if (arrow.work >= 0) addChanging(ledger, `work of ${body.name}.${arrow.name}`, valueIn(arrow.work), energy);
