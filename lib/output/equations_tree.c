@@ -71,11 +71,16 @@ static void add_joint_row(struct fbd_equations *all, const struct fbd_state *sta
     struct instant at = state_instant(state);
     bool pivot = body->kind == motion_pivot;
     struct vec a_G = tree_mass_center_acceleration(body, &at);
+    bool track = body->kind == motion_track;
     struct row row = {
         .coordinate = model->scene->coordinates[body->first].name,
         .inertia_name = pivot ? "I_O" : "m",
-        .acceleration_name = pivot ? "alpha" : "a_x",
-        .side = pivot ? "sum of moments about O" : "sum of forces along x",
+        .acceleration_name = pivot   ? "alpha"
+                             : track ? "a_s"
+                                     : "a_x",
+        .side = pivot   ? "sum of moments about O"
+                : track ? "sum of forces along the track"
+                        : "sum of forces along x",
         .inertia = pivot ? body->I_O : body->inertia.mass,
         .acceleration = pivot ? tree_angular_acceleration(body, &at) : vec_dot(s->e, a_G),
         .moment = pivot,
@@ -89,6 +94,12 @@ static void add_joint_row(struct fbd_equations *all, const struct fbd_state *sta
             model->loads[arrows[i].load].body == b)
             equation->public.normal =
                 vec_dot(arrows[i].force, vec_perp(s->e)) * (vec_dot(body->n, vec_perp(body->e)) > 0 ? 1 : -1);
+    }
+    if (track && s->turning != 0 && (body->inertia.I_G > 0 || body->L > 0)) {
+        struct vec r = vec_turn(s->turn, body->arm);
+        double moment =
+            body->inertia.I_G * tree_angular_acceleration(body, &at) + body->inertia.mass * vec_cross(r, a_G);
+        add_term(equation, "turning along", -s->turning * moment, -1);
     }
     if (pivot && body->parent != ground_body) {
         struct vec r = vec_turn(s->turn, body->arm);
