@@ -120,6 +120,11 @@ void tree_accelerations_along(const struct fbd_model *model, const struct instan
 struct vec tree_mass_center_acceleration(const struct model_body *body, const struct instant *at);
 double tree_angular_acceleration(const struct model_body *body, const struct instant *at);
 
+/* What stands in the equation along the coordinate of its joint beside forces: of a pivot on a body the moment
+ * -m r x a_O of its axis, which accelerates itself; of what turns along a track -kappa (I_G alpha + r x m a_G). */
+bool tree_has_more(const struct model_body *body);
+double tree_more(const struct model_body *body, const struct instant *at);
+
 /* Kinematics alone: where the links are and how they move. */
 void tree_move(const struct fbd_model *model, const struct instant *at);
 

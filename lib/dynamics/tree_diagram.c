@@ -46,6 +46,27 @@ double tree_angular_acceleration(const struct model_body *body, const struct ins
     return link_of(body, at)->A.alpha;
 }
 
+struct vec surface_normal(const struct fbd_model *model, const struct model_body *body,
+                          const struct instant *at)
+{
+    return body->place.link > 0 ? tree_normal(model->tree, at->tree, body->place.link) : body->n;
+}
+
+bool tree_has_more(const struct model_body *body)
+{
+    if (body->kind == motion_pivot) return body->place.link > 0 && body->parent != ground_body;
+    return body->kind == motion_track && body->source->motion.turns && (body->inertia.I_G > 0 || body->L > 0);
+}
+
+double tree_more(const struct model_body *body, const struct instant *at)
+{
+    const struct tree_state *s = link_of(body, at);
+    struct vec r = vec_turn(s->turn, body->arm);
+    if (body->kind == motion_pivot) return -body->inertia.mass * vec_cross(r, s->A.a);
+    struct vec f = vec_scale(body->inertia.mass, tree_mass_center_acceleration(body, at));
+    return -s->turning * (body->inertia.I_G * tree_angular_acceleration(body, at) + vec_cross(r, f));
+}
+
 /* ---- listed loads */
 
 /* -dV/dq of each coordinate: in the joint's directions. */
