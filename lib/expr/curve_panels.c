@@ -136,7 +136,7 @@ static bool fit_panel(const struct draft *draft, double share, struct curve_pane
 {
     const double lost = 1e4; /* by second derivatives */
     const double most_turn = 1.5;
-    double u[order], bend[order], fastest = draft->fastest;
+    double u[order], bend[order], fastest = draft->fastest, x = -1;
     *panel = (struct curve_panel){.p = draft->from, .wide = draft->wide};
     panel->length = series_at(draft->length, order + 1, 1);
     panel->e = direction_at(draft, -1);
@@ -145,7 +145,7 @@ static bool fit_panel(const struct draft *draft, double share, struct curve_pane
         !ends(draft->y, share, fastest) || !(panel->length > 0))
         return false;
     for (int j = 0; j < order; j++) {
-        double x = place_of(draft, panel->length * (1 + node(j)) / 2, j > 0 ? 2 * u[j - 1] - 1 : node(j));
+        x = place_of(draft, panel->length * (1 + node(j)) / 2, x);
         u[j] = (1 + x) / 2;
         struct curve_jet jet = curve_jet_at(draft->curve, draft->piece, draft->from + draft->wide * u[j]);
         bend[j] = curve_jet_bend(&jet);

@@ -249,7 +249,8 @@ static bool allocate(struct fbd_model *model)
         model->load_count += scene->bodies[b].motion.prescribed.expr != NULL;
     model->bodies = ARENA_ARRAY(&model->arena, model->body_count, struct model_body);
     model->loads = ARENA_ARRAY(&model->arena, model->load_count, struct model_load);
-    size_t formulas = most_formulas_of_a_load * model->load_count + 2 * scene->event_count + scene->body_count;
+    size_t formulas =
+        most_formulas_of_a_load * model->load_count + 2 * scene->event_count + scene->body_count;
     model->plan.watches = ARENA_ARRAY(&model->arena, scene->event_count, struct watch);
     model->plan.kinks = ARENA_ARRAY(&model->arena, formulas, struct kink);
     model->plan.poles = ARENA_ARRAY(&model->arena, formulas, struct pole);
@@ -283,8 +284,7 @@ static struct fbd_model *compile(struct scene *scene, bool labels, fbd_errors *e
     struct builder builder = {.model = model, .errors = errors};
     bool done = allocate(model);
     for (size_t b = 0; done && b < scene->body_count; b++)
-        if (scene->bodies[b].complete)
-            set_body(&model->bodies[b], &scene->bodies[b], scene, errors);
+        if (scene->bodies[b].complete) set_body(&model->bodies[b], &scene->bodies[b], scene, errors);
     if (done && fbd_errors_failed(errors) == 0) {
         for (size_t b = 0; b < scene->body_count; b++) model->assembles |= scene->bodies[b].assemble;
         set_loads(&builder);
@@ -292,8 +292,8 @@ static struct fbd_model *compile(struct scene *scene, bool labels, fbd_errors *e
         if (labels) model->labels = labels_make(&model->arena, scene);
         done = (model->labels || !labels) && set_named_ties(&builder) && set_drives(&builder) &&
                set_absolutes(model) && set_output_points(model) && tree_number(model) &&
-               tracks_set(&builder) && tree_name_reactions(model) && arrows_name(model) && plan_build(&builder) &&
-               classify_loads(&builder);
+               tracks_set(&builder) && tree_name_reactions(model) && arrows_name(model) &&
+               plan_build(&builder) && classify_loads(&builder);
         set_watches(&builder);
         if (done) done = slips_find(model);
         if (done) {

@@ -28,14 +28,15 @@ struct placement {
 struct tree_link {
     int body, parent; /* its body; the link that it moves on, less than its own number */
     enum motion_kind kind;
-    int coordinate;      /* the first of its coordinates */
-    struct vec at;       /* pivot: the axis; slide: where x = 0; else the zero of x, y; from the parent's O */
-    struct vec e;        /* slide, free: direction of +x; track: of the x axis of its curve */
-    int side;            /* slide, track: its surface pushes to the left (+1) or the right (-1) of +x */
-    double along;        /* angle of the link's frame in its parent's at q = 0; track: of its curve */
+    int coordinate; /* the first of its coordinates */
+    struct vec at;  /* pivot: the axis; slide: where x = 0; else the zero of x, y; from the parent's O */
+    struct vec e;   /* slide, free: direction of +x; track: of the x axis of its curve */
+    int side;       /* slide, track: its surface pushes to the left (+1) or the right (-1) of +x */
+    double along;   /* angle of the link's frame in its parent's at q = 0; track: of its curve */
     const struct curve *curve; /* track */
     bool turns;                /* it goes along with the tangent */
-    struct formula piece;      /* that switches where a new piece of the curve begins; expr NULL where it has one */
+    struct formula
+        piece;           /* that switches where a new piece of the curve begins; expr NULL where it has one */
     double mass, I_O;    /* with all that is welded to it; I_O about O */
     struct vec moment;   /* mass times the vector from O to its centre of mass */
     struct vec force;    /* constant forces in the world, all of them */

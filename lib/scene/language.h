@@ -178,7 +178,7 @@ struct inertia_keys {
 struct motion_keys {
     double along, angle;
     const struct node *on, *through, *line, *at, *point, *prescribed, *low, *high;
-    double restitution; /* of the stops */
+    double restitution;                   /* of the stops */
     const struct node *x, *y, *from, *to; /* of a track */
     bool closed, turn;
 };
