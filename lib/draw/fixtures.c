@@ -360,7 +360,7 @@ static void draw_track(struct panel *panel)
     const double half = 2 * surface_half;
     const struct tree_link *link = &panel->model->tree->links[panel->body->place.link];
     const struct tree_state *s = &panel->at.tree->links[panel->body->place.link];
-    const struct curve *curve = link->curve;
+    const struct curve *curve = link->track->curve;
     double scale = panel->sized ? panel->millimetres : fmax(12 * fabs(s->bend), 6 * half / curve->length);
     double here = panel->at.y[panel->body->first], first = here - half / scale, last = here + half / scale;
     if (!curve->closed) first = fmax(first, curve->start), last = fmin(last, curve->start + curve->length);

@@ -45,12 +45,17 @@ struct tree_state {
     double D;                 /* pivot, slide, track: 1 / (S . I S); free: 1 / what is left of J */
     double Uh;                /* slide: h . e; track: J turning beside */
     struct vec U;             /* slide: M e; track: h turning beside; free: h . inverse of M */
-    double inverse[3];        /* free: the inverse of M, xx, xy, yy */
-    bool locked;              /* it sticks */
-    double held;              /* then the acceleration of its surface */
-    struct wrench F;          /* what the joint passes to the link, by tree_transmitted */
-    double bend, slope;       /* track: the curvature and its rate per length; */
-    double turning; /* its rate of turning per length: the curvature, or 0 for a body that does not turn */
+    union {
+        double inverse[3];      /* free: the inverse of M, xx, xy, yy */
+        struct {                /* track: */
+            double bend, slope; /* the curvature and its rate per length; */
+            double
+                turning; /* its rate of turning per length: the curvature, or 0 where the body does not turn */
+        };
+    };
+    bool locked;     /* it sticks */
+    double held;     /* then the acceleration of its surface */
+    struct wrench F; /* what the joint passes to the link, by tree_transmitted */
 };
 
 /* A link's variation along a direction. */

@@ -37,7 +37,7 @@ static void hold(const struct tree_link *link, struct tree_state *s)
 static void bend(const struct tree_link *link, struct tree_state *s, double v)
 {
     s->A.a = vec_add(s->A.a, turning(s->bend * v * v, s->e));
-    if (link->turns) s->A.alpha += s->slope * v * v;
+    if (link->track->turns) s->A.alpha += s->slope * v * v;
 }
 
 static void bend_along(const struct tree_link *link, const struct instant *at, const struct direction *along,
@@ -47,13 +47,14 @@ static void bend_along(const struct tree_link *link, const struct instant *at, c
            dv = along->dy[n + link->coordinate];
     double d_bend = s->slope * dq * v * v + 2 * s->bend * v * dv;
     d->A.a = vec_add(d->A.a, vec_add(turning(d_bend, s->e), turning(s->bend * v * v, d->e)));
-    if (!link->turns) return;
-    const int *piece = link->piece.expr ? formula_branches(&link->piece, at) : NULL;
-    double rate = curve_slope_rate(link->curve, piece, at->y[link->coordinate]);
+    if (!link->track->turns) return;
+    const int *piece = link->track->piece.expr ? formula_branches(&link->track->piece, at) : NULL;
+    double rate = curve_slope_rate(link->track->curve, piece, at->y[link->coordinate]);
     d->A.alpha += rate * dq * v * v + 2 * s->slope * v * dv;
 }
 
-static inline void bias(const struct tree *tree, const struct instant *at, int n, bool curved)
+static inline __attribute__((always_inline)) void bias(const struct tree *tree, const struct instant *at,
+                                                       int n, bool curved)
 {
     struct tree_state *links = at->tree->links;
     struct tree_rhs *x = at->tree->x;
@@ -68,7 +69,7 @@ static inline void bias(const struct tree *tree, const struct instant *at, int n
             struct vec w = joint_velocity(link, s, at->y + n + link->coordinate);
             s->A.a = vec_add(s->A.a, turning(2 * parent->omega, w));
         }
-        if (curved && link->curve) bend(link, s, at->y[n + link->coordinate]);
+        if (curved && link->track) bend(link, s, at->y[n + link->coordinate]);
         if (s->locked) hold(link, s);
         double own = s->omega * s->omega, alpha = s->A.alpha, m = link->mass;
         x[i].p.force.x = m * s->A.a.x - alpha * s->mr.y - own * s->mr.x - link->force.x;
@@ -125,13 +126,13 @@ void tree_bias_along(const struct tree *tree, const struct instant *at, const st
             d->A.a = vec_add(d->A.a, vec_add(turning(2 * dp->omega, w), turning(2 * omega, dw)));
             d->A.a = vec_add(d->A.a, joint_acceleration_along(link, d, a + link->coordinate));
         }
-        if (link->curve) {
+        if (link->track) {
             d->A.alpha += a[link->coordinate] * d->turning;
             bend_along(link, at, along, n, s, d);
         }
         if (s->locked && link->kind == motion_pivot) d->A.alpha += d->held;
         if (s->locked && link->kind != motion_pivot) d->A.a = vec_add(d->A.a, vec_scale(d->held, s->e));
-        if (s->locked && link->curve) d->A.alpha += d->held * s->turning;
+        if (s->locked && link->track) d->A.alpha += d->held * s->turning;
         struct vec dmr = turning(d->angle, s->mr), f = vec_scale(link->mass, d->A.a);
         f = vec_add(f, vec_add(turning(d->A.alpha, s->mr), turning(s->A.alpha, dmr)));
         f = vec_sub(f, vec_scale(2 * s->omega * d->omega, s->mr));

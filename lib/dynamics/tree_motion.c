@@ -29,21 +29,21 @@ static void move_slide(const struct tree_link *link, const struct tree_state *pa
 
 static const int *piece_of(const struct tree_link *link, const struct instant *at)
 {
-    return link->piece.expr ? formula_branches(&link->piece, at) : NULL;
+    return link->track->piece.expr ? formula_branches(&link->track->piece, at) : NULL;
 }
 
 static void move_track(const struct tree_link *link, const struct tree_state *parent,
                        const struct instant *at, struct joint joint, struct tree_state *s)
 {
-    struct curve_place place = curve_at(link->curve, piece_of(link, at), joint.q[0]);
+    struct curve_place place = curve_at(link->track->curve, piece_of(link, at), joint.q[0]);
     struct vec frame = vec_turn(parent->turn, link->e);
     s->e = vec_turn(frame, place.e);
     s->bend = place.bend;
     s->slope = place.slope;
-    s->turning = link->turns ? place.bend : 0;
-    s->angle = parent->angle + link->along + (link->turns ? place.angle : 0);
+    s->turning = link->track->turns ? place.bend : 0;
+    s->angle = parent->angle + link->along + (link->track->turns ? place.angle : 0);
     s->omega = parent->omega + s->turning * joint.v[0];
-    s->turn = link->turns ? s->e : frame;
+    s->turn = link->track->turns ? s->e : frame;
     s->d = vec_add(vec_turn(parent->turn, link->at), vec_turn(frame, place.r));
     s->v = vec_scale(joint.v[0], s->e);
 }
@@ -61,7 +61,8 @@ static void move_free(const struct tree_link *link, const struct tree_state *par
     s->v = vec_turn(s->e, rate);
 }
 
-static inline void move_all(const struct fbd_model *model, const struct instant *at, bool curved)
+static inline __attribute__((always_inline)) void move_all(const struct fbd_model *model,
+                                                           const struct instant *at, bool curved)
 {
     const struct tree *tree = model->tree;
     int n = model->plan.n;
@@ -132,7 +133,7 @@ void tree_move_along(const struct fbd_model *model, const struct instant *at, co
             own = vec_add(vec_scale(v[0], d->e), vec_scale(dv[0], s->e));
         } else if (link->kind == motion_track) {
             d->e = turning(dp->angle + s->bend * dq[0], s->e);
-            d->turning = link->turns ? s->slope * dq[0] : 0;
+            d->turning = link->track->turns ? s->slope * dq[0] : 0;
             d->d = vec_add(d->d, vec_scale(dq[0], s->e));
             d->angle += s->turning * dq[0];
             d->omega += s->turning * dv[0] + d->turning * v[0];

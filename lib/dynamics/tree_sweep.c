@@ -52,8 +52,8 @@ static void factor_free(const struct tree_link *link, struct tree_state *s, stru
 }
 
 /* Trees without tracks do not ask for them, link by link: `curved` is a constant in each of its uses. */
-static inline void factor_link(const struct tree_link *link, struct tree_state *s, struct tree_state *parent,
-                               bool curved)
+static inline __attribute__((always_inline)) void
+factor_link(const struct tree_link *link, struct tree_state *s, struct tree_state *parent, bool curved)
 {
     struct inertia_about_O rest;
     if (s->locked)
@@ -71,8 +71,9 @@ static inline void factor_link(const struct tree_link *link, struct tree_state *
 
 /* ---- one right-hand side inward */
 
-static inline void inward_link(const struct tree_link *link, const struct tree_state *s, struct tree_rhs *x,
-                               struct tree_rhs *parent, bool curved)
+static inline __attribute__((always_inline)) void inward_link(const struct tree_link *link,
+                                                              const struct tree_state *s, struct tree_rhs *x,
+                                                              struct tree_rhs *parent, bool curved)
 {
     struct wrench rest = x->p;
     if (s->locked) {
@@ -99,7 +100,8 @@ static inline void inward_link(const struct tree_link *link, const struct tree_s
     wrench_add(&parent->p, rest, s->d);
 }
 
-static inline void factor(const struct tree *tree, struct tree_work *work, bool curved)
+static inline __attribute__((always_inline)) void factor(const struct tree *tree, struct tree_work *work,
+                                                         bool curved)
 {
     struct tree_state *links = work->links;
     links[0].I = (struct inertia_about_O){0, {0, 0}, 0, 0, 0};
@@ -124,7 +126,8 @@ void tree_factor(const struct tree *tree, struct tree_work *work)
         factor(tree, work, false);
 }
 
-static inline void inward(const struct tree *tree, struct tree_work *work, int from, int to, bool curved)
+static inline __attribute__((always_inline)) void inward(const struct tree *tree, struct tree_work *work,
+                                                         int from, int to, bool curved)
 {
     for (int i = to - 1; i >= from; i--) {
         const struct tree_link *link = &tree->links[i];
@@ -155,8 +158,8 @@ static void outward_free(const struct tree_link *link, const struct tree_state *
     x->A = (struct acceleration){alpha, own};
 }
 
-static inline void outward(const struct tree *tree, struct tree_work *work, int from, int to, double *a,
-                           bool curved)
+static inline __attribute__((always_inline)) void outward(const struct tree *tree, struct tree_work *work,
+                                                          int from, int to, double *a, bool curved)
 {
     struct tree_rhs *xs = work->x;
     xs[0].A = (struct acceleration){0, {0, 0}};

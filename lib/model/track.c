@@ -26,11 +26,11 @@ static bool set_piece(struct builder *builder, struct model_body *body, struct t
 {
     struct scope scope = {.lookup = find_s, .table = find_ends, .context = body};
     const struct expr_want want = {.dim = DIM_LENGTH, .what = "s"};
-    if (!link->curve->ends) return true;
+    if (!link->track->curve->ends) return true;
     const struct expr *expr =
         expr_compile(&builder->model->arena, "piece(s)", body->source->at, &scope, &want, builder->errors);
     struct value value = {expr, body->source->at};
-    if (expr) link->piece = builder_formula(builder, &value, (int)(body - builder->model->bodies), -1);
+    if (expr) link->track->piece = builder_formula(builder, &value, (int)(body - builder->model->bodies), -1);
     return expr != NULL;
 }
 
@@ -67,17 +67,21 @@ bool tracks_set(struct builder *builder)
     for (int i = 1; model->tree && i < model->tree->count; i++) {
         struct tree_link *link = &model->tree->links[i];
         struct model_body *body = &model->bodies[link->body];
-        if (!link->curve) continue;
+        if (link->kind != motion_track) continue;
+        link->track = ARENA_ARRAY(&model->arena, 1, struct tree_track);
+        if (!link->track) return false;
+        *link->track =
+            (struct tree_track){.curve = body->source->motion.curve, .turns = body->source->motion.turns};
         if (!set_piece(builder, body, link)) return false;
-        if (!link->turns) check_directions(builder, body);
-        if (!link->turns || !link->curve->kinked || !resists_turning(model, i)) continue;
+        if (!link->track->turns) check_directions(builder, body);
+        if (!link->track->turns || !link->track->curve->kinked || !resists_turning(model, i)) continue;
         diag_add(
             builder->errors, FBD_ERROR, "bad-track", body->source->motion.at,
             "let the curvature grow from one to the other (a table: `interpolation: cubic`), take a point "
             "for the "
             "body, or write `turn: false`",
             "`%s` turns along its track, whose curvature jumps at %.6g: that takes a moment without bound",
-            body->name, link->curve->kink);
+            body->name, link->track->curve->kink);
     }
     return true;
 }

@@ -93,8 +93,6 @@ static void set_link(const struct fbd_model *model, struct tree_link *link, int 
                                .at = motion->through,
                                .e = body->kind == motion_slide ? body->e : (struct vec){1, 0},
                                .side = vec_dot(body->n, vec_perp(body->e)) < 0 ? -1 : 1,
-                               .curve = motion->curve,
-                               .turns = motion->turns,
                                .along = body->kind == motion_slide ? motion->along : 0,
                                .pair = -1,
                                .normal_slot = -1};
@@ -452,7 +450,7 @@ bool tree_finish(struct fbd_model *model)
     tree->pivots_only = tree->watched_count == 0;
     for (int i = 1; i < tree->count; i++) {
         if (tree->links[i].kind != motion_pivot) tree->pivots_only = false;
-        if (tree->links[i].curve) tree->curved = true;
+        if (tree->links[i].track) tree->curved = true;
     }
     return ties_order(model);
 }
