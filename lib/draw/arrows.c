@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "draw/panel.h"
+#include "dynamics/tree.h"
 #include "output/result.h"
 
 static const double pi = 3.141592653589793, side_step = 2.4, head_length = 3, head_width = 2.2;
@@ -147,9 +148,13 @@ static void draw_force(struct panel *panel, const struct arrow *source, struct v
  */
 static void draw_components(struct panel *panel, const struct arrow *source, double largest)
 {
-    bool slide = panel->body->kind == motion_slide;
+    bool track = panel->body->kind == motion_track, slide = panel->body->kind == motion_slide || track;
     struct vec x = slide ? panel->body->e : (struct vec){1, 0},
                y = slide ? panel->body->n : (struct vec){0, 1};
+    if (track) { /* its directions go with its place */
+        x = panel->at.tree->links[panel->body->place.link].e;
+        y = tree_normal(panel->model->tree, panel->at.tree, panel->body->place.link);
+    }
     double along = vec_dot(source->force, x), across = vec_dot(source->force, y);
     double size = vec_norm(source->force);
     if (is_nothing(size, largest) || fmin(fabs(along), fabs(across)) < least_component * size) return;

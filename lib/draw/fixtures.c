@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "draw/panel.h"
+#include "dynamics/tree.h"
 #include "output/result.h"
 
 static const double pi = 3.141592653589793, body_size = 54, surface_half = 34, hatch_step = 2.4;
@@ -138,8 +139,8 @@ static void draw_sizeless(struct panel *panel)
     const struct model_body *body = panel->body;
     struct vec G = panel_point(panel, world_of(panel, body->inertia.G));
     if (body->kind != motion_slide) {
-        svg_circle(&panel->under, body->kind == motion_particle ? "mass" : "body", G,
-                   body->kind == motion_particle ? dot_radius : 8);
+        bool point = body->kind == motion_particle || body->kind == motion_track;
+        svg_circle(&panel->under, point ? "mass" : "body", G, point ? dot_radius : 8);
         return;
     }
     struct vec along = vec_scale(block_half_width, panel_direction(along_of(panel))),
@@ -352,12 +353,39 @@ bool panel_fixtures_in_front(const struct panel *panel)
     return panel->body->kind == motion_pivot && panel->body->L * panel->millimetres < 1;
 }
 
+/* The curve in the neighbourhood of the body, which for a body without a size has a scale of its own. */
+static void draw_track(struct panel *panel)
+{
+    enum { segments = 40 };
+    const double half = 2 * surface_half;
+    const struct tree_link *link = &panel->model->tree->links[panel->body->place.link];
+    const struct tree_state *s = &panel->at.tree->links[panel->body->place.link];
+    const struct curve *curve = link->track->curve;
+    double scale = panel->sized ? panel->millimetres : fmax(12 * fabs(s->bend), 6 * half / curve->length);
+    double here = panel->at.y[panel->body->first], first = here - half / scale, last = here + half / scale;
+    if (!curve->closed) first = fmax(first, curve->start), last = fmin(last, curve->start + curve->length);
+    struct curve_place now = curve_at(curve, NULL, here);
+    struct vec frame = {vec_dot(now.e, s->e), vec_cross(now.e, s->e)}; /* of the curve in the world */
+    struct vec P = panel_point(panel, s->p), before = P;
+    for (int i = 0; i <= segments; i++) {
+        struct vec r = curve_at(curve, NULL, first + (last - first) * i / segments).r;
+        struct vec way = vec_scale(scale, vec_turn(frame, vec_sub(r, now.r)));
+        struct vec at = vec_add(P, panel_direction(way));
+        if (i > 0) panel_line(panel, "ground", before, at, 4);
+        before = at;
+    }
+    struct vec e = panel_direction(s->e), side = vec_scale(-9 * link->side, panel_direction(vec_perp(s->e)));
+    struct vec from = vec_add(P, side);
+    axis_arrow(panel, from, vec_add(from, vec_scale(9, e)), "s");
+}
+
 void panel_fixtures(struct panel *panel)
 {
     const struct model_body *body = panel->body;
     text_printf(&panel->under, "<g class=\"fixtures\" id=\"%s-fixtures\">\n", body->name);
     if (body->kind == motion_slide) draw_slide(panel);
     if (body->kind == motion_pivot) draw_pivot(panel);
+    if (body->kind == motion_track) draw_track(panel);
     if (body->kind == motion_planar) {
         struct vec G = panel_point(panel, world_of(panel, body->inertia.G));
         double theta = panel->at.y[body_angle_coordinate(body)];

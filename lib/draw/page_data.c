@@ -147,7 +147,8 @@ static void write_coordinate_equation(struct text *text, const struct record *re
     const struct model_body *body = &model->bodies[b];
     const struct record_of_body *columns = &record->bodies[b];
     const struct label *label = &model->labels[body->first + k];
-    bool pivot = body->kind == motion_pivot, jointed = columns->newton >= 0;
+    bool pivot = body->kind == motion_pivot, track = body->kind == motion_track,
+         jointed = columns->newton >= 0;
     struct row row = {.coordinate = label->name,
                       .inertia = pivot    ? "I_O"
                                  : k == 2 ? "I_G"
@@ -155,6 +156,7 @@ static void write_coordinate_equation(struct text *text, const struct record *re
                       .inertia_unit = label->inertia_unit,
                       .acceleration = !jointed ? label->acceleration_name
                                       : pivot  ? "alpha"
+                                      : track  ? "a_s"
                                                : "a_x",
                       .acceleration_unit = label->acceleration_unit,
                       .unit = label->force_unit,
@@ -169,7 +171,8 @@ static void write_coordinate_equation(struct text *text, const struct record *re
         if (arrow->term >= 0 && arrow->name != body->reaction)
             write_term(text, arrow->name, arrow->term + k, &first);
     }
-    if (columns->moving_axis >= 0) write_term(text, "moving axis", columns->moving_axis, &first);
+    if (columns->moving_axis >= 0)
+        write_term(text, track ? "turning along" : "moving axis", columns->moving_axis, &first);
     text_add(text, "]}");
 }
 
@@ -219,7 +222,24 @@ static void write_equations(struct text *text, const struct record *record, int 
     text_add(text, "],");
 }
 
-static void write_guide(struct text *text, const struct model_body *body)
+/* Its curve as points in the frame of what it lies on. */
+static void write_track(struct text *text, const struct fbd_model *model, const struct model_body *body)
+{
+    enum { segments = 400 };
+    const struct curve *curve = body->source->motion.curve;
+    struct vec zero = {0, 0}; /* of its frame there */
+    if (body->parent != ground_body) zero = model->bodies[body->parent].pin;
+    text_printf(text, "\"track\":{\"on\":%d,\"points\":[", body->parent);
+    for (int i = 0; i <= segments; i++) {
+        double s = curve->start + curve->length * i / segments;
+        struct vec r = vec_sub(vec_add(body->origin, curve_at(curve, NULL, s).r), zero);
+        json_comma(text, (size_t)i);
+        json_vector(text, r);
+    }
+    text_add(text, "]},");
+}
+
+static void write_guide(struct text *text, const struct fbd_model *model, const struct model_body *body)
 {
     if (body->kind == motion_pivot && body->parent == ground_body) {
         json_key(text, "axis");
@@ -227,6 +247,7 @@ static void write_guide(struct text *text, const struct model_body *body)
         text_add(text, ",");
     }
     if (body->kind == motion_pivot || body->kind == motion_weld) text_add(text, "\"joint\":true,");
+    if (body->kind == motion_track) write_track(text, model, body);
     if (body->kind != motion_slide) return;
     bool surface = false;
     for (size_t i = 0; i < body->source->load_count; i++)
@@ -247,7 +268,7 @@ static void write_guide(struct text *text, const struct model_body *body)
 
 static void write_body(struct text *text, const struct record *record, int b)
 {
-    static const char *const motions[] = {"slide", "pivot", "particle", "planar", "weld"};
+    static const char *const motions[] = {"slide", "pivot", "particle", "planar", "weld", "track"};
     const struct model_body *body = &record->model->bodies[b];
     const struct record_of_body *columns = &record->bodies[b];
     text_add(text, "\n{");
@@ -262,7 +283,7 @@ static void write_body(struct text *text, const struct record *record, int b)
     json_columns_member(text, "coordinates", columns->coordinate, body->count);
     json_columns_member(text, "rates", columns->rate, body->count);
     json_columns_member(text, "accelerations", columns->acceleration, body->count);
-    write_guide(text, body);
+    write_guide(text, record->model, body);
     write_equations(text, record, b);
     text_add(text, "\"shapes\":[");
     for (size_t i = 0; i < body->source->part_count; i++) {

@@ -56,11 +56,6 @@ static bool is_jointed(const struct model_body *body)
     return body->place.link > 0;
 }
 
-static bool axis_moves(const struct model_body *body)
-{
-    return is_jointed(body) && body->kind == motion_pivot && body->parent != ground_body;
-}
-
 /* What the equations of a jointed body have beside its forces (output/equations_tree.c). */
 static void define_newton(struct record *record, int b)
 {
@@ -73,11 +68,13 @@ static void define_newton(struct record *record, int b)
     columns->newton = define(record, record_acceleration, b, name_of(record, body, "a_Gx", ""), linear);
     define(record, record_acceleration, b, name_of(record, body, "a_Gy", ""), linear);
     define(record, record_acceleration, b, name_of(record, body, "alpha", ""), "rad/s^2");
-    if (body->kind == motion_slide)
-        define(record, record_acceleration, b, name_of(record, body, "a_x", ""), linear);
-    if (axis_moves(body))
+    bool track = body->kind == motion_track;
+    if (body->kind == motion_slide || track)
+        define(record, record_acceleration, b, name_of(record, body, track ? "a_s" : "a_x", ""), linear);
+    if (tree_has_more(body))
         columns->moving_axis =
-            define(record, record_term, b, name_of(record, body, "moving_axis", ""), moment_unit(model));
+            define(record, record_term, b, name_of(record, body, track ? "turning_along" : "moving_axis", ""),
+                   track ? force_unit(model) : moment_unit(model));
 }
 
 /* The columns that the CSV has for a force: see docs/output.md. */
@@ -187,9 +184,8 @@ static double *fill_newton(double *out, const struct model_body *body, const str
     *out++ = a.x;
     *out++ = a.y;
     *out++ = tree_angular_acceleration(body, at);
-    if (body->kind == motion_slide) *out++ = vec_dot(link->e, a);
-    if (axis_moves(body))
-        *out++ = -body->inertia.mass * vec_cross(vec_turn(link->turn, body->arm), link->A.a);
+    if (body->kind == motion_slide || body->kind == motion_track) *out++ = vec_dot(link->e, a);
+    if (tree_has_more(body)) *out++ = tree_more(body, at);
     return out;
 }
 

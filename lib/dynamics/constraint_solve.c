@@ -302,7 +302,7 @@ static double mobility(const struct tree *tree, const struct tree_work *work, in
         double r2 = vec_dot(arm, arm), gives = 0;
         if (kind == motion_pivot)
             gives = s->D * r2;
-        else if (kind == motion_slide)
+        else if (kind == motion_slide || kind == motion_track)
             gives = s->D;
         else
             gives = s->inverse[0] + s->inverse[2] + s->D * r2;

@@ -72,4 +72,8 @@ double arrow_moment(const struct arrow *arrow, struct vec about);
 /* Does it follow from the others, as what a surface, a joint or a rope gives? */
 bool arrow_is_reaction(const struct fbd_model *model, const struct arrow *arrow);
 
+/* The direction that the surface of a body pushes to, in the world. */
+struct vec surface_normal(const struct fbd_model *model, const struct model_body *body,
+                          const struct instant *at);
+
 #endif

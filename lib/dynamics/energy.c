@@ -17,7 +17,8 @@ double kinetic_energy(const struct model_body *body, const struct instant *at)
     case motion_pivot: return body->I_O * v[0] * v[0] / 2;
     case motion_particle: return m * (v[0] * v[0] + v[1] * v[1]) / 2;
     case motion_planar:
-    case motion_weld: break;
+    case motion_weld:
+    case motion_track: break;
     }
     struct vec v_G = point_motion(body, &pose, body->inertia.G).v;
     return (m * vec_dot(v_G, v_G) + body->inertia.I_G * pose.omega * pose.omega) / 2;

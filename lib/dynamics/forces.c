@@ -114,7 +114,8 @@ void add_force(const struct model_body *body, const struct pose *pose, struct mo
     case motion_pivot: own[0] += vec_cross(vec_sub(point.p, pose->origin), f); return;
     case motion_planar: own[2] += vec_cross(vec_sub(point.p, pose->origin), f); break;
     case motion_particle: break;
-    case motion_weld: return;
+    case motion_weld:
+    case motion_track: return; /* jointed */
     }
     own[0] += f.x;
     own[1] += f.y;
@@ -204,7 +205,8 @@ static void point_terms(const struct fbd_model *model, int b, const struct insta
     case motion_pivot: own[0] += sum.moment; return;
     case motion_planar: own[2] += sum.moment; break;
     case motion_particle: break;
-    case motion_weld: return;
+    case motion_weld:
+    case motion_track: return; /* jointed */
     }
     own[0] += sum.f.x;
     own[1] += sum.f.y;

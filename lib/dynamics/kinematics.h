@@ -40,7 +40,8 @@ static inline struct pose body_pose_turned(const struct model_body *body, const 
     case motion_pivot: return (struct pose){body->origin, vec_without_rounding(cos_sin), {0, 0}, v[0]};
     case motion_particle: return (struct pose){{q[0], q[1]}, {1, 0}, {v[0], v[1]}, 0};
     case motion_planar:
-    case motion_weld: break;
+    case motion_weld:
+    case motion_track: break; /* the last two are jointed */
     }
     return (struct pose){{q[0], q[1]}, vec_without_rounding(cos_sin), {v[0], v[1]}, v[2]};
 }

@@ -53,7 +53,7 @@ static void read_reactions(const struct rest_system *system, const double *slots
         own[1] = s->F.force.y;
         own[2] = s->F.moment / system->length;
         if (link->kind == motion_pivot) own[2] -= g[0] / system->length;
-        if (link->kind != motion_slide) continue;
+        if (link->kind != motion_slide && link->kind != motion_track) continue;
         const struct model_body *body = &model->bodies[link->body];
         struct pose pose = body_pose(body, &at);
         struct vec arm = vec_sub(s->p, point_motion(body, &pose, body->inertia.G).p);

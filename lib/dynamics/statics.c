@@ -107,8 +107,8 @@ static void leave_over(const struct tree_link *link, const struct tree_state *s,
     double *own = Q + link->coordinate;
     if (link->kind == motion_pivot) {
         own[0] = g[0] - s->F.moment;
-    } else if (link->kind == motion_slide) {
-        own[0] = g[0] - vec_dot(s->e, s->F.force);
+    } else if (joint_freedom(link->kind) == 1) {
+        own[0] = g[0] - joint_share(link, s, s->F);
     } else {
         own[0] = g[0] - vec_dot(s->e, s->F.force);
         own[1] = g[1] - vec_cross(s->e, s->F.force);

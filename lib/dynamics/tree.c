@@ -101,8 +101,8 @@ void tree_slots(const struct fbd_model *model, const struct instant *at, double 
         if (link->normal_slot >= 0)
             slots[link->normal_slot] = -vec_dot(tree_normal(tree, work, i), s->F.force);
         if (link->pair < 0) continue;
-        double F = link->kind == motion_pivot ? s->F.moment : vec_dot(s->e, s->F.force);
-        slots[model->plan.frictions[link->pair].hold_slot] = slots[link->coordinate] - F;
+        slots[model->plan.frictions[link->pair].hold_slot] =
+            slots[link->coordinate] - joint_share(link, s, s->F);
     }
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
@@ -144,7 +144,7 @@ static void set_joint_forces(const struct fbd_model *model, const struct instant
     for (int i = 1; i < tree->count; i++) {
         const struct tree_link *link = &tree->links[i];
         const double *own = slots + link->coordinate;
-        if (link->kind == motion_pivot || link->kind == motion_slide) {
+        if (joint_freedom(link->kind) == 1) {
             x[i].g = own[0];
         } else {
             x[i].gf = vec_turn(links[i].e, (struct vec){own[0], own[1]});

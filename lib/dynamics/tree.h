@@ -39,21 +39,29 @@ struct tree_state {
     struct vec p, v;          /* of O */
     struct vec d;             /* from the parent's O */
     struct vec mr;            /* mass times the vector from O to the centre of mass */
-    struct vec e;             /* slide: direction of +x; free: that of the x axis of the body below */
+    struct vec e;             /* slide, track: direction of +x; free: that of the x axis of the body below */
     struct acceleration A;    /* first the bias, then the acceleration */
     struct inertia_about_O I; /* with all that hangs on it */
-    double D;                 /* pivot, slide: 1 / (S . I S); free: 1 / what is left of J */
-    double Uh;                /* slide: h . e */
-    struct vec U;             /* slide: M e; free: h . inverse of M */
-    double inverse[3];        /* free: the inverse of M, xx, xy, yy */
-    bool locked;              /* it sticks */
-    double held;              /* then the acceleration of its surface */
-    struct wrench F;          /* what the joint passes to the link, by tree_transmitted */
+    double D;                 /* pivot, slide, track: 1 / (S . I S); free: 1 / what is left of J */
+    double Uh;                /* slide: h . e; track: J turning beside */
+    struct vec U;             /* slide: M e; track: h turning beside; free: h . inverse of M */
+    union {
+        double inverse[3];      /* free: the inverse of M, xx, xy, yy */
+        struct {                /* track: */
+            double bend, slope; /* the curvature and its rate per length; */
+            double
+                turning; /* its rate of turning per length: the curvature, or 0 where the body does not turn */
+        };
+    };
+    bool locked;     /* it sticks */
+    double held;     /* then the acceleration of its surface */
+    struct wrench F; /* what the joint passes to the link, by tree_transmitted */
 };
 
 /* A link's variation along a direction. */
 struct tree_variation {
     double angle, omega;
+    double turning; /* of a track */
     struct vec p, v, d, e;
     struct acceleration A; /* at fixed accelerations of the joints */
     double held;
@@ -118,6 +126,11 @@ void tree_accelerations_along(const struct fbd_model *model, const struct instan
 struct vec tree_mass_center_acceleration(const struct model_body *body, const struct instant *at);
 double tree_angular_acceleration(const struct model_body *body, const struct instant *at);
 
+/* What stands in the equation along the coordinate of its joint beside forces: of a pivot on a body the moment
+ * -m r x a_O of its axis, which accelerates itself; of what turns along a track -kappa (I_G alpha + r x m a_G). */
+bool tree_has_more(const struct model_body *body);
+double tree_more(const struct model_body *body, const struct instant *at);
+
 /* Kinematics alone: where the links are and how they move. */
 void tree_move(const struct fbd_model *model, const struct instant *at);
 
@@ -158,6 +171,23 @@ struct vec tree_normal(const struct tree *tree, const struct tree_work *work, in
 
 /* The normal force at the slide of link i in the right-hand side that was solved last. */
 double tree_normal_in(const struct tree *tree, const struct tree_work *work, int i);
+
+/* What a force and a moment about O do along the one coordinate of a joint. */
+static inline double joint_share(const struct tree_link *link, const struct tree_state *s, struct wrench F)
+{
+    if (link->kind == motion_pivot) return F.moment;
+    double along = vec_dot(s->e, F.force);
+    return link->kind == motion_track ? along + s->turning * F.moment : along;
+}
+
+/* Its variation with the directions of the joint. */
+static inline double joint_share_along(const struct tree_link *link, const struct tree_variation *d,
+                                       struct wrench F)
+{
+    if (link->kind == motion_pivot) return 0;
+    double along = vec_dot(d->e, F.force);
+    return link->kind == motion_track ? along + d->turning * F.moment : along;
+}
 
 /* The number of coordinates of a joint. */
 static inline int joint_freedom(enum motion_kind kind)

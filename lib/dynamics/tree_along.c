@@ -10,11 +10,6 @@
 #include "dynamics/friction.h"
 #include "dynamics/tree_system.h"
 
-static struct vec turning(double angle, struct vec a)
-{
-    return vec_scale(angle, vec_perp(a));
-}
-
 /* The surface of a sticking pair: the variation of its acceleration. */
 static void vary_held(const struct fbd_model *model, const struct instant *at, const struct direction *along)
 {
@@ -45,8 +40,8 @@ static void vary_joint_forces(const struct fbd_model *model, const struct instan
         const double *own = slots + link->coordinate, *d = slots_along + link->coordinate;
         if (link->kind == motion_pivot) {
             work->x[i].g = d[0];
-        } else if (link->kind == motion_slide) {
-            work->x[i].g = d[0] - vec_dot(work->variation[i].e, work->links[i].F.force);
+        } else if (joint_freedom(link->kind) == 1) {
+            work->x[i].g = d[0] - joint_share_along(link, &work->variation[i], work->links[i].F);
         } else {
             work->x[i].gf = vec_add(vec_turn(work->links[i].e, (struct vec){d[0], d[1]}),
                                     vec_turn(work->variation[i].e, (struct vec){own[0], own[1]}));
@@ -71,8 +66,8 @@ static double normal_along(const struct tree *tree, const struct tree_work *work
 /* The part of dN that comes with the direction of the surface. */
 static double normal_turned(const struct tree *tree, const struct tree_work *work, int i)
 {
-    struct vec n = tree_normal(tree, work, i);
-    return vec_dot(turning(work->variation[tree->links[i].parent].angle, n), work->links[i].F.force);
+    struct vec dn = vec_scale(tree->links[i].side, vec_perp(work->variation[i].e));
+    return vec_dot(dn, work->links[i].F.force);
 }
 
 /* What the friction of slide i varies by with the normal forces as they are without it. */
@@ -104,8 +99,8 @@ static void add_slots(const struct fbd_model *model, const struct instant *at, b
                 normal_along(tree, work, i) + (first ? normal_turned(tree, work, i) : 0);
         if (link->pair < 0) continue;
         struct wrench dF = inertia_wrench(&s->I, work->x[i].A, work->x[i].p);
-        double d = link->kind == motion_pivot ? dF.moment : vec_dot(s->e, dF.force);
-        if (first && link->kind != motion_pivot) d += vec_dot(work->variation[i].e, s->F.force);
+        double d = joint_share(link, s, dF);
+        if (first) d += joint_share_along(link, &work->variation[i], s->F);
         slots_along[model->plan.frictions[link->pair].hold_slot] +=
             (first ? slots_along[link->coordinate] : 0) - d;
     }

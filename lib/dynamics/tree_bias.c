@@ -6,7 +6,9 @@
  *     alpha = alpha_P,  a = a_P + alpha_P k x d - omega_P^2 d + 2 omega_P k x w
  *     force = m a + alpha k x m r - omega^2 m r,   moment about O = m r x a + I_O alpha
  *
- * A sticking joint has the acceleration of its surface beside that.
+ * A sticking joint has the acceleration of its surface beside that, and on a track of curvature kappa
+ *
+ *     a += kappa q'^2 k x e,   alpha += kappa' q'^2  where the body turns along.
  */
 #include "dynamics/tree.h"
 
@@ -18,7 +20,7 @@ static struct vec turning(double rate, struct vec a)
 /* The velocity in the joint, in the world. */
 static struct vec joint_velocity(const struct tree_link *link, const struct tree_state *s, const double *v)
 {
-    if (link->kind == motion_slide) return vec_scale(v[0], s->e);
+    if (link->kind == motion_slide || link->kind == motion_track) return vec_scale(v[0], s->e);
     if (link->kind == motion_pivot) return (struct vec){0, 0};
     return vec_turn(s->e, (struct vec){v[0], v[1]}); /* e is the x axis of the body that it moves on */
 }
@@ -29,9 +31,30 @@ static void hold(const struct tree_link *link, struct tree_state *s)
         s->A.alpha += s->held;
     else
         s->A.a = vec_add(s->A.a, vec_scale(s->held, s->e));
+    if (link->kind == motion_track) s->A.alpha += s->held * s->turning;
 }
 
-void tree_bias(const struct tree *tree, const struct instant *at, int n)
+static void bend(const struct tree_link *link, struct tree_state *s, double v)
+{
+    s->A.a = vec_add(s->A.a, turning(s->bend * v * v, s->e));
+    if (link->track->turns) s->A.alpha += s->slope * v * v;
+}
+
+static void bend_along(const struct tree_link *link, const struct instant *at, const struct direction *along,
+                       int n, const struct tree_state *s, struct tree_variation *d)
+{
+    double dq = along->dy[link->coordinate], v = at->y[n + link->coordinate],
+           dv = along->dy[n + link->coordinate];
+    double d_bend = s->slope * dq * v * v + 2 * s->bend * v * dv;
+    d->A.a = vec_add(d->A.a, vec_add(turning(d_bend, s->e), turning(s->bend * v * v, d->e)));
+    if (!link->track->turns) return;
+    const int *piece = link->track->piece.expr ? formula_branches(&link->track->piece, at) : NULL;
+    double rate = curve_slope_rate(link->track->curve, piece, at->y[link->coordinate]);
+    d->A.alpha += rate * dq * v * v + 2 * s->slope * v * dv;
+}
+
+static inline __attribute__((always_inline)) void bias(const struct tree *tree, const struct instant *at,
+                                                       int n, bool curved)
 {
     struct tree_state *links = at->tree->links;
     struct tree_rhs *x = at->tree->x;
@@ -46,6 +69,7 @@ void tree_bias(const struct tree *tree, const struct instant *at, int n)
             struct vec w = joint_velocity(link, s, at->y + n + link->coordinate);
             s->A.a = vec_add(s->A.a, turning(2 * parent->omega, w));
         }
+        if (curved && link->track) bend(link, s, at->y[n + link->coordinate]);
         if (s->locked) hold(link, s);
         double own = s->omega * s->omega, alpha = s->A.alpha, m = link->mass;
         x[i].p.force.x = m * s->A.a.x - alpha * s->mr.y - own * s->mr.x - link->force.x;
@@ -55,11 +79,19 @@ void tree_bias(const struct tree *tree, const struct instant *at, int n)
     }
 }
 
+void tree_bias(const struct tree *tree, const struct instant *at, int n)
+{
+    if (tree->curved)
+        bias(tree, at, n, true);
+    else
+        bias(tree, at, n, false);
+}
+
 /* The variation of the velocity in the joint. */
 static struct vec joint_velocity_along(const struct tree_link *link, const struct tree_state *s,
                                        const struct tree_variation *d, const double *v, const double *dv)
 {
-    if (link->kind == motion_slide) return vec_add(vec_scale(dv[0], s->e), vec_scale(v[0], d->e));
+    if (joint_freedom(link->kind) == 1) return vec_add(vec_scale(dv[0], s->e), vec_scale(v[0], d->e));
     struct vec own = vec_turn(s->e, (struct vec){dv[0], dv[1]});
     return vec_add(own, vec_turn(d->e, (struct vec){v[0], v[1]}));
 }
@@ -68,7 +100,7 @@ static struct vec joint_velocity_along(const struct tree_link *link, const struc
 static struct vec joint_acceleration_along(const struct tree_link *link, const struct tree_variation *d,
                                            const double *a)
 {
-    if (link->kind == motion_slide) return vec_scale(a[0], d->e);
+    if (joint_freedom(link->kind) == 1) return vec_scale(a[0], d->e);
     return vec_turn(d->e, (struct vec){a[0], a[1]});
 }
 
@@ -94,8 +126,13 @@ void tree_bias_along(const struct tree *tree, const struct instant *at, const st
             d->A.a = vec_add(d->A.a, vec_add(turning(2 * dp->omega, w), turning(2 * omega, dw)));
             d->A.a = vec_add(d->A.a, joint_acceleration_along(link, d, a + link->coordinate));
         }
+        if (link->track) {
+            d->A.alpha += a[link->coordinate] * d->turning;
+            bend_along(link, at, along, n, s, d);
+        }
         if (s->locked && link->kind == motion_pivot) d->A.alpha += d->held;
-        if (s->locked && link->kind == motion_slide) d->A.a = vec_add(d->A.a, vec_scale(d->held, s->e));
+        if (s->locked && link->kind != motion_pivot) d->A.a = vec_add(d->A.a, vec_scale(d->held, s->e));
+        if (s->locked && link->track) d->A.alpha += d->held * s->turning;
         struct vec dmr = turning(d->angle, s->mr), f = vec_scale(link->mass, d->A.a);
         f = vec_add(f, vec_add(turning(d->A.alpha, s->mr), turning(s->A.alpha, dmr)));
         f = vec_sub(f, vec_scale(2 * s->omega * d->omega, s->mr));

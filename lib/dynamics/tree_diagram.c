@@ -15,10 +15,22 @@ static const struct tree_state *link_of(const struct model_body *body, const str
     return &at->tree->links[body->place.link];
 }
 
+/* Does it move along a line or a curve? */
+static bool is_guided(const struct model_body *body)
+{
+    return body->kind == motion_slide || body->kind == motion_track;
+}
+
 static struct vec mass_center(const struct model_body *body, const struct instant *at)
 {
     struct pose pose = body_pose(body, at);
     return point_motion(body, &pose, body->inertia.G).p;
+}
+
+/* Where the forces in the joint of a guided body act: of a slide at G, which moves as every other point does. */
+static struct vec guide_point(const struct model_body *body, const struct instant *at)
+{
+    return body->kind == motion_track ? link_of(body, at)->p : mass_center(body, at);
 }
 
 struct vec tree_mass_center_acceleration(const struct model_body *body, const struct instant *at)
@@ -34,6 +46,27 @@ double tree_angular_acceleration(const struct model_body *body, const struct ins
     return link_of(body, at)->A.alpha;
 }
 
+struct vec surface_normal(const struct fbd_model *model, const struct model_body *body,
+                          const struct instant *at)
+{
+    return body->place.link > 0 ? tree_normal(model->tree, at->tree, body->place.link) : body->n;
+}
+
+bool tree_has_more(const struct model_body *body)
+{
+    if (body->kind == motion_pivot) return body->place.link > 0 && body->parent != ground_body;
+    return body->kind == motion_track && body->source->motion.turns && (body->inertia.I_G > 0 || body->L > 0);
+}
+
+double tree_more(const struct model_body *body, const struct instant *at)
+{
+    const struct tree_state *s = link_of(body, at);
+    struct vec r = vec_turn(s->turn, body->arm);
+    if (body->kind == motion_pivot) return -body->inertia.mass * vec_cross(r, s->A.a);
+    struct vec f = vec_scale(body->inertia.mass, tree_mass_center_acceleration(body, at));
+    return -s->turning * (body->inertia.I_G * tree_angular_acceleration(body, at) + vec_cross(r, f));
+}
+
 /* ---- listed loads */
 
 /* -dV/dq of each coordinate: in the joint's directions. */
@@ -47,7 +80,8 @@ static void potential_arrow(const struct model_body *body, const struct model_lo
                        formula_branches(&load->potential, at), &f[k]);
         f[k] = -f[k];
     }
-    if (body->kind == motion_slide) arrow->force = vec_scale(f[0], s->e);
+    if (is_guided(body)) arrow->force = vec_scale(f[0], s->e);
+    if (is_guided(body)) arrow->point = guide_point(body, at);
     if (body->kind == motion_pivot) arrow->couple = f[0];
     if (body->count > 1) {
         arrow->force = vec_turn(s->e, (struct vec){f[0], f[1]});
@@ -85,7 +119,8 @@ static struct arrow load_arrow(const struct fbd_model *model, int index, const s
     case load_drive: {
         double drive = -slots[model->plan.frictions[body->drive_pair].hold_slot];
         if (body->kind == motion_pivot) arrow.couple = drive;
-        if (body->kind == motion_slide) arrow.force = vec_scale(drive, link_of(body, at)->e);
+        if (is_guided(body)) arrow.force = vec_scale(drive, link_of(body, at)->e);
+        if (is_guided(body)) arrow.point = guide_point(body, at);
         break;
     }
     case load_rope:
@@ -93,11 +128,15 @@ static struct arrow load_arrow(const struct fbd_model *model, int index, const s
     case load_normal: break; /* a reaction: see below */
     case load_friction:
         arrow.force = vec_scale(friction_at(model, body->friction, at, slots).force, link_of(body, at)->e);
+        arrow.point = guide_point(body, at);
         break;
     case moment_friction: arrow.couple = friction_at(model, body->friction, at, slots).force; break;
     case load_applied: arrow.force = applied_force(load, &pose, at); break;
     case load_spring:
-    case load_damper: arrow.force = spring_force(model, body, load, point, at); break;
+    case load_damper:
+        arrow.force = spring_force(model, body, load, point, at);
+        if (!load->linked) arrow.point = guide_point(body, at);
+        break;
     case load_drag: arrow.force = drag_of_load(load, point.v, at); break;
     case load_potential:
     case moment_potential: potential_arrow(body, load, at, &arrow); break;
@@ -175,15 +214,17 @@ static struct arrow slide_reaction(const struct fbd_model *model, const struct m
                                    const struct instant *at, const double *slots)
 {
     const struct tree_state *s = link_of(body, at);
-    struct vec across = vec_perp(s->e), G = mass_center(body, at);
-    double N = vec_dot(across, s->F.force);
-    double couple = s->F.moment + vec_cross(vec_sub(s->p, G), s->F.force);
+    struct vec across = vec_perp(s->e), P = guide_point(body, at);
+    struct vec force = vec_scale(vec_dot(across, s->F.force), across);
+    double couple = s->F.moment + vec_cross(vec_sub(s->p, P), s->F.force);
     for (int i = body->first_load; i < body->first_load + body->load_count; i++) {
         if (!model->loads[i].in_joint || model->loads[i].source->kind == load_normal) continue;
         struct arrow arrow = load_arrow(model, i, at, slots);
-        couple -= arrow_moment(&arrow, G);
+        couple -= arrow_moment(&arrow, P);
     }
-    return (struct arrow){.load = -1, .force = vec_scale(N, across), .point = G, .couple = couple};
+    /* What turns it along a curve has no power: the couple goes with a force along the track. */
+    if (body->kind == motion_track) force = vec_sub(force, vec_scale(s->turning * couple, s->e));
+    return (struct arrow){.load = -1, .force = force, .point = P, .couple = couple};
 }
 
 static bool is_welded_to(const struct fbd_model *model, int b, int on)
@@ -255,7 +296,7 @@ static struct arrow reaction_arrow(const struct fbd_model *model, int b, const s
     const struct model_body *body = &model->bodies[b];
     const struct tree_state *s = link_of(body, at);
     struct arrow arrow = {.load = -1, .force = s->F.force, .point = s->p};
-    if (body->kind == motion_slide) arrow = slide_reaction(model, body, at, slots);
+    if (is_guided(body)) arrow = slide_reaction(model, body, at, slots);
     if (body->kind == motion_particle)
         arrow = (struct arrow){.load = -1, .point = s->p, .couple = s->F.moment}; /* it does not turn */
     if (body->kind == motion_weld) arrow = weld_reaction(model, b, at, slots);
@@ -270,7 +311,8 @@ static void set_share(const struct model_body *body, const struct instant *at, s
     const struct tree_state *s = link_of(body, at);
     double moment = arrow_moment(arrow, s->p);
     for (int k = 0; k < most_coordinates_of_a_body; k++) arrow->share[k] = 0;
-    if (body->kind == motion_slide) arrow->share[0] = vec_dot(s->e, arrow->force);
+    if (is_guided(body)) arrow->share[0] = vec_dot(s->e, arrow->force);
+    if (body->kind == motion_track) arrow->share[0] += s->turning * moment;
     if (body->kind == motion_pivot) arrow->share[0] = moment;
     if (body->count > 1) {
         arrow->share[0] = vec_dot(s->e, arrow->force);

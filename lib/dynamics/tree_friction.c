@@ -22,7 +22,7 @@ double tree_slip_share(const struct fbd_model *model, const struct instant *at, 
 
 struct vec tree_normal(const struct tree *tree, const struct tree_work *work, int i)
 {
-    return vec_turn(work->links[tree->links[i].parent].turn, tree->links[i].n);
+    return vec_scale(tree->links[i].side, vec_perp(work->links[i].e));
 }
 
 double tree_normal_in(const struct tree *tree, const struct tree_work *work, int i)

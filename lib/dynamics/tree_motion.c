@@ -4,6 +4,7 @@
  *
  *     pivot   d = R at,           omega = omega_P + q',  v = v_P + omega_P k x d
  *     slide   d = R (at + q e),   omega = omega_P,       v = v_P + omega_P k x d + q' R e
+ *     track   d = R (at + r(q)),  omega = omega_P + kappa q' if it turns,  v = v_P + omega_P k x d + q' R e(q)
  *     free    d = R (at + x e + y k x e) likewise, with a rate of turning of its own when it is planar
  *
  * e is given in the frame of the parent's link: a body that is welded into it at an angle has other axes.
@@ -26,6 +27,27 @@ static void move_slide(const struct tree_link *link, const struct tree_state *pa
     s->v = vec_scale(joint.v[0], s->e);
 }
 
+static const int *piece_of(const struct tree_link *link, const struct instant *at)
+{
+    return link->track->piece.expr ? formula_branches(&link->track->piece, at) : NULL;
+}
+
+static void move_track(const struct tree_link *link, const struct tree_state *parent,
+                       const struct instant *at, struct joint joint, struct tree_state *s)
+{
+    struct curve_place place = curve_at(link->track->curve, piece_of(link, at), joint.q[0]);
+    struct vec frame = vec_turn(parent->turn, link->e);
+    s->e = vec_turn(frame, place.e);
+    s->bend = place.bend;
+    s->slope = place.slope;
+    s->turning = link->track->turns ? place.bend : 0;
+    s->angle = parent->angle + link->along + (link->track->turns ? place.angle : 0);
+    s->omega = parent->omega + s->turning * joint.v[0];
+    s->turn = link->track->turns ? s->e : frame;
+    s->d = vec_add(vec_turn(parent->turn, link->at), vec_turn(frame, place.r));
+    s->v = vec_scale(joint.v[0], s->e);
+}
+
 static void move_free(const struct tree_link *link, const struct tree_state *parent, struct joint joint,
                       struct tree_state *s)
 {
@@ -39,7 +61,8 @@ static void move_free(const struct tree_link *link, const struct tree_state *par
     s->v = vec_turn(s->e, rate);
 }
 
-void tree_move(const struct fbd_model *model, const struct instant *at)
+static inline __attribute__((always_inline)) void move_all(const struct fbd_model *model,
+                                                           const struct instant *at, bool curved)
 {
     const struct tree *tree = model->tree;
     int n = model->plan.n;
@@ -58,6 +81,8 @@ void tree_move(const struct fbd_model *model, const struct instant *at)
             s->v = (struct vec){0, 0};
         } else if (link->kind == motion_slide) {
             move_slide(link, parent, joint, s);
+        } else if (curved && link->kind == motion_track) {
+            move_track(link, parent, at, joint, s);
         } else {
             move_free(link, parent, joint, s);
         }
@@ -65,6 +90,14 @@ void tree_move(const struct fbd_model *model, const struct instant *at)
         s->v = vec_add(s->v, vec_add(parent->v, vec_scale(parent->omega, vec_perp(s->d))));
         s->mr = vec_turn(s->turn, link->moment);
     }
+}
+
+void tree_move(const struct fbd_model *model, const struct instant *at)
+{
+    if (model->tree->curved)
+        move_all(model, at, true);
+    else
+        move_all(model, at, false);
 }
 
 /* d(R a) = dangle k x R a. */
@@ -97,6 +130,13 @@ void tree_move_along(const struct fbd_model *model, const struct instant *at, co
         } else if (link->kind == motion_slide) {
             d->e = turning(dp->angle, s->e);
             d->d = vec_add(d->d, vec_scale(dq[0], s->e));
+            own = vec_add(vec_scale(v[0], d->e), vec_scale(dv[0], s->e));
+        } else if (link->kind == motion_track) {
+            d->e = turning(dp->angle + s->bend * dq[0], s->e);
+            d->turning = link->track->turns ? s->slope * dq[0] : 0;
+            d->d = vec_add(d->d, vec_scale(dq[0], s->e));
+            d->angle += s->turning * dq[0];
+            d->omega += s->turning * dv[0] + d->turning * v[0];
             own = vec_add(vec_scale(v[0], d->e), vec_scale(dv[0], s->e));
         } else {
             d->e = turning(dp->angle, s->e);

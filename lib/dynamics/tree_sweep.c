@@ -25,6 +25,18 @@ static void factor_slide(struct tree_state *s, struct inertia_about_O *rest)
                                      I->xx - UD.x * s->U.x, I->xy - UD.x * s->U.y, I->yy - UD.y * s->U.y};
 }
 
+/* As a slide that turns by `turning` as it goes on. */
+static void factor_track(struct tree_state *s, struct inertia_about_O *rest)
+{
+    const struct inertia_about_O *I = &s->I;
+    s->U = vec_add(inertia_times(I, s->e), vec_scale(s->turning, I->h));
+    s->Uh = vec_dot(I->h, s->e) + s->turning * I->J;
+    s->D = 1 / (vec_dot(s->e, s->U) + s->turning * s->Uh);
+    struct vec UD = vec_scale(s->D, s->U);
+    *rest = (struct inertia_about_O){I->J - s->D * s->Uh * s->Uh, vec_sub(I->h, vec_scale(s->Uh, UD)),
+                                     I->xx - UD.x * s->U.x, I->xy - UD.x * s->U.y, I->yy - UD.y * s->U.y};
+}
+
 static void factor_free(const struct tree_link *link, struct tree_state *s, struct inertia_about_O *rest)
 {
     const struct inertia_about_O *I = &s->I;
@@ -39,7 +51,9 @@ static void factor_free(const struct tree_link *link, struct tree_state *s, stru
     *rest = (struct inertia_about_O){link->kind == motion_planar ? 0 : J, {0, 0}, 0, 0, 0};
 }
 
-static void factor_link(const struct tree_link *link, struct tree_state *s, struct tree_state *parent)
+/* Trees without tracks do not ask for them, link by link: `curved` is a constant in each of its uses. */
+static inline __attribute__((always_inline)) void
+factor_link(const struct tree_link *link, struct tree_state *s, struct tree_state *parent, bool curved)
 {
     struct inertia_about_O rest;
     if (s->locked)
@@ -48,6 +62,8 @@ static void factor_link(const struct tree_link *link, struct tree_state *s, stru
         factor_pivot(s, &rest);
     else if (link->kind == motion_slide)
         factor_slide(s, &rest);
+    else if (curved && link->kind == motion_track)
+        factor_track(s, &rest);
     else
         factor_free(link, s, &rest);
     inertia_add(&parent->I, &rest, s->d);
@@ -55,8 +71,9 @@ static void factor_link(const struct tree_link *link, struct tree_state *s, stru
 
 /* ---- one right-hand side inward */
 
-static void inward_link(const struct tree_link *link, const struct tree_state *s, struct tree_rhs *x,
-                        struct tree_rhs *parent)
+static inline __attribute__((always_inline)) void inward_link(const struct tree_link *link,
+                                                              const struct tree_state *s, struct tree_rhs *x,
+                                                              struct tree_rhs *parent, bool curved)
 {
     struct wrench rest = x->p;
     if (s->locked) {
@@ -69,6 +86,10 @@ static void inward_link(const struct tree_link *link, const struct tree_state *s
         x->u = x->g - vec_dot(s->e, x->p.force);
         rest.moment += s->Uh * s->D * x->u;
         rest.force = vec_add(rest.force, vec_scale(s->D * x->u, s->U));
+    } else if (curved && link->kind == motion_track) {
+        x->u = x->g - vec_dot(s->e, x->p.force) - s->turning * x->p.moment;
+        rest.moment += s->Uh * s->D * x->u;
+        rest.force = vec_add(rest.force, vec_scale(s->D * x->u, s->U));
     } else {
         x->uf = vec_sub(x->gf, x->p.force);
         rest.force = x->gf;
@@ -79,7 +100,8 @@ static void inward_link(const struct tree_link *link, const struct tree_state *s
     wrench_add(&parent->p, rest, s->d);
 }
 
-void tree_factor(const struct tree *tree, struct tree_work *work)
+static inline __attribute__((always_inline)) void factor(const struct tree *tree, struct tree_work *work,
+                                                         bool curved)
 {
     struct tree_state *links = work->links;
     links[0].I = (struct inertia_about_O){0, {0, 0}, 0, 0, 0};
@@ -91,17 +113,34 @@ void tree_factor(const struct tree *tree, struct tree_work *work)
     }
     for (int i = tree->count - 1; i > 0; i--) {
         const struct tree_link *link = &tree->links[i];
-        factor_link(link, &links[i], &links[link->parent]);
-        inward_link(link, &links[i], &work->x[i], &work->x[link->parent]);
+        factor_link(link, &links[i], &links[link->parent], curved);
+        inward_link(link, &links[i], &work->x[i], &work->x[link->parent], curved);
+    }
+}
+
+void tree_factor(const struct tree *tree, struct tree_work *work)
+{
+    if (tree->curved)
+        factor(tree, work, true);
+    else
+        factor(tree, work, false);
+}
+
+static inline __attribute__((always_inline)) void inward(const struct tree *tree, struct tree_work *work,
+                                                         int from, int to, bool curved)
+{
+    for (int i = to - 1; i >= from; i--) {
+        const struct tree_link *link = &tree->links[i];
+        inward_link(link, &work->links[i], &work->x[i], &work->x[link->parent], curved);
     }
 }
 
 void tree_inward(const struct tree *tree, struct tree_work *work, int from, int to)
 {
-    for (int i = to - 1; i >= from; i--) {
-        const struct tree_link *link = &tree->links[i];
-        inward_link(link, &work->links[i], &work->x[i], &work->x[link->parent]);
-    }
+    if (tree->curved)
+        inward(tree, work, from, to, true);
+    else
+        inward(tree, work, from, to, false);
 }
 
 /* ---- accelerations outward */
@@ -119,7 +158,8 @@ static void outward_free(const struct tree_link *link, const struct tree_state *
     x->A = (struct acceleration){alpha, own};
 }
 
-void tree_outward(const struct tree *tree, struct tree_work *work, int from, int to, double *a)
+static inline __attribute__((always_inline)) void outward(const struct tree *tree, struct tree_work *work,
+                                                          int from, int to, double *a, bool curved)
 {
     struct tree_rhs *xs = work->x;
     xs[0].A = (struct acceleration){0, {0, 0}};
@@ -138,8 +178,20 @@ void tree_outward(const struct tree *tree, struct tree_work *work, int from, int
         } else if (link->kind == motion_slide) {
             own[0] = s->D * (x->u - s->Uh * x->A.alpha - vec_dot(s->U, x->A.a));
             x->A.a = vec_add(x->A.a, vec_scale(own[0], s->e));
+        } else if (curved && link->kind == motion_track) {
+            own[0] = s->D * (x->u - s->Uh * x->A.alpha - vec_dot(s->U, x->A.a));
+            x->A.a = vec_add(x->A.a, vec_scale(own[0], s->e));
+            x->A.alpha += s->turning * own[0];
         } else {
             outward_free(link, s, x, own);
         }
     }
+}
+
+void tree_outward(const struct tree *tree, struct tree_work *work, int from, int to, double *a)
+{
+    if (tree->curved)
+        outward(tree, work, from, to, a, true);
+    else
+        outward(tree, work, from, to, a, false);
 }

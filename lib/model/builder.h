@@ -63,4 +63,8 @@ bool plan_build(struct builder *builder);
 /* Decide for each load whether a potential energy exists, and say why. */
 bool classify_loads(struct builder *builder);
 
+/* What a track needs beyond its link (track.c): false when memory is out. */
+bool tracks_set(struct builder *builder);
+void track_set_body(const struct scene *scene, struct model_body *body);
+
 #endif

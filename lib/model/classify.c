@@ -24,7 +24,8 @@ static const char *why_not(unsigned on)
 static struct verdict judge_jointed(const struct model_body *body, const struct model_load *load)
 {
     const struct load *source = load->source;
-    bool along = body->kind == motion_slide && !source->angle.expr && !source->fx.expr && !source->fy.expr;
+    bool line = body->kind == motion_slide || body->kind == motion_track;
+    bool along = line && !source->angle.expr && !source->fx.expr && !source->fy.expr;
     bool fixed = body->kind == motion_slide && body->parent == ground_body; /* its frame does not turn */
     if ((along || source->body_frame) && !fixed)
         return (struct verdict){potential_none, "not conservative: it turns with the body"};
@@ -64,6 +65,8 @@ static struct verdict judge_applied(const struct model_body *body, const struct 
         return (struct verdict){potential_none, "counted as work: it points to a place"};
     if (load_is_placed(load->source) && turns)
         return (struct verdict){potential_none, "counted as work: its place does not turn with the body"};
+    if (moment && body->kind == motion_track)
+        return (struct verdict){potential_none, "counted as work: its angle is no coordinate"};
     struct odd_switches odd = odd_switches(load);
     if (odd.relay)
         return (struct verdict){potential_none, "not conservative: it depends on where the motion came from"};

@@ -39,17 +39,23 @@ struct formula builder_rate(struct builder *builder, const struct value *value, 
 
 /* ---- bodies */
 
+/* The side that its surface pushes to. */
+static void set_side(struct model_body *body)
+{
+    enum normal_side side = side_up;
+    for (size_t i = 0; i < body->source->load_count; i++)
+        if (body->source->loads[i].kind == load_normal) side = body->source->loads[i].side;
+    const double upright = 1e-12; /* on a vertical line no side is up: left of +x it is */
+    if (side == side_right || (side == side_up && body->n.y < -upright)) body->n = vec_scale(-1, body->n);
+}
+
 static void set_slide(struct model_body *body)
 {
     const struct motion *motion = &body->source->motion;
     body->e = vec_unit(motion->along);
     body->n = vec_perp(body->e);
     body->origin = motion->through;
-    enum normal_side side = side_up;
-    for (size_t i = 0; i < body->source->load_count; i++)
-        if (body->source->loads[i].kind == load_normal) side = body->source->loads[i].side;
-    const double upright = 1e-12; /* on a vertical line no side is up: left of +x it is */
-    if (side == side_right || (side == side_up && body->n.y < -upright)) body->n = vec_scale(-1, body->n);
+    set_side(body);
 }
 
 static void check_inertia(const struct model_body *body, fbd_errors *errors)
@@ -76,8 +82,10 @@ static void check_inertia(const struct model_body *body, fbd_errors *errors)
                  body->kind == motion_pivot ? "its pivot" : "its centre of mass");
 }
 
-static void set_body(struct model_body *body, const struct body *source, int n, fbd_errors *errors)
+static void set_body(struct model_body *body, const struct body *source, const struct scene *scene,
+                     fbd_errors *errors)
 {
+    int n = (int)scene->coordinate_count;
     const struct motion *motion = &source->motion;
     *body = (struct model_body){.source = source,
                                 .name = source->name,
@@ -95,6 +103,10 @@ static void set_body(struct model_body *body, const struct body *source, int n, 
                                 .friction = -1};
     body->inertia = inertia_of_parts(source->parts, source->part_count, motion->point);
     if (motion->kind == motion_slide) set_slide(body);
+    if (motion->kind == motion_track) {
+        track_set_body(scene, body);
+        set_side(body);
+    }
     if (motion->kind == motion_pivot) {
         body->origin = motion->through;
         body->pin = motion->point;
@@ -249,7 +261,8 @@ static bool allocate(struct fbd_model *model)
         model->load_count += scene->bodies[b].motion.prescribed.expr != NULL;
     model->bodies = ARENA_ARRAY(&model->arena, model->body_count, struct model_body);
     model->loads = ARENA_ARRAY(&model->arena, model->load_count, struct model_load);
-    size_t formulas = most_formulas_of_a_load * model->load_count + 2 * scene->event_count + scene->own_count;
+    size_t formulas = most_formulas_of_a_load * model->load_count + 2 * scene->event_count + scene->own_count +
+                      scene->body_count;
     model->plan.rates = ARENA_ARRAY(&model->arena, scene->own_count, struct formula);
     model->plan.watches = ARENA_ARRAY(&model->arena, scene->event_count, struct watch);
     model->plan.kinks = ARENA_ARRAY(&model->arena, formulas, struct kink);
@@ -291,8 +304,7 @@ static struct fbd_model *compile(struct scene *scene, bool labels, fbd_errors *e
     struct builder builder = {.model = model, .errors = errors};
     bool done = allocate(model);
     for (size_t b = 0; done && b < scene->body_count; b++)
-        if (scene->bodies[b].complete)
-            set_body(&model->bodies[b], &scene->bodies[b], (int)scene->coordinate_count, errors);
+        if (scene->bodies[b].complete) set_body(&model->bodies[b], &scene->bodies[b], scene, errors);
     if (done && fbd_errors_failed(errors) == 0) {
         for (size_t b = 0; b < scene->body_count; b++) model->assembles |= scene->bodies[b].assemble;
         set_loads(&builder);
@@ -301,8 +313,8 @@ static struct fbd_model *compile(struct scene *scene, bool labels, fbd_errors *e
         if (labels) model->labels = labels_make(&model->arena, scene);
         done = model->own_labels && (model->labels || !labels) && set_named_ties(&builder) &&
                set_drives(&builder) && set_absolutes(model) && set_output_points(model) &&
-               tree_number(model) && tree_name_reactions(model) && arrows_name(model) &&
-               plan_build(&builder) && classify_loads(&builder);
+               tree_number(model) && tracks_set(&builder) && tree_name_reactions(model) &&
+               arrows_name(model) && plan_build(&builder) && classify_loads(&builder);
         set_rates(&builder);
         set_watches(&builder);
         if (done) done = slips_find(model);

@@ -86,7 +86,8 @@ static void add_constant_force(struct builder *builder, const struct model_body 
         add_constant(builder, i, f.x);
         add_constant(builder, i + 1, f.y);
         break;
-    case motion_weld: break; /* is jointed */
+    case motion_weld:
+    case motion_track: break; /* are jointed */
     }
 }
 

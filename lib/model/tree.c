@@ -18,7 +18,7 @@ static void mark_jointed(const struct fbd_model *model, bool *jointed)
     const struct scene *scene = model->scene;
     for (size_t b = 0; b < scene->body_count; b++) {
         int parent = scene->bodies[b].motion.parent;
-        if (scene->bodies[b].motion.prescribed.expr) jointed[b] = true;
+        if (scene->bodies[b].motion.prescribed.expr || scene->bodies[b].motion.curve) jointed[b] = true;
         if (parent == ground_body) continue;
         jointed[b] = true;
         jointed[parent] = true;
@@ -92,7 +92,7 @@ static void set_link(const struct fbd_model *model, struct tree_link *link, int 
                                .coordinate = body->first,
                                .at = motion->through,
                                .e = body->kind == motion_slide ? body->e : (struct vec){1, 0},
-                               .n = body->n,
+                               .side = vec_dot(body->n, vec_perp(body->e)) < 0 ? -1 : 1,
                                .along = body->kind == motion_slide ? motion->along : 0,
                                .pair = -1,
                                .normal_slot = -1};
@@ -101,7 +101,6 @@ static void set_link(const struct fbd_model *model, struct tree_link *link, int 
     link->parent = parent->link;
     link->at = placement_point(parent, motion->through);
     link->e = vec_turn(parent->turn, link->e);
-    link->n = vec_turn(parent->turn, body->n);
     link->along += parent->angle;
 }
 
@@ -381,7 +380,8 @@ static const char *reaction_of(const struct fbd_model *model, const struct model
 {
     switch (body->kind) {
     case motion_pivot: return "pin";
-    case motion_slide: return has_normal(model, body) ? NULL : "guide";
+    case motion_slide:
+    case motion_track: return has_normal(model, body) ? NULL : "guide";
     case motion_weld: return "weld";
     case motion_particle: return twisted || body->parent != ground_body || body->child >= 0 ? "guide" : NULL;
     case motion_planar: break;
@@ -448,7 +448,9 @@ bool tree_finish(struct fbd_model *model)
                        tree->drag_count >
                    0;
     tree->pivots_only = tree->watched_count == 0;
-    for (int i = 1; i < tree->count; i++)
+    for (int i = 1; i < tree->count; i++) {
         if (tree->links[i].kind != motion_pivot) tree->pivots_only = false;
+        if (tree->links[i].track) tree->curved = true;
+    }
     return ties_order(model);
 }

@@ -25,21 +25,31 @@ struct placement {
     double angle;
 };
 
+/* The curve of a track. */
+struct tree_track {
+    const struct curve *curve;
+    struct formula
+        piece;  /* that switches where a new piece of the curve begins; expr NULL where it has one */
+    bool turns; /* the body goes along with the tangent */
+};
+
 struct tree_link {
     int body, parent; /* its body; the link that it moves on, less than its own number */
     enum motion_kind kind;
-    int coordinate;      /* the first of its coordinates */
-    struct vec at;       /* pivot: the axis; slide: where x = 0; else the zero of x, y; from the parent's O */
-    struct vec e, n;     /* slide, free: direction of +x; slide: the direction that its surface pushes to */
-    double along;        /* angle of the link's frame in its parent's at q = 0 */
-    double mass, I_O;    /* with all that is welded to it; I_O about O */
-    struct vec moment;   /* mass times the vector from O to its centre of mass */
-    struct vec force;    /* constant forces in the world, all of them */
-    double sine, cosine; /* their moment about O: sine sin(angle) + cosine cos(angle) */
-    int pair;            /* its dry friction: index into plan.frictions, or -1 */
-    int normal_slot;     /* where minus its normal force goes, or -1 */
-    int root;            /* the first link of its tree */
-    int end;             /* links from its own number up to this one (not included) move with it */
+    int coordinate; /* the first of its coordinates */
+    struct vec at;  /* pivot: the axis; slide: where x = 0; else the zero of x, y; from the parent's O */
+    struct vec e;   /* slide, free: direction of +x; track: of the x axis of its curve */
+    int side;       /* slide, track: its surface pushes to the left (+1) or the right (-1) of +x */
+    double along;   /* angle of the link's frame in its parent's at q = 0; track: of its curve */
+    struct tree_track *track; /* or NULL */
+    double mass, I_O;         /* with all that is welded to it; I_O about O */
+    struct vec moment;        /* mass times the vector from O to its centre of mass */
+    struct vec force;         /* constant forces in the world, all of them */
+    double sine, cosine;      /* their moment about O: sine sin(angle) + cosine cos(angle) */
+    int pair;                 /* its dry friction: index into plan.frictions, or -1 */
+    int normal_slot;          /* where minus its normal force goes, or -1 */
+    int root;                 /* the first link of its tree */
+    int end;                  /* links from its own number up to this one (not included) move with it */
 };
 
 /* A constant force that turns with its link, and its moment about O. */
@@ -88,6 +98,7 @@ struct tree {
     int acting_count;         /* bodies whose own terms count: not jointed, or with forces in the joint */
     int *acting;              /* their numbers */
     bool loaded;              /* something of the lists above acts on links */
+    bool curved;              /* there are tracks */
     bool pivots_only;         /* every joint is a pivot, and none has dry friction */
     int pair_count;           /* links whose dry friction goes with a normal force */
     int *pairs;               /* their numbers */

@@ -17,7 +17,8 @@ static const char *side_of_equation(const struct model_body *body, int part)
     case motion_pivot: return "sum of moments about O";
     case motion_particle:
     case motion_planar:
-    case motion_weld: break;
+    case motion_weld:
+    case motion_track: break;
     }
     return part == 0   ? "sum of forces along x"
            : part == 1 ? "sum of forces along y"

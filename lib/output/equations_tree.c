@@ -11,6 +11,7 @@
  * for the body cut free, reactions and all: m a_G = sum of forces, I_G alpha = sum of moments about G. The
  * accelerations are those in the world.
  */
+#include "dynamics/diagram.h"
 #include "dynamics/tree.h"
 #include "output/equations.h"
 
@@ -71,11 +72,16 @@ static void add_joint_row(struct fbd_equations *all, const struct fbd_state *sta
     struct instant at = state_instant(state);
     bool pivot = body->kind == motion_pivot;
     struct vec a_G = tree_mass_center_acceleration(body, &at);
+    bool track = body->kind == motion_track;
     struct row row = {
         .coordinate = model->scene->coordinates[body->first].name,
         .inertia_name = pivot ? "I_O" : "m",
-        .acceleration_name = pivot ? "alpha" : "a_x",
-        .side = pivot ? "sum of moments about O" : "sum of forces along x",
+        .acceleration_name = pivot   ? "alpha"
+                             : track ? "a_s"
+                                     : "a_x",
+        .side = pivot   ? "sum of moments about O"
+                : track ? "sum of forces along the track"
+                        : "sum of forces along x",
         .inertia = pivot ? body->I_O : body->inertia.mass,
         .acceleration = pivot ? tree_angular_acceleration(body, &at) : vec_dot(s->e, a_G),
         .moment = pivot,
@@ -87,13 +93,10 @@ static void add_joint_row(struct fbd_equations *all, const struct fbd_state *sta
         add_term(equation, arrows[i].name, arrows[i].share[0], arrows[i].load);
         if (arrows[i].load >= 0 && model->loads[arrows[i].load].source->kind == load_normal &&
             model->loads[arrows[i].load].body == b)
-            equation->public.normal =
-                vec_dot(arrows[i].force, vec_perp(s->e)) * (vec_dot(body->n, vec_perp(body->e)) > 0 ? 1 : -1);
+            equation->public.normal = vec_dot(arrows[i].force, surface_normal(model, body, &at));
     }
-    if (pivot && body->parent != ground_body) {
-        struct vec r = vec_turn(s->turn, body->arm);
-        add_term(equation, "moving axis", -body->inertia.mass * vec_cross(r, s->A.a), -1);
-    }
+    if (tree_has_more(body))
+        add_term(equation, track ? "turning along" : "moving axis", tree_more(body, &at), -1);
 }
 
 void equations_of_jointed(struct fbd_equations *all, const struct fbd_state *state, int b,

@@ -30,6 +30,7 @@ const char *fbd_event_kind_name(fbd_event_kind kind)
     case FBD_EVENT_SEVERAL: return "several";
     case FBD_EVENT_SLIDING: return "sliding";
     case FBD_EVENT_SLIDING_ENDS: return "sliding_ends";
+    case FBD_EVENT_TRACK_END: return "track_end";
     }
     return "";
 }
@@ -165,6 +166,7 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
         return;
     case FBD_EVENT_SLIDING: sliding_detail(model, event, name, detail, size); return;
     case FBD_EVENT_SLIDING_ENDS: snprintf(detail, size, "%s leaves its switch", name); return;
+    case FBD_EVENT_TRACK_END: snprintf(detail, size, "an end of its track"); return;
     }
 }
 

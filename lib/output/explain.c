@@ -38,6 +38,7 @@ static const char *motion_words(enum motion_kind kind)
     case motion_particle: return "moves in the plane as a particle";
     case motion_planar: return "moves in the plane";
     case motion_weld: return "is fixed on";
+    case motion_track: return "runs on a track";
     }
     return "";
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/diag.h"
+#include "dynamics/diagram.h"
 #include "dynamics/project.h"
 #include "output/random_state.h"
 
@@ -27,6 +28,7 @@ static void extend(const struct fbd_state *state, int b, const struct arrow *arr
     const struct model_body *body = &model->bodies[b];
     size_t size = plan_size(&model->plan);
     double *extra = y + size;
+    struct instant at = state_instant(state);
     memcpy(y, state->y, size * sizeof *y);
     memset(extra, 0, hand_slots * sizeof *extra);
     for (int k = 0; k < body->count; k++) extra[hand_acceleration + k] = state->a[body->first + k];
@@ -41,9 +43,8 @@ static void extend(const struct fbd_state *state, int b, const struct arrow *arr
     extra[hand_L] = body->L;
     for (size_t i = 0; i < arrow_count; i++)
         if (arrows[i].load >= 0 && model->loads[arrows[i].load].source->kind == load_normal)
-            extra[hand_N] = vec_dot(arrows[i].force, body->n);
+            extra[hand_N] = vec_dot(arrows[i].force, surface_normal(model, body, &at));
     if (body->friction >= 0) {
-        struct instant at = state_instant(state);
         extra[hand_mu_s] = formula_value(&model->plan.frictions[body->friction].mu_s, &at);
         extra[hand_mu_k] = formula_value(&model->plan.frictions[body->friction].mu_k, &at);
     }

@@ -92,7 +92,8 @@ bool random_state(gsl_rng *rng, struct fbd_state *state, const double *start)
         const struct coordinate *c = &scene->coordinates[i];
         double reach = c->angle ? 3.14159 : fmax(1, 2 * fabs(c->initial)),
                speed = fmax(1, 2 * fabs(c->initial_rate));
-        state->y[i] = between(rng, -reach, reach);
+        const struct curve *curve = scene->bodies[c->body].motion.curve;
+        state->y[i] = curve ? curve->start + between(rng, 0, 1) * curve->length : between(rng, -reach, reach);
         state->y[n + i] = between(rng, -speed, speed);
     }
     for (size_t i = 0; i < scene->own_count; i++) {

@@ -70,6 +70,7 @@ static const char *gravity_remark(const struct fbd_model *model, const struct mo
     case motion_particle:
     case motion_planar:
     case motion_weld: break;
+    case motion_track: return "m g along the track";
     }
     return part == 1 ? "-m g" : "";
 }

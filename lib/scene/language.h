@@ -187,13 +187,16 @@ struct inertia_keys {
 struct motion_keys {
     double along, angle;
     const struct node *on, *through, *line, *at, *point, *prescribed, *low, *high;
-    double restitution; /* of the stops */
+    double restitution;                   /* of the stops */
+    const struct node *x, *y, *from, *to; /* of a track */
+    bool closed, turn;
 };
 
 /* In the order of the body's coordinates. */
 struct initial_keys {
     double q[most_coordinates_of_a_body], v[most_coordinates_of_a_body];
     bool assemble;
+    const struct node *p, *x; /* on a track: where, by its parameter */
 };
 
 /* Likewise. */

@@ -72,7 +72,7 @@ static const struct field body_fields[] = {
     FIELD_ENTRIES(offsetof(struct body_keys, points), "points", field_map, 0, each_pair, NULL,
                   "name: [x, y] in the body frame"),
     FIELD_KINDS(offsetof(struct body_keys, motion), "motion", field_any, required, one_value, &motion_kinds,
-                "slide, pivot, particle, planar or weld"),
+                "slide, pivot, track, particle, planar or weld"),
     FIELD_NODE(offsetof(struct body_keys, initial), "initial", field_map, 0, NULL,
                "coordinates and rates at t = 0; default 0"),
     FIELD_KINDS(offsetof(struct body_keys, forces), "forces", field_any, 0, each_kind, &force_kinds,
@@ -156,12 +156,33 @@ static const struct field weld_fields[] = {
 static const struct group weld_group = {"a weld", NULL, FIELDS(weld_fields),
                                         NULL,     0,    "no coordinate: fixed on another body"};
 
+static const struct field track_fields[] = {
+    FIELD_NODE(MOTION(x), "x", field_scalar, 0, NULL,
+               "x of the curve as an expression of p; without it y is one of x"),
+    FIELD_NODE(MOTION(y), "y", field_scalar, required, NULL, "y of the curve as an expression of p, or of x"),
+    FIELD_NODE(MOTION(from), "from", field_scalar, required, NULL, "p, or x, where it begins"),
+    FIELD_NODE(MOTION(to), "to", field_scalar, required, NULL, "p, or x, where it ends"),
+    FIELD_FLAG(MOTION(closed), "closed", "true: its ends meet, and it goes on, round after round"),
+    FIELD_FLAG(MOTION(turn), "turn",
+               "false: the body keeps its direction; default: its x axis is the tangent"),
+    FIELD_NODE(MOTION(at), "at", field_any, 0, NULL,
+               "the origin of x and y: [x, y] or a point of what it moves on; default [0, 0]"),
+    FIELD_NODE(MOTION(point), "point", field_any, 0, NULL,
+               "the point of the body on the curve: a name or [x, y]; default the origin of the body frame"),
+    FIELD_NODE(MOTION(prescribed), "s", field_scalar, 0, NULL, "prescribed: an expression of t"),
+    ON_ROW,
+};
+
+static const struct group track_group = {"a track", NULL, FIELDS(track_fields),
+                                         NULL,      0,    "one coordinate s, the length along a curve"};
+
 static const struct kind motions[] = {
     {"slide", motion_slide, &slide_group, ~0u, NULL},
     {"pivot", motion_pivot, &pivot_group, ~0u, NULL},
     {"particle", motion_particle, &particle_group, ~0u, NULL},
     {"planar", motion_planar, &planar_group, ~0u, NULL},
     {"weld", motion_weld, &weld_group, ~0u, NULL},
+    {"track", motion_track, &track_group, ~0u, NULL},
 };
 
 const struct kinds motion_kinds = {"motion", FIELDS(motions)};
@@ -188,6 +209,13 @@ static const struct field particle_initial[] = {POSITION(0, "x"), POSITION(1, "y
                                                 SPEED(1, "vy"), ASSEMBLE};
 static const struct field planar_initial[] = {POSITION(0, "x"), POSITION(1, "y"), ANGLE(2), SPEED(0, "vx"),
                                               SPEED(1, "vy"),   ANGLE_RATE(2),    ASSEMBLE};
+static const struct field track_initial[] = {POSITION(0, "s"), SPEED(0, "v"),
+                                             FIELD_NODE(offsetof(struct initial_keys, p), "p", field_scalar,
+                                                        0, NULL,
+                                                        "place at t = 0 by the parameter of the curve"),
+                                             FIELD_NODE(offsetof(struct initial_keys, x), "x", field_scalar,
+                                                        0, NULL, "likewise, of a curve y(x)"),
+                                             ASSEMBLE};
 
 const struct group initial_groups[] = {
     [motion_slide] = {"`initial` of a slide", NULL, FIELDS(slide_initial), NULL, 0, "state at t = 0"},
@@ -196,6 +224,7 @@ const struct group initial_groups[] = {
                          "state at t = 0"},
     [motion_planar] = {"`initial` of a planar body", NULL, FIELDS(planar_initial), NULL, 0, "state at t = 0"},
     [motion_weld] = {"`initial` of a weld", NULL, NULL, 0, NULL, 0, "a weld has no coordinate"},
+    [motion_track] = {"`initial` of a track", NULL, FIELDS(track_initial), NULL, 0, "state at t = 0"},
 };
 
 /* ---- where it is known to be */
@@ -211,6 +240,7 @@ static const struct field particle_exact[] = {KNOWN(q[0], "x", a_length), KNOWN(
 static const struct field planar_exact[] = {
     KNOWN(q[0], "x", a_length),    KNOWN(q[1], "y", a_length),    KNOWN(q[2], "theta", an_angle),
     KNOWN(v[0], "vx", a_velocity), KNOWN(v[1], "vy", a_velocity), KNOWN(v[2], "omega", an_angular_velocity)};
+static const struct field track_exact[] = {KNOWN(q[0], "s", a_length), KNOWN(v[0], "v", a_velocity)};
 
 const struct group exact_groups[] = {
     [motion_slide] = {"`exact` of a slide", NULL, FIELDS(slide_exact), NULL, 0, "the known solution"},
@@ -219,4 +249,5 @@ const struct group exact_groups[] = {
                          "the known solution"},
     [motion_planar] = {"`exact` of a planar body", NULL, FIELDS(planar_exact), NULL, 0, "the known solution"},
     [motion_weld] = {"`exact` of a weld", NULL, NULL, 0, NULL, 0, "a weld has no coordinate"},
+    [motion_track] = {"`exact` of a track", NULL, FIELDS(track_exact), NULL, 0, "the known solution"},
 };

@@ -5,7 +5,8 @@ enum {
     on_slide = 1u << motion_slide,
     on_pivot = 1u << motion_pivot,
     on_planar = 1u << motion_planar,
-    on_moving = on_slide | on_pivot | on_planar | 1u << motion_particle,
+    on_track = 1u << motion_track,
+    on_moving = on_slide | on_pivot | on_planar | on_track | 1u << motion_particle,
     on_weld = 1u << motion_weld,
     on_all = on_moving | on_weld,
     on_turning = on_pivot | on_planar,
@@ -152,9 +153,9 @@ static const struct group potential_group =
 
 static const struct kind forces[] = {
     {"gravity", load_gravity, &gravity_group, on_all, NULL},
-    {"normal", load_normal, &normal_group, on_slide,
+    {"normal", load_normal, &normal_group, on_slide | on_track,
      "a surface belongs to a slide: motion: {slide: {along: 30 deg}}"},
-    {"friction", load_friction, &friction_group, on_slide,
+    {"friction", load_friction, &friction_group, on_slide | on_track,
      "dry friction of a surface belongs to a slide; a rubbing pivot has `friction` under `moments`"},
     {"applied", load_applied, &applied_group, on_all, NULL},
     {"distributed", load_applied, &distributed_group, on_all, NULL},
@@ -210,7 +211,7 @@ static const struct group moment_potential_group =
 #define NO_TURNING "a slide and a particle do not turn: use `pivot` or `planar`"
 
 static const struct kind moments[] = {
-    {"applied", moment_applied, &moment_applied_group, on_turning | on_weld, NO_TURNING},
+    {"applied", moment_applied, &moment_applied_group, on_turning | on_weld | on_track, NO_TURNING},
     {"spring", moment_spring, &moment_spring_group, on_turning, NO_TURNING},
     {"damper", moment_damper, &moment_damper_group, on_turning, NO_TURNING},
     {"friction", moment_friction, &moment_friction_group, on_turning, NO_TURNING},

@@ -36,9 +36,10 @@ static inline bool entry_exclude(struct entry *entry, const char *key, const cha
     return fields_exclude(entry->reader, entry->chosen.node, key, other, hint);
 }
 
+/* Does it move along a line or curve, whose direction forces may take? */
 static inline bool entry_is_slide(const struct entry *entry)
 {
-    return entry->motion && entry->motion->kind == motion_slide;
+    return entry->motion && (entry->motion->kind == motion_slide || entry->motion->kind == motion_track);
 }
 
 /* Where it acts: `at`. */

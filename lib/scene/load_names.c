@@ -31,7 +31,8 @@ static bool is_of_joint(const struct reader *reader, int index, const char *name
     static const char *const forces[] = {[motion_slide] = "guide",
                                          [motion_pivot] = "pin",
                                          [motion_particle] = "guide",
-                                         [motion_weld] = "weld"};
+                                         [motion_weld] = "weld",
+                                         [motion_track] = "guide"};
     const struct draft *draft = &reader->drafts[index];
     enum motion_kind kind = reader->scene->bodies[index].motion.kind;
     if (!draft->motion_known) return false;

@@ -10,6 +10,7 @@
 /* ---- coordinates */
 
 static const struct coordinate_names slide_names[] = {{"x", "v", "x_dot", "v_dot", {"a", "x_ddot"}, false}};
+static const struct coordinate_names track_names[] = {{"s", "v", "s_dot", "v_dot", {"a", "s_ddot"}, false}};
 static const struct coordinate_names pivot_names[] = {
     {"theta", "omega", "theta_dot", "omega_dot", {"alpha", "theta_ddot"}, true}};
 static const struct coordinate_names planar_names[] = {
@@ -19,7 +20,10 @@ static const struct coordinate_names planar_names[] = {
 
 int coordinates_of(enum motion_kind kind, const struct coordinate_names **names)
 {
-    *names = kind == motion_slide ? slide_names : kind == motion_pivot ? pivot_names : planar_names;
+    *names = kind == motion_slide   ? slide_names
+             : kind == motion_pivot ? pivot_names
+             : kind == motion_track ? track_names
+                                    : planar_names;
     return kind == motion_weld ? 0 : kind == motion_planar ? 3 : kind == motion_particle ? 2 : 1;
 }
 

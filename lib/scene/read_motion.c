@@ -64,10 +64,12 @@ bool body_motion_read(struct reader *reader, int index)
     body->motion.at = chosen.at;
     draft->motion_known = true;
     struct motion_keys *keys = &draft->motion_keys;
+    keys->turn = true;
     bool about = check_about_pivot(reader, body);
     bool fine = fields_read(reader, chosen.kind->group, chosen.node, chosen.at, &reader->constants, keys);
     body->motion.along = body->motion.kind == motion_weld ? keys->angle : keys->along;
     if (body->motion.kind == motion_slide && !read_slide(reader, &chosen, keys)) fine = false;
+    if (body->motion.kind == motion_track && fine) fine = track_read(reader, index);
     draft->motion_read = fine && read_own_point(reader, index, keys);
     return draft->motion_read && about;
 }
@@ -78,11 +80,12 @@ bool body_initial_read(struct reader *reader, int index)
     struct body *body = &scene->bodies[index];
     const struct draft *draft = &reader->drafts[index];
     const struct pair *pair = node_find(draft->node, "initial");
-    struct initial_keys keys = {{0}, {0}, false};
+    struct initial_keys keys = {.assemble = false};
     if (!draft->keys.initial || !draft->motion_known) return true;
     bool fine = fields_read(reader, &initial_groups[body->motion.kind], draft->keys.initial, pair->at,
                             &reader->constants, &keys);
     body->assemble = keys.assemble;
+    if (body->motion.kind == motion_track && !track_initial_read(reader, index, &keys)) fine = false;
     for (int i = 0; i < body->count; i++) {
         scene->coordinates[body->first + i].initial = keys.q[i];
         scene->coordinates[body->first + i].initial_rate = keys.v[i];
@@ -98,7 +101,7 @@ bool body_prescribed_read(struct reader *reader, int index)
     const struct node *node = draft->motion_keys.prescribed;
     if (!node || !draft->motion_known) return true;
     bool turns = body->motion.kind == motion_pivot;
-    const char *name = turns ? "theta" : "x";
+    const char *name = turns ? "theta" : body->motion.kind == motion_track ? "s" : "x";
     struct names names = {.reader = reader, .place = place_load, .body = index};
     struct scope scope = names_scope(&names);
     const int *slots;

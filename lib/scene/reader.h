@@ -177,6 +177,10 @@ void body_parts_start(struct body_keys *keys);
 bool body_parts_read(struct reader *reader, int body);
 bool body_motion_read(struct reader *reader, int body);
 
+/* The curve of a track, when its keys are read; where the body starts on it (read_track.c). */
+bool track_read(struct reader *reader, int body);
+bool track_initial_read(struct reader *reader, int body, struct initial_keys *keys);
+
 /* What it moves on: the motions of all bodies are read by then (read_parent.c). */
 bool body_parent_read(struct reader *reader, int body);
 

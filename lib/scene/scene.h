@@ -16,6 +16,7 @@
 #include "base/arena.h"
 #include "base/diag.h"
 #include "base/vec.h"
+#include "expr/curve.h"
 #include "expr/expr.h"
 #include "scene/tables.h"
 
@@ -85,20 +86,26 @@ enum motion_kind {
     motion_particle, /* x, y */
     motion_planar,   /* x, y, theta */
     motion_weld,     /* none: fixed on another body */
+    motion_track,    /* s along a curve */
 };
 
-enum { motion_kinds_count = motion_weld + 1 };
+enum { motion_kinds_count = motion_track + 1 };
 
 enum { ground_body = -1 };
 
 struct motion {
     enum motion_kind kind;
     struct pos at;
-    int parent;         /* body that it moves on, or ground_body */
-    double along;       /* slide: direction of +x in the parent frame; weld: angle of the body frame [rad] */
-    struct vec through; /* slide: where x = 0; pivot: the axis O; weld: the joint; all in the parent frame */
-    struct value prescribed; /* slide, pivot: the coordinate as a function of t; expr NULL when it is free */
-    struct vec point;        /* pivot, weld: the point of the body that sits there, in the body frame */
+    int parent;   /* body that it moves on, or ground_body */
+    double along; /* slide: direction of +x in the parent frame; weld: angle of the body frame [rad] */
+    struct vec
+        through; /* slide: where x = 0; pivot: the axis O; weld: the joint; track: where the curve has its
+                           origin; all in the parent frame */
+    struct value
+        prescribed;   /* slide, pivot, track: the coordinate as a function of t; expr NULL when it is free */
+    struct vec point; /* pivot, weld, track: the point of the body that sits there, in the body frame */
+    const struct curve *curve; /* track: in the parent frame, from `through` */
+    bool turns;                /* track: the x axis of the body frame is its tangent */
 };
 
 /* ---- what acts */

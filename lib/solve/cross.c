@@ -3,13 +3,38 @@
 
 #include <string.h>
 
+#include "dynamics/kinematics.h"
 #include "expr/table.h"
 #include "solve/passages.h"
 
+/* Pieces of a curve are switches of its body, and of no load. */
+static bool is_track(const struct run *run, const struct kink *kink)
+{
+    return kink->load < 0 && kink->body >= 0 && run->model->bodies[kink->body].kind == motion_track;
+}
+
+static void end_track(struct run *run, int b, int end)
+{
+    const struct model_body *body = &run->model->bodies[b];
+    struct instant at = state_instant(run->state);
+    struct pose pose = body_pose(body, &at);
+    struct vec P = point_motion(body, &pose, body->pin).p;
+    run_note(run, FBD_EVENT_TRACK_END, b, -1, -1);
+    run_fail(
+        run, FBD_BROKEN,
+        "at t = %.9g `%s` comes to the %s of its track, at (%.6g, %.6g): say where it goes on (`from`, `to`, "
+        "`closed: true`), or end the run before",
+        run_time(run), body->name, end ? "end" : "beginning", P.x, P.y);
+}
+
 /* A table that ends with `beyond: error` ends the run, and the state stays on its last piece. */
-static bool end_table(struct run *run, const struct table *table, int end, int piece)
+static bool end_table(struct run *run, const struct kink *kink, const struct table *table, int end, int piece)
 {
     if (!table || !table_has_ended(table, piece)) return false;
+    if (is_track(run, kink)) {
+        end_track(run, kink->body, end);
+        return true;
+    }
     run_fail(run, FBD_BROKEN,
              "at t = %.9g the table `%s` %s (`beyond: error`): it has no value %s. Give it more points, say "
              "what is "
@@ -101,8 +126,9 @@ void run_cross(struct run *run, const struct watcher *watcher)
     const struct table *table = expr_switch_table(kink->formula.expr, (size_t)watcher->part);
     if (follows_crossed(run, kink, watcher->part)) return;
     run->decided.branches[index] = true;
-    if (end_table(run, table, watcher->end, next)) return;
+    if (end_table(run, kink, table, watcher->end, next)) return;
     run->state->branch[index] = next;
+    if (is_track(run, kink)) return;
     if (is_smooth(table, watcher->end, next)) return;
     passages_remember(run, watcher);
     struct run_event *event = run_note(run, FBD_EVENT_SWITCH, kink->body, kink->load, -1);

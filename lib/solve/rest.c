@@ -9,6 +9,7 @@
 #include "dynamics/modes.h"
 #include "dynamics/own.h"
 #include "dynamics/statics.h"
+#include "expr/table.h"
 #include "solve/equilibrium.h"
 #include "solve/start.h"
 #include "solve/statics.h"
@@ -87,12 +88,25 @@ static bool refuse(const struct fbd_state *state, fbd_errors *errors)
     return false;
 }
 
+/* Is it beyond the end of a table or a track, where nothing is? */
+static bool is_beyond_an_end(const struct fbd_state *state)
+{
+    const struct plan *plan = &state->model->plan;
+    for (size_t i = 0; i < plan->kink_count; i++)
+        for (size_t part = 0; part < plan->kinks[i].count; part++) {
+            const struct table *table = expr_switch_table(plan->kinks[i].formula.expr, part);
+            int piece = state->branch[(size_t)plan->kinks[i].formula.branch + part];
+            if (table && plan->kinks[i].body >= 0 && table_has_ended(table, piece)) return true;
+        }
+    return false;
+}
+
 bool equilibrium_holds(struct fbd_state *state)
 {
     const double rounding = 1e-6;
     double most = 0;
     if (state->model->plan.kink_count == 0) return true;
-    if (!modes_settle(state, NULL)) return false;
+    if (!modes_settle(state, NULL) || is_beyond_an_end(state)) return false;
     for (int i = 0; i < state->model->plan.n; i++) most = larger(most, fabs(state->a[i]));
     for (int i = 0; i < state->model->plan.own; i++)
         if (!(fabs(state->a[state->model->plan.n + i]) <= rounding * own_rate_size(state, i))) return false;

@@ -107,11 +107,17 @@ static bool has_joints(const struct fbd_model *model)
     return false;
 }
 
+/* On a track the normal force grows with v^2, and friction with it; so does what turns a body along. */
+static bool is_pressed_by_speed(const struct model_body *body)
+{
+    return body->kind == motion_track && (body->friction >= 0 || body->inertia.I_G > 0 || body->L > 0);
+}
+
 static bool velocity_free(const struct fbd_model *model)
 {
     if (has_joints(model)) return false;
     for (size_t b = 0; b < model->body_count; b++)
-        if (has_centrifugal_term(&model->bodies[b])) return false;
+        if (has_centrifugal_term(&model->bodies[b]) || is_pressed_by_speed(&model->bodies[b])) return false;
     for (size_t i = 0; i < model->load_count; i++)
         if (depends_on_velocity(model, model->loads[i].source)) return false;
     return true;
@@ -153,7 +159,8 @@ static enum expr_degree degree_of_applied(const struct fbd_model *model, const s
         return size;
     case motion_particle: return size;
     case motion_pivot: return source->body_frame ? size : expr_nonlinear;
-    case motion_weld: return expr_nonlinear;
+    case motion_weld:
+    case motion_track: return expr_nonlinear;
     case motion_planar: break;
     }
     bool at_origin = load->point.x == 0 && load->point.y == 0;
@@ -231,7 +238,8 @@ static enum expr_degree accelerations_vary(const struct fbd_model *model)
     enum expr_degree worst = expr_constant_between;
     if (has_joints(model)) return expr_nonlinear;
     for (size_t b = 0; b < model->body_count; b++)
-        if (has_centrifugal_term(&model->bodies[b])) return expr_nonlinear;
+        if (has_centrifugal_term(&model->bodies[b]) || model->bodies[b].kind == motion_track)
+            return expr_nonlinear;
     for (size_t i = 0; i < model->load_count; i++) {
         const struct model_load *load = &model->loads[i];
         worst = worse(worst, degree_of_load(model, &model->bodies[load->body], load));

@@ -80,6 +80,7 @@ function measure() {
     for (const body of run.bodies) {
       const frame = frameAt(body, t, row);
       take(frame.x, frame.y);
+      if (body.track && body.track.on < 0 && !i) for (const point of body.track.points) take(...point);
       for (const shape of body.shapes) for (const point of shapePoints(shape)) take(...shapePoint(body, frame, point));
       for (const { arrow } of body.arrows) {
         forces.push(Math.hypot(valueAt(arrow[0], t, row), valueAt(arrow[1], t, row)));
@@ -222,6 +223,12 @@ function drawLine(body) {
   }
 }
 
+// The curve that the body runs on, in the frame of what it lies on; on the ground (null) in the world.
+function drawTrack(body, frame) {
+  path(body.track.points.map((point) => toScreen(frame ? place(frame, ...point) : point)));
+  strokeWith(view.colour.line, 1.5);
+}
+
 function drawAxis(body) {
   const hangs = Math.hypot(...body.G) > 0 && body.G[1] <= 0.3 * Math.hypot(...body.G);
   drawBearing(...toScreen(body.axis), hangs ? -1 : 1);
@@ -283,6 +290,7 @@ function drawStill() {
     if (!drawn.has(same)) drawLine(body);
     drawn.add(same);
   }
+  for (const body of run.bodies) if (body.track && body.track.on < 0) drawTrack(body, null);
   drawStillTies();
   pen = moving;
 }
@@ -430,6 +438,7 @@ function drawScene(t, shows, chosen) {
   pen.drawImage(still, 0, 0, view.width, view.height);
   if (shows.trace) for (const body of run.bodies) drawTrace(body, t);
   for (const link of run.links) drawLink(link, frames);
+  for (const body of run.bodies) if (body.track && body.track.on >= 0) drawTrack(body, frames[body.track.on]);
   drawTiesUnder(frames);
   run.bodies.forEach((body, i) => drawBody(body, frames[i]));
   drawTiesOver(frames, t, row);
