@@ -18,17 +18,20 @@ double friction_surface_speed(const struct friction *friction, const struct inst
                           formula_branches(&friction->surface_speed, at), acceleration);
 }
 
+double formula_third(const struct formula *formula, const struct instant *at)
+{
+    double d_a, d_b, h = 1e-4 * fmax(1, fabs(at->t)), low, high;
+    const int *branch = formula_branches(formula, at);
+    expr_eval_second(formula->expr, at->t - h, at->y, 0, 0, branch, &d_a, &d_b, &low);
+    expr_eval_second(formula->expr, at->t + h, at->y, 0, 0, branch, &d_a, &d_b, &high);
+    return (high - low) / (2 * h);
+}
+
 double friction_surface_jerk(const struct friction *friction, const struct instant *at)
 {
     double d_a, d_b, jerk = 0;
-    if (friction->kind == mode_drive && friction->position.expr) {
-        /* Expressions know two derivatives; the third only enters how accelerations vary with time. */
-        double h = 1e-4 * fmax(1, fabs(at->t)), low, high;
-        const int *branch = formula_branches(&friction->position, at);
-        expr_eval_second(friction->position.expr, at->t - h, at->y, 0, 0, branch, &d_a, &d_b, &low);
-        expr_eval_second(friction->position.expr, at->t + h, at->y, 0, 0, branch, &d_a, &d_b, &high);
-        return (high - low) / (2 * h);
-    }
+    if (friction->kind == mode_drive && friction->position.expr)
+        return formula_third(&friction->position, at);
     if (friction->surface_speed.expr)
         expr_eval_second(friction->surface_speed.expr, at->t, at->y, 0, 0,
                          formula_branches(&friction->surface_speed, at), &d_a, &d_b, &jerk);

@@ -30,6 +30,10 @@ struct friction_values {
 double friction_surface_speed(const struct friction *friction, const struct instant *at,
                               double *acceleration);
 
+/* The third derivative of a formula of t: expressions know two, and this one only enters how accelerations
+ * vary with time. */
+double formula_third(const struct formula *formula, const struct instant *at);
+
 /* The rate of change of that acceleration with time. */
 double friction_surface_jerk(const struct friction *friction, const struct instant *at);
 

@@ -9,7 +9,7 @@ void impulse_look(struct fbd_state *state)
 {
     struct instant at = state_instant(state);
     tree_move(state->model, &at);
-    constraints_evaluate(state->model, state->tree, false);
+    constraints_evaluate(state->model, &at, NULL);
 }
 
 /* The tree without loads and bias, factored for answers; prescribed joints give nothing. */

@@ -54,7 +54,7 @@ bool rest_begin(struct fbd_state *state)
         state->tree->links[i].A = (struct acceleration){0, {0, 0}};
     }
     tree_move(model, &at);
-    constraints_evaluate(model, state->tree, false);
+    constraints_evaluate(model, &at, NULL);
     return true;
 }
 

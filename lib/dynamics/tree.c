@@ -179,7 +179,7 @@ static void close_system(const struct fbd_model *model, const struct instant *at
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
-    constraints_evaluate(model, work, false);
+    constraints_evaluate(model, at, NULL);
     for (int j = 0; j < tree->row_count; j++) work->z[j] = -work->rows[j].g.x2;
     for (int k = 0; k < tree->pair_count; k++) {
         int i = tree->pairs[k];
@@ -192,7 +192,7 @@ static void close_system(const struct fbd_model *model, const struct instant *at
     tree_add_unit(tree, work, a);
     if (tree->meeting_count > 0) drop_rounding(tree, work, a);
     add_result(tree, work);
-    constraints_evaluate(model, work, false); /* with the accelerations that they lead to */
+    constraints_evaluate(model, at, NULL); /* with the accelerations that they lead to */
 }
 
 void tree_accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a)

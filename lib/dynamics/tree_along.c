@@ -125,7 +125,7 @@ void tree_accelerations_along(const struct fbd_model *model, const struct instan
     vary_arms(tree, work);
     vary_joint_forces(model, at, along, slots, slots_along);
     if (tree->tie_count > 0) {
-        constraints_evaluate(model, work, true);
+        constraints_evaluate(model, at, along);
         tree_apply_variations(model, at, along);
     }
     tree_inward(tree, work, 1, tree->count);

@@ -146,6 +146,7 @@ static size_t fill_end(const struct tie *tie, int k, const struct instant *at, s
 {
     const struct row *rows = &at->tree->rows[tie->first_row];
     arrows[0] = row_arrow(at, &rows[0], k, tie->end[k].name[0]);
+    if (tie->reels) arrows[0].load = tie->load; /* any other rope does no work in all */
     if (tie->row_count == 1) return 1;
     arrows[1] = row_arrow(at, &rows[1], k, tie->end[k].name[1]);
     if (tie->kind == constraint_pin) {

@@ -172,6 +172,7 @@ static bool set_named_ties(struct builder *builder)
         source->name =
             rope || contact ? constraint->name : arena_printf(&model->arena, "%s.friction", constraint->name);
         source->at = constraint->at;
+        source->reels = constraint->reel.expr != NULL;
         set_load(builder, &model->loads[next++], source, constraint_first_body(constraint));
     }
     return true;

@@ -57,8 +57,9 @@ static void plan_contact(struct builder *builder, struct tie *tie)
 }
 
 /* A rope is taut or slack. */
-static void plan_rope(struct fbd_model *model, struct tie *tie)
+static void plan_rope(struct builder *builder, struct tie *tie)
 {
+    struct fbd_model *model = builder->model;
     struct plan *plan = &model->plan;
     int first = 0;
     while (tie->end[first].body < 0) first++; /* a piece begins or ends at a body */
@@ -70,6 +71,10 @@ static void plan_rope(struct fbd_model *model, struct tie *tie)
                                                                 .hold_slot = 0,
                                                                 .tie = (int)(tie - model->tree->ties),
                                                                 .jointed = true};
+    if (!tie->reels) return;
+    tie->reel = builder_formula(builder, &model->scene->constraints[tie->constraint].reel,
+                                tie->end[first].body, tie->load);
+    tie->length = expr_eval(tie->reel.expr, 0, NULL, NULL);
 }
 
 /* A prescribed motion is a joint that sticks to a surface which moves so. */
@@ -109,7 +114,7 @@ void plan_ties(struct builder *builder)
         else if (tie->kind == constraint_contact)
             plan_contact(builder, tie);
         else
-            plan_rope(model, tie);
+            plan_rope(builder, tie);
     }
     for (size_t b = 0; b < model->body_count; b++) plan_drive(builder, &model->bodies[b]);
 }

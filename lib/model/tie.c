@@ -51,9 +51,25 @@ static struct tie *add_tie(struct fbd_model *model, int index, int from, int to)
     return tie;
 }
 
+bool model_is_driven(const struct fbd_model *model)
+{
+    for (size_t i = 0; i < model->plan.friction_count; i++) {
+        const struct friction *hold = &model->plan.frictions[i];
+        if (hold->kind == mode_drive || (hold->kind == mode_rope && model->tree->ties[hold->tie].reels))
+            return true;
+    }
+    return false;
+}
+
 void tie_of_contact(struct fbd_model *model, int index, int meeting)
 {
     add_tie(model, index, 0, 1)->meeting = meeting;
+}
+
+static void wind(const struct constraint *source, int end, struct tie *tie)
+{
+    tie->wound[end] = source->wound[end];
+    tie->spare[end] = source->spare[end];
 }
 
 /* A rope is cut at the pulleys that it takes along; each piece is a tie. */
@@ -65,6 +81,9 @@ static void add_rope(struct fbd_model *model, int index)
         bool held = k + 1 == source->end_count || source->radius[k] > 0;
         if (!held) continue;
         struct tie *tie = add_tie(model, index, from, k);
+        if (from == 0) wind(source, 0, tie);
+        if (k + 1 == source->end_count) wind(source, 1, tie);
+        tie->reels = from == 0 && source->reel.expr;
         /* A length in the file is that of the whole rope; pieces keep theirs of the start. */
         if (from > 0 || k + 1 < source->end_count) tie->length_given = false;
         from = k;
@@ -93,7 +112,7 @@ static void name_end(struct fbd_model *model, struct tie *tie, int k)
     if (tie_has_surface(tie)) {
         end->name[0] = arena_printf(arena, "%s.normal", tie->name);
         end->name[1] = arena_printf(arena, "%s.friction", tie->name);
-    } else if (tie->kind == constraint_rope && end->radius > 0) {
+    } else if (tie->kind == constraint_rope && end->radius > 0 && tie->wound[k > 0] == 0) {
         int neighbour = tie->end[k == 0 ? 1 : k - 1].body;
         end->name[0] = arena_printf(arena, "%s.%s", tie->name,
                                     neighbour == ground_body ? "ground" : model->bodies[neighbour].name);

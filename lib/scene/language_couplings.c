@@ -55,10 +55,33 @@ static const struct field gear_fields[] = {
 static const struct group gear_group =
     COUPLING_GROUP("a gear", gear_fields, "two pitch circles that roll on each other without slip");
 
+static const struct choice wound_sides[] = {
+    {"left", wound_left, "it leaves the disc at its left"},
+    {"right", wound_right, "at its right"},
+    {"top", wound_top, "at its top"},
+    {"bottom", wound_bottom, "at its bottom"},
+};
+
+#define WOUND(member) offsetof(struct wound_keys, member)
+
+static const struct field wound_fields[] = {
+    FIELD_NODE(WOUND(on), "on", field_scalar, required, NULL, "the first or the last place of `through`"),
+    {"side", field_choice, a_number, required, WOUND(side), FIELDS(wound_sides), NULL, one_value, NULL,
+     "where the rope leaves the disc at the start"},
+    FIELD_NUMBER(WOUND(radius), "radius", a_length, positive, "of the disc; default that of its shape"),
+    FIELD_NUMBER(WOUND(length), "length", a_length, positive,
+                 "what is wound on it at the start, where the run ends when it is used up; default enough"),
+};
+const struct group wound_group = {"`wound`", NULL, FIELDS(wound_fields),
+                                  NULL,      0,    "a rope that is wound on a disc"};
+
 static const struct field rope_fields[] = {
     FIELD_ENTRIES(COUPLING(through), "through", field_list, required, each_word, NULL,
                   "its way: ends and points as in `between`; a disc that turns is a pulley"),
-    FIELD_NUMBER(COUPLING(length), "length", a_length, positive, "its length; default taut at the start"),
+    FIELD_VALUE(COUPLING(reel), "length", a_length, positive,
+                "its length, also as an expression of t; default taut at the start"),
+    FIELD_ENTRIES(COUPLING(wound), "wound", field_any, 0, each_group, &wound_group,
+                  "the disc at an end of it that it is wound on"),
 };
 static const struct group rope_group = COUPLING_GROUP("a rope", rope_fields, "inextensible and massless");
 

@@ -147,6 +147,8 @@ struct load {
     double free_length; /* spring with an anchor; neutral coordinate without */
     double coefficient; /* damper: N s/m or N m s/rad */
 
+    bool reels; /* rope: its length goes with the time, which takes or gives work */
+
     double linear, quadratic; /* drag: N s/m, N s^2/m^2 */
     /* The wind that it is in, if any. What follows is in `fx` and `fy`: the part of linear drag that is beyond
      * the drag in still air, c w, and the whole of any other, -(c + k |v - w|) (v - w). */
@@ -243,6 +245,9 @@ struct contact_law {
 
 enum { most_constraint_ends = 8 };
 
+/* Of the two ways round a disc the one on which the point of tangency is farther to that side. */
+enum wound_side { wound_left = 1, wound_right, wound_top, wound_bottom };
+
 struct constraint {
     enum constraint_kind kind;
     const char *name;
@@ -252,6 +257,10 @@ struct constraint {
     struct point point[most_constraint_ends];
     double radius[most_constraint_ends]; /* gear, roll, rack; rope: of the disc at this place, else 0 */
     int side[most_constraint_ends];      /* rope: +1 when it goes counter-clockwise round the disc */
+    int wound[2];      /* rope: where it leaves the disc at its first and last place that it is wound on, enum
+                          wound_side; 0 without one */
+    double spare[2];   /* and how much of it is wound there at the start; HUGE_VAL: enough */
+    struct value reel; /* rope: its length where it varies with the time; else expr NULL */
     bool length_given;
     double length;              /* rod, rope */
     double along;               /* roll, rack: direction of the line in the frame of end 1 */

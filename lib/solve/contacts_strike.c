@@ -130,11 +130,7 @@ static double taken_by(const struct contacts_work *work, int count)
 {
     const double *P = work->P, *v = work->v;
     double taken = 0;
-    for (int i = 0; i < count; i++, P += 2, v += 2) {
-        const struct striker *striker = &work->strikers[i];
-        taken += P[0] * (striker->v_n + v[0]) / 2;
-        if (!striker->rope) taken += P[1] * (striker->v_t + v[1]) / 2;
-    }
+    for (int i = 0; i < count; i++, P += 2, v += 2) taken += striker_taken(&work->strikers[i], v, P);
     return taken;
 }
 
@@ -163,7 +159,7 @@ void contacts_apply_impulses(struct run *run, int count)
 {
     struct contacts_work *work = &run->contacts;
     size_t n = (size_t)run->model->plan.n;
-    bool drives = tree_has_drives(run->model);
+    bool drives = model_is_driven(run->model);
     double before = drives ? jointed_kinetic_energy(run->state) : 0;
     for (int i = 0; i < 2 * count; i++) {
         double P = impulse_of(work, i);

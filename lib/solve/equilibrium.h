@@ -25,4 +25,7 @@ int equilibrium_search(struct fbd_state *state);
 bool equilibrium_holds(struct fbd_state *state);
 void equilibrium_refuse(fbd_errors *errors);
 
+/* Note that a rope is hauled in or paid out, if one is, so that there is no state of rest. */
+bool equilibrium_refuse_reels(const struct fbd_model *model, fbd_errors *errors);
+
 #endif
