@@ -68,6 +68,7 @@ static void evaluate(const struct view *view, const struct tie *tie, const struc
         row_line(view, tie, &at, state->zero, rolls ? &rows[0] : NULL, rolls ? &rows[1] : &rows[0]);
         break;
     }
+    case constraint_belt: belt_rows(view, tie, state, rows); break;
     case constraint_contact: contact_rows(view, tie, state, rows); break;
     }
 }
@@ -100,8 +101,13 @@ void constraints_start(const struct fbd_model *model, const struct instant *at)
             if (vec_cross(jet_value(e), jet_value(d)) < 0) state->side[0] = -1;
         }
         if (tie->kind == constraint_rope) rope_start(model, &view, tie, state);
+        if (tie->kind == constraint_belt) belt_start(&view, tie, state);
         if (tie->kind == constraint_pin || tie->kind == constraint_contact) continue;
         evaluate(&view, tie, state, rows);
+        if (tie->kind == constraint_belt) {
+            for (int k = 0; k < tie->row_count; k++) state->laid[k] = rows[k].g.x;
+            continue;
+        }
         state->zero =
             tie->length_given ? tie->length + state->laid[0] + state->laid[1] : rows[tie->row_count - 1].g.x;
     }

@@ -10,6 +10,8 @@
  *   rope   g = sum of the straight pieces + s_1 R_1 (psi_1 - theta_1) + s_2 R_2 (theta_2 - psi_2) - L, with psi
  *          the angle of the piece that leaves or reaches a pulley, s = +1 when it runs counter-clockwise there;
  *          also where it begins or ends wound on a disc; L may be a function of t
+ *   belt   g = (g_1 - g_2) / 2 of its strands, as ropes from disc 1 to disc 2 and back; and g_1 + g_2, where the axes
+ *          move
  *   roll   g = n . (C - P) - R, and the rack's row
  *   contact, at a side: as roll, with the side's outward normal; of two circles:
  *          g = |C_1 - C_2| - R_1 - R_2, and R_1 (phi - theta_1) + R_2 (phi - theta_2) along them, phi the
@@ -47,8 +49,9 @@ struct tie_state {
     int side[2];
     double psi[2];    /* of a rope: the directions of its first and last piece at the start */
     double turned[2]; /* and how far they have turned since, by constraints_follow */
-    double laid[2];   /* what the first and the last disc of a rope add to its way at the start */
-    int feature;      /* contact: at which it is; no_feature while it is open */
+    double laid
+        [2]; /* what the first and the last disc of a rope add to its way at the start; of a belt: its rows */
+    int feature; /* contact: at which it is; no_feature while it is open */
 };
 
 enum { no_feature = -1 };
@@ -103,6 +106,9 @@ double rope_wound(const struct fbd_model *model, const struct tree_work *work, i
 /* The shortest of the straight pieces of a rope, as a share of the discs and of the length that it is measured by;
  * `from`: its place on the way. */
 double rope_shortest(const struct fbd_model *model, const struct tree_work *work, int index, int *from);
+
+/* The tensions of the strands of a belt, as its rows have them. */
+void belt_tensions(const struct fbd_model *model, const struct tree_work *work, int index, double tension[2]);
 
 /* How fast the length of a rope grows by itself. */
 struct fbd_state;

@@ -150,11 +150,15 @@ bool rope_goes_on(const struct tree *tree, int index)
     return tie->end[tie->end_count - 1].radius > 0 && tie[1].constraint == tie->constraint;
 }
 
+static struct piece strand_of(const struct view *view, const struct tie *tie, int strand);
+
 static double turned_now(const struct fbd_model *model, const struct tree_work *work, int index, int end)
 {
     struct view view = {model->tree, work, false, NULL, NULL};
     const struct tie_state *state = &work->ties[index];
-    return turned_at(state, end, piece_at(&view, &model->tree->ties[index], state, end).u).x;
+    const struct tie *tie = &model->tree->ties[index];
+    bool belt = tie->kind == constraint_belt;
+    return turned_at(state, end, belt ? strand_of(&view, tie, end).u : piece_at(&view, tie, state, end).u).x;
 }
 
 double rope_wrap(const struct fbd_model *model, const struct tree_work *work, int index)
@@ -171,10 +175,69 @@ void constraints_follow(const struct fbd_model *model, struct tree_work *work)
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
         struct tie_state *state = &work->ties[i];
-        if (tie->kind != constraint_rope) continue;
+        if (tie->kind != constraint_rope && tie->kind != constraint_belt) continue;
         for (int end = 0; end < 2; end++)
             if (state->side[end] != 0) state->turned[end] = turned_now(model, work, i, end);
     }
+}
+
+/* ---- belts
+ *
+ * Strand 0 leaves disc 0 on its right, round which the belt runs counter-clockwise, and strand 1 comes back. */
+
+static struct piece strand_of(const struct view *view, const struct tie *tie, int strand)
+{
+    double sR[2] = {tie->end[0].radius, (tie->crossed ? -1 : 1) * tie->end[1].radius};
+    int from = strand, to = 1 - strand;
+    return piece_between(point_of(view, &tie->end[from]), sR[from], point_of(view, &tie->end[to]), sR[to]);
+}
+
+/* How much belt there is in a strand, counted from where the discs take it along. */
+static struct jet strand_way(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                             int strand, const struct piece *piece)
+{
+    double sR[2] = {tie->end[0].radius, (tie->crossed ? -1 : 1) * tie->end[1].radius};
+    int from = strand, to = 1 - strand;
+    struct jet turned = turned_at(state, strand, piece->u);
+    struct jet leaves = jet_sub(turned, angle_of(view, tie->end[from].link));
+    struct jet comes = jet_sub(angle_of(view, tie->end[to].link), turned);
+    return jet_add(piece->t, jet_add(jet_scale(sR[from], leaves), jet_scale(sR[to], comes)));
+}
+
+void belt_rows(const struct view *view, const struct tie *tie, const struct tie_state *state,
+               struct row *rows)
+{
+    struct piece piece[2] = {strand_of(view, tie, 0), strand_of(view, tie, 1)};
+    struct jet way[2];
+    for (int k = 0; k < 2; k++) way[k] = strand_way(view, tie, state, k, &piece[k]);
+    for (int j = 0; j < tie->row_count; j++) {
+        double share[2] = {j == 0 ? 0.5 : 1, j == 0 ? -0.5 : 1};
+        start_row(&rows[j], jet_add(jet_scale(share[0], way[0]), jet_scale(share[1], way[1])));
+        rows[j].g.x -= state->laid[j];
+        for (int k = 0; k < 2; k++) {
+            struct jet_vec along = jet_vec_times(jet_constant(share[k]), piece[k].u);
+            add_port(view, &rows[j], tie, k, piece[k].Q1, negative(along));
+            add_port(view, &rows[j], tie, 1 - k, piece[k].Q2, along);
+        }
+    }
+}
+
+void belt_start(const struct view *view, const struct tie *tie, struct tie_state *state)
+{
+    state->side[1] = tie->crossed ? -1 : 1;
+    for (int k = 0; k < 2; k++) {
+        struct jet_vec u = strand_of(view, tie, k).u;
+        state->psi[k] = atan2(u.y.x, u.x.x);
+    }
+}
+
+void belt_tensions(const struct fbd_model *model, const struct tree_work *work, int index, double tension[2])
+{
+    const struct tie *tie = &model->tree->ties[index];
+    const struct row *rows = &work->rows[tie->first_row];
+    double both = tie->preload - (tie->row_count > 1 ? rows[1].lambda : 0);
+    tension[0] = both - rows[0].lambda / 2;
+    tension[1] = both + rows[0].lambda / 2;
 }
 
 /* ---- what is wound on a disc */

@@ -114,6 +114,11 @@ void rope_start(const struct fbd_model *model, const struct view *view, const st
                 struct tie_state *state);
 void rope_start_wrap(const struct tree *tree, struct tree_work *work, int index);
 
+/* Of a belt: half the difference of its strands, and their sum. `laid` has their values at the start. */
+void belt_rows(const struct view *view, const struct tie *tie, const struct tie_state *state,
+               struct row *rows);
+void belt_start(const struct view *view, const struct tie *tie, struct tie_state *state);
+
 /* The rows of a contact at its feature (constraint_contact.c). */
 void contact_rows(const struct view *view, const struct tie *tie, const struct tie_state *state,
                   struct row *rows);

@@ -89,6 +89,7 @@ static struct arrow load_arrow(const struct fbd_model *model, int index, const s
         break;
     }
     case load_rope:
+    case load_belt:
     case load_contact:
     case load_normal: break; /* a reaction: see below */
     case load_friction:
@@ -141,6 +142,25 @@ static struct arrow row_arrow(const struct instant *at, const struct row *row, i
 
 enum { most_of_an_end = 2 };
 
+/* The strands of a belt at its end k: a row has its ports at both ends of strand 0, then of strand 1. */
+static size_t fill_strands(const struct fbd_model *model, int index, int k, const struct instant *at,
+                           struct arrow *arrows)
+{
+    const struct tie *tie = &model->tree->ties[index];
+    const struct row *row = &at->tree->rows[tie->first_row];
+    double tension[2];
+    belt_tensions(model, at->tree, index, tension);
+    for (int strand = 0; strand < 2; strand++) {
+        const struct port *port = &row->ports[2 * strand + (k == strand ? 0 : 1)];
+        double share = strand == 0 ? 0.5 : -0.5; /* which the row has of its force */
+        arrows[strand] = (struct arrow){.name = tie->end[k].name[strand],
+                                        .load = -1,
+                                        .point = vec_add(at->tree->links[port->link].p, port->arm),
+                                        .force = vec_scale(-tension[strand] / share, port->force)};
+    }
+    return 2;
+}
+
 /* What a tie does at its end k: one force, or for a rolling body those along and across its line. */
 static size_t fill_end(const struct tie *tie, int k, const struct instant *at, struct arrow *arrows)
 {
@@ -164,7 +184,10 @@ static size_t fill_ties(const struct fbd_model *model, int b, const struct insta
     size_t count = 0;
     for (int i = 0; i < tree->tie_count; i++)
         for (int k = 0; k < tree->ties[i].end_count; k++)
-            if (tree->ties[i].end[k].body == b) count += fill_end(&tree->ties[i], k, at, arrows + count);
+            if (tree->ties[i].end[k].body == b)
+                count += tree->ties[i].kind == constraint_belt
+                             ? fill_strands(model, i, k, at, arrows + count)
+                             : fill_end(&tree->ties[i], k, at, arrows + count);
     return count;
 }
 

@@ -99,6 +99,7 @@ static struct verdict judge(const struct model_body *body, const struct model_lo
             return (struct verdict){potential_none,
                                     "not conservative: whatever its length, a function of t, takes"};
         return (struct verdict){potential_none, "does no work, except when it snaps taut"};
+    case load_belt: return (struct verdict){potential_none, "does no work: it passes it on"};
     case load_contact:
         return (struct verdict){potential_none, "not conservative: impacts and friction take energy"};
     case load_normal: return (struct verdict){potential_workless, "does no work: it acts across the motion"};

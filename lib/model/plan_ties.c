@@ -77,6 +77,18 @@ static void plan_rope(struct builder *builder, struct tie *tie)
     tie->length = expr_eval(tie->reel.expr, 0, NULL, NULL);
 }
 
+/* No strand of a belt pushes. What does not move with the axes is a pull between them that is known, of a spring that
+ * keeps its length (gear_check.c). */
+static void plan_belt(struct fbd_model *model, struct tie *tie)
+{
+    struct plan *plan = &model->plan;
+    for (int k = 0; k < 2; k++) {
+        tie->slack_slot[k] = plan->slots++;
+        plan->contacts[plan->contact_count++] =
+            (struct contact){tie->end[0].body, tie->load, tie->slack_slot[k], -1};
+    }
+}
+
 /* A prescribed motion is a joint that sticks to a surface which moves so. */
 static void plan_drive(struct builder *builder, struct model_body *body)
 {
@@ -103,7 +115,7 @@ void plan_ties(struct builder *builder)
     int load = (int)model->coupled_count - 1, last = -1;
     for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
         struct tie *tie = &model->tree->ties[i];
-        bool named = tie_has_surface(tie) || tie->kind == constraint_rope;
+        bool named = tie_has_surface(tie) || tie->kind == constraint_rope || tie->kind == constraint_belt;
         if (!named) continue;
         if (tie->constraint != last)
             load++; /* the pieces of a rope share one, and the features of a contact */
@@ -113,6 +125,8 @@ void plan_ties(struct builder *builder)
             plan_roll(builder, tie);
         else if (tie->kind == constraint_contact)
             plan_contact(builder, tie);
+        else if (tie->kind == constraint_belt)
+            plan_belt(model, tie);
         else
             plan_rope(builder, tie);
     }

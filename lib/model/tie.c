@@ -33,7 +33,8 @@ static struct tie *add_tie(struct fbd_model *model, int index, int from, int to)
     const struct constraint *source = &model->scene->constraints[index];
     struct tie *tie = &tree->ties[tree->tie_count++];
     bool double_row = source->kind == constraint_pin || source->kind == constraint_roll ||
-                      source->kind == constraint_contact;
+                      source->kind == constraint_contact ||
+                      (source->kind == constraint_belt && source->tension == 0);
     *tie = (struct tie){.kind = source->kind,
                         .constraint = index,
                         .name = source->name,
@@ -41,6 +42,8 @@ static struct tie *add_tie(struct fbd_model *model, int index, int from, int to)
                         .row_count = double_row ? 2 : 1,
                         .length_given = source->length_given,
                         .length = source->length,
+                        .preload = source->tension,
+                        .crossed = source->crossed,
                         .place = from,
                         .pair = -1,
                         .surface = -1,
@@ -107,11 +110,15 @@ static void name_end(struct fbd_model *model, struct tie *tie, int k)
     struct arena *arena = &model->arena;
     struct tie_end *end = &tie->end[k];
     if (end->body == ground_body) return;
-    model->bodies[end->body].arrow_count += tie_has_surface(tie) ? 2 : 1;
+    bool belt = tie->kind == constraint_belt;
+    model->bodies[end->body].arrow_count += tie_has_surface(tie) || belt ? 2 : 1;
     end->name[0] = tie->name;
     if (tie_has_surface(tie)) {
         end->name[0] = arena_printf(arena, "%s.normal", tie->name);
         end->name[1] = arena_printf(arena, "%s.friction", tie->name);
+    } else if (belt) {
+        end->name[0] = arena_printf(arena, "%s.right", tie->name);
+        end->name[1] = arena_printf(arena, "%s.left", tie->name);
     } else if (tie->kind == constraint_rope && end->radius > 0 && tie->wound[k > 0] == 0) {
         int neighbour = tie->end[k == 0 ? 1 : k - 1].body;
         end->name[0] = arena_printf(arena, "%s.%s", tie->name,
@@ -125,6 +132,8 @@ static void name_rows(struct arena *arena, struct tie *tie)
     if (tie->kind == constraint_pin) {
         tie->row_name[0] = arena_printf(arena, "%s in x", tie->name);
         tie->row_name[1] = arena_printf(arena, "%s in y", tie->name);
+    } else if (tie->kind == constraint_belt) {
+        tie->row_name[1] = arena_printf(arena, "length of %s", tie->name);
     } else if (tie_has_surface(tie)) {
         tie->row_name[0] = arena_printf(arena, "%s.normal", tie->name);
         tie->row_name[1] = arena_printf(arena, "%s.friction", tie->name);

@@ -38,12 +38,15 @@ struct tie {
     double spare[2];     /* and how much there is of it at the start, or HUGE_VAL */
     bool reels;          /* rope: its length goes with the time, from `length` at t = 0 */
     struct formula reel; /* so */
-    int normal_slot;     /* roll: where minus its normal force goes */
-    int load;            /* roll, rope: its entry in the model's loads */
-    int pair;    /* roll, contact: its dry friction; rope: its mode; index into plan.frictions, or -1 */
-    int surface; /* roll, contact: the mode of its normal force, closed (`stick`) or open; index into
+    double preload;      /* belt: `tension` of the file */
+    bool crossed;
+    int slack_slot[2]; /* belt: where minus the tensions of its strands go */
+    int normal_slot;   /* roll: where minus its normal force goes */
+    int load;          /* roll, rope: its entry in the model's loads */
+    int pair;          /* roll, contact: its dry friction; rope: its mode; index into plan.frictions, or -1 */
+    int surface;       /* roll, contact: the mode of its normal force, closed (`stick`) or open; index into
                         plan.frictions, else -1 */
-    int meeting; /* contact: index into tree.meetings, else -1 */
+    int meeting;       /* contact: index into tree.meetings, else -1 */
     int root[most_constraint_ends], root_count; /* first links of the trees that it joins */
 };
 

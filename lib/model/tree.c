@@ -300,6 +300,7 @@ void tree_add_load(struct builder *builder, int index)
     case moment_damper: add_joint_spring(builder, body, source); break;
     case load_drive:
     case load_rope:
+    case load_belt:
     case load_contact:
     case load_normal:
     case load_friction:

@@ -211,8 +211,8 @@ enum { frame_world, frame_body };
 struct coupling_keys {
     const char *name;
     const struct node *between, *through, *radii, *body, *on, *center, *wound;
-    double stiffness, free_length, coefficient, length, radius;
-    bool inside;
+    double stiffness, free_length, coefficient, length, radius, tension;
+    bool inside, crossed;
     struct value mu_s, mu_k, restitution, reel;
     int law, side; /* enum impact_law, enum contact_side */
 };

@@ -85,6 +85,19 @@ static const struct field rope_fields[] = {
 };
 static const struct group rope_group = COUPLING_GROUP("a rope", rope_fields, "inextensible and massless");
 
+static const struct field belt_fields[] = {
+    FIELD_ENTRIES(COUPLING(between), "between", field_list, required, each_word, NULL,
+                  "two bodies that turn"),
+    FIELD_ENTRIES(COUPLING(radii), "radii", field_list, 0, each_number, NULL,
+                  "of the discs; default those of their shapes"),
+    FIELD_FLAG(COUPLING(crossed), "crossed",
+               "true: it crosses itself, and the discs turn against each other"),
+    FIELD_NUMBER(COUPLING(tension), "tension", a_force, positive,
+                 "of both strands while it drives nothing, where the axes keep their distance"),
+};
+static const struct group belt_group =
+    COUPLING_GROUP("a belt", belt_fields, "round two discs that it takes along without slip");
+
 static const struct field roll_fields[] = {
     FIELD_NODE(COUPLING(body), "body", field_scalar, required, NULL, "the body that rolls"),
     FIELD_NODE(COUPLING(on), "on", field_scalar, required, NULL,
@@ -148,6 +161,7 @@ static const struct kind kinds[] = {
     {"rod", coupling_constraint + constraint_rod, &rod_group, ~0u, NULL},
     {"rope", coupling_constraint + constraint_rope, &rope_group, ~0u, NULL},
     {"gear", coupling_constraint + constraint_gear, &gear_group, ~0u, NULL},
+    {"belt", coupling_constraint + constraint_belt, &belt_group, ~0u, NULL},
     {"rack", coupling_constraint + constraint_rack, &rack_group, ~0u, NULL},
     {"roll", coupling_constraint + constraint_roll, &roll_group, ~0u, NULL},
     {"contact", coupling_constraint + constraint_contact, &contact_group, ~0u, NULL},

@@ -138,7 +138,9 @@ static bool needs_body(struct reader *reader, const struct constraint *constrain
     return false;
 }
 
-static bool read_gear(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
+/* Two bodies that turn, with their circles. */
+static bool read_wheels(struct reader *reader, const struct coupling_keys *keys,
+                        struct constraint *constraint)
 {
     double radii[2] = {0, 0};
     if (!coupling_ends_read(reader, keys->between, "between", 2, 2, constraint)) return false;
@@ -151,6 +153,8 @@ static bool read_gear(struct reader *reader, const struct coupling_keys *keys, s
     for (int k = 0; k < 2; k++)
         if (!coupling_circle_set(reader, constraint, k, radii[k])) return false;
     if (keys->inside) constraint->radius[1] = -constraint->radius[1];
+    constraint->crossed = keys->crossed;
+    constraint->tension = keys->tension;
     return true;
 }
 
@@ -232,7 +236,8 @@ static bool read_constraint(struct reader *reader, const struct chosen *chosen,
     switch (constraint->kind) {
     case constraint_pin:
     case constraint_rod: return coupling_ends_read(reader, keys->between, "between", 2, 2, constraint);
-    case constraint_gear: return read_gear(reader, keys, constraint);
+    case constraint_gear:
+    case constraint_belt: return read_wheels(reader, keys, constraint);
     case constraint_rope: return rope_read(reader, keys, constraint);
     case constraint_rack: return read_rack(reader, keys, constraint);
     case constraint_roll: return read_roll(reader, keys, constraint);

@@ -118,6 +118,7 @@ enum load_kind {
     load_drive,   /* not listed: what a prescribed motion takes */
     load_rope,    /* not listed: a rope under `couplings`, see struct constraint */
     load_contact, /* not listed: a contact, likewise */
+    load_belt,    /* not listed: a belt, likewise */
 };
 
 /* One entry of `forces` or `moments`. Fields that a kind does not use are zero. */
@@ -222,6 +223,7 @@ enum constraint_kind {
     constraint_roll,    /* a circle on a line of the ground or of a body */
     constraint_rack,    /* a circle and a line move along together */
     constraint_contact, /* two bodies, or a body and the ground, that meet and part */
+    constraint_belt,    /* a belt round two discs */
 };
 
 /* A convex polygon of the ground, corners counter-clockwise. */
@@ -260,6 +262,8 @@ struct constraint {
     int wound[2];      /* rope: where it leaves the disc at its first and last place that it is wound on, enum
                           wound_side; 0 without one */
     double spare[2];   /* and how much of it is wound there at the start; HUGE_VAL: enough */
+    bool crossed;      /* belt */
+    double tension;    /* belt: of both strands while it drives nothing; 0: as its length says */
     struct value reel; /* rope: its length where it varies with the time; else expr NULL */
     bool length_given;
     double length;              /* rod, rope */
@@ -273,7 +277,7 @@ struct constraint {
 static inline bool constraint_has_load(const struct constraint *constraint)
 {
     return constraint->kind == constraint_roll || constraint->kind == constraint_rope ||
-           constraint->kind == constraint_contact;
+           constraint->kind == constraint_contact || constraint->kind == constraint_belt;
 }
 
 /* The first of its bodies that is not the ground: a rope may begin with points of the ground, one of its

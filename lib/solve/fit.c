@@ -190,7 +190,7 @@ bool fit_blocked(struct fbd_state *state, struct pos *at, struct text *lack)
     state_misfit(state); /* puts the links in their places */
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
-        if (tie->kind != constraint_rope) continue;
+        if (tie->kind != constraint_rope && tie->kind != constraint_belt) continue;
         if (unclear_side(state, i, at, lack)) return true;
         int k = rope_blocked_at(model, state->tree, i);
         if (k < 0) continue;

@@ -273,6 +273,16 @@ function drawRope(tie, before, frames, t, row) {
   tie.reached = points[points.length - 1];
 }
 
+// Both strands, and the belt all round its discs.
+function drawBelt(tie, frames) {
+  const [a, b] = tie.ends.map((end) => tieEnd(end, (body) => frames[body])), [sA, sB] = tie.ends.map((end) => end.side * end.radius);
+  path(straightPiece(a, b, sA, sB).map(toScreen));
+  strokeWith(view.colour.rope, 2.4);
+  path(straightPiece(b, a, sB, sA).map(toScreen));
+  strokeWith(view.colour.rope, 2.4);
+  tie.ends.forEach((end, k) => drawCoil(toScreen(k ? b : a), end.radius));
+}
+
 // Pitch circles are drawn as on an engineer's sheet, dot and dash.
 function drawGear(tie, frames) {
   for (const end of tie.ends) {
@@ -300,6 +310,7 @@ function drawTiesOver(frames, t, row) {
     const places = () => tie.ends.map((end) => toScreen(tieEnd(end, (b) => frames[b])));
     if (tie.kind === "rope") drawRope(tie, run.ties[i - 1], frames, t, row);
     if (tie.kind === "gear") drawGear(tie, frames);
+    if (tie.kind === "belt") drawBelt(tie, frames);
     if (tie.kind === "pin") drawPin(places()[0]);
     if (tie.kind === "rod") {
       path(places());
