@@ -65,8 +65,11 @@ static void write_end(struct text *text, const struct fbd_model *model, const st
 {
     const struct constraint *source = &model->scene->constraints[tie->constraint];
     bool wound = (k == 0 && tie->wound[0] != 0) || (k + 1 == tie->end_count && tie->wound[1] != 0);
-    bool belt = tie->kind == constraint_belt;
-    int side = k == 0 ? state->side[0] : k + 1 == tie->end_count ? state->side[1] : 0;
+    bool belt = tie->kind == constraint_belt || (tie->kind == constraint_capstan && k == 1);
+    int side = tie->kind == constraint_capstan ? (k == 1 ? state->side[0] : 0)
+               : k == 0                        ? state->side[0]
+               : k + 1 == tie->end_count       ? state->side[1]
+                                               : 0;
     json_comma(text, (size_t)k);
     text_printf(text, "{\"body\":%d,", tie->end[k].body);
     json_vector_member(text, "point", end_point(model, source, tie->place + k));
@@ -89,7 +92,8 @@ static int force_column(const struct record *record, const struct tie *tie)
 static void write_tie(struct text *text, const struct record *record, const struct tie *tie,
                       const struct tie_state *state)
 {
-    static const char *const kinds[] = {"pin", "rod", "gear", "rope", "roll", "rack", "contact", "belt"};
+    static const char *const kinds[] = {"pin",  "rod",     "gear", "rope", "roll",
+                                        "rack", "contact", "belt", "rope"};
     const struct fbd_model *model = record->model;
     text_add(text, "\n{");
     json_text_member(text, "kind", kinds[tie->kind]);

@@ -68,6 +68,7 @@ static void evaluate(const struct view *view, const struct tie *tie, const struc
         row_line(view, tie, &at, state->zero, rolls ? &rows[0] : NULL, rolls ? &rows[1] : &rows[0]);
         break;
     }
+    case constraint_capstan: capstan_rows(view, tie, state, rows); break;
     case constraint_belt: belt_rows(view, tie, state, rows); break;
     case constraint_contact: contact_rows(view, tie, state, rows); break;
     }
@@ -101,6 +102,7 @@ void constraints_start(const struct fbd_model *model, const struct instant *at)
             if (vec_cross(jet_value(e), jet_value(d)) < 0) state->side[0] = -1;
         }
         if (tie->kind == constraint_rope) rope_start(model, &view, tie, state);
+        if (tie->kind == constraint_capstan) capstan_start(model, &view, tie, state);
         if (tie->kind == constraint_belt) belt_start(&view, tie, state);
         if (tie->kind == constraint_pin || tie->kind == constraint_contact) continue;
         evaluate(&view, tie, state, rows);
@@ -108,8 +110,12 @@ void constraints_start(const struct fbd_model *model, const struct instant *at)
             for (int k = 0; k < tie->row_count; k++) state->laid[k] = rows[k].g.x;
             continue;
         }
-        state->zero =
-            tie->length_given ? tie->length + state->laid[0] + state->laid[1] : rows[tie->row_count - 1].g.x;
+        if (tie->kind == constraint_capstan) state->laid[0] = rows[0].g.x;
+        if (tie->kind == constraint_capstan && tie->length_given)
+            state->laid[0] = -(tie->length + tie->end[1].radius * capstan_starts_round(tie, state)) / 2;
+        state->zero = tie->length_given && tie->kind != constraint_capstan
+                          ? tie->length + state->laid[0] + state->laid[1]
+                          : rows[tie->row_count - 1].g.x;
     }
     for (int i = 0; i < tree->tie_count; i++) rope_start_wrap(tree, work, i);
 }

@@ -12,6 +12,8 @@
  *          also where it begins or ends wound on a disc; L may be a function of t
  *   belt   g = (g_1 - g_2) / 2 of its strands, as ropes from disc 1 to disc 2 and back; and g_1 + g_2, where the axes
  *          move
+ *   capstan (a rope that rubs on a drum)  g = (L - g_1 - g_2) / 2 and (g_1 - g_2) / 2 of its strands: their multipliers
+ *          are T_1 + T_2 and T_2 - T_1, and T_1 / T_2 <= exp(mu beta) is |T_2 - T_1| <= tanh(mu beta / 2) (T_1 + T_2)
  *   roll   g = n . (C - P) - R, and the rack's row
  *   contact, at a side: as roll, with the side's outward normal; of two circles:
  *          g = |C_1 - C_2| - R_1 - R_2, and R_1 (phi - theta_1) + R_2 (phi - theta_2) along them, phi the
@@ -103,12 +105,22 @@ int rope_blocked_at(const struct fbd_model *model, const struct tree_work *work,
 double rope_wound(const struct fbd_model *model, const struct tree_work *work, int index, int end,
                   double *rate);
 
-/* The shortest of the straight pieces of a rope, as a share of the discs and of the length that it is measured by;
- * `from`: its place on the way. */
-double rope_shortest(const struct fbd_model *model, const struct tree_work *work, int index, int *from);
+/* The straight piece of a rope after place k, as a share of the discs there (without one, of what the rope is long), and
+ * how fast it grows [m/s]. */
+double rope_piece(const struct fbd_model *model, const struct tree_work *work, int index, int k,
+                  double *rate);
 
 /* The tensions of the strands of a belt, as its rows have them. */
 void belt_tensions(const struct fbd_model *model, const struct tree_work *work, int index, double tension[2]);
+
+/* A rope that rubs on a drum: the angle by which it lies on it [rad], and its variation along that of the links, when
+ * `varied`. */
+double capstan_wrap(const struct fbd_model *model, const struct instant *at, int index, bool varied,
+                    double *variation);
+
+/* The tensions of its strands. */
+void capstan_tensions(const struct fbd_model *model, const struct tree_work *work, int index,
+                      double tension[2]);
 
 /* How fast the length of a rope grows by itself. */
 struct fbd_state;

@@ -133,8 +133,10 @@ int rope_blocked_at(const struct fbd_model *model, const struct tree_work *work,
     const struct tie_state *state = &work->ties[index];
     struct view view = {model->tree, work, false, NULL, NULL};
     int last = tie->end_count - 1;
+    bool rubs = tie->kind == constraint_capstan;
     for (int k = 0; k < last; k++) {
-        double sR1 = rim(tie, state, k, 0), sR2 = rim(tie, state, k, 1);
+        double sR1 = rubs ? k * tie->end[1].radius : rim(tie, state, k, 0);
+        double sR2 = rubs ? (1 - k) * tie->end[1].radius : rim(tie, state, k, 1);
         struct vec from = jet_value(point_of(&view, &tie->end[k]));
         struct vec to = jet_value(point_of(&view, &tie->end[k + 1]));
         bool rims = sR1 != 0 || sR2 != 0;
@@ -151,14 +153,18 @@ bool rope_goes_on(const struct tree *tree, int index)
 }
 
 static struct piece strand_of(const struct view *view, const struct tie *tie, int strand);
+static struct piece reach_of(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                             int strand);
 
 static double turned_now(const struct fbd_model *model, const struct tree_work *work, int index, int end)
 {
     struct view view = {model->tree, work, false, NULL, NULL};
     const struct tie_state *state = &work->ties[index];
     const struct tie *tie = &model->tree->ties[index];
-    bool belt = tie->kind == constraint_belt;
-    return turned_at(state, end, belt ? strand_of(&view, tie, end).u : piece_at(&view, tie, state, end).u).x;
+    struct piece piece = tie->kind == constraint_belt      ? strand_of(&view, tie, end)
+                         : tie->kind == constraint_capstan ? reach_of(&view, tie, state, end)
+                                                           : piece_at(&view, tie, state, end);
+    return turned_at(state, end, piece.u).x;
 }
 
 double rope_wrap(const struct fbd_model *model, const struct tree_work *work, int index)
@@ -175,7 +181,8 @@ void constraints_follow(const struct fbd_model *model, struct tree_work *work)
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
         struct tie_state *state = &work->ties[i];
-        if (tie->kind != constraint_rope && tie->kind != constraint_belt) continue;
+        if (tie->kind != constraint_rope && tie->kind != constraint_belt && tie->kind != constraint_capstan)
+            continue;
         for (int end = 0; end < 2; end++)
             if (state->side[end] != 0) state->turned[end] = turned_now(model, work, i, end);
     }
@@ -240,6 +247,81 @@ void belt_tensions(const struct fbd_model *model, const struct tree_work *work, 
     tension[1] = both + rows[0].lambda / 2;
 }
 
+/* ---- ropes that rub on the drum that they go round */
+
+static int side_at(const struct fbd_model *model, const struct view *view, const struct tie *tie, int k);
+
+static struct piece reach_of(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                             int strand)
+{
+    double sR[3] = {0, state->side[0] * tie->end[1].radius, 0};
+    return piece_between(point_of(view, &tie->end[strand]), sR[strand], point_of(view, &tie->end[strand + 1]),
+                         sR[strand + 1]);
+}
+
+void capstan_rows(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                  struct row *rows)
+{
+    double sR = state->side[0] * tie->end[1].radius;
+    struct piece piece[2];
+    struct jet way[2];
+    for (int k = 0; k < 2; k++) {
+        piece[k] = reach_of(view, tie, state, k);
+        struct jet round = jet_sub(turned_at(state, k, piece[k].u), angle_of(view, tie->end[1].link));
+        way[k] = jet_add(piece[k].t, jet_scale(k == 0 ? -sR : sR, round));
+    }
+    for (int j = 0; j < 2; j++) {
+        double share[2] = {j == 0 ? -0.5 : 0.5, -0.5};
+        start_row(&rows[j], jet_add(jet_scale(share[0], way[0]), jet_scale(share[1], way[1])));
+        rows[j].g.x -= j == 0 ? state->laid[0] : state->zero;
+        for (int k = 0; k < 2; k++) {
+            struct jet_vec along = jet_vec_times(jet_constant(share[k]), piece[k].u);
+            add_port(view, &rows[j], tie, k, piece[k].Q1, negative(along));
+            add_port(view, &rows[j], tie, k + 1, piece[k].Q2, along);
+        }
+    }
+}
+
+void capstan_start(const struct fbd_model *model, const struct view *view, const struct tie *tie,
+                   struct tie_state *state)
+{
+    const double turn = 6.283185307179586;
+    state->side[0] = state->side[1] = side_at(model, view, tie, 1);
+    for (int k = 0; k < 2; k++) {
+        struct jet_vec u = reach_of(view, tie, state, k).u;
+        state->psi[k] = atan2(u.y.x, u.x.x);
+    }
+    double wrap = state->side[0] * (state->psi[1] - state->psi[0]);
+    state->psi[1] -= state->side[0] * turn * floor(wrap / turn + 0.25);
+}
+
+double capstan_starts_round(const struct tie *tie, const struct tie_state *state)
+{
+    (void)tie;
+    return state->side[0] * (state->psi[0] - state->psi[1]);
+}
+
+double capstan_wrap(const struct fbd_model *model, const struct instant *at, int index, bool varied,
+                    double *variation)
+{
+    const struct tie *tie = &model->tree->ties[index];
+    const struct tie_state *state = &at->tree->ties[index];
+    struct view view = {model->tree, at->tree, varied, at, NULL};
+    struct jet in = turned_at(state, 0, reach_of(&view, tie, state, 0).u);
+    struct jet out = turned_at(state, 1, reach_of(&view, tie, state, 1).u);
+    const double turn = 6.283185307179586;
+    if (variation) *variation = state->side[0] * (out.d - in.d);
+    return turn * tie->turns + state->side[0] * (state->psi[1] + out.x - state->psi[0] - in.x);
+}
+
+void capstan_tensions(const struct fbd_model *model, const struct tree_work *work, int index,
+                      double tension[2])
+{
+    const struct row *rows = &work->rows[model->tree->ties[index].first_row];
+    tension[0] = (rows[0].lambda - rows[1].lambda) / 2;
+    tension[1] = (rows[0].lambda + rows[1].lambda) / 2;
+}
+
 /* ---- what is wound on a disc */
 
 double rope_wound(const struct fbd_model *model, const struct tree_work *work, int index, int end,
@@ -255,20 +337,16 @@ double rope_wound(const struct fbd_model *model, const struct tree_work *work, i
     return tie->spare[end] + way.x - state->laid[end];
 }
 
-double rope_shortest(const struct fbd_model *model, const struct tree_work *work, int index, int *from)
+double rope_piece(const struct fbd_model *model, const struct tree_work *work, int index, int k, double *rate)
 {
     const struct tie *tie = &model->tree->ties[index];
     const struct tie_state *state = &work->ties[index];
     struct view view = {model->tree, work, false, NULL, NULL};
-    double least = HUGE_VAL;
-    for (int k = 0; k + 1 < tie->end_count; k++) {
-        double R = fmax(fabs(rim(tie, state, k, 0)), fabs(rim(tie, state, k, 1)));
-        double share = piece_of(&view, tie, state, k).t.x / (R > 0 ? R : tie->length);
-        if (!(share < least)) continue;
-        least = share;
-        *from = k;
-    }
-    return least;
+    bool rubs = tie->kind == constraint_capstan;
+    double R = rubs ? tie->end[1].radius : fmax(fabs(rim(tie, state, k, 0)), fabs(rim(tie, state, k, 1)));
+    struct jet t = (rubs ? reach_of(&view, tie, state, k) : piece_of(&view, tie, state, k)).t;
+    *rate = t.x1;
+    return t.x / (R > 0 ? R : tie->length);
 }
 
 double rope_reel_rate(const struct fbd_state *state, int index)

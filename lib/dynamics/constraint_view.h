@@ -114,6 +114,13 @@ void rope_start(const struct fbd_model *model, const struct view *view, const st
                 struct tie_state *state);
 void rope_start_wrap(const struct tree *tree, struct tree_work *work, int index);
 
+/* Of a rope that rubs on its drum: half of what it could be longer, and half the difference of its strands. */
+void capstan_rows(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                  struct row *rows);
+void capstan_start(const struct fbd_model *model, const struct view *view, const struct tie *tie,
+                   struct tie_state *state);
+double capstan_starts_round(const struct tie *tie, const struct tie_state *state);
+
 /* Of a belt: half the difference of its strands, and their sum. `laid` has their values at the start. */
 void belt_rows(const struct view *view, const struct tie *tie, const struct tie_state *state,
                struct row *rows);

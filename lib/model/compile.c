@@ -165,13 +165,15 @@ static bool set_named_ties(struct builder *builder)
         if (!source) return false;
         bool rope = constraint->kind == constraint_rope;
         bool contact = constraint->kind == constraint_contact, belt = constraint->kind == constraint_belt;
+        bool capstan = constraint->kind == constraint_capstan;
         source->kind = rope                    ? load_rope
                        : contact               ? load_contact
                        : belt                  ? load_belt
                        : constraint->mu_s.expr ? load_friction
                                                : load_normal;
-        source->name = rope || contact || belt ? constraint->name
-                                               : arena_printf(&model->arena, "%s.friction", constraint->name);
+        source->name = rope || contact || belt || capstan
+                           ? constraint->name
+                           : arena_printf(&model->arena, "%s.friction", constraint->name);
         source->at = constraint->at;
         source->reels = constraint->reel.expr != NULL;
         set_load(builder, &model->loads[next++], source, constraint_first_body(constraint));

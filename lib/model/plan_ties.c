@@ -10,7 +10,7 @@ static void add_rubbing(struct builder *builder, struct tie *tie)
 {
     struct plan *plan = &builder->model->plan;
     const struct constraint *source = &builder->model->scene->constraints[tie->constraint];
-    int body = tie->end[0].body;
+    int body = constraint_first_body(&builder->model->scene->constraints[tie->constraint]);
     tie->pair = (int)plan->friction_count;
     plan->frictions[plan->friction_count++] =
         (struct friction){.body = body,
@@ -28,7 +28,7 @@ static void add_rubbing(struct builder *builder, struct tie *tie)
 static void add_surface(struct builder *builder, struct tie *tie, enum mode_kind kind)
 {
     struct plan *plan = &builder->model->plan;
-    int body = tie->end[0].body;
+    int body = constraint_first_body(&builder->model->scene->constraints[tie->constraint]);
     tie->normal_slot = plan->slots++;
     tie->surface = (int)plan->friction_count;
     plan->contacts[plan->contact_count++] = (struct contact){body, tie->load, tie->normal_slot, tie->surface};
@@ -121,7 +121,7 @@ void plan_ties(struct builder *builder)
             load++; /* the pieces of a rope share one, and the features of a contact */
         last = tie->constraint;
         tie->load = load;
-        if (tie->kind == constraint_roll)
+        if (tie->kind == constraint_roll || tie->kind == constraint_capstan)
             plan_roll(builder, tie);
         else if (tie->kind == constraint_contact)
             plan_contact(builder, tie);

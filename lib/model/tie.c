@@ -33,7 +33,7 @@ static struct tie *add_tie(struct fbd_model *model, int index, int from, int to)
     const struct constraint *source = &model->scene->constraints[index];
     struct tie *tie = &tree->ties[tree->tie_count++];
     bool double_row = source->kind == constraint_pin || source->kind == constraint_roll ||
-                      source->kind == constraint_contact ||
+                      source->kind == constraint_contact || source->kind == constraint_capstan ||
                       (source->kind == constraint_belt && source->tension == 0);
     *tie = (struct tie){.kind = source->kind,
                         .constraint = index,
@@ -44,6 +44,7 @@ static struct tie *add_tie(struct fbd_model *model, int index, int from, int to)
                         .length = source->length,
                         .preload = source->tension,
                         .crossed = source->crossed,
+                        .turns = source->turns,
                         .place = from,
                         .pair = -1,
                         .surface = -1,
@@ -104,6 +105,22 @@ static void set_line(const struct fbd_model *model, const struct constraint *sou
     tie->turn += place->angle;
 }
 
+static const char *body_name(const struct fbd_model *model, int body)
+{
+    return body == ground_body ? "ground" : model->bodies[body].name;
+}
+
+/* The drum has both strands of a rope that rubs on it. */
+static void name_strands(struct fbd_model *model, struct tie *tie, int k)
+{
+    struct tie_end *end = &tie->end[k];
+    model->bodies[end->body].arrow_count += k == 1 ? 2 : 1;
+    end->name[0] = tie->name;
+    for (int strand = 0; k == 1 && strand < 2; strand++)
+        end->name[strand] =
+            arena_printf(&model->arena, "%s.%s", tie->name, body_name(model, tie->end[2 * strand].body));
+}
+
 /* A rope's forces on a pulley are named after what hangs on the other side; all others after the coupling. */
 static void name_end(struct fbd_model *model, struct tie *tie, int k)
 {
@@ -111,6 +128,10 @@ static void name_end(struct fbd_model *model, struct tie *tie, int k)
     struct tie_end *end = &tie->end[k];
     if (end->body == ground_body) return;
     bool belt = tie->kind == constraint_belt;
+    if (tie->kind == constraint_capstan) {
+        name_strands(model, tie, k);
+        return;
+    }
     model->bodies[end->body].arrow_count += tie_has_surface(tie) || belt ? 2 : 1;
     end->name[0] = tie->name;
     if (tie_has_surface(tie)) {
@@ -134,6 +155,8 @@ static void name_rows(struct arena *arena, struct tie *tie)
         tie->row_name[1] = arena_printf(arena, "%s in y", tie->name);
     } else if (tie->kind == constraint_belt) {
         tie->row_name[1] = arena_printf(arena, "length of %s", tie->name);
+    } else if (tie->kind == constraint_capstan) {
+        tie->row_name[1] = arena_printf(arena, "%s.friction", tie->name);
     } else if (tie_has_surface(tie)) {
         tie->row_name[0] = arena_printf(arena, "%s.normal", tie->name);
         tie->row_name[1] = arena_printf(arena, "%s.friction", tie->name);

@@ -40,6 +40,7 @@ struct tie {
     struct formula reel; /* so */
     double preload;      /* belt: `tension` of the file */
     bool crossed;
+    double turns;      /* capstan: beside what is seen */
     int slack_slot[2]; /* belt: where minus the tensions of its strands go */
     int normal_slot;   /* roll: where minus its normal force goes */
     int load;          /* roll, rope: its entry in the model's loads */
@@ -65,7 +66,7 @@ bool model_is_driven(const struct fbd_model *model);
 /* Does it have a surface with a normal row and, behind it, one along the surface? */
 static inline bool tie_has_surface(const struct tie *tie)
 {
-    return tie->kind == constraint_roll || tie->kind == constraint_contact;
+    return tie->kind == constraint_roll || tie->kind == constraint_contact || tie->kind == constraint_capstan;
 }
 
 /* Add a tie of contact `index` of the scene for one feature of the meeting. */

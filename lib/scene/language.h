@@ -210,11 +210,18 @@ enum { frame_world, frame_body };
 
 struct coupling_keys {
     const char *name;
-    const struct node *between, *through, *radii, *body, *on, *center, *wound;
+    const struct node *between, *through, *radii, *body, *on, *center, *wound, *around;
     double stiffness, free_length, coefficient, length, radius, tension;
     bool inside, crossed;
     struct value mu_s, mu_k, restitution, reel;
     int law, side; /* enum impact_law, enum contact_side */
+};
+
+/* What `around` says. */
+struct around_keys {
+    const struct node *on;
+    double radius, turns;
+    struct value mu_s, mu_k;
 };
 
 /* One entry of `wound`. */
@@ -238,7 +245,7 @@ struct hand_keys {
 extern const struct choice method_choices[];
 
 extern const struct group scene_group, ground_group, line_group, simulate_group, output_group, event_group;
-extern const struct group wound_group, contact_group, table_group, grading_group;
+extern const struct group around_group, wound_group, contact_group, table_group, grading_group;
 extern const struct group *const grading_points_group;
 extern const struct group body_group, part_group, inertia_group, hand_group, place_group;
 extern const struct group initial_groups[], exact_groups[]; /* by enum motion_kind */

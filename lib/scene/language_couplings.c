@@ -75,6 +75,21 @@ static const struct field wound_fields[] = {
 const struct group wound_group = {"`wound`", NULL, FIELDS(wound_fields),
                                   NULL,      0,    "a rope that is wound on a disc"};
 
+#define AROUND(member) offsetof(struct around_keys, member)
+
+static const struct field around_fields[] = {
+    FIELD_NODE(AROUND(on), "on", field_scalar, required, NULL, "the second of three places of `through`"),
+    FIELD_NUMBER(AROUND(radius), "radius", a_length, positive, "of the drum; default that of its shape"),
+    FIELD_NUMBER(AROUND(turns), "turns", a_number, not_negative,
+                 "whole turns beside what is seen; default 0"),
+    FIELD_VALUE(AROUND(mu_s), "static", a_number, not_negative,
+                "coefficient of static friction; default that of kinetic friction"),
+    FIELD_VALUE(AROUND(mu_k), "kinetic", a_number, not_negative,
+                "coefficient of kinetic friction; default that of static friction"),
+};
+const struct group around_group = {"`around`", NULL, FIELDS(around_fields),
+                                   NULL,       0,    "a rope that rubs on a drum which it goes round"};
+
 static const struct field rope_fields[] = {
     FIELD_ENTRIES(COUPLING(through), "through", field_list, required, each_word, NULL,
                   "its way: ends and points as in `between`; a disc that turns is a pulley"),
@@ -82,6 +97,7 @@ static const struct field rope_fields[] = {
                 "its length, also as an expression of t; default taut at the start"),
     FIELD_ENTRIES(COUPLING(wound), "wound", field_any, 0, each_group, &wound_group,
                   "the disc at an end of it that it is wound on"),
+    FIELD_NODE(COUPLING(around), "around", field_map, 0, &around_group, "the drum that it rubs on"),
 };
 static const struct group rope_group = COUPLING_GROUP("a rope", rope_fields, "inextensible and massless");
 

@@ -238,6 +238,7 @@ static bool read_constraint(struct reader *reader, const struct chosen *chosen,
     case constraint_rod: return coupling_ends_read(reader, keys->between, "between", 2, 2, constraint);
     case constraint_gear:
     case constraint_belt: return read_wheels(reader, keys, constraint);
+    case constraint_capstan:
     case constraint_rope: return rope_read(reader, keys, constraint);
     case constraint_rack: return read_rack(reader, keys, constraint);
     case constraint_roll: return read_roll(reader, keys, constraint);

@@ -118,11 +118,53 @@ static bool set_length(struct reader *reader, const struct value *length, struct
     return false;
 }
 
+/* ---- a drum that it rubs on */
+
+static bool refuse_around(struct reader *reader, const struct node *node, const char *hint, const char *what)
+{
+    diag_add(reader->errors, FBD_ERROR, "not-here", node->at, hint, "%s", what);
+    return false;
+}
+
+static bool read_around(struct reader *reader, const struct coupling_keys *keys,
+                        struct constraint *constraint)
+{
+    struct around_keys around = {0};
+    const struct node *through = keys->through, *node = keys->around;
+    if (!fields_read(reader, &around_group, node, node->at, &reader->constants, &around)) return false;
+    if (through->count != 3 || strcmp(through->items[1]->text, around.on->text) != 0)
+        return refuse_around(reader, around.on, "write `through: [a, drum, b]` and `around: {on: drum, ...}`",
+                             "a rope that rubs has three places, and goes round the second");
+    if (keys->wound || constraint->reel.expr)
+        return refuse_around(reader, node, "let another rope do that",
+                             "a rope that rubs is neither wound nor hauled");
+    if (!around.mu_s.expr && !around.mu_k.expr)
+        return refuse_around(reader, node, "add for example `kinetic: 0.3`",
+                             "`around` needs a coefficient of friction");
+    int b = constraint->body[1];
+    const struct part *part = b == ground_body ? NULL : body_round_part(&reader->scene->bodies[b]);
+    constraint->kind = constraint_capstan;
+    constraint->radius[1] = around.radius > 0 ? around.radius : part ? part->radius : 0;
+    constraint->turns = around.turns;
+    constraint->mu_s = around.mu_s.expr ? around.mu_s : around.mu_k;
+    constraint->mu_k = around.mu_k.expr ? around.mu_k : around.mu_s;
+    if (part && names_no_point(around.on))
+        constraint->point[1] = (struct point){.kind = point_fixed, .where = part->center};
+    if (around.turns != floor(around.turns))
+        return refuse_around(reader, node, "the rest is where the ends of the rope are",
+                             "`turns` is no whole number");
+    if (constraint->radius[1] > 0) return true;
+    diag_add(reader->errors, FBD_ERROR, "missing-key", around.on->at,
+             "give `around` a `radius`, or the body a round `shape`", "`%s` has no radius", around.on->text);
+    return false;
+}
+
 bool rope_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
 {
     if (!coupling_ends_read(reader, keys->through, "through", 2, most_constraint_ends, constraint))
         return false;
     bool length = set_length(reader, &keys->reel, constraint);
+    if (keys->around) return read_around(reader, keys, constraint) && length;
     return read_all_wound(reader, keys, constraint) && set_pulleys(reader, keys->through, constraint) &&
            length;
 }

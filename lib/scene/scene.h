@@ -224,6 +224,7 @@ enum constraint_kind {
     constraint_rack,    /* a circle and a line move along together */
     constraint_contact, /* two bodies, or a body and the ground, that meet and part */
     constraint_belt,    /* a belt round two discs */
+    constraint_capstan, /* a rope that rubs on a disc which it goes round */
 };
 
 /* A convex polygon of the ground, corners counter-clockwise. */
@@ -263,6 +264,7 @@ struct constraint {
                           wound_side; 0 without one */
     double spare[2];   /* and how much of it is wound there at the start; HUGE_VAL: enough */
     bool crossed;      /* belt */
+    double turns;      /* capstan: whole turns round the disc, beside what is seen */
     double tension;    /* belt: of both strands while it drives nothing; 0: as its length says */
     struct value reel; /* rope: its length where it varies with the time; else expr NULL */
     bool length_given;
@@ -277,7 +279,8 @@ struct constraint {
 static inline bool constraint_has_load(const struct constraint *constraint)
 {
     return constraint->kind == constraint_roll || constraint->kind == constraint_rope ||
-           constraint->kind == constraint_contact || constraint->kind == constraint_belt;
+           constraint->kind == constraint_contact || constraint->kind == constraint_belt ||
+           constraint->kind == constraint_capstan;
 }
 
 /* The first of its bodies that is not the ground: a rope may begin with points of the ground, one of its

@@ -112,20 +112,60 @@ static void watch_end(const struct drum *drum, struct moment *t)
         t->t, tie_of(drum)->name, disc_of(drum));
 }
 
-/* A millionth of the disc is left of the straight piece, or a thousandth of the rope that is hauled in, about whose end
+static double piece_at(struct run *run, int index, int k, double t, double *rate)
+{
+    if (switcher_partial(run->stepper, moment_at(t), run->y, run->f) != 0) return NAN;
+    look(run, t, run->y);
+    return rope_piece(run->model, run->during->tree, index, k, rate);
+}
+
+/* Where a piece is at its shortest within the last step: it may go through nothing and grow again, beyond the rim. */
+static double shortest_at(struct run *run, int index, int k, double little, double to)
+{
+    double from = run->from, before, after, rate;
+    piece_at(run, index, k, from, &before);
+    piece_at(run, index, k, to, &after);
+    while (before < 0 && after > 0) {
+        double middle = from + (to - from) / 2;
+        if (!(middle > from && middle < to)) break;
+        double left = piece_at(run, index, k, middle, &rate);
+        if (rate < 0 && left <= little) return middle; /* while it has a direction */
+        *(rate < 0 ? &from : &to) = middle;
+    }
+    return to;
+}
+
+/* A millionth of the disc is left of a straight piece, or a thousandth of the rope that is hauled in, about whose end
  * a load turns ever faster. */
-static void watch_way(struct run *run, int index, struct moment t)
+static void watch_piece(struct run *run, int index, int k, struct moment *t)
 {
     const struct tie *tie = &run->model->tree->ties[index];
     const double little = tie->reels ? 1e-3 : 1e-6;
-    int k = 0;
-    look(run, t.t, run->y);
-    if (rope_shortest(run->model, run->during->tree, index, &k) > little) return;
+    double rate, when = shortest_at(run, index, k, little, t->t), left = piece_at(run, index, k, when, &rate);
+    if (left > little) { /* a number that is none has gone beyond */
+        switcher_partial(run->stepper, *t, run->y, run->f);
+        return;
+    }
+    *t = moment_at(when);
     run_fail(
         run, FBD_BROKEN,
         "at t = %.9g the rope `%s` is at an end of its way: there is nothing left between `%s` and `%s`. End "
         "the run before, by an event",
-        t.t, tie->name, name_of(run, tie, k), name_of(run, tie, k + 1));
+        t->t, tie->name, name_of(run, tie, k), name_of(run, tie, k + 1));
+}
+
+/* A rope that rubs has become straight, and comes off its drum. */
+static void watch_wrap(struct run *run, int index, struct moment t)
+{
+    const struct tie *tie = &run->model->tree->ties[index];
+    look(run, t.t, run->y);
+    const struct instant at = state_instant(run->during);
+    if (capstan_wrap(run->model, &at, index, false, NULL) >= 0) return;
+    run_fail(run, FBD_BROKEN,
+             "by t = %.9g the rope `%s` has come off its drum: its two sides have become one straight line. "
+             "End the "
+             "run before, by an event",
+             t.t, tie->name);
 }
 
 void run_watch_drums(struct run *run, struct moment *t)
@@ -133,11 +173,15 @@ void run_watch_drums(struct run *run, struct moment *t)
     const struct tree *tree = run->model->tree;
     for (int i = 0; tree && i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
+        if (tie->kind == constraint_capstan && run->during->slip[tie->surface] == stick) {
+            watch_wrap(run, i, *t);
+            for (int k = 0; k < 2; k++) watch_piece(run, i, k, t);
+        }
         bool winds = tie->wound[0] != 0 || tie->wound[1] != 0;
-        if (!(winds || tie->reels) || !is_taut(run->during, tie)) continue;
+        if (tie->kind != constraint_rope || !(winds || tie->reels) || !is_taut(run->during, tie)) continue;
         for (int end = 0; end < 2; end++)
             if (tie->wound[end] != 0 && isfinite(tie->spare[end])) watch_end(&(struct drum){run, i, end}, t);
-        watch_way(run, i, *t);
+        for (int k = 0; k + 1 < tie->end_count; k++) watch_piece(run, i, k, t);
     }
 }
 

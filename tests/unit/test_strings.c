@@ -15,17 +15,6 @@
 
 static const double g = 9.81, pi = 3.141592653589793;
 
-/* Run on to where it ends, and take the state there. */
-static double to_its_end(struct trial *trial)
-{
-    double from, to;
-    while ((trial->outcome = fbd_simulation_advance(trial->simulation)) == FBD_GOING) {
-    }
-    fbd_simulation_interval(trial->simulation, &from, &to);
-    assert_true(fbd_simulation_state(trial->simulation, to, trial->state));
-    return to;
-}
-
 /* ---- one coordinate: by hand */
 
 static void a_yo_yo_falls_as_its_axle_says(void **unused)
@@ -336,118 +325,6 @@ static void methods_agree_on_a_rope_from_drum_to_drum(void **unused)
     checks_end(&checks);
 }
 
-/* ---- belts */
-
-static const char two_discs[] =
-    "fbd: 1\n"
-    "bodies:\n"
-    "  motor: {shape: disc, mass: 1, radius: 0.05, motion: pivot, moments: [applied: {name: drive, value: "
-    "%s}]}\n"
-    "  fan: {shape: disc, mass: 4, radius: 0.15, motion: {pivot: {at: [0.5, 0.1]}}}\n"
-    "couplings: [belt: {name: belt, between: [motor, fan], tension: 60, crossed: %s}]\n"
-    "simulate: {until: 1}\n";
-
-static struct trial belt_trial(const char *drive, bool crossed)
-{
-    char text[1024];
-    snprintf(text, sizeof text, two_discs, drive, crossed ? "true" : "false");
-    return trial_parse(text);
-}
-
-/* With the strands at +-gamma to the line of centres, sin(gamma) = (R +- r) / d, the axle bears T_1 + T_2 along it. */
-static void a_belt_drives_in_the_ratio_of_its_discs(void **unused)
-{
-    (void)unused;
-    const double r = 0.05, R = 0.15, I = r * r / 2, J = 4 * R * R / 2, M = 2, d = hypot(0.5, 0.1);
-    const double alpha = M / (I + J * r * r / (R * R)), F = J * alpha * r / R / R;
-    struct checks checks = {0};
-    for (int crossed = 0; crossed < 2; crossed++) {
-        struct trial trial = belt_trial("2 N*m", crossed);
-        double c = sqrt(1 - pow((crossed ? R + r : R - r) / d, 2));
-        trial_start(&trial, NULL);
-        trial_to(&trial, 1);
-        check_close(&checks, "motor", trial_get(&trial, "motor.theta"), alpha / 2, 1e-9);
-        check_close(&checks, "fan", trial_get(&trial, "fan.omega"), (crossed ? -1 : 1) * alpha * r / R, 1e-9);
-        fbd_arrow right = arrow_on(&trial, 0, "belt.right"), left = arrow_on(&trial, 0, "belt.left");
-        fbd_arrow far = arrow_on(&trial, 1, "belt.left"), pin = arrow_on(&trial, 0, "pin");
-        check_close(&checks, "slack strand", hypot(right.fx, right.fy), 60 - F / 2, 1e-10);
-        check_close(&checks, "tight strand", hypot(left.fx, left.fy), 60 + F / 2, 1e-10);
-        check_close(&checks, "one strand", hypot(left.fx + far.fx, left.fy + far.fy), 0, 1e-12);
-        check_close(&checks, "moment", left.moment + right.moment, -F * r, 1e-12);
-        check_close(&checks, "axle", -(pin.fx * 0.5 + pin.fy * 0.1) / d, 2 * 60 * c, 1e-10);
-        trial_close(&trial);
-    }
-    checks_end(&checks);
-}
-
-static void a_slack_strand_ends_the_run(void **unused)
-{
-    (void)unused;
-    struct checks checks = {0};
-    struct trial trial = belt_trial("\"40[N*m]*sin(3*t)\"", false);
-    trial_start(&trial, NULL);
-    double end = to_its_end(&trial);
-    /* The difference of 120 N takes 7.5 N m. */
-    check_that(&checks, "ends early", trial.outcome == FBD_BROKEN);
-    check_close(&checks, "when", end, asin(7.5 / 40) / 3, 1e-10);
-    check_that(&checks, "says so",
-               strstr(fbd_simulation_reason(trial.simulation), "strand of the belt `belt` goes slack") !=
-                   NULL);
-    trial_close(&trial);
-    checks_end(&checks);
-}
-
-/* A weight that pulls a slider with the axle of a disc away: at rest both strands share it. */
-static void a_tensioner_sets_the_tension(void **unused)
-{
-    (void)unused;
-    struct checks checks = {0};
-    struct trial trial =
-        trial_parse("fbd: 1\n"
-                    "bodies:\n"
-                    "  motor: {shape: disc, mass: 1, radius: 0.05, motion: pivot,\n"
-                    "          moments: [applied: {name: drive, value: \"0.2[N*m]*sin(5*t)\"}]}\n"
-                    "  slider: {mass: 2, motion: {slide: {through: [0.4, 0]}}, forces: [applied: {name: "
-                    "pull, value: 50}]}\n"
-                    "  fan: {shape: disc, mass: 4, radius: 0.15, motion: {pivot: {on: slider}}}\n"
-                    "couplings: [belt: {name: belt, between: [motor, fan]}]\n"
-                    "simulate: {until: 1}\n");
-    const double I = 0.05 * 0.05 / 2, J = 4 * 0.15 * 0.15 / 2, c = sqrt(1 - 0.25 * 0.25);
-    const double alpha = 0.2 * sin(5) / (I + J / 9), F = J * alpha / 3 / 0.15;
-    trial_start(&trial, NULL);
-    trial_to(&trial, 1);
-    fbd_arrow right = arrow_on(&trial, 0, "belt.right"), left = arrow_on(&trial, 0, "belt.left");
-    check_close(&checks, "slider", trial_get(&trial, "slider.x"), 0, 1e-12);
-    check_close(&checks, "motor", trial_get(&trial, "motor.omega"), 0.2 * (1 - cos(5)) / 5 / (I + J / 9),
-                1e-9);
-    check_close(&checks, "both", hypot(right.fx, right.fy) + hypot(left.fx, left.fy), 50 / c, 1e-9);
-    check_close(&checks, "difference", hypot(left.fx, left.fy) - hypot(right.fx, right.fy), F, 1e-9);
-    trial_close(&trial);
-    checks_end(&checks);
-}
-
-/* Round a disc at rest of the same size, a disc on an arm never turns, however often the arm does. */
-static void on_an_arm_a_belt_keeps_the_direction(void **unused)
-{
-    (void)unused;
-    struct checks checks = {0};
-    struct trial trial = trial_parse(
-        "fbd: 1\n"
-        "bodies:\n"
-        "  sun: {shape: disc, mass: 1, radius: 0.1, motion: {pivot: {theta: 0 rad}}}\n"
-        "  arm: {shape: rod, mass: 1, length: 0.8, motion: {pivot: {point: left}}, initial: {omega: 9}}\n"
-        "  planet: {shape: disc, mass: 2, radius: 0.1, motion: {pivot: {on: arm, at: right}},\n"
-        "           initial: {omega: -9}}\n"
-        "couplings: [belt: {name: belt, between: [sun, planet], tension: 200}]\n"
-        "simulate: {until: 4}\n");
-    trial_start(&trial, NULL);
-    trial_to(&trial, 4);
-    check_close(&checks, "arm", trial_get(&trial, "arm.theta"), 36, 1e-8);
-    check_close(&checks, "planet", trial_get(&trial, "planet.theta"), -36, 1e-8);
-    trial_close(&trial);
-    checks_end(&checks);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -461,10 +338,6 @@ int main(void)
         cmocka_unit_test(a_load_falls_into_its_cable),
         cmocka_unit_test(a_winch_that_jerks_ends_the_run),
         cmocka_unit_test(methods_agree_on_a_rope_from_drum_to_drum),
-        cmocka_unit_test(a_belt_drives_in_the_ratio_of_its_discs),
-        cmocka_unit_test(a_slack_strand_ends_the_run),
-        cmocka_unit_test(a_tensioner_sets_the_tension),
-        cmocka_unit_test(on_an_arm_a_belt_keeps_the_direction),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
