@@ -9,7 +9,7 @@
 #include "dynamics/state.h"
 
 /* Of a tie: zero, sides, directions and turns of a rope's ends. */
-enum { numbers_of_a_tie = 7 };
+enum { numbers_of_a_tie = 9 };
 
 static size_t tie_count(const struct fbd_model *model)
 {
@@ -57,6 +57,7 @@ static void put_tie(struct packing *packing, const struct tie_state *tie)
         put(packing, tie->side[end]);
         put(packing, tie->psi[end]);
         put(packing, tie->turned[end]);
+        put(packing, tie->laid[end]);
     }
 }
 
@@ -86,7 +87,7 @@ static bool are_signs(const struct fbd_model *model, const double *memories, con
     for (size_t i = 0; i < count; i++)
         if (!is_sign(memories[i], false)) return false;
     for (size_t i = 0; i < tie_count(model); i++, ties += numbers_of_a_tie)
-        if (!is_sign(ties[1], true) || !is_sign(ties[4], true)) return false;
+        if (!is_sign(ties[1], true) || !is_sign(ties[5], true)) return false;
     return true;
 }
 
@@ -94,9 +95,10 @@ static void take_tie(const double *numbers, struct tie_state *tie)
 {
     tie->zero = numbers[0];
     for (int end = 0; end < 2; end++) {
-        tie->side[end] = (int)numbers[1 + 3 * end];
-        tie->psi[end] = numbers[2 + 3 * end];
-        tie->turned[end] = numbers[3 + 3 * end];
+        tie->side[end] = (int)numbers[1 + 4 * end];
+        tie->psi[end] = numbers[2 + 4 * end];
+        tie->turned[end] = numbers[3 + 4 * end];
+        tie->laid[end] = numbers[4 + 4 * end];
     }
 }
 

@@ -27,6 +27,7 @@ static const char *kind_of(const struct fbd_model *model, const struct arrow *ar
     case load_gravity: return "gravity";
     case load_normal:
     case load_rope:
+    case load_belt:
     case load_contact: return "reaction";
     case load_friction:
     case moment_friction: return "friction";

@@ -5,7 +5,7 @@
  * - links: springs and dampers, {body, kind, point, partner, anchor}
  * - ties: couplings that hold, {kind, name, ends, length, e, side, force}, a rope cut at its pulleys (tie.h)
  *
- * An end is {body, point, radius, side}; the body of the ground is -1. Points of a body are told from the
+ * An end is {body, point, radius, side, wound}; the body of the ground is -1. Points of a body are told from the
  * origin of its frame in the page, which is the axis of a pivot.
  */
 #include <string.h>
@@ -64,12 +64,17 @@ static void write_end(struct text *text, const struct fbd_model *model, const st
                       const struct tie_state *state, int k)
 {
     const struct constraint *source = &model->scene->constraints[tie->constraint];
-    int side = k == 0 ? state->side[0] : k + 1 == tie->end_count ? state->side[1] : 0;
+    bool wound = (k == 0 && tie->wound[0] != 0) || (k + 1 == tie->end_count && tie->wound[1] != 0);
+    bool belt = tie->kind == constraint_belt || (tie->kind == constraint_capstan && k == 1);
+    int side = tie->kind == constraint_capstan ? (k == 1 ? state->side[0] : 0)
+               : k == 0                        ? state->side[0]
+               : k + 1 == tie->end_count       ? state->side[1]
+                                               : 0;
     json_comma(text, (size_t)k);
     text_printf(text, "{\"body\":%d,", tie->end[k].body);
     json_vector_member(text, "point", end_point(model, source, tie->place + k));
     json_number_member(text, "radius", tie->end[k].radius);
-    text_printf(text, "\"side\":%d}", side);
+    text_printf(text, "\"side\":%d,\"wound\":%d}", side, wound || belt);
 }
 
 /* The first of the two columns of its force, which says whether a rope pulls; -1 when no body has it. */
@@ -87,7 +92,8 @@ static int force_column(const struct record *record, const struct tie *tie)
 static void write_tie(struct text *text, const struct record *record, const struct tie *tie,
                       const struct tie_state *state)
 {
-    static const char *const kinds[] = {"pin", "rod", "gear", "rope", "roll", "rack"};
+    static const char *const kinds[] = {"pin",  "rod",     "gear", "rope", "roll",
+                                        "rack", "contact", "belt", "rope"};
     const struct fbd_model *model = record->model;
     text_add(text, "\n{");
     json_text_member(text, "kind", kinds[tie->kind]);
@@ -95,7 +101,7 @@ static void write_tie(struct text *text, const struct record *record, const stru
     text_add(text, "\"ends\":[");
     for (int k = 0; k < tie->end_count; k++) write_end(text, model, tie, state, k);
     text_add(text, "],");
-    json_number_member(text, "length", state->zero);
+    json_number_member(text, "length", tie->reels ? 0 : state->zero);
     json_vector_member(text, "e", vec_unit(model->scene->constraints[tie->constraint].along));
     text_printf(text, "\"side\":%d,\"force\":%d}", state->side[0], force_column(record, tie));
 }

@@ -51,165 +51,6 @@ static struct at_line at_line_of(const struct tie *tie, const struct tie_state *
     return (struct at_line){0, tie->end[0], tie->end[1], tie->e, state->side[0]};
 }
 
-/* ---- ropes: a straight piece from a circle (or point) to the next, see the derivation
- *
- * Leaving a circle of radius R round which it runs with side s, a piece of direction u starts at C - s R k x
- * u. With d = C_2 - C_1 and rho = s_2 R_2 - s_1 R_1 this gives d = t u + rho k x u, so that its length is t =
- * sqrt(d^2 - rho^2), and u is d turned by -atan(rho / t). */
-
-struct piece {
-    struct jet t;
-    struct jet_vec u, Q1, Q2;
-    bool shrunk; /* to a point */
-};
-
-/* Both ends of a piece are at one point. |d| has a kink there, and what follows is on the side to which they
- * part: with d = v s + a s^2 / 2 it is |v| s + (v . a) s^2 / 2 |v|, along u = v / |v|; without v along a.
- * Ends that stay together have no direction. */
-static struct piece piece_at_a_point(struct jet_vec C1, struct jet_vec d)
-{
-    struct vec v = {d.x.x1, d.y.x1}, a = {d.x.x2, d.y.x2}, along = vec_norm(v) > 0 ? v : a;
-    double size = vec_norm(along);
-    struct vec u = size > 0 ? vec_scale(1 / size, along) : (struct vec){0, 0};
-    struct jet_vec direction = {jet_constant(u.x), jet_constant(u.y)};
-    return (struct piece){jet_dot(d, direction), direction, C1, C1, true};
-}
-
-static struct piece piece_between(struct jet_vec C1, double sR1, struct jet_vec C2, double sR2)
-{
-    double rho = sR2 - sR1;
-    struct jet_vec d = jet_vec_sub(C2, C1);
-    struct jet d2 = jet_dot(d, d);
-    if (rho == 0 && sR1 == 0 && d2.x == 0) return piece_at_a_point(C1, d);
-    struct piece piece = {.t = jet_sqrt(jet_sub(d2, jet_constant(rho * rho)))};
-    struct jet scale = jet_inverse(d2);
-    piece.u.x = jet_mul(scale, jet_add(jet_mul(d.x, piece.t), jet_scale(rho, d.y)));
-    piece.u.y = jet_mul(scale, jet_sub(jet_mul(d.y, piece.t), jet_scale(rho, d.x)));
-    struct jet_vec across = jet_perp(piece.u);
-    piece.Q1 = jet_vec_sub(C1, jet_vec_times(jet_constant(sR1), across));
-    piece.Q2 = jet_vec_sub(C2, jet_vec_times(jet_constant(sR2), across));
-    return piece;
-}
-
-/* How far u has turned at that end since the start, whole turns with it. */
-static struct jet turned_at(const struct tie_state *state, int end, struct jet_vec u)
-{
-    const double turn = 6.283185307179586;
-    double c = cos(state->psi[end]), s = sin(state->psi[end]);
-    struct jet_vec relative = {jet_add(jet_scale(c, u.x), jet_scale(s, u.y)),
-                               jet_sub(jet_scale(c, u.y), jet_scale(s, u.x))};
-    struct jet angle = jet_angle(relative);
-    double turns = round((state->turned[end] - angle.x) / turn);
-    if (turns != 0) angle.x += turns * turn;
-    return angle;
-}
-
-/* Side times radius of what piece k of a rope leaves (end 0) or reaches (1): 0 where that is a point. */
-static double rim(const struct tie *tie, const struct tie_state *state, int k, int end)
-{
-    bool outer = end == 0 ? k == 0 : k + 2 == tie->end_count;
-    return outer ? state->side[end] * tie->end[k + end].radius : 0;
-}
-
-static struct piece piece_of(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                             int k)
-{
-    return piece_between(point_of(view, &tie->end[k]), rim(tie, state, k, 0),
-                         point_of(view, &tie->end[k + 1]), rim(tie, state, k, 1));
-}
-
-/* The first or the last. */
-static struct piece piece_at(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                             int end)
-{
-    return piece_of(view, tie, state, end == 0 ? 0 : tie->end_count - 2);
-}
-
-/* A taut rope pulls along its pieces: where one of them is a point that has no direction, and no force. */
-static void refuse_direction(struct row *row)
-{
-    for (int i = 0; i < row->port_count; i++) row->ports[i].force = (struct vec){NAN, NAN};
-}
-
-static void rope(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                 struct row *row)
-{
-    const double taut = 1e-9; /* of its length */
-    int last = tie->end_count - 1;
-    bool shrunk = false;
-    struct jet length = jet_constant(-state->zero);
-    start_row(row, length);
-    for (int k = 0; k < last; k++) {
-        const struct tie_end *from = &tie->end[k], *to = &tie->end[k + 1];
-        double sR1 = rim(tie, state, k, 0), sR2 = rim(tie, state, k, 1);
-        struct piece piece = piece_of(view, tie, state, k);
-        length = jet_add(length, piece.t);
-        shrunk |= piece.shrunk;
-        if (sR1 != 0) {
-            struct jet round = jet_sub(turned_at(state, 0, piece.u), angle_of(view, from->link));
-            length = jet_add(length, jet_scale(sR1, round));
-        }
-        if (sR2 != 0) {
-            struct jet round = jet_sub(angle_of(view, to->link), turned_at(state, 1, piece.u));
-            length = jet_add(length, jet_scale(sR2, round));
-        }
-        add_port(view, row, tie, k, piece.Q1, negative(piece.u));
-        add_port(view, row, tie, k + 1, piece.Q2, piece.u);
-    }
-    row->g = length;
-    if (shrunk && !(length.x < -taut * state->zero)) refuse_direction(row);
-}
-
-int rope_blocked_at(const struct fbd_model *model, const struct tree_work *work, int index)
-{
-    const struct tie *tie = &model->tree->ties[index];
-    const struct tie_state *state = &work->ties[index];
-    struct view view = {model->tree, work, false};
-    int last = tie->end_count - 1;
-    for (int k = 0; k < last; k++) {
-        double sR1 = rim(tie, state, k, 0), sR2 = rim(tie, state, k, 1);
-        struct vec from = jet_value(point_of(&view, &tie->end[k]));
-        struct vec to = jet_value(point_of(&view, &tie->end[k + 1]));
-        bool rims = sR1 != 0 || sR2 != 0;
-        if (rims && !(vec_norm(vec_sub(to, from)) > fabs(sR2 - sR1))) return k;
-    }
-    return -1;
-}
-
-bool rope_goes_on(const struct tree *tree, int index)
-{
-    const struct tie *tie = &tree->ties[index];
-    if (tie->kind != constraint_rope || index + 1 >= tree->tie_count) return false;
-    return tie->end[tie->end_count - 1].radius > 0 && tie[1].constraint == tie->constraint;
-}
-
-static double turned_now(const struct fbd_model *model, const struct tree_work *work, int index, int end)
-{
-    struct view view = {model->tree, work, false};
-    const struct tie_state *state = &work->ties[index];
-    return turned_at(state, end, piece_at(&view, &model->tree->ties[index], state, end).u).x;
-}
-
-double rope_wrap(const struct fbd_model *model, const struct tree_work *work, int index)
-{
-    const struct tie_state *before = &work->ties[index], *after = before + 1;
-    double in = before->psi[1] + turned_now(model, work, index, 1);
-    double out = after->psi[0] + turned_now(model, work, index + 1, 0);
-    return before->side[1] * (out - in);
-}
-
-void constraints_follow(const struct fbd_model *model, struct tree_work *work)
-{
-    const struct tree *tree = model->tree;
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        struct tie_state *state = &work->ties[i];
-        if (tie->kind != constraint_rope) continue;
-        for (int end = 0; end < 2; end++)
-            if (state->side[end] != 0) state->turned[end] = turned_now(model, work, i, end);
-    }
-}
-
 /* ---- all of them */
 
 static void evaluate(const struct view *view, const struct tie *tie, const struct tie_state *state,
@@ -219,7 +60,7 @@ static void evaluate(const struct view *view, const struct tie *tie, const struc
     case constraint_pin: pin(view, tie, rows); break;
     case constraint_rod: rod(view, tie, state, rows); break;
     case constraint_gear: gear(view, tie, state, rows); break;
-    case constraint_rope: rope(view, tie, state, rows); break;
+    case constraint_rope: rope_row(view, tie, state, rows); break;
     case constraint_roll:
     case constraint_rack: {
         struct at_line at = at_line_of(tie, state);
@@ -227,61 +68,29 @@ static void evaluate(const struct view *view, const struct tie *tie, const struc
         row_line(view, tie, &at, state->zero, rolls ? &rows[0] : NULL, rolls ? &rows[1] : &rows[0]);
         break;
     }
+    case constraint_capstan: capstan_rows(view, tie, state, rows); break;
+    case constraint_belt: belt_rows(view, tie, state, rows); break;
     case constraint_contact: contact_rows(view, tie, state, rows); break;
     }
 }
 
-void constraints_evaluate(const struct fbd_model *model, struct tree_work *work, bool varied)
+void constraints_evaluate(const struct fbd_model *model, const struct instant *at,
+                          const struct direction *along)
 {
     const struct tree *tree = model->tree;
-    struct view view = {tree, work, varied};
+    struct tree_work *work = at->tree;
+    struct view view = {tree, work, along != NULL, at, along};
     for (int i = 0; i < tree->tie_count; i++)
         evaluate(&view, &tree->ties[i], &work->ties[i], &work->rows[tree->ties[i].first_row]);
 }
 
 /* ---- the start */
 
-/* Which way a rope runs round the pulley at place k of its way: as it turns there. */
-static int side_at(const struct fbd_model *model, const struct view *view, const struct tie *tie, int k)
-{
-    const struct constraint *source = &model->scene->constraints[tie->constraint];
-    struct vec place[3];
-    for (int i = 0; i < 3; i++) {
-        struct tie_end end = tie_end_of(model, tie->constraint, k - 1 + i);
-        place[i] = jet_value(point_of(view, &end));
-    }
-    if (source->radius[k] == 0) return 0;
-    return vec_cross(vec_sub(place[1], place[0]), vec_sub(place[2], place[1])) > 0 ? 1 : -1;
-}
-
-static void start_rope(const struct fbd_model *model, const struct view *view, const struct tie *tie,
-                       struct tie_state *state)
-{
-    int last = tie->end_count - 1;
-    state->side[0] = tie->end[0].radius > 0 ? side_at(model, view, tie, tie->place) : 0;
-    state->side[1] = tie->end[last].radius > 0 ? side_at(model, view, tie, tie->place + last) : 0;
-    for (int end = 0; end < 2; end++) {
-        struct jet_vec u = piece_at(view, tie, state, end).u;
-        state->psi[end] = atan2(u.y.x, u.x.x);
-    }
-}
-
-/* At the start a rope goes round its pulley by three quarters of a turn at most, and may be off it by less
- * than the fourth: the directions before and behind are told apart by so much. */
-static void start_wrap(const struct tree *tree, struct tree_work *work, int index)
-{
-    const double turn = 6.283185307179586;
-    if (!rope_goes_on(tree, index)) return;
-    struct tie_state *before = &work->ties[index], *after = before + 1;
-    double wrap = before->side[1] * (after->psi[0] - before->psi[1]);
-    after->psi[0] -= before->side[1] * turn * floor(wrap / turn + 0.25);
-}
-
 void constraints_start(const struct fbd_model *model, const struct instant *at)
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
-    struct view view = {model->tree, work, false};
+    struct view view = {model->tree, work, false, at, NULL};
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
         struct tie_state *state = &work->ties[i];
@@ -292,12 +101,23 @@ void constraints_start(const struct fbd_model *model, const struct instant *at)
             struct jet_vec e = turning(&view, tie->end[1].link, tie->e);
             if (vec_cross(jet_value(e), jet_value(d)) < 0) state->side[0] = -1;
         }
-        if (tie->kind == constraint_rope) start_rope(model, &view, tie, state);
+        if (tie->kind == constraint_rope) rope_start(model, &view, tie, state);
+        if (tie->kind == constraint_capstan) capstan_start(model, &view, tie, state);
+        if (tie->kind == constraint_belt) belt_start(&view, tie, state);
         if (tie->kind == constraint_pin || tie->kind == constraint_contact) continue;
         evaluate(&view, tie, state, rows);
-        state->zero = tie->length_given ? tie->length : rows[tie->row_count - 1].g.x;
+        if (tie->kind == constraint_belt) {
+            for (int k = 0; k < tie->row_count; k++) state->laid[k] = rows[k].g.x;
+            continue;
+        }
+        if (tie->kind == constraint_capstan) state->laid[0] = rows[0].g.x;
+        if (tie->kind == constraint_capstan && tie->length_given)
+            state->laid[0] = -(tie->length + tie->end[1].radius * capstan_starts_round(tie, state)) / 2;
+        state->zero = tie->length_given && tie->kind != constraint_capstan
+                          ? tie->length + state->laid[0] + state->laid[1]
+                          : rows[tie->row_count - 1].g.x;
     }
-    for (int i = 0; i < tree->tie_count; i++) start_wrap(tree, work, i);
+    for (int i = 0; i < tree->tie_count; i++) rope_start_wrap(tree, work, i);
 }
 
 /* ---- bodies that roll or rub */
@@ -305,7 +125,7 @@ void constraints_start(const struct fbd_model *model, const struct instant *at)
 void tie_set_feature(const struct fbd_model *model, struct tree_work *work, int index, int feature)
 {
     const struct tie *tie = &model->tree->ties[index];
-    struct view view = {model->tree, work, false};
+    struct view view = {model->tree, work, false, NULL, NULL};
     work->ties[index].feature = feature;
     work->ties[index].zero = 0;
     contact_rows(&view, tie, &work->ties[index], &work->rows[tie->first_row]);
@@ -336,7 +156,7 @@ struct slip_rate tie_slip(const struct fbd_model *model, const struct instant *a
 {
     const struct tie *tie = &model->tree->ties[index];
     const struct tie_state *state = &at->tree->ties[index];
-    struct view view = {model->tree, at->tree, varied};
+    struct view view = {model->tree, at->tree, varied, NULL, NULL};
     struct at_line where = at_line_of(tie, state);
     struct row along;
     row_line(&view, tie, &where, state->zero, NULL, &along);

@@ -8,7 +8,12 @@
  *   gear   g = r_1 (theta_1 - phi) + r_2 (theta_2 - phi), phi the angle of the line of centres; r_2 < 0 for a
  *          ring round the first
  *   rope   g = sum of the straight pieces + s_1 R_1 (psi_1 - theta_1) + s_2 R_2 (theta_2 - psi_2) - L, with psi
- *          the angle of the piece that leaves or reaches a pulley, s = +1 when it runs counter-clockwise there
+ *          the angle of the piece that leaves or reaches a pulley, s = +1 when it runs counter-clockwise there;
+ *          also where it begins or ends wound on a disc; L may be a function of t
+ *   belt   g = (g_1 - g_2) / 2 of its strands, as ropes from disc 1 to disc 2 and back; and g_1 + g_2, where the axes
+ *          move
+ *   capstan (a rope that rubs on a drum)  g = (L - g_1 - g_2) / 2 and (g_1 - g_2) / 2 of its strands: their multipliers
+ *          are T_1 + T_2 and T_2 - T_1, and T_1 / T_2 <= exp(mu beta) is |T_2 - T_1| <= tanh(mu beta / 2) (T_1 + T_2)
  *   roll   g = n . (C - P) - R, and the rack's row
  *   contact, at a side: as roll, with the side's outward normal; of two circles:
  *          g = |C_1 - C_2| - R_1 - R_2, and R_1 (phi - theta_1) + R_2 (phi - theta_2) along them, phi the
@@ -46,7 +51,9 @@ struct tie_state {
     int side[2];
     double psi[2];    /* of a rope: the directions of its first and last piece at the start */
     double turned[2]; /* and how far they have turned since, by constraints_follow */
-    int feature;      /* contact: at which it is; no_feature while it is open */
+    double laid[2]; /* what the first and the last disc of a rope add to its way at the start; of a belt: its
+                         rows */
+    int feature;    /* contact: at which it is; no_feature while it is open */
 };
 
 enum { no_feature = -1 };
@@ -97,6 +104,32 @@ struct one_sided one_sided_at(const struct fbd_model *model, const struct instan
  * pulley beside it, or two pulleys between which it crosses and which overlap; -1 without one. */
 int rope_blocked_at(const struct fbd_model *model, const struct tree_work *work, int index);
 
+/* What is left of a rope on the disc at its first (end 0) or last place that it is wound on; HUGE_VAL for any amount.
+ * After constraints_evaluate(). `rate`: how fast it grows. */
+double rope_wound(const struct fbd_model *model, const struct tree_work *work, int index, int end,
+                  double *rate);
+
+/* The straight piece of a rope after place k, as a share of the discs there (without one, of what the rope is long), and
+ * how fast it grows [m/s]. */
+double rope_piece(const struct fbd_model *model, const struct tree_work *work, int index, int k,
+                  double *rate);
+
+/* The tensions of the strands of a belt, as its rows have them. */
+void belt_tensions(const struct fbd_model *model, const struct tree_work *work, int index, double tension[2]);
+
+/* A rope that rubs on a drum: the angle by which it lies on it [rad], and its variation along that of the links, when
+ * `varied`. */
+double capstan_wrap(const struct fbd_model *model, const struct instant *at, int index, bool varied,
+                    double *variation);
+
+/* The tensions of its strands. */
+void capstan_tensions(const struct fbd_model *model, const struct tree_work *work, int index,
+                      double tension[2]);
+
+/* How fast the length of a rope grows by itself. */
+struct fbd_state;
+double rope_reel_rate(const struct fbd_state *state, int index);
+
 /* Does the rope of a tie go on beyond the pulley at its end, as the next tie? */
 bool rope_goes_on(const struct tree *tree, int index);
 
@@ -107,8 +140,9 @@ double rope_wrap(const struct fbd_model *model, const struct tree_work *work, in
 /* A body that has slipped rolls, or sticks, on from where it is. */
 void tie_rezero(const struct fbd_model *model, struct tree_work *work, int tie);
 
-/* Evaluate all rows where the links are, with A their accelerations. With `varied`, along the variation of
- * the links as well. */
-void constraints_evaluate(const struct fbd_model *model, struct tree_work *work, bool varied);
+/* Evaluate all rows where the links are, with A their accelerations. With `along` (else NULL), along the
+ * variation of the links and of the time as well. */
+void constraints_evaluate(const struct fbd_model *model, const struct instant *at,
+                          const struct direction *along);
 
 #endif

@@ -13,6 +13,8 @@ struct view {
     const struct tree *tree;
     const struct tree_work *work;
     bool varied;
+    const struct instant *at;      /* of what goes with the time, */
+    const struct direction *along; /* and its variation, or NULL */
 };
 
 static const struct tree_variation still = {0};
@@ -104,6 +106,25 @@ struct at_line {
 /* The row along the line, and with `normal` the row across it before that. */
 void row_line(const struct view *view, const struct tie *tie, const struct at_line *at, double zero,
               struct row *normal, struct row *along);
+
+/* The row of a rope, what it keeps of the start, and (when all ties have that) how it lies on its pulley
+ * (constraint_rope.c). */
+void rope_row(const struct view *view, const struct tie *tie, const struct tie_state *state, struct row *row);
+void rope_start(const struct fbd_model *model, const struct view *view, const struct tie *tie,
+                struct tie_state *state);
+void rope_start_wrap(const struct tree *tree, struct tree_work *work, int index);
+
+/* Of a rope that rubs on its drum: half of what it could be longer, and half the difference of its strands. */
+void capstan_rows(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                  struct row *rows);
+void capstan_start(const struct fbd_model *model, const struct view *view, const struct tie *tie,
+                   struct tie_state *state);
+double capstan_starts_round(const struct tie *tie, const struct tie_state *state);
+
+/* Of a belt: half the difference of its strands, and their sum. `laid` has their values at the start. */
+void belt_rows(const struct view *view, const struct tie *tie, const struct tie_state *state,
+               struct row *rows);
+void belt_start(const struct view *view, const struct tie *tie, struct tie_state *state);
 
 /* The rows of a contact at its feature (constraint_contact.c). */
 void contact_rows(const struct view *view, const struct tie *tie, const struct tie_state *state,

@@ -31,6 +31,7 @@ bool arrow_is_reaction(const struct fbd_model *model, const struct arrow *arrow)
     case moment_friction:
     case load_drive:
     case load_rope:
+    case load_belt:
     case load_contact: return true;
     default: return false;
     }
@@ -125,6 +126,7 @@ static void set_arrow(const struct fbd_model *model, const struct model_body *bo
     case load_gravity: arrow->force = vec_scale(body->inertia.mass, model->scene->gravity); break;
     case load_drive:
     case load_rope:
+    case load_belt:
     case load_contact:
     case load_normal: break; /* a reaction: set from the sum of the others */
     case load_friction:

@@ -3,6 +3,8 @@
 
 #include <float.h>
 
+#include "dynamics/constraint.h"
+
 double friction_surface_speed(const struct friction *friction, const struct instant *at, double *acceleration)
 {
     *acceleration = 0;
@@ -18,17 +20,33 @@ double friction_surface_speed(const struct friction *friction, const struct inst
                           formula_branches(&friction->surface_speed, at), acceleration);
 }
 
+double friction_coefficient(const struct fbd_model *model, int pair, const struct formula *mu,
+                            const struct instant *at, const struct direction *along, double *variation)
+{
+    double d_mu = 0, d_wrap, value = along ? formula_along(mu, at, along, &d_mu) : formula_value(mu, at);
+    int tie = model->plan.frictions[pair].tie;
+    if (variation) *variation = d_mu;
+    if (tie < 0 || model->tree->ties[tie].kind != constraint_capstan) return value;
+    double wrap = fmax(0, capstan_wrap(model, at, tie, along != NULL, &d_wrap)),
+           share = tanh(value * wrap / 2);
+    if (variation) *variation = (1 - share * share) * (d_mu * wrap + value * d_wrap) / 2;
+    return share;
+}
+
+double formula_third(const struct formula *formula, const struct instant *at)
+{
+    double d_a, d_b, h = 1e-4 * fmax(1, fabs(at->t)), low, high;
+    const int *branch = formula_branches(formula, at);
+    expr_eval_second(formula->expr, at->t - h, at->y, 0, 0, branch, &d_a, &d_b, &low);
+    expr_eval_second(formula->expr, at->t + h, at->y, 0, 0, branch, &d_a, &d_b, &high);
+    return (high - low) / (2 * h);
+}
+
 double friction_surface_jerk(const struct friction *friction, const struct instant *at)
 {
     double d_a, d_b, jerk = 0;
-    if (friction->kind == mode_drive && friction->position.expr) {
-        /* Expressions know two derivatives; the third only enters how accelerations vary with time. */
-        double h = 1e-4 * fmax(1, fabs(at->t)), low, high;
-        const int *branch = formula_branches(&friction->position, at);
-        expr_eval_second(friction->position.expr, at->t - h, at->y, 0, 0, branch, &d_a, &d_b, &low);
-        expr_eval_second(friction->position.expr, at->t + h, at->y, 0, 0, branch, &d_a, &d_b, &high);
-        return (high - low) / (2 * h);
-    }
+    if (friction->kind == mode_drive && friction->position.expr)
+        return formula_third(&friction->position, at);
     if (friction->surface_speed.expr)
         expr_eval_second(friction->surface_speed.expr, at->t, at->y, 0, 0,
                          formula_branches(&friction->surface_speed, at), &d_a, &d_b, &jerk);
@@ -46,8 +64,8 @@ struct friction_values friction_at(const struct fbd_model *model, int pair, cons
         values.N = -slots[friction->normal_slot];
         press = fmax(0, at->pull[pair] * values.N); /* a surface that would have to pull is not there */
     }
-    values.limit_static = formula_value(&friction->mu_s, at) * press;
-    values.limit_kinetic = formula_value(&friction->mu_k, at) * press;
+    values.limit_static = friction_coefficient(model, pair, &friction->mu_s, at, NULL, NULL) * press;
+    values.limit_kinetic = friction_coefficient(model, pair, &friction->mu_k, at, NULL, NULL) * press;
     double acceleration;
     friction_surface_speed(friction, at, &acceleration);
     values.hold = friction->inertia * acceleration - slots[friction->hold_slot];
@@ -69,9 +87,9 @@ struct friction_values friction_along(const struct fbd_model *model, int pair, c
         press = fmax(0, -at->pull[pair] * slots[friction->normal_slot]);
         d_press = at->pull[pair] * rate.N;
     }
-    double mu = formula_along(&friction->mu_s, at, along, &d_mu);
+    double mu = friction_coefficient(model, pair, &friction->mu_s, at, along, &d_mu);
     rate.limit_static = d_mu * press + mu * d_press;
-    mu = formula_along(&friction->mu_k, at, along, &d_mu);
+    mu = friction_coefficient(model, pair, &friction->mu_k, at, along, &d_mu);
     rate.limit_kinetic = d_mu * press + mu * d_press;
     double jerk = friction_surface_jerk(friction, at);
     rate.hold = friction->inertia * jerk * along->dt - slots_along[friction->hold_slot];

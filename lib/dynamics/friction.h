@@ -30,6 +30,15 @@ struct friction_values {
 double friction_surface_speed(const struct friction *friction, const struct instant *at,
                               double *acceleration);
 
+/* A coefficient of friction at an instant, and its variation along a direction that the links follow. Of a rope round a
+ * drum it is tanh(mu beta / 2), of the sum of its tensions. */
+double friction_coefficient(const struct fbd_model *model, int pair, const struct formula *mu,
+                            const struct instant *at, const struct direction *along, double *variation);
+
+/* The third derivative of a formula of t: expressions know two, and this one only enters how accelerations
+ * vary with time. */
+double formula_third(const struct formula *formula, const struct instant *at);
+
 /* The rate of change of that acceleration with time. */
 double friction_surface_jerk(const struct friction *friction, const struct instant *at);
 

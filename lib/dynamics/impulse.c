@@ -9,7 +9,7 @@ void impulse_look(struct fbd_state *state)
 {
     struct instant at = state_instant(state);
     tree_move(state->model, &at);
-    constraints_evaluate(state->model, state->tree, false);
+    constraints_evaluate(state->model, &at, NULL);
 }
 
 /* The tree without loads and bias, factored for answers; prescribed joints give nothing. */
@@ -32,7 +32,8 @@ static void let_go(const struct fbd_model *model, int *modes)
 {
     for (size_t i = 0; i < model->plan.friction_count; i++) {
         const struct friction *friction = &model->plan.frictions[i];
-        bool rolls = friction->tie >= 0 && model->tree->ties[friction->tie].kind == constraint_roll;
+        bool rolls = friction->tie >= 0 && (model->tree->ties[friction->tie].kind == constraint_roll ||
+                                            model->tree->ties[friction->tie].kind == constraint_capstan);
         bool one_sided = friction->kind == mode_rope || friction->kind == mode_contact;
         if (one_sided || (friction->kind == mode_friction && !rolls)) modes[i] = slip_plus;
     }

@@ -39,7 +39,7 @@ static bool has_ties(const struct fbd_model *model)
 static void look(const struct place *place)
 {
     tree_move(place->model, &place->at);
-    constraints_evaluate(place->model, place->at.tree, false);
+    constraints_evaluate(place->model, &place->at, NULL);
 }
 
 /* The rows where the state is, with the tree factored for answers: no loads, no bias. */
@@ -55,7 +55,7 @@ static void prepare(const struct place *place)
     tree_move(model, &place->at);
     memset(work->x, 0, (size_t)tree->count * sizeof *work->x);
     tree_factor(tree, work);
-    constraints_evaluate(model, work, false);
+    constraints_evaluate(model, &place->at, NULL);
 }
 
 static void release(const struct place *place)

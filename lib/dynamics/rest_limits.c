@@ -40,7 +40,9 @@ static void limit_values(const struct rest_system *system, const double *slots, 
         double hold = -slots[(size_t)friction->hold_slot * stride];
         if (loads) hold += friction->inertia * acceleration;
         if (friction->normal_slot >= 0) press = -at.pull[i] * slots[(size_t)friction->normal_slot * stride];
-        double limit = fmax(formula_value(&friction->mu_s, &at), formula_value(&friction->mu_k, &at)) * press;
+        double resting = friction_coefficient(system->state->model, (int)i, &friction->mu_s, &at, NULL, NULL);
+        double moving = friction_coefficient(system->state->model, (int)i, &friction->mu_k, &at, NULL, NULL);
+        double limit = fmax(resting, moving) * press;
         next[0] = limit - hold;
         next[1] = limit + hold;
     }

@@ -54,7 +54,7 @@ bool rest_begin(struct fbd_state *state)
         state->tree->links[i].A = (struct acceleration){0, {0, 0}};
     }
     tree_move(model, &at);
-    constraints_evaluate(model, state->tree, false);
+    constraints_evaluate(model, &at, NULL);
     return true;
 }
 
@@ -144,6 +144,15 @@ static void stand_still(const struct fbd_model *model, const struct instant *at,
     }
 }
 
+/* The tension that a belt has anyway is a load. */
+static void drop_preloads(const struct tree *tree, double *slots)
+{
+    for (int i = 0; i < tree->tie_count; i++) {
+        if (tree->ties[i].kind != constraint_belt) continue;
+        for (int k = 0; k < 2; k++) slots[tree->ties[i].slack_slot[k]] += tree->ties[i].preload;
+    }
+}
+
 void rest_forces(const struct fbd_model *model, const struct instant *given, const double *lambda, bool loads,
                  double *slots, double *Q)
 {
@@ -156,6 +165,7 @@ void rest_forces(const struct fbd_model *model, const struct instant *given, con
         for (int i = 1; i < model->tree->count; i++)
             leave_over(&model->tree->links[i], &at.tree->links[i], slots, Q);
         tree_slots(model, &at, slots);
+        if (!loads) drop_preloads(model->tree, slots);
     }
     add_slipping(model, &at, slots, loads, Q);
     if (loads) stand_still(model, &at, slots);

@@ -90,6 +90,13 @@ void tree_complete(const struct fbd_model *model, struct tree_work *work)
     work->complete = true;
 }
 
+static void set_strands(const struct fbd_model *model, const struct tree_work *work, int index, double *slots)
+{
+    double tension[2];
+    belt_tensions(model, work, index, tension);
+    for (int k = 0; k < 2; k++) slots[model->tree->ties[index].slack_slot[k]] = -tension[k];
+}
+
 void tree_slots(const struct fbd_model *model, const struct instant *at, double *slots)
 {
     const struct tree *tree = model->tree;
@@ -106,6 +113,7 @@ void tree_slots(const struct fbd_model *model, const struct instant *at, double 
     }
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
+        if (tie->kind == constraint_belt) set_strands(model, work, i, slots);
         if (!tie_has_surface(tie)) continue;
         slots[tie->normal_slot] = -work->rows[tie->first_row].lambda;
         if (tie->pair >= 0)
@@ -179,7 +187,7 @@ static void close_system(const struct fbd_model *model, const struct instant *at
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
-    constraints_evaluate(model, work, false);
+    constraints_evaluate(model, at, NULL);
     for (int j = 0; j < tree->row_count; j++) work->z[j] = -work->rows[j].g.x2;
     for (int k = 0; k < tree->pair_count; k++) {
         int i = tree->pairs[k];
@@ -192,7 +200,7 @@ static void close_system(const struct fbd_model *model, const struct instant *at
     tree_add_unit(tree, work, a);
     if (tree->meeting_count > 0) drop_rounding(tree, work, a);
     add_result(tree, work);
-    constraints_evaluate(model, work, false); /* with the accelerations that they lead to */
+    constraints_evaluate(model, at, NULL); /* with the accelerations that they lead to */
 }
 
 void tree_accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a)

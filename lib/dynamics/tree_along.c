@@ -120,7 +120,7 @@ void tree_accelerations_along(const struct fbd_model *model, const struct instan
     vary_arms(tree, work);
     vary_joint_forces(model, at, along, slots, slots_along);
     if (tree->tie_count > 0) {
-        constraints_evaluate(model, work, true);
+        constraints_evaluate(model, at, along);
         tree_apply_variations(model, at, along);
     }
     tree_inward(tree, work, 1, tree->count);
@@ -136,6 +136,12 @@ void tree_accelerations_along(const struct fbd_model *model, const struct instan
     add_slots(model, at, false, slots_along);
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
+        if (tie->kind == constraint_belt) {
+            double both = tie->row_count > 1 ? work->z[tie->first_row + 1] : 0,
+                   half = work->z[tie->first_row] / 2;
+            slots_along[tie->slack_slot[0]] = both + half;
+            slots_along[tie->slack_slot[1]] = both - half;
+        }
         if (!tie_has_surface(tie)) continue;
         slots_along[tie->normal_slot] = -work->z[tie->first_row];
         if (tie->pair >= 0)

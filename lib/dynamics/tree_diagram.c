@@ -124,6 +124,7 @@ static struct arrow load_arrow(const struct fbd_model *model, int index, const s
         break;
     }
     case load_rope:
+    case load_belt:
     case load_contact:
     case load_normal: break; /* a reaction: see below */
     case load_friction:
@@ -180,11 +181,54 @@ static struct arrow row_arrow(const struct instant *at, const struct row *row, i
 
 enum { most_of_an_end = 2 };
 
+/* The strands of a belt at its end k: a row has its ports at both ends of strand 0, then of strand 1. */
+static size_t fill_strands(const struct fbd_model *model, int index, int k, const struct instant *at,
+                           struct arrow *arrows)
+{
+    const struct tie *tie = &model->tree->ties[index];
+    const struct row *row = &at->tree->rows[tie->first_row];
+    double tension[2];
+    belt_tensions(model, at->tree, index, tension);
+    for (int strand = 0; strand < 2; strand++) {
+        const struct port *port = &row->ports[2 * strand + (k == strand ? 0 : 1)];
+        double share = strand == 0 ? 0.5 : -0.5; /* which the row has of its force */
+        arrows[strand] = (struct arrow){.name = tie->end[k].name[strand],
+                                        .load = -1,
+                                        .point = vec_add(at->tree->links[port->link].p, port->arm),
+                                        .force = vec_scale(-tension[strand] / share, port->force)};
+    }
+    return 2;
+}
+
+/* The strands of a rope that rubs on its drum, which is end 1: a row has its ports at both ends of strand 0, then of
+ * strand 1. Together they take what friction takes. */
+static size_t fill_rubbing(const struct fbd_model *model, int index, int k, const struct instant *at,
+                           struct arrow *arrows)
+{
+    const struct tie *tie = &model->tree->ties[index];
+    const struct row *row = &at->tree->rows[tie->first_row];
+    double tension[2];
+    size_t count = 0;
+    capstan_tensions(model, at->tree, index, tension);
+    for (int strand = 0; strand < 2; strand++) {
+        if (k != strand && k != strand + 1) continue;
+        const struct port *port = &row->ports[2 * strand + (k - strand)];
+        const double share = -0.5;
+        arrows[count] = (struct arrow){.name = tie->end[k].name[k == 1 ? strand : 0],
+                                       .load = tie->load,
+                                       .point = vec_add(at->tree->links[port->link].p, port->arm),
+                                       .force = vec_scale(-tension[strand] / share, port->force)};
+        count++;
+    }
+    return count;
+}
+
 /* What a tie does at its end k: one force, or for a rolling body those along and across its line. */
 static size_t fill_end(const struct tie *tie, int k, const struct instant *at, struct arrow *arrows)
 {
     const struct row *rows = &at->tree->rows[tie->first_row];
     arrows[0] = row_arrow(at, &rows[0], k, tie->end[k].name[0]);
+    if (tie->reels) arrows[0].load = tie->load; /* any other rope does no work in all */
     if (tie->row_count == 1) return 1;
     arrows[1] = row_arrow(at, &rows[1], k, tie->end[k].name[1]);
     if (tie->kind == constraint_pin) {
@@ -195,6 +239,15 @@ static size_t fill_end(const struct tie *tie, int k, const struct instant *at, s
     return 2;
 }
 
+static size_t fill_tie(const struct fbd_model *model, int index, int k, const struct instant *at,
+                       struct arrow *arrows)
+{
+    const struct tie *tie = &model->tree->ties[index];
+    if (tie->kind == constraint_belt) return fill_strands(model, index, k, at, arrows);
+    if (tie->kind == constraint_capstan) return fill_rubbing(model, index, k, at, arrows);
+    return fill_end(tie, k, at, arrows);
+}
+
 /* All constraint forces on body b; returns their number. */
 static size_t fill_ties(const struct fbd_model *model, int b, const struct instant *at, struct arrow *arrows)
 {
@@ -202,7 +255,7 @@ static size_t fill_ties(const struct fbd_model *model, int b, const struct insta
     size_t count = 0;
     for (int i = 0; i < tree->tie_count; i++)
         for (int k = 0; k < tree->ties[i].end_count; k++)
-            if (tree->ties[i].end[k].body == b) count += fill_end(&tree->ties[i], k, at, arrows + count);
+            if (tree->ties[i].end[k].body == b) count += fill_tie(model, i, k, at, arrows + count);
     return count;
 }
 

@@ -27,13 +27,6 @@ double tree_hold_acceleration(const struct fbd_state *state, const struct instan
     return state->a[hold->coordinate] - surface;
 }
 
-bool tree_has_drives(const struct fbd_model *model)
-{
-    for (size_t i = 0; i < model->plan.friction_count; i++)
-        if (model->plan.frictions[i].kind == mode_drive) return true;
-    return false;
-}
-
 static double reach_of(const struct fbd_state *state)
 {
     double reach = 0;
@@ -68,7 +61,7 @@ double tree_driven(struct fbd_state *state, const int *slip, int pair)
     enum { decades = 15 };
     const double soonest = 1e-12, next = 10; /* [s]; ratio */
     size_t n = (size_t)state->model->plan.n, pairs = state->model->plan.friction_count;
-    if (!tree_has_drives(state->model)) return 0;
+    if (!model_is_driven(state->model)) return 0;
     double v = pair_of(state, pair)->kind == mode_friction ? velocity_along(state, pair, 0) : 0;
     struct fbd_state *then = v == 0 ? state_new(state->model) : NULL;
     if (v == 0 && !then) state->holds.found = holds_no_memory;

@@ -30,9 +30,6 @@ double tree_hold_acceleration(const struct fbd_state *state, const struct instan
  * in so much time (0: at once), as that of a drive that starts from rest is. */
 double tree_unseen_speed(const struct fbd_state *state, double time);
 
-/* Does anything move by a law of the time? */
-bool tree_has_drives(const struct fbd_model *model);
-
 /* How drives move hold `pair`, along which no force moves anything, with the holds loose in the modes `slip`
  * (plan.friction_count): the velocity along it, else, by its sign alone, what that becomes as soon as it is
  * more than rounding; 0 where it stays at rest. Sets state->holds.found when memory is out. */

@@ -196,8 +196,8 @@ bool gathered_find(struct gathered *all, struct fbd_state *state, const struct d
         struct hold *hold = &all->problem.holds[i];
         hold->kind = friction->kind == mode_friction ? hold_friction : hold_one_sided;
         if (hold->kind == hold_one_sided) continue;
-        hold->mu_s = formula_value(&friction->mu_s, &at);
-        hold->mu_k = formula_value(&friction->mu_k, &at);
+        hold->mu_s = friction_coefficient(state->model, all->pair[i], &friction->mu_s, &at, NULL, NULL);
+        hold->mu_k = friction_coefficient(state->model, all->pair[i], &friction->mu_k, &at, NULL, NULL);
         hold->slip = hold_slips_already(state, decided, forced, all->pair[i]);
         set_press(all, i, &guides);
     }

@@ -77,20 +77,13 @@ static void follow(const struct comparison *comparison)
     if (!random_admissible(state)) state_evaluate(state);
 }
 
-static bool is_driven(const fbd_model *model)
-{
-    for (size_t k = 0; k < model->plan.friction_count; k++)
-        if (model->plan.frictions[k].kind == mode_drive) return true;
-    return false;
-}
-
 /* The start again, at another time: what sticks there sticks, while forces are others. */
 static bool start_at_another_time(struct comparison *comparison)
 {
     const fbd_model *key = comparison->key;
     fbd_state *state = comparison->key_state;
     const struct value *until = &key->scene->simulate.until;
-    if (is_driven(key)) return false;
+    if (model_is_driven(key)) return false;
     state_copy(state, comparison->fresh);
     memcpy(state->y, comparison->start, (size_t)key->plan.n * sizeof *state->y);
     state->t = gsl_rng_uniform(comparison->rng) * (until->expr ? expr_value(until->expr) : 1);

@@ -76,6 +76,8 @@ static bool same_constraint(const struct scene *key, const struct constraint *a,
     if (a->length_given && !near(a->length, b->length, 1e-6)) return false;
     for (int i = 0; i < a->end_count; i++)
         if (strcmp(end_name(key, a->body[i]), end_name(answer, b->body[i])) != 0 ||
+            (i < 2 && (a->wound[i] != b->wound[i] ||
+                       !(a->spare[i] == b->spare[i] || near(a->spare[i], b->spare[i], 1e-6)))) ||
             !same_point(a->point[i], b->point[i]) || !near(a->radius[i], b->radius[i], 1e-6))
             return false;
     return true;

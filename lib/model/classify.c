@@ -97,7 +97,12 @@ static struct verdict judge(const struct model_body *body, const struct model_lo
     case load_gravity: return (struct verdict){potential_gravity, "conservative: V = m g h"};
     case load_drive:
         return (struct verdict){potential_none, "not conservative: whatever the prescribed motion takes"};
-    case load_rope: return (struct verdict){potential_none, "does no work, except when it snaps taut"};
+    case load_rope:
+        if (load->source->reels)
+            return (struct verdict){potential_none,
+                                    "not conservative: whatever its length, a function of t, takes"};
+        return (struct verdict){potential_none, "does no work, except when it snaps taut"};
+    case load_belt: return (struct verdict){potential_none, "does no work: it passes it on"};
     case load_contact:
         return (struct verdict){potential_none, "not conservative: impacts and friction take energy"};
     case load_normal: return (struct verdict){potential_workless, "does no work: it acts across the motion"};

@@ -188,14 +188,18 @@ static bool set_named_ties(struct builder *builder)
         struct load *source = ARENA_ARRAY(&model->arena, 1, struct load);
         if (!source) return false;
         bool rope = constraint->kind == constraint_rope;
-        bool contact = constraint->kind == constraint_contact;
+        bool contact = constraint->kind == constraint_contact, belt = constraint->kind == constraint_belt;
+        bool capstan = constraint->kind == constraint_capstan;
         source->kind = rope                    ? load_rope
                        : contact               ? load_contact
+                       : belt                  ? load_belt
                        : constraint->mu_s.expr ? load_friction
                                                : load_normal;
-        source->name =
-            rope || contact ? constraint->name : arena_printf(&model->arena, "%s.friction", constraint->name);
+        source->name = rope || contact || belt || capstan
+                           ? constraint->name
+                           : arena_printf(&model->arena, "%s.friction", constraint->name);
         source->at = constraint->at;
+        source->reels = constraint->reel.expr != NULL;
         set_load(builder, &model->loads[next++], source, constraint_first_body(constraint));
     }
     return true;

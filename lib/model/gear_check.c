@@ -10,22 +10,32 @@
 
 static const double digits = 2e-6; /* six digits in a file are meant to fit */
 
-/* The distance of two axes that keeps as the bodies move; negative where it does not. Both turn about their
- * centres, and on the same body, or one on the other, or one on an arm about the axis of the other. */
+/* A centre in the frame in which it rests: of what turns about it, that of the body below. */
+struct centre {
+    int link;
+    struct vec point;
+};
+
+static struct centre centre_of(const struct tree *tree, const struct tie_end *end, double close)
+{
+    const struct tree_link *link = &tree->links[end->link];
+    bool turns = end->link > 0 && link->kind == motion_pivot && vec_norm(end->point) <= close;
+    return turns ? (struct centre){link->parent, link->at} : (struct centre){end->link, end->point};
+}
+
+/* The distance of two axes that keeps as the bodies move; negative where it does not. Both rest on the same body, or one
+ * on an arm about the axis of the other. */
 static double axes_apart(const struct tree *tree, const struct tie *tie, double close)
 {
-    const struct tree_link *link[2];
+    struct centre centre[2];
+    for (int k = 0; k < 2; k++) centre[k] = centre_of(tree, &tie->end[k], close);
+    if (centre[0].link == centre[1].link) return vec_norm(vec_sub(centre[0].point, centre[1].point));
     for (int k = 0; k < 2; k++) {
-        link[k] = &tree->links[tie->end[k].link];
-        if (link[k]->kind != motion_pivot || vec_norm(tie->end[k].point) > close) return -1;
-    }
-    if (link[0]->parent == link[1]->parent) return vec_norm(vec_sub(link[0]->at, link[1]->at));
-    for (int k = 0; k < 2; k++) {
-        const struct tree_link *other = link[1 - k], *arm = &tree->links[link[k]->parent];
-        bool on_the_other = link[k]->parent == tie->end[1 - k].link;
-        bool about_it = link[k]->parent > 0 && arm->kind == motion_pivot && arm->parent == other->parent &&
-                        vec_norm(vec_sub(arm->at, other->at)) <= close;
-        if (on_the_other || about_it) return vec_norm(link[k]->at);
+        const struct tree_link *arm = &tree->links[centre[k].link];
+        const struct centre *other = &centre[1 - k];
+        bool about_it = centre[k].link > 0 && arm->kind == motion_pivot && arm->parent == other->link &&
+                        vec_norm(vec_sub(arm->at, other->point)) <= close;
+        if (about_it) return vec_norm(centre[k].point);
     }
     return -1;
 }
@@ -84,6 +94,45 @@ static void check_gear(struct builder *builder, const struct tie *tie)
              "the axes of `%s` and `%s` are %.6g apart, where the radii %.6g and %.6g %s %.6g",
              model->bodies[tie->end[0].body].name, model->bodies[tie->end[1].body].name, apart, r1, fabs(r2),
              r2 < 0 ? "differ by" : "add up to", needed);
+}
+
+/* Both strands pull with 2 T cos(gamma) along the line of centres, whatever the belt drives: sin(gamma) = (R_1 -+ R_2) /
+ * d. A spring of the length d has that force for ever. */
+static void preload(struct tree *tree, const struct tie *tie, double apart)
+{
+    double rho = tie->end[0].radius + (tie->crossed ? 1 : -1) * tie->end[1].radius;
+    double along = sqrt(fmax(0, apart * apart - rho * rho)) / apart;
+    tree->springs[tree->spring_count++] =
+        (struct tree_spring){.link = {tie->end[0].link, tie->end[1].link},
+                             .point = {tie->end[0].point, tie->end[1].point},
+                             .stiffness = 2 * tie->preload * along / apart};
+}
+
+static void check_belt(struct builder *builder, const struct tie *tie)
+{
+    const struct fbd_model *model = builder->model;
+    double size = tie->end[0].radius + tie->end[1].radius,
+           apart = axes_apart(model->tree, tie, digits * size);
+    struct pos at = model->scene->constraints[tie->constraint].at;
+    if (apart >= 0 && tie->preload == 0)
+        diag_add(builder->errors, FBD_ERROR, "missing-key", at,
+                 "give it a `tension`, that of both strands at rest",
+                 "the axes of `%s` and `%s` keep their distance, so that no motion tells the tension of the "
+                 "belt `%s`",
+                 model->bodies[tie->end[0].body].name, model->bodies[tie->end[1].body].name, tie->name);
+    if (apart < 0 && tie->preload > 0)
+        diag_add(builder->errors, FBD_ERROR, "conflicting-keys", at,
+                 "leave `tension` out: it follows from what pulls the axes apart",
+                 "the axes of `%s` and `%s` move against each other, and the belt `%s` keeps its length",
+                 model->bodies[tie->end[0].body].name, model->bodies[tie->end[1].body].name, tie->name);
+    if (apart > 0 && tie->preload > 0) preload(model->tree, tie, apart);
+}
+
+void belts_check(struct builder *builder)
+{
+    const struct tree *tree = builder->model->tree;
+    for (int i = 0; tree && i < tree->tie_count; i++)
+        if (tree->ties[i].kind == constraint_belt) check_belt(builder, &tree->ties[i]);
 }
 
 void gears_check(struct builder *builder)

@@ -305,6 +305,7 @@ static void add_load(struct builder *builder, struct model_body *body, int index
     case moment_damper: add_moment_damper(builder, body, source); break;
     case load_drive:
     case load_rope:
+    case load_belt:
     case load_contact:
     case load_normal: break; /* the contact below, and the friction that needs it */
     case load_friction:
@@ -379,7 +380,7 @@ static bool allocate(struct builder *builder)
     plan->frictions =
         ARENA_ARRAY(arena, loads + 8 * model->scene->constraint_count + 2 * ties, struct friction);
     plan->contacts =
-        ARENA_ARRAY(arena, model->body_count + model->scene->constraint_count + ties, struct contact);
+        ARENA_ARRAY(arena, model->body_count + model->scene->constraint_count + 2 * ties, struct contact);
     plan->offsets = ARENA_ARRAY(arena, model->body_count, struct offset_body);
     plan->bodies = ARENA_ARRAY(arena, model->body_count, struct body_terms);
     plan->slot_constant = ARENA_ARRAY(arena, most_slots, bool);
@@ -388,7 +389,7 @@ static bool allocate(struct builder *builder)
         tree->following = ARENA_ARRAY(arena, 3 * loads, struct tree_following);
         tree->forces = ARENA_ARRAY(arena, 2 * loads, struct tree_force);
         tree->moments = ARENA_ARRAY(arena, loads, struct tree_moment);
-        tree->springs = ARENA_ARRAY(arena, loads, struct tree_spring);
+        tree->springs = ARENA_ARRAY(arena, loads, struct tree_spring); /* a belt is a load, too */
         tree->drags = ARENA_ARRAY(arena, loads, struct tree_drag);
     }
     return !arena->failed;
@@ -438,6 +439,15 @@ static void mark_body_slots(struct fbd_model *model, int b)
     if (body->normal_slot >= 0) model->plan.slot_constant[body->normal_slot] = false;
 }
 
+static void mark_strands(struct fbd_model *model)
+{
+    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
+        const struct tie *tie = &model->tree->ties[i];
+        if (tie->kind != constraint_belt) continue;
+        for (int k = 0; k < 2; k++) model->plan.slot_constant[tie->slack_slot[k]] = false;
+    }
+}
+
 bool plan_build(struct builder *builder)
 {
     struct fbd_model *model = builder->model;
@@ -451,6 +461,8 @@ bool plan_build(struct builder *builder)
     pack(builder);
     for (size_t b = 0; b < model->body_count; b++)
         if (model->bodies[b].place.link > 0) mark_body_slots(model, (int)b);
+    mark_strands(model);
+    belts_check(builder);
     if (model->tree && !tree_finish(model)) return false;
     body_terms_finish(builder);
     for (size_t i = 0; i < plan->link_count; i++) mark_body_slots(model, plan->links[i].body);

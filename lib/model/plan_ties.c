@@ -10,7 +10,7 @@ static void add_rubbing(struct builder *builder, struct tie *tie)
 {
     struct plan *plan = &builder->model->plan;
     const struct constraint *source = &builder->model->scene->constraints[tie->constraint];
-    int body = tie->end[0].body;
+    int body = constraint_first_body(&builder->model->scene->constraints[tie->constraint]);
     tie->pair = (int)plan->friction_count;
     plan->frictions[plan->friction_count++] =
         (struct friction){.body = body,
@@ -28,7 +28,7 @@ static void add_rubbing(struct builder *builder, struct tie *tie)
 static void add_surface(struct builder *builder, struct tie *tie, enum mode_kind kind)
 {
     struct plan *plan = &builder->model->plan;
-    int body = tie->end[0].body;
+    int body = constraint_first_body(&builder->model->scene->constraints[tie->constraint]);
     tie->normal_slot = plan->slots++;
     tie->surface = (int)plan->friction_count;
     plan->contacts[plan->contact_count++] = (struct contact){body, tie->load, tie->normal_slot, tie->surface};
@@ -57,8 +57,9 @@ static void plan_contact(struct builder *builder, struct tie *tie)
 }
 
 /* A rope is taut or slack. */
-static void plan_rope(struct fbd_model *model, struct tie *tie)
+static void plan_rope(struct builder *builder, struct tie *tie)
 {
+    struct fbd_model *model = builder->model;
     struct plan *plan = &model->plan;
     int first = 0;
     while (tie->end[first].body < 0) first++; /* a piece begins or ends at a body */
@@ -70,6 +71,22 @@ static void plan_rope(struct fbd_model *model, struct tie *tie)
                                                                 .hold_slot = 0,
                                                                 .tie = (int)(tie - model->tree->ties),
                                                                 .jointed = true};
+    if (!tie->reels) return;
+    tie->reel = builder_formula(builder, &model->scene->constraints[tie->constraint].reel,
+                                tie->end[first].body, tie->load);
+    tie->length = expr_eval(tie->reel.expr, 0, NULL, NULL);
+}
+
+/* No strand of a belt pushes. What does not move with the axes is a pull between them that is known, of a spring that
+ * keeps its length (gear_check.c). */
+static void plan_belt(struct fbd_model *model, struct tie *tie)
+{
+    struct plan *plan = &model->plan;
+    for (int k = 0; k < 2; k++) {
+        tie->slack_slot[k] = plan->slots++;
+        plan->contacts[plan->contact_count++] =
+            (struct contact){tie->end[0].body, tie->load, tie->slack_slot[k], -1};
+    }
 }
 
 /* A prescribed motion is a joint that sticks to a surface which moves so. */
@@ -98,18 +115,20 @@ void plan_ties(struct builder *builder)
     int load = (int)model->coupled_count - 1, last = -1;
     for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
         struct tie *tie = &model->tree->ties[i];
-        bool named = tie_has_surface(tie) || tie->kind == constraint_rope;
+        bool named = tie_has_surface(tie) || tie->kind == constraint_rope || tie->kind == constraint_belt;
         if (!named) continue;
         if (tie->constraint != last)
             load++; /* the pieces of a rope share one, and the features of a contact */
         last = tie->constraint;
         tie->load = load;
-        if (tie->kind == constraint_roll)
+        if (tie->kind == constraint_roll || tie->kind == constraint_capstan)
             plan_roll(builder, tie);
         else if (tie->kind == constraint_contact)
             plan_contact(builder, tie);
+        else if (tie->kind == constraint_belt)
+            plan_belt(model, tie);
         else
-            plan_rope(model, tie);
+            plan_rope(builder, tie);
     }
     for (size_t b = 0; b < model->body_count; b++) plan_drive(builder, &model->bodies[b]);
 }

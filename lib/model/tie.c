@@ -33,7 +33,8 @@ static struct tie *add_tie(struct fbd_model *model, int index, int from, int to)
     const struct constraint *source = &model->scene->constraints[index];
     struct tie *tie = &tree->ties[tree->tie_count++];
     bool double_row = source->kind == constraint_pin || source->kind == constraint_roll ||
-                      source->kind == constraint_contact;
+                      source->kind == constraint_contact || source->kind == constraint_capstan ||
+                      (source->kind == constraint_belt && source->tension == 0);
     *tie = (struct tie){.kind = source->kind,
                         .constraint = index,
                         .name = source->name,
@@ -41,6 +42,9 @@ static struct tie *add_tie(struct fbd_model *model, int index, int from, int to)
                         .row_count = double_row ? 2 : 1,
                         .length_given = source->length_given,
                         .length = source->length,
+                        .preload = source->tension,
+                        .crossed = source->crossed,
+                        .turns = source->turns,
                         .place = from,
                         .pair = -1,
                         .surface = -1,
@@ -51,9 +55,25 @@ static struct tie *add_tie(struct fbd_model *model, int index, int from, int to)
     return tie;
 }
 
+bool model_is_driven(const struct fbd_model *model)
+{
+    for (size_t i = 0; i < model->plan.friction_count; i++) {
+        const struct friction *hold = &model->plan.frictions[i];
+        if (hold->kind == mode_drive || (hold->kind == mode_rope && model->tree->ties[hold->tie].reels))
+            return true;
+    }
+    return false;
+}
+
 void tie_of_contact(struct fbd_model *model, int index, int meeting)
 {
     add_tie(model, index, 0, 1)->meeting = meeting;
+}
+
+static void wind(const struct constraint *source, int end, struct tie *tie)
+{
+    tie->wound[end] = source->wound[end];
+    tie->spare[end] = source->spare[end];
 }
 
 /* A rope is cut at the pulleys that it takes along; each piece is a tie. */
@@ -65,6 +85,9 @@ static void add_rope(struct fbd_model *model, int index)
         bool held = k + 1 == source->end_count || source->radius[k] > 0;
         if (!held) continue;
         struct tie *tie = add_tie(model, index, from, k);
+        if (from == 0) wind(source, 0, tie);
+        if (k + 1 == source->end_count) wind(source, 1, tie);
+        tie->reels = from == 0 && source->reel.expr;
         /* A length in the file is that of the whole rope; pieces keep theirs of the start. */
         if (from > 0 || k + 1 < source->end_count) tie->length_given = false;
         from = k;
@@ -82,18 +105,42 @@ static void set_line(const struct fbd_model *model, const struct constraint *sou
     tie->turn += place->angle;
 }
 
+static const char *body_name(const struct fbd_model *model, int body)
+{
+    return body == ground_body ? "ground" : model->bodies[body].name;
+}
+
+/* The drum has both strands of a rope that rubs on it. */
+static void name_strands(struct fbd_model *model, struct tie *tie, int k)
+{
+    struct tie_end *end = &tie->end[k];
+    model->bodies[end->body].arrow_count += k == 1 ? 2 : 1;
+    end->name[0] = tie->name;
+    for (int strand = 0; k == 1 && strand < 2; strand++)
+        end->name[strand] =
+            arena_printf(&model->arena, "%s.%s", tie->name, body_name(model, tie->end[2 * strand].body));
+}
+
 /* A rope's forces on a pulley are named after what hangs on the other side; all others after the coupling. */
 static void name_end(struct fbd_model *model, struct tie *tie, int k)
 {
     struct arena *arena = &model->arena;
     struct tie_end *end = &tie->end[k];
     if (end->body == ground_body) return;
-    model->bodies[end->body].arrow_count += tie_has_surface(tie) ? 2 : 1;
+    bool belt = tie->kind == constraint_belt;
+    if (tie->kind == constraint_capstan) {
+        name_strands(model, tie, k);
+        return;
+    }
+    model->bodies[end->body].arrow_count += tie_has_surface(tie) || belt ? 2 : 1;
     end->name[0] = tie->name;
     if (tie_has_surface(tie)) {
         end->name[0] = arena_printf(arena, "%s.normal", tie->name);
         end->name[1] = arena_printf(arena, "%s.friction", tie->name);
-    } else if (tie->kind == constraint_rope && end->radius > 0) {
+    } else if (belt) {
+        end->name[0] = arena_printf(arena, "%s.right", tie->name);
+        end->name[1] = arena_printf(arena, "%s.left", tie->name);
+    } else if (tie->kind == constraint_rope && end->radius > 0 && tie->wound[k > 0] == 0) {
         int neighbour = tie->end[k == 0 ? 1 : k - 1].body;
         end->name[0] = arena_printf(arena, "%s.%s", tie->name,
                                     neighbour == ground_body ? "ground" : model->bodies[neighbour].name);
@@ -106,6 +153,10 @@ static void name_rows(struct arena *arena, struct tie *tie)
     if (tie->kind == constraint_pin) {
         tie->row_name[0] = arena_printf(arena, "%s in x", tie->name);
         tie->row_name[1] = arena_printf(arena, "%s in y", tie->name);
+    } else if (tie->kind == constraint_belt) {
+        tie->row_name[1] = arena_printf(arena, "length of %s", tie->name);
+    } else if (tie->kind == constraint_capstan) {
+        tie->row_name[1] = arena_printf(arena, "%s.friction", tie->name);
     } else if (tie_has_surface(tie)) {
         tie->row_name[0] = arena_printf(arena, "%s.normal", tie->name);
         tie->row_name[1] = arena_printf(arena, "%s.friction", tie->name);

@@ -10,6 +10,7 @@
 #define FBD_MODEL_TIE_H
 
 #include "expr/expr.h"
+#include "model/plan.h"
 #include "scene/scene.h"
 
 struct tie_end {
@@ -33,12 +34,20 @@ struct tie {
     double turn;       /* roll, rack: the angle of the line there */
     bool length_given; /* rod, rope */
     double length;
-    int normal_slot; /* roll: where minus its normal force goes */
-    int load;        /* roll, rope: its entry in the model's loads */
-    int pair;        /* roll, contact: its dry friction; rope: its mode; index into plan.frictions, or -1 */
-    int surface;     /* roll, contact: the mode of its normal force, closed (`stick`) or open; index into
+    int wound[2]; /* rope: enum wound_side where the piece begins, and ends, on a disc that it is wound on */
+    double spare[2];     /* and how much there is of it at the start, or HUGE_VAL */
+    bool reels;          /* rope: its length goes with the time, from `length` at t = 0 */
+    struct formula reel; /* so */
+    double preload;      /* belt: `tension` of the file */
+    bool crossed;
+    double turns;      /* capstan: beside what is seen */
+    int slack_slot[2]; /* belt: where minus the tensions of its strands go */
+    int normal_slot;   /* roll: where minus its normal force goes */
+    int load;          /* roll, rope: its entry in the model's loads */
+    int pair;          /* roll, contact: its dry friction; rope: its mode; index into plan.frictions, or -1 */
+    int surface;       /* roll, contact: the mode of its normal force, closed (`stick`) or open; index into
                         plan.frictions, else -1 */
-    int meeting;     /* contact: index into tree.meetings, else -1 */
+    int meeting;       /* contact: index into tree.meetings, else -1 */
     int root[most_constraint_ends], root_count; /* first links of the trees that it joins */
 };
 
@@ -51,10 +60,13 @@ const char *tie_row_name(const struct tree *tree, int row);
 /* Place `k` of constraint `index` of the scene. */
 struct tie_end tie_end_of(const struct fbd_model *model, int index, int k);
 
+/* Does anything move by a law of the time: a joint, or the length of a rope? */
+bool model_is_driven(const struct fbd_model *model);
+
 /* Does it have a surface with a normal row and, behind it, one along the surface? */
 static inline bool tie_has_surface(const struct tie *tie)
 {
-    return tie->kind == constraint_roll || tie->kind == constraint_contact;
+    return tie->kind == constraint_roll || tie->kind == constraint_contact || tie->kind == constraint_capstan;
 }
 
 /* Add a tie of contact `index` of the scene for one feature of the meeting. */

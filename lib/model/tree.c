@@ -299,6 +299,7 @@ void tree_add_load(struct builder *builder, int index)
     case moment_damper: add_joint_spring(builder, body, source); break;
     case load_drive:
     case load_rope:
+    case load_belt:
     case load_contact:
     case load_normal:
     case load_friction:
@@ -350,7 +351,9 @@ static void find_held(const struct fbd_model *model, bool *twisted)
             const struct point *point = &constraint->point[k];
             int b = constraint->body[k];
             if (b == ground_body) continue;
-            if ((lines && k == 1) ||
+            bool wound = (k == 0 && constraint->wound[0] != 0) ||
+                         (k + 1 == constraint->end_count && constraint->wound[1] != 0);
+            if ((lines && k == 1) || wound ||
                 (point->kind == point_fixed && is_off_center(&model->bodies[b], point->where)))
                 twisted[b] = true;
         }

@@ -87,6 +87,7 @@ static const char *effect_name(enum load_kind kind)
     case moment_potential: return "potential (moment)";
     case load_drive: return "prescribed motion";
     case load_rope: return "rope";
+    case load_belt: return "belt";
     case load_contact: return "contact";
     }
     return "";

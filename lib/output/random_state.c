@@ -55,13 +55,6 @@ static bool follow_prescribed(struct fbd_state *state)
     return fits;
 }
 
-static bool is_driven(const struct fbd_model *model)
-{
-    for (size_t k = 0; k < model->plan.friction_count; k++)
-        if (model->plan.frictions[k].kind == mode_drive) return true;
-    return false;
-}
-
 /* Where couplings close loops, most states do not fit: so the start moves by up to 0.3 rad or a tenth of a
  * metre, with random rates, and the nearest state that fits is taken. False when there is none. */
 static bool draw_closed(gsl_rng *rng, struct fbd_state *state, const double *start)
@@ -70,7 +63,7 @@ static bool draw_closed(gsl_rng *rng, struct fbd_state *state, const double *sta
     size_t n = model->scene->coordinate_count;
     if (!model->tree || model->tree->tie_count == 0) return true;
     memcpy(state->y, start, n * sizeof *start);
-    if (is_driven(model) && !follow_prescribed(state)) return false;
+    if (model_is_driven(model) && !follow_prescribed(state)) return false;
     for (size_t i = 0; i < n; i++)
         state->y[i] += between(rng, -1, 1) * (model->scene->coordinates[i].angle ? 0.3 : 0.1);
     modes_drive(state);

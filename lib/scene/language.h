@@ -222,11 +222,25 @@ enum { frame_world, frame_body };
 
 struct coupling_keys {
     const char *name;
-    const struct node *between, *through, *radii, *body, *on, *center;
-    double stiffness, free_length, coefficient, length, radius;
-    bool inside;
-    struct value mu_s, mu_k, restitution;
+    const struct node *between, *through, *radii, *body, *on, *center, *wound, *around;
+    double stiffness, free_length, coefficient, length, radius, tension;
+    bool inside, crossed;
+    struct value mu_s, mu_k, restitution, reel;
     int law, side; /* enum impact_law, enum contact_side */
+};
+
+/* What `around` says. */
+struct around_keys {
+    const struct node *on;
+    double radius, turns;
+    struct value mu_s, mu_k;
+};
+
+/* One entry of `wound`. */
+struct wound_keys {
+    const struct node *on;
+    int side; /* enum wound_side */
+    double radius, length;
 };
 
 /* The side of a line on which a contact keeps its body. */
@@ -243,7 +257,8 @@ struct hand_keys {
 extern const struct choice method_choices[];
 
 extern const struct group scene_group, ground_group, line_group, simulate_group, output_group, event_group;
-extern const struct group contact_group, input_group, table_group, own_state_group, grading_group;
+extern const struct group around_group, wound_group, contact_group, input_group, table_group, own_state_group;
+extern const struct group grading_group;
 extern const struct group *const grading_points_group;
 extern const struct group body_group, part_group, inertia_group, hand_group, place_group;
 extern const struct group initial_groups[], exact_groups[]; /* by enum motion_kind */

@@ -55,12 +55,64 @@ static const struct field gear_fields[] = {
 static const struct group gear_group =
     COUPLING_GROUP("a gear", gear_fields, "two pitch circles that roll on each other without slip");
 
+static const struct choice wound_sides[] = {
+    {"left", wound_left, "it leaves the disc at its left"},
+    {"right", wound_right, "at its right"},
+    {"top", wound_top, "at its top"},
+    {"bottom", wound_bottom, "at its bottom"},
+};
+
+#define WOUND(member) offsetof(struct wound_keys, member)
+
+static const struct field wound_fields[] = {
+    FIELD_NODE(WOUND(on), "on", field_scalar, required, NULL, "the first or the last place of `through`"),
+    {"side", field_choice, a_number, required, WOUND(side), FIELDS(wound_sides), NULL, one_value, NULL,
+     "where the rope leaves the disc at the start"},
+    FIELD_NUMBER(WOUND(radius), "radius", a_length, positive, "of the disc; default that of its shape"),
+    FIELD_NUMBER(WOUND(length), "length", a_length, positive,
+                 "what is wound on it at the start, where the run ends when it is used up; default enough"),
+};
+const struct group wound_group = {"`wound`", NULL, FIELDS(wound_fields),
+                                  NULL,      0,    "a rope that is wound on a disc"};
+
+#define AROUND(member) offsetof(struct around_keys, member)
+
+static const struct field around_fields[] = {
+    FIELD_NODE(AROUND(on), "on", field_scalar, required, NULL, "the second of three places of `through`"),
+    FIELD_NUMBER(AROUND(radius), "radius", a_length, positive, "of the drum; default that of its shape"),
+    FIELD_NUMBER(AROUND(turns), "turns", a_number, not_negative,
+                 "whole turns beside what is seen; default 0"),
+    FIELD_VALUE(AROUND(mu_s), "static", a_number, not_negative,
+                "coefficient of static friction; default that of kinetic friction"),
+    FIELD_VALUE(AROUND(mu_k), "kinetic", a_number, not_negative,
+                "coefficient of kinetic friction; default that of static friction"),
+};
+const struct group around_group = {"`around`", NULL, FIELDS(around_fields),
+                                   NULL,       0,    "a rope that rubs on a drum which it goes round"};
+
 static const struct field rope_fields[] = {
     FIELD_ENTRIES(COUPLING(through), "through", field_list, required, each_word, NULL,
                   "its way: ends and points as in `between`; a disc that turns is a pulley"),
-    FIELD_NUMBER(COUPLING(length), "length", a_length, positive, "its length; default taut at the start"),
+    FIELD_VALUE(COUPLING(reel), "length", a_length, positive,
+                "its length, also as an expression of t; default taut at the start"),
+    FIELD_ENTRIES(COUPLING(wound), "wound", field_any, 0, each_group, &wound_group,
+                  "the disc at an end of it that it is wound on"),
+    FIELD_NODE(COUPLING(around), "around", field_map, 0, &around_group, "the drum that it rubs on"),
 };
 static const struct group rope_group = COUPLING_GROUP("a rope", rope_fields, "inextensible and massless");
+
+static const struct field belt_fields[] = {
+    FIELD_ENTRIES(COUPLING(between), "between", field_list, required, each_word, NULL,
+                  "two bodies that turn"),
+    FIELD_ENTRIES(COUPLING(radii), "radii", field_list, 0, each_number, NULL,
+                  "of the discs; default those of their shapes"),
+    FIELD_FLAG(COUPLING(crossed), "crossed",
+               "true: it crosses itself, and the discs turn against each other"),
+    FIELD_NUMBER(COUPLING(tension), "tension", a_force, positive,
+                 "of both strands while it drives nothing, where the axes keep their distance"),
+};
+static const struct group belt_group =
+    COUPLING_GROUP("a belt", belt_fields, "round two discs that it takes along without slip");
 
 static const struct field roll_fields[] = {
     FIELD_NODE(COUPLING(body), "body", field_scalar, required, NULL, "the body that rolls"),
@@ -125,6 +177,7 @@ static const struct kind kinds[] = {
     {"rod", coupling_constraint + constraint_rod, &rod_group, ~0u, NULL},
     {"rope", coupling_constraint + constraint_rope, &rope_group, ~0u, NULL},
     {"gear", coupling_constraint + constraint_gear, &gear_group, ~0u, NULL},
+    {"belt", coupling_constraint + constraint_belt, &belt_group, ~0u, NULL},
     {"rack", coupling_constraint + constraint_rack, &rack_group, ~0u, NULL},
     {"roll", coupling_constraint + constraint_roll, &roll_group, ~0u, NULL},
     {"contact", coupling_constraint + constraint_contact, &contact_group, ~0u, NULL},

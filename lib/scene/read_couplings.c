@@ -4,6 +4,7 @@
  * of both.
  */
 #include "scene/coupling_names.h"
+#include "scene/couplings.h"
 #include "scene/fields.h"
 #include "scene/reader.h"
 #include "scene/slip_law.h"
@@ -80,9 +81,8 @@ static bool refuse_count(struct reader *reader, const struct node *list, const c
     return false;
 }
 
-/* All ends; at least one of them moves, and no two that follow each other are on the same body. */
-static bool add_ends(struct reader *reader, const struct node *list, const char *what, size_t least,
-                     size_t most, struct constraint *constraint)
+bool coupling_ends_read(struct reader *reader, const struct node *list, const char *what, size_t least,
+                        size_t most, struct constraint *constraint)
 {
     if (!list) return false; /* noted */
     if (list->count < least || list->count > most)
@@ -104,31 +104,29 @@ static bool add_ends(struct reader *reader, const struct node *list, const char 
     return false;
 }
 
-/* The circle of a body: the first of its parts that is round. */
-static const struct part *round_part(const struct body *body)
+const struct part *body_round_part(const struct body *body)
 {
     for (size_t i = 0; i < body->part_count; i++)
         if (body->parts[i].radius > 0 && body->parts[i].mass > 0) return &body->parts[i];
     return NULL;
 }
 
-static bool turns(const struct body *body)
+bool body_turns(const struct body *body)
 {
     return body->motion.kind == motion_pivot || body->motion.kind == motion_planar ||
            body->motion.kind == motion_weld;
 }
 
-/* The circle at end k: its centre, and its radius if that is not given. */
-static bool set_circle(struct reader *reader, struct constraint *constraint, int k, double radius)
+bool coupling_circle_set(struct reader *reader, struct constraint *constraint, int k, double radius)
 {
     const struct body *body = &reader->scene->bodies[constraint->body[k]];
-    const struct part *part = round_part(body);
+    const struct part *part = body_round_part(body);
     constraint->radius[k] = radius > 0 ? radius : part ? part->radius : 0;
     if (part) constraint->point[k] = (struct point){.kind = point_fixed, .where = part->center};
-    if (constraint->radius[k] > 0 && turns(body)) return true;
-    diag_add(reader->errors, FBD_ERROR, turns(body) ? "missing-key" : "not-here", constraint->at,
-             turns(body) ? "give the radius, or the body a round `shape`" : "use `pivot` or `planar`",
-             turns(body) ? "`%s` has no radius" : "`%s` does not turn", body->name);
+    if (constraint->radius[k] > 0 && body_turns(body)) return true;
+    diag_add(reader->errors, FBD_ERROR, body_turns(body) ? "missing-key" : "not-here", constraint->at,
+             body_turns(body) ? "give the radius, or the body a round `shape`" : "use `pivot` or `planar`",
+             body_turns(body) ? "`%s` has no radius" : "`%s` does not turn", body->name);
     return false;
 }
 
@@ -140,10 +138,12 @@ static bool needs_body(struct reader *reader, const struct constraint *constrain
     return false;
 }
 
-static bool read_gear(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
+/* Two bodies that turn, with their circles. */
+static bool read_wheels(struct reader *reader, const struct coupling_keys *keys,
+                        struct constraint *constraint)
 {
     double radii[2] = {0, 0};
-    if (!add_ends(reader, keys->between, "between", 2, 2, constraint)) return false;
+    if (!coupling_ends_read(reader, keys->between, "between", 2, 2, constraint)) return false;
     if (!needs_body(reader, constraint, 0) || !needs_body(reader, constraint, 1)) return false;
     if (keys->radii && keys->radii->count != 2)
         return refuse_count(reader, keys->radii, "radii", "one for each of the two");
@@ -151,30 +151,20 @@ static bool read_gear(struct reader *reader, const struct coupling_keys *keys, s
         if (!value_number(reader, keys->radii->items[k], "radii", a_length, positive, &radii[k]))
             return false;
     for (int k = 0; k < 2; k++)
-        if (!set_circle(reader, constraint, k, radii[k])) return false;
+        if (!coupling_circle_set(reader, constraint, k, radii[k])) return false;
     if (keys->inside) constraint->radius[1] = -constraint->radius[1];
+    constraint->crossed = keys->crossed;
+    constraint->tension = keys->tension;
     return true;
 }
 
 static bool read_rack(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
 {
-    if (!add_ends(reader, keys->between, "between", 2, 2, constraint)) return false;
+    if (!coupling_ends_read(reader, keys->between, "between", 2, 2, constraint)) return false;
     if (!strchr(keys->between->items[1]->text, '.')) /* a body alone: its x axis, not its centre of mass */
         constraint->point[1] = (struct point){.kind = point_fixed, .at = constraint->at};
     return needs_body(reader, constraint, 0) && needs_body(reader, constraint, 1) &&
-           set_circle(reader, constraint, 0, keys->radius);
-}
-
-/* A disc that turns is a pulley which the rope takes along; any other body is a place that it slips over. */
-static bool read_rope(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
-{
-    if (!add_ends(reader, keys->through, "through", 2, most_constraint_ends, constraint)) return false;
-    for (int k = 1; k + 1 < constraint->end_count; k++) {
-        if (constraint->body[k] == ground_body || constraint->point[k].kind != point_G) continue;
-        const struct body *body = &reader->scene->bodies[constraint->body[k]];
-        if (turns(body) && round_part(body) && !set_circle(reader, constraint, k, 0)) return false;
-    }
-    return true;
+           coupling_circle_set(reader, constraint, 0, keys->radius);
 }
 
 /* The coefficients were read before it was known which body rolls. */
@@ -218,7 +208,8 @@ static bool read_roll(struct reader *reader, const struct coupling_keys *keys, s
     if (!body_name_read(reader, keys->body, "body", &constraint->body[0])) return false;
     constraint->end_count = 2;
     constraint->body[1] = ground_body;
-    if (!needs_body(reader, constraint, 0) || !set_circle(reader, constraint, 0, keys->radius)) return false;
+    if (!needs_body(reader, constraint, 0) || !coupling_circle_set(reader, constraint, 0, keys->radius))
+        return false;
     if (keys->center &&
         !body_point_read(reader, constraint->body[0], keys->center, "center", &constraint->point[0]))
         return false;
@@ -244,9 +235,11 @@ static bool read_constraint(struct reader *reader, const struct chosen *chosen,
     constraint->length_given = keys->length > 0;
     switch (constraint->kind) {
     case constraint_pin:
-    case constraint_rod: return add_ends(reader, keys->between, "between", 2, 2, constraint);
-    case constraint_gear: return read_gear(reader, keys, constraint);
-    case constraint_rope: return read_rope(reader, keys, constraint);
+    case constraint_rod: return coupling_ends_read(reader, keys->between, "between", 2, 2, constraint);
+    case constraint_gear:
+    case constraint_belt: return read_wheels(reader, keys, constraint);
+    case constraint_capstan:
+    case constraint_rope: return rope_read(reader, keys, constraint);
     case constraint_rack: return read_rack(reader, keys, constraint);
     case constraint_roll: return read_roll(reader, keys, constraint);
     case constraint_contact: return contact_read(reader, keys, constraint);

@@ -127,6 +127,7 @@ enum load_kind {
     load_drive,   /* not listed: what a prescribed motion takes */
     load_rope,    /* not listed: a rope under `couplings`, see struct constraint */
     load_contact, /* not listed: a contact, likewise */
+    load_belt,    /* not listed: a belt, likewise */
 };
 
 /* A distributed load along a line: how long that is, and how far from its start the resultant acts. */
@@ -161,6 +162,8 @@ struct load {
     double stiffness;   /* N/m or N m/rad */
     double free_length; /* spring with an anchor; neutral coordinate without */
     double coefficient; /* damper: N s/m or N m s/rad */
+
+    bool reels; /* rope: its length goes with the time, which takes or gives work */
 
     double linear, quadratic; /* drag: N s/m, N s^2/m^2 */
     /* The wind that it is in, if any. What follows is in `fx` and `fy`: the part of linear drag that is beyond
@@ -235,6 +238,8 @@ enum constraint_kind {
     constraint_roll,    /* a circle on a line of the ground or of a body */
     constraint_rack,    /* a circle and a line move along together */
     constraint_contact, /* two bodies, or a body and the ground, that meet and part */
+    constraint_belt,    /* a belt round two discs */
+    constraint_capstan, /* a rope that rubs on a disc which it goes round */
 };
 
 /* A convex polygon of the ground, corners counter-clockwise. */
@@ -258,6 +263,9 @@ struct contact_law {
 
 enum { most_constraint_ends = 8 };
 
+/* Of the two ways round a disc the one on which the point of tangency is farther to that side. */
+enum wound_side { wound_left = 1, wound_right, wound_top, wound_bottom };
+
 struct constraint {
     enum constraint_kind kind;
     const char *name;
@@ -267,6 +275,13 @@ struct constraint {
     struct point point[most_constraint_ends];
     double radius[most_constraint_ends]; /* gear, roll, rack; rope: of the disc at this place, else 0 */
     int side[most_constraint_ends];      /* rope: +1 when it goes counter-clockwise round the disc */
+    int wound[2];      /* rope: where it leaves the disc at its first and last place that it is wound on, enum
+                          wound_side; 0 without one */
+    double spare[2];   /* and how much of it is wound there at the start; HUGE_VAL: enough */
+    bool crossed;      /* belt */
+    double turns;      /* capstan: whole turns round the disc, beside what is seen */
+    double tension;    /* belt: of both strands while it drives nothing; 0: as its length says */
+    struct value reel; /* rope: its length where it varies with the time; else expr NULL */
     bool length_given;
     double length;              /* rod, rope */
     double along;               /* roll, rack: direction of the line in the frame of end 1 */
@@ -279,7 +294,8 @@ struct constraint {
 static inline bool constraint_has_load(const struct constraint *constraint)
 {
     return constraint->kind == constraint_roll || constraint->kind == constraint_rope ||
-           constraint->kind == constraint_contact;
+           constraint->kind == constraint_contact || constraint->kind == constraint_belt ||
+           constraint->kind == constraint_capstan;
 }
 
 /* The first of its bodies that is not the ground: a rope may begin with points of the ground, one of its

@@ -192,13 +192,6 @@ static bool is_rounding(struct run *run, const struct misfit *misfit)
     return true;
 }
 
-static bool is_driven(const struct plan *plan)
-{
-    for (size_t pair = 0; pair < plan->friction_count; pair++)
-        if (plan->frictions[pair].kind == mode_drive) return true;
-    return false;
-}
-
 /* Does what is prescribed go to where the couplings cannot be closed? Some steps later it is beyond by some
  * steps' ways, while a position that is only passed lies behind. Nothing is seen of a way that is rounding:
  * steps next to such a position are short. `during` is free. */
@@ -206,7 +199,7 @@ static bool ends_reach(struct run *run)
 {
     struct fbd_state *later = run->during;
     double after = fmax(10 * (run->state->t - run->from), 1e-3 * run->first_step);
-    if (!is_driven(&run->model->plan)) return false;
+    if (!model_is_driven(run->model)) return false;
     for (int looks = 0; looks < 3; looks++) {
         state_copy(later, run->state);
         later->t = run->state->t + after;

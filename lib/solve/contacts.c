@@ -174,6 +174,7 @@ int contacts_find_strikers(struct run *run)
         if (!touches && !taut) continue;
         struct striker *striker = &work->strikers[count++];
         *striker = (struct striker){.tie = i, .rope = taut};
+        if (tie->reels) striker->reel = rope_reel_rate(run->state, i);
         const struct row *rows = &run->state->tree->rows[tie->first_row];
         striker->v_n = normal_rate(run, striker);
         work->speed = fmax(work->speed, speed_at(run, rows));
@@ -207,7 +208,7 @@ static void note_impact(struct run *run, int i)
     const struct tie *tie = &tree_of(run)->ties[striker->tie];
     const double *v = work->v + (ptrdiff_t)2 * i, *P = work->P + (ptrdiff_t)2 * i;
     double p = P[0], tau = P[1];
-    double taken = (p * (striker->v_n + v[0]) + tau * (striker->v_t + v[1])) / 2;
+    double taken = striker_taken(striker, v, P);
     run->impact_work[tie->load] += taken;
     bool struck = striker->v_n < 0 || (p > 0 && parts(run, i));
     if (striker->rope || !struck) return;

@@ -34,7 +34,15 @@ struct striker {
     int tie;
     bool rope;
     double v_n, v_t; /* before */
+    double reel;     /* of a rope: how fast it grows by itself */
 };
+
+/* The work of its impulses P on the bodies, with the speeds v after. */
+static inline double striker_taken(const struct striker *striker, const double v[2], const double P[2])
+{
+    double across = P[0] * ((striker->v_n + v[0]) / 2 - striker->reel);
+    return striker->rope ? across : across + P[1] * (striker->v_t + v[1]) / 2;
+}
 
 struct contacts_work {
     struct striker *strikers; /* room for all contacts and ropes */

@@ -96,7 +96,7 @@ static void note_jam(struct run *run, int i, bool jams)
     const struct striker *striker = &work->strikers[i];
     const struct tie *tie = &tree_of(run)->ties[striker->tie];
     const double *v = work->v + (ptrdiff_t)2 * i, *P = work->P + (ptrdiff_t)2 * i;
-    double taken = (P[0] * (striker->v_n + v[0]) + P[1] * (striker->v_t + v[1])) / 2;
+    double taken = striker_taken(striker, v, P);
     run->impact_work[tie->load] += taken;
     if (striker->rope || !jams) return;
     struct run_event *event = run_note(run, FBD_EVENT_JAM, tie->end[0].body, tie->load, -1);

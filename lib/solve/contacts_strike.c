@@ -130,11 +130,7 @@ static double taken_by(const struct contacts_work *work, int count)
 {
     const double *P = work->P, *v = work->v;
     double taken = 0;
-    for (int i = 0; i < count; i++, P += 2, v += 2) {
-        const struct striker *striker = &work->strikers[i];
-        taken += P[0] * (striker->v_n + v[0]) / 2;
-        if (!striker->rope) taken += P[1] * (striker->v_t + v[1]) / 2;
-    }
+    for (int i = 0; i < count; i++, P += 2, v += 2) taken += striker_taken(&work->strikers[i], v, P);
     return taken;
 }
 
@@ -159,11 +155,27 @@ static void note_drives(struct run *run, int count, double change)
     }
 }
 
+/* How the impulses of others divide round a drum is not followed. */
+static void refuse_rubbing_ropes(struct run *run)
+{
+    const struct tree *tree = tree_of(run);
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (tie->kind != constraint_capstan || run->state->slip[tie->surface] != stick) continue;
+        run_fail(
+            run, FBD_BROKEN,
+            "at t = %.9g something strikes while the rope `%s` is taut round its drum: how much of the blow "
+            "friction takes is not followed. End the run before, by an event",
+            run_time(run), tie->name);
+    }
+}
+
 void contacts_apply_impulses(struct run *run, int count)
 {
+    refuse_rubbing_ropes(run);
     struct contacts_work *work = &run->contacts;
     size_t n = (size_t)run->model->plan.n;
-    bool drives = tree_has_drives(run->model);
+    bool drives = model_is_driven(run->model);
     double before = drives ? jointed_kinetic_energy(run->state) : 0;
     for (int i = 0; i < 2 * count; i++) {
         double P = impulse_of(work, i);

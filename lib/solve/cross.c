@@ -56,8 +56,9 @@ static bool jumps(double before, double after, double size)
     return fabs(after - before) > rounding * size;
 }
 
-/* A prescribed motion has a velocity: where its place or its velocity jumps, no force is large enough. */
-static void check_drive(struct run *run, const struct kink *kink)
+/* A prescribed motion has a velocity, and so has the length of a rope: where its place or its velocity jumps, no force is
+ * large enough. */
+static void check_drive(struct run *run, const struct kink *kink, bool rope)
 {
     const struct fbd_model *model = run->model;
     const struct expr *law = kink->formula.expr;
@@ -68,13 +69,18 @@ static void check_drive(struct run *run, const struct kink *kink)
     const struct model_body *body = &model->bodies[kink->body];
     double v[2], x[2] = {expr_eval_slot(law, run->state->t, y, 0, before, &v[0]),
                          expr_eval_slot(law, run->state->t, y, 0, after, &v[1])};
-    bool place = jumps(x[0], x[1], fmax(most[body->first], fabs(x[0]) + fabs(x[1])));
-    if (!place && !jumps(v[0], v[1], fmax(most[body->first_rate], fabs(v[0]) + fabs(v[1])))) return;
+    double far = rope ? 0 : most[body->first], fast = rope ? 0 : most[body->first_rate];
+    bool place = jumps(x[0], x[1], fmax(far, fabs(x[0]) + fabs(x[1])));
+    if (!place && !jumps(v[0], v[1], fmax(fast, fabs(v[0]) + fabs(v[1])))) return;
     run_fail(run, FBD_BROKEN,
              "at t = %.9g the %s that is prescribed to `%s` jumps from %.6g to %.6g: that takes a force "
              "without bound. "
              "Round the corner off (a table: `interpolation: cubic`), or end the run before",
-             run_time(run), place ? "place" : "velocity", body->name, place ? x[0] : v[0],
+             run_time(run),
+             rope    ? place ? "length" : "rate of the length"
+             : place ? "place"
+                     : "velocity",
+             rope ? model->loads[kink->load].source->name : body->name, place ? x[0] : v[0],
              place ? x[1] : v[1]);
 }
 
@@ -102,8 +108,8 @@ void run_check_drives(struct run *run)
     const struct plan *plan = &run->model->plan;
     for (size_t i = 0; i < plan->kink_count; i++) {
         int load = plan->kinks[i].load;
-        if (load >= 0 && run->model->loads[load].source->kind == load_drive)
-            check_drive(run, &plan->kinks[i]);
+        enum load_kind kind = load >= 0 ? run->model->loads[load].source->kind : load_applied;
+        if (kind == load_drive || kind == load_rope) check_drive(run, &plan->kinks[i], kind == load_rope);
     }
 }
 

@@ -35,4 +35,7 @@ bool equilibrium_refuse_states(struct fbd_state *state, fbd_errors *errors);
 bool equilibrium_holds(struct fbd_state *state);
 void equilibrium_refuse(fbd_errors *errors);
 
+/* Note that a rope is hauled in or paid out, if one is, so that there is no state of rest. */
+bool equilibrium_refuse_reels(const struct fbd_model *model, fbd_errors *errors);
+
 #endif

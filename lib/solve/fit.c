@@ -115,11 +115,12 @@ static void find_misses(struct fbd_state *state, struct miss *position, struct m
         const struct tie *tie = &tree->ties[tree->tie_of_row[j]];
         const struct jet g = state->tree->rows[j].g;
         bool held = tree_takes_part(tree, &at, j);
+        bool rubs = tie->kind == constraint_capstan && j == tie->first_row; /* slack, or too long */
         bool on_line = tie->kind == constraint_roll && j == tie->first_row; /* at the start, open or not */
-        if (!held && tie->kind != constraint_rope && !on_line) continue;
+        if (!held && tie->kind != constraint_rope && !on_line && !rubs) continue;
         find_size(state, tie, &size);
         double length = length_of(state, tie, j, &size), most = digits * length + rounding * size.place;
-        note_miss(position, j, held || on_line ? fabs(g.x) : fmax(0, g.x), most, length);
+        note_miss(position, j, held || on_line ? fabs(g.x) : fmax(0, rubs ? -g.x : g.x), most, length);
         if (held) note_miss(velocity, j, fabs(g.x1), digits * size.speed, length);
     }
 }
@@ -165,6 +166,23 @@ static const char *name_at(const struct fbd_model *model, const struct tie *tie,
     return tie->end[k].body < 0 ? "the ground" : model->bodies[tie->end[k].body].name;
 }
 
+/* Both ways round a disc leave it equally far to the side that the file names. */
+static bool unclear_side(const struct fbd_state *state, int index, struct pos *at, struct text *lack)
+{
+    const struct fbd_model *model = state->model;
+    const struct tie *tie = &model->tree->ties[index];
+    for (int end = 0; end < 2; end++) {
+        if (tie->wound[end] == 0 || state->tree->ties[index].side[end] != 0) continue;
+        bool upright = tie->wound[end] == wound_top || tie->wound[end] == wound_bottom;
+        if (at) *at = model->scene->constraints[tie->constraint].at;
+        text_printf(lack, "both ways of `%s` round `%s` leave it equally far to that `side`. Say %s",
+                    tie->name, name_at(model, tie, end == 0 ? 0 : tie->end_count - 1),
+                    upright ? "`left` or `right`" : "`top` or `bottom`");
+        return true;
+    }
+    return false;
+}
+
 bool fit_blocked(struct fbd_state *state, struct pos *at, struct text *lack)
 {
     const struct fbd_model *model = state->model;
@@ -173,7 +191,11 @@ bool fit_blocked(struct fbd_state *state, struct pos *at, struct text *lack)
     state_misfit(state); /* puts the links in their places */
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
-        int k = tie->kind == constraint_rope ? rope_blocked_at(model, state->tree, i) : -1;
+        bool rope =
+            tie->kind == constraint_rope || tie->kind == constraint_belt || tie->kind == constraint_capstan;
+        if (!rope) continue;
+        if (unclear_side(state, i, at, lack)) return true;
+        int k = rope_blocked_at(model, state->tree, i);
         if (k < 0) continue;
         if (at) *at = model->scene->constraints[tie->constraint].at;
         text_printf(lack,

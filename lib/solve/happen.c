@@ -87,6 +87,19 @@ static void stop_slipping(struct run *run, int pair)
         friction_surface_speed(friction, &at, &acceleration);
 }
 
+/* The impulses in the strands of a rope that jerks round a drum are not followed. */
+static bool refuse_jerk(struct run *run, int pair)
+{
+    int tie = run->model->plan.frictions[pair].tie;
+    if (tie < 0 || run->model->tree->ties[tie].kind != constraint_capstan) return false;
+    run_fail(
+        run, FBD_BROKEN,
+        "at t = %.9g the rope `%s` snaps taut round its drum: how much of the jerk friction takes is not "
+        "followed. End the run before, by an event",
+        run_time(run), run->model->tree->ties[tie].name);
+    return true;
+}
+
 /* A tension that ends is left to settling. A rope that becomes taut takes at once the velocities that would
  * lengthen it: a plastic impact, with the impulses that every other coupling needs for it. */
 static void one_sided_event(struct run *run, int pair)
@@ -96,6 +109,7 @@ static void one_sided_event(struct run *run, int pair)
         run->decided.slips[pair] = true;
         return;
     }
+    if (refuse_jerk(run, pair)) return;
     double before = jointed_kinetic_energy(run->state);
     bool rope = run->model->plan.frictions[pair].kind == mode_rope;
     run->state->slip[pair] = stick;
@@ -426,6 +440,7 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     run_apply_touched(run, true);
     run_check_contacts(run, moving);
     run_check_pulleys(run);
+    run_check_drums(run);
     run->restart = true;
     run->interval[1] = run->interval[0];
     run->interval[0] = moment_since(run_end(run), run->event);

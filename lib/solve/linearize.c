@@ -73,7 +73,7 @@ static bool refuse_driven(const struct fbd_state *state, fbd_errors *errors)
                  "the motion of `%s` is prescribed: it is never at rest", model->bodies[b].name);
         return true;
     }
-    return false;
+    return equilibrium_refuse_reels(model, errors);
 }
 
 /* What is at rest sticks to a surface at rest; under a surface that moves on it slips, and its friction is a

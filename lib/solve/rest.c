@@ -65,6 +65,19 @@ bool statics_refuse_states(const struct fbd_state *state, fbd_errors *errors)
 
 /* ---- equilibrium */
 
+bool equilibrium_refuse_reels(const struct fbd_model *model, fbd_errors *errors)
+{
+    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
+        const struct tie *tie = &model->tree->ties[i];
+        if (!tie->reels) continue;
+        diag_add(errors, FBD_ERROR, "not-independent", model->scene->constraints[tie->constraint].reel.at,
+                 "give it a constant `length`",
+                 "the length of the rope `%s` goes with the time: it is never at rest", tie->name);
+        return true;
+    }
+    return false;
+}
+
 /* What has no single place of rest, or none: dry friction holds in a range of places, and a prescribed motion
  * does not rest. */
 static bool refuse(const struct fbd_state *state, fbd_errors *errors)
@@ -85,7 +98,7 @@ static bool refuse(const struct fbd_state *state, fbd_errors *errors)
                  model->bodies[friction->body].name);
         return true;
     }
-    return false;
+    return equilibrium_refuse_reels(model, errors);
 }
 
 /* Is it beyond the end of a table or a track, where nothing is? */

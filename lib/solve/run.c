@@ -328,6 +328,7 @@ fbd_outcome run_advance(struct run *run)
         return run->outcome;
     }
     run_watch_pulleys(run, &t);
+    run_watch_drums(run, &t);
     accept(run, t);
     if (crawls(run)) {
         if (run->crowd > 0)

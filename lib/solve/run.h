@@ -212,6 +212,14 @@ void run_watch_pulleys(struct run *run, struct moment *t);
  * is free. */
 void run_check_pulleys(struct run *run);
 
+/* Where a taut rope has been unwound from a disc within the step that ends at *t, or has come to an end of its way, cut
+ * the step there and end the run (drum.c). */
+void run_watch_drums(struct run *run, struct moment *t);
+
+/* Where a rope has got taut that is longer than what was wound allows, end the run. After events: `during` is
+ * free. */
+void run_check_drums(struct run *run);
+
 /* Slack ropes that are taut but for rounding become so, and take part in the impact of another: two that
  * strike each other taut in turn, a plastic impact each, come to that within a few events, and there they are
  * one impact. Links and rows are those of the state. */

@@ -143,8 +143,16 @@ static bool is_settled(const struct fbd_state *state, bool settled, struct lack 
 void start_contact_words(const struct fbd_model *model, const struct contact *contact, double t, double N,
                          struct text *text)
 {
+    const struct load *belt = model->loads[contact->load].source;
     text_add(text, "at t = ");
     text_number(text, t, 9);
+    if (belt->kind == load_belt) {
+        text_printf(text, " a strand of the belt `%s` goes slack: its tension is ", belt->name);
+        text_number(text, N, 6);
+        text_add(text,
+                 ". Give it more `tension`, or what pulls its axes apart more force, or end the run before");
+        return;
+    }
     text_printf(text, " `%s` leaves its surface: the normal force would have to pull (N = ",
                 model->bodies[contact->body].name);
     text_number(text, N, 6);

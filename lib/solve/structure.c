@@ -71,6 +71,7 @@ static bool depends_on_velocity(const struct fbd_model *model, const struct load
     case load_gravity:
     case load_normal:
     case load_rope:
+    case load_belt:
     case load_spring:
     case moment_spring: return false;
     case load_contact:
@@ -225,6 +226,7 @@ static enum expr_degree degree_of_load(const struct fbd_model *model, const stru
     case moment_spring:
     case moment_damper: return expr_affine;
     case load_rope:
+    case load_belt:
     case load_contact:
     case load_drive:
     case load_potential:

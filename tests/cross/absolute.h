@@ -113,6 +113,13 @@ void absolute_place(struct absolute *absolute, double t, const double *q, const 
 /* Joint coordinates and rates where the bodies are. */
 void absolute_coordinates(const struct absolute *absolute, double *q, double *v);
 
+/* start.c: which way the rope runs round the disc at end k that it is wound on, +1 counter-clockwise; `margin`: by how
+ * much of the radius the other way is less to the side that is named. */
+double wound_turn(const struct absolute *absolute, const struct coupling *coupling, int k, double *margin);
+
+/* kinematics.c: the straight pieces of a rope, where its discs are those that it is wound on. */
+double straight_way(const struct absolute *absolute, const struct coupling *coupling);
+
 /* kinematics.c: series of bodies and points. `seed`: a maximal coordinate that varies, or one of: */
 enum { seed_motion = -1, seed_path = -2 }; /* with velocities and a = 0; with accelerations too */
 void absolute_seed(struct absolute *absolute, int seed);

@@ -133,6 +133,33 @@ static bool far_apart(const struct absolute *absolute, const struct coupling *ro
     return true;
 }
 
+/* Round a disc at that end, where it is clear on which side. */
+static void wind(struct random *random, const struct absolute *absolute, struct coupling *coupling, int k)
+{
+    struct end *end = &coupling->end[k], before = *end;
+    const struct piece *piece = end->body < 0 ? NULL : round_piece(&absolute->scene->body[end->body]);
+    double margin;
+    end->wound = end->pulley = true;
+    end->radius = random_between(random, 0.05, 0.4);
+    if (piece && piece->size[0] < 0.4 && random_chance(random, 0.5)) end->radius = 0;
+    end->side = (enum wound_side)random_below(random, 4);
+    wound_turn(absolute, coupling, k, &margin);
+    /* In the file the first of two ends at one place is wound first. */
+    const struct end *first = &coupling->end[0];
+    bool same = k > 0 && first->body == end->body && first->at.point == end->at.point && !first->wound;
+    if (!(margin > 0.2) || same) *end = before;
+}
+
+/* Its length goes with the time, from what it is at the start; of a rope in pieces only by how much matters. */
+static void reel(struct random *random, const struct absolute *absolute, struct coupling *coupling)
+{
+    coupling->reel = random_drive(random, dim_length);
+    double length = straight_way(absolute, coupling) - formula_value(absolute, &coupling->reel);
+    coupling->reel.summand[coupling->reel.count] = constant_formula(dim_length, length).summand[0];
+    coupling->reel.count++;
+    coupling->reels = true;
+}
+
 static void add_rope(struct random *random, struct scene *scene)
 {
     int before = scene->body_count, count = 2 + random_below(random, 3);
@@ -156,7 +183,12 @@ static void add_rope(struct random *random, struct scene *scene)
     }
     for (int k = 1; k < count; k++) moves &= coupling->end[k].body != coupling->end[k - 1].body;
     start(&absolute, scene);
-    if (moves && far_apart(&absolute, coupling)) return;
+    if (moves && far_apart(&absolute, coupling)) {
+        for (int k = 0; k < count; k += count - 1)
+            if (random_chance(random, 0.3)) wind(random, &absolute, coupling, k);
+        if (random_chance(random, 0.2)) reel(random, &absolute, coupling);
+        return;
+    }
     scene->coupling_count--;
     scene->body_count = before;
 }

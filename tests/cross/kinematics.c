@@ -239,9 +239,27 @@ static struct series rope_value(const struct absolute *absolute, const struct ro
             length = ser_add(length, ser_scale(sR2, ser_sub(angle_of(absolute, two->body), piece.angle)));
         rim += fabs(sR1) + fabs(sR2);
     }
+    double grown = row->drive ? formula_value(absolute, row->drive) : 0;
     length = ser_sub(length, ser(row->zero));
-    if (rim > 0) length.u = remainder(length.u, turn * rim); /* angles are known but for whole turns */
+    if (rim > 0) length.u = grown + remainder(length.u - grown, turn * rim); /* angles: but for whole turns */
     return length;
+}
+
+double straight_way(const struct absolute *absolute, const struct coupling *coupling)
+{
+    struct vec2 unused;
+    double sum = 0, ignored;
+    for (int k = 0; k + 1 < coupling->count; k++) {
+        double sR[2] = {0, 0};
+        for (int i = 0; i < 2; i++)
+            if (coupling->end[k + i].wound)
+                sR[i] = wound_turn(absolute, coupling, k + i, &ignored) *
+                        circle_of(absolute->scene, coupling, k + i, &unused);
+        sum += straight_piece(end_place(absolute, coupling, k), sR[0], end_place(absolute, coupling, k + 1),
+                              sR[1])
+                   .length.u;
+    }
+    return sum;
 }
 
 double shortest_piece(const struct absolute *absolute)
@@ -321,7 +339,8 @@ void absolute_rows(struct absolute *absolute)
         absolute->gamma[j] = -row_value(absolute, row).u2;
         if (!row->drive) continue;
         struct series f = formula_series(absolute, row->drive, row->owner, -1);
-        absolute->gamma[j] += row->grip >= 0 ? f.u1 : f.u2;
+        absolute->gamma[j] +=
+            row->grip >= 0 && row->kind != row_rope ? f.u1 : f.u2; /* or a surface's speed */
     }
     for (int j = 0; j < absolute->row_count; j++) {
         int bodies[most_ends + 2];

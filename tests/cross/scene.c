@@ -67,10 +67,15 @@ const struct piece *round_piece(const struct body *body)
 double circle_of(const struct scene *scene, const struct coupling *coupling, int k, struct vec2 *centre)
 {
     const struct end *end = &coupling->end[k];
+    if (end->body < 0) { /* a rope is wound on the ground */
+        *centre = end->at.where;
+        return end->radius;
+    }
     const struct body *body = &scene->body[end->body];
     const struct piece *piece = round_piece(body);
-    double given = k < 2 ? coupling->radius[k] : 0;
-    *centre = piece && !coupling->centered ? piece->center : spot_of(body, &end->at);
+    double given = end->wound ? end->radius : k < 2 ? coupling->radius[k] : 0;
+    bool about_point = coupling->centered || (end->wound && end->at.point != at_G);
+    *centre = piece && !about_point ? piece->center : spot_of(body, &end->at);
     return given > 0 ? given : piece ? piece->size[0] : 0;
 }
 

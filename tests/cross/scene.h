@@ -189,10 +189,15 @@ struct body {
 
 enum coupling_kind { spring_of_two, damper_of_two, pin, rod, rope, gear, rack, roll };
 
+enum wound_side { wound_left, wound_right, wound_top, wound_bottom };
+
 struct end {
     int body; /* or -1: `at` is then a pair, as a named point of the ground */
     struct spot at;
     bool pulley;
+    bool wound;    /* the rope ends here round a disc (which is a pulley), */
+    double radius; /* of this radius; 0: that of the shape */
+    enum wound_side side;
 };
 
 struct coupling {
@@ -203,6 +208,8 @@ struct coupling {
     double stiffness, free_length, coefficient;
     double radius[2]; /* 0: that of the shape */
     double length;    /* 0: as at the start */
+    bool reels;       /* rope: its length is */
+    struct formula reel;
     bool inside;
     bool centered; /* roll: about end[0].at, not about the round part */
     int line;      /* roll: of the ground, or -1 for the x axis of end[1] */

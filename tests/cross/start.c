@@ -91,6 +91,41 @@ static double turn_at(const struct absolute *absolute, const struct coupling *co
     return place_cross(place_sub(p[1], p[0]), place_sub(p[2], p[1])).u > 0 ? 1 : -1;
 }
 
+/* The rope leaves the disc in the direction `way` of the other place, turned by an angle whose cosine is s R / d, for s =
+ * +1 to the right of it: it is counter-clockwise round the disc, and the other way for a rope that arrives. */
+double wound_turn(const struct absolute *absolute, const struct coupling *coupling, int k, double *margin)
+{
+    struct place p[2];
+    double R = 0, far[2];
+    for (int i = 0; i < 2; i++) {
+        int at = i == 0 ? k : k == 0 ? 1 : k - 1;
+        const struct end *end = &coupling->end[at];
+        struct vec2 where = end->at.where;
+        if (end->body >= 0) where = spot_of(&absolute->scene->body[end->body], &end->at);
+        if (end->pulley) {
+            double radius = circle_of(absolute->scene, coupling, at, &where);
+            if (i == 0) R = radius;
+        }
+        p[i] = point_of(absolute, end->body, where);
+    }
+    double x = p[1].x.u - p[0].x.u, y = p[1].y.u - p[0].y.u, way = atan2(y, x), open = acos(R / hypot(x, y));
+    enum wound_side side = coupling->end[k].side;
+    for (int i = 0; i < 2; i++) {
+        double touches = way + (i == 0 ? -open : open);
+        far[i] = side == wound_left || side == wound_right ? cos(touches) : sin(touches);
+        if (side == wound_left || side == wound_bottom) far[i] = -far[i];
+    }
+    *margin = fabs(far[0] - far[1]);
+    return (far[0] > far[1]) == (k == 0) ? 1 : -1;
+}
+
+static double turn_of(const struct absolute *absolute, const struct coupling *coupling, int k)
+{
+    double unused;
+    return coupling->end[k].wound ? wound_turn(absolute, coupling, k, &unused)
+                                  : turn_at(absolute, coupling, k);
+}
+
 static void add_rope(struct absolute *absolute, int c)
 {
     const struct coupling *coupling = &absolute->scene->coupling[c];
@@ -99,9 +134,13 @@ static void add_rope(struct absolute *absolute, int c)
         struct row *row = add_row(absolute, row_rope, c, 0);
         row->from = from;
         row->to = k;
-        if (coupling->end[from].pulley) row->turn[0] = turn_at(absolute, coupling, from);
-        if (coupling->end[k].pulley) row->turn[1] = turn_at(absolute, coupling, k);
+        if (coupling->end[from].pulley) row->turn[0] = turn_of(absolute, coupling, from);
+        if (coupling->end[k].pulley) row->turn[1] = turn_of(absolute, coupling, k);
         row->zero = row_value(absolute, row).u;
+        if (coupling->reels && from == 0) {
+            row->drive = &coupling->reel;
+            row->zero -= formula_value(absolute, row->drive);
+        }
         add_grip(absolute, grip_rope, c, absolute->row_count - 1, -1);
         row->grip = absolute->grip_count - 1;
         from = k;

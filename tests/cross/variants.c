@@ -385,6 +385,17 @@ static void convert(struct scene *scene, double l, double f)
 
 /* ---- all of them */
 
+/* Where a rope leaves its disc, and how long it is when, is said as it is seen at the start. */
+static bool has_side_of_rope(const struct scene *scene)
+{
+    for (int c = 0; c < scene->coupling_count; c++) {
+        const struct coupling *coupling = &scene->coupling[c];
+        if (coupling->reels || coupling->end[0].wound || coupling->end[coupling->count - 1].wound)
+            return true;
+    }
+    return false;
+}
+
 bool scene_vary(const struct scene *scene, enum variant variant, struct random *random, double later,
                 struct scene *other, struct view *view)
 {
@@ -392,6 +403,7 @@ bool scene_vary(const struct scene *scene, enum variant variant, struct random *
     struct replacing r = {.scene = scene, .variant = variant, .later = later, .base = base, .own = own};
     *view = (struct view){.mirror = 1, .length = 1, .force = 1, .changed = -1};
     *other = *scene;
+    if (has_side_of_rope(scene)) return false;
     switch (variant) {
     case variant_mirrored:
         view->mirror = -1;

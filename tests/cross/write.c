@@ -331,6 +331,27 @@ static void say_roll(struct writer *w, int c)
     }
 }
 
+static void say_rope(struct writer *w, int c)
+{
+    static const char *const sides[] = {"left", "right", "top", "bottom"};
+    const struct coupling *coupling = &w->scene->coupling[c];
+    const char *between = ", wound: [";
+    bool any = false;
+    for (int k = 0; k < coupling->count; k++) {
+        const struct end *end = &coupling->end[k];
+        if (!end->wound) continue;
+        say(w, "%s{on: ", between);
+        say_end(w, c, k);
+        say(w, ", side: %s", sides[end->side]);
+        if (end->radius > 0) key_number(w, "radius", end->radius);
+        say(w, "}");
+        between = ", ";
+        any = true;
+    }
+    if (any) say(w, "]");
+    if (coupling->reels) key_formula(w, "length", -1, &coupling->reel);
+}
+
 static void say_coupling(struct writer *w, int c)
 {
     static const char *const kinds[] = {"spring", "damper", "pin", "rod", "rope", "gear", "rack", "roll"};
@@ -358,6 +379,7 @@ static void say_coupling(struct writer *w, int c)
         char one[32], two[32];
         say(w, ", radii: [%s, %s]", number(coupling->radius[0], one), number(coupling->radius[1], two));
     }
+    if (coupling->kind == rope) say_rope(w, c);
     if (coupling->inside) say(w, ", inside: true");
     say(w, "}\n");
 }

@@ -70,4 +70,15 @@ static inline fbd_arrow arrow_on(struct trial *trial, size_t index, const char *
     return (fbd_arrow){0};
 }
 
+/* Run on to where it ends, and take the state there. */
+static inline double to_its_end(struct trial *trial)
+{
+    double from, to;
+    while ((trial->outcome = fbd_simulation_advance(trial->simulation)) == FBD_GOING) {
+    }
+    fbd_simulation_interval(trial->simulation, &from, &to);
+    assert_true(fbd_simulation_state(trial->simulation, to, trial->state));
+    return to;
+}
+
 #endif

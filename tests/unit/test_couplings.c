@@ -414,7 +414,7 @@ static void a_rope_on_what_only_turns_holds(void **unused)
         "fbd: 1\ngravity: [0, 0]\nground: {points: {Q: [0, 0]}}\nbodies:\n  disc:\n    shape: disc\n    "
         "mass: 2\n"
         "    radius: 0.1\n    motion: planar\n    initial: {x: 1, vx: -1e-21, omega: 0.9}\n"
-        "    forces: [applied: {fx: 3, fy: 0}]\ncouplings: [rope: {through: [disc, ground.Q]}]\n");
+        "    forces: [applied: {fx: 3, fy: 0}]\ncouplings: [rope: {through: [disc.G, ground.Q]}]\n");
     check_close(&checks, "a_x", trial_acceleration(&taut, "disc.G.x"), 0, 1e-12);
     trial_close(&taut);
     checks_end(&checks);

@@ -148,11 +148,20 @@ function drawStillTies() {
     tie.ends.forEach((end, k) => {
       const [x, y] = toScreen(end.point), last = k === 0 || k + 1 === tie.ends.length;
       if (end.body >= 0 || tie.kind === "roll") return;
-      if (tie.kind === "rope" && last) hatch([x - 16, y], [x + 16, y], 0, -1);
-      if (tie.kind === "rope") dot(x, y, 3.5, view.colour.soft);
-      else drawBearing(x, y, 1);
+      if (end.wound) drawDrum(x, y, end.radius);
+      else if (tie.kind === "rope" && last) hatch([x - 16, y], [x + 16, y], 0, -1);
+      if (tie.kind === "rope" && !end.wound) dot(x, y, 3.5, view.colour.soft);
+      else if (!end.wound) drawBearing(x, y, 1);
     });
   }
+}
+
+// A fixed disc of the ground.
+function drawDrum(x, y, radius) {
+  pen.beginPath();
+  pen.arc(x, y, radius * view.scale, 0, 2 * Math.PI);
+  pen.fillStyle = view.colour.line;
+  pen.fill();
 }
 
 // ---- under the bodies
@@ -236,6 +245,13 @@ function isSlack(tie, t, row) {
   return tie.force >= 0 && Math.hypot(valueAt(tie.force, t, row), valueAt(tie.force + 1, t, row)) < 1e-5 * view.force;
 }
 
+// What is wound on a disc: all round it.
+function drawCoil([x, y], radius) {
+  pen.beginPath();
+  pen.arc(x, y, radius * view.scale, 0, 2 * Math.PI);
+  strokeWith(view.colour.rope, 1.8);
+}
+
 // One piece of a rope from pulley to pulley, and its way round the pulley where the piece before it ends.
 function drawRope(tie, before, frames, t, row) {
   const places = tie.ends.map((end) => tieEnd(end, (b) => frames[b])), ways = tie.ends.map((end) => end.side * end.radius);
@@ -251,7 +267,20 @@ function drawRope(tie, before, frames, t, row) {
     pen.arc(...toScreen(places[0]), first.radius * view.scale, angle(before.reached), angle(points[0]), first.side > 0);
     strokeWith(view.colour.rope, 1.8, dash);
   }
+  tie.ends.forEach((end, k) => {
+    if (end.wound) drawCoil(toScreen(places[k]), end.radius);
+  });
   tie.reached = points[points.length - 1];
+}
+
+// Both strands, and the belt all round its discs.
+function drawBelt(tie, frames) {
+  const [a, b] = tie.ends.map((end) => tieEnd(end, (body) => frames[body])), [sA, sB] = tie.ends.map((end) => end.side * end.radius);
+  path(straightPiece(a, b, sA, sB).map(toScreen));
+  strokeWith(view.colour.rope, 2.4);
+  path(straightPiece(b, a, sB, sA).map(toScreen));
+  strokeWith(view.colour.rope, 2.4);
+  tie.ends.forEach((end, k) => drawCoil(toScreen(k ? b : a), end.radius));
 }
 
 // Pitch circles are drawn as on an engineer's sheet, dot and dash.
@@ -281,6 +310,7 @@ function drawTiesOver(frames, t, row) {
     const places = () => tie.ends.map((end) => toScreen(tieEnd(end, (b) => frames[b])));
     if (tie.kind === "rope") drawRope(tie, run.ties[i - 1], frames, t, row);
     if (tie.kind === "gear") drawGear(tie, frames);
+    if (tie.kind === "belt") drawBelt(tie, frames);
     if (tie.kind === "pin") drawPin(places()[0]);
     if (tie.kind === "rod") {
       path(places());

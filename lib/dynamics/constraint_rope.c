@@ -1,0 +1,423 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Ropes: their way over points and round discs, how it is wound on them, and how its length varies.
+ */
+#include "dynamics/constraint_view.h"
+#include "dynamics/friction.h"
+#include "dynamics/state.h"
+
+/* ---- ropes: a straight piece from a circle (or point) to the next, see the derivation
+ *
+ * Leaving a circle of radius R round which it runs with side s, a piece of direction u starts at C - s R k x
+ * u. With d = C_2 - C_1 and rho = s_2 R_2 - s_1 R_1 this gives d = t u + rho k x u, so that its length is t =
+ * sqrt(d^2 - rho^2), and u is d turned by -atan(rho / t). */
+
+struct piece {
+    struct jet t;
+    struct jet_vec u, Q1, Q2;
+    bool shrunk; /* to a point */
+};
+
+/* Both ends of a piece are at one point. |d| has a kink there, and what follows is on the side to which they
+ * part: with d = v s + a s^2 / 2 it is |v| s + (v . a) s^2 / 2 |v|, along u = v / |v|; without v along a.
+ * Ends that stay together have no direction. */
+static struct piece piece_at_a_point(struct jet_vec C1, struct jet_vec d)
+{
+    struct vec v = {d.x.x1, d.y.x1}, a = {d.x.x2, d.y.x2}, along = vec_norm(v) > 0 ? v : a;
+    double size = vec_norm(along);
+    struct vec u = size > 0 ? vec_scale(1 / size, along) : (struct vec){0, 0};
+    struct jet_vec direction = {jet_constant(u.x), jet_constant(u.y)};
+    return (struct piece){jet_dot(d, direction), direction, C1, C1, true};
+}
+
+static struct piece piece_between(struct jet_vec C1, double sR1, struct jet_vec C2, double sR2)
+{
+    double rho = sR2 - sR1;
+    struct jet_vec d = jet_vec_sub(C2, C1);
+    struct jet d2 = jet_dot(d, d);
+    if (rho == 0 && sR1 == 0 && d2.x == 0) return piece_at_a_point(C1, d);
+    struct piece piece = {.t = jet_sqrt(jet_sub(d2, jet_constant(rho * rho)))};
+    struct jet scale = jet_inverse(d2);
+    piece.u.x = jet_mul(scale, jet_add(jet_mul(d.x, piece.t), jet_scale(rho, d.y)));
+    piece.u.y = jet_mul(scale, jet_sub(jet_mul(d.y, piece.t), jet_scale(rho, d.x)));
+    struct jet_vec across = jet_perp(piece.u);
+    piece.Q1 = jet_vec_sub(C1, jet_vec_times(jet_constant(sR1), across));
+    piece.Q2 = jet_vec_sub(C2, jet_vec_times(jet_constant(sR2), across));
+    return piece;
+}
+
+/* How far u has turned at that end since the start, whole turns with it. */
+static struct jet turned_at(const struct tie_state *state, int end, struct jet_vec u)
+{
+    const double turn = 6.283185307179586;
+    double c = cos(state->psi[end]), s = sin(state->psi[end]);
+    struct jet_vec relative = {jet_add(jet_scale(c, u.x), jet_scale(s, u.y)),
+                               jet_sub(jet_scale(c, u.y), jet_scale(s, u.x))};
+    struct jet angle = jet_angle(relative);
+    double turns = round((state->turned[end] - angle.x) / turn);
+    if (turns != 0) angle.x += turns * turn;
+    return angle;
+}
+
+/* The angle from the disc at that end to where the rope leaves or reaches it. */
+static struct jet laid(const struct view *view, const struct tie *tie, const struct tie_state *state, int end,
+                       struct jet_vec u)
+{
+    const struct tie_end *disc = &tie->end[end == 0 ? 0 : tie->end_count - 1];
+    return jet_sub(turned_at(state, end, u), angle_of(view, disc->link));
+}
+
+/* Side times radius of what piece k of a rope leaves (end 0) or reaches (1): 0 where that is a point. */
+static double rim(const struct tie *tie, const struct tie_state *state, int k, int end)
+{
+    bool outer = end == 0 ? k == 0 : k + 2 == tie->end_count;
+    return outer ? state->side[end] * tie->end[k + end].radius : 0;
+}
+
+static struct piece piece_of(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                             int k)
+{
+    return piece_between(point_of(view, &tie->end[k]), rim(tie, state, k, 0),
+                         point_of(view, &tie->end[k + 1]), rim(tie, state, k, 1));
+}
+
+/* The first or the last. */
+static struct piece piece_at(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                             int end)
+{
+    return piece_of(view, tie, state, end == 0 ? 0 : tie->end_count - 2);
+}
+
+/* By how much a rope is longer than at t = 0. */
+static struct jet reeled(const struct view *view, const struct tie *tie)
+{
+    const struct instant *at = view->at;
+    double rate, same, second;
+    double length = expr_eval_second(tie->reel.expr, at->t, at->y, 0, 0, formula_branches(&tie->reel, at),
+                                     &rate, &same, &second);
+    double dt = view->along ? view->along->dt : 0;
+    double jerk = dt != 0 ? formula_third(&tie->reel, at) : 0;
+    return (struct jet){length - tie->length, rate, second, rate * dt, second * dt, jerk * dt};
+}
+
+/* A taut rope pulls along its pieces: where one of them is a point that has no direction, and no force. */
+static void refuse_direction(struct row *row)
+{
+    for (int i = 0; i < row->port_count; i++) row->ports[i].force = (struct vec){NAN, NAN};
+}
+
+void rope_row(const struct view *view, const struct tie *tie, const struct tie_state *state, struct row *row)
+{
+    const double taut = 1e-9; /* of its length */
+    int last = tie->end_count - 1;
+    bool shrunk = false;
+    struct jet length = jet_constant(-state->zero);
+    start_row(row, length);
+    for (int k = 0; k < last; k++) {
+        double sR1 = rim(tie, state, k, 0), sR2 = rim(tie, state, k, 1);
+        struct piece piece = piece_of(view, tie, state, k);
+        length = jet_add(length, piece.t);
+        shrunk |= piece.shrunk;
+        if (sR1 != 0) length = jet_add(length, jet_scale(sR1, laid(view, tie, state, 0, piece.u)));
+        if (sR2 != 0) length = jet_add(length, jet_scale(-sR2, laid(view, tie, state, 1, piece.u)));
+        add_port(view, row, tie, k, piece.Q1, negative(piece.u));
+        add_port(view, row, tie, k + 1, piece.Q2, piece.u);
+    }
+    row->g = tie->reels ? jet_sub(length, reeled(view, tie)) : length;
+    if (shrunk && !(length.x < -taut * state->zero)) refuse_direction(row);
+}
+
+int rope_blocked_at(const struct fbd_model *model, const struct tree_work *work, int index)
+{
+    const struct tie *tie = &model->tree->ties[index];
+    const struct tie_state *state = &work->ties[index];
+    struct view view = {model->tree, work, false, NULL, NULL};
+    int last = tie->end_count - 1;
+    bool rubs = tie->kind == constraint_capstan;
+    for (int k = 0; k < last; k++) {
+        double sR1 = rubs ? k * tie->end[1].radius : rim(tie, state, k, 0);
+        double sR2 = rubs ? (1 - k) * tie->end[1].radius : rim(tie, state, k, 1);
+        struct vec from = jet_value(point_of(&view, &tie->end[k]));
+        struct vec to = jet_value(point_of(&view, &tie->end[k + 1]));
+        bool rims = sR1 != 0 || sR2 != 0;
+        if (rims && !(vec_norm(vec_sub(to, from)) > fabs(sR2 - sR1))) return k;
+    }
+    return -1;
+}
+
+bool rope_goes_on(const struct tree *tree, int index)
+{
+    const struct tie *tie = &tree->ties[index];
+    if (tie->kind != constraint_rope || index + 1 >= tree->tie_count) return false;
+    return tie->end[tie->end_count - 1].radius > 0 && tie[1].constraint == tie->constraint;
+}
+
+static struct piece strand_of(const struct view *view, const struct tie *tie, int strand);
+static struct piece reach_of(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                             int strand);
+
+static double turned_now(const struct fbd_model *model, const struct tree_work *work, int index, int end)
+{
+    struct view view = {model->tree, work, false, NULL, NULL};
+    const struct tie_state *state = &work->ties[index];
+    const struct tie *tie = &model->tree->ties[index];
+    struct piece piece = tie->kind == constraint_belt      ? strand_of(&view, tie, end)
+                         : tie->kind == constraint_capstan ? reach_of(&view, tie, state, end)
+                                                           : piece_at(&view, tie, state, end);
+    return turned_at(state, end, piece.u).x;
+}
+
+double rope_wrap(const struct fbd_model *model, const struct tree_work *work, int index)
+{
+    const struct tie_state *before = &work->ties[index], *after = before + 1;
+    double in = before->psi[1] + turned_now(model, work, index, 1);
+    double out = after->psi[0] + turned_now(model, work, index + 1, 0);
+    return before->side[1] * (out - in);
+}
+
+void constraints_follow(const struct fbd_model *model, struct tree_work *work)
+{
+    const struct tree *tree = model->tree;
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        struct tie_state *state = &work->ties[i];
+        if (tie->kind != constraint_rope && tie->kind != constraint_belt && tie->kind != constraint_capstan)
+            continue;
+        for (int end = 0; end < 2; end++)
+            if (state->side[end] != 0) state->turned[end] = turned_now(model, work, i, end);
+    }
+}
+
+/* ---- belts
+ *
+ * Strand 0 leaves disc 0 on its right, round which the belt runs counter-clockwise, and strand 1 comes back. */
+
+static struct piece strand_of(const struct view *view, const struct tie *tie, int strand)
+{
+    double sR[2] = {tie->end[0].radius, (tie->crossed ? -1 : 1) * tie->end[1].radius};
+    int from = strand, to = 1 - strand;
+    return piece_between(point_of(view, &tie->end[from]), sR[from], point_of(view, &tie->end[to]), sR[to]);
+}
+
+/* How much belt there is in a strand, counted from where the discs take it along. */
+static struct jet strand_way(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                             int strand, const struct piece *piece)
+{
+    double sR[2] = {tie->end[0].radius, (tie->crossed ? -1 : 1) * tie->end[1].radius};
+    int from = strand, to = 1 - strand;
+    struct jet turned = turned_at(state, strand, piece->u);
+    struct jet leaves = jet_sub(turned, angle_of(view, tie->end[from].link));
+    struct jet comes = jet_sub(angle_of(view, tie->end[to].link), turned);
+    return jet_add(piece->t, jet_add(jet_scale(sR[from], leaves), jet_scale(sR[to], comes)));
+}
+
+void belt_rows(const struct view *view, const struct tie *tie, const struct tie_state *state,
+               struct row *rows)
+{
+    struct piece piece[2] = {strand_of(view, tie, 0), strand_of(view, tie, 1)};
+    struct jet way[2];
+    for (int k = 0; k < 2; k++) way[k] = strand_way(view, tie, state, k, &piece[k]);
+    for (int j = 0; j < tie->row_count; j++) {
+        double share[2] = {j == 0 ? 0.5 : 1, j == 0 ? -0.5 : 1};
+        start_row(&rows[j], jet_add(jet_scale(share[0], way[0]), jet_scale(share[1], way[1])));
+        rows[j].g.x -= state->laid[j];
+        for (int k = 0; k < 2; k++) {
+            struct jet_vec along = jet_vec_times(jet_constant(share[k]), piece[k].u);
+            add_port(view, &rows[j], tie, k, piece[k].Q1, negative(along));
+            add_port(view, &rows[j], tie, 1 - k, piece[k].Q2, along);
+        }
+    }
+}
+
+void belt_start(const struct view *view, const struct tie *tie, struct tie_state *state)
+{
+    state->side[1] = tie->crossed ? -1 : 1;
+    for (int k = 0; k < 2; k++) {
+        struct jet_vec u = strand_of(view, tie, k).u;
+        state->psi[k] = atan2(u.y.x, u.x.x);
+    }
+}
+
+void belt_tensions(const struct fbd_model *model, const struct tree_work *work, int index, double tension[2])
+{
+    const struct tie *tie = &model->tree->ties[index];
+    const struct row *rows = &work->rows[tie->first_row];
+    double both = tie->preload - (tie->row_count > 1 ? rows[1].lambda : 0);
+    tension[0] = both - rows[0].lambda / 2;
+    tension[1] = both + rows[0].lambda / 2;
+}
+
+/* ---- ropes that rub on the drum that they go round */
+
+static int side_at(const struct fbd_model *model, const struct view *view, const struct tie *tie, int k);
+
+static struct piece reach_of(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                             int strand)
+{
+    double sR[3] = {0, state->side[0] * tie->end[1].radius, 0};
+    return piece_between(point_of(view, &tie->end[strand]), sR[strand], point_of(view, &tie->end[strand + 1]),
+                         sR[strand + 1]);
+}
+
+void capstan_rows(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                  struct row *rows)
+{
+    double sR = state->side[0] * tie->end[1].radius;
+    struct piece piece[2];
+    struct jet way[2];
+    for (int k = 0; k < 2; k++) {
+        piece[k] = reach_of(view, tie, state, k);
+        struct jet round = jet_sub(turned_at(state, k, piece[k].u), angle_of(view, tie->end[1].link));
+        way[k] = jet_add(piece[k].t, jet_scale(k == 0 ? -sR : sR, round));
+    }
+    for (int j = 0; j < 2; j++) {
+        double share[2] = {j == 0 ? -0.5 : 0.5, -0.5};
+        start_row(&rows[j], jet_add(jet_scale(share[0], way[0]), jet_scale(share[1], way[1])));
+        rows[j].g.x -= j == 0 ? state->laid[0] : state->zero;
+        for (int k = 0; k < 2; k++) {
+            struct jet_vec along = jet_vec_times(jet_constant(share[k]), piece[k].u);
+            add_port(view, &rows[j], tie, k, piece[k].Q1, negative(along));
+            add_port(view, &rows[j], tie, k + 1, piece[k].Q2, along);
+        }
+    }
+}
+
+void capstan_start(const struct fbd_model *model, const struct view *view, const struct tie *tie,
+                   struct tie_state *state)
+{
+    const double turn = 6.283185307179586;
+    state->side[0] = state->side[1] = side_at(model, view, tie, 1);
+    for (int k = 0; k < 2; k++) {
+        struct jet_vec u = reach_of(view, tie, state, k).u;
+        state->psi[k] = atan2(u.y.x, u.x.x);
+    }
+    double wrap = state->side[0] * (state->psi[1] - state->psi[0]);
+    state->psi[1] -= state->side[0] * turn * floor(wrap / turn + 0.25);
+}
+
+double capstan_starts_round(const struct tie *tie, const struct tie_state *state)
+{
+    (void)tie;
+    return state->side[0] * (state->psi[0] - state->psi[1]);
+}
+
+double capstan_wrap(const struct fbd_model *model, const struct instant *at, int index, bool varied,
+                    double *variation)
+{
+    const struct tie *tie = &model->tree->ties[index];
+    const struct tie_state *state = &at->tree->ties[index];
+    struct view view = {model->tree, at->tree, varied, at, NULL};
+    struct jet in = turned_at(state, 0, reach_of(&view, tie, state, 0).u);
+    struct jet out = turned_at(state, 1, reach_of(&view, tie, state, 1).u);
+    const double turn = 6.283185307179586;
+    if (variation) *variation = state->side[0] * (out.d - in.d);
+    return turn * tie->turns + state->side[0] * (state->psi[1] + out.x - state->psi[0] - in.x);
+}
+
+void capstan_tensions(const struct fbd_model *model, const struct tree_work *work, int index,
+                      double tension[2])
+{
+    const struct row *rows = &work->rows[model->tree->ties[index].first_row];
+    tension[0] = (rows[0].lambda - rows[1].lambda) / 2;
+    tension[1] = (rows[0].lambda + rows[1].lambda) / 2;
+}
+
+/* ---- what is wound on a disc */
+
+double rope_wound(const struct fbd_model *model, const struct tree_work *work, int index, int end,
+                  double *rate)
+{
+    const struct tie *tie = &model->tree->ties[index];
+    const struct tie_state *state = &work->ties[index];
+    struct view view = {model->tree, work, false, NULL, NULL};
+    double share = state->side[end] * tie->end[end == 0 ? 0 : tie->end_count - 1].radius;
+    struct jet angle = laid(&view, tie, state, end, piece_at(&view, tie, state, end).u);
+    struct jet way = jet_scale(end == 0 ? share : -share, angle);
+    *rate = way.x1;
+    return tie->spare[end] + way.x - state->laid[end];
+}
+
+double rope_piece(const struct fbd_model *model, const struct tree_work *work, int index, int k, double *rate)
+{
+    const struct tie *tie = &model->tree->ties[index];
+    const struct tie_state *state = &work->ties[index];
+    struct view view = {model->tree, work, false, NULL, NULL};
+    bool rubs = tie->kind == constraint_capstan;
+    double R = rubs ? tie->end[1].radius : fmax(fabs(rim(tie, state, k, 0)), fabs(rim(tie, state, k, 1)));
+    struct jet t = (rubs ? reach_of(&view, tie, state, k) : piece_of(&view, tie, state, k)).t;
+    *rate = t.x1;
+    return t.x / (R > 0 ? R : tie->length);
+}
+
+double rope_reel_rate(const struct fbd_state *state, int index)
+{
+    const struct instant at = state_instant(state);
+    struct view view = {state->model->tree, state->tree, false, &at, NULL};
+    return reeled(&view, &state->model->tree->ties[index]).x1;
+}
+
+/* ---- the start */
+
+/* Of the two ways round a disc the one that leaves it farther to the side that the file says; 0 where both leave it
+ * there. */
+static int side_of_wound(const struct view *view, const struct tie *tie, int end)
+{
+    const double little = 1e-9;
+    int k = end == 0 ? 0 : tie->end_count - 1, other = end == 0 ? 1 : k - 1;
+    double R = tie->end[k].radius;
+    struct jet_vec C = point_of(view, &tie->end[k]), P = point_of(view, &tie->end[other]);
+    double along[2];
+    for (int i = 0; i < 2; i++) {
+        struct vec at = jet_value(piece_between(C, i == 0 ? R : -R, P, 0).Q1), c = jet_value(C);
+        bool upright = tie->wound[end] == wound_top || tie->wound[end] == wound_bottom;
+        bool low = tie->wound[end] == wound_left || tie->wound[end] == wound_bottom;
+        along[i] = (upright ? at.y - c.y : at.x - c.x) * (low ? -1 : 1);
+    }
+    if (!(fabs(along[0] - along[1]) > little * R)) return 0;
+    /* Seen from the disc; a rope that ends there comes the other way. */
+    int side = along[0] > along[1] ? 1 : -1;
+    return end == 0 ? side : -side;
+}
+
+/* Which way a rope runs round the pulley at place k of its way: as it turns there. */
+static int side_at(const struct fbd_model *model, const struct view *view, const struct tie *tie, int k)
+{
+    const struct constraint *source = &model->scene->constraints[tie->constraint];
+    struct vec place[3];
+    for (int i = 0; i < 3; i++) {
+        struct tie_end end = tie_end_of(model, tie->constraint, k - 1 + i);
+        place[i] = jet_value(point_of(view, &end));
+    }
+    if (source->radius[k] == 0) return 0;
+    return vec_cross(vec_sub(place[1], place[0]), vec_sub(place[2], place[1])) > 0 ? 1 : -1;
+}
+
+void rope_start(const struct fbd_model *model, const struct view *view, const struct tie *tie,
+                struct tie_state *state)
+{
+    for (int end = 0; end < 2; end++) {
+        int k = end == 0 ? 0 : tie->end_count - 1;
+        bool pulley = tie->end[k].radius > 0;
+        state->side[end] = tie->wound[end] != 0 ? side_of_wound(view, tie, end)
+                           : pulley             ? side_at(model, view, tie, tie->place + k)
+                                                : 0;
+    }
+    for (int end = 0; end < 2; end++) {
+        struct jet_vec u = piece_at(view, tie, state, end).u;
+        state->psi[end] = atan2(u.y.x, u.x.x);
+        if (tie->wound[end] == 0) continue;
+        double share = state->side[end] * tie->end[end == 0 ? 0 : tie->end_count - 1].radius;
+        state->laid[end] = (end == 0 ? share : -share) * laid(view, tie, state, end, u).x;
+    }
+}
+
+/* At the start a rope goes round its pulley by three quarters of a turn at most, and may be off it by less
+ * than the fourth: the directions before and behind are told apart by so much. */
+void rope_start_wrap(const struct tree *tree, struct tree_work *work, int index)
+{
+    const double turn = 6.283185307179586;
+    if (!rope_goes_on(tree, index)) return;
+    struct tie_state *before = &work->ties[index], *after = before + 1;
+    double wrap = before->side[1] * (after->psi[0] - before->psi[1]);
+    after->psi[0] -= before->side[1] * turn * floor(wrap / turn + 0.25);
+}
