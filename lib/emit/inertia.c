@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Masses, centres of mass and moments of inertia, as model/inertia.c sums them up, and the directions of
+ * slides.
+ */
+#include "emit/emit.h"
+
+struct part_names {
+    const char *mass, *center, *length, *radius, *inner, *side[3], *inertia, *about;
+};
+
+static const char *number_of(struct emitter *emitter, const struct part *part, const char *owner,
+                             const char *key, double value, struct dim dim)
+{
+    return emit_parameter(emitter, emit_join(emitter, owner, key), value,
+                          (struct emit_origin){part->at, key, dim});
+}
+
+/* The moment of inertia of a shape about its own centre: the usual table. */
+static const char *hollow(struct emitter *emitter, const struct part *part, const char *owner, const char *m)
+{
+    const char *R = number_of(emitter, part, owner, "outer_radius", part->radius, DIM_LENGTH);
+    const char *r = number_of(emitter, part, owner, "inner_radius", part->inner_radius, DIM_LENGTH);
+    const char *both = emit_printf(emitter, "(square(%s) + square(%s))", R, r);
+    if (part->axis == 'x') return emit_printf(emitter, "%s*%s/2", m, both);
+    const char *L = number_of(emitter, part, owner, "length", part->length, DIM_LENGTH);
+    return emit_printf(emitter, "%s*(3*%s + square(%s))/12", m, both, L);
+}
+
+static const char *prism(struct emitter *emitter, const struct part *part, const char *owner, const char *m)
+{
+    static const char *const keys[] = {"a", "b", "c"};
+    const char *sides[2];
+    int count = 0;
+    for (int k = 0; k < 3; k++)
+        if (part->axis != "xyz"[k])
+            sides[count++] = number_of(emitter, part, owner, keys[k], part->side[k], DIM_LENGTH);
+    return emit_printf(emitter, "%s*(square(%s) + square(%s))/12", m, sides[0], sides[1]);
+}
+
+static const char *cylinder(struct emitter *emitter, const struct part *part, const char *owner,
+                            const char *m)
+{
+    const char *R = number_of(emitter, part, owner, "radius", part->radius, DIM_LENGTH);
+    if (part->axis == 'x') return emit_printf(emitter, "%s*square(%s)/2", m, R);
+    const char *L = number_of(emitter, part, owner, "length", part->length, DIM_LENGTH);
+    return emit_printf(emitter, "%s*(3*square(%s) + square(%s))/12", m, R, L);
+}
+
+static const char *given(struct emitter *emitter, const struct part *part, const char *owner, const char *m,
+                         struct vec pivot)
+{
+    const char *I = number_of(emitter, part, owner, "inertia", part->inertia, DIM_INERTIA);
+    if (part->about.kind != point_fixed && !part->about_pivot) return I;
+    struct vec from = vec_sub(part->about_pivot ? pivot : part->about.where, part->center);
+    const char *d = emit_vector(emitter, emit_join(emitter, owner, "about"), from);
+    const char *square = emit_printf(emitter, "vec_dot(%s, %s)", d, d);
+    return emit_printf(emitter, "%s - %s*%s", I, m, square);
+}
+
+static const char *shape_inertia(struct emitter *emitter, const struct part *part, const char *owner,
+                                 const char *m, struct vec pivot)
+{
+    const char *size;
+    switch (part->shape) {
+    case shape_point: return "0";
+    case shape_rod:
+        if (part->axis == 'x') return "0";
+        size = number_of(emitter, part, owner, "length", part->length, DIM_LENGTH);
+        return emit_printf(emitter, "%s*square(%s)/12", m, size);
+    case shape_sphere:
+        size = number_of(emitter, part, owner, "radius", part->radius, DIM_LENGTH);
+        return emit_printf(emitter, "2*%s*square(%s)/5", m, size);
+    case shape_ring:
+        size = number_of(emitter, part, owner, "radius", part->radius, DIM_LENGTH);
+        return emit_printf(emitter, part->axis == 'x' ? "%s*square(%s)" : "%s*square(%s)/2", m, size);
+    case shape_cylinder: return cylinder(emitter, part, owner, m);
+    case shape_hollow_cylinder: return hollow(emitter, part, owner, m);
+    case shape_prism: return prism(emitter, part, owner, m);
+    case shape_given: return given(emitter, part, owner, m, pivot);
+    }
+    return "0";
+}
+
+/* One part keeps its centre to the last bit. */
+static void one_part(struct emitter *emitter, const struct part *part, const char *body, struct vec pivot)
+{
+    struct text *out = &emitter->derive;
+    const char *m = number_of(emitter, part, body, "mass", part->mass, DIM_MASS);
+    text_printf(out, "    c->%s.mass = %s;\n", body, m);
+    if (part->center.x != 0 || part->center.y != 0)
+        text_printf(out, "    c->%s.G = %s;\n", body,
+                    emit_vector(emitter, emit_join(emitter, body, "center"), part->center));
+    const char *I = shape_inertia(emitter, part, body, m, pivot);
+    if (*I != '0') text_printf(out, "    c->%s.I_G = %s;\n", body, I);
+}
+
+static void many_parts(struct emitter *emitter, const struct body *source, const char *body)
+{
+    struct text *out = &emitter->derive;
+    text_printf(out, "    struct vec %s_moment = {0, 0}; /* of the masses about the origin of its frame */\n",
+                body);
+    const char **m = ARENA_ARRAY(&emitter->arena, source->part_count, const char *);
+    const char **center = ARENA_ARRAY(&emitter->arena, source->part_count, const char *);
+    if (!m || !center) return;
+    for (size_t i = 0; i < source->part_count; i++) {
+        const struct part *part = &source->parts[i];
+        const char *owner = emit_join(emitter, body, part->name);
+        m[i] = number_of(emitter, part, owner, "mass", part->mass, DIM_MASS);
+        center[i] = emit_vector(emitter, emit_join(emitter, owner, "center"), part->center);
+        text_printf(out, "    c->%s.mass += %s;\n    %s_moment = vec_add(%s_moment, vec_scale(%s, %s));\n",
+                    body, m[i], body, body, m[i], center[i]);
+    }
+    text_printf(out, "    c->%s.G = vec_scale(1/c->%s.mass, %s_moment);\n", body, body, body);
+    for (size_t i = 0; i < source->part_count; i++) {
+        const struct part *part = &source->parts[i];
+        const char *owner = emit_join(emitter, body, part->name);
+        const char *I = shape_inertia(emitter, part, owner, m[i], source->motion.point);
+        text_printf(out, "    c->%s.I_G += %s + %s*vec_square(vec_sub(%s, c->%s.G)); /* %s */\n", body, I,
+                    m[i], center[i], body, part->name);
+    }
+}
+
+static void slide(struct emitter *emitter, const struct model_body *body, const char *name)
+{
+    struct text *out = &emitter->derive;
+    const struct motion *motion = &body->source->motion;
+    const char *along = emit_parameter(emitter, emit_join(emitter, name, "along"), motion->along,
+                                       (struct emit_origin){motion->at, "along", DIM_NONE});
+    struct vec left = vec_perp(body->e);
+    bool other = left.x != body->n.x || left.y != body->n.y;
+    text_printf(out, "    c->%s.along = %s;\n", name, along);
+    text_printf(out, "    c->%s.e = vec_unit(c->%s.along); /* along the slide, and across it */\n", name,
+                name);
+    text_printf(out,
+                other ? "    c->%s.n = vec_scale(-1, vec_perp(c->%s.e));\n"
+                      : "    c->%s.n = vec_perp(c->%s.e);\n",
+                name, name);
+}
+
+void emit_inertias(struct emitter *emitter)
+{
+    const struct fbd_model *model = emitter->model;
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
+        const struct body *source = body->source;
+        const char *name = emitter->body[b];
+        text_printf(&emitter->constants, "    struct body %s;\n", name);
+        text_printf(&emitter->derive, "\n    /* %s */\n", name);
+        if (source->part_count == 1)
+            one_part(emitter, &source->parts[0], name, source->motion.point);
+        else
+            many_parts(emitter, source, name);
+        if (body->kind == motion_slide) slide(emitter, body, name);
+        if (body->kind != motion_pivot) continue;
+        text_printf(&emitter->derive, "    c->%s.pin = %s;\n", name,
+                    emit_vector(emitter, emit_join(emitter, name, "point"), body->pin));
+        if (body->place.link > 0) continue;
+        text_printf(&emitter->derive,
+                    "    c->%s.I_O = c->%s.I_G + c->%s.mass*vec_square(vec_sub(c->%s.G, c->%s.pin));\n", name,
+                    name, name, name, name);
+    }
+}

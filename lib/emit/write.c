@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "base/utf8.h"
+#include "emit/emit.h"
+
+const char *emit_number(struct emitter *emitter, double value)
+{
+    struct text text = {0};
+    text_exact(&text, value);
+    if (text.data && !strpbrk(text.data, ".e")) text_add(&text, ".0");
+    const char *copy = text.failed ? NULL : arena_text(&emitter->arena, text.data, text.length);
+    if (!copy) emitter->arena.failed = true;
+    text_free(&text);
+    return copy ? copy : "";
+}
+
+/* In a comment neither its end nor what older compilers make of `??/` and a backslash may stand. */
+void emit_comment(struct text *text, const char *words)
+{
+    for (const char *at = words; *at;) {
+        struct utf8_shown shown = utf8_show(at);
+        if (shown.plain && (*at == '\\' || *at == '?'))
+            text_add(text, *at == '?' && at[1] == '?' ? "? " : *at == '\\' ? "/" : "?");
+        else
+            text_add_bytes(text, shown.text, shown.length);
+        if (!shown.plain && text->length > 0 && !text->failed)
+            for (char *c = text->data + text->length - shown.length; *c; c++)
+                if (*c == '\\') *c = '/';
+        if ((*at == '*' && at[1] == '/') || (*at == '/' && (at[1] == '*' || at[1] == '/')))
+            text_add(text, " ");
+        at += shown.taken;
+    }
+}
+
+static void unit_behind(const struct emitter *emitter, struct text *text, struct dim dim)
+{
+    char unit[64];
+    unit_name(dim, emitter->model->scene->units, unit, sizeof unit);
+    if (*unit) text_printf(text, " /* %s */", unit);
+    text_add(text, "\n");
+}
+
+const char *emit_parameter(struct emitter *emitter, const char *wanted, double value,
+                           struct emit_origin origin)
+{
+    const char *name = emit_name(emitter, wanted);
+    text_printf(&emitter->parameters, "    double %s;", name);
+    unit_behind(emitter, &emitter->parameters, origin.dim);
+    text_printf(&emitter->defaults, "    p->%s = %s;\n", name, emit_number(emitter, value));
+    const char *member = arena_printf(&emitter->arena, "p->%s", name);
+    return member ? member : "";
+}
+
+const char *emit_vector(struct emitter *emitter, const char *wanted, struct vec value)
+{
+    const char *name = emit_name(emitter, wanted);
+    text_printf(&emitter->parameters, "    struct vec %s;", name);
+    unit_behind(emitter, &emitter->parameters, DIM_LENGTH);
+    text_printf(&emitter->defaults, "    p->%s = (struct vec){%s, %s};\n", name,
+                emit_number(emitter, value.x), emit_number(emitter, value.y));
+    const char *member = arena_printf(&emitter->arena, "p->%s", name);
+    return member ? member : "";
+}
+
+const char *emit_constant(struct emitter *emitter, const char *type, const char *wanted)
+{
+    const char *name = emit_name(emitter, wanted);
+    text_printf(&emitter->constants, "    %s %s;\n", type, name);
+    return name;
+}
