@@ -96,6 +96,10 @@ static void errors_and_models(void **state)
     ANSWERS(fbd_model_coordinate, !fbd_model_coordinate(model, past).rate_unit);
     REFUSES(fbd_model_has_columns, !fbd_model_has_columns(NULL, "block.x", errors));
     REFUSES(fbd_model_has_columns, !fbd_model_has_columns(model, NULL, errors));
+    ANSWERS(fbd_emit_c, !fbd_emit_c(NULL, NULL, NULL));
+    char *program = fbd_emit_c(model, NULL, NULL);
+    assert_non_null(program);
+    free(program);
     ANSWERS(fbd_explain, !fbd_explain(NULL, NULL));
     char *plan = fbd_explain(model, NULL);
     assert_non_null(plan);
