@@ -11,20 +11,26 @@
 
 /* ---- numbers of loads */
 
+/* Of some loads one text makes several numbers: those are not told by parameters. */
+static struct emit_origin origin_of(const struct model_load *load, const char *key, struct dim dim)
+{
+    const struct load *source = load->source;
+    bool mixed = load_is_placed(source) || load_has_wind(source) || source->toward || source->reaction;
+    return (struct emit_origin){mixed ? (struct pos){0, 0} : source->at, key, dim, load->body};
+}
+
 const char *load_number(struct emitter *emitter, const struct model_load *load, const char *key, double value,
                         struct dim dim)
 {
     const char *owner = emitter->load[load - emitter->model->loads];
-    return emit_parameter(emitter, emit_join(emitter, owner, key), value,
-                          (struct emit_origin){load->source->at, key, dim});
+    return emit_parameter(emitter, emit_join(emitter, owner, key), value, origin_of(load, key, dim));
 }
 
 const char *load_formula(struct emitter *emitter, const struct model_load *load, const char *key,
                          const struct formula *formula, struct dim dim)
 {
     const char *owner = emitter->load[load - emitter->model->loads];
-    return emit_formula(emitter, formula, emit_join(emitter, owner, key),
-                        (struct emit_origin){load->source->at, key, dim});
+    return emit_formula(emitter, formula, emit_join(emitter, owner, key), origin_of(load, key, dim));
 }
 
 const char *load_point(struct emitter *emitter, const struct model_load *load, const char *body)
@@ -165,6 +171,7 @@ struct directed {
     struct vec d;
     const char *direction; /* the same in C */
     bool body_frame;
+    bool turns; /* its direction may be changed */
 };
 
 static void add_varying_force(struct body_writer *writer, const struct directed *force,
@@ -189,10 +196,10 @@ static void add_varying_force(struct body_writer *writer, const struct directed 
         add_formula(writer, i, scale_of(writer, "arm", lever, load), force->formula, force->value, load);
     } else if (body->kind == motion_particle ||
                (body->kind == motion_planar && !force->body_frame && at_origin)) {
-        if (force->d.x != 0)
+        if (force->turns || force->d.x != 0)
             add_formula(writer, i, scale_of(writer, "x", emit_printf(emitter, "%s.x", d), load),
                         force->formula, force->value, load);
-        if (force->d.y != 0)
+        if (force->turns || force->d.y != 0)
             add_formula(writer, i + 1, scale_of(writer, "y", emit_printf(emitter, "%s.y", d), load),
                         force->formula, force->value, load);
     } else {
@@ -221,7 +228,7 @@ static void add_component(struct body_writer *writer, const struct model_load *l
     const char *value = load_formula(writer->emitter, load, vertical ? "fy" : "fx", formula, DIM_FORCE);
     add_directed(writer, load,
                  (struct directed){formula, value, point, vertical ? (struct vec){0, 1} : (struct vec){1, 0},
-                                   vertical ? "((struct vec){0, 1})" : "((struct vec){1, 0})", frame});
+                                   vertical ? "((struct vec){0, 1})" : "((struct vec){1, 0})", frame, false});
 }
 
 static void add_couple(struct body_writer *writer, const struct model_load *load)
@@ -250,7 +257,7 @@ static void add_applied(struct body_writer *writer, const struct model_load *loa
         if (formula_is_constant(&load->angle))
             add_directed(writer, load,
                          (struct directed){&load->value, value, point, vec_unit(load->angle.constant), unit,
-                                           source->body_frame});
+                                           source->body_frame, true});
         else
             add_force_at_point(writer, point, source->body_frame, value, unit, source);
     }
@@ -335,7 +342,8 @@ static void add_potential(struct body_writer *writer, const struct model_load *l
         const struct model_body *body = writer->body;
         if (coordinate < body->first || coordinate >= body->first + body->count) continue;
         const char *owner = emitter->load[load - emitter->model->loads];
-        const char *V = emit_slope(emitter, &load->potential, emit_join(emitter, owner, "V"), slots[k]);
+        const char *V = emit_slope(emitter, &load->potential, emit_join(emitter, owner, "V"), slots[k],
+                                   origin_of(load, "V", DIM_MOMENT));
         text_printf(&writer->lines, "    f[%s] -= %s.d; /* %s: -dV/d%s */\n", emitter->slot[coordinate], V,
                     load->source->name, emitter->model->scene->coordinates[coordinate].name);
     }
@@ -351,7 +359,7 @@ static void add_own_load(struct body_writer *writer, const struct model_load *lo
     switch (load->source->kind) {
     case load_gravity:
         add_constant_force(writer, emit_printf(emitter, "c->%s.G", writer->name),
-                           emit_printf(emitter, "vec_scale(c->%s.mass, p->gravity)", writer->name), false,
+                           emit_printf(emitter, "vec_scale(c->%s.mass, c->gravity)", writer->name), false,
                            load->source);
         break;
     case load_applied: add_applied(writer, load); break;

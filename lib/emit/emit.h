@@ -15,6 +15,7 @@
 #include "model/model.h"
 
 struct emit_name;
+struct live;
 
 struct emitter {
     const struct fbd_model *model;
@@ -28,7 +29,10 @@ struct emitter {
     struct text formulas;           /* functions of expressions */
     struct text forces;             /* functions of bodies */
     struct text links;              /* passes over the links of a tree */
+    struct text start;      /* statements that set the state */
     struct text rest;               /* modes, events, main */
+    struct live *live;              /* parameters, see live.h */
+    bool *fixed;                    /* those that are part of other numbers, by parameter; the caller's */
     bool *used;                     /* absolutes that a formula of the program names */
     const char **pose, **forces_on; /* functions, by body; NULL until they are written */
     bool walks;                     /* the tree has functions of its own */
@@ -41,6 +45,7 @@ struct emit_origin {
     struct pos at;
     const char *key;
     struct dim dim;
+    int body; /* of formulas: whose coordinates have no dot; -1 for none */
 };
 
 /* ---- names.c */
@@ -93,7 +98,8 @@ const char *emit_formula(struct emitter *emitter, const struct formula *formula,
                          struct emit_origin origin);
 
 /* The call of a function whose result, a struct dual, has the first and second derivative by a slot (0: t). */
-const char *emit_slope(struct emitter *emitter, const struct formula *formula, const char *wanted, int slot);
+const char *emit_slope(struct emitter *emitter, const struct formula *formula, const char *wanted, int slot,
+                       struct emit_origin origin);
 
 /* ---- the parts */
 

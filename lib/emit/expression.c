@@ -4,6 +4,7 @@
  * same order.
  */
 #include "emit/expression.h"
+#include "emit/live.h"
 
 static struct arena *arena_of(const struct reading *reading)
 {
@@ -30,6 +31,7 @@ static const char *variable(const struct reading *reading, int slot)
 {
     const struct emitter *emitter = reading->emitter;
     int n = emitter->model->plan.n, k = slot - 1;
+    if (emit_is_live(emitter, slot)) return emit_live_variable(reading->emitter, slot);
     const char *name = k < n       ? emitter->coordinate[k]
                        : k < 2 * n ? emitter->rate[k - n]
                                    : emitter->place[k - 2 * n - hand_slots];

@@ -2,9 +2,9 @@
  *
  * Formulas of the file as functions of the program.
  */
-#include <string.h>
-
+#include "emit/bodies.h"
 #include "emit/expression.h"
+#include "emit/live.h"
 
 const char *emit_dual_name(unsigned op)
 {
@@ -50,36 +50,36 @@ bool emit_dual_takes_two(unsigned op)
 static const char *write_function(struct emitter *emitter, const char *type, const char *wanted,
                                   const char *comment, const char *value)
 {
-    struct text *out = &emitter->formulas;
+    struct text lines = {0};
     const char *name = emit_name(emitter, wanted);
-    text_printf(out, "/* %s */\nstatic %s %s(const struct scene *s, double t, const double *y)\n{\n", comment,
-                type, name);
-    text_printf(out, "    (void)s, (void)t, (void)y;\n    return %s;\n}\n\n", value);
-    const char *call = arena_printf(&emitter->arena, "%s(s, t, y)", name);
-    return call ? call : "";
+    text_printf(&lines, "    return %s;\n", value);
+    const char *head = emit_printf(emitter, "/* %s */\nstatic %s %s", comment, type, name);
+    emit_function(&emitter->formulas, head, "const struct scene *s, double t, const double *y", &lines);
+    emitter->arena.failed = emitter->arena.failed || lines.failed;
+    text_free(&lines);
+    return emit_printf(emitter, "%s(s, t, y)", name);
 }
 
 const char *emit_formula(struct emitter *emitter, const struct formula *formula, const char *wanted,
                          struct emit_origin origin)
 {
     if (formula_is_constant(formula)) return emit_parameter(emitter, wanted, formula->constant, origin);
-    struct text comment = {0};
     char unit[64];
     unit_name(expr_dim(formula->expr), emitter->model->scene->units, unit, sizeof unit);
-    text_printf(&comment, "%s, `%s`%s%s", wanted, origin.key, *unit ? " in " : "", unit);
-    const char *value = emit_expression(emitter, formula->expr, formula->branch);
-    const char *call = comment.failed ? "" : write_function(emitter, "double", wanted, comment.data, value);
-    if (comment.failed) emitter->arena.failed = true;
-    text_free(&comment);
-    return call;
+    const char *comment = emit_printf(emitter, "`%s`%s%s", origin.key, *unit ? " in " : "", unit);
+    emit_live_formula(emitter, formula->expr, origin);
+    const char *value = emit_expression(emitter, emit_live(emitter, formula->expr), formula->branch);
+    return write_function(emitter, "double", wanted, comment, value);
 }
 
-const char *emit_slope(struct emitter *emitter, const struct formula *formula, const char *wanted, int slot)
+const char *emit_slope(struct emitter *emitter, const struct formula *formula, const char *wanted, int slot,
+                       struct emit_origin origin)
 {
-    const char *value = emit_dual(emitter, formula->expr, formula->branch, slot);
+    emit_live_formula(emitter, formula->expr, origin);
+    const char *value = emit_dual(emitter, emit_live(emitter, formula->expr), formula->branch, slot);
     const int n = emitter->model->plan.n;
     const char *by = slot == 0 ? "t" : slot <= n ? emitter->coordinate[slot - 1] : "a rate";
     const char *comment =
-        arena_printf(&emitter->arena, "%s with its first and second derivative by %s", wanted, by);
-    return comment ? write_function(emitter, "struct dual", wanted, comment, value) : "";
+        emit_printf(emitter, "`%s` with its first and second derivative by %s", origin.key, by);
+    return write_function(emitter, "struct dual", wanted, comment, value);
 }

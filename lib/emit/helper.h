@@ -5,10 +5,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Whether a program has pairs of friction, switches, surfaces that are pressed on, events: a line of a text that
+/* Whether a program has pairs of friction, switches, surfaces that are pressed on, events, a tree of bodies: a line of a text that
  * begins with `@pairs surfaces|` is written where it has one of these, with `@!pairs !events|` where none. */
 struct helper_features {
-    bool pairs, branches, surfaces, events;
+    bool pairs, branches, surfaces, events, tree;
 };
 
 /* A function or structure of emitted programs: its name (of a structure "struct NAME") and its text. Made from

@@ -26,8 +26,9 @@ static bool calls_it(const char *text, const char *name)
 
 static bool has(const struct helper_features *features, const char *word, size_t length)
 {
-    static const char *const names[] = {"pairs", "branches", "surfaces", "events"};
-    const bool values[] = {features->pairs, features->branches, features->surfaces, features->events};
+    static const char *const names[] = {"pairs", "branches", "surfaces", "events", "tree"};
+    const bool values[] = {features->pairs, features->branches, features->surfaces, features->events,
+                           features->tree};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strlen(names[i]) == length && strncmp(names[i], word, length) == 0) return values[i];
     return false;
@@ -69,7 +70,7 @@ static struct helper_features features_of(const struct fbd_model *model)
 {
     const struct plan *plan = &model->plan;
     return (struct helper_features){plan->friction_count > 0, plan->branches > 0, plan->contact_count > 0,
-                                    plan->watch_count > 0};
+                                    plan->watch_count > 0, model->tree != NULL};
 }
 
 /* A later helper may call an earlier one. */

@@ -13,7 +13,7 @@ static const char *number_of(struct emitter *emitter, const struct part *part, c
                              const char *key, double value, struct dim dim)
 {
     return emit_parameter(emitter, emit_join(emitter, owner, key), value,
-                          (struct emit_origin){part->at, key, dim});
+                          (struct emit_origin){part->at, key, dim, -1});
 }
 
 /* The moment of inertia of a shape about its own centre: the usual table. */
@@ -62,11 +62,14 @@ static const char *shape_inertia(struct emitter *emitter, const struct part *par
                                  const char *m, struct vec pivot)
 {
     const char *size;
+    struct part plain;
     switch (part->shape) {
     case shape_point: return "0";
     case shape_rod:
         if (part->axis == 'x') return "0";
-        size = number_of(emitter, part, owner, "length", part->length, DIM_LENGTH);
+        plain = *part; /* the length is in the names of its ends too */
+        plain.at = (struct pos){0, 0};
+        size = number_of(emitter, &plain, owner, "length", part->length, DIM_LENGTH);
         return emit_printf(emitter, "%s*square(%s)/12", m, size);
     case shape_sphere:
         size = number_of(emitter, part, owner, "radius", part->radius, DIM_LENGTH);
@@ -106,7 +109,10 @@ static void many_parts(struct emitter *emitter, const struct body *source, const
     for (size_t i = 0; i < source->part_count; i++) {
         const struct part *part = &source->parts[i];
         const char *owner = emit_join(emitter, body, part->name);
-        m[i] = number_of(emitter, part, owner, "mass", part->mass, DIM_MASS);
+        /* Of a planar body they decide whether its equations are coupled, so these are no parameters. */
+        struct part plain = *part;
+        if (source->motion.kind == motion_planar) plain.at = (struct pos){0, 0};
+        m[i] = number_of(emitter, &plain, owner, "mass", part->mass, DIM_MASS);
         center[i] = emit_vector(emitter, emit_join(emitter, owner, "center"), part->center);
         text_printf(out, "    c->%s.mass += %s;\n    %s_moment = vec_add(%s_moment, vec_scale(%s, %s));\n",
                     body, m[i], body, body, m[i], center[i]);
@@ -126,15 +132,17 @@ static void slide(struct emitter *emitter, const struct model_body *body, const 
     struct text *out = &emitter->derive;
     const struct motion *motion = &body->source->motion;
     const char *along = emit_parameter(emitter, emit_join(emitter, name, "along"), motion->along,
-                                       (struct emit_origin){motion->at, "along", DIM_NONE});
-    struct vec left = vec_perp(body->e);
-    bool other = left.x != body->n.x || left.y != body->n.y;
+                                       (struct emit_origin){motion->at, "along", DIM_NONE, -1});
+    enum normal_side side = side_up;
+    for (size_t i = 0; i < body->source->load_count; i++)
+        if (body->source->loads[i].kind == load_normal) side = body->source->loads[i].side;
     text_printf(out, "    c->%s.along = %s;\n", name, along);
     text_printf(out, "    c->%s.e = vec_unit(c->%s.along); /* along the slide, and across it */\n", name,
                 name);
     text_printf(out,
-                other ? "    c->%s.n = vec_scale(-1, vec_perp(c->%s.e));\n"
-                      : "    c->%s.n = vec_perp(c->%s.e);\n",
+                side == side_up      ? "    c->%s.n = vec_upward(vec_perp(c->%s.e));\n"
+                : side == side_right ? "    c->%s.n = vec_scale(-1, vec_perp(c->%s.e));\n"
+                                     : "    c->%s.n = vec_perp(c->%s.e);\n",
                 name, name);
 }
 

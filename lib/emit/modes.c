@@ -3,6 +3,7 @@
  * What the run asks of a scene: how its modes hold it, what switches and events watch, and tables of names.
  */
 #include "emit/bodies.h"
+#include "emit/live.h"
 
 static void close_text(struct emitter *emitter, struct text *lines)
 {
@@ -13,6 +14,14 @@ static void close_text(struct emitter *emitter, struct text *lines)
 static const struct friction *pair_of(const struct emitter *emitter, int pair)
 {
     return &emitter->model->plan.frictions[pair];
+}
+
+struct emit_origin drive_origin(const struct emitter *emitter, const struct friction *friction)
+{
+    const struct model_body *body = &emitter->model->bodies[friction->body];
+    bool slide = body->kind == motion_slide;
+    return (struct emit_origin){body->source->motion.at, slide ? "x" : "theta", slide ? DIM_LENGTH : DIM_NONE,
+                                -1};
 }
 
 /* ---- what sticks and what is driven goes with its surface */
@@ -37,7 +46,8 @@ static void write_hold(struct emitter *emitter)
         if (friction->kind == mode_drive && friction->position.expr) {
             const char *owner = emitter->load[friction->load];
             const char *motion =
-                emit_slope(emitter, &friction->position, emit_join(emitter, owner, "position"), 0);
+                emit_slope(emitter, &friction->position, emit_join(emitter, owner, "position"), 0,
+                           drive_origin(emitter, friction));
             text_printf(&lines, "    y[%s] = %s.v;\n", q, motion);
         }
         text_printf(&lines, "    if (s->slip[%s] == 0) y[%s] = surface_speed(s, t, y, %s);\n",
@@ -84,7 +94,9 @@ static void write_switches(struct emitter *emitter)
     for (size_t i = 0; i < plan->kink_count; i++) {
         const struct kink *kink = &plan->kinks[i];
         struct emit_switch *watched = ARENA_ARRAY(&emitter->arena, kink->count, struct emit_switch);
-        if (!watched || !emit_switches(emitter, kink->formula.expr, kink->formula.branch, watched)) break;
+        if (!watched ||
+            !emit_switches(emitter, emit_live(emitter, kink->formula.expr), kink->formula.branch, watched))
+            break;
         for (size_t k = 0; k < kink->count; k++) {
             const char *name = emitter->branch[(size_t)kink->formula.branch + k];
             unsigned op = watched[k].instr->op;
@@ -126,7 +138,8 @@ static void write_events(struct emitter *emitter)
     for (size_t k = 0; k < plan->watch_count; k++) {
         const struct watch *watch = &plan->watches[k];
         const char *owner = emit_join(emitter, "event", watch->source->name);
-        struct emit_origin origin = {watch->source->at, "when", expr_dim(watch->source->left)};
+        struct emit_origin origin = {watch->source->at, "when", expr_dim(watch->source->left), -1};
+        emit_live_event(emitter, watch->source);
         const char *left = emit_formula(emitter, &watch->left, emit_join(emitter, owner, "left"), origin);
         const char *right = watch->source->right ? emit_formula(emitter, &watch->right,
                                                                 emit_join(emitter, owner, "right"), origin)

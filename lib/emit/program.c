@@ -2,10 +2,11 @@
  *
  * The program as a whole.
  */
+#include <stdlib.h>
 #include <string.h>
 
-#include "emit/emit.h"
 #include "emit/helper.h"
+#include "emit/live.h"
 
 static void add(struct text *out, const struct text *part)
 {
@@ -70,10 +71,9 @@ static void write_enum(struct emitter *emitter, struct text *out)
 
 static void write_structures(struct emitter *emitter, struct text *out)
 {
-    text_add(out, "/* The numbers of the file. */\nstruct parameters {\n    double until, tolerance;\n"
-                  "    struct vec gravity;\n");
+    text_add(out, "/* The numbers of the file. */\nstruct parameters {\n    double until, tolerance;\n");
     add(out, &emitter->parameters);
-    text_add(out, "};\n\n/* What follows from them. */\nstruct constants {\n");
+    text_add(out, "};\n\n/* What follows from them. */\nstruct constants {\n    struct vec gravity;\n");
     add(out, &emitter->constants);
     text_add(out, "};\n\nstruct scene {\n    struct parameters p;\n    struct constants c;\n"
                   "    int slip[pairs + 1]; /* 0 sticks, 1 or -1: the side on which it slips */\n"
@@ -83,30 +83,72 @@ static void write_structures(struct emitter *emitter, struct text *out)
                   "motion */\n};\n\n");
 }
 
-static void write_setup(struct emitter *emitter, double until, double tolerance, struct text *out)
+static void write_gravity(struct emitter *emitter, struct text *out)
 {
     struct vec gravity = emitter->model->scene->gravity;
-    text_printf(
-        out,
-        "static void set_parameters(struct parameters *p)\n{\n    p->until = %s;\n    p->tolerance = %s;\n",
-        emit_number(emitter, until), emit_number(emitter, tolerance));
-    text_printf(out, "    p->gravity = (struct vec){%s, %s};\n", emit_number(emitter, gravity.x),
-                emit_number(emitter, gravity.y));
+    if (gravity.x == 0 && gravity.y <= 0)
+        text_add(out, "    c->gravity = (struct vec){0, -p->g};\n");
+    else
+        text_printf(out, "    c->gravity = (struct vec){%s, %s};\n", emit_number(emitter, gravity.x),
+                    emit_number(emitter, gravity.y));
+}
+
+/* Those that cannot be changed by themselves. */
+static void write_fixed(struct emitter *emitter, struct text *out)
+{
+    const struct scene *scene = emitter->model->scene;
+    for (size_t i = 0; i < scene->parameter_count; i++)
+        if (emitter->fixed[i])
+            text_printf(out,
+                        "    /* %s = %s is part of other numbers: write the program anew to change it */\n",
+                        scene->parameters[i].name, emit_number(emitter, scene->parameters[i].value));
+}
+
+static void write_setup(struct emitter *emitter, struct text *out)
+{
+    text_add(out, "static void set_parameters(struct parameters *p)\n{\n");
+    write_fixed(emitter, out);
     add(out, &emitter->defaults);
     text_add(out, "}\n\nstatic void derive(const struct parameters *p, struct constants *c)\n{\n"
-                  "    memset(c, 0, sizeof *c);\n    (void)p;\n");
+                  "    memset(c, 0, sizeof *c);\n");
+    write_gravity(emitter, out);
     add(out, &emitter->derive);
     text_add(out, "}\n\n");
 }
 
-static void write_start(struct emitter *emitter, struct text *out)
+/* The run and gravity come first: formulas may name the magnitude. */
+static void write_first(struct emitter *emitter, double until, double tolerance)
+{
+    const struct value *given = &emitter->model->scene->simulate.until;
+    struct emit_origin origin = {given->at, "until", DIM_TIME, -1};
+    const char *gravity = emit_live_gravity(emitter);
+    if (gravity) {
+        text_printf(&emitter->defaults, "    p->g = %s;\n", gravity);
+        text_add(&emitter->parameters, "    double g; /* magnitude of gravity */\n");
+    }
+    bool of_file = given->expr && expr_value(given->expr) == until;
+    const char *end = of_file ? emit_live_number(emitter, until, origin) : emit_number(emitter, until);
+    text_printf(&emitter->defaults, "    p->until = %s;\n    p->tolerance = %s;\n", end,
+                emit_number(emitter, tolerance));
+}
+
+/* Where the motion starts, as parameters. */
+static void write_start(struct emitter *emitter)
 {
     const struct fbd_model *model = emitter->model;
     for (int i = 0; i < model->plan.n; i++) {
         const struct coordinate *coordinate = &model->scene->coordinates[i];
-        text_printf(out, "    y[%s] = %s;\n    y[%s] = %s;\n", emitter->coordinate[i],
-                    emit_number(emitter, coordinate->initial), emitter->rate[i],
-                    emit_number(emitter, coordinate->initial_rate));
+        struct pos at = model->scene->bodies[coordinate->body].at;
+        struct emit_origin place = emit_live_start(emitter, at, coordinate->name);
+        struct emit_origin rate = emit_live_start(emitter, at, coordinate->rate_name);
+        place.dim = coordinate->dim;
+        rate.dim = coordinate->rate_dim;
+        const char *q = emit_join(emitter, emitter->coordinate[i], "start");
+        const char *v = emit_join(emitter, emitter->rate[i], "start");
+        q = emit_parameter(emitter, q, coordinate->initial, place);
+        v = emit_parameter(emitter, v, coordinate->initial_rate, rate);
+        text_printf(&emitter->start, "    y[%s] = %s;\n    y[%s] = %s;\n", emitter->coordinate[i], q,
+                    emitter->rate[i], v);
     }
 }
 
@@ -128,8 +170,9 @@ static void write_beginning(struct emitter *emitter, struct text *out)
     text_add(out, "static void start(struct scene *s, double *y)\n{\n"
                   "    memset(s, 0, sizeof *s);\n    memset(y, 0, size*sizeof *y);\n"
                   "    for (int i = 0; i < pairs; i++) s->pull[i] = 1;\n"
-                  "    set_parameters(&s->p);\n    derive(&s->p, &s->c);\n");
-    write_start(emitter, out);
+                  "    set_parameters(&s->p);\n    derive(&s->p, &s->c);\n"
+                  "    const struct parameters *p = &s->p;\n");
+    add(out, &emitter->start);
     text_add(out, "    complete(s, 0, y);\n}\n\n");
 }
 
@@ -181,8 +224,9 @@ static void write_run(struct emitter *emitter, struct text *out)
 
 static void free_texts(struct emitter *emitter)
 {
-    struct text *texts[] = {&emitter->parameters, &emitter->defaults, &emitter->constants, &emitter->derive,
-                            &emitter->formulas,   &emitter->forces,   &emitter->links,     &emitter->rest};
+    struct text *texts[] = {&emitter->parameters, &emitter->defaults, &emitter->constants,
+                            &emitter->derive,     &emitter->formulas, &emitter->forces,
+                            &emitter->links,      &emitter->rest,     &emitter->start};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         emitter->arena.failed = emitter->arena.failed || texts[i]->failed;
         text_free(texts[i]);
@@ -192,13 +236,15 @@ static void free_texts(struct emitter *emitter)
 static void write_all(struct emitter *emitter, double until, double tolerance, struct text *out)
 {
     struct text below = {0};
+    write_first(emitter, until, tolerance);
     emit_inertias(emitter);
     emit_bodies(emitter);
     emit_tree(emitter);
     emit_solution(emitter);
     emit_modes(emitter);
+    write_start(emitter);
     write_structures(emitter, &below);
-    write_setup(emitter, until, tolerance, &below);
+    write_setup(emitter, &below);
     add(&below, &emitter->formulas);
     add(&below, &emitter->forces);
     add(&below, &emitter->links);
@@ -212,17 +258,41 @@ static void write_all(struct emitter *emitter, double until, double tolerance, s
     text_free(&below);
 }
 
-char *emit_program(const struct fbd_model *model, double until, double tolerance, fbd_errors *errors)
+/* One try: parameters that prove to be part of other numbers leave for the next one. */
+static char *write_once(const struct fbd_model *model, double until, double tolerance, bool *fixed,
+                        bool *settled, fbd_errors *errors)
 {
-    struct emitter emitter = {.model = model};
+    struct emitter emitter = {.model = model, .fixed = fixed};
     struct text out = {0};
-    if (!emit_admits(model, errors)) return NULL;
-    if (emit_names(&emitter)) write_all(&emitter, until, tolerance, &out);
+    *settled = true;
+    if (emit_live_open(&emitter) && emit_names(&emitter)) {
+        write_all(&emitter, until, tolerance, &out);
+        *settled = emit_live_settled(&emitter);
+    } else {
+        emitter.arena.failed = true;
+    }
     free_texts(&emitter);
+    emit_live_close(&emitter);
     if (out.failed || emitter.arena.failed) {
         text_free(&out);
+        *settled = true;
         diag_out_of_memory(errors);
     }
     arena_free(&emitter.arena);
     return out.data;
+}
+
+char *emit_program(const struct fbd_model *model, double until, double tolerance, fbd_errors *errors)
+{
+    char *program = NULL;
+    bool settled = false;
+    if (!emit_admits(model, errors)) return NULL;
+    bool *fixed = calloc(model->scene->parameter_count + 1, sizeof *fixed);
+    if (!fixed) diag_out_of_memory(errors);
+    while (fixed && !settled) {
+        free(program);
+        program = write_once(model, until, tolerance, fixed, &settled, errors);
+    }
+    free(fixed);
+    return program;
 }

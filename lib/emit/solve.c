@@ -26,7 +26,8 @@ static const char *law_of(struct emitter *emitter, int pair, const char *key, co
     const struct friction *friction = pair_of(emitter, pair);
     const char *owner = emitter->load[friction->load];
     return emit_formula(emitter, formula, emit_join(emitter, owner, key),
-                        (struct emit_origin){emitter->model->loads[friction->load].source->at, key, dim});
+                        (struct emit_origin){emitter->model->loads[friction->load].source->at, key, dim,
+                                             friction->body});
 }
 
 static const char *speed_of(struct emitter *emitter, int pair, bool acceleration)
@@ -38,7 +39,8 @@ static const char *speed_of(struct emitter *emitter, int pair, bool acceleration
     if (friction->kind == mode_drive) {
         if (!friction->position.expr) return "0";
         return emit_printf(emitter, acceleration ? "%s.dd" : "%s.d",
-                           emit_slope(emitter, &friction->position, emit_join(emitter, owner, "motion"), 0));
+                           emit_slope(emitter, &friction->position, emit_join(emitter, owner, "motion"), 0,
+                                      drive_origin(emitter, friction)));
     }
     if (!acceleration)
         return friction->moving
@@ -46,7 +48,9 @@ static const char *speed_of(struct emitter *emitter, int pair, bool acceleration
                    : "0";
     if (formula_is_constant(speed)) return "0";
     return emit_printf(emitter, "%s.d",
-                       emit_slope(emitter, speed, emit_join(emitter, owner, "surface_acceleration"), 0));
+                       emit_slope(emitter, speed, emit_join(emitter, owner, "surface_acceleration"), 0,
+                                  (struct emit_origin){emitter->model->loads[friction->load].source->at,
+                                                       "surface_speed", DIM_VELOCITY, friction->body}));
 }
 
 static const char *static_law(struct emitter *emitter, int pair)

@@ -39,7 +39,7 @@ static void derive_place(struct emitter *emitter, int b)
     if (body->kind != motion_weld) return;
     const char *parent = emitter->body[motion->parent];
     const char *angle = emit_parameter(emitter, emit_join(emitter, name, "angle"), motion->along,
-                                       (struct emit_origin){motion->at, "angle", DIM_NONE});
+                                       (struct emit_origin){motion->at, "angle", DIM_NONE, -1});
     const char *at = emit_vector(emitter, emit_join(emitter, name, "at"), motion->through);
     const char *point = emit_vector(emitter, emit_join(emitter, name, "point"), motion->point);
     text_printf(out, "    c->%s.place.turn = vec_turn(c->%s.place.turn, vec_unit(%s));\n", name, parent,
@@ -235,7 +235,7 @@ static void tree_load(struct tree_writer *writer, const struct model_load *load)
     switch (load->source->kind) {
     case load_gravity:
         world_force(emitter, load, emit_printf(emitter, "c->%s.G", body),
-                    emit_printf(emitter, "vec_scale(c->%s.mass, p->gravity)", body));
+                    emit_printf(emitter, "vec_scale(c->%s.mass, c->gravity)", body));
         break;
     case load_applied: applied(writer, load); break;
     case load_drag: drag(writer, load); break;

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "base/utf8.h"
-#include "emit/emit.h"
+#include "emit/live.h"
 
 const char *emit_number(struct emitter *emitter, double value)
 {
@@ -47,7 +47,7 @@ const char *emit_parameter(struct emitter *emitter, const char *wanted, double v
     const char *name = emit_name(emitter, wanted);
     text_printf(&emitter->parameters, "    double %s;", name);
     unit_behind(emitter, &emitter->parameters, origin.dim);
-    text_printf(&emitter->defaults, "    p->%s = %s;\n", name, emit_number(emitter, value));
+    text_printf(&emitter->defaults, "    p->%s = %s;\n", name, emit_live_number(emitter, value, origin));
     const char *member = arena_printf(&emitter->arena, "p->%s", name);
     return member ? member : "";
 }
