@@ -119,6 +119,49 @@ def compare(name, source, model):
         return [str(late)[-80:]]
 
 
+def parameters_of(text):
+    block = text.partition("\nparameters:")[2].partition("\nbodies:")[0]
+    return set(re.findall(r"(\w+):", block))
+
+
+def start_of(program):
+    return run([program, "rows"]).stdout.splitlines()[1:2]
+
+
+def vary(name, source, model):
+    """The program with other values of its parameters against that of the file with these values."""
+    text, settings, other = source.read_text(encoding="utf-8"), [], []
+    known = parameters_of(model.read_text(encoding="utf-8"))
+    begin, end = text.index("static void set_parameters("), text.index("static void derive(")
+    setting = text[begin:end]
+    for parameter, value in re.findall(r"    p->(\w+) = (-?[\d.e+-]+);\n", setting):
+        if parameter not in known:
+            continue
+        changed = float(value) * 1.0625 or 0.015625
+        settings += ["--set", f"{parameter}={changed!r}"]
+        setting = setting.replace(f"    p->{parameter} = {value};\n", f"    p->{parameter} = {changed!r};\n")
+    if not settings:
+        return []
+    edited, given = source.with_name("edited_" + source.name), source.with_name("given_" + source.name)
+    edited.write_text(text[:begin] + setting + text[end:], encoding="utf-8")
+    done = run([fbd_run, "--tolerance", tolerance, *settings, "--emit-c", str(given), str(model)])
+    if done.returncode:
+        return []  # no scene of its own
+    for file in (edited, given):
+        built = run(compiler + flags + [str(file), "-o", str(file.with_suffix("")), "-lgsl", "-lgslcblas", "-lm"])
+        if built.returncode:
+            return [built.stderr[:2000]]
+    asked = "\n".join(run([states, str(model), "20"]).stdout.splitlines()[::2]) + "\n"
+    answers = [(run([str(file.with_suffix("")), "at"], input=asked).stdout, start_of(str(file.with_suffix(""))))
+               for file in (edited, given)]
+    for edited_line, given_line in zip(answers[0][0].splitlines(), answers[1][0].splitlines()):
+        if edited_line != given_line:
+            other = [f"{' '.join(settings)}: {given_line} and {edited_line}"]
+    if answers[0][1] != answers[1][1]:
+        other.append(f"starts at {answers[1][1]} and {answers[0][1]}")
+    return other
+
+
 count = bad = 0
 
 
@@ -148,8 +191,11 @@ def main():
                 claim(False, f"{name} is written", reasons)
             elif chosen or name in QUICK:
                 compared.append((name, source, model))
+        varied = compared if chosen else compared[::4]
         for (name, _, _), faults in zip(compared, pool.map(lambda each: compare(*each), compared)):
             claim(not faults, f"{name} as C: accelerations and end", faults)
+        for (name, _, _), faults in zip(varied, pool.map(lambda each: vary(*each), varied)):
+            claim(not faults, f"{name} as C with other values of its parameters", faults)
     print(f"# {taken} of {len(models)} models are written")
     print(f"1..{count}")
     sys.exit(bad > 0)
