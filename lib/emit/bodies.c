@@ -37,7 +37,8 @@ const char *load_point(struct emitter *emitter, const struct model_load *load, c
 {
     const char *owner = emitter->load[load - emitter->model->loads];
     if (load->source->point.kind != point_fixed) return emit_printf(emitter, "c->%s.G", body);
-    return emit_vector(emitter, emit_join(emitter, owner, "at"), load->point);
+    return emit_vector(emitter, emit_join(emitter, owner, "at"), load->point,
+                       origin_of(load, "at", DIM_LENGTH));
 }
 
 /* From the origin of the frame, or the axis, to a point. */
@@ -289,7 +290,8 @@ static void add_linked(struct body_writer *writer, const struct model_load *load
 {
     struct emitter *emitter = writer->emitter;
     const char *owner = emitter->load[load - emitter->model->loads];
-    const char *anchor = emit_vector(emitter, emit_join(emitter, owner, "to"), load->anchor);
+    const char *anchor = emit_vector(emitter, emit_join(emitter, owner, "to"), load->anchor,
+                                     (struct emit_origin){load->source->at, "to", DIM_LENGTH, -1});
     text_printf(&writer->points, "    at = point_of(&pose, %s);\n    add_at(&sum, &pose, at, %s); /* %s */\n",
                 arm_of(writer, load_point(emitter, load, writer->name)),
                 emit_link_force(emitter, load, emit_printf(emitter, "vec_sub(at.p, %s)", anchor), "at.v"),

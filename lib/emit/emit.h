@@ -29,11 +29,12 @@ struct emitter {
     struct text formulas;           /* functions of expressions */
     struct text forces;             /* functions of bodies */
     struct text links;              /* passes over the links of a tree */
-    struct text start;      /* statements that set the state */
+    struct text start;              /* statements that set the state */
     struct text rest;               /* modes, events, main */
     struct live *live;              /* parameters, see live.h */
     bool *fixed;                    /* those that are part of other numbers, by parameter; the caller's */
     bool *used;                     /* absolutes that a formula of the program names */
+    const char **rods;              /* their constants, by part through all bodies; NULL without one */
     const char **pose, **forces_on; /* functions, by body; NULL until they are written */
     bool walks;                     /* the tree has functions of its own */
     /* C names: by body, coordinate, load, absolute, branch, friction, slot of forces */
@@ -74,7 +75,16 @@ void emit_comment(struct text *text, const char *words);
 /* A member of struct parameters like `wanted`, with the value of the file and its unit; returns "p->NAME". */
 const char *emit_parameter(struct emitter *emitter, const char *wanted, double value,
                            struct emit_origin origin);
-const char *emit_vector(struct emitter *emitter, const char *wanted, struct vec value);
+/* A point likewise, or the end of a rod; origin.body: in whose frame, -1 for the ground. */
+const char *emit_vector(struct emitter *emitter, const char *wanted, struct vec value,
+                        struct emit_origin origin);
+
+/* Are points of a body and the lengths of its rods written as the file says them? Where a body moves freely by
+ * itself they decide what its equations look like. */
+bool emit_tells_points(const struct emitter *emitter, int b);
+
+/* The end of a rod that a word of the file names, among the constants; NULL where it is none (inertia.c). */
+const char *emit_rod_end(struct emitter *emitter, int b, const char *word, struct vec value);
 
 /* A member of struct constants like `wanted`; returns its name. */
 const char *emit_constant(struct emitter *emitter, const char *type, const char *wanted);

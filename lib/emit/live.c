@@ -280,6 +280,70 @@ const char *emit_live_number(struct emitter *emitter, double value, struct emit_
     return names_anything(live, expr) ? emit_expression(emitter, expr, 0) : emit_number(emitter, value);
 }
 
+/* ---- points */
+
+static void spoil_tree(struct emitter *emitter, const struct node *node)
+{
+    for (size_t i = 0; node->kind == node_map && i < node->count; i++)
+        spoil_tree(emitter, node->pairs[i].value);
+    for (size_t i = 0; node->kind == node_list && i < node->count; i++) spoil_tree(emitter, node->items[i]);
+    spoil(emitter, node);
+}
+
+void emit_live_spoil_body(struct emitter *emitter, int b)
+{
+    static const char *const keys[] = {"from", "to", "length", "angle", "center"};
+    const struct body *body = b < 0 ? NULL : &emitter->model->scene->bodies[b];
+    for (size_t i = 0; body && i < body->part_count; i++) {
+        const struct node *entry = find_at(emitter->live->document.root, body->parts[i].at);
+        for (size_t k = 0; entry && k < sizeof keys / sizeof *keys; k++) {
+            const struct pair *pair = node_find(entry, keys[k]);
+            if (pair) spoil_tree(emitter, pair->value);
+        }
+    }
+}
+
+/* One component by parameters; NULL where that is another number. */
+static const char *component(struct emitter *emitter, const struct node *node, double value)
+{
+    struct live_scope scope = {emitter, -1, true};
+    const struct expr *expr = node->kind == node_scalar ? read_text(&scope, node) : NULL;
+    if (!expr || !same_bits(expr_eval(expr, 0, emitter->live->y, NULL), value)) return NULL;
+    return names_anything(emitter->live, expr) ? emit_expression(emitter, expr, 0)
+                                               : emit_number(emitter, value);
+}
+
+const char *emit_live_vector(struct emitter *emitter, const struct node *node, struct vec value)
+{
+    if (node->kind != node_list || node->count != 2) return NULL;
+    const char *x = component(emitter, node->items[0], value.x),
+               *y = component(emitter, node->items[1], value.y);
+    if (!x || !y) return NULL;
+    take(emitter, node->items[0]);
+    take(emitter, node->items[1]);
+    return emit_printf(emitter, "(struct vec){%s, %s}", x, y);
+}
+
+bool emit_live_pair(struct emitter *emitter, const struct node *node, struct vec *value)
+{
+    double *components[] = {&value->x, &value->y};
+    struct live_scope scope = {emitter, -1, true};
+    for (size_t i = 0; i < 2; i++) {
+        bool plain = node->kind == node_list && node->count == 2 && node->items[i]->kind == node_scalar;
+        const struct expr *expr = plain ? read_text(&scope, node->items[i]) : NULL;
+        if (!expr) return false;
+        *components[i] = expr_eval(expr, 0, emitter->live->y, NULL);
+    }
+    return true;
+}
+
+const struct node *emit_live_find(const struct emitter *emitter, struct emit_origin origin)
+{
+    const struct node *entry = origin.at.line > 0 ? find_at(emitter->live->document.root, origin.at) : NULL;
+    const struct pair *pair = entry ? node_find(entry, origin.key) : NULL;
+    return pair ? pair->value : NULL;
+}
+
 /* ---- formulas */
 
 static void remember(struct emitter *emitter, const struct expr *given, const struct expr *expr)

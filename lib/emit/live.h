@@ -15,6 +15,18 @@ void emit_live_close(struct emitter *emitter);
 /* The expression of a number of the file by parameters where that gives it to the bit, else its digits. */
 const char *emit_live_number(struct emitter *emitter, double value, struct emit_origin origin);
 
+/* The value behind a key of an entry, or NULL. */
+const struct node *emit_live_find(const struct emitter *emitter, struct emit_origin origin);
+
+/* A pair [x, y] likewise, NULL where it has to be digits. */
+const char *emit_live_vector(struct emitter *emitter, const struct node *node, struct vec value);
+
+/* The value of a pair; false where it cannot be read here. */
+bool emit_live_pair(struct emitter *emitter, const struct node *node, struct vec *value);
+
+/* A point of body b is digits, so what its rods are made of is part of other numbers. */
+void emit_live_spoil_body(struct emitter *emitter, int b);
+
 /* Look for the formula of `given` with parameters as variables; emit_live then gives it, else `given`. */
 void emit_live_formula(struct emitter *emitter, const struct expr *given, struct emit_origin origin);
 const struct expr *emit_live(const struct emitter *emitter, const struct expr *given);

@@ -207,6 +207,9 @@ bool emit_names(struct emitter *emitter)
     emitter->place = names_of(emitter, model->absolute_count);
     emitter->branch = names_of(emitter, (size_t)model->plan.branches);
     emitter->pair = names_of(emitter, model->plan.friction_count);
+    size_t parts = 0;
+    for (size_t b = 0; b < model->body_count; b++) parts += model->bodies[b].source->part_count;
+    emitter->rods = names_of(emitter, parts);
     emitter->pose = names_of(emitter, model->body_count);
     emitter->forces_on = names_of(emitter, model->body_count);
     emitter->slot = names_of(emitter, (size_t)model->plan.slots);

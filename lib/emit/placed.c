@@ -50,7 +50,10 @@ static void write_pose(struct emitter *emitter, int b, struct text *lines)
                **v = emitter->rate + body->first;
     const char *origin = "";
     if (body->kind == motion_slide || body->kind == motion_pivot)
-        origin = emit_vector(emitter, emit_join(emitter, name, "origin"), body->origin);
+        origin =
+            emit_vector(emitter, emit_join(emitter, name, "origin"), body->origin,
+                        (struct emit_origin){body->source->motion.at,
+                                             body->kind == motion_slide ? "through" : "at", DIM_LENGTH, -1});
     switch (body->kind) {
     case motion_slide:
         text_printf(lines,
@@ -149,7 +152,8 @@ static const char *one_place(struct emitter *emitter, size_t k, struct text *lin
         body->place.link > 0 ? emitter->body[emitter->model->tree->links[body->place.link].body] : "";
     if (absolute->kind == absolute_angle) return angle_of(emitter, absolute, link);
     const char *point = source->point.kind == point_fixed
-                            ? emit_vector(emitter, emit_join(emitter, name, "point"), absolute->point)
+                            ? emit_vector(emitter, emit_join(emitter, name, "point"), absolute->point,
+                                          (struct emit_origin){{0, 0}, "", DIM_LENGTH, absolute->body})
                             : emit_printf(emitter, "c->%s.G", name);
     if (body->kind == motion_pivot) point = emit_printf(emitter, "vec_sub(%s, c->%s.pin)", point, name);
     const char *pose = emit_printf(emitter, "%s_pose", name);

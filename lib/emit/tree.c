@@ -40,8 +40,10 @@ static void derive_place(struct emitter *emitter, int b)
     const char *parent = emitter->body[motion->parent];
     const char *angle = emit_parameter(emitter, emit_join(emitter, name, "angle"), motion->along,
                                        (struct emit_origin){motion->at, "angle", DIM_NONE, -1});
-    const char *at = emit_vector(emitter, emit_join(emitter, name, "at"), motion->through);
-    const char *point = emit_vector(emitter, emit_join(emitter, name, "point"), motion->point);
+    const char *at = emit_vector(emitter, emit_join(emitter, name, "at"), motion->through,
+                                 (struct emit_origin){motion->at, "at", DIM_LENGTH, motion->parent});
+    const char *point = emit_vector(emitter, emit_join(emitter, name, "point"), motion->point,
+                                    (struct emit_origin){motion->at, "point", DIM_LENGTH, b});
     text_printf(out, "    c->%s.place.turn = vec_turn(c->%s.place.turn, vec_unit(%s));\n", name, parent,
                 angle);
     text_printf(out, "    c->%s.place.shift = vec_sub(%s, vec_turn(c->%s.place.turn, %s));\n", name,
@@ -56,7 +58,9 @@ static void derive_link(struct emitter *emitter, int b)
     struct text *out = &emitter->derive;
     const char *name = emitter->body[b];
     bool slide = body->kind == motion_slide, on_ground = motion->parent == ground_body;
-    const char *at = emit_vector(emitter, emit_join(emitter, name, "at"), motion->through);
+    const char *at =
+        emit_vector(emitter, emit_join(emitter, name, "at"), motion->through,
+                    (struct emit_origin){motion->at, slide ? "through" : "at", DIM_LENGTH, motion->parent});
     const char *e = slide ? emit_printf(emitter, "c->%s.e", name) : "((struct vec){1, 0})";
     const char *along = slide ? emit_printf(emitter, "c->%s.along", name) : "0";
     if (on_ground) {
@@ -213,7 +217,8 @@ static void linked(struct tree_writer *writer, const struct model_load *load)
     const char *ends[2] = {emit_constant(emitter, "struct vec", emit_join(emitter, owner, "place")),
                            emit_constant(emitter, "struct vec", emit_join(emitter, owner, "end"))};
     const char *a = link_name(emitter, model->bodies[load->body].place.link), *b = "ground";
-    const char *anchor = emit_vector(emitter, emit_join(emitter, owner, "to"), load->anchor);
+    const char *anchor = emit_vector(emitter, emit_join(emitter, owner, "to"), load->anchor,
+                                     (struct emit_origin){load->source->at, "to", DIM_LENGTH, load->partner});
     text_printf(&emitter->derive, "    c->%s = %s;\n", ends[0],
                 place_of(emitter, load->body, load_point(emitter, load, emitter->body[load->body])));
     if (load->partner >= 0) {

@@ -52,15 +52,35 @@ const char *emit_parameter(struct emitter *emitter, const char *wanted, double v
     return member ? member : "";
 }
 
-const char *emit_vector(struct emitter *emitter, const char *wanted, struct vec value)
+static const char *pair_of_numbers(struct emitter *emitter, struct vec value)
 {
+    return emit_printf(emitter, "(struct vec){%s, %s}", emit_number(emitter, value.x),
+                       emit_number(emitter, value.y));
+}
+
+bool emit_tells_points(const struct emitter *emitter, int b)
+{
+    if (b < 0) return true;
+    const struct model_body *body = &emitter->model->bodies[b];
+    return body->place.link > 0 || body->kind == motion_pivot;
+}
+
+const char *emit_vector(struct emitter *emitter, const char *wanted, struct vec value,
+                        struct emit_origin origin)
+{
+    bool tells = emit_tells_points(emitter, origin.body);
+    const struct node *node = tells ? emit_live_find(emitter, origin) : NULL;
+    const char *end = node && node->kind == node_scalar && origin.body >= 0
+                          ? emit_rod_end(emitter, origin.body, node->text, value)
+                          : NULL;
+    if (end) return end;
+    const char *pair = node ? emit_live_vector(emitter, node, value) : NULL;
+    if (!pair && (value.x != 0 || value.y != 0)) emit_live_spoil_body(emitter, origin.body);
     const char *name = emit_name(emitter, wanted);
     text_printf(&emitter->parameters, "    struct vec %s;", name);
     unit_behind(emitter, &emitter->parameters, DIM_LENGTH);
-    text_printf(&emitter->defaults, "    p->%s = (struct vec){%s, %s};\n", name,
-                emit_number(emitter, value.x), emit_number(emitter, value.y));
-    const char *member = arena_printf(&emitter->arena, "p->%s", name);
-    return member ? member : "";
+    text_printf(&emitter->defaults, "    p->%s = %s;\n", name, pair ? pair : pair_of_numbers(emitter, value));
+    return emit_printf(emitter, "p->%s", name);
 }
 
 const char *emit_constant(struct emitter *emitter, const char *type, const char *wanted)
