@@ -166,8 +166,7 @@ static void write_events(struct emitter *emitter)
 
 /* ---- tables of pairs and surfaces */
 
-static void write_table(struct emitter *emitter, const char *name,
-                        const char *value(struct emitter *, int pair))
+static void write_table(struct emitter *emitter, const char *name, const char *value(struct emitter *, int))
 {
     text_printf(&emitter->rest, "static const int %s[pairs] = {", name);
     for (int pair = 0; pair < (int)emitter->model->plan.friction_count; pair++)

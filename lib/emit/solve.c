@@ -77,8 +77,7 @@ static const char *surface_acceleration(struct emitter *emitter, int pair)
     return speed_of(emitter, pair, true);
 }
 
-static void write_law(struct emitter *emitter, const char *head,
-                      const char *value(struct emitter *, int pair))
+static void write_law(struct emitter *emitter, const char *head, const char *value(struct emitter *, int))
 {
     struct text lines = {0};
     text_add(&lines, "    switch (pair) {\n");

@@ -291,7 +291,7 @@ static const char *kind_name(enum motion_kind kind)
 
 /* A function that treats link after link, outward or inward. */
 static void write_pass(struct emitter *emitter, const char *head, const char *arguments, bool outward,
-                       const char *format(struct emitter *, int link))
+                       const char *format(struct emitter *, int))
 {
     const struct tree *tree = emitter->model->tree;
     struct text lines = {0};
