@@ -13,15 +13,28 @@ static const double gain_for_implicit = 1.8, gain_for_explicit = 1.2;
 /* Half the limit of stability, for the steps of the explicit method are longer. */
 static const double h_rate_for_explicit = 3;
 
-void stiffness_start(struct stiffness *s)
+/* The shortest and the longest wait: an attempt at rodas5p costs as much as so many steps. */
+static int waits(const struct stiffness *s, int steps)
 {
-    *s = (struct stiffness){.interval = shortest_interval, .wait = shortest_interval};
+    return s->implicit ? steps : (int)(steps * s->dear);
+}
+
+static void wait_shortly(struct stiffness *s)
+{
+    s->votes = 0;
+    s->interval = waits(s, shortest_interval);
+}
+
+void stiffness_start(struct stiffness *s, size_t coordinates)
+{
+    *s = (struct stiffness){.dear = fmax(1, ((double)coordinates + 2) / 6)};
+    wait_shortly(s);
+    s->wait = s->interval;
 }
 
 void stiffness_forget(struct stiffness *s)
 {
-    s->votes = 0;
-    s->interval = shortest_interval;
+    wait_shortly(s);
     if (s->wait > s->interval) s->wait = s->interval;
 }
 
@@ -29,6 +42,11 @@ bool stiffness_due(struct stiffness *s)
 {
     if (s->wait > 0) s->wait--;
     return s->wait == 0;
+}
+
+double stiffness_stride(const struct stiffness *s)
+{
+    return s->implicit ? 1 / s->dear : s->dear;
 }
 
 /* A ratio of zero says nothing: a body at rest or in free flight is without error for every method. */
@@ -44,14 +62,14 @@ bool stiffness_decide(struct stiffness *s, double ratio, int estimate_order, dou
     if (!better) {
         s->votes = 0;
         s->wait = s->interval;
-        if (s->interval < longest_interval) s->interval *= 2;
+        if (s->interval < waits(s, longest_interval)) s->interval *= 2;
         return false;
     }
     s->wait = steps_to_confirm;
     if (++s->votes < votes_needed) return false;
     s->implicit = !s->implicit;
-    s->votes = 0;
-    s->interval = s->wait = shortest_interval;
+    wait_shortly(s);
+    s->wait = s->interval;
     return true;
 }
 

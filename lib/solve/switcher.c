@@ -40,7 +40,7 @@ struct switcher *switcher_alloc(const struct stepper_options *options, const str
     s->n = layout_size(&options->layout);
     s->methods[0] = options->method;
     s->steppers[0] = stepper_alloc(options);
-    stiffness_start(&s->stiffness);
+    stiffness_start(&s->stiffness, options->layout.pairs > 0 ? options->layout.pairs : s->n);
     bool pair = stiff && options->h_fixed == 0;
     if (!s->steppers[0] || (pair && !prepare_pair(s, options, stiff))) {
         switcher_free(s);
@@ -81,9 +81,11 @@ static enum stepper_status consider(struct switcher *s, struct counted_system *s
                                     struct moment t_limit)
 {
     int other = !s->now;
-    double made = moment_since(t, t0);
-    double ratio = stepper_attempt(s->steppers[other], system, t0.t, s->y0, s->f0, made);
-    double h_rate = s->now == 1 ? made * last_rate(s) : 0;
+    double size = stiffness_stride(&s->stiffness) * moment_since(t, t0);
+    /* What lies beyond the limit may be another motion, and there is no room for a step that long. */
+    bool fits = moment_since(t_limit, t0) >= size;
+    double ratio = fits ? stepper_attempt(s->steppers[other], system, t0.t, s->y0, s->f0, size) : INFINITY;
+    double h_rate = s->now == 1 ? size * last_rate(s) : 0;
     if (!stiffness_decide(&s->stiffness, ratio, s->methods[other]->estimate_order, h_rate)) return stepper_ok;
     /* The counters of the system, not of the step, take the evaluations; a reset that fails leaves things as
      * they were. */
@@ -93,7 +95,7 @@ static enum stepper_status consider(struct switcher *s, struct counted_system *s
         return stepper_ok;
     }
     s->now = other;
-    *h = fmax(first, made); /* it could have made this step at least */
+    *h = fmax(first, size); /* it could have made this step at least */
     return stepper_ok;
 }
 

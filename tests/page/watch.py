@@ -78,6 +78,8 @@ def check_watch(browser, folder):
             browser.run("window.mark = 4")
             time.sleep(1.6)
             assert browser.run("return window.mark") == 4
+        browser.open("about:blank")  # a live page whose watch has ended asks in vain, and the console says so
+        browser.log("browser")
         watch.send_signal(signal.SIGINT)
         watch.wait(20)
     with claim("the watch leaves an ordinary page and no stamp"):
@@ -92,7 +94,8 @@ def check_watch(browser, folder):
     with claim("which asks for nothing and says nothing"):
         loads(browser, "Mended")
         time.sleep(1)
-        assert browser.log("browser") == []
+        said = browser.log("browser")
+        assert said == [], said
 
 
 def main():

@@ -206,26 +206,26 @@ static bool let_down(void)
 static void a_run_without_memory_fails_and_leaks_nothing(void **unused)
 {
     (void)unused;
-    fail_each(run_and_write, 0);
+    fail_each(run_and_write, 100);
 }
 
 static void error_bars_without_memory_fail_and_leak_nothing(void **unused)
 {
     (void)unused;
-    fail_each(run_with_error_bars, 0);
-    fail_each(run_accurately, 0);
+    fail_each(run_with_error_bars, 100);
+    fail_each(run_accurately, 100);
 }
 
 static void a_run_of_joined_bodies_without_memory_fails_and_leaks_nothing(void **unused)
 {
     (void)unused;
-    fail_each(run_and_write_joined, 0);
+    fail_each(run_and_write_joined, 100);
 }
 
 static void looking_without_memory_fails_and_leaks_nothing(void **unused)
 {
     (void)unused;
-    fail_each(look_closer, 0);
+    fail_each(look_closer, 100);
 }
 
 static void linearisation_without_memory_fails_and_leaks_nothing(void **unused)
@@ -237,9 +237,9 @@ static void linearisation_without_memory_fails_and_leaks_nothing(void **unused)
 static void statics_without_memory_fail_and_leak_nothing(void **unused)
 {
     (void)unused;
-    fail_each(rest, 0);
-    fail_each(move, 0);
-    fail_each(let_down, 0);
+    fail_each(rest, 100);
+    fail_each(move, 100);
+    fail_each(let_down, 100);
 }
 
 int main(void)

@@ -36,7 +36,7 @@ static void attempts_become_rare_where_nothing_changes(void **state)
 {
     (void)state;
     struct stiffness s;
-    stiffness_start(&s);
+    stiffness_start(&s, 1);
     const int expected[] = {8, 8, 16, 32, 64, 64, 64};
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
         assert_int_equal(steps_to_attempt(&s), expected[i]);
@@ -45,11 +45,34 @@ static void attempts_become_rare_where_nothing_changes(void **state)
     assert_false(s.implicit);
 }
 
+/* Of 22 coordinates a step of the implicit method costs four times what it does in a small system, beside the
+ * explicit one: it is asked for a step that is four times as long, a quarter as often. */
+static void large_systems_ask_for_longer_steps_more_seldom(void **state)
+{
+    (void)state;
+    struct stiffness s;
+    stiffness_start(&s, 22);
+    const int expected[] = {32, 32, 64, 128, 256, 256};
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
+        assert_true(stiffness_stride(&s) == 4);
+        assert_int_equal(steps_to_attempt(&s), expected[i]);
+        assert_false(stiffness_decide(&s, ratio_of(1.7, implicit_order), implicit_order, 0));
+    }
+    for (int i = 0; i < 2; i++) stiffness_decide(&s, ratio_of(2, implicit_order), implicit_order, 0);
+    assert_true(s.implicit);
+    assert_true(stiffness_stride(&s) == 0.25);
+    assert_int_equal(steps_to_attempt(&s), 8);
+    for (size_t few = 1; few <= 4; few++) {
+        stiffness_start(&s, few);
+        assert_true(stiffness_stride(&s) == 1);
+    }
+}
+
 static void two_answers_in_a_row_make_the_switch(void **state)
 {
     (void)state;
     struct stiffness s;
-    stiffness_start(&s);
+    stiffness_start(&s, 1);
     double yes = ratio_of(2, implicit_order), no = ratio_of(1.7, implicit_order);
     assert_false(stiffness_decide(&s, yes, implicit_order, 0));
     assert_int_equal(steps_to_attempt(&s), 3);
@@ -72,7 +95,7 @@ static void a_constant_relation_is_not_sent_to_and_fro(void **state)
         double relation = 0.1 * pow(1.05, trial); /* implicit step / explicit step: 0.1 ... 10 */
         struct stiffness s;
         int switches = 0;
-        stiffness_start(&s);
+        stiffness_start(&s, 1);
         for (int i = 0; i < 100; i++) {
             int k = s.implicit ? explicit_order : implicit_order;
             switches += stiffness_decide(&s, ratio_of(s.implicit ? 1 / relation : relation, k), k, 0);
@@ -87,7 +110,7 @@ static void failed_attempts_and_such_without_error_change_nothing(void **state)
     const double ratios[] = {INFINITY, NAN, 0};
     for (size_t i = 0; i < sizeof ratios / sizeof *ratios; i++) {
         struct stiffness s;
-        stiffness_start(&s);
+        stiffness_start(&s, 1);
         for (int n = 0; n < 5; n++) assert_false(stiffness_decide(&s, ratios[i], implicit_order, 0));
     }
 }
@@ -96,7 +119,7 @@ static void an_event_between_two_answers_makes_them_void(void **state)
 {
     (void)state;
     struct stiffness s;
-    stiffness_start(&s);
+    stiffness_start(&s, 1);
     double yes = ratio_of(5, implicit_order);
     stiffness_decide(&s, yes, implicit_order, 0);
     stiffness_forget(&s);
@@ -115,7 +138,7 @@ static void fast_rates_bar_the_way_back(void **state)
     double yes = ratio_of(5, explicit_order);
     for (size_t i = 0; i <= sizeof barred / sizeof *barred; i++) {
         struct stiffness s;
-        stiffness_start(&s);
+        stiffness_start(&s, 1);
         s.implicit = true;
         double h_rate = i > 0 ? barred[i - 1] : 2.9;
         stiffness_decide(&s, yes, explicit_order, h_rate);
@@ -187,7 +210,7 @@ static bool switches(bool implicit, double ratio)
 {
     struct stiffness s;
     int k = implicit ? explicit_order : implicit_order;
-    stiffness_start(&s);
+    stiffness_start(&s, 1);
     s.implicit = implicit;
     stiffness_decide(&s, ratio, k, 0);
     return stiffness_decide(&s, ratio, k, 0);
@@ -213,6 +236,7 @@ int main(void)
     gsl_set_error_handler_off();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(attempts_become_rare_where_nothing_changes),
+        cmocka_unit_test(large_systems_ask_for_longer_steps_more_seldom),
         cmocka_unit_test(two_answers_in_a_row_make_the_switch),
         cmocka_unit_test(a_constant_relation_is_not_sent_to_and_fro),
         cmocka_unit_test(failed_attempts_and_such_without_error_change_nothing),
