@@ -9,6 +9,7 @@
  */
 #include "emit/live.h"
 
+#include <stdint.h>
 #include <string.h>
 
 #include "emit/live_texts.h"
@@ -89,7 +90,10 @@ static const struct expr *read_text(struct live_scope *scope, const struct node 
 
 static bool same_bits(double a, double b)
 {
-    return memcmp(&a, &b, sizeof a) == 0 || (isnan(a) && isnan(b));
+    uint64_t x, y;
+    memcpy(&x, &a, sizeof x);
+    memcpy(&y, &b, sizeof y);
+    return x == y || (isnan(a) && isnan(b));
 }
 
 static bool names_anything(const struct live *live, const struct expr *expr)
