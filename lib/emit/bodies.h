@@ -30,7 +30,7 @@ void add_term(struct body_writer *writer, int slot, const char *coefficient, con
               const struct load *load);
 
 /* The point of a load in the frame of its body. */
-const char *load_point(struct emitter *emitter, const struct model_load *load, const char *load_name);
+const char *load_point(struct emitter *emitter, const struct model_load *load, const char *body);
 
 /* A number of a load, and one of its formulas. */
 const char *load_number(struct emitter *emitter, const struct model_load *load, const char *key, double value,

@@ -5,26 +5,26 @@
 
 #include "emit/bodies.h"
 
-/* Does `text` name `word`, and not as the end of a longer one? */
+/* Is `at`, within `text`, no end of a longer name? */
+static bool begins_name(const char *text, const char *at)
+{
+    char before = at > text ? at[-1] : ' ';
+    return !((before >= 'a' && before <= 'z') || (before >= 'A' && before <= 'Z') ||
+             (before >= '0' && before <= '9') || before == '_' || before == '>' || before == '.');
+}
+
 static bool mentions(const char *text, const char *word)
 {
-    for (const char *at = strstr(text, word); at; at = strstr(at + 1, word)) {
-        char before = at > text ? at[-1] : ' ';
-        bool inside = (before >= 'a' && before <= 'z') || (before >= 'A' && before <= 'Z') ||
-                      (before >= '0' && before <= '9') || before == '_' || before == '>' || before == '.';
-        if (!inside) return true;
-    }
+    for (const char *at = strstr(text, word); at; at = strstr(at + 1, word))
+        if (begins_name(text, at)) return true;
     return false;
 }
 
-static bool mentions_argument(const char *lines, const char *name)
+/* As an argument or operand: a letter by itself. */
+static bool mentions_argument(const char *lines, char name)
 {
-    static const char *const behind[] = {",", ")", "[", "->", " ", ";", "*", "/"};
-    for (size_t i = 0; i < sizeof behind / sizeof *behind; i++) {
-        char word[32] = "";
-        strcat(strcat(word, name), behind[i]);
-        if (mentions(lines, word)) return true;
-    }
+    for (const char *at = strchr(lines, name); at; at = strchr(at + 1, name))
+        if (at[1] && strchr(",)[- ;*/", at[1]) && begins_name(lines, at)) return true;
     return false;
 }
 
@@ -35,10 +35,10 @@ void emit_function(struct text *out, const char *head, const char *arguments, co
     text_printf(out, "%s(%s)\n{\n", head, arguments);
     if (p) text_add(out, "    const struct parameters *p = &s->p;\n");
     if (c) text_add(out, "    const struct constants *c = &s->c;\n");
-    if (mentions(arguments, "*s") && !p && !c && !mentions_argument(body, "s"))
+    if (mentions(arguments, "*s") && !p && !c && !mentions_argument(body, 's'))
         text_add(out, "    (void)s;\n");
-    if (mentions(arguments, "t,") && !mentions_argument(body, "t")) text_add(out, "    (void)t;\n");
-    if (mentions(arguments, "*y") && !mentions_argument(body, "y")) text_add(out, "    (void)y;\n");
+    if (mentions(arguments, "t,") && !mentions_argument(body, 't')) text_add(out, "    (void)t;\n");
+    if (mentions(arguments, "*y") && !mentions_argument(body, 'y')) text_add(out, "    (void)y;\n");
     text_add(out, body);
     text_add(out, "}\n\n");
 }

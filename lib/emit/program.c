@@ -259,10 +259,9 @@ static void write_all(struct emitter *emitter, double until, double tolerance, s
 }
 
 /* One try: parameters that prove to be part of other numbers leave for the next one. */
-static char *write_once(const struct fbd_model *model, double until, double tolerance, bool *fixed,
-                        bool *settled, fbd_errors *errors)
+static char *write_once(struct emitter emitter, double until, double tolerance, bool *settled,
+                        fbd_errors *errors)
 {
-    struct emitter emitter = {.model = model, .fixed = fixed};
     struct text out = {0};
     *settled = true;
     if (emit_live_open(&emitter) && emit_names(&emitter)) {
@@ -291,7 +290,8 @@ char *emit_program(const struct fbd_model *model, double until, double tolerance
     if (!fixed) diag_out_of_memory(errors);
     while (fixed && !settled) {
         free(program);
-        program = write_once(model, until, tolerance, fixed, &settled, errors);
+        program =
+            write_once((struct emitter){.model = model, .fixed = fixed}, until, tolerance, &settled, errors);
     }
     free(fixed);
     return program;
