@@ -30,7 +30,7 @@ static struct piece doc_of(const struct command_line *line, const char *name)
 /* Names behind which a file is given. */
 static bool takes_file(const char *name)
 {
-    static const char *const files[] = {"csv", "json", "html", "plot", "gnuplot", "svg"};
+    static const char *const files[] = {"csv", "json", "html", "plot", "gnuplot", "svg", "emit-c"};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
         if (strcmp(name, files[i]) == 0) return true;
     return false;

@@ -270,12 +270,20 @@ static enum exit_code run(const fbd_model *model, const struct options *options,
     return code;
 }
 
+/* What is wrong with --until or --tolerance is the caller's, all else the file's. */
+static enum exit_code emit_c(const fbd_model *model, const struct options *options, fbd_errors *errors)
+{
+    char *program = fbd_emit_c(model, &options->run, errors);
+    return program ? write_text(options->emit_c, program) : blame(errors);
+}
+
 static enum exit_code act(const fbd_model *model, const struct options *options, fbd_errors *errors)
 {
     switch (options->action) {
     case action_check: return check_start(model, errors);
     case action_check_hand: return check_hand(model, options);
     case action_fmu: return write_fmu(model, options, errors);
+    case action_emit_c: return emit_c(model, options, errors);
     case action_explain: return print(fbd_explain(model, &options->run), exit_done);
     case action_equations:
     case action_static:

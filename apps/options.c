@@ -55,6 +55,7 @@ static const char help[] =
     "  --explain            what is simulated and what is not, what is conservative and why\n"
     "  --check-hand         hold the file's hand derivations against the assembly\n"
     "  --seed NUMBER        seed of the random states for that (default 1)\n"
+    "  --emit-c FILE        the scene as one C program for GSL; FILE may be -\n"
     "  --check              read the file and say what is wrong with it, or with its start\n"
     "  --fmu FILE           the model as an FMU, for other simulators (ends in .fmu)\n"
     "  --fmu-version 2|3    of the standard that it keeps to, FMI 2.0 or 3.0 (default 3)\n"
@@ -106,6 +107,7 @@ enum {
     option_body,
     option_components,
     option_check,
+    option_emit_c,
     option_grade,
     option_student,
     option_details,
@@ -145,6 +147,7 @@ static const struct option long_options[] = {
     {"body", required_argument, NULL, option_body},
     {"components", no_argument, NULL, option_components},
     {"check", no_argument, NULL, option_check},
+    {"emit-c", required_argument, NULL, option_emit_c},
     {"grade", required_argument, NULL, option_grade},
     {"student", required_argument, NULL, option_student},
     {"details", no_argument, NULL, option_details},
@@ -167,7 +170,7 @@ static bool choose_action(struct options *options, enum action action)
 {
     if (options->action != action_run && options->action != action)
         return usage("only one of --equations, --linearize, --static, --explain, --check-hand, --check, "
-                     "--fmu, --grade "
+                     "--emit-c, --fmu, --grade "
                      "and --handout at a time",
                      "");
     options->action = action;
@@ -255,6 +258,7 @@ static bool take_option(const struct command_line *unused, int option, void *con
     case option_explain: return choose_action(options, action_explain);
     case option_check_hand: return choose_action(options, action_check_hand);
     case option_check: return choose_action(options, action_check);
+    case option_emit_c: options->emit_c = optarg; return choose_action(options, action_emit_c);
     case option_grade: options->model = optarg; return choose_action(options, action_grade);
     case option_student: options->student = optarg; return true;
     case option_details: options->details = true; return true;
@@ -278,15 +282,15 @@ static bool plot_can_be_written(const char *file)
     return true;
 }
 
-enum { place_count = 8 };
+enum { place_count = 9 };
 
 /* Where outputs go. The report comes last and goes where `>` leads, unless data goes there. */
 static void list_places(const struct options *options, struct output_place places[place_count])
 {
     const struct output_place all[place_count] = {
-        {"--csv", options->csv},   {"--json", options->json}, {"--svg", options->svg},
-        {"--html", options->html}, {"--plot", options->plot}, {"--gnuplot", options->gnuplot},
-        {"--fmu", options->fmu},   {"the report", "-"},
+        {"--csv", options->csv},   {"--json", options->json},     {"--svg", options->svg},
+        {"--html", options->html}, {"--plot", options->plot},     {"--gnuplot", options->gnuplot},
+        {"--fmu", options->fmu},   {"--emit-c", options->emit_c}, {"the report", "-"},
     };
     memcpy(places, all, sizeof all);
     if (options->quiet || options_use_stdout(options)) places[place_count - 1].path = NULL;
@@ -296,7 +300,8 @@ bool options_use_stdout(const struct options *options)
 {
     return place_is_stdout(options->csv) || place_is_stdout(options->json) || place_is_stdout(options->svg) ||
            place_is_stdout(options->html) || place_is_stdout(options->plot) ||
-           place_is_stdout(options->gnuplot) || place_is_stdout(options->fmu);
+           place_is_stdout(options->gnuplot) || place_is_stdout(options->fmu) ||
+           place_is_stdout(options->emit_c);
 }
 
 /* Neither the key nor an answer is written over. */
@@ -369,6 +374,9 @@ static bool options_agree(const struct options *options)
     if (!options->csv && !options->html && options->every > 0)
         return usage("--every goes with --csv or --html", "");
     if (stands_still && options->run.error_bars) return usage("--error-bars belongs to a run", "");
+    if (options->emit_c && (options->run.method || options->run.accuracy > 0 || options->run.step > 0 ||
+                            options->run.no_structure || options->quiet))
+        return usage("--emit-c goes with --set, --until and --tolerance only", "");
     if (options->watch && !can_be_watched(options)) return false;
     struct output_place places[place_count];
     list_places(options, places);

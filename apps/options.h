@@ -18,6 +18,7 @@ struct options {
         action_explain,
         action_linearize,
         action_static,
+        action_emit_c,
         action_grade,   /* `model` is the key of `answers` */
         action_handout, /* `model` is the key */
         action_fmu,
@@ -31,6 +32,7 @@ struct options {
     bool ledger, quiet, settle;
     const char *csv, *json, *svg, *html;
     const char *plot, *gnuplot, *plot_of;
+    const char *emit_c; /* where the program goes, of action_emit_c */
     fbd_drawing drawing;
     unsigned seed;
     const char *student; /* of the answer, or NULL */

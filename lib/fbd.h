@@ -509,6 +509,12 @@ FBD_API bool fbd_has_html(void);
  * without it, `not-recorded` for a run without `keep`, or memory is out. */
 FBD_API char *fbd_result_html(fbd_result *result, fbd_errors *errors);
 
+/* The scene as one C program for GSL, without allocation of its own and with the file's numbers in a structure: what
+ * docs/emit-c.md says. Until when and how accurately its `main` integrates is in `options` (may be NULL; only `until`
+ * and `tolerance` are used). To be freed with free(). NULL with notes in `errors`: `cannot-emit` for what it cannot
+ * write, `no-end-time`, `bad-option`, or memory is out. */
+FBD_API char *fbd_emit_c(const fbd_model *model, const fbd_options *options, fbd_errors *errors);
+
 /* ---------------------------------------------------------------- looking at a model */
 
 /* The assembled equations, term by term, as text. To be freed with free(), as all texts below; NULL when

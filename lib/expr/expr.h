@@ -60,7 +60,7 @@ struct symbol {
         symbol_failed
     } kind; /* failed: a note was given already */
     struct dim dim;
-    bool free;           /* a constant given as a bare number: takes any dimension */
+    bool free;           /* a number given as a bare one: takes any dimension */
     double value;        /* of a constant */
     int slot;            /* of a variable: 0 is t, k >= 1 is y[k - 1] */
     const char *because; /* it is none, in messages: "is the time"; NULL for "changes with the motion" */

@@ -95,9 +95,9 @@ static struct operand parse_symbol(struct parser *p, struct token name)
     const char *text = arena_text(&p->builder->scratch, p->lexer.text + name.start, name.length);
     if (!text) return parse_failed(p, name.at);
     struct symbol symbol = p->scope->lookup(p->scope->context, text, name.at);
-    struct kind kind = {.dim = symbol.dim};
+    struct kind kind = {.dim = symbol.dim, .free = symbol.free};
     switch (symbol.kind) {
-    case symbol_constant: kind.free = symbol.free; return build_constant(symbol.value, kind, name.at);
+    case symbol_constant: return build_constant(symbol.value, kind, name.at);
     case symbol_variable:
         if (p->want->constant) return not_constant(p, name, symbol.because);
         return build_variable(symbol.slot, kind, name.at);

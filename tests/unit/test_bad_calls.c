@@ -102,6 +102,10 @@ static void errors_and_models(void **state)
     ANSWERS(fbd_model_parameters, fbd_model_parameters(NULL) == 0);
     ANSWERS(fbd_model_parameter, !fbd_model_parameter(NULL, 0).name);
     ANSWERS(fbd_model_parameter, is_nan(fbd_model_parameter(model, past).value));
+    ANSWERS(fbd_emit_c, !fbd_emit_c(NULL, NULL, NULL));
+    char *program = fbd_emit_c(model, NULL, NULL);
+    assert_non_null(program);
+    free(program);
     ANSWERS(fbd_explain, !fbd_explain(NULL, NULL));
     char *plan = fbd_explain(model, NULL);
     assert_non_null(plan);

@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What can be written as C, and what is missing for the rest.
+ *
+ * Two looks, so that nothing new slips through: the keys of the file against those that are known here, and the
+ * compiled model against what the other files of this room write.
+ */
+#include <string.h>
+
+#include "emit/emit.h"
+#include "scene/node.h"
+
+/* ---- the keys of the file */
+
+struct words {
+    const char *const *words;
+    size_t count;
+};
+
+#define WORDS(...)                                                                                           \
+    {                                                                                                        \
+        (const char *const[]){__VA_ARGS__}, sizeof((const char *const[]){__VA_ARGS__}) / sizeof(char *)      \
+    }
+
+static const struct words top_keys =
+    WORDS("fbd", "title", "description", "units", "gravity", "datum", "parameters", "tables", "ground",
+          "bodies", "couplings", "contacts", "simulate", "output", "$schema", "grading");
+static const struct words body_keys =
+    WORDS("mass", "shape", "parts", "inertia", "points", "motion", "initial", "forces", "moments", "hand",
+          "exact", "description", "length", "radius", "outer_radius", "inner_radius", "a", "b", "c", "axis",
+          "center", "angle", "from", "to");
+static const struct words motions = WORDS("slide", "pivot", "particle", "planar", "weld");
+static const struct words motion_keys = WORDS("along", "through", "line", "on", "at", "point", "angle", "x",
+                                              "theta", "min", "max", "restitution");
+static const struct words initial_keys = WORDS("x", "y", "v", "vx", "vy", "theta", "omega", "assemble");
+static const struct words load_kinds =
+    WORDS("gravity", "normal", "friction", "applied", "spring", "damper", "drag", "potential");
+static const struct words load_keys =
+    WORDS("name", "side", "two_sided", "static", "kinetic", "coefficient", "surface_speed", "value", "angle",
+          "toward", "fx", "fy", "frame", "at", "stiffness", "free_length", "neutral", "to", "linear",
+          "quadratic", "wind", "V");
+static const struct words simulate_keys =
+    WORDS("until", "tolerance", "accuracy", "method", "step", "every", "impacts", "events");
+static const struct words event_keys = WORDS("when", "direction", "then", "stop", "name");
+
+static bool is_known(const struct words *words, const char *word)
+{
+    for (size_t i = 0; i < words->count; i++)
+        if (strcmp(words->words[i], word) == 0) return true;
+    return false;
+}
+
+static void refuse(fbd_errors *errors, struct pos at, const char *what, const char *name)
+{
+    diag_add(errors, FBD_ERROR, "cannot-emit", at, "docs/emit-c.md lists what is written as C",
+             "`--emit-c` does not know %s `%s`", what, name);
+}
+
+static void check_keys(const struct node *map, const struct words *known, const char *what,
+                       fbd_errors *errors)
+{
+    for (size_t i = 0; map && map->kind == node_map && i < map->count; i++)
+        if (!is_known(known, map->pairs[i].key)) refuse(errors, map->pairs[i].at, what, map->pairs[i].key);
+}
+
+static const struct node *value_of(const struct node *map, const char *key)
+{
+    const struct pair *pair = node_find(map, key);
+    return pair ? pair->value : NULL;
+}
+
+/* A kind by itself, or with its keys behind it. */
+static void check_kind(const struct node *entry, const struct words *kinds, const struct words *keys,
+                       const char *what, fbd_errors *errors)
+{
+    if (entry->kind == node_scalar && !is_known(kinds, entry->text))
+        refuse(errors, entry->at, what, entry->text);
+    check_keys(entry, kinds, what, errors);
+    for (size_t i = 0; entry->kind == node_map && i < entry->count; i++)
+        check_keys(entry->pairs[i].value, keys, "the key", errors);
+}
+
+static void check_entries(const struct node *list, const struct words *kinds, const struct words *keys,
+                          const char *what, fbd_errors *errors)
+{
+    if (list && list->kind != node_list) check_kind(list, kinds, keys, what, errors);
+    for (size_t i = 0; list && list->kind == node_list && i < list->count; i++)
+        check_kind(list->items[i], kinds, keys, what, errors);
+}
+
+static void check_body(const struct node *body, fbd_errors *errors)
+{
+    check_keys(body, &body_keys, "the key", errors);
+    check_entries(value_of(body, "motion"), &motions, &motion_keys, "the motion", errors);
+    check_keys(value_of(body, "initial"), &initial_keys, "the key", errors);
+    check_entries(value_of(body, "forces"), &load_kinds, &load_keys, "the force", errors);
+    check_entries(value_of(body, "moments"), &load_kinds, &load_keys, "the moment", errors);
+}
+
+static void check_file(const struct fbd_model *model, fbd_errors *errors)
+{
+    struct document document;
+    if (!document_open(&document, model->source, model->source_length, model->scene->file, errors)) {
+        document_close(&document);
+        return;
+    }
+    const struct node *root = document.root, *bodies = value_of(root, "bodies");
+    const struct node *simulate = value_of(root, "simulate"), *events = value_of(simulate, "events");
+    check_keys(root, &top_keys, "the key", errors);
+    for (size_t b = 0; bodies && bodies->kind == node_map && b < bodies->count; b++)
+        check_body(bodies->pairs[b].value, errors);
+    check_keys(simulate, &simulate_keys, "the key", errors);
+    for (size_t i = 0; events && events->kind == node_list && i < events->count; i++)
+        check_keys(events->items[i], &event_keys, "the key", errors);
+    document_close(&document);
+}
+
+/* ---- the compiled model */
+
+static void lacks(fbd_errors *errors, struct pos at, const char *missing, const char *name)
+{
+    diag_add(errors, FBD_ERROR, "cannot-emit", at, "docs/emit-c.md lists what is written as C",
+             "`--emit-c` cannot write `%s`: %s", name, missing);
+}
+
+static const char *missing_of(enum constraint_kind kind)
+{
+    switch (kind) {
+    case constraint_pin: return "a pin closes a loop, whose forces are found together with the accelerations";
+    case constraint_rod: return "a rod closes a loop, whose force is found together with the accelerations";
+    case constraint_gear: return "a gear is a constraint beside the joints";
+    case constraint_rack: return "a rack is a constraint beside the joints";
+    case constraint_rope: return "a rope is a constraint beside the joints, and goes slack";
+    case constraint_belt: return "a belt is a constraint beside the joints";
+    case constraint_capstan: return "a rope that rubs on a drum is a constraint beside the joints, and sticks";
+    case constraint_roll: return "rolling is a constraint beside the joints";
+    case constraint_contact: return "contacts and stops need impacts";
+    }
+    return "a constraint of a kind that is not known here";
+}
+
+static bool writes_load(enum load_kind kind)
+{
+    switch (kind) {
+    case load_gravity:
+    case load_normal:
+    case load_friction:
+    case load_applied:
+    case load_spring:
+    case load_damper:
+    case load_drag:
+    case load_potential:
+    case moment_applied:
+    case moment_spring:
+    case moment_damper:
+    case moment_friction:
+    case moment_potential:
+    case load_drive: return true;
+    case load_rope:
+    case load_belt:
+    case load_contact: break; /* with their constraints */
+    }
+    return false;
+}
+
+static void check_loads(const struct fbd_model *model, fbd_errors *errors)
+{
+    for (size_t i = 0; i < model->load_count; i++) {
+        const struct load *load = model->loads[i].source;
+        if (i < model->coupled_count && !writes_load(load->kind))
+            lacks(errors, load->at, "a load of a kind that is not known here", load->name);
+    }
+}
+
+static void check_switches(const struct fbd_model *model, fbd_errors *errors)
+{
+    for (size_t i = 0; i < model->plan.kink_count; i++) {
+        const struct kink *kink = &model->plan.kinks[i];
+        bool table = false;
+        for (size_t k = 0; k < kink->count; k++) table = table || kink->formula.expr->switch_at[k].table;
+        const char *name = kink->load < 0 ? "simulate.events" : model->loads[kink->load].source->name;
+        struct pos at = kink->load < 0 ? (struct pos){0, 0} : model->loads[kink->load].source->at;
+        if (table) lacks(errors, at, "tables of points", name);
+        if (kink->slides && !table)
+            lacks(errors, at, "motion along a switch, where its branches are mixed", name);
+    }
+}
+
+static void check_friction(const struct fbd_model *model, fbd_errors *errors)
+{
+    enum { most_pairs = 6 };
+    size_t rubbing = 0;
+    for (size_t i = 0; i < model->plan.friction_count; i++) {
+        const struct friction *friction = &model->plan.frictions[i];
+        const struct load *load = model->loads[friction->load].source;
+        rubbing += friction->kind == mode_friction;
+        if (friction->kind == mode_friction && friction->two_sided && friction->jointed)
+            lacks(errors, load->at, "friction in a guide between bodies that move on each other", load->name);
+        if (friction->kind == mode_friction && rubbing == most_pairs + 1)
+            lacks(errors, load->at, "all modes of more than six dry frictions would be tried in turn",
+                  load->name);
+    }
+}
+
+bool emit_admits(const struct fbd_model *model, fbd_errors *errors)
+{
+    const struct scene *scene = model->scene;
+    size_t before = fbd_errors_failed(errors);
+    diag_in_file(errors, scene->file);
+    check_file(model, errors);
+    for (size_t c = 0; c < scene->constraint_count; c++)
+        lacks(errors, scene->constraints[c].at, missing_of(scene->constraints[c].kind),
+              scene->constraints[c].name);
+    for (size_t b = 0; b < scene->body_count; b++)
+        if (scene->bodies[b].assemble)
+            lacks(errors, scene->bodies[b].at, "a start that is found from couplings", scene->bodies[b].name);
+    check_loads(model, errors);
+    check_switches(model, errors);
+    check_friction(model, errors);
+    return fbd_errors_failed(errors) == before;
+}

@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What a scene is made of (scene.h): values, points, inertia, motions, and what acts.
+ */
+#ifndef FBD_SCENE_LOADS_H
+#define FBD_SCENE_LOADS_H
+
+#include "base/arena.h"
+#include "base/diag.h"
+#include "base/vec.h"
+#include "expr/curve.h"
+#include "expr/expr.h"
+#include "scene/tables.h"
+
+enum { most_coordinates_of_a_body = 3 };
+
+/* A number or an expression; `expr` is NULL when the file does not give it. */
+struct value {
+    const struct expr *expr;
+    struct pos at;
+};
+
+/* A point of a body (in its frame) or of the ground. */
+struct point {
+    enum point_kind {
+        point_absent, /* not given */
+        point_fixed,  /* `where` */
+        point_G,      /* the centre of mass, which the model knows */
+    } kind;
+    struct vec where;
+    struct pos at;
+};
+
+struct named_point {
+    const char *name;
+    struct vec where;
+};
+
+/* ---- inertia */
+
+enum shape_kind {
+    shape_point,
+    shape_rod,             /* slender, along x */
+    shape_sphere,          /* solid */
+    shape_cylinder,        /* solid cylinder or disc, symmetric about x */
+    shape_hollow_cylinder, /* symmetric about x */
+    shape_prism,           /* sides a, b, c along x, y, z */
+    shape_ring,            /* thin, symmetric about x */
+    shape_given,           /* moment of inertia stated in the file */
+};
+
+/* One part of a body. `axis` ('x', 'y', 'z') is the axis of the shape that faces the plane, i.e. is
+ * perpendicular to the drawing. */
+struct part {
+    const char *name; /* NULL for a body that is its own part */
+    struct pos at;
+    enum shape_kind shape;
+    char axis;
+    double mass;         /* negative for a hole */
+    double length;       /* rod, cylinders; 0 when not needed and not given */
+    double radius;       /* sphere, disc, ring; outer radius of a hollow cylinder */
+    double inner_radius; /* hollow cylinder */
+    double side[3];      /* prism: a, b, c */
+    struct vec center;   /* its centre of mass in the body frame */
+    double angle;        /* of the shape's x axis in the body frame [rad] */
+    double inertia;      /* shape_given: moment of inertia ... */
+    struct point about;  /* ... about this point (point_G: about its own centre) */
+    bool about_pivot;    /* ... or about the point that sits on the pivot */
+    double rim;          /* shape_given, where it rolls: its radius, for drawings; 0 when it does not, */
+    struct vec hub;      /* about this centre */
+};
+
+/* ---- motion */
+
+enum motion_kind {
+    motion_slide,    /* x along one line */
+    motion_pivot,    /* theta about a fixed axis */
+    motion_particle, /* x, y */
+    motion_planar,   /* x, y, theta */
+    motion_weld,     /* none: fixed on another body */
+    motion_track,    /* s along a curve */
+};
+
+enum { motion_kinds_count = motion_track + 1 };
+
+enum { ground_body = -1 };
+
+struct motion {
+    enum motion_kind kind;
+    struct pos at;
+    int parent;   /* body that it moves on, or ground_body */
+    double along; /* slide: direction of +x in the parent frame; weld: angle of the body frame [rad] */
+    struct vec
+        through; /* slide: where x = 0; pivot: the axis O; weld: the joint; track: where the curve has its
+                           origin; all in the parent frame */
+    struct value
+        prescribed;   /* slide, pivot, track: the coordinate as a function of t; expr NULL when it is free */
+    struct vec point; /* pivot, weld, track: the point of the body that sits there, in the body frame */
+    const struct curve *curve; /* track: in the parent frame, from `through` */
+    bool turns;                /* track: the x axis of the body frame is its tangent */
+};
+
+/* ---- what acts */
+
+enum load_kind {
+    load_gravity,
+    load_normal,
+    load_friction,
+    load_applied,
+    load_spring,
+    load_damper,
+    load_drag,
+    load_potential,
+    moment_applied,
+    moment_spring,
+    moment_damper,
+    moment_friction,
+    moment_potential,
+    load_drive,   /* not listed: what a prescribed motion takes */
+    load_rope,    /* not listed: a rope under `couplings`, see struct constraint */
+    load_contact, /* not listed: a contact, likewise */
+    load_belt,    /* not listed: a belt, likewise */
+};
+
+/* A distributed load along a line: how long that is, and how far from its start the resultant acts. */
+struct spread {
+    double length, center;
+};
+
+/* One entry of `forces` or `moments`. Fields that a kind does not use are zero. */
+struct load {
+    enum load_kind kind;
+    const char *name; /* unique within the body */
+    struct pos at;
+
+    /* applied force: either `value` along `angle` (or along the slide when no angle is given), or components.
+     * Moment: `value`. */
+    struct value value, angle, fx, fy;
+    bool body_frame;    /* angle and components turn with the body */
+    struct point point; /* where it acts on the body; absent: at G */
+
+    /* applied force: where it acts, from `point` along the axes of the world, which do not turn with the body
+     * (expr NULL: at `point` itself), and the moment about `point` that follows. */
+    struct value offset_x, offset_y, couple;
+    const char *toward;   /* where it points to, as the file says; `angle` follows from that. NULL: nowhere */
+    struct spread spread; /* of a distributed load, whose resultant this is; length 0: of no such load */
+    bool reaction;        /* what the body that it points to feels in return: `NAME.force` of body NAME */
+    int target;           /* while the file is read: the body that it points to, or ground_body, */
+    struct point end;     /* the point of it, */
+    struct value return_angle; /* and where the reaction points to */
+
+    /* spring, damper: toward `anchor`, a point of the ground; without one, along the body's own coordinate */
+    struct point anchor;
+    double stiffness;   /* N/m or N m/rad */
+    double free_length; /* spring with an anchor; neutral coordinate without */
+    double coefficient; /* damper: N s/m or N m s/rad */
+
+    bool reels; /* rope: its length goes with the time, which takes or gives work */
+
+    double linear, quadratic; /* drag: N s/m, N s^2/m^2 */
+    /* The wind that it is in, if any. What follows is in `fx` and `fy`: the part of linear drag that is beyond
+     * the drag in still air, c w, and the whole of any other, -(c + k |v - w|) (v - w). */
+    struct value wind_x, wind_y;
+
+    /* friction: coefficients (force) or limits in N m (moment) */
+    struct value mu_s, mu_k;
+    struct value
+        surface_speed; /* velocity of the surface along +x (moment: angular velocity of the bearing) */
+
+    struct value potential; /* V as a function of the body's coordinates (and t) */
+
+    enum normal_side {
+        side_up,
+        side_left,
+        side_right
+    } side;         /* normal: which side of +x the surface pushes to */
+    bool two_sided; /* normal: a guide that also pulls */
+};
+
+static inline bool load_is_placed(const struct load *load)
+{
+    return load->offset_x.expr != NULL;
+}
+
+static inline bool load_has_wind(const struct load *load)
+{
+    return load->wind_x.expr != NULL;
+}
+
+/* Drag as in still air: all of it, or the linear one beside what a wind adds. */
+static inline bool load_drags_still_air(const struct load *load)
+{
+    return !load_has_wind(load) || load->quadratic == 0;
+}
+
+/* The formulas that what acts depends on, each of which may be absent. */
+enum { most_formulas_of_a_load = 11 };
+
+static inline void load_formulas(struct load *load, struct value *formulas[static most_formulas_of_a_load])
+{
+    struct value *all[] = {&load->value,    &load->angle,    &load->fx,        &load->fy,
+                           &load->mu_s,     &load->mu_k,     &load->potential, &load->surface_speed,
+                           &load->offset_x, &load->offset_y, &load->couple};
+    for (int i = 0; i < most_formulas_of_a_load; i++) formulas[i] = all[i];
+}
+
+#endif

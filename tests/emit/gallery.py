@@ -1,0 +1,204 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Usage: gallery.py FBD_RUN STATES [--all | MODEL...]: models of the gallery as C. Each is compiled without a warning,
+has the library's accelerations at the start and at random states to 2 ulp, and ends where fbd-run ends; what is
+refused is what has loops, contacts, tables or motion along switches. Without --all some are compiled, and all
+written. Prints TAP."""
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+fbd_run, states, *chosen = sys.argv[1:]
+root = Path(os.environ["FBD_SOURCE_ROOT"])
+tolerance = "1e-12"
+# One for each thing that is written: all of them are compiled by hand, with --all.
+QUICK = """kinetics/incline kinetics/falling_with_drag hard/coupled_friction hard/stribeck_belt hard/oscillating_surface
+hard/not_a_number_beyond energy/cubic_spring_potential energy/two_bodies forcing/pulse_train plane/rod_with_jet plane/gust
+plane/two_springs_off_axis rotation/bearing_friction rotation/compound_pendulum trees/block_on_wedge
+trees/chain_of_ten_rods trees/elastic_pendulum trees/shaken_pendulum trees/cart_and_pendulum hard/quiet_end""".split()
+# Switches along which a motion may slide.
+SLIDES = {"hard/chatter", "hard/switched_attraction", "hard/zeno_stop"}
+flags = ["-std=c17", "-O1", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic",
+         "-Werror"]
+compiler = os.environ.get("CC", "cc").split()
+
+
+def run(command, **more):
+    return subprocess.run(command, capture_output=True, text=True, timeout=120, **more)
+
+
+def ulps(a, b):
+    if a == b:
+        return 0.0
+    return abs(a - b) / math.ulp(max(abs(a), abs(b)))
+
+
+def accelerations(model, program):
+    """The largest difference, in ulp of the largest acceleration and of each."""
+    lines = run([states, str(model), "20"]).stdout.splitlines()
+    asked, wanted = lines[::2], lines[1::2]
+    got = run([program, "at"], input="\n".join(asked) + "\n")
+    answers = got.stdout.splitlines()
+    if len(answers) != len(asked):
+        return [f"{len(answers)} answers to {len(asked)} states: {got.stderr.strip()[:200]}"]
+    worst, where = 0.0, ""
+    for state, right, answer in zip(asked, wanted, answers):
+        for a, b in zip(map(float, right.split()), map(float, answer.split())):
+            difference = ulps(a, b)
+            if not difference <= worst:
+                worst, where = difference, f"at {state}: {right} and {answer}"
+    return [f"{worst:.3g} ulp {where}"] if not worst <= 2 else []
+
+
+def numbers(final, prefix=""):
+    for key, value in final.items():
+        if isinstance(value, dict):
+            yield from numbers(value, f"{prefix}{key}.")
+        else:
+            yield prefix + key, value
+
+
+def ends(model, program):
+    right = run([fbd_run, "--tolerance", tolerance, "--json", "-", str(model)])
+    got = run([program])
+    if (right.returncode == 0) != (got.returncode == 0):
+        return [f"fbd-run ends with {right.returncode}, the program with {got.returncode}: {got.stderr.strip()[:200]}"]
+    result = json.loads(right.stdout)
+    if right.returncode:
+        result["final"] = {"t": result["final"]["t"]}
+    own = {line.rsplit(" [", 1)[0]: float(line.rsplit(" ", 1)[1]) for line in got.stdout.splitlines() if "] " in line}
+    faults = []
+    bound = max(1e-6, 1e-9 * result["final"]["t"])  # errors of a period add up
+    for name, value in numbers(result["final"]):
+        if value is None or name not in own:
+            faults.append(f"no {name}")
+        elif not abs(own[name] - value) <= bound * max(1, abs(value)):
+            faults.append(f"{name} {value} and {own[name]}")
+    return faults
+
+
+def write(model, folder):
+    """The program of a model, or the reasons why there is none."""
+    name = str(model.relative_to(root / "models").with_suffix(""))
+    source = folder / (name.replace("/", "_") + ".c")
+    done = run([fbd_run, "--tolerance", tolerance, "--emit-c", str(source), str(model)])
+    reasons = [line for line in done.stderr.splitlines() if "[cannot-emit]" in line]
+    if done.returncode == 0:
+        return name, source, []
+    refused = done.returncode == 3 and reasons and not source.exists()
+    return name, None, reasons if refused else [f"exit code {done.returncode}: {done.stderr}"]
+
+
+def missing(name, text):
+    """What of a model is not written, as its text has it; "" for one that is taken."""
+    couplings = text.partition("\ncouplings:")[2].partition("\nsimulate:")[0].partition("\ncontacts:")[0]
+    kind = re.search(r"\b(pin|rod|rope|gear|rack|roll): ", couplings)
+    if kind:
+        return kind[1] if kind[1] != "roll" else "rolling"
+    if "\ncontacts:" in text:
+        return "contacts"
+    if "\ntables:" in text:
+        return "tables"
+    return "along a switch" if name in SLIDES else ""
+
+
+def compare(name, source, model):
+    program = source.with_suffix("")
+    built = run(compiler + flags + [str(source), "-o", str(program), "-lgsl", "-lgslcblas", "-lm"])
+    if built.returncode:
+        return [built.stderr[:2000]]
+    try:
+        return accelerations(model, str(program)) + ends(model, str(program))
+    except subprocess.TimeoutExpired as late:
+        return [str(late)[-80:]]
+
+
+def parameters_of(text):
+    block = text.partition("\nparameters:")[2].partition("\nbodies:")[0]
+    return set(re.findall(r"(\w+):", block))
+
+
+def start_of(program):
+    return run([program, "rows"]).stdout.splitlines()[1:2]
+
+
+def vary(name, source, model):
+    """The program with other values of its parameters against that of the file with these values."""
+    text, settings, other = source.read_text(encoding="utf-8"), [], []
+    known = parameters_of(model.read_text(encoding="utf-8"))
+    begin, end = text.index("static void set_parameters("), text.index("static void derive(")
+    setting = text[begin:end]
+    for parameter, value in re.findall(r"    p->(\w+) = (-?[\d.e+-]+);\n", setting):
+        if parameter not in known:
+            continue
+        changed = float(value) * 1.0625 or 0.015625
+        settings += ["--set", f"{parameter}={changed!r}"]
+        setting = setting.replace(f"    p->{parameter} = {value};\n", f"    p->{parameter} = {changed!r};\n")
+    if not settings:
+        return []
+    edited, given = source.with_name("edited_" + source.name), source.with_name("given_" + source.name)
+    edited.write_text(text[:begin] + setting + text[end:], encoding="utf-8")
+    done = run([fbd_run, "--tolerance", tolerance, *settings, "--emit-c", str(given), str(model)])
+    if done.returncode:
+        return []  # no scene of its own
+    for file in (edited, given):
+        built = run(compiler + flags + [str(file), "-o", str(file.with_suffix("")), "-lgsl", "-lgslcblas", "-lm"])
+        if built.returncode:
+            return [built.stderr[:2000]]
+    asked = "\n".join(run([states, str(model), "20"]).stdout.splitlines()[::2]) + "\n"
+    answers = [(run([str(file.with_suffix("")), "at"], input=asked).stdout, start_of(str(file.with_suffix(""))))
+               for file in (edited, given)]
+    for edited_line, given_line in zip(answers[0][0].splitlines(), answers[1][0].splitlines()):
+        if edited_line != given_line:
+            other = [f"{' '.join(settings)}: {given_line} and {edited_line}"]
+    if answers[0][1] != answers[1][1]:
+        other.append(f"starts at {answers[1][1]} and {answers[0][1]}")
+    return other
+
+
+count = bad = 0
+
+
+def claim(fact, words, details=()):
+    global count, bad
+    count += 1
+    bad += not fact
+    print(f"{'ok' if fact else 'not ok'} {count} - {words}")
+    for line in () if fact else "\n".join(details).splitlines():
+        print(f"#   {line}")
+
+
+def main():
+    models = sorted((root / "models").rglob("*.yaml"))
+    if chosen and chosen != ["--all"]:
+        models = [Path(name).resolve() for name in chosen]
+    taken = 0
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(2) as pool:
+        written = list(pool.map(lambda model: write(model, Path(folder)), models))
+        compared = []
+        for (name, source, reasons), model in zip(written, models):
+            lacks = missing(name, model.read_text(encoding="utf-8"))
+            taken += source is not None
+            if lacks:
+                claim(source is None and any(lacks in reason for reason in reasons), f"{name} is refused: {lacks}", reasons)
+            elif source is None:
+                claim(False, f"{name} is written", reasons)
+            elif chosen or name in QUICK:
+                compared.append((name, source, model))
+        varied = compared if chosen else compared[::4]
+        for (name, _, _), faults in zip(compared, pool.map(lambda each: compare(*each), compared)):
+            claim(not faults, f"{name} as C: accelerations and end", faults)
+        for (name, _, _), faults in zip(varied, pool.map(lambda each: vary(*each), varied)):
+            claim(not faults, f"{name} as C with other values of its parameters", faults)
+    print(f"# {taken} of {len(models)} models are written")
+    print(f"1..{count}")
+    sys.exit(bad > 0)
+
+
+main()
