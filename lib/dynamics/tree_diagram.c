@@ -81,7 +81,7 @@ static void potential_arrow(const struct model_body *body, const struct model_lo
         f[k] = -f[k];
     }
     if (is_guided(body)) arrow->force = vec_scale(f[0], s->e);
-    if (is_guided(body)) arrow->point = guide_point(body, at);
+    if (body->kind == motion_track) arrow->point = guide_point(body, at);
     if (body->kind == motion_pivot) arrow->couple = f[0];
     if (body->count > 1) {
         arrow->force = vec_turn(s->e, (struct vec){f[0], f[1]});
@@ -120,7 +120,7 @@ static struct arrow load_arrow(const struct fbd_model *model, int index, const s
         double drive = -slots[model->plan.frictions[body->drive_pair].hold_slot];
         if (body->kind == motion_pivot) arrow.couple = drive;
         if (is_guided(body)) arrow.force = vec_scale(drive, link_of(body, at)->e);
-        if (is_guided(body)) arrow.point = guide_point(body, at);
+        if (body->kind == motion_track) arrow.point = guide_point(body, at);
         break;
     }
     case load_rope:
@@ -129,14 +129,14 @@ static struct arrow load_arrow(const struct fbd_model *model, int index, const s
     case load_normal: break; /* a reaction: see below */
     case load_friction:
         arrow.force = vec_scale(friction_at(model, body->friction, at, slots).force, link_of(body, at)->e);
-        arrow.point = guide_point(body, at);
+        if (body->kind == motion_track) arrow.point = guide_point(body, at);
         break;
     case moment_friction: arrow.couple = friction_at(model, body->friction, at, slots).force; break;
     case load_applied: arrow.force = applied_force(load, &pose, at); break;
     case load_spring:
     case load_damper:
         arrow.force = spring_force(model, body, load, point, at);
-        if (!load->linked) arrow.point = guide_point(body, at);
+        if (!load->linked && body->kind == motion_track) arrow.point = guide_point(body, at);
         break;
     case load_drag: arrow.force = drag_of_load(load, point.v, at); break;
     case load_potential:

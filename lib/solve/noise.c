@@ -196,7 +196,9 @@ static struct motion_size largest_motion(const struct run *run, double tau)
  * billionth of the largest motion has that for its size. */
 static void set_floors(struct run *run, double lasts)
 {
-    const double share = 1e-3, negligible = 1e-9, tau = share * lasts;
+    const struct tree *tree = run->model->tree;
+    /* Bodies that touch rest or part by roundings of their gaps: each keeps its own size. */
+    const double share = 1e-3, negligible = tree && tree->meeting_count > 0 ? 0 : 1e-9, tau = share * lasts;
     struct motion_size all = largest_motion(run, tau);
     for (size_t b = 0; b < run->model->body_count; b++) {
         const struct model_body *body = &run->model->bodies[b];

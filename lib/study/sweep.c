@@ -53,7 +53,8 @@ static bool check_table(const struct member *member, fbd_errors *errors)
 
 static bool check_member(const struct fbd_sweep *sweep, const struct member *member, fbd_errors *errors)
 {
-    const struct node *map = find_map(sweep, "parameters"), *tables = find_map(sweep, "tables");
+    const struct node *map = find_map(sweep, "parameters"), *inputs = find_map(sweep, "inputs");
+    const struct node *tables = find_map(sweep, "tables");
     for (size_t i = 0; i < sweep->fixed_count; i++) {
         if (strcmp(sweep->fixed[i].name, member->name) != 0) continue;
         diag_add(errors, FBD_ERROR, "varied-twice", (struct pos){0, 0}, "leave one of the two out",
@@ -61,6 +62,7 @@ static bool check_member(const struct fbd_sweep *sweep, const struct member *mem
         return false;
     }
     if (map && node_find(map, member->name)) return true;
+    if (inputs && node_find(inputs, member->name)) return true;
     if (tables && node_find(tables, member->name)) return check_table(member, errors);
     diag_add(errors, FBD_ERROR, "unknown-parameter", (struct pos){0, 0},
              hint_of_parameters(member->name, map, errors), "the model has no parameter `%.40s` to vary",

@@ -97,8 +97,13 @@ def write(model, folder):
 
 def missing(name, text):
     """What of a model is not written, as its text has it; "" for one that is taken."""
+    new = re.search(r"^(states|inputs):|\b(track|distributed): ", text, re.MULTILINE)
+    if new:
+        return new[1] or new[2]
     couplings = text.partition("\ncouplings:")[2].partition("\nsimulate:")[0].partition("\ncontacts:")[0]
-    kind = re.search(r"\b(pin|rod|rope|gear|rack|roll): ", couplings)
+    kind = re.search(r"\b(pin|rod|rope|belt|gear|rack|roll):", couplings)
+    if kind and "around:" in couplings:
+        return "a drum"
     if kind:
         return kind[1] if kind[1] != "roll" else "rolling"
     if "\ncontacts:" in text:

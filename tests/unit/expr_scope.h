@@ -37,7 +37,7 @@ static inline struct symbol scope_lookup(void *context, const char *name, struct
         const char *name;
         struct symbol symbol;
     } table[] = {
-        {"t", {.kind = symbol_variable, .dim = DIM_TIME, .slot = 0}},
+        {"t", {.kind = symbol_variable, .dim = DIM_TIME, .slot = 0, .because = "is the time"}},
         {"x", {.kind = symbol_variable, .dim = DIM_LENGTH, .slot = 1}},
         {"v", {.kind = symbol_variable, .dim = DIM_VELOCITY, .slot = 2}},
         {"theta", {.kind = symbol_variable, .dim = DIM_NONE, .slot = 3}},
