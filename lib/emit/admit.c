@@ -132,7 +132,8 @@ static const char *missing_of(enum constraint_kind kind)
     case constraint_rack: return "a rack is a constraint beside the joints";
     case constraint_rope: return "a rope is a constraint beside the joints, and goes slack";
     case constraint_belt: return "a belt is a constraint beside the joints";
-    case constraint_capstan: return "a rope that rubs on a drum is a constraint beside the joints, and sticks";
+    case constraint_capstan:
+        return "a rope that rubs on a drum is a constraint beside the joints, and sticks";
     case constraint_roll: return "rolling is a constraint beside the joints";
     case constraint_contact: return "contacts and stops need impacts";
     }

@@ -265,8 +265,8 @@ static bool allocate(struct fbd_model *model)
         model->load_count += scene->bodies[b].motion.prescribed.expr != NULL;
     model->bodies = ARENA_ARRAY(&model->arena, model->body_count, struct model_body);
     model->loads = ARENA_ARRAY(&model->arena, model->load_count, struct model_load);
-    size_t formulas = most_formulas_of_a_load * model->load_count + 2 * scene->event_count + scene->own_count +
-                      scene->body_count;
+    size_t formulas = most_formulas_of_a_load * model->load_count + 2 * scene->event_count +
+                      scene->own_count + scene->body_count;
     model->plan.rates = ARENA_ARRAY(&model->arena, scene->own_count, struct formula);
     model->plan.watches = ARENA_ARRAY(&model->arena, scene->event_count, struct watch);
     model->plan.kinks = ARENA_ARRAY(&model->arena, formulas, struct kink);

@@ -67,6 +67,7 @@ static bool read_given_points(struct reader *reader, int index)
             continue;
         }
         const char *name = arena_text(reader->arena, pair->key, strlen(pair->key));
+        if (!name) return false;
         body->points[body->point_count++] = (struct named_point){name, where};
     }
     return fine;

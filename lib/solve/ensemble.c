@@ -16,8 +16,7 @@ static void part_of_start(const struct ensemble *ensemble, const struct group *g
 {
     const struct fbd_state *whole = ensemble->options.start;
     const struct plan *plan = &group->model->plan;
-    for (size_t i = 0; i < plan_size(plan); i++)
-        y[i] = whole->y[group_component(ensemble->model, group, i)];
+    for (size_t i = 0; i < plan_size(plan); i++) y[i] = whole->y[group_component(ensemble->model, group, i)];
     for (int i = 0; i < plan->branches; i++) branch[i] = whole->branch[group->branch ? group->branch[i] : i];
 }
 

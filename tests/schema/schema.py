@@ -27,6 +27,8 @@ BEYOND = {
     "applied_without_angle.yaml": "needed unless the body slides or `value` is a pair",
     "distributed_without_direction.yaml": "needed unless the body slides",
     "cylinder_lying_without_length.yaml": "needed for this axis",
+    "belt_without_tension.yaml": "needed where the axes keep their distance",
+    "wound_without_radius.yaml": "needed unless the body is a disc",
     "spring_without_end.yaml": "needed unless the body slides",
 }
 
