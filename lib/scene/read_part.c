@@ -250,22 +250,22 @@ static bool read_part(struct reader *reader, int body, const struct node *map, s
     return fine;
 }
 
+/* A name for which there was no memory names nothing. */
+static void name_point(struct body *body, const char *name, struct vec where)
+{
+    if (name) body->points[body->point_count++] = (struct named_point){name, where};
+}
+
 /* Name the ends of a rod and the centre: `left`, or `rod.left` for a part called rod. */
 static void name_points(struct reader *reader, struct body *body, const struct part *part)
 {
     const char *prefix = part->name ? part->name : "", *dot = part->name ? "." : "";
     struct vec half = vec_scale(part->length / 2, vec_unit(part->angle));
     if (part->shape == shape_rod) {
-        body->points[body->point_count++] =
-            (struct named_point){arena_printf(reader->arena, "%s%sleft", prefix, dot),
-                                 vec_sub(part->center, half)};
-        body->points[body->point_count++] =
-            (struct named_point){arena_printf(reader->arena, "%s%sright", prefix, dot),
-                                 vec_add(part->center, half)};
+        name_point(body, arena_printf(reader->arena, "%s%sleft", prefix, dot), vec_sub(part->center, half));
+        name_point(body, arena_printf(reader->arena, "%s%sright", prefix, dot), vec_add(part->center, half));
     }
-    if (part->name)
-        body->points[body->point_count++] =
-            (struct named_point){arena_printf(reader->arena, "%s.G", prefix), part->center};
+    if (part->name) name_point(body, arena_printf(reader->arena, "%s.G", prefix), part->center);
 }
 
 /* ---- the parts of a body */
