@@ -152,7 +152,7 @@ static enum curve_fault make_panels(struct curve *curve, struct arena *arena, co
     if (fault == curve_made) {
         curve->panel_count = list.count;
         curve->panels = ARENA_ARRAY(arena, (size_t)list.count, struct curve_panel);
-        if (curve->panels)
+        if (curve->panels && list.panels)
             memcpy(curve->panels, list.panels, (size_t)list.count * sizeof *list.panels);
         else
             fault = curve_no_memory;

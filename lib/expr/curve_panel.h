@@ -41,9 +41,9 @@ static inline struct vec curve_jet_direction(const struct curve_jet *jet)
 }
 
 /* The sum of c_k T_k(x), half of c_0. */
-double series_at(const double *c, int order, double x);
+double series_at(const double *c, int n, double x);
 /* The coefficients of its derivative. */
-void series_slopes(const double *c, int order, double *slopes);
+void series_slopes(const double *c, int n, double *slopes);
 
 /* Find the pieces of a curve: where its formulas switch (curve_pieces.c). Their ends in p go to *ends, one more than
  * there are pieces. */

@@ -117,8 +117,8 @@ static void name_strands(struct fbd_model *model, struct tie *tie, int k)
     model->bodies[end->body].arrow_count += k == 1 ? 2 : 1;
     end->name[0] = tie->name;
     for (int strand = 0; k == 1 && strand < 2; strand++)
-        end->name[strand] =
-            arena_printf(&model->arena, "%s.%s", tie->name, body_name(model, tie->end[2 * strand].body));
+        end->name[strand] = arena_printf(&model->arena, "%s.%s", tie->name,
+                                         body_name(model, tie->end[2 * (size_t)strand].body));
 }
 
 /* A rope's forces on a pulley are named after what hangs on the other side; all others after the coupling. */
