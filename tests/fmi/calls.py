@@ -9,7 +9,7 @@ import sys
 import threading
 
 from fmu import ERROR, OK
-from workshop import STICKS, check_close, fmu_of, refused, run_claims
+from claims_of_fmus import STICKS, check_close, fmu_of, refused, run_claims
 
 SEEDS = int(sys.argv[1]) if sys.argv[1:] else 12
 OSCILLATOR = "forcing/pushed_oscillator.yaml"

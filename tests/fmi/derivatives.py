@@ -4,7 +4,7 @@
 import sys
 
 from fmu import OK
-from workshop import STICKS, close, fmu_of, run_claims
+from claims_of_fmus import STICKS, close, fmu_of, run_claims
 
 OSCILLATOR = "forcing/pushed_oscillator.yaml"
 

@@ -10,7 +10,7 @@ import zipfile
 from pathlib import Path
 
 from fmu import OK, RUN, Fmu
-from workshop import FOLDER, MODELS, close, fmu_of, place, run_claims
+from claims_of_fmus import FOLDER, MODELS, close, fmu_of, place, run_claims
 
 NAMED = """fbd: 1
 title: "Names & <signs> that \\"XML\\" minds: größer"

@@ -12,7 +12,7 @@ import zipfile
 from pathlib import Path
 
 from fmu import make_fmu
-from workshop import FOLDER, MODELS, close, run_claims, run_csv
+from claims_of_fmus import FOLDER, MODELS, close, run_claims, run_csv
 
 SOURCES = Path(os.environ["FBD_SOURCE_ROOT"]) / "lib"
 # Runs that fail, as they should.

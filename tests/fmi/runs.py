@@ -6,7 +6,7 @@ import random
 import sys
 
 from fmu import DISCARD, ERROR, OK
-from workshop import MODELS, check_close, close, fmu_of, refused, run_claims, run_csv, run_json
+from claims_of_fmus import MODELS, check_close, close, fmu_of, refused, run_claims, run_csv, run_json
 
 THIN = ["contact/bouncing_ball.yaml", "contact/woodpecker.yaml", "couplings/block_over_pulley.yaml",
         "couplings/four_bar.yaml", "couplings/rope_pendulum.yaml", "couplings/rolling_on_incline.yaml",
