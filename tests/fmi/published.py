@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Usage: published.py: FMUs of all models against what is published of the standard, and driven by FMPy. None of that is
-part of this project; what is not there is skipped. FBD_FMI_3 and FBD_FMI_2 name folders with `headers` and `schema` of the
+part of this project, nor this of `make test`; what is not there is skipped. FBD_FMI_3 and FBD_FMI_2 name folders with `headers` and `schema` of the
 standard (github.com/modelica/fmi-standard, v3.0.2 and v2.0.5), PYTHONPATH may lead to FMPy. Prints TAP."""
 import os
 import subprocess
