@@ -3,7 +3,7 @@
 // The plots: linked in time, with the events as marks and the cursor as a line.
 
 const charts = [];
-const plotWindow = { from: run.start, to: run.end, hover: null };
+const plotWindow = { from: 0, to: 0, hover: null };
 const palette = ["#1f77b4", "#d9541e", "#2a9d3a", "#9a4fc0", "#b8860b", "#0f8a93", "#c2347a", "#6b7682"];
 
 function byUnit(title, columns) {

@@ -1,8 +1,8 @@
 "use strict";
 
-// The run as columns of numbers over rows, and their values between the rows.
+// The run as columns of numbers over rows, and their values between the rows. A live page shows one run after another.
 
-const run = JSON.parse(document.getElementById("data").textContent);
+let run, doubles, floats, envelope, times;
 
 function decode(base64) {
   const text = atob(base64);
@@ -11,23 +11,25 @@ function decode(base64) {
   return bytes.buffer;
 }
 
-const doubles = new Float64Array(decode(run.doubles));
-const floats = new Float32Array(decode(run.floats));
-const envelope = new Float32Array(decode(run.envelope));
-const times = doubles.subarray(0, run.rows);
-
-run.columns.forEach((column, index) => {
-  column.index = index;
-  if (column.d !== undefined) column.data = doubles.subarray((column.d + 1) * run.rows, (column.d + 2) * run.rows);
-  if (column.f !== undefined) column.data = floats.subarray(column.f * run.rows, (column.f + 1) * run.rows);
-  if (column.c === null) column.c = NaN;
-});
-
-// A column whose rate of change is another one is interpolated with it.
-run.bodies.forEach((body) => {
-  body.coordinates.forEach((c, k) => { run.columns[c].slope = body.rates[k]; });
-  if (body.sloped) body.rates.forEach((c, k) => { run.columns[c].slope = body.accelerations[k]; });
-});
+// `data` (page_data.c) is what the page shows from now on.
+function takeRun(data) {
+  run = data;
+  doubles = new Float64Array(decode(run.doubles));
+  floats = new Float32Array(decode(run.floats));
+  envelope = new Float32Array(decode(run.envelope));
+  times = doubles.subarray(0, run.rows);
+  run.columns.forEach((column, index) => {
+    column.index = index;
+    if (column.d !== undefined) column.data = doubles.subarray((column.d + 1) * run.rows, (column.d + 2) * run.rows);
+    if (column.f !== undefined) column.data = floats.subarray(column.f * run.rows, (column.f + 1) * run.rows);
+    if (column.c === null) column.c = NaN;
+  });
+  // a column whose rate of change is another one is interpolated with it
+  run.bodies.forEach((body) => {
+    body.coordinates.forEach((c, k) => { run.columns[c].slope = body.rates[k]; });
+    if (body.sloped) body.rates.forEach((c, k) => { run.columns[c].slope = body.accelerations[k]; });
+  });
+}
 
 // The number of column `index` in a row.
 function cell(index, row) {

@@ -3,8 +3,8 @@
 // The page: time, controls, tables. `fbd` is for whoever drives the page by a script.
 
 const element = (id) => document.getElementById(id);
-const player = { t: run.start, playing: false, speed: 1, last: 0, next: 0, written: 0, frames: 0, drawing: 0 };
-const eventTimes = run.events.times;
+const player = { t: 0, playing: false, speed: 1, last: 0, next: 0, written: 0, frames: 0, drawing: 0 };
+let eventTimes = [];
 const speeds = [0.001, 0.01, 0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10, 100, 1000, 1e4, 1e5, 1e6];
 const allBodies = -1, fewBodies = 4;
 const changing = []; // the tables' texts that change with time, and their values
@@ -95,6 +95,7 @@ function makeDetails(bodies) {
 
 function showCost() {
   const s = run.stats, table = element("cost");
+  table.textContent = "";
   const rows = [["method", s.method], ["tolerance of a step", show(s.tolerance)], ["steps", String(s.steps)], ["rejected", String(s.rejected)],
     ["right-hand sides", String(s.rhs)], ["Jacobians", String(s.jacobians)], ["steps by the stiff method", String(s.stiffSteps)],
     ["processor time of the run", `${show(s.seconds)} s`], ["events", String(run.events.count)],
@@ -104,6 +105,7 @@ function showCost() {
 
 function listEvents() {
   const most = 1000, list = element("events");
+  list.textContent = "";
   if (run.events.count === 0) list.textContent = "none";
   eventTimes.slice(0, most).forEach((t, i) => {
     const label = eventLabel(i), button = document.createElement("button");
@@ -199,21 +201,40 @@ function seekHash() {
 
 // ---- the start
 
-function fillChoices() {
+// What is said of the run as a whole.
+function describeRun() {
   element("title").textContent = run.title || "fbd";
   element("summary").textContent = `t = ${show(run.start)} s to ${show(run.end)} s, ${run.bodies.length} ${run.bodies.length === 1 ? "body" : "bodies"}` +
     (run.reason ? `. The run ended early: ${run.reason}` : "");
-  element("body").add(new Option("all", String(allBodies)));
+  Object.assign(element("scrub"), { min: run.start, max: run.end });
+  listEvents();
+  showCost();
+}
+
+function fillChoices() {
+  element("body").replaceChildren(new Option("all", String(allBodies)));
   run.bodies.forEach((body, i) => element("body").add(new Option(body.name, String(i))));
   if (run.bodies.length > fewBodies) element("body").value = "0";
   element("which").hidden = run.bodies.length === 1;
   element("show-trace").checked = run.bodies.length < fewBodies;
-  for (const speed of speeds) element("speed").add(new Option(speed === 1 ? "real time" : `${speed} ×`, String(speed)));
-  Object.assign(element("scrub"), { min: run.start, max: run.end, value: run.start });
-  setSpeed(1);
+}
+
+// Of a run with other bodies, forces or columns everything is made anew.
+function showRun(data) {
+  takeRun(data);
+  eventTimes = run.events.times;
+  Object.assign(plotWindow, { from: run.start, to: run.end, hover: null });
+  describeRun();
+  fillChoices();
+  measure();
+  fit();
+  element("follow").checked = bodiesAreSpecks();
+  makeDetails(chosenBodies());
 }
 
 function connect() {
+  for (const speed of speeds) element("speed").add(new Option(speed === 1 ? "real time" : `${speed} ×`, String(speed)));
+  setSpeed(1);
   element("play").addEventListener("click", () => setPlaying(!player.playing));
   element("scrub").addEventListener("input", () => seek(Number(element("scrub").value)));
   element("speed").addEventListener("change", () => setSpeed(Number(element("speed").value)));
@@ -233,18 +254,12 @@ function connect() {
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { fit(); refresh(); });
 }
 
-fillChoices();
-measure();
-fit();
-element("follow").checked = bodiesAreSpecks();
-makeDetails(chosenBodies());
-listEvents();
-showCost();
+showRun(JSON.parse(element("data").textContent));
 connect();
 seek(run.start);
 seekHash();
 
 window.fbd = {
-  seek, setPlaying, setSpeed, zoom: setWindow, player, run,
+  seek, setPlaying, setSpeed, zoom: setWindow, player, get run() { return run; },
   value: (columnName, t) => valueAt(run.columns.findIndex((column) => column.n === columnName), t, rowAt(t)),
 };

@@ -9,7 +9,6 @@ const view = { scale: 1, x: 0, y: 0, width: 0, height: 0, block: 0, force: 1, mo
 
 // Times spread over the run, for what is measured once: bounds, scales, traces.
 const survey = [];
-for (let i = 0; i <= 400; i++) survey.push(run.start + (run.end - run.start) * i / 400);
 
 function frameAt(body, t, row) {
   const angle = valueAt(body.frame[2], t, row);
@@ -67,6 +66,7 @@ function placeWalls() {
 
 // The rectangle that the bodies stay in, and the sizes of forces, moments and speeds.
 function measure() {
+  for (let i = 0; i <= 400; i++) survey[i] = run.start + (run.end - run.start) * i / 400;
   let left = Infinity, right = -Infinity, bottom = Infinity, top = -Infinity;
   const take = (x, y) => {
     if (!Number.isFinite(x) || !Number.isFinite(y)) return;
