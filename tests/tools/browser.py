@@ -115,6 +115,20 @@ class Browser:
         self._call("POST", "/actions", {"actions": [{"type": "pointer", "id": "mouse", "actions": [
             move, {"type": "pointerDown", "button": 0}, {"type": "pointerUp", "button": 0}]}]})
 
+    def resize(self, width, height=900):
+        """The window's inside; narrower than a real window may be."""
+        self._call("POST", "/goog/cdp/execute", {"cmd": "Emulation.setDeviceMetricsOverride", "params": {
+            "width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}})
+
+    def dark_mode(self, dark):
+        scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
+        self._call("POST", "/goog/cdp/execute", {"cmd": "Emulation.setEmulatedMedia", "params": {"features": [scheme]}})
+
+    def print(self, path, width=21.0, height=29.7):
+        """The page as a PDF on paper of that size in centimetres."""
+        page = {"page": {"width": width, "height": height}, "background": True}
+        path.write_bytes(base64.b64decode(self._call("POST", "/print", page)))
+
     def log(self, kind):
         """New entries of the log `browser` (the console) or `performance`."""
         return self._call("POST", "/se/log", {"type": kind})

@@ -4,7 +4,11 @@
 
 const charts = [];
 const plotWindow = { from: 0, to: 0, hover: null };
-const palette = ["#1f77b4", "#d9541e", "#2a9d3a", "#9a4fc0", "#b8860b", "#0f8a93", "#c2347a", "#6b7682"];
+
+// Colours of the curves, from the style: other ones on dark paper.
+function palette(i) {
+  return getComputedStyle(document.documentElement).getPropertyValue(`--curve-${i % 8}`).trim();
+}
 
 function byUnit(title, columns) {
   const groups = new Map();
@@ -78,33 +82,41 @@ function setWindow(from, to) {
   if (!(to > from) || (from === plotWindow.from && to === plotWindow.to)) return;
   Object.assign(plotWindow, { from, to });
   for (const chart of charts) {
-    chart.graph.updateOptions({ file: chartRows(chart.spec.columns, from, to), dateWindow: [from, to], valueRange: null });
+    if (chart.graph) chart.graph.updateOptions({ file: chartRows(chart.spec.columns, from, to), dateWindow: [from, to], valueRange: null });
   }
   placeCursors();
 }
 
-function makeChart(spec) {
-  const box = document.createElement("div"), title = document.createElement("h2"), legend = document.createElement("span");
-  const plot = document.createElement("div"), cursor = document.createElement("div");
-  box.className = "chart";
-  title.textContent = `${spec.title} [${unit(spec.unit)}]`;
-  legend.className = "legend";
-  plot.className = "plot";
-  cursor.className = "cursor";
-  const holder = document.createElement("div");
-  holder.style.cssText = "position:absolute;inset:0";
-  plot.append(holder, cursor);
-  box.append(title, legend, plot);
-  document.getElementById("charts").append(box);
-  const values = spec.columns.map((c, i) => {
-    const item = document.createElement("b");
-    item.style.color = palette[i % palette.length];
-    legend.append(item);
-    return item.appendChild(document.createTextNode(""));
+// What a plot of zeros says instead: nothing but rounding in it, or, of the residual, less than a billionth of the energies.
+function emptiness(spec) {
+  const most = Math.max(...spec.columns.map(sizeOf)), energies = Math.max(...run.energy.slice(0, 3).map(sizeOf));
+  if (spec.columns.every((c) => sizeOf(c) <= roundingOf(spec.unit))) return "zero throughout";
+  const residual = spec.columns.length === 1 && spec.columns[0] === run.energy[3];
+  return residual && most < 1e-9 * energies ? `at most ${show(most, 2)} ${unit(spec.unit)}, ${show(most / energies, 1)} of the energies` : "";
+}
+
+// One curve's name and value; a click hides the curve or shows it again.
+function legendItem(chart, c, i) {
+  const item = document.createElement("button"), text = document.createTextNode("");
+  item.type = "button";
+  item.style.color = `var(--curve-${i % 8})`;
+  item.setAttribute("aria-pressed", "true");
+  item.title = "show or hide this curve";
+  item.append(text);
+  item.addEventListener("click", () => {
+    chart.hidden[i] = !chart.hidden[i];
+    item.setAttribute("aria-pressed", String(!chart.hidden[i]));
+    chart.graph.setVisibility(i, !chart.hidden[i]);
   });
-  const graph = new Dygraph(holder, chartRows(spec.columns, plotWindow.from, plotWindow.to), {
+  return [item, text];
+}
+
+function makeGraph(chart) {
+  const { spec, holder } = chart;
+  chart.graph = new Dygraph(holder, chartRows(spec.columns, plotWindow.from, plotWindow.to), {
     labels: ["t", ...spec.columns.map((c) => run.columns[c].n)],
-    colors: spec.columns.map((c, i) => palette[i % palette.length]),
+    colors: spec.columns.map((c, i) => palette(i)),
+    visibility: chart.hidden.map((hidden) => !hidden),
     dateWindow: [plotWindow.from, plotWindow.to],
     strokeWidth: 1.5,
     legend: "never",
@@ -112,14 +124,43 @@ function makeChart(spec) {
     gridLineColor: view.colour.line,
     axisLineColor: view.colour.soft,
     highlightCircleSize: 3,
-    axes: { x: { axisLabelFormatter: show, valueFormatter: show }, y: { axisLabelFormatter: show } },
+    axes: { x: { axisLabelFormatter: (t) => show(t), valueFormatter: (t) => show(t) }, y: { axisLabelFormatter: (value) => show(value) } },
     underlayCallback: drawMarks,
     zoomCallback: (from, to) => setWindow(Math.max(from, run.start), Math.min(to, run.end)),
     highlightCallback: (event, t) => { plotWindow.hover = t; refresh(); },
     unhighlightCallback: () => { plotWindow.hover = null; refresh(); },
     clickCallback: (event, t) => seek(t),
   });
-  const chart = { spec, graph, cursor, values, unseen: false };
+}
+
+// A plot that is folded away has no graph until it is opened.
+function makeChart(spec) {
+  const box = document.createElement("details"), title = document.createElement("summary"), legend = document.createElement("div");
+  const plot = document.createElement("div"), cursor = document.createElement("div"), holder = document.createElement("div"), empty = emptiness(spec);
+  box.className = "chart";
+  title.append(Object.assign(document.createElement("h2"), { textContent: `${spec.title} [${unit(spec.unit)}]` }));
+  if (empty) title.append(Object.assign(document.createElement("span"), { className: "soft", textContent: ` ${empty}` }));
+  legend.className = "legend";
+  plot.className = "plot";
+  cursor.className = "cursor";
+  holder.className = "holder";
+  plot.append(holder, cursor);
+  box.append(title, legend, plot);
+  document.getElementById("charts").append(box);
+  const chart = { spec, holder, box, cursor, graph: null, hidden: spec.columns.map(() => false), unseen: false };
+  chart.values = spec.columns.map((c, i) => {
+    const [item, text] = legendItem(chart, c, i);
+    legend.append(item);
+    return text;
+  });
+  box.open = !empty;
+  if (box.open) makeGraph(chart);
+  box.addEventListener("toggle", () => {
+    if (!box.isConnected) return; // it is told of later
+    if (box.open && !chart.graph) makeGraph(chart);
+    else if (box.open) chart.graph.resize();
+    refresh();
+  });
   // a plot out of sight needs no cursor and no values; a browser that does not tell draws them all
   box.addEventListener("contentvisibilityautostatechange", (event) => {
     chart.unseen = event.skipped;
@@ -128,17 +169,33 @@ function makeChart(spec) {
   charts.push(chart);
 }
 
+function dropCharts() {
+  for (const chart of charts) if (chart.graph) chart.graph.destroy();
+}
+
 function makeCharts(bodies) {
-  for (const chart of charts) chart.graph.destroy();
+  dropCharts();
   charts.length = 0;
   document.getElementById("charts").textContent = "";
   chartSpecs(bodies).forEach(makeChart);
 }
 
+// In the colours and the size that the style says now, so many pixels of the canvas for one of the page (null: of the
+// screen).
+function restyleCharts(ratio) {
+  for (const { graph, spec, box } of charts) {
+    if (!graph || !box.open) continue;
+    graph.updateOptions({ colors: spec.columns.map((c, i) => palette(i)), gridLineColor: view.colour.line, axisLineColor: view.colour.soft,
+      pixelRatio: ratio }, true);
+    graph.width_ = 0; // it looks at its size anew only where that has changed
+    graph.resize();
+  }
+}
+
 // The line of the cursor in every plot.
 function placeCursors() {
-  for (const { graph, cursor, unseen } of charts) {
-    if (unseen) continue;
+  for (const { graph, cursor, unseen, box } of charts) {
+    if (unseen || !graph || !box.open) continue;
     const area = graph.getArea(), x = graph.toDomXCoord(now());
     cursor.style.display = x >= area.x && x <= area.x + area.w ? "block" : "none";
     cursor.style.transform = `translateX(${x}px)`;
@@ -151,6 +208,6 @@ function showValues(t) {
   const row = rowAt(t);
   for (const { spec, values, unseen } of charts) {
     if (unseen) continue;
-    spec.columns.forEach((c, i) => write(values[i], `${run.columns[c].n} = ${show(valueAt(c, t, row))} ${unit(spec.unit)}`));
+    spec.columns.forEach((c, i) => write(values[i], `${quantity(run.columns[c].n)} = ${show(readAt(c, t, row))} ${unit(spec.unit)}`));
   }
 }

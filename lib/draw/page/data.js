@@ -14,15 +14,19 @@ function decode(base64) {
 // `data` (page_data.c) is what the page shows from now on.
 function takeRun(data) {
   run = data;
+  run.units.speed = `${run.units.length}/s`;
   doubles = new Float64Array(decode(run.doubles));
   floats = new Float32Array(decode(run.floats));
   envelope = new Float32Array(decode(run.envelope));
   times = doubles.subarray(0, run.rows);
+  roundings.clear();
   run.columns.forEach((column, index) => {
     column.index = index;
     if (column.d !== undefined) column.data = doubles.subarray((column.d + 1) * run.rows, (column.d + 2) * run.rows);
     if (column.f !== undefined) column.data = floats.subarray(column.f * run.rows, (column.f + 1) * run.rows);
     if (column.c === null) column.c = NaN;
+    // what is left of two numbers of seven or sixteen digits that cancel is no number: a + b c is known to the rounding of a
+    if (column.of !== undefined) column.noise = Math.abs(column.a) * (run.columns[column.of].f === undefined ? 4e-16 : 6e-8);
   });
   // a column whose rate of change is another one is interpolated with it
   run.bodies.forEach((body) => {
@@ -31,11 +35,17 @@ function takeRun(data) {
   });
 }
 
+// a + b times the value of another column, and zero where nothing else is left of it.
+function combined(column, value) {
+  const sum = column.a + column.b * value;
+  return Math.abs(sum) <= column.noise ? 0 : sum;
+}
+
 // The number of column `index` in a row.
 function cell(index, row) {
   const column = run.columns[index];
   if (column.data) return column.data[row];
-  return column.of === undefined ? column.c : column.a + column.b * cell(column.of, row);
+  return column.of === undefined ? column.c : combined(column, cell(column.of, row));
 }
 
 // The last row at or before t: of the two rows of an event the one after it.
@@ -78,7 +88,7 @@ function cubic(index, row, t) {
 // The value of a column at time t; `row` is rowAt(t).
 function valueAt(index, t, row) {
   const column = run.columns[index];
-  if (column.of !== undefined) return column.a + column.b * valueAt(column.of, t, row);
+  if (column.of !== undefined) return combined(column, valueAt(column.of, t, row));
   if (!column.data) return column.c;
   if (t <= times[row] || row + 1 >= run.rows) return column.data[row];
   return column.slope === undefined ? cubic(index, row, t) : hermite(index, column.slope, row, t);
@@ -111,16 +121,35 @@ function extremes(index, from, to, firstRow, lastRow) {
   return [low, high];
 }
 
-// A number for people: six digits.
-function show(value) {
-  if (!Number.isFinite(value)) return "–";
-  const size = Math.abs(value);
-  if (size !== 0 && (size < 1e-4 || size >= 1e6)) return value.toExponential(5);
-  return String(Number(value.toPrecision(6)));
+// The largest size of a column in the run: [least, greatest] is [-size, size] at most.
+function sizeOf(index) {
+  const column = run.columns[index];
+  if (column.size === undefined) {
+    const [low, high] = extremes(index, run.start, run.end, 0, run.rows - 1);
+    column.size = Math.max(Math.abs(low), Math.abs(high), 0);
+  }
+  return column.size;
 }
 
-function unit(text) {
-  return text.replace(/\*/g, "·");
+// Below which a number with this unit is rounding: sixteen digits of the largest one that the run has with it, and of
+// a radian, since angles are counted from anywhere.
+const roundings = new Map();
+
+function roundingOf(text) {
+  if (!roundings.has(text)) {
+    let most = text === "rad" ? 1 : 0;
+    run.columns.forEach((column, index) => {
+      if (column.u === text && Number.isFinite(sizeOf(index))) most = Math.max(most, sizeOf(index));
+    });
+    roundings.set(text, 64 * Number.EPSILON * most);
+  }
+  return roundings.get(text);
+}
+
+// The value of a column at time t as it is told: zero where it is rounding.
+function readAt(index, t, row) {
+  const value = valueAt(index, t, row);
+  return Math.abs(value) <= roundingOf(run.columns[index].u) ? 0 : value;
 }
 
 // A text node is touched only when its text changes: the browser lays out anew whatever is touched.

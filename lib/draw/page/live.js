@@ -4,7 +4,7 @@
 // PAGE.stamp.js, which calls fbd.stamp with the stamp of the last run, and loads itself anew where that is another,
 // at the time and with the view that it had.
 
-const liveChoices = ["show-forces", "show-names", "show-velocity", "show-trace", "follow"];
+const liveChoices = ["show-forces", "show-names", "show-values", "show-axes", "show-velocity", "show-trace", "follow", "loop"];
 const live = { own: "", asking: 0, place: `fbd ${location.pathname}` };
 
 function liveKept() {

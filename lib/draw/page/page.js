@@ -5,7 +5,7 @@
 const element = (id) => document.getElementById(id);
 const player = { t: 0, playing: false, speed: 1, last: 0, next: 0, written: 0, frames: 0, drawing: 0 };
 let eventTimes = [];
-const speeds = [0.001, 0.01, 0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10, 100, 1000, 1e4, 1e5, 1e6];
+const speeds = [1e-6, 1e-5, 1e-4, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50, 100, 1000, 1e4, 1e5, 1e6];
 const allBodies = -1, fewBodies = 4;
 const changing = []; // the tables' texts that change with time, and their values
 
@@ -34,7 +34,7 @@ function addRow(table, cells, css) {
   if (css) row.className = css;
   for (const [text, number] of cells) {
     const td = row.insertCell();
-    td.textContent = text;
+    td.append(text);
     if (number) td.className = "number";
   }
   return row;
@@ -47,12 +47,12 @@ function addChanging(table, label, value, units, css) {
 }
 
 function valueIn(index) {
-  return (t, row) => valueAt(index, t, row);
+  return (t, row) => readAt(index, t, row);
 }
 
 // The terms are known to seven digits.
 function sumOf(terms, t, row) {
-  const values = terms.map(([, index]) => valueAt(index, t, row));
+  const values = terms.map(([, index]) => readAt(index, t, row));
   const sum = values.reduce((a, b) => a + b, 0), largest = Math.max(0, ...values.map(Math.abs));
   return Math.abs(sum) < 5e-7 * largest ? 0 : sum;
 }
@@ -60,11 +60,12 @@ function sumOf(terms, t, row) {
 // One equation: the terms, their sum, the inertia and the acceleration.
 function equationTable(equation) {
   const box = document.createElement("div"), table = document.createElement("table"), units = unit(equation.unit);
-  table.createCaption().textContent = `${equation.name}: ${equation.inertia} ${equation.accelerationName} = sum`;
+  table.createCaption().append(`${quantity(equation.name)}: `, math("math", math("mrow", mathSymbol(equation.inertia), math("mo", "\u2062"),
+    mathSymbol(equation.accelerationName), math("mo", "="), math("mo", "∑"))));
   for (const [term, index] of equation.terms) addChanging(table, term, valueIn(index), units);
   addChanging(table, "sum", (t, row) => sumOf(equation.terms, t, row), units, "sum");
-  addRow(table, [[equation.inertia], [show(equation.value), true], [unit(equation.inertiaUnit)]]);
-  addChanging(table, equation.accelerationName, valueIn(equation.acceleration), unit(equation.accelerationUnit));
+  addRow(table, [[inMath(equation.inertia)], [show(equation.value), true], [unit(equation.inertiaUnit)]]);
+  addChanging(table, inMath(equation.accelerationName), valueIn(equation.acceleration), unit(equation.accelerationUnit));
   box.append(table);
   return box;
 }
@@ -75,7 +76,7 @@ function makeTables(bodies) {
   const ledger = element("ledger"), energy = unit(run.units.energy);
   ledger.textContent = "";
   for (const index of run.energy) addChanging(ledger, run.columns[index].n.replace(".", ": "), valueIn(index), energy);
-  for (const index of run.states) addChanging(ledger, run.columns[index].n, valueIn(index), unit(run.columns[index].u));
+  for (const index of run.states) addChanging(ledger, quantity(run.columns[index].n), valueIn(index), unit(run.columns[index].u));
   for (const body of bodies)
     for (const arrow of body.arrows)
       if (arrow.work >= 0) addChanging(ledger, `work of ${body.name}.${arrow.name}`, valueIn(arrow.work), energy);
@@ -121,11 +122,17 @@ function listEvents() {
 
 // ---- time
 
+// What the boxes say is to be drawn.
+function shownNow() {
+  const is = (id) => element(id).checked;
+  return { forces: is("show-forces"), names: is("show-names"), values: is("show-values"), axes: is("show-axes"), velocity: is("show-velocity"),
+    trace: is("show-trace"), follow: is("follow") };
+}
+
 // Redraw at the present time; the texts not at every frame of a motion.
 function refresh(everything = true) {
   const before = performance.now(), pause = chosenBodies().length > fewBodies ? 250 : 66; // ms between two texts
-  drawScene(player.t, { forces: element("show-forces").checked, names: element("show-names").checked,
-    velocity: element("show-velocity").checked, trace: element("show-trace").checked, follow: element("follow").checked }, chosenBody());
+  drawScene(player.t, shownNow(), chosenBody());
   placeCursors();
   element("scrub").value = player.t;
   element("clock").textContent = `${show(player.t)} s`;
@@ -157,6 +164,7 @@ function advance(clock) {
   if (!player.playing) return;
   player.t += Math.max(0, clock - player.last) / 1000 * player.speed;
   player.last = Math.max(clock, player.last);
+  if (player.t >= run.end && element("loop").checked) player.t = run.start;
   if (player.t >= run.end) {
     player.t = run.end;
     setPlaying(false);
@@ -174,6 +182,12 @@ function setSpeed(speed) {
 function changeSpeed(by) {
   const i = speeds.indexOf(player.speed) + by;
   if (i >= 0 && i < speeds.length) setSpeed(speeds[i]);
+}
+
+// The speed nearest to real time at which the run is long enough to be seen and short enough to be waited for.
+function usualSpeed() {
+  const length = run.end - run.start, good = speeds.filter((speed) => length / speed >= 2 && length / speed <= 25);
+  return good.reduce((best, speed) => (Math.abs(Math.log(speed)) < Math.abs(Math.log(best)) ? speed : best), good[0] || 1);
 }
 
 function seekEvent(direction) {
@@ -232,34 +246,42 @@ function showRun(data) {
   makeDetails(chosenBodies());
 }
 
+// Keys belong to the page but where the focus has a use of its own for them.
+function takesKey(target, key) {
+  if (target.isContentEditable || ["SELECT", "TEXTAREA"].includes(target.tagName)) return true;
+  if (["BUTTON", "SUMMARY"].includes(target.tagName)) return key === " ";
+  if (target.tagName !== "INPUT") return false;
+  if (target.type === "checkbox") return key === " ";
+  return target.type !== "range" || key.startsWith("Arrow") || key === "Home" || key === "End";
+}
+
 function connect() {
-  for (const speed of speeds) element("speed").add(new Option(speed === 1 ? "real time" : `${speed} ×`, String(speed)));
-  setSpeed(1);
+  for (const speed of speeds) element("speed").add(new Option(speed === 1 ? "real time" : `${show(speed)} ×`, String(speed)));
+  setSpeed(usualSpeed());
   element("play").addEventListener("click", () => setPlaying(!player.playing));
   element("scrub").addEventListener("input", () => seek(Number(element("scrub").value)));
   element("speed").addEventListener("change", () => setSpeed(Number(element("speed").value)));
   element("body").addEventListener("change", () => { makeDetails(chosenBodies()); refresh(); });
-  for (const id of ["show-forces", "show-names", "show-velocity", "show-trace"]) element(id).addEventListener("change", () => refresh());
+  for (const id of ["show-forces", "show-names", "show-values", "show-axes", "show-velocity", "show-trace"])
+    element(id).addEventListener("change", () => refresh());
   element("follow").addEventListener("change", () => { fit(); refresh(); });
   document.addEventListener("keydown", (event) => {
-    const typing = event.target.tagName === "SELECT" || (event.target.tagName === "BUTTON" && event.key === " ");
-    const sliding = event.target.id === "scrub" && event.key.startsWith("Arrow");
-    if (typing || sliding || event.ctrlKey || event.metaKey || event.altKey || !keys[event.key]) return;
+    if (takesKey(event.target, event.key) || event.ctrlKey || event.metaKey || event.altKey || !keys[event.key]) return;
     event.preventDefault();
     keys[event.key]();
   });
-  addEventListener("resize", () => { fit(); refresh(); });
   addEventListener("hashchange", seekHash);
-  addEventListener("beforeprint", () => { for (const chart of charts) chart.unseen = false; refresh(); });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { fit(); refresh(); });
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { fit(); restyleCharts(null); refresh(); });
 }
 
 showRun(JSON.parse(element("data").textContent));
 connect();
+connectEye();
+connectPaper();
 seek(run.start);
 seekHash();
 
 window.fbd = {
-  seek, setPlaying, setSpeed, zoom: setWindow, player, get run() { return run; },
+  seek, setPlaying, setSpeed, zoom: setWindow, player, drawn, labels, get run() { return run; },
   value: (columnName, t) => valueAt(run.columns.findIndex((column) => column.n === columnName), t, rowAt(t)),
 };

@@ -1,0 +1,224 @@
+"use strict";
+
+// Forces and velocities as arrows, moments as arcs, and the overlay that tells their scales.
+
+function head(x, y, ux, uy, colour) {
+  path([[x, y], [x - 10 * ux - 4 * uy, y - 10 * uy + 4 * ux], [x - 10 * ux + 4 * uy, y - 10 * uy - 4 * ux]], true);
+  pen.fillStyle = colour;
+  pen.fill();
+}
+
+// How much of an arrow from a point of the canvas, `length` along [ux, uy], stays on it; an arrow from outside is not cut.
+function roomFor([x, y], ux, uy, length) {
+  const edges = [[x, ux, margin, view.width - margin], [y, uy, margin, view.height - margin]];
+  let room = length;
+  for (const [from, way, low, high] of edges) {
+    if (from < low || from > high) return length;
+    if (way > 0) room = Math.min(room, (high - from) / way);
+    if (way < 0) room = Math.min(room, (low - from) / way);
+  }
+  return room;
+}
+
+// Two strokes across the shaft of an arrow that is shorter than its scale says.
+function drawCut(x, y, ux, uy, colour) {
+  for (const along of [-2.5, 2.5]) {
+    const cx = x + along * ux, cy = y + along * uy;
+    path([[cx - 4 * uy - 1.5 * ux, cy + 4 * ux - 1.5 * uy], [cx + 4 * uy + 1.5 * ux, cy - 4 * ux + 1.5 * uy]]);
+    strokeWith(view.colour.paper, 3.4);
+    strokeWith(colour, 1.2);
+  }
+}
+
+// Does the arrow from `from` by `length` along [ux, uy] lie on one that is drawn?
+function liesOnAnother([x, y], ux, uy, length) {
+  return drawn.arrows.some(([x1, y1, x2, y2, arc]) => {
+    const dx = x2 - x1, dy = y2 - y1, size = Math.hypot(dx, dy);
+    if (arc || !(size > 0) || Math.abs(ux * dy - uy * dx) > 0.06 * size || Math.abs((x1 - x) * uy - (y1 - y) * ux) > 3) return false;
+    const a = (x1 - x) * ux + (y1 - y) * uy, b = a + dx * ux + dy * uy;
+    return Math.min(length, Math.max(a, b)) - Math.max(0, Math.min(a, b)) > 2;
+  });
+}
+
+// The least step to the side, of 5 pixels each, where it lies on no other.
+function stepAside(from, ux, uy, length) {
+  for (let k = 0; k < 9; k++) {
+    const step = 5 * (k + 1 >> 1) * (k % 2 ? 1 : -1), at = [from[0] - step * uy, from[1] + step * ux];
+    if (!liesOnAnother(at, ux, uy, length)) return at;
+  }
+  return from;
+}
+
+// An arrow of that many pixels; returns its tip, or null where it is too short to be seen. One that is longer than the
+// canvas has room for, or than all others by far, is cut.
+function arrowTo(point, dx, dy, colour) {
+  const whole = Math.hypot(dx, dy);
+  if (!(whole > 2)) return null;
+  const ux = dx / whole, uy = dy / whole, from = stepAside(point, ux, uy, Math.min(whole, longestArrow()));
+  const length = Math.min(roomFor(from, ux, uy, Math.min(whole, longestArrow())), whole);
+  if (length < 6 && length < whole) return null;
+  const x = from[0] + length * ux, y = from[1] + length * uy;
+  path([from, [x - Math.min(8, length) * ux, y - Math.min(8, length) * uy]]);
+  strokeWith(colour, 2.2);
+  if (length < whole * (1 - 1e-9)) drawCut(from[0] + 0.45 * length * ux, from[1] + 0.45 * length * uy, ux, uy, colour);
+  head(x, y, ux, uy, colour);
+  avoidLine(from[0], from[1], x, y);
+  drawn.arrows.push([from[0], from[1], x, y]);
+  return [x, y];
+}
+
+function arrowColour(arrow) {
+  const what = arrow.name.split(".").pop(); // on the other body it is called body.normal
+  if (what.startsWith("friction")) return view.colour.friction;
+  if (arrow.reaction || what === "normal") return view.colour.reaction;
+  if (arrow.name === "gravity") return view.colour.gravity;
+  return view.colour.applied;
+}
+
+function labelOf(name, value, units, shows) {
+  return [shows.names ? quantity(name) : "", shows.values ? `${show(value, 3)} ${unit(units)}` : ""].filter(Boolean).join(" ");
+}
+
+// A moment as an arc around [x, y]; the next one of the body goes round it.
+function drawCouple([x, y], couple, index, colour, key, text) {
+  const radius = 24 + 7 * index, sweep = Math.max(-5, Math.min(5, 4.2 * couple / view.moment));
+  if (Math.abs(sweep) < 0.15) return false;
+  const start = -0.5 - 0.6 * index, end = start - sweep, way = sweep > 0 ? 1 : -1;
+  pen.beginPath();
+  pen.arc(x, y, radius, start, end, sweep > 0);
+  strokeWith(colour, 2.2);
+  const tip = [x + radius * Math.cos(end), y + radius * Math.sin(end)];
+  head(tip[0] + 6 * way * Math.sin(end), tip[1] - 6 * way * Math.cos(end), way * Math.sin(end), -way * Math.cos(end), colour);
+  if (text) wantLabel(key, text, ...tip, Math.cos(end), Math.sin(end), colour);
+  drawn.arrows.push([x - radius, y - radius, x + radius, y + radius, true]);
+  return true;
+}
+
+function drawForces(body, frame, t, row, shows) {
+  const length = pixelsPerForce(), labelled = shows.names || shows.values;
+  let couples = 0;
+  for (const arrow of body.arrows) {
+    const [fx, fy, px, py, couple] = arrow.arrow.map((c) => valueAt(c, t, row)), colour = arrowColour(arrow), key = `${body.name}:${arrow.name}`;
+    const size = Math.hypot(fx, fy), least = roundingOf(run.units.force), from = toScreen(place(frame, px, py));
+    const tip = size > least ? arrowTo(from, fx * length, -fy * length, colour) : null;
+    if (tip && labelled) wantLabel(key, labelOf(arrow.name, size, run.units.force, shows), ...tip, fx / size, -fy / size, colour);
+    if (Math.abs(couple) <= roundingOf(run.units.moment)) continue;
+    const text = labelled && labelOf(arrow.name, Math.abs(couple), run.units.moment, shows);
+    if (drawCouple(toScreen([frame.x, frame.y]), couple, couples, colour, `${key}:moment`, text)) couples++;
+  }
+}
+
+function drawVelocity(body, frame, t, row, shows) {
+  const [vx, vy] = velocityAt(body, t, row), speed = Math.hypot(vx, vy);
+  if (!(speed > roundingOf(run.units.speed))) return;
+  const length = arrowShare * Math.min(view.width, view.height) / view.speed;
+  const tip = arrowTo(toScreen(place(frame, ...body.G)), vx * length, -vy * length, view.colour.velocity);
+  if (tip && (shows.names || shows.values))
+    wantLabel(`${body.name}:v`, labelOf("v", speed, run.units.speed, shows), ...tip, vx / speed, -vy / speed, view.colour.velocity);
+}
+
+// ---- axes, scales, angles
+
+// 1, 2 or 5 times a power of ten, at most `most`.
+function roundBelow(most) {
+  const power = 10 ** Math.floor(Math.log10(most)), share = most / power;
+  return power * (share >= 5 ? 5 : share >= 2 ? 2 : 1);
+}
+
+function plainText(text, x, y, colour, boxed = true) {
+  const width = textWidth(text);
+  pen.textAlign = "left";
+  pen.textBaseline = "middle";
+  pen.font = labelFont;
+  pen.setLineDash([]);
+  pen.lineWidth = 3;
+  pen.strokeStyle = view.colour.paper;
+  pen.strokeText(text, x, y);
+  pen.fillStyle = colour;
+  pen.fillText(text, x, y);
+  if (boxed) avoidBox(x, y - 8, x + width, y + 8, text);
+  return width;
+}
+
+// What so many pixels stand for, below the scene: a length, a force, a velocity; and where x and y go.
+function drawScales(shows) {
+  const y = view.height - 16, soft = view.colour.soft;
+  let x = 16;
+  path([[x, y - 18], [x, y], [x + 18, y]]);
+  strokeWith(soft, 1.2);
+  head(x + 22, y, 1, 0, soft);
+  head(x, y - 22, 0, -1, soft);
+  plainText("y", x + 6, y - 18, soft, false);
+  x += 26 + plainText("x", x + 26, y, soft, false);
+  avoidBox(12, y - 26, x, y + 8, "axes");
+  const bar = (value, units, draw) => {
+    const text = `${show(value, 3)} ${unit(units)}`, pixels = draw.scale * value;
+    if (!Number.isFinite(pixels) || x + 24 + pixels + textWidth(text) > view.width - 8) return;
+    x += 18;
+    draw.at(x, pixels);
+    x += pixels + 6;
+    x += plainText(text, x, y, draw.colour);
+  };
+  const ruler = (colour) => (from, pixels) => {
+    path([[from, y - 4], [from, y + 4], [from, y], [from + pixels, y], [from + pixels, y - 4], [from + pixels, y + 4]]);
+    strokeWith(colour, 1.2);
+  };
+  const arrow = (colour) => (from, pixels) => {
+    path([[from, y], [from + pixels - 8, y]]);
+    strokeWith(colour, 2.2);
+    head(from + pixels, y, 1, 0, colour);
+  };
+  const most = Math.min(110, view.width / 6), add = (scale, units, colour, way) => {
+    if (scale > 0 && Number.isFinite(scale)) bar(roundBelow(most / scale), units, { scale, colour, at: way(colour) });
+  };
+  add(view.scale, run.units.length, soft, ruler);
+  if (shows.forces && run.bodies.some((body) => body.arrows.length)) add(pixelsPerForce(), run.units.force, soft, arrow);
+  if (shows.velocity) add(arrowShare * Math.min(view.width, view.height) / view.speed, run.units.speed, view.colour.velocity, arrow);
+}
+
+// An arc from angle `from` by `sweep`, both as in the world, with its name.
+function drawAngle([x, y], from, sweep, radius, key, text) {
+  path([[x, y], [x + (radius + 14) * Math.cos(from), y - (radius + 14) * Math.sin(from)]]);
+  strokeWith(view.colour.soft, 1, [4, 3]);
+  pen.beginPath();
+  pen.arc(x, y, radius, -from, -from - sweep, sweep > 0);
+  strokeWith(view.colour.soft, 1.2);
+  const end = from + sweep, way = sweep > 0 ? 1 : -1, tip = [x + radius * Math.cos(end), y - radius * Math.sin(end)];
+  if (Math.abs(sweep) * radius > 12) {
+    const turn = end - way * 5 / radius; // the head lies along the chord of what it covers
+    head(...tip, -way * Math.sin(turn), -way * Math.cos(turn), view.colour.soft);
+  }
+  const middle = from + sweep / 2;
+  wantLabel(key, text, x + radius * Math.cos(middle), y - radius * Math.sin(middle), Math.cos(middle), -Math.sin(middle), view.colour.soft);
+}
+
+// The angle of an inclined slide on the ground, at its low end on the canvas, once for each direction; that of a
+// pivoted body from where it counts.
+function drawAngles(frames, t, row, chosen) {
+  const seen = new Set(), degrees = (angle) => `${show(angle * 180 / Math.PI, 3)}°`;
+  run.bodies.forEach((body, i) => {
+    if (body.line && body.line.on < 0) {
+      const [ex, ey] = body.line.along, angle = Math.atan2(ey, ex), name = degrees(angle);
+      if (Math.abs(ex) < 1e-9 || Math.abs(ey) < 1e-9 || seen.has(name)) return;
+      seen.add(name);
+      const corner = lowEnd(body);
+      if (corner) drawAngle(corner, ex > 0 ? 0 : Math.PI, Math.atan(ey / ex), 44, `${body.name}:slope`, degrees(Math.abs(Math.atan(ey / ex))));
+    }
+    if (body.motion !== "pivot" || (chosen === null ? run.bodies.length > 3 : chosen !== i)) return;
+    const theta = valueAt(body.coordinates[0], t, row), turn = Math.atan2(Math.sin(theta), Math.cos(theta));
+    const hangs = Math.hypot(...body.G) > 0, own = hangs ? Math.atan2(body.G[1], body.G[0]) : 0;
+    const turned = Math.atan2(frames[i].s, frames[i].c) + own;
+    if (Math.abs(turn) > 0.03) drawAngle(toScreen([frames[i].x, frames[i].y]), turned - turn, turn, 40, `${body.name}:angle`, `θ = ${degrees(theta)}`);
+  });
+}
+
+// Where the line under a slide comes into the canvas at its low end, some way in.
+function lowEnd(body) {
+  const { through, along } = body.line, [x, y] = toScreen(through), way = along[1] > 0 ? -1 : 1;
+  const dx = way * along[0], dy = -way * along[1], bottom = view.height - strip - 8;
+  const sides = [dx > 0 ? (view.width - 50 - x) / dx : (50 - x) / dx, (bottom - y) / dy].filter(Number.isFinite);
+  const s = Math.min(...sides), foot = [x + s * dx, y + s * dy];
+  const down = body.line.surface ? body.line.reach * view.scale || view.block * 0.7 : 0;
+  const corner = [foot[0] - body.line.normal[0] * down, foot[1] + body.line.normal[1] * down];
+  return corner.every((v) => v > 0) && corner[0] < view.width && corner[1] < view.height ? corner : null;
+}

@@ -1,0 +1,69 @@
+"use strict";
+
+// Who looks: wheel, drag, pinch and buttons zoom and move the scene; the window and the paper change its size.
+
+function eyeOn(change) {
+  change();
+  refresh();
+}
+
+const zoomStep = 1.25;
+const fingers = new Map(); // pointers that are down: id -> [x, y]
+
+function movePointer(event) {
+  const before = fingers.get(event.pointerId), at = [event.offsetX, event.offsetY];
+  if (!before) return;
+  const others = [...fingers].filter(([id]) => id !== event.pointerId).map(([, where]) => where);
+  fingers.set(event.pointerId, at);
+  if (!others.length) {
+    eyeOn(() => panBy(at[0] - before[0], at[1] - before[1]));
+    return;
+  }
+  const apart = ([x, y]) => Math.hypot(x - others[0][0], y - others[0][1]) || 1;
+  const middle = [(at[0] + others[0][0]) / 2, (at[1] + others[0][1]) / 2];
+  eyeOn(() => zoomBy(apart(at) / apart(before), middle));
+}
+
+function connectEye() {
+  const middle = () => [view.width / 2, (view.height - strip) / 2];
+  element("zoom-in").addEventListener("click", () => eyeOn(() => zoomBy(zoomStep, middle())));
+  element("zoom-out").addEventListener("click", () => eyeOn(() => zoomBy(1 / zoomStep, middle())));
+  element("zoom-all").addEventListener("click", () => { element("follow").checked = false; eyeOn(showWhole); });
+  canvas.addEventListener("dblclick", () => eyeOn(showWhole));
+  // the wheel alone scrolls the page, unless the scene has the focus
+  canvas.addEventListener("wheel", (event) => {
+    if (!event.ctrlKey && document.activeElement !== canvas) return;
+    event.preventDefault();
+    eyeOn(() => zoomBy(Math.exp(-event.deltaY / 400), [event.offsetX, event.offsetY]));
+  }, { passive: false });
+  canvas.addEventListener("pointerdown", (event) => {
+    fingers.set(event.pointerId, [event.offsetX, event.offsetY]);
+    canvas.setPointerCapture(event.pointerId);
+  });
+  canvas.addEventListener("pointermove", movePointer);
+  for (const kind of ["pointerup", "pointercancel"]) canvas.addEventListener(kind, (event) => fingers.delete(event.pointerId));
+  // the canvas is as large as its place in the page, however that comes to change
+  new ResizeObserver(() => { if (!paper.on) eyeOn(fit); }).observe(canvas);
+}
+
+// ---- paper
+
+// On paper the page is as wide as A4 and Letter both allow, light, and its pictures are drawn finely: the width of the
+// window is no concern of the reader of a sheet.
+const paper = { on: false, width: 672, height: 400, ratio: 3 };
+
+function setPaper(on) {
+  if (paper.on === on) return;
+  paper.on = on;
+  document.documentElement.classList.toggle("paper", on);
+  for (const chart of charts) chart.unseen = false;
+  if (on) fit([paper.width, paper.height], paper.ratio);
+  else fit();
+  restyleCharts(on ? paper.ratio : null);
+  refresh();
+}
+
+function connectPaper() {
+  addEventListener("beforeprint", () => setPaper(true));
+  addEventListener("afterprint", () => setPaper(false));
+}

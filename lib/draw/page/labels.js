@@ -1,0 +1,125 @@
+"use strict";
+
+// Where the labels of the scene go: beside what they belong to, none on another, on few lines.
+//
+// Each label tries places around its anchor, near ones and those in its direction first, and takes the cheapest that
+// covers no other label and lies on the canvas; the place that it had in the last picture is cheaper, so that labels do
+// not jump while the scene moves. A label that has no place is left out: the tables have its number.
+
+const labelHeight = 15, labelGap = 5, labelTurns = 12, labelRings = [0, 11, 24, 40, 62];
+const labels = { wanted: [], boxes: [], lines: [], last: new Map(), left: 0 };
+const drawn = { arrows: [], labels: labels.boxes }; // for who asks what is to be seen
+
+function beginLabels() {
+  for (const list of [labels.wanted, labels.boxes, labels.lines, drawn.arrows]) list.length = 0;
+  labels.left = 0;
+}
+
+// key: what the label belongs to; [ux, uy]: the direction on the canvas that it is wanted in.
+function wantLabel(key, text, x, y, ux, uy, colour, plain) {
+  labels.wanted.push({ key, text, x, y, ux, uy, colour, plain });
+}
+
+// A line that labels should not lie on.
+function avoidLine(x1, y1, x2, y2) {
+  labels.lines.push([x1, y1, x2, y2]);
+}
+
+// A box that no label may lie on.
+function avoidBox(left, top, right, bottom, text) {
+  labels.boxes.push({ left, top, right, bottom, text });
+}
+
+const textWidths = new Map(); // all labels are of one font
+const labelFont = "13px Arial, Helvetica, 'Liberation Sans', sans-serif";
+
+function textWidth(text) {
+  if (!textWidths.has(text)) {
+    if (textWidths.size > 5000) textWidths.clear(); // values change without end
+    pen.font = labelFont;
+    textWidths.set(text, pen.measureText(text).width);
+  }
+  return textWidths.get(text);
+}
+
+// Does the line cross the box? (Liang and Barsky)
+function crosses([x1, y1, x2, y2], box) {
+  let enter = 0, leave = 1;
+  const dx = x2 - x1, dy = y2 - y1;
+  for (const [from, step, low, high] of [[x1, dx, box.left, box.right], [y1, dy, box.top, box.bottom]]) {
+    if (step === 0) {
+      if (from < low || from > high) return false;
+      continue;
+    }
+    const a = (low - from) / step, b = (high - from) / step;
+    enter = Math.max(enter, Math.min(a, b));
+    leave = Math.min(leave, Math.max(a, b));
+  }
+  return leave > enter;
+}
+
+function boxAt(label, width, turn, ring) {
+  const angle = Math.atan2(label.uy, label.ux) + 2 * Math.PI * turn / labelTurns, ux = Math.cos(angle), uy = Math.sin(angle);
+  const reach = Math.min(width / 2 / Math.max(Math.abs(ux), 1e-9), labelHeight / 2 / Math.max(Math.abs(uy), 1e-9));
+  const away = labelGap + reach + labelRings[ring], x = label.x + away * ux, y = label.y + away * uy;
+  return { left: x - width / 2, right: x + width / 2, top: y - labelHeight / 2, bottom: y + labelHeight / 2 };
+}
+
+function isFree(box) {
+  if (box.left < 2 || box.top < 2 || box.right > view.width - 2 || box.bottom > view.height - 2) return false;
+  return !labels.boxes.some((other) => box.left < other.right + 3 && other.left < box.right + 3 && box.top < other.bottom && other.top < box.bottom);
+}
+
+// The places in the order of their price: 0, 1, -1, 2, ... turns in each ring.
+const labelPlaces = [];
+labelRings.forEach((distance, ring) => {
+  for (let k = 0; k < labelTurns; k++) {
+    const turn = (k + 1 >> 1) * (k % 2 ? 1 : -1);
+    labelPlaces.push({ turn, ring, price: distance + 3.5 * Math.abs(turn) + (ring > 1 ? 12 : 0) });
+  }
+});
+labelPlaces.sort((a, b) => a.price - b.price);
+
+function choosePlace(label) {
+  const width = textWidth(label.text), last = labels.last.get(label.key), crowded = labels.wanted.length > 80;
+  let best = null, least = Infinity;
+  for (const spot of labelPlaces) {
+    const stay = spot === last ? -9 : 0;
+    if (spot.price - 9 >= least) break;
+    const box = boxAt(label, width, spot.turn, spot.ring);
+    if (!isFree(box)) continue;
+    let price = spot.price + stay;
+    if (!crowded) for (const line of labels.lines) if (crosses(line, box)) price += 14;
+    if (price < least) { least = price; best = { spot, box }; }
+  }
+  return best;
+}
+
+function writeLabel(label, box, ring) {
+  const y = (box.top + box.bottom) / 2;
+  if (ring > 1) {
+    path([[label.x, label.y], [Math.min(Math.max(label.x, box.left), box.right), Math.min(Math.max(label.y, box.top), box.bottom)]]);
+    strokeWith(view.colour.soft, 0.8);
+  }
+  pen.font = labelFont;
+  pen.textAlign = "left";
+  pen.textBaseline = "middle";
+  pen.lineJoin = "round";
+  pen.lineWidth = 3;
+  pen.setLineDash([]);
+  pen.strokeStyle = view.colour.paper;
+  pen.strokeText(label.text, box.left, y + 1);
+  pen.fillStyle = label.colour;
+  pen.fillText(label.text, box.left, y + 1);
+}
+
+function placeLabels() {
+  for (const label of labels.wanted) {
+    if (label.x < 0 || label.y < 0 || label.x > view.width || label.y > view.height) continue; // out of sight
+    const best = choosePlace(label);
+    if (!best) { labels.left++; continue; }
+    labels.last.set(label.key, best.spot);
+    labels.boxes.push({ ...best.box, text: label.text });
+    writeLabel(label, best.box, best.spot.ring);
+  }
+}

@@ -1,0 +1,263 @@
+"use strict";
+
+// The eye on the scene: what it has to hold, the scale, zoom and pan, the colours.
+//
+// The scene is fitted together with its arrows. Their lengths are pixels, not metres, so that the scale is the largest
+// one at which every point and every tip, at all times that are looked at, lies on the canvas.
+
+const canvas = document.getElementById("scene");
+let pen = canvas.getContext("2d");
+const still = document.createElement("canvas"); // what does not move, drawn once
+const view = { scale: 1, x: 0, y: 0, width: 0, height: 0, block: 0, force: 1, moment: 1, speed: 1, zoom: 1, pan: [0, 0], following: false, colour: {} };
+
+// Pixels that are kept free: around, and below for the scales.
+const margin = 14, strip = 40;
+
+// Times spread over the run, for what is measured once: bounds, scales, traces.
+const survey = [];
+
+function frameAt(body, t, row) {
+  const angle = valueAt(body.frame[2], t, row);
+  return { x: valueAt(body.frame[0], t, row), y: valueAt(body.frame[1], t, row), c: Math.cos(angle), s: Math.sin(angle) };
+}
+
+// A point of the body's frame in the world; shapes are told from the frame of the file, whose pin sits on the axis.
+function place(frame, x, y) {
+  return [frame.x + frame.c * x - frame.s * y, frame.y + frame.s * x + frame.c * y];
+}
+
+function shapePoint(body, frame, point) {
+  return place(frame, point[0] - body.pin[0], point[1] - body.pin[1]);
+}
+
+function shapePoints(shape) {
+  if (shape.kind !== "circle") return shape.corners || [shape.center];
+  const [x, y] = shape.center, r = shape.radius;
+  return [[x - r, y], [x + r, y], [x, y - r], [x, y + r]];
+}
+
+// What the eye follows: the end of a rod or the part of a pivoted body that is farthest from its axis, else G.
+function tracePoint(body) {
+  let best = body.G, most = -1;
+  if (body.motion !== "pivot") return best;
+  for (const shape of body.shapes) {
+    for (const point of shape.kind === "bar" ? shape.corners : [shape.center]) {
+      const x = point[0] - body.pin[0], y = point[1] - body.pin[1], far = Math.hypot(x, y);
+      if (far > most * 1.0001) { most = far; best = [x, y]; }
+    }
+  }
+  return most > 0 ? best : body.G;
+}
+
+// What most of the sizes stay below: few that are larger by far are drawn shorter than their scale says.
+function usualMost(values) {
+  const sorted = values.filter((value) => Number.isFinite(value) && value > 0).sort((a, b) => a - b);
+  if (!sorted.length) return 0;
+  const usual = sorted[Math.floor(0.75 * (sorted.length - 1))], most = sorted[sorted.length - 1];
+  return most < 3 * usual ? most : usual;
+}
+
+// A spring or damper along a slide has its other end at a wall that the model does not place: above, on a level
+// slide behind the least coordinate.
+function placeWalls() {
+  run.links.forEach((link, i) => {
+    if (link.anchor) return;
+    const { through, along, normal } = run.bodies[link.body].line;
+    const xs = survey.map((t) => valueAt(run.bodies[link.body].coordinates[0], t, rowAt(t)));
+    const least = Math.min(...xs), most = Math.max(...xs), range = most - least || 1;
+    const x = along[1] > 0.1 ? most + 0.5 * range : least - 0.5 * range;
+    const beside = run.links.findIndex((other) => other.body === link.body) === i ? 0 : 0.06 * range; // two lie side by side
+    link.anchor = [through[0] + x * along[0] + beside * normal[0], through[1] + x * along[1] + beside * normal[1]];
+    link.offset = [beside * normal[0], beside * normal[1]];
+    link.wall = normal;
+  });
+}
+
+// The points that the picture has to hold, in the world, and its arrows: {x, y, fx, fy} or {x, y, couple}.
+const held = { left: 0, right: 0, bottom: 0, top: 0, arrows: [], wheels: [] };
+
+function measureBody(body, t, row, take, sizes) {
+  const frame = frameAt(body, t, row);
+  take(frame.x, frame.y);
+  if (body.track && body.track.on < 0 && t === run.start) for (const point of body.track.points) take(...point);
+  for (const shape of body.shapes) for (const point of shapePoints(shape)) take(...shapePoint(body, frame, point));
+  for (const { arrow } of body.arrows) {
+    const [fx, fy, px, py, couple] = arrow.map((c) => valueAt(c, t, row)), [x, y] = place(frame, px, py);
+    sizes.forces.push(Math.hypot(fx, fy));
+    sizes.moments.push(Math.abs(couple));
+    if (Number.isFinite(x + y + fx + fy) && (fx || fy)) held.arrows.push({ x, y, fx, fy });
+    if (couple) held.wheels.push([frame.x, frame.y]);
+  }
+  const velocity = velocityAt(body, t, row);
+  sizes.speeds.push(Math.hypot(...velocity));
+}
+
+// The rectangle that the bodies stay in, and the sizes of forces, moments and speeds.
+function measure() {
+  for (let i = 0; i <= 400; i++) survey[i] = run.start + (run.end - run.start) * i / 400;
+  Object.assign(held, { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity, arrows: [], wheels: [] });
+  const take = (x, y) => {
+    if (!Number.isFinite(x) || !Number.isFinite(y)) return;
+    held.left = Math.min(held.left, x); held.right = Math.max(held.right, x);
+    held.bottom = Math.min(held.bottom, y); held.top = Math.max(held.top, y);
+  };
+  prepareTies();
+  const step = run.bodies.length > 20 ? 8 : 1, sizes = { forces: [], moments: [], speeds: [] };
+  for (let i = 0; i < survey.length; i += step) {
+    const t = survey[i], row = rowAt(t);
+    for (const point of tiePoints((b) => frameAt(run.bodies[b], t, row))) take(...point);
+    for (const body of run.bodies) measureBody(body, t, row, take, sizes);
+  }
+  placeWalls();
+  for (const link of run.links) if (link.partner < 0) take(...link.anchor);
+  if (held.left > held.right) Object.assign(held, { left: 0, right: 0, bottom: 0, top: 0 });
+  Object.assign(view, { force: usualMost(sizes.forces) || 1, moment: usualMost(sizes.moments) || 1, speed: usualMost(sizes.speeds) || 1 });
+}
+
+// The length of an arrow in pixels; beyond `longest` it is cut.
+const arrowShare = 0.18, cutShare = 0.24;
+
+function pixelsPerForce() {
+  return arrowShare * Math.min(view.width, view.height) / view.force;
+}
+
+function longestArrow() {
+  return cutShare * Math.min(view.width, view.height);
+}
+
+// The largest scale s at which s X + x, for X of the world and x in pixels, spans no more than `room`; and its ends.
+function fitAxis(points, room) {
+  const span = (s) => {
+    let low = Infinity, high = -Infinity;
+    for (const [X, x] of points) { low = Math.min(low, s * X + x); high = Math.max(high, s * X + x); }
+    return [low, high];
+  };
+  let least = Infinity, most = -Infinity, low = 0, high = 1e-9;
+  for (const [X] of points) { least = Math.min(least, X); most = Math.max(most, X); }
+  if (!(most - least > 1e-12 * Math.max(Math.abs(most), Math.abs(least)))) return { most: Infinity, span };
+  const fits = (s) => { const [a, b] = span(s); return b - a <= room; };
+  while (fits(high) && high < 1e30) high *= 4;
+  for (let i = 0; i < 40; i++) {
+    const middle = (low + high) / 2;
+    if (fits(middle)) low = middle; else high = middle;
+  }
+  return { most: low, span };
+}
+
+// The corners of what is held and the tips of the arrows: [world, pixels] along x and along y (which counts down).
+function heldPoints() {
+  const xs = [[held.left, -12], [held.right, 12]], ys = [[-held.top, -12], [-held.bottom, 12]];
+  const length = pixelsPerForce(), most = longestArrow();
+  for (const { x, y, fx, fy } of held.arrows) {
+    const size = Math.hypot(fx, fy) * length, cut = Math.min(1, most / size) * length;
+    xs.push([x, fx * cut]);
+    ys.push([-y, -fy * cut]);
+  }
+  for (const [x, y] of held.wheels) {
+    xs.push([x, -34], [x, 34]);
+    ys.push([-y, -34], [-y, 34]);
+  }
+  return [xs, ys];
+}
+
+// Scale and place so that all of it is seen.
+function fitWhole() {
+  const [xs, ys] = heldPoints(), room = [view.width - 2 * margin - 30, view.height - 2 * margin - strip - 20];
+  const across = fitAxis(xs, room[0]), up = fitAxis(ys, room[1]);
+  let scale = Math.min(across.most, up.most);
+  if (!(scale > 0)) scale = Math.min(room[0], room[1]) / (Math.max(held.right - held.left, held.top - held.bottom) || 1);
+  if (!Number.isFinite(scale)) scale = 0.5 * Math.min(view.width, view.height);
+  const [left, right] = across.span(scale), [top, bottom] = up.span(scale);
+  Object.assign(view, { scale, wholeScale: scale, x: view.width / 2 - (left + right) / 2, y: (view.height - strip) / 2 - (top + bottom) / 2 });
+}
+
+// The least distance of two parallel lines with bodies that have no size: their blocks pass each other.
+function slideGap() {
+  const lines = run.bodies.filter((body) => body.line && body.line.on < 0 && !isSized(body)).map((body) => body.line);
+  let gap = Infinity;
+  lines.forEach((a, i) => lines.slice(i + 1).forEach((b) => {
+    const away = Math.abs((b.through[0] - a.through[0]) * a.normal[0] + (b.through[1] - a.through[1]) * a.normal[1]);
+    const parallel = Math.abs(a.along[0] * b.along[1] - a.along[1] * b.along[0]) < 1e-9;
+    if (parallel && away > 1e-3 * (held.right - held.left)) gap = Math.min(gap, away);
+  }));
+  return gap;
+}
+
+function velocityAt(body, t, row) {
+  return [valueAt(body.velocity[0], t, row), valueAt(body.velocity[1], t, row)];
+}
+
+// Half the size of a body around its centre of mass, 0 for one without a size.
+function bodyExtent(body) {
+  let most = 0;
+  for (const shape of body.shapes)
+    if (shape.corners || shape.radius)
+      for (const [x, y] of shapePoints(shape)) most = Math.max(most, Math.hypot(x - body.pin[0] - body.G[0], y - body.pin[1] - body.G[1]));
+  return most;
+}
+
+// Are the bodies so small on the way that they go that nobody would see them turn?
+function bodiesAreSpecks() {
+  const extents = run.bodies.map(bodyExtent);
+  return Math.min(...extents) > 0 && Math.max(...extents) * view.wholeScale < 5;
+}
+
+// ---- zoom and pan
+
+// The eye goes with a body, near enough to see it.
+function follow(body, frame) {
+  const [x, y] = place(frame, ...body.G);
+  const near = 0.09 * Math.min(view.width, view.height) / (bodyExtent(body) || Infinity);
+  view.scale = Math.max(view.wholeScale, near) * view.zoom;
+  view.x = view.width / 2 + view.pan[0] - view.scale * x;
+  view.y = (view.height - strip) / 2 + view.pan[1] + view.scale * y;
+  drawStill();
+}
+
+// Zoom by a factor, the point [x, y] of the canvas kept where it is.
+function zoomBy(factor, [x, y]) {
+  const zoom = Math.min(Math.max(view.zoom * factor, 0.05), 200), by = zoom / view.zoom;
+  const from = [x - view.width / 2, y - (view.height - strip) / 2];
+  view.pan = view.pan.map((p, k) => from[k] - by * (from[k] - p));
+  view.zoom = zoom;
+  aim();
+}
+
+function panBy(dx, dy) {
+  view.pan = [view.pan[0] + dx, view.pan[1] + dy];
+  aim();
+}
+
+function showWhole() {
+  Object.assign(view, { zoom: 1, pan: [0, 0] });
+  aim();
+}
+
+// The fitted picture, zoomed about the middle and moved.
+function aim() {
+  fitWhole();
+  const middle = [view.width / 2, (view.height - strip) / 2];
+  view.scale *= view.zoom;
+  view.x = middle[0] + view.zoom * (view.x - middle[0]) + view.pan[0];
+  view.y = middle[1] + view.zoom * (view.y - middle[1]) + view.pan[1];
+  view.block = Math.min(0.045 * Math.min(view.width, view.height), Math.max(7, 0.45 * view.scale * slideGap()));
+  drawStill();
+}
+
+const colours = ["paper", "ink", "soft", "line", "body", "edge", "gravity", "reaction", "friction", "applied", "velocity", "trace", "rope"];
+
+// The canvas is drawn in so many pixels of the screen, or, for print, in finer ones of a size of its own.
+function fit(size = [canvas.clientWidth, canvas.clientHeight], ratio = window.devicePixelRatio || 1) {
+  view.ratio = ratio;
+  [view.width, view.height] = size;
+  canvas.width = Math.round(view.width * ratio);
+  canvas.height = Math.round(view.height * ratio);
+  pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+  const style = getComputedStyle(document.documentElement);
+  for (const name of colours) view.colour[name] = style.getPropertyValue("--" + name).trim();
+  aim();
+}
+
+function toScreen([x, y]) {
+  return [view.x + view.scale * x, view.y - view.scale * y];
+}
