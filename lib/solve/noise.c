@@ -46,8 +46,9 @@ static void measure_turns(struct run *run, const struct instant *at)
 
 static void add_cancelled(struct run *run, int body, double force, double arm)
 {
-    run->cancelled[2 * body] += force;
-    run->cancelled[2 * body + 1] += force * arm;
+    double *cancelled = &run->cancelled[2 * (size_t)body];
+    cancelled[0] += force;
+    cancelled[1] += force * arm;
 }
 
 static void cancel_in_tree(struct run *run, const struct instant *at)
@@ -203,7 +204,7 @@ static void set_floors(struct run *run, double lasts)
     for (size_t b = 0; b < run->model->body_count; b++) {
         const struct model_body *body = &run->model->bodies[b];
         for (int k = 0; k < body->count; k++) {
-            size_t position = (size_t)(body->first + k), rate = position + (size_t)run->model->plan.n;
+            size_t position = (size_t)body->first + (size_t)k, rate = position + (size_t)run->model->plan.n;
             struct motion_size own = motion_size(run, body, k, tau);
             bool sized = own.arm > 0 && isfinite(own.arm); /* what is driven need have no mass */
             double place = sized ? negligible * all.place / own.arm : 0;
@@ -233,7 +234,7 @@ static void set_own_floor(struct run *run, int i, double lasts)
 {
     const double share = 1e-3;
     const struct plan *plan = &run->model->plan;
-    size_t state = 2 * (size_t)plan->n + (size_t)i, rate = (size_t)(plan->n + i);
+    size_t state = 2 * (size_t)plan->n + (size_t)i, rate = (size_t)plan->n + (size_t)i;
     double tau = share * lasts, change = fabs(run->along[rate]);
     if (run->state->y[state] != 0) return;
     switcher_set_floor(run->stepper, state,
