@@ -166,6 +166,29 @@ bool tree_slips(const struct tree *tree, const struct instant *at);
 /* c_k = slip mu_k of the slide of link i, 0 when it sticks; its variation. */
 double tree_slip_share(const struct fbd_model *model, const struct instant *at, int i);
 
+/* What a free pivot passes on of the inertia I that it has with all behind it, D = 1 / J: M - h h^T / J. */
+static inline struct inertia_about_O tree_pivot(const struct inertia_about_O *I, double D)
+{
+    struct vec hD = vec_scale(D, I->h);
+    return (struct inertia_about_O){
+        0, {0, 0}, I->xx - hD.x * I->h.x, I->xy - hD.x * I->h.y, I->yy - hD.y * I->h.y};
+}
+
+/* The same where nothing is behind: M = m 1, h = m k x r, and as h h^T + m r m r^T = |m r|^2 1
+ * it is
+ *
+ *     (m - |m r|^2 / J) 1 + m r m r^T / J
+ *
+ * and m - |m r|^2 / J = m I_G / J is a constant: a sum of squares, where the difference loses what is left of m to
+ * a force along the rod - a cart of 1e-6 kg under a pole of 1 kg that passes the vertical had its acceleration to
+ * ten digits. */
+static inline struct inertia_about_O tree_last_pivot(const struct tree_link *link, struct vec mr, double D)
+{
+    struct vec r = vec_scale(D, mr);
+    return (
+        struct inertia_about_O){0, {0, 0}, link->across + r.x * mr.x, r.x * mr.y, link->across + r.y * mr.y};
+}
+
 /* The direction that the surface of the slide of link i pushes to. */
 struct vec tree_normal(const struct tree *tree, const struct tree_work *work, int i);
 

@@ -4,7 +4,7 @@
  * of. A pivot passes on no moment but its own, so that of what a link answers with, I A + p, only M and the
  * force go on to its parent:
  *
- *     M - h h^T / J,   p + h u / J   with   u = g - moment of p
+ *     R = M - h h^T / J,   p + h u / J   with   u = g - moment of p
  *
  * and the bias has no angular acceleration. The results are those of the general sweeps.
  */
@@ -61,15 +61,10 @@ static void take(struct inertia_about_O *I, struct wrench *p, const struct passe
     p->force = vec_add(p->force, passed->p.force);
 }
 
-static struct passed pass(const struct inertia_about_O *I, double D, double uD, double g, struct vec force,
-                          struct vec d)
+static struct passed pass(const struct inertia_about_O *R, double g, struct vec f, struct vec d)
 {
-    struct vec h = I->h, k = vec_perp(d), Mk = inertia_times(I, k);
-    double hk = vec_dot(h, k), hkD = hk * D;
-    struct vec f = vec_add(force, vec_scale(uD, h));
-    return (struct passed){{vec_dot(k, Mk) - D * (hk * hk), vec_sub(Mk, vec_scale(hkD, h)),
-                            I->xx - D * (h.x * h.x), I->xy - D * (h.x * h.y), I->yy - D * (h.y * h.y)},
-                           {g + vec_cross(d, f), f}};
+    struct vec k = vec_perp(d), Rk = inertia_times(R, k);
+    return (struct passed){{vec_dot(k, Rk), Rk, R->xx, R->xy, R->yy}, {g + vec_cross(d, f), f}};
 }
 
 /* From link to link of a chain what is passed on stays out of memory. */
@@ -80,7 +75,8 @@ static void sweep_inward(const struct tree *tree, struct tree_work *work)
     for (int i = tree->count - 1; i > 0; i--) {
         struct tree_state *s = &work->links[i];
         struct tree_rhs *x = &work->x[i];
-        if (to != i) {
+        bool last = to != i; /* nothing hangs on it */
+        if (last) {
             take(&work->links[to].I, &work->x[to].p, &passed);
             passed = (struct passed){{0, {0, 0}, 0, 0, 0}, {0, {0, 0}}};
         }
@@ -92,7 +88,8 @@ static void sweep_inward(const struct tree *tree, struct tree_work *work)
         s->D = D;
         x->p = p;
         x->u = u;
-        passed = pass(&I, D, u * D, x->g, p.force, s->d);
+        struct inertia_about_O R = last ? tree_last_pivot(&tree->links[i], s->mr, D) : tree_pivot(&I, D);
+        passed = pass(&R, x->g, vec_add(p.force, vec_scale(u * D, I.h)), s->d);
         to = tree->links[i].parent;
     }
 }

@@ -5,13 +5,12 @@
 
 /* ---- inertias: what each joint passes on */
 
-static void factor_pivot(struct tree_state *s, struct inertia_about_O *rest)
+static void factor_pivot(const struct tree_link *link, int i, struct tree_state *s,
+                         struct inertia_about_O *rest)
 {
     const struct inertia_about_O *I = &s->I;
     s->D = 1 / I->J;
-    struct vec hD = vec_scale(s->D, I->h);
-    *rest = (struct inertia_about_O){
-        0, {0, 0}, I->xx - hD.x * I->h.x, I->xy - hD.x * I->h.y, I->yy - hD.y * I->h.y};
+    *rest = link->end == i + 1 ? tree_last_pivot(link, s->mr, s->D) : tree_pivot(I, s->D);
 }
 
 static void factor_slide(struct tree_state *s, struct inertia_about_O *rest)
@@ -53,13 +52,13 @@ static void factor_free(const struct tree_link *link, struct tree_state *s, stru
 
 /* Trees without tracks do not ask for them, link by link: `curved` is a constant in each of its uses. */
 static inline __attribute__((always_inline)) void
-factor_link(const struct tree_link *link, struct tree_state *s, struct tree_state *parent, bool curved)
+factor_link(const struct tree_link *link, int i, struct tree_state *s, struct tree_state *parent, bool curved)
 {
     struct inertia_about_O rest;
     if (s->locked)
         rest = s->I;
     else if (link->kind == motion_pivot)
-        factor_pivot(s, &rest);
+        factor_pivot(link, i, s, &rest);
     else if (link->kind == motion_slide)
         factor_slide(s, &rest);
     else if (curved && link->kind == motion_track)
@@ -113,7 +112,7 @@ static inline __attribute__((always_inline)) void factor(const struct tree *tree
     }
     for (int i = tree->count - 1; i > 0; i--) {
         const struct tree_link *link = &tree->links[i];
-        factor_link(link, &links[i], &links[link->parent], curved);
+        factor_link(link, i, &links[i], &links[link->parent], curved);
         inward_link(link, &links[i], &work->x[i], &work->x[link->parent], curved);
     }
 }

@@ -345,8 +345,10 @@ static const char *pushed(struct emitter *emitter, int i)
 static const char *factored(struct emitter *emitter, int i)
 {
     const struct tree_link *link = &emitter->model->tree->links[i];
-    return emit_printf(emitter, "    factor_%s(&l->%s, &l->%s);\n", kind_name(link->kind),
-                       link_name(emitter, i), link_name(emitter, link->parent));
+    const char *name = link_name(emitter, i), *on = link_name(emitter, link->parent);
+    if (link->kind == motion_pivot && link->end == i + 1)
+        return emit_printf(emitter, "    factor_last_pivot(&l->%s, &l->%s);\n", name, on);
+    return emit_printf(emitter, "    factor_%s(&l->%s, &l->%s);\n", kind_name(link->kind), name, on);
 }
 
 static const char *inward(struct emitter *emitter, int i)
@@ -376,8 +378,9 @@ static const char *set_out(struct emitter *emitter, int i)
 static const char *passed_in(struct emitter *emitter, int i)
 {
     const struct tree_link *link = &emitter->model->tree->links[i];
-    return emit_printf(emitter, "    pass_inward(&l->%s, &l->%s);\n", link_name(emitter, i),
-                       link_name(emitter, link->parent));
+    const char *name = link_name(emitter, i), *on = link_name(emitter, link->parent);
+    if (link->end == i + 1) return emit_printf(emitter, "    pass_last_inward(&l->%s, &l->%s);\n", name, on);
+    return emit_printf(emitter, "    pass_inward(&l->%s, &l->%s);\n", name, on);
 }
 
 static const char *given_out(struct emitter *emitter, int i)

@@ -108,9 +108,14 @@ static void add_inertia(struct tree_link *link, const struct model_body *body)
 {
     const struct inertia *inertia = &body->inertia;
     struct vec G = placement_point(&body->place, inertia->G);
-    link->mass += inertia->mass;
+    double mass = link->mass + inertia->mass, both = mass > 0 ? link->mass * inertia->mass / mass : 0;
+    struct vec apart =
+        link->mass > 0 ? vec_sub(G, vec_scale(1 / link->mass, link->moment)) : (struct vec){0, 0};
+    link->I_G += inertia->I_G + both * vec_dot(apart, apart);
+    link->mass = mass;
     link->moment = vec_add(link->moment, vec_scale(inertia->mass, G));
     link->I_O += inertia->I_G + inertia->mass * vec_dot(G, G);
+    link->across = link->I_O > 0 ? link->mass * link->I_G / link->I_O : 0;
 }
 
 bool tree_number(struct fbd_model *model)

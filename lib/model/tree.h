@@ -43,13 +43,15 @@ struct tree_link {
     double along;   /* angle of the link's frame in its parent's at q = 0; track: of its curve */
     struct tree_track *track; /* or NULL */
     double mass, I_O;         /* with all that is welded to it; I_O about O */
-    struct vec moment;        /* mass times the vector from O to its centre of mass */
-    struct vec force;         /* constant forces in the world, all of them */
-    double sine, cosine;      /* their moment about O: sine sin(angle) + cosine cos(angle) */
-    int pair;                 /* its dry friction: index into plan.frictions, or -1 */
-    int normal_slot;          /* where minus its normal force goes, or -1 */
-    int root;                 /* the first link of its tree */
-    int end;                  /* links from its own number up to this one (not included) move with it */
+    double I_G;               /* about the centre of mass */
+    double across; /* mass I_G / I_O: its inertia at O across the arm to its centre, when it turns freely */
+    struct vec moment;   /* mass times the vector from O to its centre of mass */
+    struct vec force;    /* constant forces in the world, all of them */
+    double sine, cosine; /* their moment about O: sine sin(angle) + cosine cos(angle) */
+    int pair;            /* its dry friction: index into plan.frictions, or -1 */
+    int normal_slot;     /* where minus its normal force goes, or -1 */
+    int root;            /* the first link of its tree */
+    int end;             /* links from its own number up to this one (not included) move with it */
 };
 
 /* A constant force that turns with its link, and its moment about O. */

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 struct weights {
     size_t pairs, size; /* of the layout: number of q, number of all components */
@@ -15,6 +16,9 @@ struct weights {
     double *cap;          /* pairs: 1 rad for angles, no bound for others */
     double *acceleration; /* pairs: |a| of the last accepted state */
     double *noise;        /* pairs: rounding error of a */
+    double *floor;        /* pairs: of the rates, as given */
+    double *amplitude;    /* pairs: of the rates, over the last accepted step */
+    double *before;       /* 3 pairs: q, v and a of the last accepted state */
     double memory[];
 };
 
@@ -49,6 +53,23 @@ static inline double scale_of(const struct weights *w, size_t i, double y, doubl
 static inline double scale_of_q(const struct weights *w, size_t i, double q, double motion)
 {
     return smaller(scale_of(w, i, q, motion), w->cap[i]);
+}
+
+/* What a rate has in the harmonic motion through the last accepted state and this one: from a = -w^2 q, which
+ * gives 1 / w^2 = |dq / da|, v^2 + a^2 / w^2 at any time, here with the larger v and the mean a. Without bound
+ * where a does not change. */
+static double amplitude(const struct weights *w, size_t i, double q, double v, double a)
+{
+    const double *q0 = w->before, *v0 = q0 + w->pairs, *a0 = v0 + w->pairs;
+    double fast = larger(fabs(v), fabs(v0[i])), mean = (a0[i] + a) / 2;
+    double square = fast * fast + mean * mean * fabs((q - q0[i]) / (a - a0[i]));
+    return square >= 0 ? sqrt(square) : INFINITY;
+}
+
+static inline double scale_of_v(const struct weights *w, size_t i, double scale, double swing)
+{
+    const double share = 1e-3;
+    return smaller(scale, larger(swing, larger(w->floor[i], share * scale)));
 }
 
 /* The error that is allowed in y; `hidden` is what is invisible for other reasons than the rounding of y.
@@ -93,9 +114,8 @@ double weights_ratio(const gsl_odeiv2_control *control, double h, const double *
         double noise_v = w->noise[i] * fabs(h), noise_q = noise_v * fabs(h);
         ratio = raised(ratio, yerr[i], level(w, scale_of_q(w, i, q, q_motion), q, q_motion, 4 * noise_q),
                        noise_q);
-        ratio =
-            raised(ratio, yerr[n + i],
-                   level(w, scale_of(w, n + i, v, v_motion), v, v_motion, hidden_in_v(w, i, h, q)), noise_v);
+        double scale_v = scale_of_v(w, i, scale_of(w, n + i, v, v_motion), amplitude(w, i, q, v, a));
+        ratio = raised(ratio, yerr[n + i], level(w, scale_v, v, v_motion, hidden_in_v(w, i, h, q)), noise_v);
         probe += 0 * (q + v + a + yerr[i] + yerr[n + i]);
     }
     for (size_t i = 2 * n; i < w->size; i++) {
@@ -158,13 +178,21 @@ void weights_update(gsl_odeiv2_control *control, const double *y, const double *
 {
     struct weights *w = control->state;
     for (size_t i = 0; i < w->size; i++) w->scale[i] = larger(w->scale[i], fabs(y[i]));
-    for (size_t i = 0; i < w->pairs; i++) w->acceleration[i] = fabs(f[w->pairs + i]);
+    size_t n = w->pairs;
+    for (size_t i = 0; i < n; i++) {
+        w->acceleration[i] = fabs(f[n + i]);
+        w->amplitude[i] = amplitude(w, i, y[i], y[n + i], f[n + i]);
+    }
+    memcpy(w->before, y, 2 * n * sizeof *y);
+    memcpy(w->before + 2 * n, f + n, n * sizeof *f);
 }
 
 void weights_set_floor(gsl_odeiv2_control *control, size_t i, double floor)
 {
     struct weights *w = control->state;
+    size_t n = w->pairs;
     w->scale[i] = larger(w->scale[i], floor);
+    if (i >= n && i < 2 * n) w->floor[i - n] = larger(w->floor[i - n], floor);
 }
 
 void weights_set_noise(gsl_odeiv2_control *control, size_t i, double noise)
@@ -176,8 +204,10 @@ void weights_set_noise(gsl_odeiv2_control *control, size_t i, double noise)
 bool weights_noise_counts(const gsl_odeiv2_control *control, double h)
 {
     const struct weights *w = control->state;
-    for (size_t i = 0; i < w->pairs; i++)
-        if (allowed_by_noise(w, i, h) > w->tolerance * w->scale[w->pairs + i]) return true;
+    for (size_t i = 0; i < w->pairs; i++) {
+        double scale = scale_of_v(w, i, w->scale[w->pairs + i], w->amplitude[i]);
+        if (allowed_by_noise(w, i, h) > w->tolerance * scale) return true;
+    }
     return false;
 }
 
@@ -292,8 +322,8 @@ struct step_law step_law_for(int estimate_order)
 static struct weights *weights_state(const struct layout *layout)
 {
     size_t pairs = layout->pairs, size = layout_size(layout);
-    if (size == 0 || size > (SIZE_MAX - sizeof(struct weights)) / (4 * sizeof(double))) return NULL;
-    struct weights *w = calloc(1, sizeof *w + (size + 3 * pairs) * sizeof(double));
+    if (size == 0 || size > (SIZE_MAX - sizeof(struct weights)) / (8 * sizeof(double))) return NULL;
+    struct weights *w = calloc(1, sizeof *w + (size + 8 * pairs) * sizeof(double));
     if (!w) return NULL;
     w->pairs = pairs;
     w->size = size;
@@ -301,6 +331,9 @@ static struct weights *weights_state(const struct layout *layout)
     w->cap = w->scale + size;
     w->acceleration = w->cap + pairs;
     w->noise = w->acceleration + pairs;
+    w->floor = w->noise + pairs;
+    w->amplitude = w->floor + pairs;
+    w->before = w->amplitude + pairs;
     for (size_t i = 0; i < pairs; i++) w->cap[i] = layout->angle && layout->angle[i] ? 1.0 : INFINITY;
     return w;
 }

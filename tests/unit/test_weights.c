@@ -51,6 +51,41 @@ static void the_error_ratio_does_not_depend_on_units(void **state)
     assert_true(fabs(ratio_in_units(1e-9, 1e12) / ratio - 1) < 8 * DBL_EPSILON);
 }
 
+/* The ratio that an error of 1 in v has after a peak of 1000 and then a state before and one now. */
+static double ratio_after_peak(const double before[3], const double now[3])
+{
+    gsl_odeiv2_control *control = control_for(1, 0, NULL, 8);
+    const double peak[2] = {0, 1000}, flat[2] = {1000, 0}, error[2] = {0, 1};
+    const double slopes[2] = {before[1], before[2]}, f[2] = {now[1], now[2]};
+    weights_update(control, peak, flat);
+    weights_update(control, before, slopes);
+    double ratio = tolerance * weights_ratio(control, 1e-3, now, error, f);
+    gsl_odeiv2_control_free(control);
+    return ratio;
+}
+
+/* q = A sin(w t): the amplitude A w whatever the phase, up to what the peak was and down to its thousandth. */
+static void a_rate_counts_up_to_its_amplitude(void **state)
+{
+    (void)state;
+    const double w = 3, A = 4;
+    for (int i = 0; i < 12; i++) {
+        double before[3], now[3], *both[] = {before, now};
+        for (int k = 0; k < 2; k++) {
+            double phase = 0.1 + 0.5 * i + 0.2 * k;
+            both[k][0] = A * sin(phase);
+            both[k][1] = A * w * cos(phase);
+            both[k][2] = -A * w * w * sin(phase);
+        }
+        double size = 1 / ratio_after_peak(before, now);
+        /* The larger rate and the mean acceleration are a tenth of a radian apart. */
+        assert_true(size > 0.94 * A * w && size < 1.06 * A * w);
+    }
+    const double steady[3] = {5, 7, 2}, rest[3] = {1, 0, 0}, still[3] = {1 + 1e-9, 0, 1e-9};
+    assert_true(1 / ratio_after_peak((const double[]){4, 7, 2}, steady) > 999);
+    assert_true(fabs(1 / ratio_after_peak(rest, still) - 1) < 1e-9);
+}
+
 static void zero_with_zero_error_is_no_error(void **state)
 {
     (void)state;
@@ -291,6 +326,7 @@ int main(void)
     gsl_set_error_handler_off();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_error_ratio_does_not_depend_on_units),
+        cmocka_unit_test(a_rate_counts_up_to_its_amplitude),
         cmocka_unit_test(zero_with_zero_error_is_no_error),
         cmocka_unit_test(a_body_at_rest_dilutes_nothing),
         cmocka_unit_test(what_is_not_finite_is_an_infinite_error),
