@@ -280,10 +280,21 @@ static struct arrow slide_reaction(const struct fbd_model *model, const struct m
     return (struct arrow){.load = -1, .force = force, .point = P, .couple = couple};
 }
 
-static bool is_welded_to(const struct fbd_model *model, int b, int on)
+/* The first body from b on, among those beside it, that is welded to their parent; or -1. */
+static int first_welded(const struct fbd_model *model, int b)
 {
-    while (b != on && model->bodies[b].kind == motion_weld) b = model->bodies[b].parent;
-    return b == on;
+    while (b >= 0 && model->bodies[b].kind != motion_weld) b = model->bodies[b].sibling;
+    return b;
+}
+
+/* The body after b among those that are welded to `on`, directly or by others: first what is welded to b, then
+ * what is beside it, then beside those on which it is. -1 after the last. */
+static int next_welded(const struct fbd_model *model, int b, int on)
+{
+    int next = first_welded(model, model->bodies[b].child);
+    for (; next < 0 && b != on; b = model->bodies[b].parent)
+        next = first_welded(model, model->bodies[b].sibling);
+    return next;
 }
 
 static void add_arrow(struct wrench *sum, const struct arrow *arrow, struct vec about)
@@ -317,7 +328,7 @@ static void add_needs(const struct fbd_model *model, int b, const struct instant
         for (int k = 0; k < model->tree->ties[i].end_count; k++)
             if (model->tree->ties[i].end[k].body == b) {
                 struct arrow ties[most_of_an_end];
-                size_t count = fill_end(&model->tree->ties[i], k, at, ties);
+                size_t count = fill_tie(model, i, k, at, ties);
                 for (size_t j = 0; j < count; j++) add_arrow(sum, &ties[j], point);
             }
     for (int c = body->child; c >= 0; c = model->bodies[c].sibling) {
@@ -334,11 +345,7 @@ static struct arrow weld_reaction(const struct fbd_model *model, int b, const st
     struct pose pose = body_pose(body, at);
     struct vec point = point_motion(body, &pose, body->source->motion.point).p;
     struct wrench sum = {0, {0, 0}};
-    for (int i = 0; i < model->tree->body_count; i++) {
-        int other = model->tree->bodies[i];
-        if (model->bodies[other].place.link == body->place.link && is_welded_to(model, other, b))
-            add_needs(model, other, at, slots, point, &sum);
-    }
+    for (int i = b; i >= 0; i = next_welded(model, i, b)) add_needs(model, i, at, slots, point, &sum);
     return (struct arrow){.load = -1, .force = sum.force, .point = point, .couple = sum.moment};
 }
 

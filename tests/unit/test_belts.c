@@ -58,6 +58,40 @@ static void a_belt_drives_in_the_ratio_of_its_discs(void **unused)
     checks_end(&checks);
 }
 
+/* A disc that is welded to its shaft, itself by another: each weld bears both strands and the weights beyond it. */
+static void a_weld_bears_both_strands(void **unused)
+{
+    (void)unused;
+    static const char text[] =
+        "fbd: 1\n"
+        "bodies:\n"
+        "  shaft: {shape: disc, mass: 1, radius: 0.02, motion: {pivot: {at: [0, 0]}}, forces: [gravity],\n"
+        "    moments: [applied: {name: drive, value: 2 N*m}]}\n"
+        "  hub: {shape: disc, mass: 2, radius: 0.03, motion: {weld: {on: shaft}}, forces: [gravity]}\n"
+        "  motor: {shape: disc, mass: 3, radius: 0.05, motion: {weld: {on: hub}}, forces: [gravity]}\n"
+        "  fan: {shape: disc, mass: 4, radius: 0.15, motion: {pivot: {at: [0.5, 0]}}, forces: [gravity]}\n"
+        "couplings: [belt: {name: belt, between: [motor, fan], tension: 60}]\n"
+        "simulate: {until: 1}\n";
+    const double r = 0.05, R = 0.15, d = 0.5, pull = 2 * 60 * sqrt(1 - (R - r) * (R - r) / (d * d));
+    const double I = (1 * 0.02 * 0.02 + 2 * 0.03 * 0.03 + 3 * r * r) / 2, J = 4 * R * R / 2;
+    const double alpha = 2 / (I + J * r * r / (R * R)), F = J * alpha * r / R / R; /* tight less slack */
+    const double across = F * (R - r) / d; /* strands lean by the sine of this */
+    struct checks checks = {0};
+    struct trial trial = trial_parse(text);
+    trial_start(&trial, NULL);
+    trial_to(&trial, 1);
+    fbd_arrow on_motor = arrow_on(&trial, 2, "weld"), on_hub = arrow_on(&trial, 1, "weld");
+    check_close(&checks, "motor, along", on_motor.fx, -pull, 1e-10);
+    check_close(&checks, "motor, up", on_motor.fy, 3 * g - across,
+                1e-10); /* the upper strand is the tight one */
+    check_close(&checks, "motor, moment", on_motor.moment, 3 * r * r / 2 * alpha + F * r, 1e-10);
+    check_close(&checks, "hub, along", on_hub.fx, -pull, 1e-10);
+    check_close(&checks, "hub, up", on_hub.fy, on_motor.fy + 2 * g, 1e-10);
+    check_close(&checks, "hub, moment", on_hub.moment, on_motor.moment + 2 * 0.03 * 0.03 / 2 * alpha, 1e-10);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
 static void a_slack_strand_ends_the_run(void **unused)
 {
     (void)unused;
@@ -242,6 +276,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_belt_drives_in_the_ratio_of_its_discs),
+        cmocka_unit_test(a_weld_bears_both_strands),
         cmocka_unit_test(a_slack_strand_ends_the_run),
         cmocka_unit_test(a_tensioner_sets_the_tension),
         cmocka_unit_test(on_an_arm_a_belt_keeps_the_direction),
