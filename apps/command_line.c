@@ -11,9 +11,8 @@
 
 enum exit_code exit_code_for(enum exit_code code, fbd_errors *errors)
 {
-    const fbd_error *note;
-    for (size_t i = 0; (note = fbd_errors_get(errors, i)) != NULL; i++)
-        if (strcmp(note->id, "out-of-memory") == 0) return exit_failed;
+    for (size_t i = 0; i < fbd_errors_count(errors); i++)
+        if (strcmp(fbd_errors_get(errors, i).id, "out-of-memory") == 0) return exit_failed;
     return code;
 }
 
@@ -38,7 +37,7 @@ static void print_schema(enum exit_code *code)
     else
         *code = exit_failed;
     if (!schema) complain("out of memory");
-    free(schema);
+    fbd_free(schema);
 }
 
 static bool no_completion(const struct command_line *line, enum exit_code *code)

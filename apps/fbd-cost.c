@@ -22,11 +22,13 @@ static enum exit_code no_memory(void)
 
 /* ---- progress, on a terminal only */
 
-static void show_progress(void *context, const char *what, double share)
+static int show_progress(void *context, const fbd_progress *now)
 {
     struct terminal_line *line = context;
     double elapsed;
-    if (terminal_line_due(line, &elapsed)) terminal_line_draw(line, "%-12s %3.0f %%", what, 100 * share);
+    if (terminal_line_due(line, &elapsed))
+        terminal_line_draw(line, "%-12s %3.0f %%", now->what, 100 * now->share);
+    return 0;
 }
 
 /* ---- what is written */
@@ -41,7 +43,7 @@ static enum exit_code write_file(const char *path, char *text)
     if (!text) return no_memory();
     bool written = whole_file_put(path, text);
     if (!written) complain("fbd-cost: cannot write `%s`: %s", path, strerror(errno));
-    free(text);
+    fbd_free(text);
     return written ? exit_done : exit_failed;
 }
 
@@ -98,16 +100,16 @@ static char *effects_json(const void *study)
 /* What is wrong with the options stands in the file when it has a place there. */
 static enum exit_code blame(fbd_errors *errors)
 {
-    const fbd_error *first = fbd_errors_get(errors, 0);
-    if (!first) return exit_failed;
-    if (strcmp(first->id, "no-reference") == 0) return exit_failed;
-    return first->line > 0 ? exit_bad_model : exit_usage;
+    const fbd_error first = fbd_errors_get(errors, 0);
+    if (!first.id) return exit_failed;
+    if (strcmp(first.id, "no-reference") == 0) return exit_failed;
+    return first.line > 0 ? exit_bad_model : exit_usage;
 }
 
 /* A reference that does not hold is the first thing that a user must know. */
 static enum exit_code judge(const fbd_cost *cost)
 {
-    fbd_cost_reference reference = fbd_cost_get_reference(cost);
+    fbd_reference reference = fbd_cost_reference(cost);
     if (reference.exact_differs) {
         complain("fbd-cost: %s", reference.says);
         return exit_hand_differs;

@@ -28,7 +28,7 @@ static enum exit_code print(char *text, enum exit_code code)
 {
     if (!text) return no_memory();
     fputs(text, stdout);
-    free(text);
+    fbd_free(text);
     return standard_output_arrives("fbd-run") ? code : exit_failed;
 }
 
@@ -111,7 +111,7 @@ static enum exit_code write_text(const char *path, char *text)
     if (!text) return no_memory();
     bool written = whole_file_put(path, text);
     if (!written) complain("fbd-run: cannot write `%s`: %s", path, strerror(errno));
-    free(text);
+    fbd_free(text);
     return written ? exit_done : exit_failed;
 }
 
@@ -121,8 +121,8 @@ static enum exit_code draw_state(const struct options *options, fbd_state *state
     if (!options->svg) return exit_done;
     char *svg = fbd_diagram_svg(state, &options->drawing, errors);
     if (svg) return write_text(options->svg, svg);
-    const fbd_error *first = fbd_errors_get(errors, 0);
-    return first && strcmp(first->id, "unknown-body") == 0 ? exit_usage : exit_failed;
+    const fbd_error first = fbd_errors_get(errors, 0);
+    return first.id && strcmp(first.id, "unknown-body") == 0 ? exit_usage : exit_failed;
 }
 
 /* What holds the state at rest; to standard output, where --json may take the place of the text. */
@@ -183,9 +183,9 @@ static enum exit_code check_start(const fbd_model *model, fbd_errors *errors)
 
 static enum exit_code check_hand(const fbd_model *model, const struct options *options)
 {
-    char *text = NULL;
-    int differ = fbd_check_hand(model, options->seed, &text);
-    return print(text, differ > 0 ? exit_hand_differs : exit_done);
+    size_t differing;
+    char *text = fbd_check_hand(model, options->seed, &differing);
+    return print(text, differing > 0 ? exit_hand_differs : exit_done);
 }
 
 /* ---- a run */
@@ -210,8 +210,8 @@ static enum exit_code draw_diagram(const fbd_model *model, const struct options 
 /* What is wrong with the options stands in the file when it has a place there. */
 static enum exit_code blame(fbd_errors *errors)
 {
-    const fbd_error *first = fbd_errors_get(errors, 0);
-    return first && first->line > 0 ? exit_bad_model : exit_usage;
+    const fbd_error first = fbd_errors_get(errors, 0);
+    return first.line > 0 ? exit_bad_model : exit_usage;
 }
 
 /* Carry the simulation to its end, or to where it is interrupted, and write what was asked for. */

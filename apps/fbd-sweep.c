@@ -38,7 +38,7 @@ static void watch_signals(void)
     }
 }
 
-static bool stops(void *context)
+static int stops(void *context)
 {
     (void)context;
     return atomic_load_explicit(&caught, memory_order_relaxed) != 0;
@@ -67,7 +67,7 @@ static int fill(const struct ranks *ranks, const fbd_sweep *sweep, const struct 
 {
     struct sweep_progress progress;
     fbd_sweep_counts counts = {0};
-    size_t runs = fbd_sweep_runs(sweep);
+    size_t runs = fbd_sweep_run_count(sweep);
     const fbd_sweep_work work = {.first = file->rows,
                                  .end = runs,
                                  .jobs = options->jobs,
@@ -95,10 +95,11 @@ static int fill(const struct ranks *ranks, const fbd_sweep *sweep, const struct 
 /* What is wrong with the file is told from what is wrong with the command line: it has a place there. */
 static enum exit_code blame(fbd_errors *errors)
 {
-    const fbd_error *note;
-    for (size_t i = 0; (note = fbd_errors_get(errors, i)) != NULL; i++)
-        if (note->severity == FBD_ERROR && (note->line > 0 || strcmp(note->id, "cannot-read") == 0))
+    for (size_t i = 0; i < fbd_errors_count(errors); i++) {
+        const fbd_error note = fbd_errors_get(errors, i);
+        if (note.severity == FBD_ERROR && (note.line > 0 || strcmp(note.id, "cannot-read") == 0))
             return exit_bad_model;
+    }
     return exit_usage;
 }
 

@@ -11,10 +11,10 @@
 /* What was asked for wrongly is a mistake of the command line, unless it stands in the file. */
 static enum exit_code blame(fbd_errors *errors)
 {
-    const fbd_error *first = fbd_errors_get(errors, 0);
-    bool asked = first && (strcmp(first->id, "bad-option") == 0 || strcmp(first->id, "no-end-time") == 0 ||
-                           strcmp(first->id, "unknown-method") == 0);
-    return asked && first->line == 0 ? exit_usage : exit_failed;
+    const fbd_error first = fbd_errors_get(errors, 0);
+    bool asked = first.id && (strcmp(first.id, "bad-option") == 0 || strcmp(first.id, "no-end-time") == 0 ||
+                              strcmp(first.id, "unknown-method") == 0);
+    return asked && first.line == 0 ? exit_usage : exit_failed;
 }
 
 enum exit_code write_fmu(const fbd_model *model, const struct options *options, fbd_errors *errors)
@@ -22,13 +22,13 @@ enum exit_code write_fmu(const fbd_model *model, const struct options *options, 
     fbd_fmu_options chosen = {.version = options->fmu_version,
                               .settings = options->settings,
                               .setting_count = options->setting_count,
-                              .run = options->run};
+                              .run = &options->run};
     size_t length;
     chosen.library = fmu_binary(&chosen.library_length);
     char *bytes = fbd_fmu(model, &chosen, &length, errors);
     if (!bytes) return blame(errors);
     bool written = whole_file_put_bytes(options->fmu, bytes, length);
     if (!written) complain("fbd-run: cannot write `%s`: %s", options->fmu, strerror(errno));
-    free(bytes);
+    fbd_free(bytes);
     return written ? exit_done : exit_failed;
 }

@@ -69,7 +69,7 @@ static bool put_json(struct tables *tables, const fbd_grade *grade, bool details
     fputs(tables->first ? "\n" : ",\n", tables->json.stream);
     fputs(json, tables->json.stream);
     tables->first = false;
-    free(json);
+    fbd_free(json);
     return true;
 }
 
@@ -87,7 +87,7 @@ static enum exit_code grade_one(const struct options *options, const fbd_key *ke
     if (done && options->csv) put_row(tables->csv.stream, grade, student, path);
     enum exit_code code = !done ? exit_failed : fbd_grade_passed(grade) ? exit_done : exit_hand_differs;
     if (!done && grade) complain("fbd-run: out of memory");
-    free(text);
+    fbd_free(text);
     fbd_grade_free(grade);
     return code;
 }
@@ -144,6 +144,6 @@ enum exit_code handout(const struct options *options)
     char *text = key ? fbd_key_handout(key, options->student, errors) : NULL;
     if (text) fputs(text, stdout);
     enum exit_code code = text ? exit_done : key ? exit_failed : exit_bad_model;
-    free(text);
+    fbd_free(text);
     return finish(key, errors, code);
 }

@@ -34,7 +34,7 @@ char *live_page_make(char *page, const char *stamp)
     if (live)
         snprintf(live, size, "%.*s%s%.*s%s%s%s%s", (int)(rule - page), page, loose, (int)(end - rest), rest,
                  call_start, stamp, call_end, end);
-    free(page);
+    fbd_free(page);
     return live;
 }
 
@@ -83,6 +83,6 @@ void live_page_settle(const char *path)
         cut(rule + strlen(policy), rule + strlen(loose));
         (void)whole_file_put(path, page); /* the live one stays, and asks in vain */
     }
-    free(page);
+    fbd_free(page);
     if (stamp_path(path, name)) unlink(name);
 }

@@ -43,7 +43,7 @@ bool outputs_open(struct outputs *outputs, const struct options *options)
 static bool put_text(struct whole_file *file, char *text)
 {
     if (text) whole_file_write(file, text, strlen(text));
-    free(text);
+    fbd_free(text);
     return text != NULL;
 }
 
@@ -61,7 +61,7 @@ static bool write_plot(struct outputs *outputs, const struct options *options, f
 {
     char *script = fbd_result_gnuplot(result, options->plot, options->plot_of, errors);
     bool done = script && gnuplot_run(script, fileno(outputs->files[output_plot].stream));
-    free(script);
+    fbd_free(script);
     return done;
 }
 

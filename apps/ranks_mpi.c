@@ -20,6 +20,7 @@
 #include <time.h>
 
 #include "complain.h"
+#include "fbd_crew.h"
 
 enum tag { tag_ask = 1, tag_rows, tag_share };
 
@@ -207,10 +208,8 @@ fbd_sweep_end ranks_lead(const struct ranks *ranks, const fbd_sweep *sweep, cons
                          fbd_sweep_counts *counts)
 {
     if (ranks->count == 1) return fbd_sweep_run(sweep, work, counts);
-    fbd_sweep_work shared = *work;
-    shared.helpers = (size_t)ranks->count - 1;
     struct leader leader = {.count = ranks->count,
-                            .crew = fbd_sweep_start(sweep, &shared),
+                            .crew = fbd_sweep_start(sweep, work, (size_t)ranks->count - 1),
                             .followers = calloc((size_t)ranks->count, sizeof *leader.followers)};
     if (!leader.crew || !leader.followers) give_up();
     lead(&leader);

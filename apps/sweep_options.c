@@ -112,11 +112,12 @@ static bool take_option(const struct command_line *line, int option, void *conte
     case option_seed:
         return command_line_whole(line, "--seed wants a whole number, not ", optarg, 0, ~0UL, &plan->seed);
     case option_set: return command_line_setting(line, optarg, options->settings, &plan->setting_count);
-    case option_method: plan->run.method = optarg; return true;
-    case option_tolerance: return command_line_number(line, "tolerance", optarg, tiny, &plan->run.tolerance);
-    case option_step: return command_line_number(line, "step", optarg, tiny, &plan->run.step);
-    case option_no_structure: plan->run.no_structure = true; return true;
-    case option_until: return command_line_time(line, "until", optarg, -1e300, &plan->run.until);
+    case option_method: options->run.method = optarg; return true;
+    case option_tolerance:
+        return command_line_number(line, "tolerance", optarg, tiny, &options->run.tolerance);
+    case option_step: return command_line_number(line, "step", optarg, tiny, &options->run.step);
+    case option_no_structure: options->run.no_structure = true; return true;
+    case option_until: return command_line_time(line, "until", optarg, -1e300, &options->run.until);
     case option_jobs: return take_jobs(line, &options->jobs);
     case option_csv: options->csv = optarg; return true;
     case option_resume: options->resume = true; return true;
@@ -156,7 +157,7 @@ bool sweep_options_read(int argc, char **argv, bool silent, struct sweep_options
                         enum exit_code *code)
 {
     const struct command_line line = {"fbd-sweep", help, long_options, silent};
-    *options = (struct sweep_options){.plan = {.run = FBD_OPTIONS_DEFAULT, .seed = 1}};
+    *options = (struct sweep_options){.run = FBD_OPTIONS_DEFAULT, .plan = {.run = &options->run, .seed = 1}};
     options->plan.settings = options->settings;
     options->plan.vary = options->vary;
     options->plan.outputs = options->outputs;

@@ -14,6 +14,7 @@ struct sweep_options {
     const char *csv; /* NULL for standard output */
     fbd_setting settings[most_settings];
     const char *vary[most_texts], *outputs[most_texts];
+    fbd_options run;
     fbd_sweep_plan plan; /* its arrays are those above */
     size_t jobs;
     bool resume, quiet;

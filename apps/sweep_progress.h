@@ -15,8 +15,8 @@ struct sweep_progress {
 
 void sweep_progress_begin(struct sweep_progress *progress, size_t before, size_t runs, bool visible);
 
-/* The signature is that of fbd_sweep_work.progress; `context` is a struct sweep_progress. */
-void sweep_progress_show(void *context, const fbd_sweep_counts *counts);
+/* An fbd_watch; `context` is a struct sweep_progress. */
+int sweep_progress_show(void *context, const fbd_progress *now);
 
 /* Take the line away. */
 void sweep_progress_end(struct sweep_progress *progress);

@@ -32,8 +32,8 @@ static double assembled(fbd_state *state, double theta, double omega)
     if (!fbd_state_set(state, "pendulum.theta", theta) || !fbd_state_set(state, "pendulum.omega", omega))
         return NAN;
     fbd_equations *equations = fbd_assemble(state);
-    const fbd_equation *equation = fbd_equations_find(equations, "pendulum.theta");
-    double acceleration = equation ? equation->acceleration : NAN;
+    const fbd_equation equation = fbd_equations_find(equations, "pendulum.theta");
+    double acceleration = equation.acceleration;
     fbd_equations_free(equations);
     return acceleration;
 }

@@ -27,7 +27,7 @@ static void print_motion(fbd_simulation *simulation, fbd_state *state, double *n
 
 static void print_events(fbd_simulation *simulation, size_t *seen)
 {
-    for (; *seen < fbd_simulation_events(simulation); (*seen)++) {
+    for (; *seen < fbd_simulation_event_count(simulation); (*seen)++) {
         fbd_event event = fbd_simulation_event(simulation, *seen);
         printf("  t = %-8g %s: %s\n", event.t, fbd_event_kind_name(event.kind), event.detail);
     }
@@ -37,10 +37,10 @@ static void print_events(fbd_simulation *simulation, size_t *seen)
 static void print_equation(fbd_state *state)
 {
     fbd_equations *equations = fbd_assemble(state);
-    const fbd_equation *x = fbd_equations_find(equations, "block.x");
-    for (size_t i = 0; x && i < x->term_count; i++)
-        printf("  %-10s %12.6g %s\n", x->terms[i].name, x->terms[i].value, x->unit);
-    if (x) printf("  %s = %g %s\n", x->acceleration_name, x->acceleration, x->acceleration_unit);
+    const fbd_equation x = fbd_equations_find(equations, "block.x");
+    for (size_t i = 0; i < x.term_count; i++)
+        printf("  %-10s %12.6g %s\n", x.terms[i].name, x.terms[i].value, x.unit);
+    if (x.body) printf("  %s = %g %s\n", x.acceleration_name, x.acceleration, x.acceleration_unit);
     fbd_equations_free(equations);
 }
 

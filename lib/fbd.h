@@ -1,6 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * fbd: free-body diagrams that run. The one public header.
+ * fbd: free-body diagrams that run. The public header; fbd_crew.h beside it is for sweeps over several processes.
+ *
+ * Units are those of the model's system (`units: SI` or `US`), angles radians, times seconds; where a name and its unit
+ * are handed out together, the unit is that text.
+ *
+ * Counting and getting. fbd_OBJECT_THINGS... are counted by fbd_OBJECT_THING_count and got by fbd_OBJECT_THING(object,
+ * index), index from 0; of what is a list itself by fbd_LIST_count and fbd_LIST_get. Structs are handed out by value;
+ * past the end their texts are NULL and their numbers NAN or 0. Texts in them live as long as the object. What is
+ * computed at the call goes into an array of the caller (`room` elements at most) and the answer is how many there are;
+ * with the array NULL it is only counted.
+ *
+ * Ownership. What a function with `new`, `read`, `parse`, `run`, `assemble` or `linearize` in its name makes is freed by
+ * the `free` of its type; every `char *` that is not const is freed by fbd_free. All else belongs to the library.
+ *
+ * Options are structs whose first member is their size. Zero is the default of every member but those that the
+ * _DEFAULT macro or the _init function of the struct sets; NULL for the whole struct is all defaults. `size` is sizeof
+ * the struct, as the caller knows it, so that a program goes on to work when later versions add members at the end;
+ * 0 stands for the members of version 0.1. A member that is set and that this library does not know is refused
+ * (`bad-call`). A struct that is handed out by value grows only with the soname.
+ *
+ * Callbacks are called with the context that stands beside them, and answer 0 to go on; anything else ends what is
+ * under way, with what was made so far whole. They must not call what is under way.
  *
  * A call that cannot be meant changes nothing and answers with the error value of its function, whatever the
  * build: with NULL where an object, a text or a place for an answer is asked for, an index past the end, a
@@ -26,6 +47,30 @@ extern "C" {
 #else
 #define FBD_API
 #endif
+
+/* Free a text or bytes that a function has handed out. NULL is allowed. */
+FBD_API void fbd_free(void *memory);
+
+/* ---------------------------------------------------------------- callbacks */
+
+/* Takes a piece of text of `length` bytes, which is not terminated and lives until it returns. */
+typedef int fbd_write(void *context, const char *text, size_t length);
+
+/* How far something is. What does not apply is 0, or "". */
+typedef struct fbd_progress {
+    const char *what;       /* "run", "sweep"; of a study "reference", "errors", "timing", "effects" */
+    double share;           /* how much of that is done, 0 to 1 */
+    double t, until;        /* a run: simulated time reached, end time [s] */
+    unsigned long steps;    /* a run: accepted */
+    size_t events;          /* a run: found */
+    size_t written, failed; /* a sweep: rows written, and runs among them that came to no good end */
+} fbd_progress;
+
+/* Is told how far something is. It changes nothing in what is computed. */
+typedef int fbd_watch(void *context, const fbd_progress *progress);
+
+/* Is asked by any thread, often, whether to go on: must be quick. */
+typedef int fbd_stop(void *context);
 
 /* ---------------------------------------------------------------- errors */
 
@@ -55,13 +100,14 @@ FBD_API void fbd_errors_free(fbd_errors *errors);
 
 /* How many notes there are, and how many of them are errors (not warnings). */
 FBD_API size_t fbd_errors_count(const fbd_errors *errors);
-FBD_API size_t fbd_errors_failed(const fbd_errors *errors);
+FBD_API size_t fbd_errors_failed_count(const fbd_errors *errors);
 
-/* Note `index` in the order of position in the file, or NULL past the end; lives as long as the list. */
-FBD_API const fbd_error *fbd_errors_get(fbd_errors *errors, size_t index);
+/* Note `index` in the order of position in the file. */
+FBD_API fbd_error fbd_errors_get(fbd_errors *errors, size_t index);
 
 /* File `index` that the calls with this list have read or tried to, right or wrong: the model file, and the
  * data files of its tables; NULL past the last. Standard input is none. Lives as long as the list. */
+FBD_API size_t fbd_errors_file_count(const fbd_errors *errors);
 FBD_API const char *fbd_errors_file(const fbd_errors *errors, size_t index);
 
 /* Write every note as `file:line:col: error: message` and `    hint: ...`. */
@@ -99,7 +145,7 @@ FBD_API const char *fbd_model_title(const fbd_model *model);
 /* The text of the file as it was read, not terminated; lives as long as the model. */
 FBD_API const char *fbd_model_source(const fbd_model *model, size_t *length);
 
-FBD_API size_t fbd_model_bodies(const fbd_model *model);
+FBD_API size_t fbd_model_body_count(const fbd_model *model);
 
 /* NULL past the last body. */
 FBD_API const char *fbd_model_body_name(const fbd_model *model, size_t body);
@@ -120,7 +166,7 @@ typedef struct fbd_coordinate {
     size_t body;
 } fbd_coordinate;
 
-FBD_API size_t fbd_model_coordinates(const fbd_model *model);
+FBD_API size_t fbd_model_coordinate_count(const fbd_model *model);
 FBD_API fbd_coordinate fbd_model_coordinate(const fbd_model *model, size_t index);
 
 /* A parameter or an input of the file, as it is in this model: set from outside, or with the file's value. Texts live
@@ -135,7 +181,7 @@ typedef struct fbd_parameter {
 } fbd_parameter;
 
 /* Those of `parameters` in the order of the file, then those of `inputs`. Past the last one: without a name. */
-FBD_API size_t fbd_model_parameters(const fbd_model *model);
+FBD_API size_t fbd_model_parameter_count(const fbd_model *model);
 FBD_API fbd_parameter fbd_model_parameter(const fbd_model *model, size_t index);
 
 /* A state of the file's own, from `states`: its qualified name ("states.charge"), its unit and that of its rate, "1" for
@@ -145,7 +191,7 @@ typedef struct fbd_own_state {
     const char *name, *unit, *rate_unit;
 } fbd_own_state;
 
-FBD_API size_t fbd_model_states(const fbd_model *model);
+FBD_API size_t fbd_model_state_count(const fbd_model *model);
 FBD_API fbd_own_state fbd_model_state(const fbd_model *model, size_t index);
 
 /* ---------------------------------------------------------------- states and assembled equations */
@@ -214,11 +260,12 @@ typedef struct fbd_equations fbd_equations;
 FBD_API fbd_equations *fbd_assemble(fbd_state *state);
 FBD_API void fbd_equations_free(fbd_equations *equations);
 FBD_API size_t fbd_equations_count(const fbd_equations *equations);
-FBD_API const fbd_equation *fbd_equations_get(const fbd_equations *equations, size_t index);
+/* Equation `index`, in the order of the bodies and of their coordinates. */
+FBD_API fbd_equation fbd_equations_get(const fbd_equations *equations, size_t index);
 
-/* The equation of "block.x", or NULL; and the value of one of its terms, NAN when there is no such term (or
+/* The equation of "block.x", without a body when there is none; and the value of one of its terms, NAN when there is no such term (or
  * equation). */
-FBD_API const fbd_equation *fbd_equations_find(const fbd_equations *equations, const char *coordinate);
+FBD_API fbd_equation fbd_equations_find(const fbd_equations *equations, const char *coordinate);
 FBD_API double fbd_equation_term(const fbd_equation *equation, const char *name);
 
 /* One force or moment of a free-body diagram at a state. */
@@ -243,6 +290,7 @@ FBD_API size_t fbd_redundant(fbd_state *state, const char **names, size_t room);
 /* ---------------------------------------------------------------- simulation */
 
 typedef struct fbd_options {
+    size_t size;        /* sizeof(fbd_options), or 0 */
     double until;       /* end time; NAN for the file's */
     double tolerance;   /* relative error per step; 0 for the file's, else 1e-10 */
     double step;        /* fixed step size, 0 for automatic or the file's */
@@ -253,11 +301,13 @@ typedef struct fbd_options {
     bool no_structure; /* integrate all bodies together by the general method, whatever the forces are like */
 } fbd_options;
 
-/* Options that leave everything to the file. */
+/* Options that leave everything to the file, and the same for callers that cannot use a macro; `size` is that of the
+ * struct as they know it. */
 #define FBD_OPTIONS_DEFAULT                                                                                  \
     {                                                                                                        \
-        NAN, 0, 0, NULL, false, 0, false                                                                     \
+        sizeof(fbd_options), NAN, 0, 0, NULL, false, 0, false                                                \
     }
+FBD_API void fbd_options_init(fbd_options *options, size_t size);
 
 typedef enum fbd_event_kind {
     FBD_EVENT_BREAKAWAY,    /* a sticking body starts to slip */
@@ -369,8 +419,8 @@ FBD_API bool fbd_simulation_state(fbd_simulation *simulation, double t, fbd_stat
  * same, bit by bit, with error bars and without. */
 FBD_API bool fbd_simulation_errors(fbd_simulation *simulation, double t, double *errors);
 
-FBD_API size_t fbd_simulation_events(const fbd_simulation *simulation);
-/* Event `index`; past the end one whose time is NAN. */
+FBD_API size_t fbd_simulation_event_count(const fbd_simulation *simulation);
+/* Event `index`, in the order of time; `name` and `detail` live as long as the simulation. */
 FBD_API fbd_event fbd_simulation_event(fbd_simulation *simulation, size_t index);
 FBD_API fbd_stats fbd_simulation_stats(const fbd_simulation *simulation);
 
@@ -396,31 +446,18 @@ FBD_API bool fbd_simulation_blame(const fbd_simulation *simulation, fbd_errors *
 
 /* ---------------------------------------------------------------- recording a whole run */
 
-/* Takes a piece of text; non-zero stops the run. */
-typedef int fbd_write(void *context, const char *text, size_t length);
-
-/* How far a run is. */
-typedef struct fbd_progress {
-    double t, until; /* simulated time reached, end time [s] */
-    unsigned long steps;
-    size_t events;
-} fbd_progress;
-
-/* Is told after every step how far the run is; non-zero ends the run there, with FBD_INTERRUPTED and all
- * outputs complete up to that time. It is called often and must be quick; it changes nothing in the
- * trajectory. */
-typedef int fbd_watch(void *context, const fbd_progress *progress);
-
 typedef struct fbd_recording {
+    size_t size;    /* sizeof(fbd_recording), or 0 */
     double every;   /* output interval; 0 for the file's, else 1/500 of the run */
     bool ledger;    /* with a column for each force and its work, and for the energies */
-    fbd_write *csv; /* where CSV goes, or NULL */
+    fbd_write *csv; /* where CSV goes, or NULL; refusing it fails the run */
     void *csv_context;
     bool motion_only; /* the work of forces without a potential is not integrated: what would be asked of it
                          is NAN. Nothing else changes; `ledger` and `keep` win. */
     bool keep;        /* keep what fbd_result_html and fbd_result_gnuplot show: some 50 MB at most, or 256
                          rows where a row has more than 16 000 numbers */
-    fbd_watch *progress; /* or NULL */
+    fbd_watch *progress; /* told after every step, so it must be quick; or NULL. Ending the run there gives
+                            FBD_INTERRUPTED and all outputs complete up to that time */
     void *progress_context;
     bool table; /* keep the rows that CSV has as numbers, see fbd_result_table; 8 bytes each */
 } fbd_recording;
@@ -482,7 +519,7 @@ FBD_API size_t fbd_result_force_errors(fbd_result *result, size_t body, fbd_arro
  * that nothing can be said of because the run failed or was interrupted. */
 FBD_API bool fbd_result_accurate(const fbd_result *result);
 
-/* The same as text, to be freed with free(); NULL when memory is out. */
+/* The same as text, to be freed with fbd_free; NULL when memory is out. */
 FBD_API char *fbd_result_report(fbd_result *result);
 FBD_API char *fbd_result_json(fbd_result *result);
 
@@ -498,7 +535,7 @@ FBD_API char *fbd_result_gnuplot(fbd_result *result, const char *file, const cha
 FBD_API bool fbd_model_has_columns(const fbd_model *model, const char *columns, fbd_errors *errors);
 
 /* The model language as JSON Schema (draft 07), for editors and other programs: keys, kinds, words and types with what
- * they mean. To be freed with free(); NULL when memory is out. */
+ * they mean. To be freed with fbd_free; NULL when memory is out. */
 FBD_API char *fbd_schema(void);
 
 /* Was the library built with the page (it needs a library for its plots)? */
@@ -511,13 +548,13 @@ FBD_API char *fbd_result_html(fbd_result *result, fbd_errors *errors);
 
 /* The scene as one C program for GSL, without allocation of its own and with the file's numbers in a structure: what
  * docs/emit-c.md says. Until when and how accurately its `main` integrates is in `options` (may be NULL; only `until`
- * and `tolerance` are used). To be freed with free(). NULL with notes in `errors`: `cannot-emit` for what it cannot
+ * and `tolerance` are used). To be freed with fbd_free. NULL with notes in `errors`: `cannot-emit` for what it cannot
  * write, `no-end-time`, `bad-option`, or memory is out. */
 FBD_API char *fbd_emit_c(const fbd_model *model, const fbd_options *options, fbd_errors *errors);
 
 /* ---------------------------------------------------------------- looking at a model */
 
-/* The assembled equations, term by term, as text. To be freed with free(), as all texts below; NULL when
+/* The assembled equations, term by term, as text. To be freed with fbd_free, as all texts below; NULL when
  * memory is out. */
 FBD_API char *fbd_equations_text(fbd_state *state);
 
@@ -591,8 +628,8 @@ FBD_API size_t fbd_statics_indeterminacy(const fbd_statics *statics);
 FBD_API size_t fbd_statics_mobility(const fbd_statics *statics);
 
 /* The reactions that equilibrium does not determine, "beam.pin in x"; NULL past the end. */
-FBD_API size_t fbd_statics_undetermined(const fbd_statics *statics);
-FBD_API const char *fbd_statics_undetermined_name(const fbd_statics *statics, size_t index);
+FBD_API size_t fbd_statics_undetermined_count(const fbd_statics *statics);
+FBD_API const char *fbd_statics_undetermined(const fbd_statics *statics, size_t index);
 
 /* What would hold a scene that moves: a force (moment) along a coordinate. With `alone` any one of them does,
  * else they do together. */
@@ -602,8 +639,8 @@ typedef struct fbd_unbalanced {
     bool alone;
 } fbd_unbalanced;
 
-FBD_API size_t fbd_statics_unbalanced(const fbd_statics *statics);
-FBD_API fbd_unbalanced fbd_statics_unbalanced_at(const fbd_statics *statics, size_t index);
+FBD_API size_t fbd_statics_unbalanced_count(const fbd_statics *statics);
+FBD_API fbd_unbalanced fbd_statics_unbalanced(const fbd_statics *statics, size_t index);
 
 typedef enum fbd_limit_kind {
     FBD_LIMIT_NORMAL,   /* needed >= 0: a surface does not pull */
@@ -619,7 +656,7 @@ typedef struct fbd_limit {
     bool holds;
 } fbd_limit;
 
-FBD_API size_t fbd_statics_limits(const fbd_statics *statics);
+FBD_API size_t fbd_statics_limit_count(const fbd_statics *statics);
 FBD_API fbd_limit fbd_statics_limit(const fbd_statics *statics, size_t index);
 
 /* As fbd_diagram, at rest. */
@@ -631,9 +668,9 @@ FBD_API char *fbd_statics_text(const fbd_statics *statics);
 FBD_API char *fbd_statics_json(const fbd_statics *statics);
 
 /* Hold every `hand:` derivation of the model against the assembly at many random admissible states (and
- * parameters; the seed is printed). The number of equations that differ, or -1 when memory is out; *text says
- * yes, or by how much and in which term each differs. */
-FBD_API int fbd_check_hand(const fbd_model *model, unsigned seed, char **text);
+ * parameters; the seed is printed). A text that says yes, or by how much and in which term each differs; *differing
+ * (may be NULL) is the number of equations that do. NULL when memory is out. */
+FBD_API char *fbd_check_hand(const fbd_model *model, unsigned seed, size_t *differing);
 
 /* ---------------------------------------------------------------- sweeps */
 
@@ -653,6 +690,7 @@ typedef struct fbd_sweep fbd_sweep;
  * BODY.KIND; energy.kinetic and its like; block.friction.work; steps, rhs; and the groups final, times,
  * energy. Without any: final, times. */
 typedef struct fbd_sweep_plan {
+    size_t size; /* sizeof(fbd_sweep_plan), or 0 */
     const char *const *vary;
     size_t vary_count;
     bool zip;
@@ -661,7 +699,7 @@ typedef struct fbd_sweep_plan {
     size_t setting_count;
     const char *const *outputs;
     size_t output_count;
-    fbd_options run; /* without error bars and accuracy: a row is one run */
+    const fbd_options *run; /* NULL for the file's; without error bars and accuracy: a row is one run */
 } fbd_sweep_plan;
 
 /* Read a model file ("-" is standard input) or a text, for a sweep. NULL with notes in `errors`: those of a
@@ -673,7 +711,7 @@ FBD_API fbd_sweep *fbd_sweep_parse(const char *text, size_t length, const char *
 FBD_API void fbd_sweep_free(fbd_sweep *sweep);
 
 /* How many runs it has. */
-FBD_API size_t fbd_sweep_runs(const fbd_sweep *sweep);
+FBD_API size_t fbd_sweep_run_count(const fbd_sweep *sweep);
 
 /* The header line of its table, and a text that says all that the rows depend on: two sweeps with equal keys
  * have equal rows. Both live as long as the sweep. */
@@ -695,74 +733,48 @@ typedef struct fbd_sweep_counts {
  * empty. Rows are written in order, whole lines, and do not depend on the number of workers. Memory does not
  * grow with the number of runs. */
 typedef struct fbd_sweep_work {
+    size_t size; /* sizeof(fbd_sweep_work), or 0 */
     size_t first, end;
     size_t jobs;      /* threads; 0: as many as there are processors */
-    size_t helpers;   /* other processes that claim shares */
-    fbd_write *write; /* called by one thread at a time, as are `progress` and ... */
+    fbd_write *write; /* takes the rows; called by one thread at a time, as is `progress` */
     void *write_context;
-    void (*progress)(void *context, const fbd_sweep_counts *counts); /* after rows were written; or NULL */
+    fbd_watch *progress; /* told when rows have been written; or NULL */
     void *progress_context;
-    bool (*stop)(
-        void *context); /* ... but not `stop`, which any thread asks in each step: true ends it; or NULL */
+    fbd_stop *stop; /* asked by every thread in each step; or NULL */
     void *stop_context;
 } fbd_sweep_work;
 
 typedef enum fbd_sweep_end {
     FBD_SWEEP_DONE,
-    FBD_SWEEP_STOPPED, /* `stop` said so; whole rows up to some run were written */
+    FBD_SWEEP_STOPPED, /* `stop` or `progress` said so; whole rows up to some run were written */
     FBD_SWEEP_REFUSED, /* `write` said so, or is not there */
     FBD_SWEEP_OUT_OF_MEMORY,
 } fbd_sweep_end;
 
-/* Make the rows and wait for them. */
+/* Make the rows and wait for them. *counts (may be NULL) is how many. */
 FBD_API fbd_sweep_end fbd_sweep_run(const fbd_sweep *sweep, const fbd_sweep_work *work,
                                     fbd_sweep_counts *counts);
 
-/* The same with the help of other processes. fbd_sweep_start begins with the threads and returns; shares are
- * then claimed and delivered by the caller; fbd_sweep_finish makes what is left, waits and frees. */
-typedef struct fbd_sweep_crew fbd_sweep_crew;
-
-/* A share of the rows: runs `first` to before `end`; `ticket` is the crew's. */
-typedef struct fbd_sweep_share {
-    size_t first, end;
-    void *ticket;
-} fbd_sweep_share;
-
-/* NULL when memory is out, or `write` is not there. Sweep and work must outlive the crew. */
-FBD_API fbd_sweep_crew *fbd_sweep_start(const fbd_sweep *sweep, const fbd_sweep_work *work);
-
-/* 1: *share is claimed for a helper of `jobs` threads; 0: none now, since earlier rows are missing; -1: there
- * will be none any more. Does not wait. */
-FBD_API int fbd_sweep_claim(fbd_sweep_crew *crew, size_t jobs, fbd_sweep_share *share);
-
-/* The rows of a claimed share; fewer than it has stop the sweep after them. What was not claimed, or has been
- * delivered, is passed over. */
-FBD_API void fbd_sweep_deliver(fbd_sweep_crew *crew, const fbd_sweep_share *share, const char *rows,
-                               size_t length, const fbd_sweep_counts *counts);
-
-FBD_API fbd_sweep_end fbd_sweep_finish(fbd_sweep_crew *crew, fbd_sweep_counts *counts);
-
 /* ---------------------------------------------------------------- what accuracy costs */
 
-/* Called now and then by what takes long: what is being done, and how much of it is done, 0 to 1. */
-typedef void fbd_study_progress(void *context, const char *what, double share);
-
 typedef struct fbd_cost_options {
+    size_t size;                /* sizeof(fbd_cost_options), or 0 */
     double until;               /* end of the run; NAN for the file's */
     double budget;              /* how long all may take, in seconds; 0 for 6 s */
     const char *const *methods; /* names; NULL for all */
     size_t method_count;
     const char *const *quantities; /* coordinates and rates whose error counts, qualified; NULL for all */
     size_t quantity_count;
-    bool fixed_steps;             /* ladders of fixed steps (one-step methods) in place of tolerances */
-    fbd_study_progress *progress; /* or NULL */
+    bool fixed_steps;    /* ladders of fixed steps (one-step methods) in place of tolerances */
+    fbd_watch *progress; /* told now and then, or NULL; ends the study with the note `stopped` */
     void *progress_context;
 } fbd_cost_options;
 
 #define FBD_COST_OPTIONS_DEFAULT                                                                             \
     {                                                                                                        \
-        NAN, 0, NULL, 0, NULL, 0, false, NULL, NULL                                                          \
+        sizeof(fbd_cost_options), NAN, 0, NULL, 0, NULL, 0, false, NULL, NULL                                \
     }
+FBD_API void fbd_cost_options_init(fbd_cost_options *options, size_t size);
 
 typedef enum fbd_point_state {
     FBD_POINT_MEASURED,
@@ -771,7 +783,7 @@ typedef enum fbd_point_state {
 } fbd_point_state;
 
 /* One method with one setting on the scene: what error is left, and what it costs. */
-typedef struct fbd_cost_point {
+typedef struct fbd_point {
     const char *method;
     double tolerance, step; /* one of the two; the other is 0 */
     fbd_point_state state;
@@ -789,10 +801,10 @@ typedef struct fbd_cost_point {
     unsigned repeats;
     fbd_stats stats;
     bool front; /* no other point is both more accurate and cheaper */
-} fbd_cost_point;
+} fbd_point;
 
 /* What the errors are measured against: lib/study/reference.h. */
-typedef struct fbd_cost_reference {
+typedef struct fbd_reference {
     const char *says;          /* one or more sentences */
     const char *method[2];     /* the pair of runs that agree best, ... */
     double tolerance[2];       /* ... and their tolerances */
@@ -801,36 +813,35 @@ typedef struct fbd_cost_reference {
     double until, known;       /* the end of the run; up to when the reference is known to 1e-6 */
     bool complete;             /* it is known to the end */
     double tenfold;            /* time in which differences grow tenfold, or NAN */
-} fbd_cost_reference;
+} fbd_reference;
 
 /* All points of one method. */
-typedef struct fbd_cost_series {
+typedef struct fbd_series {
     const char *method;
     bool fixed;          /* a ladder of steps, not of tolerances */
     size_t first, count; /* its points, from loose to tight */
     double order;        /* p in error ~ (mean step)^p by least squares; NAN when too few points tell */
-} fbd_cost_series;
+} fbd_series;
 
 typedef struct fbd_cost fbd_cost;
 
 /* Run every method at every tolerance of a ladder on the scene and measure true error against time. NULL with
- * notes in `errors` (those of fbd_simulation_new, `unknown-quantity`, `no-reference`). The model must outlive
+ * notes in `errors` (those of fbd_simulation_new, `unknown-quantity`, `no-reference`, `stopped`). The model must outlive
  * the result. */
 FBD_API fbd_cost *fbd_cost_new(const fbd_model *model, const fbd_cost_options *options, fbd_errors *errors);
 FBD_API void fbd_cost_free(fbd_cost *cost);
 
-FBD_API fbd_cost_reference fbd_cost_get_reference(const fbd_cost *cost);
+FBD_API fbd_reference fbd_cost_reference(const fbd_cost *cost);
 FBD_API size_t fbd_cost_series_count(const fbd_cost *cost);
-/* Past the last one: without a name and points. */
-FBD_API fbd_cost_series fbd_cost_get_series(const fbd_cost *cost, size_t index);
-FBD_API size_t fbd_cost_points(const fbd_cost *cost);
-FBD_API const fbd_cost_point *fbd_cost_get_point(const fbd_cost *cost, size_t index);
+FBD_API fbd_series fbd_cost_series(const fbd_cost *cost, size_t index);
+FBD_API size_t fbd_cost_point_count(const fbd_cost *cost);
+FBD_API fbd_point fbd_cost_point(const fbd_cost *cost, size_t index);
 
 /* The cheapest point whose error over the run is at most `error`, and stays so at all tighter settings of its
- * method; NULL when there is none. Of points that cost the same to 3 %, the default method is taken. */
-FBD_API const fbd_cost_point *fbd_cost_cheapest(const fbd_cost *cost, double error);
+ * method; without a method when there is none. Of points that cost the same to 3 %, the default method is taken. */
+FBD_API fbd_point fbd_cost_cheapest(const fbd_cost *cost, double error);
 
-/* As text, to be freed with free(); NULL when memory is out. fbd_cost_svg is the work-precision diagram. */
+/* As text, to be freed with fbd_free; NULL when memory is out. fbd_cost_svg is the work-precision diagram. */
 FBD_API char *fbd_cost_text(const fbd_cost *cost);
 FBD_API char *fbd_cost_csv(const fbd_cost *cost);
 FBD_API char *fbd_cost_json(const fbd_cost *cost);
@@ -857,7 +868,7 @@ FBD_API fbd_effects *fbd_effects_new(const fbd_model *model, const fbd_cost_opti
                                      fbd_errors *errors);
 FBD_API void fbd_effects_free(fbd_effects *effects);
 FBD_API size_t fbd_effects_count(const fbd_effects *effects);
-FBD_API const fbd_effect *fbd_effects_get(const fbd_effects *effects, size_t index);
+FBD_API fbd_effect fbd_effects_get(const fbd_effects *effects, size_t index);
 FBD_API char *fbd_effects_text(const fbd_effects *effects);
 FBD_API char *fbd_effects_csv(const fbd_effects *effects);
 FBD_API char *fbd_effects_json(const fbd_effects *effects);
@@ -865,11 +876,12 @@ FBD_API char *fbd_effects_json(const fbd_effects *effects);
 /* ---------------------------------------------------------------- drawings */
 
 typedef struct fbd_drawing {
+    size_t size;      /* sizeof(fbd_drawing), or 0 */
     const char *body; /* this body alone; NULL for all */
     bool components;  /* with the components of each force: along x and y, on a slide along and across it */
 } fbd_drawing;
 
-/* The free-body diagrams of a state as an SVG 1.1 document in millimetres, to be freed with free(). `drawing`
+/* The free-body diagrams of a state as an SVG 1.1 document in millimetres, to be freed with fbd_free. `drawing`
  * may be NULL. Ids are `BODY` for a diagram, `BODY-FORCE` for an arrow (`BODY-FORCE-x`, `-y`, `-n` for
  * components). NULL with a note in `errors` (`unknown-body`, or memory is out). */
 FBD_API char *fbd_diagram_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *errors);
@@ -885,7 +897,7 @@ FBD_API fbd_key *fbd_key_read(const char *path, fbd_errors *errors);
 FBD_API void fbd_key_free(fbd_key *key);
 
 /* What a student gets of it, as a model file: the scene without forces, moments, derivations and comments, with the
- * values that `grading: {draw: ...}` draws for the name of this student. To be freed with free(); NULL with a note in
+ * values that `grading: {draw: ...}` draws for the name of this student. To be freed with fbd_free; NULL with a note in
  * `errors` when memory is out. */
 FBD_API char *fbd_key_handout(const fbd_key *key, const char *student, fbd_errors *errors);
 
@@ -937,8 +949,7 @@ FBD_API double fbd_grade_most(const fbd_grade *grade);
 /* Is there an answer, and are its points enough? */
 FBD_API bool fbd_grade_passed(const fbd_grade *grade);
 
-FBD_API size_t fbd_grade_findings(const fbd_grade *grade);
-/* Finding `index`; past the end one without texts. */
+FBD_API size_t fbd_grade_finding_count(const fbd_grade *grade);
 FBD_API fbd_finding fbd_grade_finding(const fbd_grade *grade, size_t index);
 
 /* As text, and as one JSON object (docs/grading.md); with `details` those that name the key's forces. To be freed with
@@ -950,17 +961,17 @@ FBD_API char *fbd_grade_json(const fbd_grade *grade, bool details);
 
 /* A model as a Functional Mock-up Unit (fmi-standard.org): docs/fmi.md. */
 typedef struct fbd_fmu_options {
-    int version; /* of FMI: 3, or 2 for tools that do not know that; 0 is 3 */
-    const char
-        *library; /* the binary that goes in, of this version of fbd: fbd-run carries it, and each FMU ... */
-    size_t library_length;       /* ... has it under binaries/; and how many bytes it has */
-    const char *name;            /* of the FMU; NULL for that of the model file */
+    size_t size;           /* sizeof(fbd_fmu_options), or 0 */
+    int version;           /* of FMI: 3, or 2 for tools that do not know that; 0 is 3 */
+    const char *library;   /* the binary that goes in, of this version of fbd, which fbd-run carries ... */
+    size_t library_length; /* ... and how many bytes it has */
+    const char *name;      /* of the FMU; NULL for that of the model file */
     const fbd_setting *settings; /* those that the model was read with: they become its start values */
     size_t setting_count;
-    fbd_options run; /* without error bars and accuracy */
+    const fbd_options *run; /* NULL for the file's; without error bars and accuracy */
 } fbd_fmu_options;
 
-/* The FMU for co-simulation by that binary as bytes of a zip archive, to be freed with free(); *length is their number.
+/* The FMU for co-simulation by that binary as bytes of a zip archive, to be freed with fbd_free; *length is their number.
  * NULL with notes in `errors`: those of wrong options (see fbd_simulation_new), of a start that no motion begins at (see
  * fbd_state_close), `cannot-read` for the data file of a table, `bad-call`, or memory is out. */
 FBD_API char *fbd_fmu(const fbd_model *model, const fbd_fmu_options *options, size_t *length,

@@ -82,15 +82,17 @@ static int glue_keep(void *context, const char *text, size_t length)
     return 0;
 }
 
-static void glue_count(void *context, const fbd_sweep_counts *counts)
+/* An fbd_watch. */
+static int glue_count(void *context, const fbd_progress *progress)
 {
     glue_sheet *sheet = context;
-    sheet->written = counts->written;
-    sheet->failed = counts->failed;
+    sheet->written = progress->written;
+    sheet->failed = progress->failed;
+    return 0;
 }
 
-/* Asked by every thread in every step. */
-static bool glue_is_stopped(void *context)
+/* An fbd_stop. */
+static int glue_is_stopped(void *context)
 {
     glue_sheet *sheet = context;
     return atomic_load_explicit(&sheet->stopped, memory_order_relaxed);
@@ -113,9 +115,4 @@ static void glue_free(glue_sheet *sheet)
 static void glue_quiet(void)
 {
     gsl_set_error_handler_off();
-}
-
-static void glue_release(char *text)
-{
-    free(text);
 }

@@ -16,12 +16,11 @@ static int glue_watch_run(void *context, const fbd_progress *progress);
 static fbd_outcome glue_seek(fbd_simulation *simulation, double t, glue_watch *watch);
 typedef struct glue_sheet { char *data; size_t length; bool lost; size_t written, failed; ...; } glue_sheet;
 static int glue_keep(void *context, const char *text, size_t length);
-static void glue_count(void *context, const fbd_sweep_counts *counts);
-static bool glue_is_stopped(void *context);
+static int glue_count(void *context, const fbd_progress *progress);
+static int glue_is_stopped(void *context);
 static void glue_stop(glue_sheet *sheet);
 static void glue_free(glue_sheet *sheet);
 static void glue_quiet(void);
-static void glue_release(char *text);
 extern "Python" int fbd_ask(void *handle, const fbd_progress *progress);
 """
 

@@ -83,7 +83,7 @@ const char *fbd_model_source(const fbd_model *model, size_t *length)
     return model ? model->source : NULL;
 }
 
-size_t fbd_model_bodies(const fbd_model *model)
+size_t fbd_model_body_count(const fbd_model *model)
 {
     if (!model) return 0;
     return model->body_count;
@@ -106,7 +106,7 @@ fbd_inertia fbd_model_inertia(const fbd_model *model, size_t body)
                          .G = {b->inertia.G.x, b->inertia.G.y}};
 }
 
-size_t fbd_model_coordinates(const fbd_model *model)
+size_t fbd_model_coordinate_count(const fbd_model *model)
 {
     if (!model) return 0;
     return model->scene->coordinate_count;
@@ -124,14 +124,14 @@ fbd_coordinate fbd_model_coordinate(const fbd_model *model, size_t index)
                             .body = (size_t)model->scene->coordinates[index].body};
 }
 
-size_t fbd_model_parameters(const fbd_model *model)
+size_t fbd_model_parameter_count(const fbd_model *model)
 {
     return model ? model->scene->parameter_count : 0;
 }
 
 fbd_parameter fbd_model_parameter(const fbd_model *model, size_t index)
 {
-    if (index >= fbd_model_parameters(model)) return (fbd_parameter){.value = NAN};
+    if (index >= fbd_model_parameter_count(model)) return (fbd_parameter){.value = NAN};
     const struct parameter *parameter = &model->scene->parameters[index];
     return (fbd_parameter){.name = parameter->name,
                            .unit = parameter->unit,
@@ -141,7 +141,7 @@ fbd_parameter fbd_model_parameter(const fbd_model *model, size_t index)
                            .derived = parameter->derived};
 }
 
-size_t fbd_model_states(const fbd_model *model)
+size_t fbd_model_state_count(const fbd_model *model)
 {
     if (!model) return 0;
     return model->scene->own_count;

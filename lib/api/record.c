@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "base/call.h"
 #include "draw/record.h"
 #include "output/finite_result.h"
 
@@ -67,8 +68,11 @@ static bool tell(const struct going *going, double t)
     const fbd_recording *recording = going->recording;
     const struct ensemble *ensemble = going->result->simulation->ensemble;
     if (!recording || !recording->progress) return false;
-    fbd_progress progress = {.t = t,
-                             .until = ensemble->options.until,
+    double begin = ensemble->options.start ? ensemble->options.start->t : 0, end = ensemble->options.until;
+    fbd_progress progress = {.what = "run",
+                             .share = end > begin ? fmin(fmax((t - begin) / (end - begin), 0), 1) : 1,
+                             .t = t,
+                             .until = end,
                              .steps = going->steps,
                              .events = ensemble->event_count};
     return recording->progress(recording->progress_context, &progress) != 0;
@@ -241,7 +245,9 @@ fbd_result *record(fbd_simulation *simulation, const fbd_recording *recording)
 
 fbd_result *fbd_simulation_run(fbd_simulation *simulation, const fbd_recording *recording)
 {
-    if (!simulation) return NULL;
+    fbd_recording own = {0};
+    if (!simulation || !call_options(&own, sizeof own, recording, NULL)) return NULL;
+    if (recording) recording = &own;
     if (simulation->ensemble->started) return NULL; /* the ledger has to see every step */
     return simulation->accuracy > 0 ? record_accurately(simulation, recording)
                                     : record(simulation, recording);

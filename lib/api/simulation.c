@@ -20,7 +20,7 @@ static bool choose_accuracy(const fbd_model *model, const fbd_options *options, 
                             double *accuracy, fbd_errors *errors)
 {
     bool by_hand = options->tolerance != 0 || options->step != 0;
-    size_t before = fbd_errors_failed(errors);
+    size_t before = fbd_errors_failed_count(errors);
     *accuracy = options->accuracy != 0 ? options->accuracy : by_hand ? 0 : model->scene->simulate.accuracy;
     if (options->accuracy != 0 && by_hand)
         bad_accuracy(errors, "ask for an accuracy, or say how the steps are to be made",
@@ -32,7 +32,7 @@ static bool choose_accuracy(const fbd_model *model, const fbd_options *options, 
         chosen->tolerance = accuracy_first_guess(*accuracy);
         chosen->step = 0;
     }
-    return fbd_errors_failed(errors) == before;
+    return fbd_errors_failed_count(errors) == before;
 }
 
 /* `simulation` is freed when memory is out. A start that the options name is copied. */
@@ -67,14 +67,23 @@ static fbd_simulation *simulation_new(const fbd_model *model, const fbd_options 
     return begin(simulation, model, &chosen, options->error_bars || accuracy > 0, errors);
 }
 
+static const fbd_options no_options = FBD_OPTIONS_DEFAULT;
+
+void fbd_options_init(fbd_options *options, size_t size)
+{
+    if (options) call_fill(options, size, &no_options, sizeof no_options);
+}
+
 fbd_simulation *fbd_simulation_new(const fbd_model *model, const fbd_options *options, fbd_errors *list)
 {
-    static const fbd_options defaults = FBD_OPTIONS_DEFAULT;
+    fbd_options own = FBD_OPTIONS_DEFAULT;
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    if (!options) options = &defaults;
-    fbd_simulation *simulation =
-        model ? simulation_new(model, options, errors) : call_refuse(errors, "there is no model");
+    fbd_simulation *simulation = NULL;
+    if (!model)
+        call_refuse(errors, "there is no model");
+    else if (call_options(&own, sizeof own, options, errors))
+        simulation = simulation_new(model, &own, errors);
     diag_end(&call);
     return simulation;
 }
@@ -149,12 +158,14 @@ static fbd_simulation *simulation_from(const fbd_state *state, const fbd_options
 
 fbd_simulation *fbd_simulation_from(const fbd_state *state, const fbd_options *options, fbd_errors *list)
 {
-    static const fbd_options defaults = FBD_OPTIONS_DEFAULT;
+    fbd_options own = FBD_OPTIONS_DEFAULT;
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    if (!options) options = &defaults;
-    fbd_simulation *simulation =
-        state ? simulation_from(state, options, errors) : call_refuse(errors, "there is no state");
+    fbd_simulation *simulation = NULL;
+    if (!state)
+        call_refuse(errors, "there is no state");
+    else if (call_options(&own, sizeof own, options, errors))
+        simulation = simulation_from(state, &own, errors);
     diag_end(&call);
     return simulation;
 }
@@ -185,7 +196,7 @@ bool fbd_simulation_state(fbd_simulation *simulation, double t, fbd_state *state
     return t >= ensemble->from && t <= ensemble->t && ensemble_look(ensemble, t, state);
 }
 
-size_t fbd_simulation_events(const fbd_simulation *simulation)
+size_t fbd_simulation_event_count(const fbd_simulation *simulation)
 {
     if (!simulation) return 0;
     return simulation->ensemble->event_count;
@@ -213,8 +224,7 @@ static const char *detail_of(fbd_simulation *simulation, size_t index)
 fbd_event fbd_simulation_event(fbd_simulation *simulation, size_t index)
 {
     const struct ensemble *run = simulation ? simulation->ensemble : NULL;
-    if (!run || index >= run->event_count)
-        return (fbd_event){.t = NAN, .body = "", .name = "", .detail = "", .t_error = NAN};
+    if (!run || index >= run->event_count) return (fbd_event){.t = NAN, .t_error = NAN};
     const struct run_event *event = &run->events[index];
     return (fbd_event){.t = event->t,
                        .kind = event->kind,

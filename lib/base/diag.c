@@ -30,7 +30,7 @@ size_t fbd_errors_count(const fbd_errors *errors)
     return errors ? errors->count : 0;
 }
 
-size_t fbd_errors_failed(const fbd_errors *errors)
+size_t fbd_errors_failed_count(const fbd_errors *errors)
 {
     return errors ? errors->errors + (errors->out_of_memory ? 1 : 0) : 0;
 }
@@ -148,6 +148,13 @@ void diag_reads(fbd_errors *errors, const char *path)
     }
     *file = (struct diag_file){.path = copy};
     *end = file;
+}
+
+size_t fbd_errors_file_count(const fbd_errors *errors)
+{
+    size_t count = 0;
+    for (const struct diag_file *file = errors ? errors->files : NULL; file; file = file->next) count++;
+    return count;
 }
 
 const char *fbd_errors_file(const fbd_errors *errors, size_t index)
@@ -282,7 +289,7 @@ static const fbd_error *unsorted(const fbd_errors *errors, size_t index)
     return &note->error;
 }
 
-const fbd_error *fbd_errors_get(fbd_errors *errors, size_t index)
+const fbd_error *diag_get(fbd_errors *errors, size_t index)
 {
     static const fbd_error no_memory = {.severity = FBD_ERROR,
                                         .id = "out-of-memory",
@@ -291,6 +298,12 @@ const fbd_error *fbd_errors_get(fbd_errors *errors, size_t index)
     if (index < errors->count)
         return errors->sorted || sort_notes(errors) ? errors->sorted[index] : unsorted(errors, index);
     return errors->out_of_memory && index == errors->count ? &no_memory : NULL;
+}
+
+fbd_error fbd_errors_get(fbd_errors *errors, size_t index)
+{
+    const fbd_error *error = diag_get(errors, index);
+    return error ? *error : (fbd_error){0};
 }
 
 size_t fbd_shown(const char *text, char *shown, size_t room)
@@ -330,7 +343,7 @@ void fbd_errors_print(fbd_errors *errors, FILE *stream)
         fputs("error: out of memory [out-of-memory]\n", stream);
         return;
     }
-    for (size_t i = 0; (e = fbd_errors_get(errors, i)) != NULL; i++) {
+    for (size_t i = 0; (e = diag_get(errors, i)) != NULL; i++) {
         if (e->file) print_shown(stream, e->file);
         if (e->file) fputs(":", stream);
         if (e->line) fprintf(stream, "%d:%d:", e->line, e->column);

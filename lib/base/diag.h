@@ -29,7 +29,7 @@ struct fbd_errors {
     struct arena arena;
     struct diag_note *first, *last;
     struct diag_file *files;
-    fbd_error **sorted; /* filled by fbd_errors_get */
+    fbd_error **sorted; /* filled by diag_get */
     size_t count, errors, limit;
     const char *file; /* file name of notes that are added now */
     bool out_of_memory;
@@ -54,10 +54,13 @@ void diag_out_of_memory(fbd_errors *errors);
 /* Notes that are added now are of this file (NULL: of none). The name is copied: notes outlive a model. */
 void diag_in_file(fbd_errors *errors, const char *file);
 
+/* Note `index` as fbd_errors_get gives it, or NULL past the end; lives as long as the list. */
+const fbd_error *diag_get(fbd_errors *errors, size_t index);
+
 /* This file is going to be read: fbd_errors_file tells of it, once. */
 void diag_reads(fbd_errors *errors, const char *path);
 
-/* A call of the public interface. Within it fbd_errors_failed counts the errors of this call alone, so that a
+/* A call of the public interface. Within it fbd_errors_failed_count counts the errors of this call alone, so that a
  * list with earlier ones can be used again; and a caller who gives no list gets none. */
 struct diag_call {
     fbd_errors own;     /* takes the place of a list that was not given */

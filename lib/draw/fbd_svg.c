@@ -314,9 +314,7 @@ static bool is_finite(const struct fbd_state *state, fbd_errors *errors)
 
 static char *make_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *errors)
 {
-    static const fbd_drawing plain = {NULL, false};
     struct sheet sheet = {.state = state};
-    if (!drawing) drawing = &plain;
     diag_in_file(errors, state->model->scene->file);
     if (drawing->body && !body_is_there(state->model, drawing->body, errors)) return NULL;
     state_ready(state);
@@ -350,7 +348,12 @@ char *fbd_diagram_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    char *svg = state ? make_svg(state, drawing, errors) : call_refuse(errors, "there is no state");
+    fbd_drawing own = {0};
+    char *svg = NULL;
+    if (!state)
+        call_refuse(errors, "there is no state");
+    else if (call_options(&own, sizeof own, drawing, errors))
+        svg = make_svg(state, &own, errors);
     diag_end(&call);
     return svg;
 }

@@ -206,7 +206,7 @@ static void check_friction(const struct fbd_model *model, fbd_errors *errors)
 bool emit_admits(const struct fbd_model *model, fbd_errors *errors)
 {
     const struct scene *scene = model->scene;
-    size_t before = fbd_errors_failed(errors);
+    size_t before = fbd_errors_failed_count(errors);
     diag_in_file(errors, scene->file);
     check_file(model, errors);
     for (size_t c = 0; c < scene->constraint_count; c++)
@@ -218,5 +218,5 @@ bool emit_admits(const struct fbd_model *model, fbd_errors *errors)
     check_loads(model, errors);
     check_switches(model, errors);
     check_friction(model, errors);
-    return fbd_errors_failed(errors) == before;
+    return fbd_errors_failed_count(errors) == before;
 }

@@ -5,13 +5,13 @@
 
 char *fbd_emit_c(const fbd_model *model, const fbd_options *options, fbd_errors *list)
 {
-    static const fbd_options defaults = FBD_OPTIONS_DEFAULT;
+    fbd_options own = FBD_OPTIONS_DEFAULT;
     struct diag_call call;
     struct run_options chosen;
     if (!model) return call_refuse(list, "there is no model");
     fbd_errors *errors = diag_begin(&call, list);
     char *program = NULL;
-    if (options_choose(model, options ? options : &defaults, &chosen, errors))
+    if (call_options(&own, sizeof own, options, errors) && options_choose(model, &own, &chosen, errors))
         program = emit_program(model, chosen.until, chosen.tolerance, errors);
     diag_end(&call);
     return program;

@@ -188,7 +188,7 @@ static bool options_fit(const fbd_fmu_options *options, fbd_errors *errors)
                       "there is no such version of FMI here");
     if (options->version == 2 && strcmp(FBD_FMI_PLATFORM, "x86_64-linux") != 0)
         return refuse(errors, "FMI 3.0 does", "FMI 2.0 has no name for this platform");
-    if (options->run.error_bars || options->run.accuracy != 0)
+    if (options->run->error_bars || options->run->accuracy != 0)
         return refuse(errors, "ask for a tolerance",
                       "an FMU has no error bars, and no accuracy that is made sure of");
     return true;
@@ -199,10 +199,10 @@ static char *make(struct package *package, size_t *length, fbd_errors *errors)
     struct run_options run;
     const struct fbd_model *model = package->model;
     if (!options_fit(package->options, errors) ||
-        !options_choose(model, &package->options->run, &run, errors) || !has_start(model, errors))
+        !options_choose(model, package->options->run, &run, errors) || !has_start(model, errors))
         return NULL;
     bool accurate =
-        model->scene->simulate.accuracy > 0 && package->options->run.tolerance == 0 && run.step == 0;
+        model->scene->simulate.accuracy > 0 && package->options->run->tolerance == 0 && run.step == 0;
     package->until = run.until;
     package->tolerance = accurate ? accuracy_first_guess(model->scene->simulate.accuracy) : run.tolerance;
     name_package(package);
@@ -220,16 +220,20 @@ char *fbd_fmu(const fbd_model *model, const fbd_fmu_options *options, size_t *le
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    bool meant = model && options && options->library && length &&
-                 call_has_settings(options->settings, options->setting_count);
+    fbd_fmu_options own = {0};
+    fbd_options run = FBD_OPTIONS_DEFAULT;
+    bool sized =
+        call_options(&own, sizeof own, options, errors) && call_options(&run, sizeof run, own.run, errors);
+    bool meant = sized && model && options && own.library && length &&
+                 call_has_settings(own.settings, own.setting_count);
     if (length) *length = 0;
-    if (!meant)
+    if (sized && !meant)
         call_refuse(errors, "there is no model, binary or place for the length, or a setting has no value");
     char *bytes = NULL;
     if (meant) {
-        fbd_fmu_options chosen = *options;
-        if (chosen.version == 0) chosen.version = 3;
-        struct package package = {.model = model, .options = &chosen};
+        if (own.version == 0) own.version = 3;
+        own.run = &run;
+        struct package package = {.model = model, .options = &own};
         bytes = make(&package, length, errors);
     }
     diag_end(&call);

@@ -96,7 +96,7 @@ enum instance_status instance_set_logging(struct instance *instance, bool on, si
 static void say_notes(const struct instance *instance, fbd_errors *errors)
 {
     const fbd_error *note;
-    for (size_t i = 0; (note = fbd_errors_get(errors, i)) != NULL; i++) {
+    for (size_t i = 0; (note = diag_get(errors, i)) != NULL; i++) {
         bool error = note->severity == FBD_ERROR;
         enum instance_status status = error ? instance_error : instance_warning;
         enum log_category category = error ? log_error : log_warning;
@@ -244,7 +244,7 @@ static const char *why_no_step(const struct instance *instance, double t, double
 static void log_step_events(const struct instance *instance, double from)
 {
     fbd_simulation *simulation = instance->plant->simulation;
-    size_t count = fbd_simulation_events(simulation), first = count;
+    size_t count = fbd_simulation_event_count(simulation), first = count;
     if (!instance->logs[log_events]) return;
     while (first > 0 && simulation->ensemble->events[first - 1].t > from) first--;
     for (size_t i = first; i < count; i++) {

@@ -26,8 +26,8 @@ static bool no_memory(struct plant *plant)
 /* The first note is the reason. */
 static bool fail_by(struct plant *plant, fbd_errors *errors)
 {
-    const fbd_error *first = fbd_errors_get(errors, 0);
-    for (size_t i = 0; first && first->severity == FBD_WARNING; i++) first = fbd_errors_get(errors, i);
+    const fbd_error *first = diag_get(errors, 0);
+    for (size_t i = 0; first && first->severity == FBD_WARNING; i++) first = diag_get(errors, i);
     if (!first) return no_memory(plant);
     if (first->line > 0)
         format_into(plant->own_reason, sizeof plant->own_reason, "model.yaml:%d:%d: %s", first->line,

@@ -22,7 +22,7 @@ fbd_model *grade_compile(struct fbd_grade *grade, const struct node *root, const
     if (grade->arena.failed) return NULL;
     struct scene *scene = scene_make(&document, overrides, count, errors);
     if (!scene) return NULL;
-    if (fbd_errors_failed(errors) == 0) return model_compile(scene, errors);
+    if (fbd_errors_failed_count(errors) == 0) return model_compile(scene, errors);
     scene_free(scene);
     return NULL;
 }
@@ -246,7 +246,7 @@ static void open_answer(struct fbd_grade *grade, const char *path, struct answer
         return;
     }
     bool open = document_open(&answer->document, answer->text, length, grade->file, errors);
-    if (open && fbd_errors_failed(errors) == 0 && answer->document.root->kind == node_map)
+    if (open && fbd_errors_failed_count(errors) == 0 && answer->document.root->kind == node_map)
         answer->root = shorten_lists(grade, strip(grade, answer->document.root));
     else if (first_error(errors))
         note_unreadable(grade, "", NULL, first_error(errors));

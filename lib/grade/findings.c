@@ -47,7 +47,7 @@ void finding_tell(struct fbd_grade *grade, fbd_finding *finding, const char *det
 const fbd_error *first_error(fbd_errors *errors)
 {
     const fbd_error *error;
-    for (size_t i = 0; (error = fbd_errors_get(errors, i)) != NULL; i++)
+    for (size_t i = 0; (error = diag_get(errors, i)) != NULL; i++)
         if (error->severity == FBD_ERROR) return error;
     return NULL;
 }

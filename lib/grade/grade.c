@@ -31,7 +31,7 @@ static bool make_sheet(struct fbd_grade *grade)
     fbd_errors *errors = fbd_errors_new();
     if (!errors) return false;
     grade->sheet = grade_compile(grade, grade->key->document.root, grade->key->file, true, errors);
-    const fbd_error *error = fbd_errors_get(errors, 0);
+    const fbd_error *error = diag_get(errors, 0);
     bool done = grade->sheet != NULL || (error && !errors->out_of_memory);
     if (!grade->sheet && done) {
         fbd_finding *finding = finding_add(grade, FBD_FINDING_NO_SUBMISSION, "", "", (struct pos){0, 0});
@@ -68,9 +68,9 @@ static fbd_grade *make_grade(const fbd_key *key, const char *path, const char *s
         fbd_model_free(grade->sheet);
         grade->sheet = NULL;
         if (grade->readable && grade->submitted) grade->points = fmax(0, sum(grade));
-        if (!grade->arena.failed && fbd_errors_failed(errors) == 0) return grade;
+        if (!grade->arena.failed && fbd_errors_failed_count(errors) == 0) return grade;
     }
-    if (fbd_errors_failed(errors) == 0) diag_out_of_memory(errors);
+    if (fbd_errors_failed_count(errors) == 0) diag_out_of_memory(errors);
     fbd_grade_free(grade);
     return NULL;
 }
@@ -110,15 +110,14 @@ bool fbd_grade_passed(const fbd_grade *grade)
     return grade->points >= (grade->key->model->scene->grading.pass - rounding) * grade->key->most;
 }
 
-size_t fbd_grade_findings(const fbd_grade *grade)
+size_t fbd_grade_finding_count(const fbd_grade *grade)
 {
     return grade ? grade->count : 0;
 }
 
 fbd_finding fbd_grade_finding(const fbd_grade *grade, size_t index)
 {
-    const fbd_finding none = {.body = "", .name = "", .message = "", .detail = ""};
-    if (!grade || index >= grade->count) return none;
+    if (!grade || index >= grade->count) return (fbd_finding){.points = NAN, .most = NAN};
     const struct finding *one = grade->first;
     while (index-- > 0) one = one->next;
     return one->finding;

@@ -75,7 +75,7 @@ static bool compile_key(struct fbd_key *key, fbd_errors *errors)
 {
     struct scene *scene = scene_make(&key->document, NULL, 0, errors);
     if (!scene) return false;
-    if (fbd_errors_failed(errors) == 0)
+    if (fbd_errors_failed_count(errors) == 0)
         key->model = model_compile(scene, errors);
     else
         scene_free(scene);
@@ -86,8 +86,9 @@ static bool compile_key(struct fbd_key *key, fbd_errors *errors)
 static void check_lines(const struct fbd_key *key, size_t length, fbd_errors *errors)
 {
     fbd_model *model = key->lines > 0 ? fbd_model_parse(key->source, length, key->file, NULL, 0, NULL) : NULL;
-    char *text = NULL;
-    if (model && fbd_check_hand(model, 1, &text) > 0)
+    size_t differing = 0;
+    char *text = model ? fbd_check_hand(model, 1, &differing) : NULL;
+    if (differing > 0)
         diag_add(errors, FBD_WARNING, "key-differs", (struct pos){0, 0},
                  "`fbd-run --check-hand` says which, and how",
                  "a derivation of the key does not agree with its mechanics");

@@ -107,7 +107,7 @@ static bool leave_out_wrong(struct lines *lines, fbd_errors *errors)
     struct culprit culprit = {0};
     const fbd_error *error;
     bool any = false;
-    for (size_t i = 0; lines->root && (error = fbd_errors_get(errors, i)) != NULL; i++) {
+    for (size_t i = 0; lines->root && (error = diag_get(errors, i)) != NULL; i++) {
         const struct node *before = culprit.item;
         if (error->severity != FBD_ERROR) continue;
         culprit = find_culprit(root, (struct pos){error->line, error->column});

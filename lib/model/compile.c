@@ -309,7 +309,7 @@ static struct fbd_model *compile(struct scene *scene, bool labels, fbd_errors *e
     bool done = allocate(model);
     for (size_t b = 0; done && b < scene->body_count; b++)
         if (scene->bodies[b].complete) set_body(&model->bodies[b], &scene->bodies[b], scene, errors);
-    if (done && fbd_errors_failed(errors) == 0) {
+    if (done && fbd_errors_failed_count(errors) == 0) {
         for (size_t b = 0; b < scene->body_count; b++) model->assembles |= scene->bodies[b].assemble;
         set_loads(&builder);
         set_couplings(&builder);
@@ -328,7 +328,7 @@ static struct fbd_model *compile(struct scene *scene, bool labels, fbd_errors *e
         }
     }
     if (!done) diag_out_of_memory(errors);
-    if (fbd_errors_failed(errors) > 0) {
+    if (fbd_errors_failed_count(errors) > 0) {
         model_free(model);
         return NULL;
     }

@@ -103,30 +103,31 @@ void fbd_equations_free(fbd_equations *equations)
     free(equations);
 }
 
+static const fbd_equation no_equation = {.inertia = NAN, .sum = NAN, .acceleration = NAN, .normal = NAN};
+
 size_t fbd_equations_count(const fbd_equations *equations)
 {
     if (!equations) return 0;
     return equations->count;
 }
 
-const fbd_equation *fbd_equations_get(const fbd_equations *equations, size_t index)
+fbd_equation fbd_equations_get(const fbd_equations *equations, size_t index)
 {
-    if (!equations) return NULL;
-    return index < equations->count ? &equations->equations[index].public : NULL;
+    return equations && index < equations->count ? equations->equations[index].public : no_equation;
 }
 
-const fbd_equation *fbd_equations_find(const fbd_equations *equations, const char *coordinate)
+fbd_equation fbd_equations_find(const fbd_equations *equations, const char *coordinate)
 {
-    if (!equations || !coordinate) return NULL;
+    if (!equations || !coordinate) return no_equation;
     const char *dot = strchr(coordinate, '.');
     for (size_t i = 0; dot && i < equations->count; i++) {
         const fbd_equation *equation = &equations->equations[i].public;
         size_t length = (size_t)(dot - coordinate);
         if (strlen(equation->body) == length && strncmp(equation->body, coordinate, length) == 0 &&
             strcmp(equation->coordinate, dot + 1) == 0)
-            return equation;
+            return *equation;
     }
-    return NULL;
+    return no_equation;
 }
 
 double fbd_equation_term(const fbd_equation *equation, const char *name)

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/call.h"
 #include "dynamics/modes.h"
 #include "output/couplings.h"
 #include "output/explain_structure.h"
@@ -233,9 +234,8 @@ static void write_method(struct text *text, const struct fbd_model *model, const
 
 char *fbd_explain(const fbd_model *model, const fbd_options *options)
 {
-    static const fbd_options defaults = FBD_OPTIONS_DEFAULT;
-    if (!model) return NULL;
-    if (!options) options = &defaults;
+    fbd_options own = FBD_OPTIONS_DEFAULT;
+    if (!model || !call_options(&own, sizeof own, options, NULL)) return NULL;
     struct text text = {0};
     struct fbd_state *state = state_new(model);
     if (!state) return NULL;
@@ -247,8 +247,8 @@ char *fbd_explain(const fbd_model *model, const fbd_options *options)
         write_effects(&text, model);
         write_absent(&text, model);
         explain_plan(&text, model, rates);
-        if (!explain_structure(&text, model, options)) text.failed = true;
-        write_method(&text, model, options);
+        if (!explain_structure(&text, model, &own)) text.failed = true;
+        write_method(&text, model, &own);
     }
     rates_free(rates);
     state_free(state);

@@ -310,10 +310,10 @@ static int check_all(struct hand_check *check, const struct document *document, 
     return differ;
 }
 
-int fbd_check_hand(const fbd_model *model, unsigned seed, char **result)
+char *fbd_check_hand(const fbd_model *model, unsigned seed, size_t *differing)
 {
-    if (result) *result = NULL;
-    if (!model || !result) return -1;
+    if (differing) *differing = 0;
+    if (!model) return NULL;
     struct text text = {0};
     struct document document;
     fbd_errors *errors = fbd_errors_new();
@@ -341,6 +341,6 @@ int fbd_check_hand(const fbd_model *model, unsigned seed, char **result)
     free(check.samples);
     if (rng) gsl_rng_free(rng);
     if (lost) text_free(&text);
-    *result = text.data;
-    return lost ? -1 : differ;
+    if (differing && !lost) *differing = (size_t)differ;
+    return text.data;
 }

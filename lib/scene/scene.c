@@ -125,7 +125,7 @@ static void read_bodies(struct reader *reader)
         bool prescribed = body_prescribed_read(reader, b);
         if (!initial || !loads || !hand || !exact || !prescribed) scene->bodies[b].complete = false;
     }
-    if (fbd_errors_failed(reader->errors) == 0) reactions_add(reader);
+    if (fbd_errors_failed_count(reader->errors) == 0) reactions_add(reader);
 }
 
 /* ---- the file */
@@ -151,7 +151,7 @@ static void read_scene(struct reader *reader, const struct override *overrides, 
     if (!is_hopeless(reader) && reader->bodies) couplings_read(reader, keys.couplings, keys.contacts);
     if (!is_hopeless(reader)) simulate_read(reader, &keys);
     if (!is_hopeless(reader)) grading_read(reader, keys.grading);
-    if (fbd_errors_failed(reader->errors) > 0) return;
+    if (fbd_errors_failed_count(reader->errors) > 0) return;
     presses_note(reader);
     parameters_note_unused(reader);
     tables_note_unused(reader);
@@ -230,7 +230,7 @@ bool document_prepare(struct document *document, const struct override *override
     if (!programs) diag_out_of_memory(errors);
     if (programs) document->first = make(document, overrides, override_count, programs, errors);
     document->programs = programs;
-    return document->first && fbd_errors_failed(errors) == 0;
+    return document->first && fbd_errors_failed_count(errors) == 0;
 }
 
 struct scene *scene_make(const struct document *document, const struct override *overrides,

@@ -34,7 +34,7 @@ bool options_choose(const struct fbd_model *model, const fbd_options *given, str
                     fbd_errors *errors)
 {
     const struct simulate *file = &model->scene->simulate;
-    size_t before = fbd_errors_failed(errors);
+    size_t before = fbd_errors_failed_count(errors);
     diag_in_file(errors, model->scene->file);
     const char *name = given->method ? given->method : file->method;
     *chosen = (struct run_options){.method = choose_method(model, given, errors),
@@ -64,7 +64,7 @@ bool options_choose(const struct fbd_model *model, const fbd_options *given, str
     diag_in_file(errors, given->step != 0 ? NULL : model->scene->file);
     if (!(chosen->step >= 0) || isinf(chosen->step))
         bad_option(errors, "bad-option", NULL, "the step size must be positive");
-    return fbd_errors_failed(errors) == before;
+    return fbd_errors_failed_count(errors) == before;
 }
 
 const char *options_method(const struct run_options *options)

@@ -246,31 +246,30 @@ size_t fbd_statics_mobility(const fbd_statics *statics)
     return statics->mobility;
 }
 
-size_t fbd_statics_undetermined(const fbd_statics *statics)
+size_t fbd_statics_undetermined_count(const fbd_statics *statics)
 {
     if (!statics) return 0;
     return statics->undetermined_count;
 }
 
-const char *fbd_statics_undetermined_name(const fbd_statics *statics, size_t index)
+const char *fbd_statics_undetermined(const fbd_statics *statics, size_t index)
 {
     return statics && index < statics->undetermined_count ? statics->undetermined[index] : NULL;
 }
 
-size_t fbd_statics_unbalanced(const fbd_statics *statics)
+size_t fbd_statics_unbalanced_count(const fbd_statics *statics)
 {
     if (!statics) return 0;
     return statics->unbalanced_count;
 }
 
-fbd_unbalanced fbd_statics_unbalanced_at(const fbd_statics *statics, size_t index)
+fbd_unbalanced fbd_statics_unbalanced(const fbd_statics *statics, size_t index)
 {
-    return statics && index < statics->unbalanced_count
-               ? statics->unbalanced[index]
-               : (fbd_unbalanced){.coordinate = "", .unit = "", .holding = NAN};
+    return statics && index < statics->unbalanced_count ? statics->unbalanced[index]
+                                                        : (fbd_unbalanced){.holding = NAN};
 }
 
-size_t fbd_statics_limits(const fbd_statics *statics)
+size_t fbd_statics_limit_count(const fbd_statics *statics)
 {
     if (!statics) return 0;
     return statics->limit_count;
@@ -278,7 +277,6 @@ size_t fbd_statics_limits(const fbd_statics *statics)
 
 fbd_limit fbd_statics_limit(const fbd_statics *statics, size_t index)
 {
-    return statics && index < statics->limit_count
-               ? statics->limits[index]
-               : (fbd_limit){.name = "", .unit = "", .needed = NAN, .limit = NAN};
+    return statics && index < statics->limit_count ? statics->limits[index]
+                                                   : (fbd_limit){.needed = NAN, .limit = NAN};
 }

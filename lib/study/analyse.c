@@ -9,13 +9,13 @@
 #include "study/cost.h"
 
 /* Below the floor all errors are alike. */
-static double certain_error(const struct fbd_cost *cost, const fbd_cost_point *point)
+static double certain_error(const struct fbd_cost *cost, const fbd_point *point)
 {
     return fmax(point->error, cost->reference.floor);
 }
 
 /* An error of the size of the motion itself is no answer, however cheap. */
-static bool is_answer(const fbd_cost_point *point)
+static bool is_answer(const fbd_point *point)
 {
     return point->state == FBD_POINT_MEASURED && point->error < 1 && point->seconds > 0;
 }
@@ -23,10 +23,10 @@ static bool is_answer(const fbd_cost_point *point)
 static void mark_front(struct fbd_cost *cost)
 {
     for (size_t i = 0; i < cost->point_count; i++) {
-        fbd_cost_point *point = &cost->points[i];
+        fbd_point *point = &cost->points[i];
         point->front = is_answer(point);
         for (size_t k = 0; point->front && k < cost->point_count; k++) {
-            const fbd_cost_point *other = &cost->points[k];
+            const fbd_point *other = &cost->points[k];
             if (k == i || !is_answer(other)) continue;
             double error = certain_error(cost, point), others = certain_error(cost, other);
             bool better = others < error || other->seconds < point->seconds;
@@ -36,11 +36,11 @@ static void mark_front(struct fbd_cost *cost)
 }
 
 /* Where a ladder stops to get better: beyond it roundings add up. */
-static size_t best_of(const struct fbd_cost *cost, const fbd_cost_series *series)
+static size_t best_of(const struct fbd_cost *cost, const fbd_series *series)
 {
     size_t best = series->first;
     for (size_t i = series->first; i < series->first + series->count; i++) {
-        const fbd_cost_point *point = &cost->points[i];
+        const fbd_point *point = &cost->points[i];
         if (is_answer(point) && (!is_answer(&cost->points[best]) || point->error < cost->points[best].error))
             best = i;
     }
@@ -71,12 +71,12 @@ static double fit_slope(const struct fit *fit)
 /* p in error ~ (mean step)^p by least squares, over points that are neither coarse nor at the floor. Where
  * stability and not accuracy sets the steps, hardly longer for a loose tolerance, the slope comes out far too
  * steep and is none. */
-static double observed_order(const struct fbd_cost *cost, const fbd_cost_series *series)
+static double observed_order(const struct fbd_cost *cost, const fbd_series *series)
 {
     const double coarse = 0.03, above_floor = 10, highest = 13;
     struct fit fit = {0};
     for (size_t i = series->first; i <= best_of(cost, series); i++) {
-        const fbd_cost_point *point = &cost->points[i];
+        const fbd_point *point = &cost->points[i];
         bool tells = is_answer(point) && point->error < coarse && point->stats.steps > 0 &&
                      point->error > above_floor * cost->reference.floor && point->same_events;
         if (tells) fit_add(&fit, -log((double)point->stats.steps), log(point->error));
@@ -96,31 +96,36 @@ void cost_analyse(struct fbd_cost *cost)
 /* ---- the cheapest way */
 
 /* The error is met here and at every tighter setting that was measured: not by luck. */
-static bool meets(const struct fbd_cost *cost, const fbd_cost_series *series, size_t index, double error)
+static bool meets(const struct fbd_cost *cost, const fbd_series *series, size_t index, double error)
 {
     if (!is_answer(&cost->points[index])) return false;
     for (size_t i = index; i < series->first + series->count; i++) {
-        const fbd_cost_point *point = &cost->points[i];
+        const fbd_point *point = &cost->points[i];
         if (point->state == FBD_POINT_SKIPPED) break;
         if (!is_answer(point) || !(certain_error(cost, point) <= error)) return false;
     }
     return true;
 }
 
-const fbd_cost_point *fbd_cost_cheapest(const fbd_cost *cost, double error)
+const fbd_point *cost_cheapest(const struct fbd_cost *cost, double error)
 {
-    if (!cost) return NULL;
     const double alike = 1.03;
-    const fbd_cost_point *best = NULL, *by_default = NULL;
+    const fbd_point *best = NULL, *by_default = NULL;
     for (size_t s = 0; s < cost->series_count; s++) {
-        const fbd_cost_series *series = &cost->series[s];
-        const fbd_cost_point **place = strcmp(series->method, "auto") == 0 ? &by_default : &best;
+        const fbd_series *series = &cost->series[s];
+        const fbd_point **place = strcmp(series->method, "auto") == 0 ? &by_default : &best;
         for (size_t i = series->first; i < series->first + series->count; i++) {
-            const fbd_cost_point *point = &cost->points[i];
+            const fbd_point *point = &cost->points[i];
             bool cheaper = !*place || point->seconds < (*place)->seconds;
             if (cheaper && meets(cost, series, i, error)) *place = point;
         }
     }
     bool take_default = by_default && (!best || by_default->seconds <= alike * best->seconds);
     return take_default ? by_default : best;
+}
+
+fbd_point fbd_cost_cheapest(const fbd_cost *cost, double error)
+{
+    const fbd_point *point = cost ? cost_cheapest(cost, error) : NULL;
+    return point ? *point : no_point;
 }

@@ -20,7 +20,7 @@ const fbd_model *cost_model(const struct fbd_cost *cost)
 
 const char *quantity_name_of(const fbd_model *model, size_t quantity)
 {
-    size_t n = fbd_model_coordinates(model);
+    size_t n = fbd_model_coordinate_count(model);
     if (quantity >= 2 * n) return fbd_model_state(model, quantity - 2 * n).name;
     fbd_coordinate coordinate = fbd_model_coordinate(model, quantity < n ? quantity : quantity - n);
     return quantity < n ? coordinate.name : coordinate.rate_name;
@@ -28,7 +28,7 @@ const char *quantity_name_of(const fbd_model *model, size_t quantity)
 
 const char *quantity_unit_of(const fbd_model *model, size_t quantity)
 {
-    size_t n = fbd_model_coordinates(model);
+    size_t n = fbd_model_coordinate_count(model);
     if (quantity >= 2 * n) return fbd_model_state(model, quantity - 2 * n).unit;
     fbd_coordinate coordinate = fbd_model_coordinate(model, quantity < n ? quantity : quantity - n);
     return quantity < n ? coordinate.unit : coordinate.rate_unit;
@@ -68,11 +68,19 @@ bool quantities_choose(const fbd_model *model, const fbd_cost_options *options, 
 
 /* ---- making it */
 
-bool study_is_asked(const fbd_model *model, const fbd_cost_options **options, fbd_errors *errors)
+static const fbd_cost_options no_options = FBD_COST_OPTIONS_DEFAULT;
+
+void fbd_cost_options_init(fbd_cost_options *options, size_t size)
 {
-    static const fbd_cost_options defaults = FBD_COST_OPTIONS_DEFAULT;
-    if (!*options) *options = &defaults;
-    const fbd_cost_options *asked = *options;
+    if (options) call_fill(options, size, &no_options, sizeof no_options);
+}
+
+bool study_is_asked(const fbd_model *model, const fbd_cost_options *options, fbd_cost_options *own,
+                    fbd_errors *errors)
+{
+    const fbd_cost_options *asked = own;
+    *own = no_options;
+    if (!call_options(own, sizeof *own, options, errors)) return false;
     if (!model)
         call_refuse(errors, "there is no model");
     else if ((asked->methods && !call_has_texts(asked->methods, asked->method_count)) ||
@@ -137,7 +145,7 @@ static bool study(struct fbd_cost *cost, const fbd_cost_options *options)
         if (!cost->stepless) return false;
     }
     if (!ladder_plan(cost, options)) return false;
-    progress_report(&cost->progress, "reference", 0);
+    if (!progress_report(&cost->progress, "reference", 0, cost->errors)) return false;
     if (!reference_make(&cost->reference, cost_model(cost), cost->until, cost->chosen,
                         REFERENCE_SHARE * cost->budget, &cost->arena, cost->errors))
         return false;
@@ -162,7 +170,7 @@ static fbd_cost *cost_new(const fbd_model *model, const fbd_cost_options *option
     bool done = study(cost, options);
     cost->errors = NULL; /* the list is that of this call */
     if (done) return cost;
-    if (fbd_errors_failed(errors) == 0) diag_out_of_memory(errors);
+    if (fbd_errors_failed_count(errors) == 0) diag_out_of_memory(errors);
     fbd_cost_free(cost);
     return NULL;
 }
@@ -171,7 +179,8 @@ fbd_cost *fbd_cost_new(const fbd_model *model, const fbd_cost_options *options, 
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    fbd_cost *cost = study_is_asked(model, &options, errors) ? cost_new(model, options, errors) : NULL;
+    fbd_cost_options own;
+    fbd_cost *cost = study_is_asked(model, options, &own, errors) ? cost_new(model, &own, errors) : NULL;
     diag_end(&call);
     return cost;
 }
@@ -186,24 +195,24 @@ void fbd_cost_free(fbd_cost *cost)
 
 /* ---- asking */
 
-fbd_cost_reference fbd_cost_get_reference(const fbd_cost *cost)
+fbd_reference fbd_cost_reference(const fbd_cost *cost)
 {
     if (!cost)
-        return (fbd_cost_reference){
+        return (fbd_reference){
             "", {"", ""}, {NAN, NAN}, false, false, NAN, NAN, NAN, NAN, false, NAN,
         };
     const struct certified_reference *r = &cost->reference;
-    return (fbd_cost_reference){.says = cost->says,
-                                .method = {r->settings[0].method, r->settings[1].method},
-                                .tolerance = {r->settings[0].tolerance, r->settings[1].tolerance},
-                                .exact = r->any_exact && !r->exact_differs,
-                                .exact_differs = r->exact_differs,
-                                .floor = r->floor,
-                                .floor_end = r->floor_end,
-                                .until = cost->until,
-                                .known = r->known,
-                                .complete = !r->cut,
-                                .tenfold = r->tenfold};
+    return (fbd_reference){.says = cost->says,
+                           .method = {r->settings[0].method, r->settings[1].method},
+                           .tolerance = {r->settings[0].tolerance, r->settings[1].tolerance},
+                           .exact = r->any_exact && !r->exact_differs,
+                           .exact_differs = r->exact_differs,
+                           .floor = r->floor,
+                           .floor_end = r->floor_end,
+                           .until = cost->until,
+                           .known = r->known,
+                           .complete = !r->cut,
+                           .tenfold = r->tenfold};
 }
 
 size_t fbd_cost_series_count(const fbd_cost *cost)
@@ -212,19 +221,27 @@ size_t fbd_cost_series_count(const fbd_cost *cost)
     return cost->series_count;
 }
 
-fbd_cost_series fbd_cost_get_series(const fbd_cost *cost, size_t index)
+fbd_series fbd_cost_series(const fbd_cost *cost, size_t index)
 {
-    return cost && index < cost->series_count ? cost->series[index]
-                                              : (fbd_cost_series){.method = "", .order = NAN};
+    return cost && index < cost->series_count ? cost->series[index] : (fbd_series){.order = NAN};
 }
 
-size_t fbd_cost_points(const fbd_cost *cost)
+size_t fbd_cost_point_count(const fbd_cost *cost)
 {
     if (!cost) return 0;
     return cost->point_count;
 }
 
-const fbd_cost_point *fbd_cost_get_point(const fbd_cost *cost, size_t index)
+const fbd_point no_point = {.tolerance = NAN,
+                            .step = NAN,
+                            .error = NAN,
+                            .error_end = NAN,
+                            .event_error = NAN,
+                            .seconds = NAN,
+                            .low = NAN,
+                            .high = NAN};
+
+fbd_point fbd_cost_point(const fbd_cost *cost, size_t index)
 {
-    return cost && index < cost->point_count ? &cost->points[index] : NULL;
+    return cost && index < cost->point_count ? cost->points[index] : no_point;
 }

@@ -20,10 +20,10 @@ struct fbd_cost {
     struct certified_reference reference;
     double until, budget;
     bool *chosen; /* of the quantities; NULL for all */
-    fbd_cost_point *points;
+    fbd_point *points;
     struct setting *settings; /* of the points */
     size_t point_count;
-    fbd_cost_series *series;
+    fbd_series *series;
     size_t series_count;
     const char *says; /* of the reference */
     struct progress progress;
@@ -43,6 +43,12 @@ bool ladder_climb(struct fbd_cost *cost);
 /* Fronts and orders, when all is measured (analyse.c). */
 void cost_analyse(struct fbd_cost *cost);
 
+/* fbd_cost_cheapest; NULL for none. */
+const fbd_point *cost_cheapest(const struct fbd_cost *cost, double error);
+
+/* What stands for a point that is not there: fbd_cost_point past the end. */
+extern const fbd_point no_point;
+
 /* The model whose runs are measured. */
 const fbd_model *cost_model(const struct fbd_cost *cost);
 
@@ -58,8 +64,9 @@ const char *quantity_unit_of(const fbd_model *model, size_t quantity);
 bool quantities_choose(const fbd_model *model, const fbd_cost_options *options, struct arena *arena,
                        bool **chosen, fbd_errors *errors);
 
-/* Is there a model, and a name for each method and quantity? *options NULL becomes the usual ones. */
-bool study_is_asked(const fbd_model *model, const fbd_cost_options **options, fbd_errors *errors);
+/* Is there a model, and a name for each method and quantity? *own becomes what is asked for. */
+bool study_is_asked(const fbd_model *model, const fbd_cost_options *options, fbd_cost_options *own,
+                    fbd_errors *errors);
 
 /* The end of a run: that of the options, else the file's. False with notes when there is none (those of
  * fbd_simulation_new), or when it is the start. */

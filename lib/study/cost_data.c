@@ -26,7 +26,7 @@ static void cell_text(struct text *text, const char *value)
     text_add(text, "\"");
 }
 
-static void csv_row(struct text *text, const fbd_cost_point *point, double order)
+static void csv_row(struct text *text, const fbd_point *point, double order)
 {
     bool measured = point->state == FBD_POINT_MEASURED;
     text_printf(text, "%s", point->method);
@@ -83,14 +83,14 @@ static void member_flag(struct text *text, const char *name, bool value)
     text_printf(text, "\"%s\": %s, ", name, value ? "true" : "false");
 }
 
-static void json_setting(struct text *text, const fbd_cost_point *point)
+static void json_setting(struct text *text, const fbd_point *point)
 {
     member_text(text, "method", point->method);
     member(text, "tolerance", point->tolerance > 0 ? point->tolerance : NAN);
     member(text, "step", point->step > 0 ? point->step : NAN);
 }
 
-static void json_point(struct text *text, const fbd_cost_point *point)
+static void json_point(struct text *text, const fbd_point *point)
 {
     bool measured = point->state == FBD_POINT_MEASURED;
     text_add(text, "{");
@@ -116,7 +116,7 @@ static void json_point(struct text *text, const fbd_cost_point *point)
 
 static void json_reference(struct text *text, const fbd_cost *cost)
 {
-    fbd_cost_reference reference = fbd_cost_get_reference(cost);
+    fbd_reference reference = fbd_cost_reference(cost);
     text_add(text, "  \"reference\": {");
     member_text(text, "says", reference.says);
     text_add(text, "\"methods\": [");
@@ -151,7 +151,7 @@ static void json_answers(struct text *text, const fbd_cost *cost)
 {
     text_add(text, "  \"answers\": [");
     for (int decade = 3, shown = 0; decade <= 12; decade += 3) {
-        const fbd_cost_point *point = fbd_cost_cheapest(cost, pow(10, -decade));
+        const fbd_point *point = cost_cheapest(cost, pow(10, -decade));
         if (!point) continue;
         text_printf(text, "%s\n    {\"target\": 1e-%d, ", shown++ ? "," : "", decade);
         json_setting(text, point);
@@ -177,7 +177,7 @@ char *fbd_cost_json(const fbd_cost *cost)
     json_answers(&text, cost);
     text_add(&text, "  \"series\": [");
     for (size_t s = 0; s < cost->series_count; s++) {
-        const fbd_cost_series *series = &cost->series[s];
+        const fbd_series *series = &cost->series[s];
         text_add(&text, s ? ",\n    {" : "\n    {");
         member_text(&text, "method", series->method);
         member_flag(&text, "fixed", series->fixed);

@@ -35,12 +35,12 @@ static double upward(const struct axes *axes, double seconds)
 
 /* ---- what is drawn */
 
-static bool is_drawn(const fbd_cost_point *point)
+static bool is_drawn(const fbd_point *point)
 {
     return point->state == FBD_POINT_MEASURED && point->error < 1 && point->seconds > 0;
 }
 
-static double drawn_error(const fbd_cost *cost, const fbd_cost_point *point)
+static double drawn_error(const fbd_cost *cost, const fbd_point *point)
 {
     return fmax(point->error, cost->reference.floor);
 }
@@ -49,7 +49,7 @@ static bool find_axes(const fbd_cost *cost, struct axes *axes)
 {
     double largest = 0, smallest = 1, least = HUGE_VAL, most = 0;
     for (size_t i = 0; i < cost->point_count; i++) {
-        const fbd_cost_point *point = &cost->points[i];
+        const fbd_point *point = &cost->points[i];
         if (!is_drawn(point)) continue;
         largest = fmax(largest, drawn_error(cost, point));
         smallest = fmin(smallest, drawn_error(cost, point));
@@ -181,14 +181,13 @@ static void floor_band(struct text *text, const fbd_cost *cost, const struct axe
 
 static int by_error(const void *left_point, const void *right_point)
 {
-    const fbd_cost_point *a = *(const fbd_cost_point *const *)left_point,
-                         *b = *(const fbd_cost_point *const *)right_point;
+    const fbd_point *a = *(const fbd_point *const *)left_point, *b = *(const fbd_point *const *)right_point;
     return (a->error < b->error) - (a->error > b->error);
 }
 
 static void front(struct text *text, const fbd_cost *cost, const struct axes *axes)
 {
-    const fbd_cost_point **points = calloc(cost->point_count + 1, sizeof *points);
+    const fbd_point **points = calloc(cost->point_count + 1, sizeof *points);
     size_t count = 0;
     if (!points) {
         text->failed = true;
@@ -204,7 +203,7 @@ static void front(struct text *text, const fbd_cost *cost, const struct axes *ax
             pair(text, across(axes, drawn_error(cost, points[i])), upward(axes, points[i]->seconds));
         }
         text_add(text, "\"/>\n");
-        const fbd_cost_point *middle = points[count / 2];
+        const fbd_point *middle = points[count / 2];
         begin_text(text, across(axes, drawn_error(cost, middle)) + 10, upward(axes, middle->seconds) + 24,
                    " class=\"small\"");
         text_add(text, "Pareto front</text>\n");
@@ -241,13 +240,13 @@ static void marker(struct text *text, size_t series, double x, double y)
 /* Draws one method and says where its line ends. */
 static bool curve(struct text *text, const fbd_cost *cost, const struct axes *axes, size_t s, double end[2])
 {
-    const fbd_cost_series *series = &cost->series[s];
+    const fbd_series *series = &cost->series[s];
     bool any = false;
     struct text marks = {0};
     text_printf(text, "<path class=\"curve%s\" stroke=\"%s\" d=\"", series->fixed ? " fixed" : "",
                 colour_of(s));
     for (size_t i = series->first; i < series->first + series->count; i++) {
-        const fbd_cost_point *point = &cost->points[i];
+        const fbd_point *point = &cost->points[i];
         if (!is_drawn(point)) continue;
         end[0] = across(axes, drawn_error(cost, point));
         end[1] = upward(axes, point->seconds);
@@ -297,7 +296,7 @@ static void names(struct text *text, const fbd_cost *cost, struct label *labels,
     spread(labels, count);
     for (size_t i = 0; i < count; i++) {
         const struct label *label = &labels[i];
-        const fbd_cost_series *series = &cost->series[label->series];
+        const fbd_series *series = &cost->series[label->series];
         text_printf(text, "<path class=\"leader\" stroke=\"%s\" d=\"M", colour_of(label->series));
         pair(text, label->x + 6, label->y);
         text_add(text, " L");

@@ -31,7 +31,7 @@ static void power(struct text *text, double value)
         text_number(text, value, 4);
 }
 
-static void setting(struct text *text, const fbd_cost_point *point)
+static void setting(struct text *text, const fbd_point *point)
 {
     text_add(text, point->step > 0 ? "h = " : "");
     power(text, point->step > 0 ? point->step : point->tolerance);
@@ -50,7 +50,7 @@ static void error(struct text *text, double value, double floor)
         text_printf(text, "%.1e", value);
 }
 
-static void numbers(struct text *text, const struct fbd_cost *cost, const fbd_cost_point *point)
+static void numbers(struct text *text, const struct fbd_cost *cost, const fbd_point *point)
 {
     error(text, point->error, cost->reference.floor);
     text_pad(text, 34);
@@ -75,7 +75,7 @@ static void numbers(struct text *text, const struct fbd_cost *cost, const fbd_co
                 point->stats.steps, point->stats.rejected, point->stats.events);
 }
 
-static void row(struct text *text, const struct fbd_cost *cost, const fbd_cost_point *point)
+static void row(struct text *text, const struct fbd_cost *cost, const fbd_point *point)
 {
     text_printf(text, "%s %s", point->front ? "*" : " ", point->method);
     text_pad(text, 11);
@@ -89,13 +89,13 @@ static void row(struct text *text, const struct fbd_cost *cost, const fbd_cost_p
 }
 
 /* Skipped rungs to the end of a ladder are one row. */
-static void rows(struct text *text, const struct fbd_cost *cost, const fbd_cost_series *series)
+static void rows(struct text *text, const struct fbd_cost *cost, const fbd_series *series)
 {
     size_t end = series->first + series->count, last = end;
     while (last > series->first && cost->points[last - 1].state == FBD_POINT_SKIPPED) last--;
     for (size_t i = series->first; i < last; i++) row(text, cost, &cost->points[i]);
     if (last < end) {
-        const fbd_cost_point *point = &cost->points[last];
+        const fbd_point *point = &cost->points[last];
         text_printf(text, "  %s", point->method);
         text_pad(text, 11);
         setting(text, point);
@@ -166,7 +166,7 @@ static void measure(struct text *text, const struct fbd_cost *cost)
 
 static void answer(struct text *text, const struct fbd_cost *cost, double target)
 {
-    const fbd_cost_point *point = fbd_cost_cheapest(cost, target);
+    const fbd_point *point = cost_cheapest(cost, target);
     text_add(text, "  ");
     power(text, target);
     if (target < cost->reference.floor) {

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/crew.h"
 
+#include "base/call.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <time.h>
@@ -34,6 +36,17 @@ static void write_place(fbd_sweep_crew *crew, const struct place *place)
         end_early(crew, place->rows.failed ? FBD_SWEEP_OUT_OF_MEMORY : FBD_SWEEP_STOPPED);
 }
 
+static void tell_progress(fbd_sweep_crew *crew)
+{
+    if (!crew->work.progress || crew->end != FBD_SWEEP_DONE) return;
+    double all = (double)(crew->work.end - crew->work.first);
+    const fbd_progress now = {.what = "sweep",
+                              .share = (double)crew->counts.written / all,
+                              .written = crew->counts.written,
+                              .failed = crew->counts.failed};
+    if (crew->work.progress(crew->work.progress_context, &now) != 0) end_early(crew, FBD_SWEEP_STOPPED);
+}
+
 /* A share is done: write it, and those behind it that waited, or leave it for later. */
 static void put_in_order(fbd_sweep_crew *crew, struct place *place)
 {
@@ -42,7 +55,7 @@ static void put_in_order(fbd_sweep_crew *crew, struct place *place)
     while (crew->head < crew->tail && crew->ring[crew->head % crew->room].done)
         write_place(crew, &crew->ring[crew->head++ % crew->room]);
     if (!first) return;
-    if (crew->work.progress) crew->work.progress(crew->work.progress_context, &crew->counts);
+    tell_progress(crew);
     pthread_cond_broadcast(&crew->changed);
 }
 
@@ -50,7 +63,7 @@ static void put_in_order(fbd_sweep_crew *crew, struct place *place)
  * the end a part of what is left. */
 static uint64_t share_size(const fbd_sweep_crew *crew, size_t jobs)
 {
-    double workers = (double)(crew->jobs + crew->work.helpers);
+    double workers = (double)(crew->jobs + crew->helpers);
     double runs = crew->seconds > 0 ? fmin(share_seconds / crew->seconds, most_share) : 1;
     double left = (double)(crew->work.end - crew->next);
     double size = fmin(runs * (double)jobs, left / (2 * workers));
@@ -84,11 +97,11 @@ static double now(void)
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-static bool stops(void *context)
+static int stops(void *context)
 {
     fbd_sweep_crew *crew = context;
-    if (atomic_load_explicit(&crew->over, memory_order_relaxed)) return true;
-    return crew->work.stop && crew->work.stop(crew->work.stop_context);
+    if (atomic_load_explicit(&crew->over, memory_order_relaxed)) return 1;
+    return crew->work.stop ? crew->work.stop(crew->work.stop_context) : 0;
 }
 
 static void make_rows(struct row_maker *maker, struct place *place)
@@ -155,20 +168,23 @@ static void dismiss(fbd_sweep_crew *crew)
 /* One thread alone is the caller's, in fbd_sweep_finish. */
 static void start_threads(fbd_sweep_crew *crew)
 {
-    if (crew->jobs == 1 && crew->work.helpers == 0) return;
+    if (crew->jobs == 1 && crew->helpers == 0) return;
     while (crew->threads < crew->jobs && pthread_create(&crew->thread[crew->threads], NULL, work, crew) == 0)
         crew->threads++;
 }
 
-fbd_sweep_crew *fbd_sweep_start(const fbd_sweep *sweep, const fbd_sweep_work *work)
+fbd_sweep_crew *fbd_sweep_start(const fbd_sweep *sweep, const fbd_sweep_work *given, size_t helpers)
 {
-    if (!sweep || !work || !work->write) return NULL;
+    fbd_sweep_work own = {0};
+    const fbd_sweep_work *work = &own;
+    if (!sweep || !call_options(&own, sizeof own, given, NULL) || !own.write) return NULL;
     enum { places_of_a_thread = 4, places_of_a_helper = 4, most_jobs = 1024 };
     const size_t usual_rows = 16000; /* bytes of a full share: none of them grows in most sweeps */
     fbd_sweep_crew *crew = calloc(1, sizeof *crew);
     if (!crew) return NULL;
     crew->sweep = sweep;
-    crew->work = *work;
+    crew->work = own;
+    crew->helpers = helpers;
     if (crew->work.end > sweep->axes.runs) crew->work.end = (size_t)sweep->axes.runs;
     crew->next = work->first;
     crew->jobs = work->jobs ? work->jobs : processors();
@@ -176,7 +192,7 @@ fbd_sweep_crew *fbd_sweep_start(const fbd_sweep *sweep, const fbd_sweep_work *wo
     pthread_mutex_init(&crew->lock, NULL);
     pthread_cond_init(&crew->changed, NULL);
     atomic_init(&crew->over, false);
-    crew->room = places_of_a_thread * crew->jobs + places_of_a_helper * work->helpers;
+    crew->room = places_of_a_thread * crew->jobs + places_of_a_helper * helpers;
     crew->ring = calloc(crew->room, sizeof *crew->ring);
     crew->thread = calloc(crew->jobs, sizeof *crew->thread);
     bool reserved = crew->ring != NULL;
@@ -194,7 +210,7 @@ int fbd_sweep_claim(fbd_sweep_crew *crew, size_t jobs, fbd_sweep_share *share)
 {
     if (!crew || !share) return -1;
     pthread_mutex_lock(&crew->lock);
-    if (crew->work.stop && crew->work.stop(crew->work.stop_context)) end_early(crew, FBD_SWEEP_STOPPED);
+    if (crew->work.stop && crew->work.stop(crew->work.stop_context) != 0) end_early(crew, FBD_SWEEP_STOPPED);
     bool none = is_used_up(crew);
     struct place *place = hand_out(crew, jobs);
     if (place) *share = (fbd_sweep_share){place->first, place->end, place};
@@ -243,8 +259,9 @@ fbd_sweep_end fbd_sweep_finish(fbd_sweep_crew *crew, fbd_sweep_counts *counts)
 fbd_sweep_end fbd_sweep_run(const fbd_sweep *sweep, const fbd_sweep_work *work, fbd_sweep_counts *counts)
 {
     if (counts) *counts = (fbd_sweep_counts){0};
-    if (!sweep || !work || !work->write) return FBD_SWEEP_REFUSED;
-    fbd_sweep_crew *crew = fbd_sweep_start(sweep, work);
+    fbd_sweep_work own = {0};
+    if (!sweep || !call_options(&own, sizeof own, work, NULL) || !own.write) return FBD_SWEEP_REFUSED;
+    fbd_sweep_crew *crew = fbd_sweep_start(sweep, &own, 0);
     if (crew) return fbd_sweep_finish(crew, counts);
     return FBD_SWEEP_OUT_OF_MEMORY;
 }

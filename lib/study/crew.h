@@ -11,6 +11,7 @@
 #ifndef FBD_STUDY_CREW_H
 #define FBD_STUDY_CREW_H
 
+#include "fbd_crew.h"
 #include "study/sweep.h"
 
 #include <pthread.h>
@@ -29,6 +30,7 @@ struct fbd_sweep_crew {
     const struct fbd_sweep *sweep;
     fbd_sweep_work work;
     size_t jobs, threads; /* wanted; running */
+    size_t helpers;       /* other processes that claim shares */
     pthread_t *thread;
 
     atomic_bool over; /* no more rows are wanted */

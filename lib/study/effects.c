@@ -103,8 +103,8 @@ static bool try_without(struct fbd_effects *effects, size_t index, fbd_model **m
                                              : model_variant(effects->model, effect_edit, edit, errors);
     bool runs = *model && run_without(effects, index, *model, seconds, errors);
     for (size_t i = 0; !runs && i < fbd_errors_count(errors); i++)
-        if (fbd_errors_get(errors, i)->severity == FBD_ERROR)
-            effect->reason = words(effects, fbd_errors_get(errors, i)->message);
+        if (fbd_errors_get(errors, i).severity == FBD_ERROR)
+            effect->reason = words(effects, fbd_errors_get(errors, i).message);
     bool done = !errors->out_of_memory && !effects->arena.failed;
     fbd_errors_free(errors);
     if (runs && done && !effect->reason[0]) return true;
@@ -138,7 +138,9 @@ static bool run_all(struct fbd_effects *effects, fbd_model **models, struct time
         if (!try_without(effects, i, &models[i], &seconds)) return false;
         if (models[i])
             timed[count++] = (struct timed){.model = models[i], .options = options, .estimate = seconds};
-        progress_report(&effects->progress, "effects", (double)i / (double)effects->count);
+        if (!progress_report(&effects->progress, "effects", (double)i / (double)effects->count,
+                             effects->errors))
+            return false;
     }
     /* A fraction of the budget tells times of some milliseconds well enough. */
     double seconds =
@@ -174,7 +176,7 @@ static fbd_effects *effects_new(const fbd_model *model, const fbd_cost_options *
     bool done = study(effects, options);
     effects->errors = NULL; /* the list is that of this call */
     if (done) return effects;
-    if (fbd_errors_failed(errors) == 0) diag_out_of_memory(errors);
+    if (fbd_errors_failed_count(errors) == 0) diag_out_of_memory(errors);
     fbd_effects_free(effects);
     return NULL;
 }
@@ -183,8 +185,9 @@ fbd_effects *fbd_effects_new(const fbd_model *model, const fbd_cost_options *opt
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
+    fbd_cost_options own;
     fbd_effects *effects =
-        study_is_asked(model, &options, errors) ? effects_new(model, options, errors) : NULL;
+        study_is_asked(model, options, &own, errors) ? effects_new(model, &own, errors) : NULL;
     diag_end(&call);
     return effects;
 }
@@ -202,7 +205,9 @@ size_t fbd_effects_count(const fbd_effects *effects)
     return effects->count;
 }
 
-const fbd_effect *fbd_effects_get(const fbd_effects *effects, size_t index)
+fbd_effect fbd_effects_get(const fbd_effects *effects, size_t index)
 {
-    return effects && index < effects->count ? &effects->effects[index] : NULL;
+    return effects && index < effects->count
+               ? effects->effects[index]
+               : (fbd_effect){.change_end = NAN, .change_max = NAN, .time = NAN};
 }

@@ -73,7 +73,7 @@ static void replace(struct value *value, const struct edit *edit, int degree, st
 {
     if (!value->expr || expr_is_constant(value->expr)) return;
     value->expr = taylor_expr(value->expr, edit->about.at, degree, &scene->arena, errors);
-    if (value->expr || fbd_errors_failed(errors) > 0) return;
+    if (value->expr || fbd_errors_failed_count(errors) > 0) return;
     diag_add(errors, FBD_ERROR, "not-finite", value->at, NULL, "it has no tangent at the equilibrium");
 }
 

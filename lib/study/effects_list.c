@@ -87,7 +87,7 @@ static bool find_equilibrium(struct fbd_effects *effects, bool at_rest, struct e
     fbd_state *state = fbd_state_new(effects->model);
     bool found = errors && state && (!at_rest || fbd_find_equilibrium(state, errors));
     fbd_linearization *linear = found ? fbd_linearize(state, errors) : NULL;
-    size_t size = 2 * fbd_model_coordinates(effects->model);
+    size_t size = 2 * fbd_model_coordinate_count(effects->model);
     *about = (struct equilibrium){NULL, NULL};
     if (linear && fbd_linearization_size(linear) == size)
         *about = (struct equilibrium){copy_of(effects, state->y, size),

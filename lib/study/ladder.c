@@ -45,15 +45,15 @@ static bool check_methods(const struct fbd_cost *cost, const fbd_cost_options *o
 static void add_series(struct fbd_cost *cost, const char *method, bool fixed)
 {
     size_t rungs = fixed ? step_rungs : tolerance_rungs;
-    cost->series[cost->series_count++] = (fbd_cost_series){
+    cost->series[cost->series_count++] = (fbd_series){
         .method = method, .fixed = fixed, .first = cost->point_count, .count = rungs, .order = NAN};
     for (size_t r = 0; r < rungs; r++) {
         struct setting *setting = &cost->settings[cost->point_count];
         *setting = (struct setting){.method = method, .tolerance = fixed ? 0 : tolerances[r]};
-        cost->points[cost->point_count++] = (fbd_cost_point){.method = method,
-                                                             .tolerance = setting->tolerance,
-                                                             .state = FBD_POINT_SKIPPED,
-                                                             .reason = ""};
+        cost->points[cost->point_count++] = (fbd_point){.method = method,
+                                                        .tolerance = setting->tolerance,
+                                                        .state = FBD_POINT_SKIPPED,
+                                                        .reason = ""};
     }
 }
 
@@ -64,8 +64,8 @@ bool ladder_plan(struct fbd_cost *cost, const fbd_cost_options *options)
 {
     if (!check_methods(cost, options)) return false;
     const size_t most_points = (size_t)most_series * step_rungs;
-    cost->series = ARENA_ARRAY(&cost->arena, most_series, fbd_cost_series);
-    cost->points = ARENA_ARRAY(&cost->arena, most_points, fbd_cost_point);
+    cost->series = ARENA_ARRAY(&cost->arena, most_series, fbd_series);
+    cost->points = ARENA_ARRAY(&cost->arena, most_points, fbd_point);
     cost->settings = ARENA_ARRAY(&cost->arena, most_points, struct setting);
     if (cost->arena.failed) return false;
     if (!options->fixed_steps && wanted(options, automatic)) add_series(cost, automatic, false);
@@ -127,7 +127,7 @@ struct climber {
 };
 
 /* What the next rung takes at least: work ~ tolerance^(-1/(p + 1)), or twice as many steps. */
-static double next_seconds(const fbd_cost_series *series, const struct climber *climber, double seconds)
+static double next_seconds(const fbd_series *series, const struct climber *climber, double seconds)
 {
     const struct method *method = method_find(series->method);
     double order = method ? method->order : 8;
@@ -147,7 +147,7 @@ static const char *other_end(struct fbd_cost *cost, const struct track *track)
                         track->t_end, words[cost->reference.track.outcome]);
 }
 
-static void judge(struct fbd_cost *cost, fbd_cost_point *point, const struct track *track)
+static void judge(struct fbd_cost *cost, fbd_point *point, const struct track *track)
 {
     const struct certified_reference *reference = &cost->reference;
     point->stats = track->stats;
@@ -168,7 +168,7 @@ static void judge(struct fbd_cost *cost, fbd_cost_point *point, const struct tra
 }
 
 /* The rest of a ladder is left out, from `rung` on. */
-static void skip_rest(struct fbd_cost *cost, const fbd_cost_series *series, size_t rung, const char *reason)
+static void skip_rest(struct fbd_cost *cost, const fbd_series *series, size_t rung, const char *reason)
 {
     for (size_t r = rung; r < series->count; r++)
         cost->points[series->first + r].reason = reason ? reason : "";
@@ -180,7 +180,7 @@ static bool run_point(struct fbd_cost *cost, size_t index, double most_seconds)
     struct arena arena = {0};
     bool done = track_make(&track, cost_model(cost), &cost->settings[index], &cost->reference.grid,
                            most_seconds, &arena, cost->errors);
-    fbd_cost_point *point = &cost->points[index];
+    fbd_point *point = &cost->points[index];
     if (done && track.outcome == FBD_GOING) {
         const char *reason =
             arena_printf(&cost->arena, "given up after %.2g s at t = %.3g s", track.seconds, track.t_end);
@@ -207,7 +207,7 @@ static size_t next_series(const struct fbd_cost *cost, const struct climber *cli
     return best;
 }
 
-static bool climb_rung(struct fbd_cost *cost, const fbd_cost_series *series, struct climber *climber,
+static bool climb_rung(struct fbd_cost *cost, const fbd_series *series, struct climber *climber,
                        double most_seconds)
 {
     size_t index = series->first + climber->rung;
@@ -218,7 +218,7 @@ static bool climb_rung(struct fbd_cost *cost, const fbd_cost_series *series, str
         return !cost->arena.failed;
     }
     if (!run_point(cost, index, most_seconds)) return false;
-    const fbd_cost_point *point = &cost->points[index];
+    const fbd_point *point = &cost->points[index];
     climber->rung++;
     climber->expected = next_seconds(series, climber, point->seconds);
     climber->last = point->seconds;
@@ -237,7 +237,7 @@ bool ladder_climb(struct fbd_cost *cost)
     if (!climbers || !plan_steps(cost)) return false;
     for (size_t s; (s = next_series(cost, climbers)) < cost->series_count;) {
         double spent = stopwatch_wall(&watch) / (LADDER_SHARE * cost->budget);
-        progress_report(&cost->progress, "errors", fmin(spent, 1));
+        if (!progress_report(&cost->progress, "errors", fmin(spent, 1), cost->errors)) return false;
         if (spent > 1) break;
         if (!climb_rung(cost, &cost->series[s], &climbers[s], longest_share * cost->budget)) return false;
     }

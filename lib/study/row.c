@@ -103,7 +103,7 @@ static void put_wrong(const struct row_maker *maker, fbd_errors *errors, struct 
     char reason[600] = "";
     for (size_t i = 0; i < columns->count + 1; i++) text_add(text, ","); /* and the number of events */
     const fbd_error *note;
-    for (size_t i = 0; (note = errors->out_of_memory ? NULL : fbd_errors_get(errors, i)) != NULL; i++) {
+    for (size_t i = 0; (note = errors->out_of_memory ? NULL : diag_get(errors, i)) != NULL; i++) {
         if (note->severity != FBD_ERROR) continue;
         const char *file = note->file ? note->file : "model";
         if (note->line > 0)
@@ -151,7 +151,7 @@ static bool carry(struct row_maker *maker, struct ensemble *run, struct ledger *
     size_t extremes = maker->sweep->columns.extreme_count;
     if (ledger) run->observer = (struct observer){ledger, account, account_again};
     while (run->outcome == FBD_GOING) {
-        if (maker->stop && maker->stop(maker->stop_context)) return false;
+        if (maker->stop && maker->stop(maker->stop_context) != 0) return false;
         ensemble_advance(run);
         if (!(run->t > run->from)) continue; /* no step was made */
         if (probe && !extremes_step(maker->extremes, extremes, run, probe)) run->outcome = FBD_FAILED;

@@ -170,13 +170,13 @@ static void set_key(struct fbd_sweep *sweep, const fbd_sweep_plan *plan)
     for (size_t i = 0; i < plan->vary_count; i++) text_printf(key, "vary %s\n", plan->vary[i]);
     text_printf(key, "%s, seed %lu\n", plan->zip ? "side by side" : "each with each", plan->seed);
     for (size_t i = 0; i < plan->output_count; i++) text_printf(key, "output %s\n", plan->outputs[i]);
-    text_printf(key, "method %s, tolerance ", plan->run.method ? plan->run.method : "of the file");
-    text_number(key, plan->run.tolerance, 17);
+    text_printf(key, "method %s, tolerance ", plan->run->method ? plan->run->method : "of the file");
+    text_number(key, plan->run->tolerance, 17);
     text_add(key, ", step ");
-    text_number(key, plan->run.step, 17);
+    text_number(key, plan->run->step, 17);
     text_add(key, ", until ");
-    text_number(key, plan->run.until, 17);
-    text_add(key, plan->run.no_structure ? ", no structure\n" : "\n");
+    text_number(key, plan->run->until, 17);
+    text_add(key, plan->run->no_structure ? ", no structure\n" : "\n");
 }
 
 /* ---- making and freeing */
@@ -190,8 +190,8 @@ static bool copy_settings(struct fbd_sweep *sweep, const fbd_sweep_plan *plan)
                                             .value = arena_text(&sweep->arena, value, strlen(value))};
     }
     sweep->fixed_count = plan->setting_count;
-    sweep->options = plan->run;
-    const char *method = plan->run.method;
+    sweep->options = *plan->run;
+    const char *method = plan->run->method;
     if (method) sweep->options.method = arena_text(&sweep->arena, method, strlen(method));
     return !sweep->arena.failed;
 }
@@ -271,17 +271,29 @@ static struct fbd_sweep *sweep_make(char *text, size_t length, const char *name,
     sweep->source = text;
     sweep->source_length = length;
     if (build(sweep, name, plan, errors)) return sweep;
-    if (fbd_errors_failed(errors) == 0) diag_out_of_memory(errors);
+    if (fbd_errors_failed_count(errors) == 0) diag_out_of_memory(errors);
     fbd_sweep_free(sweep);
     return NULL;
 }
 
 /* ---- the public face */
 
+/* A plan as it is known here. */
+struct asked {
+    fbd_sweep_plan plan;
+    fbd_options run;
+};
+
 /* Is there what is to be read, and a plan? */
-static bool is_asked(const char *text, const fbd_sweep_plan *plan, fbd_errors *errors)
+static bool is_asked(struct asked *asked, const char *text, const fbd_sweep_plan *given, fbd_errors *errors)
 {
-    if (!text || !plan)
+    const fbd_sweep_plan *plan = &asked->plan;
+    *asked = (struct asked){.run = FBD_OPTIONS_DEFAULT};
+    if (!call_options(&asked->plan, sizeof asked->plan, given, errors) ||
+        !call_options(&asked->run, sizeof asked->run, asked->plan.run, errors))
+        return false;
+    asked->plan.run = &asked->run;
+    if (!text || !given)
         call_refuse(errors, text ? "there is no plan" : "there is no text or path");
     else if (!call_has_texts(plan->vary, plan->vary_count) ||
              !call_has_texts(plan->outputs, plan->output_count) ||
@@ -296,9 +308,10 @@ fbd_sweep *fbd_sweep_read(const char *path, const fbd_sweep_plan *plan, fbd_erro
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
+    struct asked asked;
     size_t length;
-    char *text = is_asked(path, plan, errors) ? file_text(path, &length, errors) : NULL;
-    fbd_sweep *sweep = text ? sweep_make(text, length, file_name(path), plan, errors) : NULL;
+    char *text = is_asked(&asked, path, plan, errors) ? file_text(path, &length, errors) : NULL;
+    fbd_sweep *sweep = text ? sweep_make(text, length, file_name(path), &asked.plan, errors) : NULL;
     diag_end(&call);
     return sweep;
 }
@@ -308,8 +321,9 @@ fbd_sweep *fbd_sweep_parse(const char *text, size_t length, const char *name, co
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    char *copy = is_asked(text, plan, errors) ? file_copy(text, length, errors) : NULL;
-    fbd_sweep *sweep = copy ? sweep_make(copy, length, name, plan, errors) : NULL;
+    struct asked asked;
+    char *copy = is_asked(&asked, text, plan, errors) ? file_copy(text, length, errors) : NULL;
+    fbd_sweep *sweep = copy ? sweep_make(copy, length, name, &asked.plan, errors) : NULL;
     diag_end(&call);
     return sweep;
 }
@@ -326,7 +340,7 @@ void fbd_sweep_free(fbd_sweep *sweep)
     free(sweep);
 }
 
-size_t fbd_sweep_runs(const fbd_sweep *sweep)
+size_t fbd_sweep_run_count(const fbd_sweep *sweep)
 {
     if (!sweep) return 0;
     return (size_t)sweep->axes.runs;

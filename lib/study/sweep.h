@@ -38,7 +38,7 @@ struct row_maker {
     size_t *starts;             /* of the texts of the values */
     struct text values;
     struct extreme *extremes;
-    bool (*stop)(void *context); /* asked in every step, or NULL */
+    fbd_stop *stop; /* asked in every step, or NULL */
     void *stop_context;
 };
 

@@ -7,9 +7,12 @@
 #include "base/diag.h"
 #include "study/stopwatch.h"
 
-void progress_report(const struct progress *progress, const char *what, double share)
+bool progress_report(const struct progress *progress, const char *what, double share, fbd_errors *errors)
 {
-    if (progress && progress->report) progress->report(progress->context, what, share);
+    const fbd_progress now = {.what = what, .share = share};
+    if (!progress->watch || progress->watch(progress->context, &now) == 0) return true;
+    diag_add(errors, FBD_ERROR, "stopped", (struct pos){0, 0}, NULL, "the study was stopped");
+    return false;
 }
 
 static bool run_once(const struct timed *timed, fbd_errors *errors)
@@ -77,7 +80,7 @@ bool timing_in_turn(struct timed *timed, size_t count, double seconds, const str
             if (late || round >= wanted_repeats(one, seconds / (double)count)) continue;
             if (!read_once(one, errors)) return false;
             going = true;
-            progress_report(progress, "timing", fmin(passed / seconds, 1));
+            if (!progress_report(progress, "timing", fmin(passed / seconds, 1), errors)) return false;
         }
     }
     for (size_t i = 0; i < count; i++) summarize(&timed[i]);

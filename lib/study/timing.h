@@ -24,11 +24,12 @@ struct timed {
 
 /* Told now and then how far a study has got, 0 to 1. */
 struct progress {
-    fbd_study_progress *report; /* or NULL */
+    fbd_watch *watch; /* or NULL */
     void *context;
 };
 
-void progress_report(const struct progress *progress, const char *what, double share);
+/* False, with the note `stopped`, when the study is to end. */
+bool progress_report(const struct progress *progress, const char *what, double share, fbd_errors *errors);
 
 /* Time all of them within about `seconds`: each at least once, the short ones up to most_repeats times.
  * False when memory is out. */

@@ -20,7 +20,7 @@ fbd_options setting_options(const struct setting *setting, double until)
 
 size_t quantity_count(const fbd_model *model)
 {
-    return 2 * fbd_model_coordinates(model) + fbd_model_states(model);
+    return 2 * fbd_model_coordinate_count(model) + fbd_model_state_count(model);
 }
 
 double grid_time(const struct grid *grid, size_t index)
@@ -66,7 +66,7 @@ static bool run_through(struct track *track, fbd_simulation *simulation, const s
 
 static bool keep_events(struct track *track, fbd_simulation *simulation, struct arena *arena)
 {
-    track->event_count = fbd_simulation_events(simulation);
+    track->event_count = fbd_simulation_event_count(simulation);
     track->events = ARENA_ARRAY(arena, track->event_count + 1, struct track_event);
     if (!track->events) return false;
     for (size_t i = 0; i < track->event_count; i++) {

@@ -95,7 +95,7 @@ class Cost(_Study):
 
     def __init__(self, handle: Any):
         self._handle = handle
-        points = (lib.fbd_cost_get_point(handle, i) for i in range(lib.fbd_cost_points(handle)))
+        points = (lib.fbd_cost_point(handle, i) for i in range(lib.fbd_cost_point_count(handle)))
         self.points = tuple(self._point(point) for point in points)
 
     @staticmethod
@@ -105,12 +105,12 @@ class Cost(_Study):
     @property
     def reference(self) -> str:
         """What the errors are measured against, in words."""
-        return text_at(lib.fbd_cost_get_reference(self._handle).says)
+        return text_at(lib.fbd_cost_reference(self._handle).says)
 
     def cheapest(self, error: float) -> Optional[CostPoint]:
         """The cheapest point whose error is at most that; None when there is none."""
         point = lib.fbd_cost_cheapest(self._handle, positive(error, "the error"))
-        return None if point == ffi.NULL else self._point(point)
+        return None if point.method == ffi.NULL else self._point(point)
 
     @property
     def svg(self) -> str:

@@ -42,7 +42,7 @@ class Grade:
         handle = made(lib.fbd_grade_new, lib.fbd_grade_free, (key._handle,), key._handle, path_of(path), name)
         self.points, self.most = lib.fbd_grade_points(handle), lib.fbd_grade_most(handle)
         self.passed = bool(lib.fbd_grade_passed(handle))
-        structs = [lib.fbd_grade_finding(handle, i) for i in range(lib.fbd_grade_findings(handle))]
+        structs = [lib.fbd_grade_finding(handle, i) for i in range(lib.fbd_grade_finding_count(handle))]
         self.findings = tuple(
             from_struct(Finding, struct, kind=text_at(lib.fbd_finding_kind_name(struct.kind))) for struct in structs)
         self._handle = handle

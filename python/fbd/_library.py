@@ -70,7 +70,7 @@ def taken(pointer: Any) -> str:
     try:
         return str(ffi.string(pointer), "utf-8", "replace")
     finally:
-        lib.glue_release(pointer)
+        lib.fbd_free(pointer)
 
 
 def _shown(pointer: Any) -> Optional[str]:
@@ -159,7 +159,7 @@ def _call(function: Callable[..., Any], arguments: Tuple[Any, ...]) -> Tuple[Any
     notes = tuple(_note(lib.fbd_errors_get(errors, i)) for i in range(lib.fbd_errors_count(errors)))
     if any(note.id == "out-of-memory" for note in notes):
         raise MemoryError("fbd: out of memory")
-    if lib.fbd_errors_failed(errors):
+    if lib.fbd_errors_failed_count(errors):
         raise Error(notes)
     return result, notes
 
@@ -214,7 +214,7 @@ def run_options(
 ) -> Tuple[Any, Any]:
     """fbd_options, and what must live as long."""
     name = ffi.NULL if method is None else ffi.new("char[]", bytes_of(method, "the method"))
-    options = ffi.new("fbd_options *")
+    options = ffi.new("fbd_options *", {"size": ffi.sizeof("fbd_options")})
     options.until = math.nan if until is None else number(until, "until")
     options.tolerance = 0 if tolerance is None else positive(tolerance, "the tolerance")
     options.step = 0 if step is None else positive(step, "the step")

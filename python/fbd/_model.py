@@ -67,7 +67,7 @@ class Model:
     @property
     def bodies(self) -> Tuple[str, ...]:
         """Names of the bodies."""
-        count = lib.fbd_model_bodies(self._model)
+        count = lib.fbd_model_body_count(self._model)
         return tuple(text_at(lib.fbd_model_body_name(self._model, i)) for i in range(count))
 
     @property
@@ -116,11 +116,9 @@ class Model:
     def check_hand(self, seed: int = 1) -> HandCheck:
         """Hold every ``hand:`` derivation of the file against the assembly at random states. The number of those
         that differ, with its ``text``."""
-        text = ffi.new("char **")
-        differ = lib.fbd_check_hand(self._model, whole(seed, "the seed", 2**32 - 1), text)
-        if differ < 0:
-            raise MemoryError("fbd: out of memory")
-        return HandCheck(differ, taken(text[0]))
+        differing = ffi.new("size_t *")
+        text = lib.fbd_check_hand(self._model, whole(seed, "the seed", 2**32 - 1), differing)
+        return HandCheck(differing[0], taken(text))
 
     # ---- runs
 

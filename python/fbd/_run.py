@@ -130,7 +130,7 @@ class Run(Mapping[str, Column]):
         with self._lock:
             if self._events is None:
                 structs = [lib.fbd_simulation_event(self._simulation, i)
-                           for i in range(lib.fbd_simulation_events(self._simulation))]
+                           for i in range(lib.fbd_simulation_event_count(self._simulation))]
                 self._events = tuple(
                     from_struct(Event, struct, kind=text_at(lib.fbd_event_kind_name(struct.kind)))
                     for struct in structs)

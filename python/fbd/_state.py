@@ -15,7 +15,7 @@ from ._records import (Arrow, Coordinate, Equation, Limit, Mode, Unbalanced, fro
 def coordinates_of(model: Any) -> Tuple[Coordinate, ...]:
     """Of a C model, in its order."""
     found = []
-    for i in range(lib.fbd_model_coordinates(model)):
+    for i in range(lib.fbd_model_coordinate_count(model)):
         coordinate = lib.fbd_model_coordinate(model, i)
         body = text_at(lib.fbd_model_body_name(model, coordinate.body))
         found.append(from_struct(Coordinate, coordinate, body=body))
@@ -24,7 +24,7 @@ def coordinates_of(model: Any) -> Tuple[Coordinate, ...]:
 
 def states_of(model: Any) -> Dict[str, str]:
     """The states of the file's own of a C model, by name with their units."""
-    found = (lib.fbd_model_state(model, i) for i in range(lib.fbd_model_states(model)))
+    found = (lib.fbd_model_state(model, i) for i in range(lib.fbd_model_state_count(model)))
     return {text_at(state.name): text_at(state.unit) for state in found}
 
 
@@ -36,7 +36,7 @@ def _fill(function: Any, handle: Any, body: int) -> Tuple[Arrow, ...]:
 
 
 def _diagrams(function: Any, handle: Any, model: Any) -> Dict[str, Tuple[Arrow, ...]]:
-    bodies = range(lib.fbd_model_bodies(model))
+    bodies = range(lib.fbd_model_body_count(model))
     return {text_at(lib.fbd_model_body_name(model, b)): _fill(function, handle, b) for b in bodies}
 
 
@@ -146,13 +146,13 @@ class Statics:
         self.holds = bool(lib.fbd_statics_holds(handle))
         self.indeterminacy = lib.fbd_statics_indeterminacy(handle)
         self.mobility = lib.fbd_statics_mobility(handle)
-        undetermined = range(lib.fbd_statics_undetermined(handle))
-        self.undetermined = tuple(text_at(lib.fbd_statics_undetermined_name(handle, i)) for i in undetermined)
+        undetermined = range(lib.fbd_statics_undetermined_count(handle))
+        self.undetermined = tuple(text_at(lib.fbd_statics_undetermined(handle, i)) for i in undetermined)
         self.unbalanced = tuple(
-            from_struct(Unbalanced, lib.fbd_statics_unbalanced_at(handle, i))
-            for i in range(lib.fbd_statics_unbalanced(handle))
+            from_struct(Unbalanced, lib.fbd_statics_unbalanced(handle, i))
+            for i in range(lib.fbd_statics_unbalanced_count(handle))
         )
-        limits = [lib.fbd_statics_limit(handle, i) for i in range(lib.fbd_statics_limits(handle))]
+        limits = [lib.fbd_statics_limit(handle, i) for i in range(lib.fbd_statics_limit_count(handle))]
         self.limits = tuple(from_struct(Limit, limit, kind=_limit_kinds[limit.kind]) for limit in limits)
         self.diagram = _diagrams(lib.fbd_statics_diagram, handle, state._model)
         self._text = taken(lib.fbd_statics_text(handle))

@@ -85,7 +85,7 @@ def _table(header: str, rows: str) -> SweepTable:
 
 def _work(sweep: Any, sheet: Any, jobs: int) -> Any:
     wanted = {
-        "end": lib.fbd_sweep_runs(sweep), "jobs": jobs,
+        "end": lib.fbd_sweep_run_count(sweep), "jobs": jobs,
         "write": ffi.addressof(lib, "glue_keep"), "write_context": sheet,
         "progress": ffi.addressof(lib, "glue_count"), "progress_context": sheet,
         "stop": ffi.addressof(lib, "glue_is_stopped"), "stop_context": sheet,
@@ -103,16 +103,16 @@ def _plan(vary: Vary, outputs: Union[str, Sequence[str]], zip: bool, seed: int, 
     plan = ffi.new("fbd_sweep_plan *", {
         "vary": texts, "vary_count": text_count, "zip": bool(zip), "seed": whole(seed, "the seed", 2**64 - 1),
         "settings": settings, "setting_count": setting_count,
-        "outputs": asked, "output_count": asked_count, "run": run[0],
+        "outputs": asked, "output_count": asked_count, "run": run,
     })
-    return plan, (texts, first, asked, second, settings, third, method)
+    return plan, (texts, first, asked, second, settings, third, run, method)
 
 
 def sweep(source: bytes, name: bytes, plan: Any, jobs: int,
           progress: Optional[Callable[[int, int], Any]]) -> SweepTable:
     """Make the rows of a plan, by threads."""
     handle = made(lib.fbd_sweep_parse, lib.fbd_sweep_free, (), source, len(source), name, plan)
-    runs = lib.fbd_sweep_runs(handle)
+    runs = lib.fbd_sweep_run_count(handle)
     sheet = ffi.gc(ffi.new("glue_sheet *"), lib.glue_free)
     work, counts = _work(handle, sheet, jobs), ffi.new("fbd_sweep_counts *")
 

@@ -31,7 +31,7 @@ static struct cost measure(const fbd_sweep *sweep, size_t jobs)
 {
     size_t bytes = 0;
     fbd_sweep_counts counts;
-    const fbd_sweep_work work = {.end = fbd_sweep_runs(sweep),
+    const fbd_sweep_work work = {.end = fbd_sweep_run_count(sweep),
                                  .jobs = jobs,
                                  .write = swallow,
                                  .write_context = &bytes};
@@ -64,7 +64,7 @@ static double measure_alone(const char *text, size_t length, int repetitions)
 static fbd_sweep *open_sweep(const char *path, const char *vary)
 {
     fbd_errors *errors = fbd_errors_new();
-    const fbd_sweep_plan plan = {.vary = &vary, .vary_count = 1, .run = FBD_OPTIONS_DEFAULT};
+    const fbd_sweep_plan plan = {.vary = &vary, .vary_count = 1};
     fbd_sweep *sweep = errors ? fbd_sweep_read(path, &plan, errors) : NULL;
     if (errors && !sweep) fbd_errors_print(errors, stderr);
     fbd_errors_free(errors);
@@ -77,7 +77,7 @@ int main(int argc, char **argv)
     gsl_set_error_handler_off();
     fbd_sweep *sweep = argc == 3 ? open_sweep(argv[1], argv[2]) : NULL;
     if (!sweep) return 2;
-    double runs = (double)fbd_sweep_runs(sweep);
+    double runs = (double)fbd_sweep_run_count(sweep);
     measure(sweep, 2); /* to warm up */
     for (int i = 0; i < pairs; i++) {
         struct cost one = measure(sweep, 1), two = measure(sweep, 2);

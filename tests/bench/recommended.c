@@ -44,19 +44,19 @@ static fbd_cost *study(const fbd_model *model, double until, double budget)
     return cost;
 }
 
-/* The same setting in another study; NULL when it was not measured there. */
-static const fbd_cost_point *same_point(const fbd_cost *cost, const fbd_cost_point *point)
+/* The same setting in another study; without a method when it was not measured there. */
+static fbd_point same_point(const fbd_cost *cost, const fbd_point *point)
 {
-    for (size_t i = 0; i < fbd_cost_points(cost); i++) {
-        const fbd_cost_point *other = fbd_cost_get_point(cost, i);
-        if (other->state == FBD_POINT_MEASURED && other->tolerance == point->tolerance &&
-            other->step == point->step && strcmp(other->method, point->method) == 0)
+    for (size_t i = 0; i < fbd_cost_point_count(cost); i++) {
+        const fbd_point other = fbd_cost_point(cost, i);
+        if (other.state == FBD_POINT_MEASURED && other.tolerance == point->tolerance &&
+            other.step == point->step && strcmp(other.method, point->method) == 0)
             return other;
     }
-    return NULL;
+    return (fbd_point){0};
 }
 
-static void name_setting(char *text, size_t size, const fbd_cost_point *point)
+static void name_setting(char *text, size_t size, const fbd_point *point)
 {
     bool fixed = point->step > 0;
     snprintf(text, size, "%s %s %.0e", point->method, fixed ? "--step" : "--tolerance",
@@ -67,17 +67,17 @@ static void advise(struct recommended *recommended, const char *scene, const fbd
                    const fbd_cost *second)
 {
     for (int k = 0; k < target_count && recommended->count < most_advice; k++) {
-        const fbd_cost_point *taken = fbd_cost_cheapest(first, targets[k]), *best = NULL;
-        const fbd_cost_point *again = taken ? same_point(second, taken) : NULL;
-        if (again) best = fbd_cost_cheapest(second, targets[k]);
-        if (!best) continue;
+        const fbd_point taken = fbd_cost_cheapest(first, targets[k]),
+                        best = fbd_cost_cheapest(second, targets[k]);
+        const fbd_point again = taken.method ? same_point(second, &taken) : taken;
+        if (!again.method || !best.method) continue;
         struct advice *advice = &recommended->advice[recommended->count++];
         *advice = (struct advice){.scene = scene,
                                   .target = targets[k],
-                                  .seconds = again->seconds,
-                                  .ratio = again->seconds / best->seconds};
-        name_setting(advice->setting, sizeof advice->setting, taken);
-        name_setting(advice->best, sizeof advice->best, best);
+                                  .seconds = again.seconds,
+                                  .ratio = again.seconds / best.seconds};
+        name_setting(advice->setting, sizeof advice->setting, &taken);
+        name_setting(advice->best, sizeof advice->best, &best);
         recommended->worst_ratio = fmax(recommended->worst_ratio, advice->ratio);
     }
 }
@@ -85,10 +85,10 @@ static void advise(struct recommended *recommended, const char *scene, const fbd
 static void repeat(struct recommended *recommended, const fbd_cost *first, const fbd_cost *second)
 {
     for (int k = 0; k < target_count; k++) {
-        const fbd_cost_point *one = fbd_cost_cheapest(first, targets[k]),
-                             *other = fbd_cost_cheapest(second, targets[k]);
-        if (one && other)
-            recommended->repeat = fmax(recommended->repeat, fabs(one->seconds / other->seconds - 1));
+        const fbd_point one = fbd_cost_cheapest(first, targets[k]),
+                        other = fbd_cost_cheapest(second, targets[k]);
+        if (one.method && other.method)
+            recommended->repeat = fmax(recommended->repeat, fabs(one.seconds / other.seconds - 1));
     }
 }
 

@@ -136,18 +136,17 @@ static void compare_equations(const struct absolute *absolute, fbd_state *state,
     double size = absolute->acceleration_size;
     for (int b = 0; b < scene->body_count; b++) size = fmax(size, absolute->force_size / absolute->mass[b].m);
     for (size_t i = 0; i < fbd_equations_count(equations); i++) {
-        const fbd_equation *equation = fbd_equations_get(equations, i);
+        const fbd_equation equation = fbd_equations_get(equations, i);
         int b = 0;
-        while (strcmp(scene->body[b].name, equation->body) != 0) b++;
-        double ours = acceleration_of(absolute, b, equation->coordinate);
-        if (differ(equation->acceleration, ours, size, force_tolerance, &outcome->worst_acceleration))
+        while (strcmp(scene->body[b].name, equation.body) != 0) b++;
+        double ours = acceleration_of(absolute, b, equation.coordinate);
+        if (differ(equation.acceleration, ours, size, force_tolerance, &outcome->worst_acceleration))
             fail(outcome, accelerations_differ, "%s.%s: library %.15g, independent %.15g (largest term %.3g)",
-                 equation->body, equation->coordinate, equation->acceleration, ours, size);
-        if (differ(equation->sum, equation->inertia * equation->acceleration, absolute->force_size,
+                 equation.body, equation.coordinate, equation.acceleration, ours, size);
+        if (differ(equation.sum, equation.inertia * equation.acceleration, absolute->force_size,
                    force_tolerance, &outcome->worst_force))
             fail(outcome, terms_differ, "%s.%s: sum of terms %.15g, inertia times acceleration %.15g",
-                 equation->body, equation->coordinate, equation->sum,
-                 equation->inertia * equation->acceleration);
+                 equation.body, equation.coordinate, equation.sum, equation.inertia * equation.acceleration);
     }
     fbd_equations_free(equations);
 }
@@ -181,7 +180,7 @@ bool library_state(const struct scene *scene, const fbd_state *state, double *q,
 /* The first event after which the modes of the start are no longer those of the run, or INFINITY. */
 double library_change(fbd_simulation *simulation)
 {
-    for (size_t i = 0; i < fbd_simulation_events(simulation); i++) {
+    for (size_t i = 0; i < fbd_simulation_event_count(simulation); i++) {
         fbd_event event = fbd_simulation_event(simulation, i);
         if (event.kind != FBD_EVENT_SWITCH && event.kind != FBD_EVENT_USER) return event.t;
     }
@@ -326,9 +325,9 @@ fbd_model *library_model(const struct scene *scene, double until, struct outcome
     fbd_errors *errors = fbd_errors_new();
     fbd_model *model = fbd_model_parse(text, length, "scene.yaml", NULL, 0, errors);
     for (size_t i = 0; !model && i < fbd_errors_count(errors); i++) {
-        const fbd_error *error = fbd_errors_get(errors, i);
-        if (error->severity == FBD_ERROR)
-            fail(outcome, refused, "%d:%d: %s [%s]", error->line, error->column, error->message, error->id);
+        const fbd_error error = fbd_errors_get(errors, i);
+        if (error.severity == FBD_ERROR)
+            fail(outcome, refused, "%d:%d: %s [%s]", error.line, error.column, error.message, error.id);
     }
     fbd_errors_free(errors);
     return model;

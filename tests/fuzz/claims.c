@@ -98,9 +98,9 @@ void claim_notes(fbd_errors *errors)
     claim_plain("the notes", text);
     free(text);
     for (size_t i = 0; i < fbd_errors_count(errors); i++) {
-        const fbd_error *note = fbd_errors_get(errors, i);
-        if (!note->id[0] || !note->message[0] || strchr(note->message, '\n'))
-            fuzz_fail("a note `%s` that is not one line: `%s`", note->id, note->message);
+        const fbd_error note = fbd_errors_get(errors, i);
+        if (!note.id[0] || !note.message[0] || strchr(note.message, '\n'))
+            fuzz_fail("a note `%s` that is not one line: `%s`", note.id, note.message);
     }
 }
 

@@ -44,9 +44,8 @@ static void take_line(struct plan *made, char *line)
 
 static void read_plan(struct plan *plan, const char *text, size_t length)
 {
-    const fbd_options none = FBD_OPTIONS_DEFAULT;
-    plan->plan = (fbd_sweep_plan){
-        .vary = plan->vary, .outputs = plan->outputs, .settings = plan->settings, .seed = 1, .run = none};
+    plan->plan =
+        (fbd_sweep_plan){.vary = plan->vary, .outputs = plan->outputs, .settings = plan->settings, .seed = 1};
     plan->text = malloc(length + 1);
     memcpy(plan->text, text, length);
     plan->text[length] = '\0';
@@ -63,7 +62,7 @@ static int write_rows(void *context, const char *rows, size_t length)
     return 0;
 }
 
-static bool stop(void *context)
+static int stop(void *context)
 {
     size_t *steps = context;
     return ++*steps > most_steps;
@@ -98,7 +97,7 @@ static void claim_rows(const fbd_sweep *sweep, const char *rows, size_t first, s
 
 static void run(const fbd_sweep *sweep, bool nan_is_named)
 {
-    size_t steps = 0, runs = fbd_sweep_runs(sweep), first = runs > most_rows ? runs / 2 : 0;
+    size_t steps = 0, runs = fbd_sweep_run_count(sweep), first = runs > most_rows ? runs / 2 : 0;
     struct text rows = {0};
     fbd_sweep_counts counts = {0};
     const fbd_sweep_work work = {.first = first,

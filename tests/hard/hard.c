@@ -80,7 +80,7 @@ bool hard_done(struct checks *checks, struct trial *trial)
 size_t hard_count(const struct trial *trial, fbd_event_kind kind)
 {
     size_t count = 0;
-    for (size_t i = 0; i < fbd_simulation_events(trial->simulation); i++)
+    for (size_t i = 0; i < fbd_simulation_event_count(trial->simulation); i++)
         count += fbd_simulation_event(trial->simulation, i).kind == kind;
     return count;
 }

@@ -31,7 +31,7 @@ static void at_rest_it_stays(void **unused)
             hard_start(&trial, &method, NAN);
             hard_done(&checks, &trial);
             double moved = fabs(trial_get(&trial, "x")) + fabs(trial_get(&trial, "v"));
-            check_that(&checks, "no event", fbd_simulation_events(trial.simulation) == 0);
+            check_that(&checks, "no event", fbd_simulation_event_count(trial.simulation) == 0);
             if (k == 1) hard_case(&checks, &trial, "at rest: motion", moved, 1e-300);
             check_that(&checks, "at rest: motion", moved == 0);
             trial_close(&trial);
@@ -55,7 +55,7 @@ static void thrown_against_the_force_it_stops_and_stays(void **unused)
                   fabs(trial_event(&trial, FBD_EVENT_STICK, NULL, 0) - stops), tolerance);
         hard_case(&checks, &trial, "thrown against it: place", fabs(trial_get(&trial, "x") - x), tolerance);
         check_that(&checks, "it stays",
-                   trial_get(&trial, "v") == 0 && fbd_simulation_events(trial.simulation) == 1);
+                   trial_get(&trial, "v") == 0 && fbd_simulation_event_count(trial.simulation) == 1);
         trial_close(&trial);
     }
     checks_end(&checks);
@@ -72,7 +72,7 @@ static void thrown_along_the_force_it_goes_on(void **unused)
         hard_done(&checks, &trial);
         /* 100 s with an acceleration that is one rounding of mu g at most. */
         hard_case(&checks, &trial, "thrown along it: velocity", fabs(trial_get(&trial, "v") - 3), 1e-13);
-        check_that(&checks, "no event", fbd_simulation_events(trial.simulation) == 0);
+        check_that(&checks, "no event", fbd_simulation_event_count(trial.simulation) == 0);
         trial_close(&trial);
     }
     checks_end(&checks);

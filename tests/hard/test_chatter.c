@@ -33,7 +33,7 @@ static void it_stops_and_stays(void **unused)
         hard_start(&trial, &method, NAN);
         if (!hard_done(&checks, &trial)) continue;
         check_that(&checks, "at rest", trial_get(&trial, "v") == 0);
-        check_that(&checks, "one event", fbd_simulation_events(trial.simulation) == 1);
+        check_that(&checks, "one event", fbd_simulation_event_count(trial.simulation) == 1);
         hard_case(&checks, &trial, "time", fabs(trial_event(&trial, FBD_EVENT_SLIDING, "rub", 0) - 1.5),
                   fmax(1e-12, 1.5 * hard_promise(&trial)));
         hard_case(&checks, &trial, "place", fabs(trial_get(&trial, "x") - 2.25),

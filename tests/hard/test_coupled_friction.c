@@ -114,8 +114,9 @@ static bool next(struct pattern *p, double *t)
 
 static double event_time(const struct trial *trial, size_t index)
 {
-    return index < fbd_simulation_events(trial->simulation) ? fbd_simulation_event(trial->simulation, index).t
-                                                            : NAN;
+    return index < fbd_simulation_event_count(trial->simulation)
+               ? fbd_simulation_event(trial->simulation, index).t
+               : NAN;
 }
 
 static void every_transition_of_both(void **unused)
@@ -131,7 +132,7 @@ static void every_transition_of_both(void **unused)
             double t = 0, error = 0;
             size_t count = 0;
             for (; next(&p, &t); count++) error = fmax(error, fabs(event_time(&trial, count) - t));
-            check_that(&checks, "as many events", count == fbd_simulation_events(trial.simulation));
+            check_that(&checks, "as many events", count == fbd_simulation_event_count(trial.simulation));
             /* Velocities up to 4 m/s are stopped with 3 m/s^2 at the least: 1.4 s times the promise; a
              * transition carries the error of the ones before it, which as much again is allowed for. */
             double promise = hard_promise(&trial);

@@ -29,7 +29,7 @@ static void check_drag(struct checks *checks, const struct hard_method *method, 
         hard_case(checks, &trial, "linear", fabs(linear - exp(-until)), hard_promise(&trial));
         hard_case(checks, &trial, "quadratic", fabs(quadratic - 1 / (1 + until)), hard_promise(&trial));
         check_that(checks, "both still move", linear > 0 && quadratic > 0);
-        check_that(checks, "no event", fbd_simulation_events(trial.simulation) == 0);
+        check_that(checks, "no event", fbd_simulation_event_count(trial.simulation) == 0);
     }
     trial_close(&trial);
 }
@@ -51,7 +51,7 @@ static void check_rest(struct checks *checks, const struct hard_method *method)
     if (hard_done(checks, &trial)) {
         hard_case(checks, &trial, "linear, 100 s", fabs(trial_get(&trial, "linear.v")),
                   10 * method->tolerance);
-        check_that(checks, "no event", fbd_simulation_events(trial.simulation) == 0);
+        check_that(checks, "no event", fbd_simulation_event_count(trial.simulation) == 0);
     }
     trial_close(&trial);
 }

@@ -55,7 +55,7 @@ static void a_run_of_no_length_is_done(void **unused)
         struct trial trial = trial_open("hard/events_at_the_edges.yaml", NULL);
         hard_start(&trial, &method, 0);
         check_that(&checks, "done", hard_finish(&trial) == FBD_DONE);
-        check_that(&checks, "nothing happened", fbd_simulation_events(trial.simulation) == 0);
+        check_that(&checks, "nothing happened", fbd_simulation_event_count(trial.simulation) == 0);
         check_that(&checks, "no step", fbd_simulation_stats(trial.simulation).steps == 0);
         check_that(&checks, "t = 0", trial_get(&trial, "t") == 0);
         trial_close(&trial);
@@ -72,7 +72,7 @@ static void an_end_before_the_start_is_refused(void **unused)
     options.until = -1;
     assert_null(fbd_simulation_new(trial.model, &options, errors));
     assert_int_equal(fbd_errors_count(errors), 1);
-    assert_string_equal(fbd_errors_get(errors, 0)->id, "bad-option");
+    assert_string_equal(fbd_errors_get(errors, 0).id, "bad-option");
     fbd_errors_free(errors);
     trial_close(&trial);
 }

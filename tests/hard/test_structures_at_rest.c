@@ -21,7 +21,7 @@ static void check_structure(struct checks *checks, const char *model, const stru
                             double until, double way)
 {
     struct trial trial = trial_open(model, NULL);
-    size_t n = fbd_model_coordinates(trial.model);
+    size_t n = fbd_model_coordinate_count(trial.model);
     double start[16], most = 0;
     assert_true(n <= 16);
     for (size_t k = 0; k < n; k++) start[k] = trial_get(&trial, fbd_model_coordinate(trial.model, k).name);

@@ -62,7 +62,8 @@ static void check_fall(struct checks *checks, const struct hard_method *method)
     hard_case(checks, &trial, "speed at the ends of steps", worst.ends, ends);
     hard_case(checks, &trial, "speed inside of steps", worst.inside, inside);
     hard_case(checks, &trial, "place", fabs(trial_get(&trial, "x") - x) / x, hard_promise(&trial));
-    check_that(checks, "the terminal speed is not reached", fbd_simulation_events(trial.simulation) == 0);
+    check_that(checks, "the terminal speed is not reached",
+               fbd_simulation_event_count(trial.simulation) == 0);
     trial_close(&trial);
 }
 

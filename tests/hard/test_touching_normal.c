@@ -25,7 +25,7 @@ static void a_touch_loses_nothing(void **unused)
         struct trial trial = trial_open("hard/touching_normal.yaml", NULL);
         hard_start(&trial, &method, NAN);
         hard_done(&checks, &trial);
-        check_that(&checks, "no event", fbd_simulation_events(trial.simulation) == 0);
+        check_that(&checks, "no event", fbd_simulation_event_count(trial.simulation) == 0);
         hard_case(&checks, &trial, "touch: place at the end", fabs(trial_get(&trial, "x") - 5), 1e-13);
         trial_close(&trial);
     }

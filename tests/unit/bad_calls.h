@@ -45,7 +45,7 @@ void note(const char *name);
         size_t before_ = fbd_errors_count(errors);                                                           \
         ANSWERS(function, expression);                                                                       \
         assert_int_equal(fbd_errors_count(errors), before_ + 1);                                             \
-        assert_string_equal(fbd_errors_get(errors, before_)->id, "bad-call");                                \
+        assert_string_equal(fbd_errors_get(errors, before_).id, "bad-call");                                 \
     } while (0)
 
 /* The same for what answers nothing. */
@@ -57,10 +57,16 @@ void note(const char *name);
     } while (0)
 
 /* bad_calls_studies.c */
+int bad_calls_count(void *context, const char *rows, size_t length);
 void sweeps_that_cannot_be_made(void **context);
 void sweeps(void **context);
 void studies(void **context);
 void grades(void **context);
 void a_key_without_an_answer(void **context);
+
+/* bad_calls_options.c */
+void options_have_a_size(void **context);
+void options_are_filled_with_defaults(void **context);
+void progress_ends_what_is_under_way(void **context);
 
 #endif

@@ -4,9 +4,11 @@
  */
 #include "bad_calls.h"
 
+#include "fbd_crew.h"
+
 /* ---- sweeps */
 
-static int count_bytes(void *context, const char *rows, size_t length)
+int bad_calls_count(void *context, const char *rows, size_t length)
 {
     (void)rows;
     *(size_t *)context += length;
@@ -17,7 +19,7 @@ void sweeps_that_cannot_be_made(void **context)
 {
     (void)context;
     static const char *const vary[] = {"k=1,2"}, *const hole[] = {NULL};
-    const fbd_sweep_plan plan = {.vary = vary, .vary_count = 1, .run = FBD_OPTIONS_DEFAULT};
+    const fbd_sweep_plan plan = {.vary = vary, .vary_count = 1};
     fbd_sweep_plan holes[] = {plan, plan, plan, plan};
     holes[0].vary = hole;
     holes[1].vary = NULL;
@@ -38,16 +40,15 @@ void sweeps(void **context)
 {
     (void)context;
     static const char *const vary[] = {"k=1,2"};
-    const fbd_sweep_plan plan = {.vary = vary, .vary_count = 1, .run = FBD_OPTIONS_DEFAULT};
+    const fbd_sweep_plan plan = {.vary = vary, .vary_count = 1};
     fbd_sweep *sweep = fbd_sweep_parse(bad_calls_scene, strlen(bad_calls_scene), "scene", &plan, errors);
     size_t length = 7, bytes = 0;
     fbd_sweep_counts counts = {.written = 7};
     const fbd_sweep_work idle = {.end = 2, .jobs = 1};
-    const fbd_sweep_work work = {
-        .end = 2, .jobs = 1, .helpers = 1, .write = count_bytes, .write_context = &bytes};
+    const fbd_sweep_work work = {.end = 2, .jobs = 1, .write = bad_calls_count, .write_context = &bytes};
     assert_non_null(sweep);
     ENDURES(fbd_sweep_free, fbd_sweep_free(NULL));
-    ANSWERS(fbd_sweep_runs, fbd_sweep_runs(NULL) == 0);
+    ANSWERS(fbd_sweep_run_count, fbd_sweep_run_count(NULL) == 0);
     ANSWERS(fbd_sweep_header, !fbd_sweep_header(NULL));
     ANSWERS(fbd_sweep_key, !fbd_sweep_key(NULL));
     ANSWERS(fbd_sweep_source, !fbd_sweep_source(NULL, &length) && length == 0);
@@ -55,10 +56,10 @@ void sweeps(void **context)
     ANSWERS(fbd_sweep_run, fbd_sweep_run(NULL, &work, &counts) == FBD_SWEEP_REFUSED && counts.written == 0);
     ANSWERS(fbd_sweep_run, fbd_sweep_run(sweep, NULL, NULL) == FBD_SWEEP_REFUSED);
     ANSWERS(fbd_sweep_run, fbd_sweep_run(sweep, &idle, NULL) == FBD_SWEEP_REFUSED);
-    ANSWERS(fbd_sweep_start, !fbd_sweep_start(NULL, &work));
-    ANSWERS(fbd_sweep_start, !fbd_sweep_start(sweep, NULL));
-    ANSWERS(fbd_sweep_start, !fbd_sweep_start(sweep, &idle));
-    fbd_sweep_crew *crew = fbd_sweep_start(sweep, &work);
+    ANSWERS(fbd_sweep_start, !fbd_sweep_start(NULL, &work, 1));
+    ANSWERS(fbd_sweep_start, !fbd_sweep_start(sweep, NULL, 1));
+    ANSWERS(fbd_sweep_start, !fbd_sweep_start(sweep, &idle, 1));
+    fbd_sweep_crew *crew = fbd_sweep_start(sweep, &work, 1);
     fbd_sweep_share share = {0, 2, &bytes}; /* a ticket of nobody */
     assert_non_null(crew);
     ANSWERS(fbd_sweep_claim, fbd_sweep_claim(NULL, 1, &share) == -1);
@@ -91,15 +92,15 @@ void studies(void **context)
     REFUSES(fbd_cost_new, !fbd_cost_new(NULL, NULL, errors));
     REFUSES(fbd_cost_new, !fbd_cost_new(model, &holes, errors));
     ENDURES(fbd_cost_free, fbd_cost_free(NULL));
-    ANSWERS(fbd_cost_get_reference, is_nan(fbd_cost_get_reference(NULL).floor));
+    ANSWERS(fbd_cost_reference, is_nan(fbd_cost_reference(NULL).floor));
     ANSWERS(fbd_cost_series_count, fbd_cost_series_count(NULL) == 0);
-    ANSWERS(fbd_cost_get_series, fbd_cost_get_series(NULL, 0).count == 0);
-    ANSWERS(fbd_cost_get_series, fbd_cost_get_series(cost, past).count == 0);
-    ANSWERS(fbd_cost_points, fbd_cost_points(NULL) == 0);
-    ANSWERS(fbd_cost_get_point, !fbd_cost_get_point(NULL, 0));
-    ANSWERS(fbd_cost_get_point, !fbd_cost_get_point(cost, past));
-    ANSWERS(fbd_cost_cheapest, !fbd_cost_cheapest(NULL, 1));
-    ANSWERS(fbd_cost_cheapest, !fbd_cost_cheapest(cost, NAN));
+    ANSWERS(fbd_cost_series, fbd_cost_series(NULL, 0).count == 0);
+    ANSWERS(fbd_cost_series, fbd_cost_series(cost, past).count == 0);
+    ANSWERS(fbd_cost_point_count, fbd_cost_point_count(NULL) == 0);
+    ANSWERS(fbd_cost_point, !fbd_cost_point(NULL, 0).method);
+    ANSWERS(fbd_cost_point, is_nan(fbd_cost_point(cost, past).error));
+    ANSWERS(fbd_cost_cheapest, !fbd_cost_cheapest(NULL, 1).method);
+    ANSWERS(fbd_cost_cheapest, !fbd_cost_cheapest(cost, NAN).method);
     ANSWERS(fbd_cost_text, !fbd_cost_text(NULL));
     ANSWERS(fbd_cost_csv, !fbd_cost_csv(NULL));
     ANSWERS(fbd_cost_json, !fbd_cost_json(NULL));
@@ -107,8 +108,8 @@ void studies(void **context)
     REFUSES(fbd_effects_new, !fbd_effects_new(NULL, &options, errors));
     ENDURES(fbd_effects_free, fbd_effects_free(NULL));
     ANSWERS(fbd_effects_count, fbd_effects_count(NULL) == 0);
-    ANSWERS(fbd_effects_get, !fbd_effects_get(NULL, 0));
-    ANSWERS(fbd_effects_get, !fbd_effects_get(effects, past));
+    ANSWERS(fbd_effects_get, !fbd_effects_get(NULL, 0).name);
+    ANSWERS(fbd_effects_get, is_nan(fbd_effects_get(effects, past).change_end));
     ANSWERS(fbd_effects_text, !fbd_effects_text(NULL));
     ANSWERS(fbd_effects_csv, !fbd_effects_csv(NULL));
     ANSWERS(fbd_effects_json, !fbd_effects_json(NULL));
@@ -132,8 +133,8 @@ void grades(void **state)
     ANSWERS(fbd_grade_points, fbd_grade_points(NULL) == 0);
     ANSWERS(fbd_grade_most, fbd_grade_most(NULL) == 0);
     ANSWERS(fbd_grade_passed, !fbd_grade_passed(NULL));
-    ANSWERS(fbd_grade_findings, fbd_grade_findings(NULL) == 0);
-    ANSWERS(fbd_grade_finding, !*fbd_grade_finding(NULL, 0).message);
+    ANSWERS(fbd_grade_finding_count, fbd_grade_finding_count(NULL) == 0);
+    ANSWERS(fbd_grade_finding, !fbd_grade_finding(NULL, 0).message);
     ANSWERS(fbd_grade_text, !fbd_grade_text(NULL, true));
     ANSWERS(fbd_grade_json, !fbd_grade_json(NULL, true));
 }
@@ -154,7 +155,7 @@ void a_key_without_an_answer(void **state)
     assert_false(fbd_grade_passed(grade));
     assert_true(fbd_grade_points(grade) == 0 && fbd_grade_most(grade) > 0);
     assert_int_equal(fbd_grade_finding(grade, 0).kind, FBD_FINDING_NO_SUBMISSION);
-    ANSWERS(fbd_grade_finding, !*fbd_grade_finding(grade, past).message);
+    ANSWERS(fbd_grade_finding, is_nan(fbd_grade_finding(grade, past).points));
     fbd_grade_free(grade);
     fbd_key_free(key);
 }

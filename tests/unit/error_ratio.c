@@ -43,7 +43,7 @@ static void track_free(struct track *track)
 
 static bool track_make(struct track *track, const fbd_model *model)
 {
-    size_t n = fbd_model_coordinates(model), bodies = fbd_model_bodies(model);
+    size_t n = fbd_model_coordinate_count(model), bodies = fbd_model_body_count(model);
     *track = (struct track){.n = n, .bodies = bodies, .loads = model->load_count};
     track->y = calloc((2 * rows_kept + 1) * 2 * n, sizeof(double));
     track->errors = track->y ? track->y + rows_kept * 2 * n : NULL;
@@ -101,7 +101,7 @@ static bool take_ledger(struct track *track, const fbd_model *model, fbd_simulat
     }
     *work++ = energy.kinetic, *work++ = energy.potential, *work++ = energy.work;
     *work_error++ = error.kinetic, *work_error++ = error.potential, *work_error++ = error.work;
-    track->events = fbd_simulation_events(simulation);
+    track->events = fbd_simulation_event_count(simulation);
     track->t = calloc(2 * track->events + 1, sizeof(double));
     track->t_error = track->t + track->events;
     for (size_t i = 0; i < track->events && track->t; i++) {
@@ -168,7 +168,7 @@ struct truth *truth_new(const fbd_model *model, exact_motion *exact)
     options.tolerance = tightest;
     if (!truth) return NULL;
     truth->model = model;
-    truth->scale = calloc(2 * fbd_model_coordinates(model) + 1, sizeof(double));
+    truth->scale = calloc(2 * fbd_model_coordinate_count(model) + 1, sizeof(double));
     for (int i = 0; i < 2; i++) {
         options.method = methods[i];
         if (track_run(i == 0 ? &truth->a : &truth->b, model, &options, most_rhs_of_truth)) continue;

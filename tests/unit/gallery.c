@@ -210,12 +210,11 @@ double trial_get(const struct trial *trial, const char *name)
 
 /* ---- assembled equations */
 
-static const fbd_equation *find_equation(const struct trial *trial, const fbd_equations *all,
-                                         const char *coordinate)
+static fbd_equation find_equation(const struct trial *trial, const fbd_equations *all, const char *coordinate)
 {
     char buffer[most_name];
-    const fbd_equation *equation = fbd_equations_find(all, qualified(trial, coordinate, buffer));
-    if (!equation) fail_msg("there is no equation of %s", coordinate);
+    const fbd_equation equation = fbd_equations_find(all, qualified(trial, coordinate, buffer));
+    if (!equation.body) fail_msg("there is no equation of %s", coordinate);
     return equation;
 }
 
@@ -229,7 +228,7 @@ static fbd_equations *assemble(struct trial *trial)
 double trial_acceleration(struct trial *trial, const char *coordinate)
 {
     fbd_equations *all = assemble(trial);
-    double value = find_equation(trial, all, coordinate)->acceleration;
+    double value = find_equation(trial, all, coordinate).acceleration;
     fbd_equations_free(all);
     return value;
 }
@@ -237,7 +236,8 @@ double trial_acceleration(struct trial *trial, const char *coordinate)
 double trial_term(struct trial *trial, const char *coordinate, const char *term)
 {
     fbd_equations *all = assemble(trial);
-    double value = fbd_equation_term(find_equation(trial, all, coordinate), term);
+    const fbd_equation equation = find_equation(trial, all, coordinate);
+    double value = fbd_equation_term(&equation, term);
     fbd_equations_free(all);
     return value;
 }
@@ -245,7 +245,7 @@ double trial_term(struct trial *trial, const char *coordinate, const char *term)
 double trial_normal(struct trial *trial, const char *coordinate)
 {
     fbd_equations *all = assemble(trial);
-    double value = find_equation(trial, all, coordinate)->normal;
+    double value = find_equation(trial, all, coordinate).normal;
     fbd_equations_free(all);
     return value;
 }
@@ -288,22 +288,22 @@ void check_equation(struct checks *checks, struct trial *trial, const struct exp
     const double roundings = 1e-14;
     char what[most_name];
     fbd_equations *all = assemble(trial);
-    const fbd_equation *got = find_equation(trial, all, want->coordinate);
+    const fbd_equation got = find_equation(trial, all, want->coordinate);
     double sum = 0, size = fabs(want->normal);
     for (int i = 0; i < most_expected && want->terms[i].name; i++) {
         sum += want->terms[i].value;
         size = fmax(size, fabs(want->terms[i].value));
     }
     double tolerance = roundings * size;
-    check_terms(checks, got, want, tolerance);
+    check_terms(checks, &got, want, tolerance);
     snprintf(what, sizeof what, "%s: inertia", want->coordinate);
-    check_close(checks, what, got->inertia, want->inertia, roundings * want->inertia);
+    check_close(checks, what, got.inertia, want->inertia, roundings * want->inertia);
     snprintf(what, sizeof what, "%s: sum", want->coordinate);
-    check_close(checks, what, got->sum, sum, tolerance);
+    check_close(checks, what, got.sum, sum, tolerance);
     snprintf(what, sizeof what, "%s: acceleration", want->coordinate);
-    check_close(checks, what, got->acceleration, want->acceleration, tolerance / want->inertia);
+    check_close(checks, what, got.acceleration, want->acceleration, tolerance / want->inertia);
     snprintf(what, sizeof what, "%s: normal force", want->coordinate);
-    check_close(checks, what, got->normal, want->normal, tolerance);
+    check_close(checks, what, got.normal, want->normal, tolerance);
     fbd_equations_free(all);
 }
 
@@ -362,7 +362,7 @@ void trial_run(struct trial *trial, const fbd_options *options)
 
 double trial_event(const struct trial *trial, fbd_event_kind kind, const char *name, int index)
 {
-    for (size_t i = 0; i < fbd_simulation_events(trial->simulation); i++) {
+    for (size_t i = 0; i < fbd_simulation_event_count(trial->simulation); i++) {
         fbd_event event = fbd_simulation_event(trial->simulation, i);
         if (event.kind != kind || (name && strcmp(event.name, name) != 0)) continue;
         if (index-- == 0) return event.t;

@@ -47,7 +47,7 @@ static inline void rest_close(struct rest *rest)
 
 static inline size_t body_index(const struct rest *rest, const char *name)
 {
-    for (size_t b = 0; b < fbd_model_bodies(rest->trial.model); b++)
+    for (size_t b = 0; b < fbd_model_body_count(rest->trial.model); b++)
         if (strcmp(fbd_model_body_name(rest->trial.model, b), name) == 0) return b;
     fail_msg("no body `%s`", name);
     return 0;
@@ -81,7 +81,7 @@ static inline void check_sums(struct checks *checks, const struct rest *rest)
 {
     enum { most = 32 };
     fbd_arrow arrows[most];
-    for (size_t b = 0; b < fbd_model_bodies(rest->trial.model); b++) {
+    for (size_t b = 0; b < fbd_model_body_count(rest->trial.model); b++) {
         size_t count = fbd_statics_diagram(rest->statics, b, arrows, most);
         double fx = 0, fy = 0, moment = 0;
         for (size_t i = 0; i < count; i++) {
@@ -106,7 +106,7 @@ static inline void check_holds(struct checks *checks, const struct rest *rest, s
 
 static inline fbd_limit limit(const struct rest *rest, const char *name)
 {
-    for (size_t i = 0; i < fbd_statics_limits(rest->statics); i++)
+    for (size_t i = 0; i < fbd_statics_limit_count(rest->statics); i++)
         if (strcmp(fbd_statics_limit(rest->statics, i).name, name) == 0)
             return fbd_statics_limit(rest->statics, i);
     fail_msg("no limit `%s`", name);
@@ -115,11 +115,11 @@ static inline fbd_limit limit(const struct rest *rest, const char *name)
 
 static inline fbd_unbalanced unbalanced(const struct rest *rest, const char *coordinate)
 {
-    for (size_t i = 0; i < fbd_statics_unbalanced(rest->statics); i++)
-        if (strcmp(fbd_statics_unbalanced_at(rest->statics, i).coordinate, coordinate) == 0)
-            return fbd_statics_unbalanced_at(rest->statics, i);
+    for (size_t i = 0; i < fbd_statics_unbalanced_count(rest->statics); i++)
+        if (strcmp(fbd_statics_unbalanced(rest->statics, i).coordinate, coordinate) == 0)
+            return fbd_statics_unbalanced(rest->statics, i);
     fail_msg("nothing is said of `%s`", coordinate);
-    return fbd_statics_unbalanced_at(rest->statics, 0);
+    return fbd_statics_unbalanced(rest->statics, 0);
 }
 
 static inline int no_handler(void **unused)

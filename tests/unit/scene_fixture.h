@@ -49,20 +49,21 @@ static inline struct reading read_right(const char *text)
 static inline int count_notes(const struct reading *reading, const char *id)
 {
     int count = 0;
-    const fbd_error *note;
-    for (size_t i = 0; (note = fbd_errors_get(reading->errors, i)) != NULL; i++)
-        count += strcmp(note->id, id) == 0;
+    for (size_t i = 0; i < fbd_errors_count(reading->errors); i++) {
+        const fbd_error note = fbd_errors_get(reading->errors, i);
+        count += strcmp(note.id, id) == 0;
+    }
     return count;
 }
 
 /* The first note must be this one, at this place. */
 static inline void assert_first_note(const struct reading *reading, const char *id, int line, int column)
 {
-    const fbd_error *note = fbd_errors_get(reading->errors, 0);
-    assert_non_null(note);
-    assert_string_equal(note->id, id);
-    assert_int_equal(note->line, line);
-    assert_int_equal(note->column, column);
+    const fbd_error note = fbd_errors_get(reading->errors, 0);
+    assert_non_null(note.id);
+    assert_string_equal(note.id, id);
+    assert_int_equal(note.line, line);
+    assert_int_equal(note.column, column);
 }
 
 /* Values are converted by one multiplication, which may round once. */

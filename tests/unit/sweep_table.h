@@ -55,8 +55,7 @@ static inline fbd_sweep_plan plan_of(const char *const *vary, const char *const 
                             .vary_count = count_texts(vary),
                             .outputs = outputs,
                             .output_count = count_texts(outputs),
-                            .seed = 1,
-                            .run = FBD_OPTIONS_DEFAULT};
+                            .seed = 1};
 }
 
 static inline struct sweep_table open_table(const char *text, const fbd_sweep_plan *plan)
@@ -74,7 +73,7 @@ static inline struct sweep_table sweep_by(const char *text, const fbd_sweep_plan
     if (!table.sweep) fbd_errors_print(table.errors, stderr);
     assert_non_null(table.sweep);
     const fbd_sweep_work work = {.first = first,
-                                 .end = fbd_sweep_runs(table.sweep),
+                                 .end = fbd_sweep_run_count(table.sweep),
                                  .jobs = jobs,
                                  .write = append,
                                  .write_context = &table.rows};

@@ -224,7 +224,7 @@ static void check_refused(const fbd_model *model, fbd_options options, const cha
 {
     fbd_errors *errors = fbd_errors_new();
     assert_null(fbd_simulation_new(model, &options, errors));
-    assert_string_equal(fbd_errors_get(errors, 0)->id, id);
+    assert_string_equal(fbd_errors_get(errors, 0).id, id);
     fbd_errors_free(errors);
 }
 

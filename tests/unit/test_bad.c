@@ -84,13 +84,13 @@ static void read_file(const char *path, struct wrong_file *file)
 
 /* ---- checking */
 
-static bool matches(const struct expectation *expected, const fbd_error *note)
+static bool matches(const struct expectation *expected, fbd_error note)
 {
     bool error = strcmp(expected->severity, "error") == 0;
-    return expected->line == note->line && expected->column == note->column &&
-           error == (note->severity == FBD_ERROR) && strcmp(expected->id, note->id) == 0 &&
-           strstr(note->message, expected->words) &&
-           (!*expected->hint || (note->hint && strstr(note->hint, expected->hint)));
+    return expected->line == note.line && expected->column == note.column &&
+           error == (note.severity == FBD_ERROR) && strcmp(expected->id, note.id) == 0 &&
+           strstr(note.message, expected->words) &&
+           (!*expected->hint || (note.hint && strstr(note.hint, expected->hint)));
 }
 
 /* True when notes and expectations pair off, in any order. */
@@ -116,7 +116,7 @@ static bool check_file(const char *name)
     fbd_errors *errors = fbd_errors_new();
     struct scene *scene = scene_read(file.text, file.length, name, NULL, 0, NULL, errors);
     struct fbd_model *model = NULL;
-    if (scene && fbd_errors_failed(errors) == 0) {
+    if (scene && fbd_errors_failed_count(errors) == 0) {
         model = model_compile(scene, errors); /* owns it now */
         scene = NULL;
     }

@@ -124,9 +124,9 @@ static void same_works(struct checks *checks, struct trial *alone, struct trial 
 static void same_events(struct checks *checks, struct trial *alone, struct trial *whole)
 {
     size_t next = 0;
-    for (size_t i = 0; i < fbd_simulation_events(alone->simulation); i++) {
+    for (size_t i = 0; i < fbd_simulation_event_count(alone->simulation); i++) {
         fbd_event want = fbd_simulation_event(alone->simulation, i), got = {.t = NAN};
-        for (; next < fbd_simulation_events(whole->simulation); next++) {
+        for (; next < fbd_simulation_event_count(whole->simulation); next++) {
             got = fbd_simulation_event(whole->simulation, next);
             if (strcmp(got.body, want.body) == 0 && got.kind == want.kind) break;
         }

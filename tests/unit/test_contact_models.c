@@ -111,7 +111,7 @@ static void dominoes_fall_one_after_the_other(void **unused)
     double rate = sqrt(push * push - 2 * g * rise / I), last = 0;
     static const char *const names[] = {"first", "second", "third", "fourth"};
     size_t next = 0;
-    for (size_t i = 0; i < fbd_simulation_events(trial.simulation); i++) {
+    for (size_t i = 0; i < fbd_simulation_event_count(trial.simulation); i++) {
         fbd_event event = fbd_simulation_event(trial.simulation, i);
         if (event.kind != FBD_EVENT_IMPACT || next == 4 || strcmp(event.name, names[next]) != 0) continue;
         if (next++ == 0) assert_int_equal(sscanf(strstr(event.detail, "v_n "), "v_n %lf", &v), 1);

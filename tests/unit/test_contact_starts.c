@@ -57,7 +57,7 @@ static void a_point_on_a_line_is_on_the_side_of_its_body(void **unused)
     fbd_errors *errors = fbd_errors_new();
     check_that(&checks, "on the other side", !fbd_state_close(trial.state, errors));
     check_that(&checks, "as it says",
-               strstr(fbd_errors_get(errors, 0)->message, "in each other by 4") != NULL);
+               strstr(fbd_errors_get(errors, 0).message, "in each other by 4") != NULL);
     fbd_errors_free(errors);
     trial_close(&trial);
     checks_end(&checks);

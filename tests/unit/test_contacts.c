@@ -19,7 +19,7 @@ static const double g = 9.81;
 /* The first event of a kind; it fails without one. */
 static fbd_event event_of(struct trial *trial, fbd_event_kind kind)
 {
-    size_t count = fbd_simulation_events(trial->simulation);
+    size_t count = fbd_simulation_event_count(trial->simulation);
     for (size_t i = 0; i < count; i++) {
         fbd_event event = fbd_simulation_event(trial->simulation, i);
         if (event.kind == kind) return event;
@@ -30,7 +30,7 @@ static fbd_event event_of(struct trial *trial, fbd_event_kind kind)
 
 static size_t count_of(struct trial *trial, fbd_event_kind kind)
 {
-    size_t count = fbd_simulation_events(trial->simulation), found = 0;
+    size_t count = fbd_simulation_event_count(trial->simulation), found = 0;
     for (size_t i = 0; i < count; i++) found += fbd_simulation_event(trial->simulation, i).kind == kind;
     return found;
 }
@@ -220,7 +220,7 @@ static void a_rocking_block_loses_its_share_at_each_corner(void **unused)
         "5}\nsimulate: {until: 1.2 s}\n");
     trial_start(&trial, NULL);
     trial_finish(&trial);
-    size_t count = fbd_simulation_events(trial.simulation), found = 0;
+    size_t count = fbd_simulation_event_count(trial.simulation), found = 0;
     double before = 0;
     for (size_t i = 0; i < count; i++) {
         fbd_event event = fbd_simulation_event(trial.simulation, i);
@@ -279,7 +279,7 @@ static void stops_are_surfaces_of_coordinates(void **unused)
     check_that(&checks, "done", trial.outcome == FBD_DONE);
     check_close(&checks, "rest", event_of(&trial, FBD_EVENT_REST).t, sqrt(2 * 1.0 / 2) * 1.5 / 0.5, 1e-9);
     check_close(&checks, "force of the stop", trial_arrow(&trial, "s_min.normal").fx, 4, 1e-9);
-    size_t count = fbd_simulation_events(trial.simulation);
+    size_t count = fbd_simulation_event_count(trial.simulation);
     double before = 0, after = 0, energy = 16.0 / 6 - g / 2 * (1 - cos(acos(-1) / 6));
     for (size_t i = 0; i < count && before == 0; i++) {
         fbd_event event = fbd_simulation_event(trial.simulation, i);

@@ -66,7 +66,7 @@ static fbd_cost_options some_methods(const char *const *names, size_t count)
 /* ---- errors */
 
 /* The same run again, held against x = 2 cos(3 t): its largest scaled error at the times of the grid. */
-static double closed_form_error(const fbd_model *model, const fbd_cost_point *point, double *end)
+static double closed_form_error(const fbd_model *model, const fbd_point *point, double *end)
 {
     fbd_options options = FBD_OPTIONS_DEFAULT;
     options.method = point->method;
@@ -101,15 +101,15 @@ static void errors_are_those_against_the_closed_form(void **unused)
     struct checks checks = {0};
     struct study s = study(oscillator, METHODS("rk4", "dop853", "msbdf"));
     assert_non_null(s.cost);
-    double floor = fbd_cost_get_reference(s.cost).floor;
+    double floor = fbd_cost_reference(s.cost).floor;
     size_t looked = 0;
-    for (size_t i = 0; i < fbd_cost_points(s.cost); i++) {
-        const fbd_cost_point *point = fbd_cost_get_point(s.cost, i);
-        if (point->state != FBD_POINT_MEASURED) continue;
-        double end, error = closed_form_error(s.model, point, &end);
+    for (size_t i = 0; i < fbd_cost_point_count(s.cost); i++) {
+        const fbd_point point = fbd_cost_point(s.cost, i);
+        if (point.state != FBD_POINT_MEASURED) continue;
+        double end, error = closed_form_error(s.model, &point, &end);
         /* 1e-3: the size of v on the grid; the floor is what the reference is in doubt by. */
-        check_close(&checks, point->method, point->error, error, 1e-3 * error + 2 * floor);
-        check_close(&checks, "at the end", point->error_end, end, 1e-3 * end + 2 * floor);
+        check_close(&checks, point.method, point.error, error, 1e-3 * error + 2 * floor);
+        check_close(&checks, "at the end", point.error_end, end, 1e-3 * end + 2 * floor);
         looked++;
     }
     check_that(&checks, "a dozen points were looked at", looked > 12);
@@ -196,7 +196,7 @@ static void observed_orders_are_those_of_the_methods(void **unused)
     struct study s = study(SCENE(PENDULUM, "5 s"), options);
     assert_non_null(s.cost);
     for (size_t i = 0; i < fbd_cost_series_count(s.cost); i++) {
-        fbd_cost_series series = fbd_cost_get_series(s.cost, i);
+        fbd_series series = fbd_cost_series(s.cost, i);
         for (size_t k = 0; k < sizeof orders / sizeof *orders; k++)
             if (strcmp(orders[k].method, series.method) == 0) {
                 double middle = (orders[k].least + orders[k].most) / 2;
@@ -215,20 +215,20 @@ static void nothing_beats_the_front(void **unused)
     (void)unused;
     struct study s = study(SCENE(PENDULUM, "5 s"), METHODS("auto", "rkf45", "rk8pd", "rk4"));
     assert_non_null(s.cost);
-    double floor = fbd_cost_get_reference(s.cost).floor;
+    double floor = fbd_cost_reference(s.cost).floor;
     size_t front = 0;
-    for (size_t i = 0; i < fbd_cost_points(s.cost); i++) {
-        const fbd_cost_point *a = fbd_cost_get_point(s.cost, i);
-        if (a->state != FBD_POINT_MEASURED || a->error >= 1) continue;
+    for (size_t i = 0; i < fbd_cost_point_count(s.cost); i++) {
+        const fbd_point a = fbd_cost_point(s.cost, i);
+        if (a.state != FBD_POINT_MEASURED || a.error >= 1) continue;
         bool beaten = false;
-        for (size_t k = 0; k < fbd_cost_points(s.cost); k++) {
-            const fbd_cost_point *b = fbd_cost_get_point(s.cost, k);
-            if (b->state == FBD_POINT_MEASURED && fmax(b->error, floor) < fmax(a->error, floor) &&
-                b->seconds < a->seconds)
+        for (size_t k = 0; k < fbd_cost_point_count(s.cost); k++) {
+            const fbd_point b = fbd_cost_point(s.cost, k);
+            if (b.state == FBD_POINT_MEASURED && fmax(b.error, floor) < fmax(a.error, floor) &&
+                b.seconds < a.seconds)
                 beaten = true;
         }
-        if (a->front) check_that(&checks, "a point of the front is not beaten", !beaten);
-        front += a->front;
+        if (a.front) check_that(&checks, "a point of the front is not beaten", !beaten);
+        front += a.front;
     }
     check_that(&checks, "there is a front", front > 1);
     end_study(&s);
@@ -243,17 +243,17 @@ static void the_cheapest_point_keeps_its_promise(void **unused)
     assert_non_null(s.cost);
     for (int decade = 2; decade <= 10; decade++) {
         double target = pow(10, -decade);
-        const fbd_cost_point *best = fbd_cost_cheapest(s.cost, target);
-        assert_non_null(best);
-        check_that(&checks, "the error is met", best->error <= target);
-        for (size_t i = 0; i < fbd_cost_points(s.cost); i++) {
-            const fbd_cost_point *other = fbd_cost_get_point(s.cost, i);
-            bool same = other->state == FBD_POINT_MEASURED && strcmp(other->method, best->method) == 0;
-            if (same && other->tolerance < best->tolerance)
-                check_that(&checks, "and at all tighter settings", other->error <= target);
+        const fbd_point best = fbd_cost_cheapest(s.cost, target);
+        assert_non_null(best.method);
+        check_that(&checks, "the error is met", best.error <= target);
+        for (size_t i = 0; i < fbd_cost_point_count(s.cost); i++) {
+            const fbd_point other = fbd_cost_point(s.cost, i);
+            bool same = other.state == FBD_POINT_MEASURED && strcmp(other.method, best.method) == 0;
+            if (same && other.tolerance < best.tolerance)
+                check_that(&checks, "and at all tighter settings", other.error <= target);
         }
     }
-    check_that(&checks, "nothing reaches 0", fbd_cost_cheapest(s.cost, 0) == NULL);
+    check_that(&checks, "nothing reaches 0", !fbd_cost_cheapest(s.cost, 0).method);
     end_study(&s);
     checks_end(&checks);
 }
@@ -265,7 +265,7 @@ static void the_files_solution_is_taken_when_it_is_one(void **unused)
     (void)unused;
     struct study s = study(SCENE(OSCILLATOR ", exact: {x: '2[m]*cos(3[rad/s]*t)'}", "10 s"), METHODS("auto"));
     assert_non_null(s.cost);
-    fbd_cost_reference reference = fbd_cost_get_reference(s.cost);
+    fbd_reference reference = fbd_cost_reference(s.cost);
     assert_true(reference.exact && !reference.exact_differs && reference.complete);
     assert_true(reference.floor < 1e-13); /* 4 eps (|x| + |v| t) / scale: some 1e-14 */
     end_study(&s);
@@ -277,11 +277,11 @@ static void a_solution_that_is_none_is_said_and_not_used(void **unused)
     struct study s =
         study(SCENE(OSCILLATOR ", exact: {x: '2[m]*cos(3.0001[rad/s]*t)'}", "10 s"), METHODS("auto"));
     assert_non_null(s.cost);
-    fbd_cost_reference reference = fbd_cost_get_reference(s.cost);
+    fbd_reference reference = fbd_cost_reference(s.cost);
     assert_true(reference.exact_differs && !reference.exact);
     assert_non_null(strstr(reference.says, "is not that of the scene"));
-    const fbd_cost_point *tight = fbd_cost_get_point(s.cost, 7);
-    assert_true(tight->error < 1e-8); /* measured against the runs: the wrong solution is off by 1e-3 */
+    const fbd_point tight = fbd_cost_point(s.cost, 7);
+    assert_true(tight.error < 1e-8); /* measured against the runs: the wrong solution is off by 1e-3 */
     end_study(&s);
 }
 
@@ -300,7 +300,7 @@ static void a_chaotic_scene_is_recognised(void **unused)
     options.budget = 20; /* of which it takes little, but under valgrind */
     struct study s = study(chaotic, options);
     assert_non_null(s.cost);
-    fbd_cost_reference reference = fbd_cost_get_reference(s.cost);
+    fbd_reference reference = fbd_cost_reference(s.cost);
     assert_false(reference.complete);
     assert_true(reference.known > 20 && reference.known < 400);
     assert_true(reference.tenfold > 2 && reference.tenfold < 60);
@@ -320,13 +320,13 @@ static void a_method_that_fails_is_a_row_with_its_reason(void **unused)
     struct study s = study(stiff, METHODS("rk4"));
     assert_non_null(s.cost);
     size_t failed = 0;
-    for (size_t i = 0; i < fbd_cost_points(s.cost); i++) {
-        const fbd_cost_point *point = fbd_cost_get_point(s.cost, i);
+    for (size_t i = 0; i < fbd_cost_point_count(s.cost); i++) {
+        const fbd_point point = fbd_cost_point(s.cost, i);
         bool blown =
-            point->state == FBD_POINT_FAILED || (point->state == FBD_POINT_MEASURED && !(point->error < 1e3));
-        if (point->step >= 0.01) assert_true(blown);
-        if (point->state == FBD_POINT_FAILED) assert_true(point->reason[0] && !point->front);
-        failed += point->state == FBD_POINT_FAILED;
+            point.state == FBD_POINT_FAILED || (point.state == FBD_POINT_MEASURED && !(point.error < 1e3));
+        if (point.step >= 0.01) assert_true(blown);
+        if (point.state == FBD_POINT_FAILED) assert_true(point.reason[0] && !point.front);
+        failed += point.state == FBD_POINT_FAILED;
     }
     assert_true(failed > 0);
     end_study(&s);
@@ -339,9 +339,9 @@ static void what_does_not_fit_the_budget_is_skipped_and_said(void **unused)
     options.budget = 1;
     struct study s = study(SCENE(PENDULUM, "20 s"), options);
     assert_non_null(s.cost);
-    const fbd_cost_point *last = fbd_cost_get_point(s.cost, fbd_cost_points(s.cost) - 1);
-    assert_int_equal(last->state, FBD_POINT_SKIPPED); /* order 1 at 1e-13 */
-    assert_true(last->reason[0] != '\0');
+    const fbd_point last = fbd_cost_point(s.cost, fbd_cost_point_count(s.cost) - 1);
+    assert_int_equal(last.state, FBD_POINT_SKIPPED); /* order 1 at 1e-13 */
+    assert_true(last.reason[0] != '\0');
     end_study(&s);
 }
 
@@ -350,7 +350,7 @@ static void a_scene_where_nothing_moves_has_no_error(void **unused)
     (void)unused;
     struct study s = study(SCENE("mass: 1 kg, motion: slide", "1 s"), METHODS("auto"));
     assert_non_null(s.cost);
-    assert_true(fbd_cost_get_point(s.cost, 0)->error == 0);
+    assert_true(fbd_cost_point(s.cost, 0).error == 0);
     char *svg = fbd_cost_svg(s.cost), *text = fbd_cost_text(s.cost);
     assert_true(svg && text);
     free(svg);
@@ -363,8 +363,8 @@ static void a_step_of_the_file_does_not_hide_the_tolerances(void **unused)
     (void)unused;
     struct study s = study(SCENE(PENDULUM, "5 s, step: 0.1"), METHODS("dop853"));
     assert_non_null(s.cost);
-    const fbd_cost_point *loose = fbd_cost_get_point(s.cost, 0), *tight = fbd_cost_get_point(s.cost, 8);
-    assert_true(loose->error > 1e3 * tight->error);
+    const fbd_point loose = fbd_cost_point(s.cost, 0), tight = fbd_cost_point(s.cost, 8);
+    assert_true(loose.error > 1e3 * tight.error);
     end_study(&s);
 }
 
@@ -373,14 +373,14 @@ static void wrong_options_are_answered(void **unused)
     (void)unused;
     struct study s = study(oscillator, METHODS("rk99"));
     assert_null(s.cost);
-    assert_string_equal(fbd_errors_get(s.errors, 0)->id, "unknown-method");
+    assert_string_equal(fbd_errors_get(s.errors, 0).id, "unknown-method");
     end_study(&s);
     fbd_cost_options options = METHODS("auto");
     options.quantities = (const char *const[]){"b.y"};
     options.quantity_count = 1;
     s = study(oscillator, options);
     assert_null(s.cost);
-    assert_string_equal(fbd_errors_get(s.errors, 0)->id, "unknown-quantity");
+    assert_string_equal(fbd_errors_get(s.errors, 0).id, "unknown-quantity");
     end_study(&s);
 }
 

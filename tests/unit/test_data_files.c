@@ -92,8 +92,8 @@ static void files_are_read_as_they_are_written(void **unused)
                  path, c->keys, c->at);
         fbd_errors *errors = fbd_errors_new();
         fbd_model *model = fbd_model_parse(text, strlen(text), "scene", NULL, 0, errors);
-        const fbd_error *first = fbd_errors_count(errors) > 0 ? fbd_errors_get(errors, 0) : NULL;
-        bool as_said = c->id ? first && strcmp(first->id, c->id) == 0 : model && !first;
+        const fbd_error first = fbd_errors_get(errors, 0);
+        bool as_said = c->id ? first.id && strcmp(first.id, c->id) == 0 : model && !first.id;
         check_that(&checks, c->text, as_said);
         if (!as_said) fbd_errors_print(errors, stdout);
         if (model) {

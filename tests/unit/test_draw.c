@@ -211,9 +211,9 @@ static void what_was_not_recorded_cannot_be_shown(void **unused)
     fbd_simulation *simulation = fbd_simulation_new(model, &options, errors);
     fbd_result *result = fbd_simulation_run(simulation, NULL);
     assert_null(fbd_result_gnuplot(result, NULL, NULL, errors));
-    assert_string_equal(fbd_errors_get(errors, 0)->id, "not-recorded");
+    assert_string_equal(fbd_errors_get(errors, 0).id, "not-recorded");
     assert_null(fbd_result_html(result, errors));
-    assert_int_equal(fbd_errors_failed(errors), 2);
+    assert_int_equal(fbd_errors_failed_count(errors), 2);
     assert_true(fbd_model_has_columns(model, "arm.theta,arm.pin.x,energy.work", errors));
     assert_false(fbd_model_has_columns(model, "arm.theta,arm.phi", errors));
     fbd_result_free(result);
@@ -272,7 +272,7 @@ static void an_interrupted_run_ends_where_it_was_told_to(void **unused)
     assert_true(t == stop.seen && t >= 4.2 && t < 4.2011);
     assert_true(strtod(stop.last_row, NULL) == t);
     assert_non_null(strstr(fbd_simulation_reason(simulation), "interrupted at t = 4.2"));
-    assert_int_equal(fbd_simulation_events(simulation), 0); /* that of t = 10 s has not happened */
+    assert_int_equal(fbd_simulation_event_count(simulation), 0); /* that of t = 10 s has not happened */
     fbd_result_free(result);
     fbd_simulation_free(simulation);
     fbd_errors_free(errors);

@@ -31,7 +31,7 @@ struct motion_seen {
 static void watch(const char *text, double until, struct motion_seen *seen)
 {
     struct trial trial = trial_parse(text);
-    size_t n = fbd_model_coordinates(trial.model);
+    size_t n = fbd_model_coordinate_count(trial.model);
     fbd_options options = FBD_OPTIONS_DEFAULT;
     options.tolerance = 1e-12;
     assert_true(2 * n <= most_quantities);
@@ -92,15 +92,15 @@ static void end_study(struct study *study)
 }
 
 /* The effect of this name whose change starts like that; ends the test when there is none. */
-static const fbd_effect *find(const struct study *study, const char *name, const char *change)
+static fbd_effect find(const struct study *study, const char *name, const char *change)
 {
     for (size_t i = 0; i < fbd_effects_count(study->effects); i++) {
-        const fbd_effect *effect = fbd_effects_get(study->effects, i);
-        if (strcmp(effect->name, name) == 0 && strncmp(effect->change, change, strlen(change)) == 0)
+        const fbd_effect effect = fbd_effects_get(study->effects, i);
+        if (strcmp(effect.name, name) == 0 && strncmp(effect.change, change, strlen(change)) == 0)
             return effect;
     }
     fail_msg("no effect %s: %s", name, change);
-    return NULL;
+    return (fbd_effect){0};
 }
 
 /* The row says what two scenes written by hand say. 1e-8: both are integrated, at 1e-11 and 1e-12. */
@@ -108,13 +108,13 @@ static void hold(struct checks *checks, const char *with, const char *without, d
                  const char *change)
 {
     struct study s = study(with);
-    const fbd_effect *effect = find(&s, name, change);
+    const fbd_effect effect = find(&s, name, change);
     double largest, end;
     differ(with, without, until, &largest, &end);
-    check_that(checks, "there is no reason against it", effect->reason[0] == '\0');
-    check_close(checks, name, effect->change_max, largest, 1e-8);
-    check_close(checks, "at the end", effect->change_end, end, 1e-8);
-    check_that(checks, "it was timed", effect->time > 0);
+    check_that(checks, "there is no reason against it", effect.reason[0] == '\0');
+    check_close(checks, name, effect.change_max, largest, 1e-8);
+    check_close(checks, "at the end", effect.change_end, end, 1e-8);
+    check_that(checks, "it was timed", effect.time > 0);
     end_study(&s);
 }
 
@@ -158,7 +158,7 @@ static void a_pull_between_bodies_goes_with_its_reaction(void **unused)
     struct study s = study(with);
     for (size_t i = 0; i < fbd_effects_count(s.effects); i++)
         check_that(&checks, "the reaction is no effect by itself",
-                   strcmp(fbd_effects_get(s.effects, i)->name, "b.pull") != 0);
+                   strcmp(fbd_effects_get(s.effects, i).name, "b.pull") != 0);
     end_study(&s);
     checks_end(&checks);
 }
@@ -189,7 +189,7 @@ static void static_friction_becomes_kinetic(void **unused)
     struct study s = study(PUSHED("static: 0.4, kinetic: 0.4"));
     for (size_t i = 0; i < fbd_effects_count(s.effects); i++)
         check_that(&checks, "equal coefficients are no effect",
-                   strncmp(fbd_effects_get(s.effects, i)->change, "static", 6) != 0);
+                   strncmp(fbd_effects_get(s.effects, i).change, "static", 6) != 0);
     end_study(&s);
     checks_end(&checks);
 }
@@ -268,11 +268,11 @@ static double linear_double_pendulum_differs(const char *angle)
              "simulate: {until: 3 s}\n",
              angle);
     struct study with = study(text);
-    const fbd_effect *all = find(&with, "all", "linear about the place of rest");
-    assert_string_equal(all->body, "");
-    assert_string_equal(all->reason, "");
-    double change = all->change_max;
-    assert_true(all->time > 0);
+    const fbd_effect all = find(&with, "all", "linear about the place of rest");
+    assert_string_equal(all.body, "");
+    assert_string_equal(all.reason, "");
+    double change = all.change_max;
+    assert_true(all.time > 0);
     end_study(&with);
     return change;
 }
@@ -294,20 +294,20 @@ static void what_cannot_be_left_out_says_why(void **unused)
 {
     (void)unused;
     struct study s = study(SCENE(BLOCK ", forces: [gravity, normal, {friction: 0.4}]", "1 s"));
-    const fbd_effect *normal = find(&s, "normal", "left out");
-    assert_non_null(strstr(normal->reason, "`friction` needs it"));
-    assert_true(isnan(normal->change_max) && isnan(normal->time));
+    const fbd_effect normal = find(&s, "normal", "left out");
+    assert_non_null(strstr(normal.reason, "`friction` needs it"));
+    assert_true(isnan(normal.change_max) && isnan(normal.time));
     end_study(&s);
     s = study(SCENE(
         "shape: disc, mass: 2 kg, radius: 0.1, motion: {pivot: {point: G}}, moments: [{applied: {value: "
         "1 N*m}}]",
         "1 s"));
-    assert_non_null(strstr(find(&s, "I_G", "all its mass")->reason, "no moment of inertia"));
+    assert_non_null(strstr(find(&s, "I_G", "all its mass").reason, "no moment of inertia"));
     end_study(&s);
     s = study(SCENE("mass: 1 kg, motion: slide, initial: {x: 1}, forces: [{applied: {value: "
                     "'-(x - 0.1[m]*sin(3[rad/s]*t))^3*1[N/m^3]'}}]",
                     "1 s"));
-    assert_non_null(strstr(find(&s, "applied", "linear")->reason, "depends on time"));
+    assert_non_null(strstr(find(&s, "applied", "linear").reason, "depends on time"));
     end_study(&s);
 }
 
@@ -318,7 +318,7 @@ static void a_scene_that_breaks_without_an_effect_says_so(void **unused)
     struct study s = study(SCENE("mass: 2 kg, motion: slide, initial: {v: 1}, forces: [gravity, normal, "
                                  "{applied: {name: lift, value: 5 N, angle: 90 deg}}, {friction: 0.2}]",
                                  "1 s"));
-    assert_non_null(strstr(find(&s, "gravity", "left out")->reason, "leaves its surface"));
+    assert_non_null(strstr(find(&s, "gravity", "left out").reason, "leaves its surface"));
     end_study(&s);
 }
 

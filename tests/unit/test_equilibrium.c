@@ -158,8 +158,8 @@ static void check_refused(const char *path, const char *id)
     struct trial trial = trial_open(path, NULL);
     fbd_errors *errors = fbd_errors_new();
     assert_false(fbd_find_equilibrium(trial.state, errors));
-    assert_int_equal(fbd_errors_failed(errors), 1);
-    assert_string_equal(fbd_errors_get(errors, 0)->id, id);
+    assert_int_equal(fbd_errors_failed_count(errors), 1);
+    assert_string_equal(fbd_errors_get(errors, 0).id, id);
     fbd_errors_free(errors);
     trial_close(&trial);
 }
@@ -203,7 +203,7 @@ static void a_balance_is_one_of_the_branch_that_holds_there(void **unused)
             assert_true(good);
             found++;
         } else {
-            assert_string_equal(fbd_errors_get(errors, 0)->id, "no-equilibrium");
+            assert_string_equal(fbd_errors_get(errors, 0).id, "no-equilibrium");
             none += !left && !right;
         }
         fbd_errors_free(errors);

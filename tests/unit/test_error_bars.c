@@ -187,7 +187,7 @@ static void an_event_that_only_one_run_has_is_not_known(void **unused)
     options.step = 0.02;
     trial_run(&trial, &options);
     size_t lost = 0, low = 0;
-    for (size_t i = 0; i < fbd_simulation_events(trial.simulation); i++) {
+    for (size_t i = 0; i < fbd_simulation_event_count(trial.simulation); i++) {
         fbd_event event = fbd_simulation_event(trial.simulation, i);
         bool is_lost = strcmp(event.name, "lost") == 0;
         if (is_lost) assert_true(isinf(event.t_error));

@@ -278,7 +278,7 @@ static size_t list_of(const char *text, bool user, double *t)
     assert_non_null(simulation);
     while (fbd_simulation_advance(simulation) == FBD_GOING) {
     }
-    size_t count = 0, events = fbd_simulation_events(simulation);
+    size_t count = 0, events = fbd_simulation_event_count(simulation);
     for (size_t i = 0; i < events; i++) {
         fbd_event event = fbd_simulation_event(simulation, i);
         bool counts = event.kind == (user ? FBD_EVENT_USER : FBD_EVENT_SWITCH);
@@ -441,7 +441,7 @@ static double first_breakaway(const char *text)
     double t = NAN;
     assert_non_null(simulation);
     while (isnan(t) && fbd_simulation_advance(simulation) == FBD_GOING)
-        for (size_t i = 0; isnan(t) && i < fbd_simulation_events(simulation); i++) {
+        for (size_t i = 0; isnan(t) && i < fbd_simulation_event_count(simulation); i++) {
             fbd_event event = fbd_simulation_event(simulation, i);
             if (event.kind == FBD_EVENT_BREAKAWAY) t = event.t;
         }

@@ -414,8 +414,8 @@ static void a_wrong_relation_is_refused_where_it_is_wrong(void **state)
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         struct pair pair = relate(rows[i].text);
         assert_false(pair.good);
-        const fbd_error *note = fbd_errors_get(pair.errors, 0);
-        if (strcmp(note->id, rows[i].id) != 0 || note->line != 4 || note->column != rows[i].column) {
+        const fbd_error note = fbd_errors_get(pair.errors, 0);
+        if (strcmp(note.id, rows[i].id) != 0 || note.line != 4 || note.column != rows[i].column) {
             fbd_errors_print(pair.errors, stdout);
             fail_msg("%s", rows[i].text);
         }

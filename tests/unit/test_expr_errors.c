@@ -23,9 +23,9 @@ static void check(const struct wrong *rows, size_t count, const struct expr_want
 {
     for (size_t i = 0; i < count; i++) {
         struct trial trial = try_text(rows[i].text, want, unit_si);
-        const fbd_error *note = fbd_errors_get(trial.errors, 0);
-        bool compiled = trial.expr != NULL, failed = fbd_errors_failed(trial.errors) > 0;
-        if (!note || !matches(note, &rows[i]) || compiled == failed) {
+        const fbd_error note = fbd_errors_get(trial.errors, 0);
+        bool compiled = trial.expr != NULL, failed = fbd_errors_failed_count(trial.errors) > 0;
+        if (!note.id || !matches(&note, &rows[i]) || compiled == failed) {
             fbd_errors_print(trial.errors, stdout);
             fail_msg("`%s` should give %s at column %d: %s", rows[i].text, rows[i].id, rows[i].column,
                      rows[i].says ? rows[i].says : "");
@@ -120,16 +120,16 @@ static void columns_count_characters_not_bytes(void **state)
     (void)state;
     struct trial trial = try_text("5[N·m] + foo", &a_force, unit_si);
     assert_int_equal(fbd_errors_count(trial.errors), 2);
-    assert_int_equal(fbd_errors_get(trial.errors, 0)->column, 4);
-    assert_int_equal(fbd_errors_get(trial.errors, 1)->column, 10);
+    assert_int_equal(fbd_errors_get(trial.errors, 0).column, 4);
+    assert_int_equal(fbd_errors_get(trial.errors, 1).column, 10);
     end_trial(&trial);
     /* What stands before the text in its line is the caller's column. */
     fbd_errors *errors = fbd_errors_new();
     struct arena arena = {0};
     struct scope scope = {.lookup = scope_lookup, .names = scope_list, .units = unit_si};
     assert_null(expr_compile(&arena, "F + foo", (struct pos){12, 40}, &scope, &a_force, errors));
-    assert_int_equal(fbd_errors_get(errors, 0)->line, 12);
-    assert_int_equal(fbd_errors_get(errors, 0)->column, 44);
+    assert_int_equal(fbd_errors_get(errors, 0).line, 12);
+    assert_int_equal(fbd_errors_get(errors, 0).column, 44);
     fbd_errors_free(errors);
     arena_free(&arena);
 }
@@ -177,8 +177,8 @@ static void all_errors_of_names_and_dimensions_are_found_at_once(void **state)
     assert_null(trial.expr);
     assert_int_equal(fbd_errors_count(trial.errors), 6);
     for (size_t i = 0; i < 6; i++) {
-        assert_string_equal(fbd_errors_get(trial.errors, i)->id, ids[i]);
-        assert_int_equal(fbd_errors_get(trial.errors, i)->column, columns[i]);
+        assert_string_equal(fbd_errors_get(trial.errors, i).id, ids[i]);
+        assert_int_equal(fbd_errors_get(trial.errors, i).column, columns[i]);
     }
     end_trial(&trial);
 }

@@ -33,7 +33,7 @@ static void a_failed_allocation_ends_a_compilation_with_a_reason(void **state)
             const struct expr *expr =
                 expr_compile(&arena, texts[i], (struct pos){1, 1}, &scope, &want, errors);
             bool refused = fail_alloc_end();
-            if (!expr) assert_true(fbd_errors_failed(errors) > 0);
+            if (!expr) assert_true(fbd_errors_failed_count(errors) > 0);
             arena_free(&arena);
             fbd_errors_free(errors);
             if (!refused) break;

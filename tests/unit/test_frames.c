@@ -298,7 +298,7 @@ static void texts_that_are_too_long_together(void **unused)
     snprintf(text + used, sizeof text - (size_t)used, " + 1[N/m]*distance\"}\nsimulate: {until: 1}\n");
     assert_null(fbd_model_parse(text, strlen(text), "long.yaml", NULL, 0, errors));
     assert_int_equal(fbd_errors_count(errors), 1);
-    assert_string_equal(fbd_errors_get(errors, 0)->id, "expression-too-long");
+    assert_string_equal(fbd_errors_get(errors, 0).id, "expression-too-long");
     fbd_errors_free(errors);
 }
 

@@ -63,8 +63,9 @@ static void check_derivations(struct checks *checks, const char *path)
 {
     struct trial trial = trial_open(path, NULL);
     for (unsigned seed = 1; seed <= 3; seed++) {
-        char *text = NULL, what[2 * most_path];
-        int wrong = fbd_check_hand(trial.model, seed, &text);
+        char what[2 * most_path];
+        size_t wrong = 1;
+        char *text = fbd_check_hand(trial.model, seed, &wrong);
         snprintf(what, sizeof what, "%s agrees with its derivation, seed %u:\n%s", path, seed,
                  text ? text : "");
         check_that(checks, what, wrong == 0);
@@ -92,9 +93,9 @@ static double turned_over(struct trial *trial)
     fbd_equations *all = fbd_assemble(trial->state);
     assert_non_null(all);
     for (size_t i = 0; i < fbd_equations_count(all); i++) {
-        const fbd_equation *equation = fbd_equations_get(all, i);
-        for (size_t k = 0; k < equation->term_count; k++)
-            size = fmax(size, fabs(fbd_result_work(trial->result, equation->body, equation->terms[k].name)));
+        const fbd_equation equation = fbd_equations_get(all, i);
+        for (size_t k = 0; k < equation.term_count; k++)
+            size = fmax(size, fabs(fbd_result_work(trial->result, equation.body, equation.terms[k].name)));
     }
     fbd_equations_free(all);
     return size;

@@ -101,10 +101,12 @@ static bool says_all(const char *verdict, const char *phrases)
 
 static char *verdict_of(const char *scene, const char *equation, int *wrong)
 {
-    char text[1600], *verdict = NULL;
+    char text[1600];
+    size_t differing;
     snprintf(text, sizeof text, scene, equation);
     fbd_model *model = model_from(text);
-    *wrong = fbd_check_hand(model, 1, &verdict);
+    char *verdict = fbd_check_hand(model, 1, &differing);
+    *wrong = (int)differing;
     fbd_model_free(model);
     assert_non_null(verdict);
     return verdict;

@@ -58,13 +58,13 @@ static void equations_carry_the_units_of_their_system(void **unused)
         fbd_equations *all = fbd_assemble(trial.state);
         assert_non_null(all);
         assert_int_equal(fbd_equations_count(all), 1);
-        const fbd_equation *equation = fbd_equations_get(all, 0);
-        assert_string_equal(equation->inertia_name, words[f][0]);
-        assert_string_equal(equation->inertia_unit, words[f][1]);
-        assert_string_equal(equation->unit, words[f][2]);
-        assert_string_equal(equation->acceleration_name, words[f][3]);
-        assert_string_equal(equation->acceleration_unit, words[f][4]);
-        assert_string_equal(equation->coordinate, words[f][5]);
+        const fbd_equation equation = fbd_equations_get(all, 0);
+        assert_string_equal(equation.inertia_name, words[f][0]);
+        assert_string_equal(equation.inertia_unit, words[f][1]);
+        assert_string_equal(equation.unit, words[f][2]);
+        assert_string_equal(equation.acceleration_name, words[f][3]);
+        assert_string_equal(equation.acceleration_unit, words[f][4]);
+        assert_string_equal(equation.coordinate, words[f][5]);
         fbd_equations_free(all);
         trial_close(&trial);
     }

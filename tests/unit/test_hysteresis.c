@@ -36,7 +36,7 @@ static struct trial run_scene(const char *text, const char *method, double toler
 
 static size_t switches_of(const struct trial *trial)
 {
-    size_t count = 0, events = fbd_simulation_events(trial->simulation);
+    size_t count = 0, events = fbd_simulation_event_count(trial->simulation);
     for (size_t i = 0; i < events; i++)
         count += fbd_simulation_event(trial->simulation, i).kind == FBD_EVENT_SWITCH;
     return count;

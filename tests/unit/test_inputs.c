@@ -36,7 +36,7 @@ static void a_model_lists_parameters_then_inputs(void **unused)
         {"F", "N", "push", 2000, true, false},
         {"n", "", "", 3, true, false},
     };
-    assert_int_equal(fbd_model_parameters(trial.model), 4);
+    assert_int_equal(fbd_model_parameter_count(trial.model), 4);
     for (size_t i = 0; i < 4; i++) {
         fbd_parameter got = fbd_model_parameter(trial.model, i);
         assert_string_equal(got.name, want[i].name);
@@ -261,7 +261,7 @@ static void a_run_from_a_state_may_be_gone_through_again(void **unused)
     fbd_simulation *from = fbd_simulation_from(trial.state, NULL, NULL);
     fbd_errors *errors = fbd_errors_new();
     assert_null(fbd_simulation_again(from, true, errors));
-    assert_string_equal(fbd_errors_get(errors, 0)->id, "bad-option");
+    assert_string_equal(fbd_errors_get(errors, 0).id, "bad-option");
     fbd_errors_free(errors);
     fbd_simulation *again = fbd_simulation_again(from, false, NULL);
     assert_non_null(again);

@@ -141,9 +141,9 @@ static void feet_and_slugs_move_as_metres_and_kilograms(void **unused)
         check_close(&checks, "friction", pound * trial_term(&us, "x", "friction"),
                     trial_term(&si, "x", "friction"), 10 * rounding);
     }
-    size_t count = fbd_simulation_events(si.simulation);
+    size_t count = fbd_simulation_event_count(si.simulation);
     check_that(&checks, "something happens", count > 0);
-    check_that(&checks, "the same happens", count == fbd_simulation_events(us.simulation));
+    check_that(&checks, "the same happens", count == fbd_simulation_event_count(us.simulation));
     for (size_t i = 0; i < count; i++)
         check_close(&checks, "event", fbd_simulation_event(us.simulation, i).t,
                     fbd_simulation_event(si.simulation, i).t, rounding);
@@ -184,7 +184,7 @@ static void check_same_bits(struct checks *checks, const char *text, const char 
                fbd_simulation_stats(one.simulation).steps + more ==
                    fbd_simulation_stats(two.simulation).steps);
     check_that(checks, "as many events",
-               fbd_simulation_events(one.simulation) == fbd_simulation_events(two.simulation));
+               fbd_simulation_event_count(one.simulation) == fbd_simulation_event_count(two.simulation));
     trial_close(&one);
     trial_close(&two);
 }

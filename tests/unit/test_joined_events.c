@@ -163,7 +163,7 @@ static double first_event(const char *text, fbd_event_kind kind)
     assert_non_null(simulation);
     for (bool going = true; going && t == HUGE_VAL;) {
         going = fbd_simulation_advance(simulation) == FBD_GOING;
-        for (size_t i = 0; t == HUGE_VAL && i < fbd_simulation_events(simulation); i++)
+        for (size_t i = 0; t == HUGE_VAL && i < fbd_simulation_event_count(simulation); i++)
             if (fbd_simulation_event(simulation, i).kind == kind) t = fbd_simulation_event(simulation, i).t;
     }
     fbd_simulation_free(simulation);
@@ -245,12 +245,12 @@ static bool light_cart_agrees(uint64_t seed)
     trial_start(&trial, NULL);
     trial_finish(&trial);
     double x = trial_get(&trial, "cart.x"), want = F / (M + m / 3) / 8;
-    bool agrees = trial.outcome == FBD_DONE && fbd_simulation_events(trial.simulation) == 0 &&
+    bool agrees = trial.outcome == FBD_DONE && fbd_simulation_event_count(trial.simulation) == 0 &&
                   fabs(x - want) < 1e-9 * want;
     if (!agrees)
         print_error("seed %llu: outcome %d, %zu events, x = %.17g instead of %.17g\n%s",
-                    (unsigned long long)seed, (int)trial.outcome, fbd_simulation_events(trial.simulation), x,
-                    want, text);
+                    (unsigned long long)seed, (int)trial.outcome,
+                    fbd_simulation_event_count(trial.simulation), x, want, text);
     trial_close(&trial);
     return agrees;
 }

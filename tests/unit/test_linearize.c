@@ -35,8 +35,8 @@ static void a_force_without_slope_has_no_frequency(void **unused)
     (void)unused;
     struct looked looked = look(ALONG_X("0.1 m", "-4[N/m^3]*x^3"));
     assert_non_null(looked.linear);
-    assert_string_equal(fbd_errors_get(looked.errors, 0)->id, "degenerate-equilibrium");
-    assert_int_equal(fbd_errors_failed(looked.errors), 0);
+    assert_string_equal(fbd_errors_get(looked.errors, 0).id, "degenerate-equilibrium");
+    assert_int_equal(fbd_errors_failed_count(looked.errors), 0);
     for (size_t i = 0; i < 2; i++) assert_true(fbd_linearization_mode(looked.linear, i).frequency == 0);
     assert_text_has(looked.linear, "no linear frequency", true);
     assert_text_has(looked.linear, "oscillates", false);
@@ -82,7 +82,7 @@ static void where_there_is_no_equilibrium_none_is_found(void **unused)
     (void)unused;
     struct looked looked = look(ALONG_X("1 m", "1[N]*(1 + exp(x/1[m]))"));
     assert_null(looked.linear);
-    assert_string_equal(fbd_errors_get(looked.errors, 0)->id, "no-equilibrium");
+    assert_string_equal(fbd_errors_get(looked.errors, 0).id, "no-equilibrium");
     end_look(&looked);
 }
 

@@ -21,7 +21,7 @@ static const double g = 9.81;
 
 static void assert_linear(const struct looked *looked)
 {
-    if (!looked->linear) print_error("%s\n", fbd_errors_get(looked->errors, 0)->message);
+    if (!looked->linear) print_error("%s\n", fbd_errors_get(looked->errors, 0).message);
     assert_non_null(looked->linear);
 }
 
@@ -29,10 +29,10 @@ static void assert_refused(const char *text, const char *id, const char *words)
 {
     struct looked looked = look(text);
     assert_null(looked.linear);
-    const fbd_error *error = fbd_errors_get(looked.errors, 0);
-    assert_string_equal(error->id, id);
-    if (!strstr(error->message, words)) print_error("%s\n", error->message);
-    assert_non_null(strstr(error->message, words));
+    const fbd_error error = fbd_errors_get(looked.errors, 0);
+    assert_string_equal(error.id, id);
+    if (!strstr(error.message, words)) print_error("%s\n", error.message);
+    assert_non_null(strstr(error.message, words));
     end_look(&looked);
 }
 
@@ -51,7 +51,7 @@ static void assert_one_mode(const char *text, double w0, double zeta)
     fbd_mode mode = fbd_linearization_mode(looked.linear, 0);
     assert_close(mode.frequency, w0, 1e-10 * w0);
     assert_close(mode.damping_ratio, zeta, 1e-10);
-    assert_true(fbd_linearization_coordinate(looked.linear, 0) < fbd_model_coordinates(looked.model));
+    assert_true(fbd_linearization_coordinate(looked.linear, 0) < fbd_model_coordinate_count(looked.model));
     assert_true(fbd_linearization_coordinate(looked.linear, 1) == (size_t)-1);
     end_look(&looked);
 }
@@ -126,7 +126,7 @@ static void open_stops_and_dying_slopes(void **unused)
                                 "m, motion: {pivot: {at: [0, 0.1]}}}\n"
                                 "couplings:\n  - rack: {between: [wheel, a], radius: 0.1 m}\n");
     assert_linear(&looked);
-    assert_string_equal(fbd_errors_get(looked.errors, 0)->id, "degenerate-equilibrium");
+    assert_string_equal(fbd_errors_get(looked.errors, 0).id, "degenerate-equilibrium");
     assert_true(fbd_linearization_mode(looked.linear, 0).frequency == 0);
     end_look(&looked);
 }

@@ -41,10 +41,10 @@ static void put(struct text *text, const char *heading, char *made)
 
 static void put_errors(struct text *text, fbd_errors *errors)
 {
-    const fbd_error *e;
-    for (size_t i = 0; (e = fbd_errors_get(errors, i)) != NULL; i++) {
-        text_printf(text, "%d:%d: %s\n", e->line, e->column, e->message);
-        if (e->hint) text_add(text, e->hint);
+    for (size_t i = 0; i < fbd_errors_count(errors); i++) {
+        const fbd_error e = fbd_errors_get(errors, i);
+        text_printf(text, "%d:%d: %s\n", e.line, e.column, e.message);
+        if (e.hint) text_add(text, e.hint);
         text_add(text, "\n");
     }
     fbd_errors_free(errors);
@@ -106,9 +106,7 @@ static void put_model(struct text *text, const char *path, const char *name, con
     fbd_model *model = read_model(path, NULL, 0);
     assert_non_null(model);
     const fbd_options options = FBD_OPTIONS_DEFAULT;
-    char *hands = NULL;
-    fbd_check_hand(model, 7, &hands);
-    put(text, path, hands);
+    put(text, path, fbd_check_hand(model, 7, NULL));
     put(text, "explain", fbd_explain(model, &options));
     put_run(text, model);
     put_state(text, model, name, value);
@@ -119,12 +117,8 @@ static void put_sweep(struct text *text)
 {
     static const char *const vary[] = {"mu_k=0.125:0.375:3", "v0=1.5,2.5 m/s", "f1=uniform(0.5,1.5) N:2"};
     static const char *const outputs[] = {"final,times,energy"};
-    const fbd_sweep_plan plan = {.vary = vary,
-                                 .vary_count = 3,
-                                 .seed = 3,
-                                 .outputs = outputs,
-                                 .output_count = 1,
-                                 .run = FBD_OPTIONS_DEFAULT};
+    const fbd_sweep_plan plan = {
+        .vary = vary, .vary_count = 3, .seed = 3, .outputs = outputs, .output_count = 1};
     const fbd_sweep_work work = {.end = 12, .jobs = 2, .write = put_rows, .write_context = text};
     char path[1000];
     const char *root = getenv("FBD_SOURCE_ROOT");

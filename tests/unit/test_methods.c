@@ -141,8 +141,8 @@ static void an_unknown_method_is_refused_with_the_nearest_name(void **unused)
     fbd_errors *errors = fbd_errors_new();
     assert_null(fbd_simulation_new(trial.model, &(fbd_options){.until = NAN, .method = "rk45"}, errors));
     assert_int_equal(fbd_errors_count(errors), 1);
-    assert_string_equal(fbd_errors_get(errors, 0)->id, "unknown-method");
-    assert_non_null(fbd_errors_get(errors, 0)->hint);
+    assert_string_equal(fbd_errors_get(errors, 0).id, "unknown-method");
+    assert_non_null(fbd_errors_get(errors, 0).hint);
     fbd_errors_free(errors);
     trial_close(&trial);
 }

@@ -115,7 +115,7 @@ static const struct hold holds[] = {
 
 static double first_event(const struct trial *trial, fbd_event_kind kind)
 {
-    size_t count = fbd_simulation_events(trial->simulation);
+    size_t count = fbd_simulation_event_count(trial->simulation);
     for (size_t i = 0; i < count; i++) {
         fbd_event event = fbd_simulation_event(trial->simulation, i);
         if (event.kind == kind) return event.t;

@@ -222,7 +222,7 @@ static const struct beside besides[] = {
 
 static size_t count_of(const struct trial *trial, fbd_event_kind kind)
 {
-    size_t count = 0, events = fbd_simulation_events(trial->simulation);
+    size_t count = 0, events = fbd_simulation_event_count(trial->simulation);
     for (size_t i = 0; i < events; i++) count += fbd_simulation_event(trial->simulation, i).kind == kind;
     return count;
 }
@@ -239,7 +239,7 @@ static void other_switches_and_holds_have_their_own_way(void **unused)
                      beside->bodies, beside->until);
             struct trial trial = trial_parse(text);
             run_with(&trial, methods[m], 1e-10);
-            bool one = fbd_model_coordinates(trial.model) == 1;
+            bool one = fbd_model_coordinate_count(trial.model) == 1;
             check_close(&checks, beside->what, trial_get(&trial, one ? "x" : "b.x"), beside->x, 1e-6);
             check_close(&checks, beside->what, trial_get(&trial, one ? "v" : "b.v"), beside->v, 1e-6);
             check_that(&checks, beside->what,

@@ -205,7 +205,7 @@ static void a_wrong_body_leaves_the_others_complete(void **state)
                   "  b: {mass: 1, motion: slide, forces: [{spring: {stiffness: 3, neutral: a.x}}]}\n"
                   "  c: {mass: 1, motion: slide, forces: [{applied: \"1[N/m]*a.x\"}]}\n");
     assert_non_null(r.scene);
-    assert_int_equal(fbd_errors_failed(r.errors), 2);
+    assert_int_equal(fbd_errors_failed_count(r.errors), 2);
     assert_first_note(&r, "wrong-dimension", 3, 15);
     assert_int_equal(count_notes(&r, "not-constant"), 1);
     assert_false(r.scene->bodies[0].complete);
@@ -250,9 +250,9 @@ static void notes_outlive_the_text_and_the_scene(void **state)
     scene_free(scene);
     memset(text, 'x', sizeof text - 1);
     memset(file, 'x', sizeof file - 1);
-    const fbd_error *note = fbd_errors_get(errors, 1);
-    assert_string_equal(note->file, "model.yaml");
-    assert_string_equal(note->hint, "did you mean `mass`?");
+    const fbd_error note = fbd_errors_get(errors, 1);
+    assert_string_equal(note.file, "model.yaml");
+    assert_string_equal(note.hint, "did you mean `mass`?");
     fbd_errors_free(errors);
 }
 

@@ -44,9 +44,10 @@ static const char broken_file[] = "fbd: 1\nbodies:\n  block: {mass: 2 kg, motion
 
 static bool tells_of_memory(fbd_errors *errors)
 {
-    const fbd_error *note;
-    for (size_t i = 0; (note = fbd_errors_get(errors, i)) != NULL; i++)
-        if (strcmp(note->id, "out-of-memory") == 0) return true;
+    for (size_t i = 0; i < fbd_errors_count(errors); i++) {
+        const fbd_error note = fbd_errors_get(errors, i);
+        if (strcmp(note.id, "out-of-memory") == 0) return true;
+    }
     return false;
 }
 
@@ -64,7 +65,7 @@ static bool read_without(const char *text, size_t n, bool for_good)
     if (failed) {
         assert_null(scene);
         assert_true(tells_of_memory(errors));
-        assert_true(fbd_errors_failed(errors) > 0);
+        assert_true(fbd_errors_failed_count(errors) > 0);
     }
     scene_free(scene);
     fbd_errors_free(errors);

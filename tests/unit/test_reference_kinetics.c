@@ -67,7 +67,7 @@ static void a_push_below_the_static_limit_moves_nothing(void **state)
     check_reference(checks, "A02.a_normal", trial_normal(&trial, "x"));
     hold_value(checks, &trial, "A02.a_x", "x");
     check_that(checks, "at rest x is exactly 0", trial_get(&trial, "x") == 0);
-    check_that(checks, "no event", fbd_simulation_events(trial.simulation) == 0);
+    check_that(checks, "no event", fbd_simulation_event_count(trial.simulation) == 0);
     trial_close(&trial);
     checks_end(checks);
 }
@@ -146,7 +146,7 @@ static void a_strong_push_carries_the_block_up_the_incline(void **state)
     hold_value(checks, &trial, "A03.a_v", "v");
     hold_value(checks, &trial, "A03.a_x", "x");
     trial_finish(&trial);
-    check_that(checks, "never at rest", fbd_simulation_events(trial.simulation) == 0);
+    check_that(checks, "never at rest", fbd_simulation_event_count(trial.simulation) == 0);
     trial_close(&trial);
     checks_end(checks);
 }
@@ -165,7 +165,7 @@ static void a_block_comes_to_rest_on_the_incline_for_good(void **state)
     hold_value(checks, &trial, "A03.b_x", "x");
     hold_value(checks, &trial, "A03.b_v", "v");
     check_that(checks, "at rest v is exactly 0", trial_get(&trial, "v") == 0);
-    check_that(checks, "it stops once", fbd_simulation_events(trial.simulation) == 1);
+    check_that(checks, "it stops once", fbd_simulation_event_count(trial.simulation) == 1);
     trial_close(&trial);
     checks_end(checks);
 }
@@ -208,7 +208,7 @@ static void a_growing_force_breaks_the_block_away_once(void **state)
     hold_term(checks, &trial, "A04.friction_after", "x", "friction");
     hold_value(checks, &trial, "A04.v", "v");
     hold_value(checks, &trial, "A04.x", "x");
-    check_that(checks, "exactly one event", fbd_simulation_events(trial.simulation) == 1);
+    check_that(checks, "exactly one event", fbd_simulation_event_count(trial.simulation) == 1);
     trial_close(&trial);
     checks_end(checks);
 }

@@ -135,7 +135,7 @@ static void a_square_wave_makes_parabolas(void **state)
     hold_value(checks, &trial, "D07.a_x_10", "x");
     hold_value(checks, &trial, "D07.a_v_10", "v");
     /* Jumps at 0.35, 0.7, ... 9.8 s; each is one event and none is missed. */
-    check_that(checks, "28 jumps in 10 s", fbd_simulation_events(trial.simulation) == 28);
+    check_that(checks, "28 jumps in 10 s", fbd_simulation_event_count(trial.simulation) == 28);
     trial_close(&trial);
     checks_end(checks);
 }

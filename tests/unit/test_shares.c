@@ -122,7 +122,7 @@ static void two_feet_share_and_give_together(void **unused)
         trial_start(&trial, NULL);
         trial_finish(&trial);
         check_that(&checks, "it stands", trial.outcome == FBD_DONE);
-        check_that(&checks, "without an event", fbd_simulation_events(trial.simulation) == 0);
+        check_that(&checks, "without an event", fbd_simulation_event_count(trial.simulation) == 0);
         check_shares(&checks, &trial, &feet, before);
         trial_close(&trial);
         write_feet(&feet, 1.01 * t, text, sizeof text);
@@ -133,7 +133,7 @@ static void two_feet_share_and_give_together(void **unused)
         for (int foot = 0; foot < 2; foot++)
             check_close(&checks, "both give at once", trial_event(&trial, FBD_EVENT_BREAKAWAY, NULL, foot), t,
                         1e-10 * t);
-        check_that(&checks, "and no other", fbd_simulation_events(trial.simulation) == 2);
+        check_that(&checks, "and no other", fbd_simulation_event_count(trial.simulation) == 2);
         if (checks.failed) print_message("# draw %d\n%s", draw, text);
         trial_close(&trial);
     }

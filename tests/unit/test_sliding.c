@@ -63,7 +63,7 @@ static void a_sliding_mode_decays_on_its_surface(void **unused)
             double room = fmax(1e-13, 100 * tolerance);
             check_close(&checks, "passed", trial_event(&trial, FBD_EVENT_SWITCH, "relay", 0), first, room);
             check_close(&checks, "slides", trial_event(&trial, FBD_EVENT_SLIDING, "relay", 0), entry, room);
-            check_that(&checks, "two events", fbd_simulation_events(trial.simulation) == 2);
+            check_that(&checks, "two events", fbd_simulation_event_count(trial.simulation) == 2);
             double end = x * exp(-(6 - entry) / 0.5);
             check_close(&checks, "x", trial_get(&trial, "x"), end, room * 0.01);
             check_close(&checks, "x = -c v", trial_get(&trial, "x") + 0.5 * trial_get(&trial, "v"), 0, 1e-16);
@@ -132,7 +132,7 @@ static void write_near(const struct waves *waves, char *text, size_t size)
 
 static size_t count_of(const struct trial *trial, fbd_event_kind kind)
 {
-    size_t count = 0, events = fbd_simulation_events(trial->simulation);
+    size_t count = 0, events = fbd_simulation_event_count(trial->simulation);
     for (size_t i = 0; i < events; i++) count += fbd_simulation_event(trial->simulation, i).kind == kind;
     return count;
 }
@@ -336,7 +336,7 @@ static void it_rests_until_the_push_is_too_large(void **unused)
                     "      - applied: {name: rub, value: \"-4[N]*sign(v)\"}\n"
                     "      - applied: {name: push, value: \"1[N/s]*t\"}\nsimulate: {until: 8}\n");
     run_with(&trial, NULL, 1e-10);
-    check_that(&checks, "one event", fbd_simulation_events(trial.simulation) == 1);
+    check_that(&checks, "one event", fbd_simulation_event_count(trial.simulation) == 1);
     check_close(&checks, "leaves", trial_event(&trial, FBD_EVENT_SLIDING_ENDS, "rub", 0), 4, 1e-12);
     check_close(&checks, "v", trial_get(&trial, "v"), 4, 1e-11);
     check_close(&checks, "x", trial_get(&trial, "x"), 16.0 / 3, 1e-11);

@@ -371,7 +371,7 @@ static void states_have_names_and_units(void **unused)
                                      "{rate: '1/2[s] - states.r/4[s]', unit: 1}\n"
                                      "  e: {rate: b.v, initial: 2, unit: in}\nbodies: {b: {mass: 1, motion: "
                                      "slide}}\nsimulate: {until: 1}\n");
-    check_that(&checks, "count", fbd_model_states(trial.model) == 3);
+    check_that(&checks, "count", fbd_model_state_count(trial.model) == 3);
     fbd_own_state q = fbd_model_state(trial.model, 0), r = fbd_model_state(trial.model, 1);
     assert_string_equal(q.name, "states.q");
     assert_string_equal(q.unit, "ft*s");
@@ -410,7 +410,7 @@ static void a_run_again_is_the_same(void **unused)
 static bool is_noted(fbd_errors *errors, const char *id)
 {
     for (size_t i = 0; i < fbd_errors_count(errors); i++)
-        if (strcmp(fbd_errors_get(errors, i)->id, id) == 0) return true;
+        if (strcmp(fbd_errors_get(errors, i).id, id) == 0) return true;
     return false;
 }
 

@@ -141,9 +141,9 @@ static void several_mechanisms_are_held_by_one_force_each(void **unused)
     struct rest rest = rest_of(trial_parse(text));
     check_that(&checks, "three ways", fbd_statics_mobility(rest.statics) == 3);
     check_close(&checks, "the block", unbalanced(&rest, "block.x").holding, -7, rounding);
-    check_that(&checks, "three places", fbd_statics_unbalanced(rest.statics) == 3);
-    for (size_t i = 0; i < fbd_statics_unbalanced(rest.statics); i++) {
-        fbd_unbalanced one = fbd_statics_unbalanced_at(rest.statics, i);
+    check_that(&checks, "three places", fbd_statics_unbalanced_count(rest.statics) == 3);
+    for (size_t i = 0; i < fbd_statics_unbalanced_count(rest.statics); i++) {
+        fbd_unbalanced one = fbd_statics_unbalanced(rest.statics, i);
         if (strcmp(one.coordinate, "block.x") == 0) continue;
         bool first = strncmp(one.coordinate, "top", 3) == 0 || one.coordinate[0] < 'c';
         double M = first ? 3 * g * cos(1) : 5 * g * cos(2);
@@ -230,10 +230,10 @@ static void reactions_at_rest_are_those_of_dynamics(void **unused)
                                          "couplings/n_four_bar.yaml", "kinetics/ramp_breakaway.yaml"};
     for (size_t i = 0; i < sizeof models / sizeof *models; i++) {
         struct rest rest = rest_open(models[i], NULL);
-        for (size_t k = 0; k < fbd_model_coordinates(rest.trial.model); k++)
+        for (size_t k = 0; k < fbd_model_coordinate_count(rest.trial.model); k++)
             assert_true(
                 fbd_state_set(rest.trial.state, fbd_model_coordinate(rest.trial.model, k).rate_name, 0));
-        for (size_t b = 0; b < fbd_model_bodies(rest.trial.model); b++) {
+        for (size_t b = 0; b < fbd_model_body_count(rest.trial.model); b++) {
             fbd_arrow still[most], moving[most];
             size_t count = fbd_statics_diagram(rest.statics, b, still, most);
             assert_int_equal(fbd_diagram(rest.trial.state, b, moving, most), count);
@@ -281,10 +281,10 @@ static void a_start_that_does_not_fit_is_refused_with_its_coupling(void **unused
     struct trial trial = trial_parse(text);
     fbd_errors *errors = fbd_errors_new();
     assert_null(fbd_statics_new(trial.state, errors));
-    assert_int_equal(fbd_errors_failed(errors), 1);
-    assert_string_equal(fbd_errors_get(errors, 0)->id, "does-not-fit");
-    assert_non_null(strstr(fbd_errors_get(errors, 0)->message, "`B` is off by 0.1"));
-    assert_int_equal(fbd_errors_get(errors, 0)->line, 5);
+    assert_int_equal(fbd_errors_failed_count(errors), 1);
+    assert_string_equal(fbd_errors_get(errors, 0).id, "does-not-fit");
+    assert_non_null(strstr(fbd_errors_get(errors, 0).message, "`B` is off by 0.1"));
+    assert_int_equal(fbd_errors_get(errors, 0).line, 5);
     fbd_errors_free(errors);
     trial_close(&trial);
 }

@@ -127,7 +127,7 @@ static void check_agreement(struct checks *checks, const char *path)
     const fbd_state *last[] = {fbd_result_state(a.result), fbd_result_state(b.result),
                                fbd_result_state(rough.result)};
     char what[2 * most_path];
-    for (size_t i = 0; i < fbd_model_coordinates(a.model); i++) {
+    for (size_t i = 0; i < fbd_model_coordinate_count(a.model); i++) {
         for (int rate = 0; rate < 2; rate++) {
             fbd_coordinate coordinate = fbd_model_coordinate(a.model, i);
             const char *name = rate ? coordinate.rate_name : coordinate.name;
@@ -138,9 +138,9 @@ static void check_agreement(struct checks *checks, const char *path)
             check_close(checks, what, x[0], x[1], 10 * fmax(promise * size, fabs(x[2] - x[1])));
         }
     }
-    size_t events = fbd_simulation_events(a.simulation);
+    size_t events = fbd_simulation_event_count(a.simulation);
     snprintf(what, sizeof what, "%s: as many events", path);
-    bool as_many = check_that(checks, what, events == fbd_simulation_events(b.simulation));
+    bool as_many = check_that(checks, what, events == fbd_simulation_event_count(b.simulation));
     for (size_t i = 0; as_many && i < events; i++) {
         fbd_event one = fbd_simulation_event(a.simulation, i), other = fbd_simulation_event(b.simulation, i);
         double spread = fabs(fbd_simulation_event(rough.simulation, i).t - other.t);
@@ -249,15 +249,15 @@ static void step_by_step_and_in_one_go_are_the_same(void **unused)
                        fbd_simulation_state(steps.simulation, from + (to - from) * i / 4, steps.state));
     }
     assert_int_equal(steps.outcome, FBD_DONE);
-    for (size_t i = 0; i < fbd_simulation_events(steps.simulation); i++) {
+    for (size_t i = 0; i < fbd_simulation_event_count(steps.simulation); i++) {
         fbd_event event = fbd_simulation_event(steps.simulation, i);
         check_that(&checks, "events ascend", event.t >= last);
         check_that(&checks, "the same event", event.t == fbd_simulation_event(go.simulation, i).t);
         last = event.t;
     }
     check_that(&checks, "as many events",
-               fbd_simulation_events(steps.simulation) == fbd_simulation_events(go.simulation));
-    check_that(&checks, "some events", fbd_simulation_events(steps.simulation) > 4);
+               fbd_simulation_event_count(steps.simulation) == fbd_simulation_event_count(go.simulation));
+    check_that(&checks, "some events", fbd_simulation_event_count(steps.simulation) > 4);
     static const char *const names[] = {"one.theta", "two.omega", "block.x"};
     assert_true(fbd_simulation_state(steps.simulation, to, steps.state));
     for (size_t i = 0; i < 3; i++) {
@@ -287,7 +287,7 @@ static void check_early_end(struct checks *checks, const char *text, fbd_outcome
     trial_to(&alone, to);
     assert_true(fbd_state_get(fbd_result_state(trial.result), "one.theta", &theta));
     check_close(checks, "theta then", theta, trial_get(&alone, "one.theta"), 0);
-    for (size_t i = 0; i < fbd_simulation_events(trial.simulation); i++)
+    for (size_t i = 0; i < fbd_simulation_event_count(trial.simulation); i++)
         check_that(checks, "no event after the end", fbd_simulation_event(trial.simulation, i).t <= to);
     trial_close(&trial);
     trial_close(&alone);
@@ -341,9 +341,9 @@ static const char jointed[] = HEAD
 
 static void check_same_events(struct checks *checks, const struct trial *one, const struct trial *other)
 {
-    size_t events = fbd_simulation_events(other->simulation);
+    size_t events = fbd_simulation_event_count(other->simulation);
     check_that(checks, "some events", events > 3);
-    if (!check_that(checks, "as many events", fbd_simulation_events(one->simulation) == events)) return;
+    if (!check_that(checks, "as many events", fbd_simulation_event_count(one->simulation) == events)) return;
     for (size_t i = 0; i < events; i++) {
         fbd_event a = fbd_simulation_event(one->simulation, i),
                   b = fbd_simulation_event(other->simulation, i);
@@ -364,7 +364,7 @@ static void jointed_bodies_form_groups_that_agree_with_the_whole(void **unused)
     trial_run(&together, &whole);
     assert_int_equal(fbd_simulation_stats(apart.simulation).groups, 4);
     check_same_events(&checks, &apart, &together);
-    for (size_t i = 0; i < fbd_model_coordinates(apart.model); i++) {
+    for (size_t i = 0; i < fbd_model_coordinate_count(apart.model); i++) {
         const char *name = fbd_model_coordinate(apart.model, i).rate_name;
         double one, other;
         assert_true(fbd_state_get(fbd_result_state(apart.result), name, &one));
@@ -429,7 +429,7 @@ static void the_ledger_of_every_row_closes(void **unused)
         line = end;
     }
     check_that(&checks, "a row for each output time and event",
-               count == 701 + fbd_simulation_events(trial.simulation));
+               count == 701 + fbd_simulation_event_count(trial.simulation));
     free(rows.text);
     trial_close(&trial);
     checks_end(&checks);

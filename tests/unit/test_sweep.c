@@ -13,6 +13,7 @@
 #include <cmocka.h>
 #include <gsl/gsl_errno.h>
 
+#include "fbd_crew.h"
 #include "sweep_table.h"
 
 static void rows_show_what_happened(void **state)
@@ -91,7 +92,8 @@ static void runs_that_fail_are_rows_and_stop_no_others(void **state)
     assert_field(&table, 3, 7, "broken");
     close_table(&table);
     fbd_sweep_plan plan = plan_of(TEXTS("lift=0,1"), NULL);
-    plan.run.until = 5; /* into the singularity at x = 0 */
+    const fbd_options into_the_singularity = {.until = 5}; /* at x = 0 */
+    plan.run = &into_the_singularity;
     table = sweep_by(lost, &plan, 0, 1);
     assert_int_equal(table.counts.failed, 2);
     assert_field(&table, 0, 6, "failed");
@@ -121,12 +123,12 @@ static void rows_do_not_depend_on_the_number_of_workers_or_where_one_starts(void
 
 /* ---- stopping */
 
-static bool stop_later(void *context)
+static int stop_later(void *context)
 {
     size_t *left = context;
-    if (*left == 0) return true;
+    if (*left == 0) return 1;
     --*left;
-    return false;
+    return 0;
 }
 
 static void a_sweep_that_is_stopped_leaves_its_first_rows(void **state)
@@ -180,9 +182,8 @@ static void shares_that_others_make_take_their_place_in_the_order(void **state)
     (void)state;
     const fbd_sweep_plan plan = plan_of(TEXTS("v0=1:9:200"), NULL);
     struct sweep_table alone = sweep_by(projectile, &plan, 0, 1), led = open_table(projectile, &plan);
-    const fbd_sweep_work work = {
-        .end = 200, .jobs = 1, .helpers = 1, .write = append, .write_context = &led.rows};
-    fbd_sweep_crew *crew = fbd_sweep_start(led.sweep, &work);
+    const fbd_sweep_work work = {.end = 200, .jobs = 1, .write = append, .write_context = &led.rows};
+    fbd_sweep_crew *crew = fbd_sweep_start(led.sweep, &work, 1);
     assert_non_null(crew);
     fbd_sweep_share share;
     for (int claimed; (claimed = fbd_sweep_claim(crew, 1, &share)) >= 0;) {

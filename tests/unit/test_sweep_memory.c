@@ -56,18 +56,14 @@ static int drop(void *context, const char *rows, size_t length)
 static bool sweep_all(const char *vary, fbd_write *write, void *context)
 {
     static const char *const outputs[] = {"final,times,energy,max(x)"};
-    const fbd_sweep_plan plan = {.vary = &vary,
-                                 .vary_count = 1,
-                                 .outputs = outputs,
-                                 .output_count = 1,
-                                 .seed = 1,
-                                 .run = FBD_OPTIONS_DEFAULT};
+    const fbd_sweep_plan plan = {
+        .vary = &vary, .vary_count = 1, .outputs = outputs, .output_count = 1, .seed = 1};
     fbd_errors *errors = fbd_errors_new();
     fbd_sweep *sweep = errors ? fbd_sweep_parse(text, strlen(text), "test", &plan, errors) : NULL;
-    bool said = !errors || sweep || fbd_errors_failed(errors) > 0, done = false;
+    bool said = !errors || sweep || fbd_errors_failed_count(errors) > 0, done = false;
     assert_true(said);
     if (sweep) {
-        const fbd_sweep_work work = {.end = fbd_sweep_runs(sweep),
+        const fbd_sweep_work work = {.end = fbd_sweep_run_count(sweep),
                                      .jobs = 1,
                                      .write = write,
                                      .write_context = context};

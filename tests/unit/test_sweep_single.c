@@ -33,14 +33,14 @@ static void add_single(const char *text, const char *name, const char *value, st
         double from, to;
         fbd_simulation_interval(simulation, &from, &to);
         assert_true(fbd_simulation_state(simulation, to, state));
-        for (size_t i = 0; i < 2 * fbd_model_coordinates(model); i++) {
+        for (size_t i = 0; i < 2 * fbd_model_coordinate_count(model); i++) {
             fbd_coordinate c = fbd_model_coordinate(model, i / 2);
             double number;
             assert_true(fbd_state_get(state, i % 2 ? c.rate_name : c.name, &number));
             text_add(row, ",");
             if (!isnan(number)) text_exact(row, number);
         }
-        text_printf(row, ",%zu,", fbd_simulation_events(simulation));
+        text_printf(row, ",%zu,", fbd_simulation_event_count(simulation));
         fbd_state_free(state);
     }
     fbd_simulation_free(simulation);
@@ -54,7 +54,7 @@ static void list_outputs(const char *text, struct text *outputs)
     fbd_errors *errors = fbd_errors_new();
     fbd_model *model = fbd_model_parse(text, strlen(text), "test.yaml", NULL, 0, errors);
     assert_non_null(model);
-    for (size_t i = 0; i < fbd_model_coordinates(model); i++) {
+    for (size_t i = 0; i < fbd_model_coordinate_count(model); i++) {
         fbd_coordinate c = fbd_model_coordinate(model, i);
         text_printf(outputs, "%s%s,%s", i ? "," : "", c.name, c.rate_name);
     }
@@ -72,7 +72,7 @@ static size_t compare_parameter(const char *path, const char *text, const char *
     text_add(&vary, ",");
     text_number(&vary, parameter->value * 1.1, 15);
     fbd_sweep_plan plan = plan_of(TEXTS(vary.data), TEXTS(outputs));
-    plan.run = (fbd_options){.until = 0.5};
+    plan.run = &(fbd_options){.until = 0.5};
     struct sweep_table table = sweep_by(text, &plan, 0, 1);
     for (size_t row = 0; row < 2; row++) {
         char value[64];

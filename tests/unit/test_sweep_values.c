@@ -19,9 +19,9 @@ static void assert_plan_refused(const fbd_sweep_plan *plan, const char *id)
 {
     struct sweep_table table = open_table(projectile, plan);
     assert_null(table.sweep);
-    const fbd_error *note = fbd_errors_get(table.errors, 0);
-    assert_non_null(note);
-    assert_string_equal(note->id, id);
+    const fbd_error note = fbd_errors_get(table.errors, 0);
+    assert_non_null(note.id);
+    assert_string_equal(note.id, id);
     close_table(&table);
 }
 
@@ -192,10 +192,12 @@ static void what_is_no_sweep_is_refused(void **state)
     assert_refused(TEXTS("m=1 kilo"), NULL, "unknown-unit");
     assert_refused(TEXTS("m=1"), TEXTS("ball.z"), "unknown-output");
     fbd_sweep_plan plan = plan_of(TEXTS("m=1"), NULL);
-    plan.run.error_bars = true;
+    fbd_options bars = FBD_OPTIONS_DEFAULT, accurate = FBD_OPTIONS_DEFAULT;
+    bars.error_bars = true;
+    plan.run = &bars;
     assert_plan_refused(&plan, "bad-option");
-    plan.run = (fbd_options)FBD_OPTIONS_DEFAULT;
-    plan.run.accuracy = 1e-6;
+    accurate.accuracy = 1e-6;
+    plan.run = &accurate;
     assert_plan_refused(&plan, "bad-option");
     assert_refused(TEXTS("m=1"), TEXTS("t,time(nothing)"), "unknown-output");
     assert_refused(TEXTS("m=1"), TEXTS("max(t)"), "unknown-output");

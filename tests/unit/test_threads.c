@@ -66,8 +66,8 @@ static void append_timed(struct answer *answer, char *text)
 static void append_errors(struct answer *answer, fbd_errors *errors)
 {
     for (size_t i = 0; i < fbd_errors_count(errors); i++) {
-        const fbd_error *error = fbd_errors_get(errors, i);
-        append(answer, error->message, strlen(error->message));
+        const fbd_error error = fbd_errors_get(errors, i);
+        append(answer, error.message, strlen(error.message));
     }
 }
 
@@ -186,7 +186,7 @@ static void threads_that_share_any_scene_get_the_same_bits(void **unused)
 static struct answer rows_of(const fbd_sweep *sweep, size_t jobs)
 {
     struct answer answer = {0};
-    fbd_sweep_work work = {.end = fbd_sweep_runs(sweep),
+    fbd_sweep_work work = {.end = fbd_sweep_run_count(sweep),
                            .jobs = jobs,
                            .write = append_row,
                            .write_context = &answer};
@@ -212,7 +212,7 @@ static void a_sweep_by_three_threads_has_the_rows_of_one(void **unused)
                                "      - applied: {value: \"push*sin(3[rad/s]*t)\"}\n"
                                "simulate: {until: 2 s}\n";
     const char *vary[] = {"mu=uniform(0.1,0.9):20", "push=0:40:10"};
-    fbd_sweep_plan plan = {.vary = vary, .vary_count = 2, .seed = 5, .run = FBD_OPTIONS_DEFAULT};
+    fbd_sweep_plan plan = {.vary = vary, .vary_count = 2, .seed = 5};
     fbd_errors *errors = fbd_errors_new();
     fbd_sweep *sweep = fbd_sweep_parse(text, strlen(text), "block.yaml", &plan, errors);
     if (!sweep) fbd_errors_print(errors, stderr);

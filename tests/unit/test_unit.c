@@ -227,9 +227,9 @@ static void what_is_no_unit_is_refused_at_its_column_with_a_hint(void **state)
         fbd_errors *errors = fbd_errors_new();
         assert_false(unit_parse(w->text, strlen(w->text), unit_si, errors, (struct pos){7, 1}, &unit));
         assert_int_equal(fbd_errors_count(errors), 1);
-        const fbd_error *note = fbd_errors_get(errors, 0);
-        bool hinted = !w->hint || (note->hint && strstr(note->hint, w->hint));
-        if (strcmp(note->id, w->id) != 0 || note->line != 7 || note->column != w->column || !hinted) {
+        const fbd_error note = fbd_errors_get(errors, 0);
+        bool hinted = !w->hint || (note.hint && strstr(note.hint, w->hint));
+        if (strcmp(note.id, w->id) != 0 || note.line != 7 || note.column != w->column || !hinted) {
             fbd_errors_print(errors, stdout);
             fail_msg("`%s` should give %s at column %d with the hint `%s`", w->text, w->id, w->column,
                      w->hint ? w->hint : "");

@@ -82,11 +82,11 @@ struct ending {
 /* A run that is carried on step by step stops at each event. */
 static void advance(fbd_simulation *simulation)
 {
-    size_t told = fbd_simulation_events(simulation);
+    size_t told = fbd_simulation_event_count(simulation);
     while (fbd_simulation_advance(simulation) == FBD_GOING) {
         double t;
         fbd_simulation_interval(simulation, NULL, &t);
-        for (; told < fbd_simulation_events(simulation); told++)
+        for (; told < fbd_simulation_event_count(simulation); told++)
             assert_true(fbd_simulation_event(simulation, told).t == t);
     }
 }
@@ -107,7 +107,7 @@ static struct ending run(const struct eventful *scene, bool events, const char *
         advance(simulation);
     else
         fbd_result_free(fbd_simulation_run(simulation, &recording));
-    struct ending ending = {.events = fbd_simulation_events(simulation),
+    struct ending ending = {.events = fbd_simulation_event_count(simulation),
                             .outcome = fbd_simulation_advance(simulation)};
     fbd_simulation_interval(simulation, NULL, &ending.t);
     assert_true(fbd_simulation_state(simulation, ending.t, state));

@@ -99,7 +99,7 @@ static void a_rope_winds_itself_up_any_number_of_times(void **unused)
             check_place(&checks, &trial, &tether, until * (k - 0.5) / looks);
         }
         trial_finish(&trial);
-        check_that(&checks, "no event", fbd_simulation_events(trial.simulation) == 0);
+        check_that(&checks, "no event", fbd_simulation_event_count(trial.simulation) == 0);
         trial_close(&trial);
     }
     print_message("# up to %.1f turns\n", most);

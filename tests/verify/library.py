@@ -17,7 +17,7 @@ PROTOTYPES = {
     "fbd_state_get": (c_bool, [c_void_p, c_char_p, POINTER(c_double)]),
     "fbd_state_close": (c_bool, [c_void_p, c_void_p]),
     "fbd_assemble": (c_void_p, [c_void_p]),
-    "fbd_equations_find": (POINTER(Equation), [c_void_p, c_char_p]),
+    "fbd_equations_find": (Equation, [c_void_p, c_char_p]),
     "fbd_equations_free": (None, [c_void_p]),
 }
 
@@ -49,6 +49,6 @@ class Model:
 
     def accelerations(self, coordinates):
         equations = self.fbd.fbd_assemble(self.state)
-        found = [self.fbd.fbd_equations_find(equations, name.encode())[0].acceleration for name in coordinates]
+        found = [self.fbd.fbd_equations_find(equations, name.encode()).acceleration for name in coordinates]
         self.fbd.fbd_equations_free(equations)
         return found
