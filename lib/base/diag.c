@@ -27,7 +27,8 @@ void fbd_errors_free(fbd_errors *errors)
 
 size_t fbd_errors_count(const fbd_errors *errors)
 {
-    return errors ? errors->count : 0;
+    return errors ? errors->count + (errors->out_of_memory ? 1 : 0)
+                  : 0; /* without memory there is a note of its own */
 }
 
 size_t fbd_errors_failed_count(const fbd_errors *errors)
