@@ -4,6 +4,7 @@
  */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "dynamics/friction.h"
 #include "dynamics/rest_system.h"
@@ -100,7 +101,7 @@ bool rest_limit_slopes(struct rest_system *system, double *G)
         limit_values(system, system->columns + j, m, unit, false, one);
         unit[system->rows[j]] = 0;
         for (size_t i = 0; i < count; i++)
-            for (size_t k = 0; k < d; k++) G[i * d + k] += one[i] * system->basis[j * d + k];
+            for (size_t k = 0; one[i] != 0 && k < d; k++) G[i * d + k] += one[i] * system->basis[j * d + k];
     }
     return true;
 }
@@ -145,28 +146,31 @@ static double limit_along(const struct rest_system *system, const double *slots_
     return (i - plan->contact_count) % 2 == 0 ? limit - rate.hold : limit + rate.hold;
 }
 
-/* The programme: most s' with unit_i s' - G_i (y' - y'') <= b_i and s' <= cap, s', y', y'' >= 0, as the
+/* The programme of a part: most s' with unit_i s' - G_i (y' - y'') <= b_i and s' <= cap, s', y', y'' >= 0, as the
  * complementarity of its optimality conditions. */
 struct programme {
-    size_t d, limits, unknowns; /* of y; of inequalities with the last, s' <= cap; 1 + 2 d */
-    size_t *limit;              /* limits - 1: their indices */
+    const struct rest_part *part;
+    size_t limits, unknowns; /* inequalities with the last, s' <= cap; 1 + 2 size of the part */
+    size_t *row, *limit;     /* limits - 1: rows of the part, and which limits they are */
     double *M, *q, *z, *w;
 };
 
-static bool programme_new(struct programme *of, const struct rest_system *system, const double *G,
-                          bool guides)
+static bool programme_new(struct programme *of, const struct rest_system *system,
+                          const struct rest_part *part, bool guides)
 {
     const struct plan *plan = &system->state->model->plan;
     struct arena *arena = system->arena;
-    size_t count = rest_limit_values(system), d = system->basis_count;
     const double negligible = 1e-9; /* of a unit of the reactions */
-    *of = (struct programme){.d = d, .unknowns = 1 + 2 * d};
-    of->limit = ARENA_ARRAY(arena, count + 1, size_t);
-    if (!of->limit) return false;
-    for (size_t i = 0; i < count; i++) {
+    *of = (struct programme){.part = part, .unknowns = 1 + 2 * part->size};
+    of->row = ARENA_ARRAY(arena, part->limits + 1, size_t);
+    of->limit = ARENA_ARRAY(arena, part->limits + 1, size_t);
+    if (!of->row || !of->limit) return false;
+    for (size_t k = 0; k < part->limits; k++) {
+        size_t i = part->limit[k];
         bool counts = guides || pair_of_limit(plan, i) >= 0;
-        if (counts && slope_size(G, d, i) > negligible * unit_of_limit(system, i))
-            of->limit[of->limits++] = i;
+        if (!counts || slope_size(part->G, part->size, k) <= negligible * unit_of_limit(system, i)) continue;
+        of->row[of->limits] = k;
+        of->limit[of->limits++] = i;
     }
     of->limits++;
     size_t n = of->unknowns + of->limits;
@@ -185,9 +189,10 @@ static void set_inequality(struct programme *of, size_t row, size_t column, doub
 }
 
 /* The largest margin over `size`; the multipliers are left in z. */
-static double solve_programme(struct programme *of, const struct rest_system *system, const double *G,
-                              const double *values, double size)
+static double solve_programme(struct programme *of, const struct rest_system *system, const double *values,
+                              double size)
 {
+    size_t d = of->part->size;
     double least = HUGE_VAL;
     for (size_t k = 0; k + 1 < of->limits; k++)
         least = fmin(least, values[of->limit[k]] / (unit_of_limit(system, of->limit[k]) * size));
@@ -195,10 +200,11 @@ static double solve_programme(struct programme *of, const struct rest_system *sy
         bool cap = k + 1 == of->limits;
         size_t i = of->limit[k];
         double unit = cap ? 1 : unit_of_limit(system, i);
+        const double *G = cap ? NULL : of->part->G + of->row[k] * d;
         set_inequality(of, k, 0, 1);
-        for (size_t j = 0; j < of->d && !cap; j++) {
-            set_inequality(of, k, 1 + j, -G[i * of->d + j] / unit);
-            set_inequality(of, k, 1 + of->d + j, G[i * of->d + j] / unit);
+        for (size_t j = 0; j < d && !cap; j++) {
+            set_inequality(of, k, 1 + j, -G[j] / unit);
+            set_inequality(of, k, 1 + d + j, G[j] / unit);
         }
         of->q[of->unknowns + k] = cap ? 1 + fmax(0, -least) : values[i] / (unit * size) - least;
     }
@@ -208,43 +214,80 @@ static double solve_programme(struct programme *of, const struct rest_system *sy
     return found == lcp_solved ? least + of->z[0] : least;
 }
 
-bool rest_find_margin(struct rest_system *system, bool guides, const double *slots_along,
-                      const double *lambda_along, const struct direction *flow, struct rest_margin *margin)
+/* The rate of the margin of a part, and what gives when it is used up: the limits with multipliers. */
+static double rate_of_margin(const struct rest_system *system, const struct programme *of,
+                             const double *slots_along, const double *lambda_along,
+                             const struct direction *flow, int *gives)
 {
     const double share = 1e-9;
     const struct plan *plan = &system->state->model->plan;
-    struct arena *arena = system->arena;
-    size_t count = rest_limit_values(system), d = system->basis_count;
-    double *values = ARENA_ARRAY(arena, count + 1, double), *G = ARENA_ARRAY(arena, count * d + 1, double);
-    struct programme of;
-    *margin = (struct rest_margin){.size = system->force, .value = HUGE_VAL};
-    margin->of = ARENA_ARRAY(arena, plan->friction_count + 1, bool);
-    margin->contacts = ARENA_ARRAY(arena, plan->contact_count + 1, bool);
-    margin->gives = ARENA_ARRAY(arena, plan->friction_count + 1, int);
-    rest_restore(system);
-    if (!values || !G || !margin->of || !margin->contacts || !margin->gives || !rest_limit_slopes(system, G))
-        return false;
-    if (!programme_new(&of, system, G, guides)) return false;
-    if (of.limits == 1) return true;
-    rest_read_limits(system, values);
-    double sum = 0;
-    margin->value = solve_programme(&of, system, G, values, system->force) * system->force;
-    if (arena->failed) return false;
-    for (size_t k = 0; k + 1 < of.limits; k++) {
-        size_t i = of.limit[k];
+    double sum = of->z[of->unknowns + of->limits - 1]; /* of the cap, which does not vary */
+    double rate = 0;
+    for (size_t k = 0; k + 1 < of->limits; k++) {
+        size_t i = of->limit[k];
         int pair = pair_of_limit(plan, i);
-        double u = of.z[of.unknowns + k];
+        double u = of->z[of->unknowns + k];
         sum += u;
-        if (pair >= 0) margin->of[pair] = true;
-        if (i < plan->contact_count) margin->contacts[i] = true;
         if (u <= share) continue;
-        margin->rate +=
-            u / unit_of_limit(system, i) * limit_along(system, slots_along, lambda_along, i, flow);
+        rate += u / unit_of_limit(system, i) * limit_along(system, slots_along, lambda_along, i, flow);
         if (pair < 0) continue;
         bool back = plan->frictions[pair].kind == mode_friction && (i - plan->contact_count) % 2 == 0;
-        margin->gives[pair] = back ? slip_minus : slip_plus;
+        gives[pair] = back ? slip_minus : slip_plus;
     }
-    sum += of.z[of.unknowns + of.limits - 1]; /* of the cap, which does not vary */
-    if (sum > 0) margin->rate /= sum;
+    return sum > 0 ? rate / sum : rate;
+}
+
+static void mark_limits(const struct rest_system *system, const struct programme *of,
+                        struct rest_margin *margin)
+{
+    const struct plan *plan = &system->state->model->plan;
+    for (size_t k = 0; k + 1 < of->limits; k++) {
+        int pair = pair_of_limit(plan, of->limit[k]);
+        if (pair >= 0) margin->of[pair] = true;
+        if (of->limit[k] < plan->contact_count) margin->contacts[of->limit[k]] = true;
+    }
+}
+
+/* Of several parts the margin is that of the one with the least; of those with the same, the one that loses it the
+ * fastest, and all of them give. */
+static void take_part(struct rest_margin *margin, double value, double rate, const int *gives, size_t pairs)
+{
+    double slack = rest_margin_slack(margin);
+    if (value > margin->value + slack) return;
+    bool less = value < margin->value - slack;
+    for (size_t i = 0; i < pairs; i++)
+        if (less || gives[i] != 0) margin->gives[i] = gives[i];
+    margin->rate = less ? rate : fmin(rate, margin->rate);
+    margin->value = less ? value : fmin(value, margin->value);
+}
+
+bool rest_find_margin(struct rest_system *system, bool guides, const double *slots_along,
+                      const double *lambda_along, const struct direction *flow, struct rest_margin *margin)
+{
+    const struct plan *plan = &system->state->model->plan;
+    struct arena *arena = system->arena;
+    size_t count = rest_limit_values(system), d = system->basis_count, pairs = plan->friction_count;
+    double *values = ARENA_ARRAY(arena, count + 1, double), *G = ARENA_ARRAY(arena, count * d + 1, double);
+    int *gives = ARENA_ARRAY(arena, pairs + 1, int);
+    *margin = (struct rest_margin){.size = system->force, .value = HUGE_VAL};
+    margin->of = ARENA_ARRAY(arena, pairs + 1, bool);
+    margin->contacts = ARENA_ARRAY(arena, plan->contact_count + 1, bool);
+    margin->gives = ARENA_ARRAY(arena, pairs + 1, int);
+    rest_restore(system);
+    if (!values || !G || !gives || !margin->of || !margin->contacts || !margin->gives) return false;
+    if (!rest_limit_slopes(system, G)) return false;
+    rest_read_limits(system, values);
+    for (int which = 0; which < system->parts; which++) {
+        struct rest_part part;
+        struct programme of;
+        if (!rest_part(system, G, which, &part) || !programme_new(&of, system, &part, guides)) return false;
+        if (of.limits == 1) continue;
+        double value = solve_programme(&of, system, values, system->force) * system->force;
+        if (arena->failed) return false;
+        mark_limits(system, &of, margin);
+        memset(gives, 0, pairs * sizeof *gives);
+        double rate = rate_of_margin(system, &of, slots_along, lambda_along, flow, gives);
+        take_part(margin, value, rate, gives, pairs);
+    }
     return true;
 }

@@ -119,34 +119,7 @@ static void evaluate(struct rest_system *system)
     read_reactions(system, system->forces, system->r);
 }
 
-/* ---- least reactions */
-
-/* Columns of R times null vectors, and their own singular values: r changes by `basis` w at the rate |w|. */
-static bool set_basis(struct rest_system *system, double *start)
-{
-    size_t m = system->m, d = m - system->svd.rank, count = system->reactions;
-    double *RZ = ARENA_ARRAY(system->arena, count * d + 1, double);
-    double *y = ARENA_ARRAY(system->arena, d + 1, double);
-    system->basis = ARENA_ARRAY(system->arena, m * d + 1, double);
-    system->basis_count = d;
-    if (!RZ || !y || !system->basis) return false;
-    for (size_t i = 0; i < count; i++)
-        for (size_t k = 0; k < d; k++)
-            for (size_t j = 0; j < m; j++)
-                RZ[i * d + k] += system->R[i * m + j] * svd_null(&system->svd, j, k);
-    struct svd least;
-    bool made = svd_decompose(&least, count, d, RZ);
-    if (made) svd_add_solution(&least, system->r, y);
-    for (size_t j = 0; made && j < m; j++) {
-        for (size_t k = 0; k < d; k++) {
-            start[j] -= svd_null(&system->svd, j, k) * y[k];
-            for (size_t l = 0; l < least.rank; l++)
-                system->basis[j * d + l] += svd_null(&system->svd, j, k) * least.V[l * d + k] / least.S[l];
-        }
-    }
-    svd_free(&least);
-    return made;
-}
+/* ---- within limits */
 
 static bool limits_hold(const struct rest_system *system, double *values)
 {
@@ -170,24 +143,39 @@ static bool move(struct rest_system *system, const double *w, double size)
     return true;
 }
 
+/* Least w of one part with which its limits hold, left by `slack`; nothing where there is none. */
+static bool keep_part_limits(struct rest_system *system, const double *G, const double *values, int which,
+                             double slack, double *w)
+{
+    struct rest_part part;
+    if (!rest_part(system, G, which, &part)) return false;
+    double *h = ARENA_ARRAY(system->arena, part.limits + 1, double),
+           *own = ARENA_ARRAY(system->arena, part.size + 1, double);
+    if (!h || !own) return false;
+    for (size_t i = 0; i < part.limits; i++) h[i] = -(values[part.limit[i]] + slack) / system->force;
+    enum least_distance found = least_distance(part.limits, part.size, part.G, h, own);
+    if (found == least_distance_no_memory) return false;
+    for (size_t k = 0; found == least_distance_found && k < part.size; k++) w[part.column[k]] = own[k];
+    return true;
+}
+
 /* The limits hold at the least reactions, or at others that balance as well: then at the least of these. At
  * first to the digit; where there is next to no room between them, to the slack that they have. */
 static bool keep_limits(struct rest_system *system)
 {
     struct arena *arena = system->arena;
     size_t count = rest_limit_values(system), d = system->basis_count;
-    double *values = ARENA_ARRAY(arena, count + 1, double), *h = ARENA_ARRAY(arena, count + 1, double);
+    double *values = ARENA_ARRAY(arena, count + 1, double);
     double *G = ARENA_ARRAY(arena, count * d + 1, double), *w = ARENA_ARRAY(arena, d + 1, double);
-    if (!values || !h || !G || !w) return false;
+    if (!values || !G || !w) return false;
     system->within_limits = limits_hold(system, values);
     if (system->within_limits || d == 0) return true;
     if (!rest_limit_slopes(system, G)) return false;
     for (int pass = 0; pass < 2 && !system->within_limits; pass++) {
         double slack = pass == 0 ? 0 : rest_limit_slack(system) / 2;
-        for (size_t i = 0; i < count; i++) h[i] = -(values[i] + slack) / system->force;
-        enum least_distance found = least_distance(count, d, G, h, w);
-        if (found == least_distance_no_memory) return false;
-        if (found == least_distance_empty) continue;
+        memset(w, 0, d * sizeof *w);
+        for (int which = 0; which < system->parts; which++)
+            if (!keep_part_limits(system, G, values, which, slack, w)) return false;
         if (!move(system, w, system->force)) return false;
         double *after = ARENA_ARRAY(arena, count + 1, double);
         if (!after) return false;
@@ -198,6 +186,9 @@ static bool keep_limits(struct rest_system *system)
 }
 
 /* ---- the whole */
+
+/* What balance leaves open: columns of E that are others to this share. */
+static const double dependent = 1e-10;
 
 static bool allocate(struct rest_system *system)
 {
@@ -258,18 +249,18 @@ static bool balance(struct rest_system *system)
            *left = ARENA_ARRAY(system->arena, n + 1, double);
     if (!step || !left) return false;
     set_columns(system);
-    svd_free(&system->svd);
-    if (!svd_decompose(&system->svd, n, m, system->E)) return false;
+    qr_free(&system->qr);
+    if (!qr_decompose(&system->qr, n, m, system->E, dependent)) return false;
     for (int pass = 0; pass < 2; pass++) { /* the second mends the rounding of the first */
         evaluate(system);
         for (size_t k = 0; k < n; k++) left[k] = -system->scale[k] * system->Q[k];
         memset(step, 0, m * sizeof *step);
-        svd_add_solution(&system->svd, left, step);
+        qr_add_solution(&system->qr, left, step);
         add_to_lambda(system, step);
     }
     evaluate(system);
     memset(step, 0, m * sizeof *step);
-    if (!set_basis(system, step)) return false;
+    if (!rest_set_basis(system, step)) return false;
     add_to_lambda(system, step);
     evaluate(system);
     return true;
@@ -299,7 +290,7 @@ bool rest_solve(struct rest_system *system, struct fbd_state *state, struct aren
 
 void rest_free(struct rest_system *system)
 {
-    svd_free(&system->svd);
+    qr_free(&system->qr);
 }
 
 /* ---- as the scene moves */
@@ -329,16 +320,14 @@ static bool keep_base(struct rest_system *system, const double *slots)
     return true;
 }
 
-/* What is open to rounding alone: along the others the accelerations would change. */
-static void judge_rank(struct rest_system *system)
+/* As the scene moves what is open to rounding alone: along the others the accelerations would change. */
+static double dependent_in_motion(const struct rest_system *system)
 {
     const double rounding = 1e-13;
     const struct tree *tree = system->state->model->tree;
-    struct svd *svd = &system->svd;
     double away = 0;
     for (int i = 1; i < tree->count; i++) away = fmax(away, vec_norm(system->at.tree->links[i].p));
-    double least = rounding * (1 + away / system->length);
-    while (svd->rank < svd->cols && svd->S[svd->rank] > least * svd->S[0]) svd->rank++;
+    return fmin(dependent, rounding * (1 + away / system->length));
 }
 
 bool rest_open(struct rest_system *system, struct fbd_state *state, const struct instant *at,
@@ -359,10 +348,10 @@ bool rest_open(struct rest_system *system, struct fbd_state *state, const struct
     set_scales(system);
     set_columns(system);
     double *least = ARENA_ARRAY(arena, system->m + 1, double);
-    bool made = least && svd_decompose(&system->svd, system->n, system->m, system->E);
-    if (made) judge_rank(system);
+    bool made =
+        least && qr_decompose(&system->qr, system->n, system->m, system->E, dependent_in_motion(system));
     evaluate(system);
-    made = made && set_basis(system, least);
+    made = made && rest_set_basis(system, least);
     system->least = least;
     if (!made) arena->failed = true;
     return made && system->basis_count > 0;

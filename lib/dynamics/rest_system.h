@@ -12,6 +12,9 @@
  * does as well for every y, and shown are the reactions of least |r|^2 within the limits (couples over a
  * length): a least-distance problem (least_distance.h).
  *
+ * Null vectors that have neither a reaction nor a limit in common do not feel each other: each such part is a problem of
+ * its own. In a stack of boxes that is how the two corners of each share what is between them.
+ *
  * Whether there are any within the limits is told by the largest s with h(y) >= s for all limits that y
  * moves: a linear programme, max s. It is below zero when there are none, and its rate of change is that of
  * the limits at its multipliers u, s' = sum u_i h_i', since u is orthogonal to whatever y does.
@@ -23,7 +26,7 @@
 #include "dynamics/constraint.h"
 #include "dynamics/diagram.h"
 #include "dynamics/statics.h"
-#include "numeric/svd.h"
+#include "numeric/qr.h"
 
 /* The system and its solution. */
 struct rest_system {
@@ -46,10 +49,12 @@ struct rest_system {
     double *slots0, *columns; /* slots; slots x m */
     double *r, *R;            /* reactions; reactions x m */
     double force, length;
-    struct svd svd;     /* of E */
+    struct qr qr;       /* of E */
     double *least;      /* m: from the base to the least reactions, limits or not */
     double *basis;      /* m x indeterminacy: lambda for a unit of r */
     size_t basis_count; /* indeterminacy */
+    int *part;          /* indeterminacy: which part of the problem each of them is in */
+    int parts;
     bool within_limits;
 };
 
@@ -90,6 +95,18 @@ size_t rest_limit_values(const struct rest_system *system);
 void rest_read_limits(const struct rest_system *system, double *values);
 double rest_limit_slack(const struct rest_system *system);
 bool rest_limit_slopes(struct rest_system *system, double *G);
+
+/* Set the basis from the null vectors of E, and take from `start` what leads to the least reactions, limits or not. False
+ * when memory is out. */
+bool rest_set_basis(struct rest_system *system, double *start);
+
+/* Part `which`: its basis vectors and the limits that they move, with the slopes of these in it. */
+struct rest_part {
+    size_t size, limits;
+    size_t *column, *limit; /* size, limits */
+    double *G;              /* limits x size */
+};
+bool rest_part(const struct rest_system *system, const double *G, int which, struct rest_part *part);
 
 /* The same of a state as it moves, evaluated in its modes: false when its constraints leave nothing open, or
  * memory is out (arena->failed). */

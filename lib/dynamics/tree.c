@@ -167,17 +167,49 @@ static void set_joint_forces(const struct fbd_model *model, const struct instant
     }
 }
 
-/* What rests on others has accelerations of rounding, which grows with the number of those that press on it. No step
- * would be short enough for them: there is no motion that errors could be measured against. */
-static void drop_rounding(const struct tree *tree, const struct tree_work *work, double *a)
+/* The largest of a tie and of what it joins, for all of them. */
+static double spread_borne(const struct tree *tree, struct tree_work *work, const struct tie *tie)
 {
-    const double rounding = (64.0 + 8 * tree->count) * tree->count * DBL_EPSILON;
+    double most = 0;
+    for (int pass = 0; pass < 2; pass++)
+        for (int j = tie->first_row; j < tie->first_row + tie->row_count; j++) {
+            const struct row *row = &work->rows[j];
+            for (int k = 0; row->lambda != 0 && k < row->port_count; k++) {
+                const struct port *port = &row->ports[k];
+                struct tree_state *s = &work->links[port->link];
+                if (port->link == 0) continue;
+                double own = fabs(row->lambda) * vec_norm(port->force) / tree->links[port->link].mass;
+                most = fmax(most, fmax(own, s->borne));
+                s->borne = fmax(s->borne, most);
+            }
+        }
+    return most;
+}
+
+/* What the lowest of a pile bears is the sum of all above it, and cancels but for rounding. Along a pile two ways do,
+ * for what touches each other is mostly numbered along it; where that is not so a size is too small somewhere. */
+static void set_borne(const struct tree *tree, struct tree_work *work)
+{
+    for (int i = 0; i < tree->count; i++) work->links[i].borne = 0;
+    for (int i = 0; i < tree->tie_count; i++) spread_borne(tree, work, &tree->ties[i]);
+    for (int i = tree->tie_count; i-- > 0;) spread_borne(tree, work, &tree->ties[i]);
+}
+
+/* What rests on others has accelerations of rounding. No step would be short enough for them: there is no motion that
+ * errors could be measured against. They grow with the number of those that press on it, and once more along a pile,
+ * where each one turns a little against the one below: with the square of the number, of what the forces alone would
+ * do. */
+static void drop_rounding(const struct tree *tree, struct tree_work *work, double *a)
+{
+    double count = tree->count, rounding = 64 * count * DBL_EPSILON, sums = count * count * DBL_EPSILON;
+    set_borne(tree, work);
     for (int i = 1; i < tree->count; i++) {
         const struct tree_link *link = &tree->links[i];
         if (link->kind != motion_planar) continue;
         const double *unit = work->unit + link->coordinate;
         double *own = a + link->coordinate, radius = sqrt(link->I_O / link->mass);
-        double least = rounding * fmax(hypot(unit[0], unit[1]), radius * fabs(unit[2]));
+        double net = fmax(hypot(unit[0], unit[1]), radius * fabs(unit[2]));
+        double least = rounding * net + sums * work->links[i].borne;
         if (hypot(own[0], own[1]) <= least && radius * fabs(own[2]) <= least) own[0] = own[1] = own[2] = 0;
     }
 }

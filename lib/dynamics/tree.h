@@ -55,6 +55,7 @@ struct tree_state {
     };
     bool locked;     /* it sticks */
     double held;     /* then the acceleration of its surface */
+    double borne;    /* where there are contacts: what one force of a constraint alone would do [m/s^2] */
     struct wrench F; /* what the joint passes to the link, by tree_transmitted */
 };
 

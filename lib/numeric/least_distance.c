@@ -14,7 +14,7 @@ struct nnls {
     const double *E; /* n columns of m */
     double *u, *z;   /* n */
     double *rest;    /* m: f - E u */
-    double *f, *A;   /* m; m rows of n */
+    double *f, *A;   /* m; m rows of those that are free */
     bool *positive;  /* n: u is free to be so */
     bool no_memory;
 };
@@ -39,19 +39,26 @@ static bool nnls_new(struct nnls *problem, size_t m, size_t n, const double *E)
     return true;
 }
 
-/* Least squares over the unknowns that may be positive, the others zero, into z. The matrix keeps its n
- * columns, those of the others zero: their singular values are, and so are their shares of the solution. */
+/* Least squares over the unknowns that may be positive, the others zero, into z. */
 static bool nnls_solve_free(struct nnls *problem)
 {
     struct svd svd;
-    for (size_t i = 0; i < problem->m; i++)
-        for (size_t j = 0; j < problem->n; j++)
-            problem->A[i * problem->n + j] = problem->positive[j] ? problem->E[j * problem->m + i] : 0;
+    size_t free = 0;
+    for (size_t j = 0; j < problem->n; j++) free += problem->positive[j];
+    for (size_t j = 0, k = 0; j < problem->n; j++) {
+        if (!problem->positive[j]) continue;
+        for (size_t i = 0; i < problem->m; i++) problem->A[i * free + k] = problem->E[j * problem->m + i];
+        k++;
+    }
     memset(problem->z, 0, problem->n * sizeof *problem->z);
-    bool made = svd_decompose(&svd, problem->m, problem->n, problem->A);
+    bool made = svd_decompose(&svd, problem->m, free, problem->A);
     if (made) svd_add_solution(&svd, problem->f, problem->z);
     svd_free(&svd);
     problem->no_memory = !made;
+    for (size_t j = problem->n, k = free; made && j-- > 0;) { /* back to their places, the last first */
+        double own = problem->positive[j] ? problem->z[--k] : 0;
+        problem->z[j] = own;
+    }
     return made;
 }
 

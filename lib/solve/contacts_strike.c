@@ -2,6 +2,7 @@
  *
  * The impact of all that touches: its points, what answers to them, and what it does to the motion.
  */
+#include <float.h>
 #include <string.h>
 
 #include "dynamics/energy.h"
@@ -170,6 +171,35 @@ static void refuse_rubbing_ropes(struct run *run)
     }
 }
 
+/* The largest speed that one of the impulses gives a link of its own [m/s]. */
+static double given_to(const struct run *run, int count, const struct tree_link *link)
+{
+    const struct contacts_work *work = &run->contacts;
+    double most = 0;
+    for (int i = 0; i < 2 * count; i++) {
+        const double *answer = work->answers + (size_t)i * (size_t)run->model->plan.n + link->coordinate;
+        most = fmax(most, fabs(impulse_of(work, i)) * hypot(answer[0], answer[1]));
+    }
+    return most;
+}
+
+/* What impulses bring to rest on others has speeds of rounding, as its accelerations are (tree.c): with the square of
+ * the number of those that strike, of the speeds that impulses alone would give. Carried on they would be a drift. */
+static void drop_rounding(struct run *run, int count)
+{
+    const struct tree *tree = tree_of(run);
+    double given = 0, *rates = run->state->y + run->model->plan.n;
+    for (int k = 1; k < tree->count; k++)
+        if (tree->links[k].kind == motion_planar) given = fmax(given, given_to(run, count, &tree->links[k]));
+    double least = (double)count * count * DBL_EPSILON * given;
+    for (int k = 1; k < tree->count; k++) {
+        const struct tree_link *link = &tree->links[k];
+        if (link->kind != motion_planar || given_to(run, count, link) == 0) continue;
+        double *own = rates + link->coordinate, radius = sqrt(link->I_O / link->mass);
+        if (hypot(own[0], own[1]) <= least && radius * fabs(own[2]) <= least) own[0] = own[1] = own[2] = 0;
+    }
+}
+
 void contacts_apply_impulses(struct run *run, int count)
 {
     refuse_rubbing_ropes(run);
@@ -181,6 +211,7 @@ void contacts_apply_impulses(struct run *run, int count)
         double P = impulse_of(work, i);
         for (size_t k = 0; P != 0 && k < n; k++) run->state->y[n + k] += P * work->answers[(size_t)i * n + k];
     }
+    drop_rounding(run, count);
     if (drives) note_drives(run, count, jointed_kinetic_energy(run->state) - before);
 }
 

@@ -8,6 +8,7 @@
 #include <math.h>
 
 #include "model/labels.h"
+#include "numeric/svd.h"
 #include "solve/statics.h"
 
 /* ---- reactions that are not determined */
@@ -185,7 +186,7 @@ bool rest_find_unbalanced(struct fbd_statics *statics, const struct rest_system 
     if (!free || !ET || !statics->unbalanced) return false;
     for (size_t k = 0; k < n; k++)
         if (!system->held[k]) free[count++] = k;
-    statics->mobility = count - system->svd.rank;
+    statics->mobility = count - system->qr.rank;
     for (size_t k = 0; k < count; k++)
         statics->left = larger(statics->left, fabs(system->scale[free[k]] * system->Q[free[k]]) /
                                                   (system->force > 0 ? system->force : 1));

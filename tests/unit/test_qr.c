@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Rank, null vectors and least squares of random matrices of all shapes and ranks, against singular values.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "numeric/qr.h"
+#include "numeric/svd.h"
+#include "random_numbers.h"
+
+enum { most = 30 };
+
+/* rows x cols of the given rank: a product of two random ones. */
+static void fill(struct random_numbers *numbers, size_t rows, size_t cols, size_t rank, double *a)
+{
+    double left[most * most], right[most * most];
+    for (size_t i = 0; i < rows * rank; i++) left[i] = random_between(numbers, -1, 1);
+    for (size_t i = 0; i < rank * cols; i++) right[i] = random_between(numbers, -1, 1);
+    for (size_t i = 0; i < rows; i++)
+        for (size_t j = 0; j < cols; j++) {
+            a[i * cols + j] = 0;
+            for (size_t k = 0; k < rank; k++) a[i * cols + j] += left[i * rank + k] * right[k * cols + j];
+        }
+}
+
+static double row_times(const double *a, size_t cols, size_t i, const double *x)
+{
+    double sum = 0;
+    for (size_t j = 0; j < cols; j++) sum += a[i * cols + j] * x[j];
+    return sum;
+}
+
+/* Both leave the same rest, which is unique where solutions are not. */
+static void check_solution(struct random_numbers *numbers, const struct qr *qr, const struct svd *svd,
+                           const double *a)
+{
+    double b[most], used[most], x[most] = {0}, least[most] = {0};
+    double slack = 1e-12 * svd->S[0] / svd->S[svd->rank - 1]; /* rounding, by the condition */
+    for (size_t i = 0; i < qr->rows; i++) b[i] = used[i] = random_between(numbers, -1, 1);
+    qr_add_solution(qr, used, x);
+    svd_add_solution(svd, b, least);
+    for (size_t i = 0; i < qr->rows; i++)
+        assert_true(fabs(row_times(a, qr->cols, i, x) - row_times(a, qr->cols, i, least)) < slack);
+}
+
+static void check_null_vectors(const struct qr *qr, const struct svd *svd, const double *a)
+{
+    double slack = 1e-13 * svd->S[0] / svd->S[svd->rank - 1];
+    for (size_t k = 0; k < qr->cols - qr->rank; k++) {
+        double z[most];
+        int own = 0;
+        for (size_t j = 0; j < qr->cols; j++) z[j] = qr_null(qr, j, k);
+        for (size_t i = 0; i < qr->rows; i++) assert_true(fabs(row_times(a, qr->cols, i, z)) < slack);
+        for (size_t l = 0; l < qr->cols - qr->rank; l++) /* one that is its own: so they are independent */
+            own += qr_null(qr, qr->column[qr->rank + k], l) != 0;
+        assert_int_equal(own, 1);
+    }
+}
+
+static void ranks_solutions_and_null_vectors_are_those_of_singular_values(void **unused)
+{
+    (void)unused;
+    static const size_t shapes[][3] = {{1, 1, 1},  {5, 3, 3},    {3, 5, 3},    {6, 6, 4},   {20, 8, 5},
+                                       {8, 20, 5}, {30, 30, 30}, {30, 30, 29}, {30, 12, 1}, {12, 30, 12}};
+    struct random_numbers numbers = {4711};
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
+        for (int trial = 0; trial < 20; trial++) {
+            double a[most * most];
+            struct qr qr;
+            struct svd svd;
+            fill(&numbers, shapes[i][0], shapes[i][1], shapes[i][2], a);
+            assert_true(qr_decompose(&qr, shapes[i][0], shapes[i][1], a, 1e-10));
+            assert_true(svd_decompose(&svd, shapes[i][0], shapes[i][1], a));
+            assert_int_equal(qr.rank, shapes[i][2]);
+            check_null_vectors(&qr, &svd, a);
+            check_solution(&numbers, &qr, &svd, a);
+            qr_free(&qr);
+            svd_free(&svd);
+        }
+}
+
+/* Blocks that share no equation: a null vector stays in its own. */
+static void null_vectors_touch_only_what_their_equations_touch(void **unused)
+{
+    (void)unused;
+    enum { blocks = 5, rows = 3, cols = 4 };
+    struct random_numbers numbers = {12};
+    double a[blocks * rows * blocks * cols] = {0};
+    for (size_t i = 0; i < blocks * rows; i++)
+        for (size_t j = 0; j < cols; j++)
+            a[i * blocks * cols + i / rows * cols + j] = random_between(&numbers, -1, 1);
+    struct qr qr;
+    assert_true(qr_decompose(&qr, blocks * rows, blocks * cols, a, 1e-10));
+    assert_int_equal(qr.rank, blocks * rows);
+    for (size_t k = 0; k < blocks; k++)
+        for (size_t j = 0; j < blocks * cols; j++)
+            assert_true(j / cols == qr.column[qr.rank + k] / cols || qr_null(&qr, j, k) == 0);
+    qr_free(&qr);
+}
+
+static void nothing_and_zero_have_rank_zero(void **unused)
+{
+    (void)unused;
+    static const double zero[6];
+    struct qr qr;
+    assert_true(qr_decompose(&qr, 2, 3, zero, 1e-10));
+    assert_int_equal(qr.rank, 0);
+    for (size_t k = 0; k < 3; k++) assert_true(qr_null(&qr, qr.column[k], k) == 1);
+    qr_free(&qr);
+    assert_true(qr_decompose(&qr, 2, 0, zero, 1e-10));
+    assert_int_equal(qr.rank, 0);
+    qr_free(&qr);
+    double x[3] = {1, 2, 3}, b[1] = {0};
+    assert_true(qr_decompose(&qr, 0, 3, zero, 1e-10));
+    qr_add_solution(&qr, b, x);
+    assert_true(qr.rank == 0 && x[0] == 1 && x[1] == 2 && x[2] == 3);
+    qr_free(&qr);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ranks_solutions_and_null_vectors_are_those_of_singular_values),
+        cmocka_unit_test(null_vectors_touch_only_what_their_equations_touch),
+        cmocka_unit_test(nothing_and_zero_have_rank_zero),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
