@@ -42,7 +42,7 @@ static double row_times(const double *a, size_t cols, size_t i, const double *x)
 static void check_solution(struct random_numbers *numbers, const struct qr *qr, const struct svd *svd,
                            const double *a)
 {
-    double b[most], used[most], x[most] = {0}, least[most] = {0};
+    double b[most] = {0}, used[most] = {0}, x[most] = {0}, least[most] = {0};
     double slack = 1e-12 * svd->S[0] / svd->S[svd->rank - 1]; /* rounding, by the condition */
     for (size_t i = 0; i < qr->rows; i++) b[i] = used[i] = random_between(numbers, -1, 1);
     qr_add_solution(qr, used, x);
@@ -55,7 +55,7 @@ static void check_null_vectors(const struct qr *qr, const struct svd *svd, const
 {
     double slack = 1e-13 * svd->S[0] / svd->S[svd->rank - 1];
     for (size_t k = 0; k < qr->cols - qr->rank; k++) {
-        double z[most];
+        double z[most] = {0};
         int own = 0;
         for (size_t j = 0; j < qr->cols; j++) z[j] = qr_null(qr, j, k);
         for (size_t i = 0; i < qr->rows; i++) assert_true(fabs(row_times(a, qr->cols, i, z)) < slack);
@@ -73,7 +73,7 @@ static void ranks_solutions_and_null_vectors_are_those_of_singular_values(void *
     struct random_numbers numbers = {4711};
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
         for (int trial = 0; trial < 20; trial++) {
-            double a[most * most];
+            double a[most * most] = {0};
             struct qr qr;
             struct svd svd;
             fill(&numbers, shapes[i][0], shapes[i][1], shapes[i][2], a);
@@ -91,9 +91,10 @@ static void ranks_solutions_and_null_vectors_are_those_of_singular_values(void *
 static void null_vectors_touch_only_what_their_equations_touch(void **unused)
 {
     (void)unused;
-    enum { blocks = 5, rows = 3, cols = 4 };
+    static const size_t rows = 3, cols = 4;
+    enum { blocks = 5, size = blocks * 3 * blocks * 4 };
     struct random_numbers numbers = {12};
-    double a[blocks * rows * blocks * cols] = {0};
+    double a[size] = {0};
     for (size_t i = 0; i < blocks * rows; i++)
         for (size_t j = 0; j < cols; j++)
             a[i * blocks * cols + i / rows * cols + j] = random_between(&numbers, -1, 1);
