@@ -72,7 +72,7 @@ static bool say(const struct command_line *line, int option, enum exit_code *cod
     *code = exit_done;
     if (line->silent) return false;
     if (option == option_help || option == 'h')
-        fputs(line->help, stdout);
+        for (int i = 0; i < 2 && line->help[i]; i++) fputs(line->help[i], stdout);
     else if (option == option_schema)
         print_schema(code);
     else if (option == option_completion && !completion_write(line, optarg))

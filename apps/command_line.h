@@ -24,7 +24,8 @@ enum exit_code {
 enum exit_code exit_code_for(enum exit_code code, fbd_errors *errors);
 
 struct command_line {
-    const char *program, *help;
+    const char *program,
+        *help[2]; /* a string of C need not be longer than 4095; the second part may be NULL */
     const struct option
         *options; /* long ones; those of COMMAND_LINE_END among them, others from option_first on */
     bool silent;  /* another process says what is wrong */

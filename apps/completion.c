@@ -11,10 +11,10 @@ struct piece {
 };
 
 /* The first line of `--name ...   what it does`, without what a shell or a list would take for its own. */
-static struct piece doc_of(const struct command_line *line, const char *name)
+static struct piece doc_in(const char *help, const char *name)
 {
     size_t length = strlen(name);
-    for (const char *at = line->help; (at = strstr(at, "  --")) != NULL; at += 4) {
+    for (const char *at = help; (at = strstr(at, "  --")) != NULL; at += 4) {
         if (strncmp(at + 4, name, length) != 0 || !strchr(" ,\n|", at[4 + length])) continue;
         const char *doc = strstr(at + 4 + length, "  ");
         const char *end = at + 4 + strcspn(at + 4, "\n");
@@ -23,6 +23,12 @@ static struct piece doc_of(const struct command_line *line, const char *name)
         return (struct piece){doc, (int)strcspn(doc, "'[]:(;\n")};
     }
     return (struct piece){"", 0};
+}
+
+static struct piece doc_of(const struct command_line *line, const char *name)
+{
+    struct piece doc = doc_in(line->help[0], name);
+    return doc.length == 0 && line->help[1] ? doc_in(line->help[1], name) : doc;
 }
 
 /* ---- shells */

@@ -13,6 +13,7 @@
 #include "live_page.h"
 #include "options.h"
 #include "outputs.h"
+#include "picture.h"
 #include "place.h"
 #include "run_progress.h"
 #include "standard_streams.h"
@@ -115,12 +116,20 @@ static enum exit_code write_text(const char *path, char *text)
     return written ? exit_done : exit_failed;
 }
 
+static enum exit_code write_picture(const char *path, char *svg)
+{
+    if (!svg) return no_memory();
+    bool written = picture_write(path, svg);
+    free(svg);
+    return written ? exit_done : exit_failed;
+}
+
 /* The diagram of a state, when it is asked for. */
 static enum exit_code draw_state(const struct options *options, fbd_state *state, fbd_errors *errors)
 {
     if (!options->svg) return exit_done;
     char *svg = fbd_diagram_svg(state, &options->drawing, errors);
-    if (svg) return write_text(options->svg, svg);
+    if (svg) return write_picture(options->svg, svg);
     const fbd_error first = fbd_errors_get(errors, 0);
     return first.id && strcmp(first.id, "unknown-body") == 0 ? exit_usage : exit_failed;
 }
@@ -136,6 +145,7 @@ static enum exit_code show_statics(const struct options *options, fbd_state *sta
     if (!json_only && !options->quiet) written = print(fbd_statics_text(statics), exit_done);
     if (written == exit_done && options->json) written = write_text(options->json, fbd_statics_json(statics));
     fbd_statics_free(statics);
+    if (written == exit_done) written = draw_state(options, state, errors);
     return written == exit_done ? code : written;
 }
 
@@ -153,7 +163,8 @@ static enum exit_code show_state(const fbd_model *model, const struct options *o
     if (code == exit_done && options->action == action_equations && !fbd_state_close(state, errors))
         code = exit_failed;
     if (code == exit_done && options->action == action_equations) {
-        if (!data_alone(options)) code = print(fbd_equations_text(state), exit_done);
+        if (!data_alone(options))
+            code = print(options->latex ? fbd_equations_latex(state) : fbd_equations_text(state), exit_done);
         if (code == exit_done && options->json) code = write_text(options->json, fbd_equations_json(state));
         if (code == exit_done) code = draw_state(options, state, errors);
     } else if (code == exit_done && options->action == action_static) {
@@ -164,7 +175,8 @@ static enum exit_code show_state(const fbd_model *model, const struct options *o
         if (linear && !data_alone(options)) code = print(fbd_linearization_text(linear), exit_done);
         if (code == exit_done && options->json)
             code = write_text(options->json, fbd_linearization_json(linear));
-        if (code == exit_done && options->svg) code = write_text(options->svg, fbd_linearization_svg(linear));
+        if (code == exit_done && options->svg)
+            code = write_picture(options->svg, fbd_linearization_svg(linear));
         fbd_linearization_free(linear);
     }
     fbd_state_free(state);

@@ -7,6 +7,7 @@
 
 #include "fmu.h"
 #include "gnuplot.h"
+#include "picture.h"
 #include "place.h"
 
 static const char help[] =
@@ -36,15 +37,23 @@ static const char help[] =
     "  --plot-of NAME,...   of these columns of the CSV (block.v,block.friction)\n"
     "  --gnuplot FILE       the script of the plots, with its data\n"
     "  --svg FILE           the free-body diagram of every body, at the start or at the time of --at;\n"
-    "                       with --linearize the eigenvalues\n"
+    "                       with --linearize the eigenvalues; FILE may end in .pdf or .png\n"
     "  --body NAME          of this body alone\n"
     "  --components         with the components of each force\n"
+    "  --supports           with the ground and the bearings that the bodies are cut free from\n"
+    "  --symbols            arrows labelled m g, N, T_1 instead of names and values\n"
+    "  --scale FORCE        10 mm stand for this force, in N or lbf\n"
+    "  --worksheet          no arrows, and lines to write on\n"
+    "  --solution           the worksheet with its arrows, symbols and values\n"
     "  --quiet              no report\n"
     "  --watch              again whenever the file changes, or data that it reads; a page of --html reloads "
-    "itself\n"
+    "itself\n";
+
+static const char help_without_run[] =
     "\n"
     "Instead of a run\n"
     "  --equations          the assembled equations, term by term\n"
+    "  --latex              with --equations: as LaTeX, in symbols and in numbers\n"
     "  --linearize          equilibrium, A matrix, eigenvalues, frequencies, damping ratios\n"
     "  --static             the reactions that hold the scene at rest where it is, or what it lacks\n"
     "  --settle             with --static: where the scene comes to rest when it is let down slowly from "
@@ -106,6 +115,12 @@ enum {
     option_gnuplot,
     option_body,
     option_components,
+    option_supports,
+    option_symbols,
+    option_scale,
+    option_worksheet,
+    option_solution,
+    option_latex,
     option_check,
     option_emit_c,
     option_grade,
@@ -146,6 +161,12 @@ static const struct option long_options[] = {
     {"gnuplot", required_argument, NULL, option_gnuplot},
     {"body", required_argument, NULL, option_body},
     {"components", no_argument, NULL, option_components},
+    {"supports", no_argument, NULL, option_supports},
+    {"symbols", no_argument, NULL, option_symbols},
+    {"scale", required_argument, NULL, option_scale},
+    {"worksheet", no_argument, NULL, option_worksheet},
+    {"solution", no_argument, NULL, option_solution},
+    {"latex", no_argument, NULL, option_latex},
     {"check", no_argument, NULL, option_check},
     {"emit-c", required_argument, NULL, option_emit_c},
     {"grade", required_argument, NULL, option_grade},
@@ -159,7 +180,7 @@ static const struct option long_options[] = {
     COMMAND_LINE_END,
 };
 
-static const struct command_line line = {"fbd-run", help, long_options, false};
+static const struct command_line line = {"fbd-run", {help, help_without_run}, long_options, false};
 
 static bool usage(const char *message, const char *what)
 {
@@ -251,6 +272,12 @@ static bool take_option(const struct command_line *unused, int option, void *con
     case option_gnuplot: options->gnuplot = optarg; return true;
     case option_body: options->drawing.body = optarg; return true;
     case option_components: options->drawing.components = true; return true;
+    case option_supports: options->drawing.supports = true; return true;
+    case option_symbols: options->drawing.symbols = true; return true;
+    case option_scale: return take_number("scale", tiny, &options->drawing.scale);
+    case option_worksheet: options->drawing.worksheet = true; return true;
+    case option_solution: options->drawing.solution = true; return true;
+    case option_latex: options->latex = true; return true;
     case option_seed: return take_seed(&options->seed);
     case option_equations: return choose_action(options, action_equations);
     case option_linearize: return choose_action(options, action_linearize);
@@ -304,6 +331,12 @@ bool options_use_stdout(const struct options *options)
            place_is_stdout(options->emit_c);
 }
 
+static bool shapes_drawing(const fbd_drawing *drawing)
+{
+    return drawing->body || drawing->components || drawing->supports || drawing->symbols ||
+           drawing->scale > 0 || drawing->worksheet || drawing->solution;
+}
+
 /* Neither the key nor an answer is written over. */
 static bool grading_agrees(const struct options *options)
 {
@@ -316,8 +349,8 @@ static bool grading_agrees(const struct options *options)
         options->run.tolerance > 0 || options->run.accuracy > 0 || options->run.step > 0 ||
         options->run.no_structure || isfinite(options->run.until) || options->run.error_bars ||
         options->settle || options->fmu_version || options->svg || options->html || options->plot ||
-        options->plot_of || options->gnuplot || options->ledger || options->every > 0 ||
-        options->drawing.body || options->drawing.components)
+        options->plot_of || options->gnuplot || options->ledger || options->every > 0 || options->latex ||
+        shapes_drawing(&options->drawing))
         return usage("with --grade go --student, --details, --csv, --json and --quiet only; with --handout "
                      "--student only",
                      "");
@@ -345,6 +378,21 @@ static bool can_be_watched(const struct options *options)
     return true;
 }
 
+static bool drawing_agrees(const struct options *options)
+{
+    const fbd_drawing *drawing = &options->drawing;
+    bool eigenvalues = options->action == action_linearize;
+    if (shapes_drawing(drawing) && (!options->svg || eigenvalues))
+        return usage(
+            "--body, --components, --supports, --symbols, --scale, --worksheet and --solution go with the "
+            "diagrams of --svg",
+            "");
+    if (drawing->worksheet && (drawing->solution || drawing->symbols || drawing->components))
+        return usage(
+            "--worksheet has no arrows: --solution, --symbols and --components are for another sheet", "");
+    return !options->svg || picture_can_be_written(&line, options->svg);
+}
+
 /* Options that would be passed over in silence are mistakes. */
 static bool options_agree(const struct options *options)
 {
@@ -356,10 +404,11 @@ static bool options_agree(const struct options *options)
     bool rests = options->action == action_static;
     if (options->at_count && !draws && !rests && !options->svg)
         return usage("--at goes with --svg, --equations, --linearize or --static", "");
-    if (options->svg && stands_still && !draws)
-        return usage("--svg belongs to a run, --equations or --linearize", "");
-    if ((options->drawing.body || options->drawing.components) && !options->svg)
-        return usage("--body and --components go with --svg", "");
+    if (options->svg && stands_still && !draws && !rests)
+        return usage("--svg belongs to a run, --equations, --static or --linearize", "");
+    if (!drawing_agrees(options)) return false;
+    if (options->latex && options->action != action_equations)
+        return usage("--latex goes with --equations", "");
     if (options->fmu_version && !options->fmu) return usage("--fmu-version goes with --fmu", "");
     if (options->settle && !rests) return usage("--settle goes with --static", "");
     if (stands_still && !rests && !draws && options->json)

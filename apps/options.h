@@ -29,7 +29,7 @@ struct options {
     size_t at_count;
     fbd_options run;
     double every;
-    bool ledger, quiet, settle;
+    bool ledger, quiet, settle, latex;
     const char *csv, *json, *svg, *html;
     const char *plot, *gnuplot, *plot_of;
     const char *emit_c; /* where the program goes, of action_emit_c */

@@ -558,6 +558,9 @@ FBD_API char *fbd_emit_c(const fbd_model *model, const fbd_options *options, fbd
  * memory is out. */
 FBD_API char *fbd_equations_text(fbd_state *state);
 
+/* The same as LaTeX (amsmath), each equation in symbols of the scene and with the state's numbers. */
+FBD_API char *fbd_equations_latex(fbd_state *state);
+
 /* The same, and the free-body diagrams, as one JSON object. */
 FBD_API char *fbd_equations_json(fbd_state *state);
 
@@ -879,6 +882,11 @@ typedef struct fbd_drawing {
     size_t size;      /* sizeof(fbd_drawing), or 0 */
     const char *body; /* this body alone; NULL for all */
     bool components;  /* with the components of each force: along x and y, on a slide along and across it */
+    bool supports;    /* with the ground, surfaces and bearings that the bodies are cut free from */
+    bool symbols;     /* arrows labelled by symbols, m g, N, T_1, instead of names and values */
+    bool worksheet;   /* the bodies cut free and no arrows, with lines to write on */
+    bool solution;    /* of that worksheet: arrows by symbols, and each symbol's value on its line */
+    double scale;     /* the force, in the scene's unit, that 10 mm stand for; 0: a round one that suits all bodies */
 } fbd_drawing;
 
 /* The free-body diagrams of a state as an SVG 1.1 document in millimetres, to be freed with fbd_free. `drawing`

@@ -62,17 +62,55 @@ struct arrow_scale panel_largest(const struct panel *panel)
     return most;
 }
 
+double panel_line_of_action(const struct arrow *arrow, struct vec along)
+{
+    double lever = vec_cross(along, arrow->force);
+    return lever != 0 ? arrow->couple / lever : 0;
+}
+
+/* The slide whose surface gives the force: the body's own, or that of a body on it; NULL for others. */
+static const struct model_body *slide_of(const struct panel *panel, const struct arrow *arrow)
+{
+    const struct model_load *load = arrow->load >= 0 ? &panel->model->loads[arrow->load] : NULL;
+    if (!load || (load->source->kind != load_normal && load->source->kind != load_friction)) return NULL;
+    const struct model_body *slide = &panel->model->bodies[load->body];
+    return slide->kind == motion_slide ? slide : NULL;
+}
+
+static bool has_size(const struct model_body *body)
+{
+    struct vec low, high;
+    return outline_size(body->source, &low, &high);
+}
+
+bool panel_is_shifted(const struct panel *panel, const struct arrow *arrow)
+{
+    const struct model_body *slide = slide_of(panel, arrow);
+    return slide && has_size(slide) && panel->model->loads[arrow->load].source->kind == load_normal &&
+           !is_nothing(vec_norm(arrow->force), panel->largest.force);
+}
+
+/* The point of a slide's surface where its force acts, seen from the slide or from what it slides on. */
+static struct vec place_on_surface(const struct panel *panel, const struct model_body *slide,
+                                   const struct arrow *arrow)
+{
+    struct pose pose = body_pose(slide, &panel->at);
+    double side = vec_dot(slide->n, vec_perp(slide->e)) > 0 ? -1 : 1;
+    struct vec e = pose.rotation, down = vec_scale(side, vec_perp(e)), G = slide->inertia.G;
+    double reach =
+        outline_reach(slide->source, G, (struct vec){vec_dot(down, e), vec_dot(down, vec_perp(e))});
+    double along = panel_is_shifted(panel, arrow) ? panel_line_of_action(arrow, e) : 0;
+    return vec_add(point_motion(slide, &pose, G).p, vec_add(vec_scale(reach, down), vec_scale(along, e)));
+}
+
 /* Where the arrow starts: on a slide, the forces of the surface act where the body touches it. */
 static struct vec tail_of(const struct panel *panel, const struct arrow *arrow)
 {
-    struct vec point = arrow->point;
-    if (panel->body->kind == motion_slide) {
-        const struct model_load *load = arrow->load >= 0 ? &panel->model->loads[arrow->load] : NULL;
-        bool own = load && &panel->model->bodies[load->body] == panel->body;
-        if (own && (load->source->kind == load_normal || load->source->kind == load_friction))
-            point = panel->base;
-    }
-    return panel_point(panel, point);
+    const struct model_body *slide = slide_of(panel, arrow);
+    if (!slide) return panel_point(panel, arrow->point);
+    if (slide != panel->body && slide == panel->plate.rider) return panel->seat;
+    if (has_size(slide)) return panel_point(panel, place_on_surface(panel, slide, arrow));
+    return panel_point(panel, slide == panel->body ? panel->base : arrow->point);
 }
 
 /* ---- forces */
@@ -109,6 +147,7 @@ static void step_aside(const struct panel *panel, struct panel_arrow *arrow)
 static const char *label_of(struct panel *panel, const struct panel_arrow *arrow, const char *name,
                             const char *unit)
 {
+    if (panel->symbols && !arrow->component) return panel->symbols[arrow->source - panel->arrows];
     return arena_printf(panel->arena, "%s %.4g %s", name, arrow->value, unit);
 }
 
@@ -208,7 +247,7 @@ static void draw_moment(struct panel *panel, const struct arrow *source, int ind
 void panel_arrows(struct panel *panel)
 {
     enum { most_pieces = 4 }; /* a force, a moment, two components */
-    struct arrow_scale most = panel_largest(panel);
+    struct arrow_scale most = panel->largest;
     panel->drawn = ARENA_ARRAY(panel->arena, most_pieces * panel->arrow_count + 1, struct panel_arrow);
     if (!panel->drawn) return;
     int moments = 0;
@@ -216,8 +255,9 @@ void panel_arrows(struct panel *panel)
         const struct arrow *source = &panel->arrows[i];
         bool force = isfinite(vec_norm(source->force)) && !is_nothing(vec_norm(source->force), most.force);
         if (force) draw_force(panel, source, source->force, source->name, "");
-        if (force && panel->components) draw_components(panel, source, most.force);
-        if (isfinite(source->couple) && !is_nothing(source->couple, most.moment))
+        if (force && panel->drawing->components) draw_components(panel, source, most.force);
+        if (isfinite(source->couple) && !is_nothing(source->couple, most.moment) &&
+            !panel_is_shifted(panel, source))
             draw_moment(panel, source, moments++, force ? "-moment" : "");
     }
 }

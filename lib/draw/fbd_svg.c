@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The free-body diagrams of a state as an SVG document: a panel for each body, side by side within the width
- * of an A4 page, each with its heading, its scales and what is zero.
+ * The free-body diagrams of a state as an SVG document: a panel for each body, in columns on a sheet that fits an
+ * A4 page, each with its heading, its scales and what is zero.
+ *
+ * Forces have one scale in all panels, so that action and reaction are of one length.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -11,12 +13,15 @@
 #include "draw/panel.h"
 #include "output/equations.h"
 #include "output/result.h"
+#include "output/symbols.h"
 #include "solve/start.h"
 
-static const double page_width = 186, margin = 5, gap = 8, heading_height = 13, line_height = 4.2;
+/* A4 less what printers need; lengths in mm. */
+static const double page_width = 190, page_height = 270;
+static const double margin = 5, gap = 8, heading_height = 13, line_height = 4.2, writing_height = 8;
 
-/* Scales are one for all panels unless a body would then be drawn with arrows this many times too short. */
-static const double most_unequal = 2;
+/* Sheets are drawn smaller until they fit, but no smaller than can be read: then they are longer than a page. */
+static const double least_size = 0.55, size_step = 0.05;
 
 double round_up(double value)
 {
@@ -37,6 +42,8 @@ const char *printed_unit(const char *unit)
 struct sheet {
     struct arena arena;
     struct fbd_state *state;
+    const fbd_drawing *drawing;
+    const char *const *const *symbols; /* or NULL */
     struct panel *panels;
     size_t count;
     struct text text;
@@ -45,7 +52,7 @@ struct sheet {
 
 /* ---- panels */
 
-static bool start_panel(struct sheet *sheet, struct panel *panel, size_t body, bool components)
+static bool start_panel(struct sheet *sheet, struct panel *panel, size_t body)
 {
     struct fbd_state *state = sheet->state;
     const struct fbd_model *model = state->model;
@@ -53,31 +60,43 @@ static bool start_panel(struct sheet *sheet, struct panel *panel, size_t body, b
                             .model = model,
                             .body = &model->bodies[body],
                             .at = state_instant(state),
-                            .components = components,
+                            .drawing = sheet->drawing,
                             .labels = {.arena = &sheet->arena},
                             .extent = box_nothing};
     panel->pose = body_pose(panel->body, &panel->at);
     panel->arrows = ARENA_ARRAY(&sheet->arena, diagram_arrows(model, (int)body), struct arrow);
     if (!panel->arrows) return false;
     panel->arrow_count = diagram_fill(model, (int)body, &panel->at, state->a, state->slots, panel->arrows);
-    return true;
+    if (!sheet->symbols) return true;
+    const char **printed = ARENA_ARRAY(&sheet->arena, panel->arrow_count + 1, const char *);
+    for (size_t i = 0; printed && i < panel->arrow_count; i++)
+        if (!(printed[i] = symbol_printed(sheet->symbols[body][i], &sheet->arena))) return false;
+    panel->symbols = printed;
+    return printed != NULL;
 }
 
-static void set_scales(struct sheet *sheet)
+/* The largest of all bodies, also of those that are not drawn: a part of a scene has the scale of the whole, and a
+ * force of mere rounding is one beside what else there is. A moment is, beside the forces at the arms that they have. */
+static void set_scales(struct sheet *sheet, size_t body_count)
 {
     struct arrow_scale all = {0, 0};
-    for (size_t i = 0; i < sheet->count; i++) {
-        struct arrow_scale most = panel_largest(&sheet->panels[i]);
+    double arm = 0;
+    for (size_t i = 0; i < body_count; i++) {
+        const struct panel *panel = &sheet->panels[i];
+        struct arrow_scale most = panel_largest(panel);
         all.force = fmax(all.force, most.force);
         all.moment = fmax(all.moment, most.moment);
+        for (size_t k = 0; k < panel->arrow_count; k++)
+            arm = fmax(arm, vec_norm(vec_sub(panel->arrows[k].point, panel->pose.origin)));
     }
-    for (size_t i = 0; i < sheet->count; i++) {
+    double force =
+        sheet->drawing->scale > 0 ? sheet->drawing->scale : round_up(10 * all.force / longest_arrow);
+    for (size_t i = 0; i < body_count; i++) {
         struct panel *panel = &sheet->panels[i];
-        struct arrow_scale own = panel_largest(panel);
-        double force = own.force * most_unequal < all.force ? own.force : all.force,
-               moment = own.moment * most_unequal < all.moment ? own.moment : all.moment;
-        panel->scale.force = round_up(10 * force / longest_arrow);
-        panel->scale.moment = round_up(moment / 3.4); /* up to 306 degrees */
+        panel->scale.force = force;
+        panel->scale.moment = round_up(all.moment / 3.4); /* up to 306 degrees */
+        panel->largest.force = all.force;
+        panel->largest.moment = isfinite(arm) ? fmax(all.moment, all.force * arm) : all.moment;
     }
 }
 
@@ -85,10 +104,11 @@ static void set_scales(struct sheet *sheet)
 
 static void note_scales(const struct panel *panel, struct text *notes)
 {
-    struct arrow_scale most = panel_largest(panel);
-    if (most.force > 0)
-        text_printf(notes, "forces: 10 mm = %g %s\n", panel->scale.force, force_unit(panel->model));
-    if (most.moment > 0)
+    bool forces = false, moments = false;
+    for (size_t i = 0; i < panel->drawn_count; i++)
+        (panel->drawn[i].radius > 0 ? (moments = true) : (forces = true));
+    if (forces) text_printf(notes, "forces: 10 mm = %g %s\n", panel->scale.force, force_unit(panel->model));
+    if (moments)
         text_printf(notes, "moments: 90° of arc = %g %s\n", panel->scale.moment,
                     printed_unit(moment_unit(panel->model)));
     if (panel->sized)
@@ -105,10 +125,42 @@ static void note_zeros(const struct panel *panel, struct text *notes)
         bool drawn = false;
         for (size_t k = 0; k < panel->drawn_count; k++) drawn |= panel->drawn[k].source == &panel->arrows[i];
         if (drawn) continue;
-        text_printf(notes, "%s%s", before, panel->arrows[i].name);
+        text_printf(notes, "%s%s", before, panel->symbols ? panel->symbols[i] : panel->arrows[i].name);
         before = ", ";
     }
     if (before[0] == ',') text_add(notes, "\n");
+}
+
+/* Each symbol with what it is called and its value, as a worksheet has a line for each. */
+static void note_answers(const struct panel *panel, struct text *notes)
+{
+    for (size_t i = 0; i < panel->drawn_count; i++) {
+        const struct panel_arrow *arrow = &panel->drawn[i];
+        if (arrow->component) continue;
+        const char *symbol = panel->symbols[arrow->source - panel->arrows];
+        const char *unit = arrow->radius > 0 ? moment_unit(panel->model) : force_unit(panel->model);
+        bool named = strcmp(symbol, arrow->source->name) != 0;
+        text_printf(notes, "%s = %.4g %s%s%s\n", symbol, arrow->value, printed_unit(unit), named ? ", " : "",
+                    named ? arrow->source->name : "");
+    }
+}
+
+/* One more than there are, so that their number is not given away. */
+static void note_lines(const struct panel *panel, struct text *notes)
+{
+    for (size_t i = 0; i <= panel->arrow_count; i++) text_add(notes, "_\n");
+}
+
+static void write_notes_of(const struct panel *panel, struct text *notes)
+{
+    const fbd_drawing *drawing = panel->drawing;
+    if (drawing->worksheet) {
+        note_lines(panel, notes);
+        return;
+    }
+    note_scales(panel, notes);
+    if (drawing->solution) note_answers(panel, notes);
+    note_zeros(panel, notes);
 }
 
 static void write_heading(const struct panel *panel, struct text *text, struct vec at)
@@ -116,7 +168,10 @@ static void write_heading(const struct panel *panel, struct text *text, struct v
     const struct model_body *body = panel->body;
     const char *mass = panel->model->scene->units == unit_si ? "kg" : "slug";
     struct text line = {0};
-    text_printf(&line, "m = %.4g %s", body->inertia.mass, mass);
+    const char *symbol =
+        panel->symbols ? symbol_of_mass(panel->model, (int)(body - panel->model->bodies), panel->arena) : "m";
+    const char *printed = symbol ? symbol_printed(symbol, panel->arena) : NULL;
+    text_printf(&line, "%s = %.4g %s", printed ? printed : "m", body->inertia.mass, mass);
     bool turns = body->kind == motion_pivot || body->kind == motion_planar;
     if (turns)
         text_printf(&line, ", %s = %.4g %s", body->kind == motion_pivot ? "I_O" : "I_G",
@@ -150,21 +205,27 @@ static void draw_panel(struct panel *panel)
     if (!in_front) panel_fixtures(panel);
     panel_body(panel);
     if (in_front) panel_fixtures(panel);
-    panel_arrows(panel);
+    if (!panel->drawing->worksheet) panel_arrows(panel);
     labelling_solve(&panel->labels);
     for (size_t i = 0; i < panel->labels.label_count; i++) {
         struct box box = labelling_box(&panel->labels.labels[i]);
         box_join(&panel->extent, &box);
     }
+    if (!panel->drawing->worksheet) return;
+    const double room = 20; /* for the arrows of whoever draws them */
+    panel->extent.low = vec_sub(panel->extent.low, (struct vec){room, room});
+    panel->extent.high = vec_add(panel->extent.high, (struct vec){room, room});
 }
 
 /* ---- layout */
 
-static size_t count_lines(const struct text *text)
+/* The height of the lines under a panel; those to write on are higher. */
+static double height_of(const struct text *notes)
 {
-    size_t lines = 0;
-    for (const char *c = text->data; c && *c; c++) lines += *c == '\n';
-    return lines;
+    double height = 0;
+    for (const char *c = notes->data; c && *c; c++)
+        if (*c == '\n') height += c > notes->data && c[-1] == '_' ? writing_height : line_height;
+    return height;
 }
 
 static double widest_line(const struct text *notes)
@@ -185,7 +246,25 @@ static struct vec panel_size(const struct panel *panel, const struct text *notes
     double wide = panel->extent.high.x - panel->extent.low.x,
            high = panel->extent.high.y - panel->extent.low.y;
     wide = fmax(wide, fmax(widest_line(notes), svg_text_width(panel->body->name, 5)));
-    return (struct vec){fmax(wide, 50), high + heading_height + line_height * (double)count_lines(notes) + 3};
+    return (struct vec){fmax(wide, 50), high + heading_height + height_of(notes) + 3};
+}
+
+static void write_lines(struct text *notes, struct vec at, struct text *text)
+{
+    const double line_width = 50;
+    for (char *c = notes->data; c && *c;) {
+        size_t length = strcspn(c, "\n");
+        bool more = c[length] == '\n', blank = strncmp(c, "_", length) == 0;
+        c[length] = '\0';
+        if (blank) {
+            at.y += writing_height - line_height;
+            svg_line(text, "leader", at, (struct vec){at.x + line_width, at.y});
+        } else {
+            svg_text_at(text, "note", at, c);
+        }
+        at.y += line_height;
+        c += length + more;
+    }
 }
 
 static void write_panel(const struct panel *panel, struct text *notes, struct vec corner, struct text *text)
@@ -201,34 +280,46 @@ static void write_panel(const struct panel *panel, struct text *notes, struct ve
     write_notes(panel, text);
     text_add(text, "</g>\n");
     double y = corner.y + heading_height + panel->extent.high.y - panel->extent.low.y + 5;
-    for (char *c = notes->data; c && *c;) {
-        size_t length = strcspn(c, "\n");
-        bool more = c[length] == '\n';
-        c[length] = '\0';
-        svg_text_at(text, "note", (struct vec){corner.x, y}, c);
-        y += line_height;
-        c += length + more;
-    }
+    write_lines(notes, (struct vec){corner.x, y}, text);
     text_add(text, "</g>\n");
 }
 
-/* Put the panels in rows; returns the size of the document. With `text` they are written as well. */
-static struct vec lay_out(struct sheet *sheet, double top, struct text *text)
+enum { most_columns = 8 };
+
+/* The panels in columns as wide as the widest of them, each into the one that is shortest so far; returns the size of
+ * the document. With `text` they are written as well. */
+static struct vec lay_out(const struct sheet *sheet, double width, double top, struct text *text)
 {
-    struct vec at = {margin, top};
-    double row = 0, right = 0;
+    double wide = 0, heights[most_columns];
+    for (size_t i = 0; i < sheet->count; i++)
+        wide = fmax(wide, panel_size(&sheet->panels[i], &sheet->notes[i]).x);
+    double fit = (width - 2 * margin + gap) / (wide + gap);
+    int columns = fit >= most_columns ? most_columns : fit < 1 ? 1 : (int)fit;
+    if ((size_t)columns > sheet->count) columns = (int)sheet->count;
+    for (int c = 0; c < columns; c++) heights[c] = top;
     for (size_t i = 0; i < sheet->count; i++) {
-        struct vec size = panel_size(&sheet->panels[i], &sheet->notes[i]);
-        if (at.x > margin && at.x + size.x > page_width - margin) {
-            at = (struct vec){margin, at.y + row + gap};
-            row = 0;
-        }
-        right = fmax(right, at.x + size.x);
-        if (text) write_panel(&sheet->panels[i], &sheet->notes[i], at, text);
-        at.x += size.x + gap;
-        row = fmax(row, size.y);
+        int shortest = 0;
+        for (int c = 1; c < columns; c++)
+            if (heights[c] < heights[shortest]) shortest = c;
+        struct vec corner = {margin + shortest * (wide + gap), heights[shortest]};
+        heights[shortest] += panel_size(&sheet->panels[i], &sheet->notes[i]).y + gap;
+        if (text) write_panel(&sheet->panels[i], &sheet->notes[i], corner, text);
     }
-    return (struct vec){right + margin, at.y + row + margin};
+    double bottom = top;
+    for (int c = 0; c < columns; c++) bottom = fmax(bottom, heights[c] - gap);
+    return (struct vec){2 * margin + columns * (wide + gap) - gap, bottom + margin};
+}
+
+/* How much smaller than drawn the sheet is to be printed. */
+static double fitting_size(const struct sheet *sheet, double top)
+{
+    double size = 1;
+    while (size > least_size) {
+        struct vec whole = lay_out(sheet, page_width / size, top, NULL);
+        if (whole.y * size <= page_height && whole.x * size <= page_width) break;
+        size -= size_step;
+    }
+    return size;
 }
 
 static void write_sheet(struct sheet *sheet)
@@ -236,17 +327,21 @@ static void write_sheet(struct sheet *sheet)
     const struct fbd_model *model = sheet->state->model;
     struct text *text = &sheet->text;
     const char *title = model->scene->title[0] ? model->scene->title : "Free-body diagram";
-    double top = margin + 14;
-    struct vec size = lay_out(sheet, top, NULL);
-    char time[64], description[200];
-    format_into(time, sizeof time, "Free-body diagram at t = %.6g s", sheet->state->t);
+    const double top = margin + 14, scale = fitting_size(sheet, top);
+    struct vec size = lay_out(sheet, page_width / scale, top, NULL);
+    char time[80], description[200];
+    const char *what = sheet->drawing->worksheet ? "Free-body diagram, to be drawn," : "Free-body diagram";
+    format_into(time, sizeof time, "%s at t = %.6g s", what, sheet->state->t);
     snprintf(description, sizeof description,
-             "%s: each force as an arrow at the point where it acts, each moment as an arc", time);
+             sheet->drawing->worksheet
+                 ? "%s: each body cut free"
+                 : "%s: each force as an arrow at the point where it acts, each moment as an arc",
+             time);
     size.x = fmax(size.x, 2 * margin + fmax(svg_text_width(title, 4.8), svg_text_width(time, note_size)));
-    svg_begin(text, size, title, description);
+    svg_begin(text, size, scale, title, description);
     svg_text_at(text, "heading", (struct vec){margin, margin + 4}, title);
     svg_text_at(text, "note", (struct vec){margin, margin + 9}, time);
-    lay_out(sheet, top, text);
+    lay_out(sheet, page_width / scale, top, text);
     text_add(text, "</svg>\n");
 }
 
@@ -265,23 +360,25 @@ static const char *body_without_scale(const struct sheet *sheet)
     return NULL;
 }
 
-static bool make_panels(struct sheet *sheet, const fbd_drawing *drawing)
+/* All bodies are looked at for the scales; those that are asked for come first in `panels` after that. */
+static bool make_panels(struct sheet *sheet)
 {
     const struct fbd_model *model = sheet->state->model;
+    const fbd_drawing *drawing = sheet->drawing;
     sheet->panels = ARENA_ARRAY(&sheet->arena, model->body_count, struct panel);
     sheet->notes = ARENA_ARRAY(&sheet->arena, model->body_count, struct text);
-    if (!sheet->panels || !sheet->notes) return false;
-    for (size_t b = 0; b < model->body_count; b++) {
-        if (drawing->body && strcmp(model->bodies[b].name, drawing->body) != 0) continue;
-        if (!start_panel(sheet, &sheet->panels[sheet->count], b, drawing->components)) return false;
-        sheet->count++;
-    }
-    set_scales(sheet);
+    bool symbols = drawing->symbols || drawing->solution;
+    if (symbols) sheet->symbols = symbols_of_forces(sheet->state, &sheet->arena);
+    if (!sheet->panels || !sheet->notes || (symbols && !sheet->symbols)) return false;
+    for (size_t b = 0; b < model->body_count; b++)
+        if (!start_panel(sheet, &sheet->panels[b], b)) return false;
+    set_scales(sheet, model->body_count);
+    for (size_t b = 0; b < model->body_count; b++)
+        if (!drawing->body || strcmp(model->bodies[b].name, drawing->body) == 0)
+            sheet->panels[sheet->count++] = sheet->panels[b];
     for (size_t i = 0; i < sheet->count; i++) {
-        struct panel *panel = &sheet->panels[i];
-        draw_panel(panel);
-        note_scales(panel, &sheet->notes[i]);
-        note_zeros(panel, &sheet->notes[i]);
+        draw_panel(&sheet->panels[i]);
+        write_notes_of(&sheet->panels[i], &sheet->notes[i]);
     }
     return !sheet->arena.failed;
 }
@@ -314,12 +411,12 @@ static bool is_finite(const struct fbd_state *state, fbd_errors *errors)
 
 static char *make_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *errors)
 {
-    struct sheet sheet = {.state = state};
+    struct sheet sheet = {.state = state, .drawing = drawing};
     diag_in_file(errors, state->model->scene->file);
     if (drawing->body && !body_is_there(state->model, drawing->body, errors)) return NULL;
     state_ready(state);
     if (!is_finite(state, errors)) return NULL;
-    bool done = make_panels(&sheet, drawing);
+    bool done = make_panels(&sheet);
     if (done) write_sheet(&sheet);
     const char *odd = done ? body_without_scale(&sheet) : NULL;
     for (size_t i = 0; i < sheet.count; i++) {

@@ -9,7 +9,8 @@
 #include "dynamics/tree.h"
 #include "output/result.h"
 
-static const double pi = 3.141592653589793, body_size = 54, surface_half = 34, hatch_step = 2.4;
+static const double pi = 3.141592653589793, body_size = 54, surface_half = 34, free_half = 20,
+                    hatch_step = 2.4;
 
 /* Drawn for a body on a slide whose file gives it no size: half width and half height on paper. */
 static const double block_half_width = 9, block_half_height = 6.5, dot_radius = 1.6;
@@ -58,6 +59,24 @@ static bool on_ground(const struct panel *panel)
     return panel->body->parent == ground_body;
 }
 
+/* A wedge of no particular size: its slope is that of what slides on it, its base lies on its own surface. */
+static void wedge_corners(struct panel *panel, struct vec corners[static 4])
+{
+    const struct model_body *rider = panel->plate.rider;
+    const double half = 19, over = 6;
+    struct vec turn = panel->pose.rotation, e = vec_turn(turn, rider->e), n = vec_turn(turn, rider->n);
+    struct vec G = panel_point(panel, world_of(panel, panel->body->inertia.G));
+    if (e.x < 0) e = vec_scale(-1, e);
+    panel->seat = vec_add(G, panel_direction(vec_scale(over, n)));
+    struct vec way = panel_direction(vec_scale(half, e)), left = vec_sub(panel->seat, way),
+               right = vec_add(panel->seat, way);
+    double base = fmax(fmax(left.y, right.y), G.y + block_half_height);
+    corners[0] = left;
+    corners[1] = right;
+    corners[2] = (struct vec){right.x, base};
+    corners[3] = (struct vec){left.x, base};
+}
+
 /* The reach of the body from its centre of mass down to its surface, on paper and in the scene. */
 static void set_base(struct panel *panel)
 {
@@ -66,6 +85,11 @@ static void set_base(struct panel *panel)
     struct vec in_body = {vec_dot(down, panel->pose.rotation), vec_dot(down, vec_perp(panel->pose.rotation))};
     double reach =
         panel->sized ? outline_reach(body->source, G, in_body) : block_half_height / panel->millimetres;
+    if (panel->plate.rider) {
+        struct vec corners[4];
+        wedge_corners(panel, corners);
+        reach = (corners[2].y - panel_point(panel, world_of(panel, G)).y) / panel->millimetres;
+    }
     panel->base = vec_add(world_of(panel, G), vec_scale(reach, down));
 }
 
@@ -77,6 +101,18 @@ void panel_set_scale(struct panel *panel)
     if (!panel->sized) low = high = G;
     low = (struct vec){fmin(low.x, G.x), fmin(low.y, G.y)};
     high = (struct vec){fmax(high.x, G.x), fmax(high.y, G.y)};
+    panel->plate = plate_of(panel->model, (int)(body - panel->model->bodies));
+    const struct plate *plate = &panel->plate;
+    for (size_t i = 0; i < plate->count; i++) {
+        low = (struct vec){fmin(low.x, plate->points[i].x), fmin(low.y, plate->points[i].y)};
+        high = (struct vec){fmax(high.x, plate->points[i].x), fmax(high.y, plate->points[i].y)};
+    }
+    if (plate->wheel > 0) {
+        low =
+            (struct vec){fmin(low.x, plate->hub.x - plate->wheel), fmin(low.y, plate->hub.y - plate->wheel)};
+        high = (struct vec){fmax(high.x, plate->hub.x + plate->wheel),
+                            fmax(high.y, plate->hub.y + plate->wheel)};
+    }
     if (body->kind == motion_pivot) {
         low = (struct vec){fmin(low.x, body->pin.x), fmin(low.y, body->pin.y)};
         high = (struct vec){fmax(high.x, body->pin.x), fmax(high.y, body->pin.y)};
@@ -133,11 +169,58 @@ static void take_part(struct panel *panel, const struct outline_part *part)
     }
 }
 
+/* The body's edge on paper. */
+static void edge(struct panel *panel, const struct vec *corners, size_t count)
+{
+    svg_polygon(&panel->under, "body", corners, count);
+    for (size_t i = 0; i < count; i++) {
+        labelling_avoid(&panel->labels, corners[i], corners[(i + 1) % count], 9);
+        box_take(&panel->extent, corners[i]);
+    }
+}
+
+/* A wheel with a spoke that shows how it is turned; a bar or a plate through the points. */
+static void draw_plate(struct panel *panel)
+{
+    const struct plate *plate = &panel->plate;
+    if (plate->wheel > 0) {
+        struct outline_part disc = {.kind = outline_circle, .center = plate->hub, .radius = plate->wheel};
+        draw_part(panel, &disc);
+        take_part(panel, &disc);
+        struct vec hub = panel_point(panel, world_of(panel, plate->hub)),
+                   spoke = panel_direction(panel->pose.rotation);
+        svg_line(&panel->under, "thread", hub,
+                 vec_add(hub, vec_scale(plate->wheel * panel->millimetres, spoke)));
+    } else if (plate->count == 2) {
+        struct outline_part bar = {.kind = outline_bar, .corner = {plate->points[0], plate->points[1]}};
+        draw_part(panel, &bar);
+        take_part(panel, &bar);
+    } else if (plate->count > 2) {
+        struct vec corners[most_plate_points];
+        for (size_t i = 0; i < plate->count; i++)
+            corners[i] = panel_point(panel, world_of(panel, plate->points[i]));
+        edge(panel, corners, plate->count);
+    }
+    for (size_t i = 0; i < plate->count; i++)
+        svg_circle(&panel->under, "hole", panel_point(panel, world_of(panel, plate->points[i])), 1.1);
+}
+
 /* A body without a size: a block on a slide, a blob of no particular shape elsewhere. */
 static void draw_sizeless(struct panel *panel)
 {
     const struct model_body *body = panel->body;
     struct vec G = panel_point(panel, world_of(panel, body->inertia.G));
+    if (panel->plate.wheel > 0 || panel->plate.count > 1) {
+        draw_plate(panel);
+        return;
+    }
+    if (panel->plate.rider) {
+        struct vec corners[4];
+        wedge_corners(panel, corners);
+        edge(panel, corners, 4);
+        return;
+    }
+    if (body->kind == motion_pivot) return; /* its bearing is where it is */
     if (body->kind != motion_slide) {
         bool point = body->kind == motion_particle || body->kind == motion_track;
         svg_circle(&panel->under, point ? "mass" : "body", G, point ? dot_radius : 8);
@@ -147,11 +230,7 @@ static void draw_sizeless(struct panel *panel)
                up = vec_scale(block_half_height, panel_direction(normal_of(panel)));
     struct vec corners[] = {vec_add(G, vec_add(along, up)), vec_add(G, vec_sub(up, along)),
                             vec_sub(G, vec_add(along, up)), vec_add(G, vec_sub(along, up))};
-    svg_polygon(&panel->under, "body", corners, 4);
-    for (int i = 0; i < 4; i++) {
-        labelling_avoid(&panel->labels, corners[i], corners[(i + 1) % 4], 9);
-        box_take(&panel->extent, corners[i]);
-    }
+    edge(panel, corners, 4);
 }
 
 /* The mark of a centre of mass: a circle of four quarters. */
@@ -180,7 +259,7 @@ void panel_body(struct panel *panel)
                        panel_point(panel, world_of(panel, outline_of_part(&source->parts[i]).center)), 2);
     }
     struct vec low, high;
-    if (!outline_size(source, &low, &high) && panel->body->kind != motion_pivot) draw_sizeless(panel);
+    if (!outline_size(source, &low, &high)) draw_sizeless(panel);
     for (int holes = 0; holes < 2; holes++)
         for (size_t i = 0; i < source->part_count; i++) {
             struct outline_part part = outline_of_part(&source->parts[i]);
@@ -267,8 +346,9 @@ static void angle_arc(struct panel *panel, struct vec center, double radius, dou
 static const char *angle_text(struct panel *panel, const char *name, double angle)
 {
     double degrees = angle * 180 / pi;
-    return isfinite(degrees) ? arena_printf(panel->arena, "%s%.4g°", name, degrees)
-                             : arena_printf(panel->arena, "%s%.4g rad", name, angle);
+    const char *minus = angle < 0 ? "−" : "";
+    return isfinite(degrees) ? arena_printf(panel->arena, "%s%s%.4g°", name, minus, fabs(degrees))
+                             : arena_printf(panel->arena, "%s%s%.4g rad", name, minus, fabs(angle));
 }
 
 static void draw_slide(struct panel *panel)
@@ -276,29 +356,31 @@ static void draw_slide(struct panel *panel)
     const struct model_body *body = panel->body;
     struct vec e = panel_direction(along_of(panel)), into = panel_direction(vec_scale(-1, normal_of(panel))),
                base = panel_point(panel, panel->base);
-    bool surface = false, guide = false;
+    bool surface = false, guide = false, supports = panel->drawing->supports;
     for (size_t i = 0; i < body->source->load_count; i++) {
         surface |= body->source->loads[i].kind == load_normal;
         guide |= body->source->loads[i].kind == load_normal && body->source->loads[i].two_sided;
     }
-    struct vec half = vec_scale(surface_half, e);
-    if (surface) hatched_line(panel, vec_sub(base, half), vec_add(base, half), into);
-    if (guide) {
+    const double reach = supports ? surface_half : free_half;
+    struct vec half = vec_scale(reach, e);
+    if (surface && !supports) panel_line(panel, "reference", vec_sub(base, half), base, 2);
+    if (surface && supports) hatched_line(panel, vec_sub(base, half), vec_add(base, half), into);
+    if (guide && supports) {
         struct vec G = panel_point(panel, world_of(panel, body->inertia.G));
         struct vec over = vec_sub(vec_scale(2, G), base);
         hatched_line(panel, vec_add(over, half), vec_sub(over, half), vec_scale(-1, into));
     }
-    struct vec far = vec_add(base, vec_scale(surface_half + 9, e));
+    struct vec far = vec_add(base, vec_scale(reach + 9, e));
     if (!surface) {
         struct vec G = panel_point(panel, world_of(panel, body->inertia.G));
         panel_line(panel, "reference", vec_sub(G, half), vec_add(G, half), 2);
-        far = vec_add(G, vec_scale(surface_half + 9, e));
+        far = vec_add(G, vec_scale(reach + 9, e));
     }
     axis_arrow(panel, vec_sub(far, vec_scale(9, e)), far, "x");
     double along = atan2(along_of(panel).y, along_of(panel).x);
     if (fabs(remainder(along, pi / 2)) < 1e-9) return;
     /* The angle from the horizontal, at the low end of the line. */
-    struct vec foot = vec_sub(far, vec_scale(2 * surface_half + 9, e));
+    struct vec foot = vec_sub(far, vec_scale(2 * reach + 9, e));
     double turn = along;
     panel_line(panel, "reference", foot, vec_add(foot, (struct vec){18, 0}), 3);
     const char *text = angle_text(panel, "", turn);
@@ -329,7 +411,7 @@ static void draw_pivot(struct panel *panel)
     struct vec G = vec_sub(panel_point(panel, world_of(panel, body->inertia.G)), axis);
     bool hangs = vec_norm(G) > 1;
     struct vec d = {0, hangs && G.y > -0.3 * vec_norm(G) ? -1 : 1};
-    if (on_ground(panel)) {
+    if (on_ground(panel) && panel->drawing->supports) {
         struct vec foot = vec_add(axis, vec_scale(6, d)), side = {3.6, 0}, wide = {7, 0};
         struct vec corners[] = {axis, vec_add(foot, side), vec_sub(foot, side)};
         svg_polygon(&panel->under, "support", corners, 3);
@@ -357,7 +439,7 @@ bool panel_fixtures_in_front(const struct panel *panel)
 static void draw_track(struct panel *panel)
 {
     enum { segments = 40 };
-    const double half = 2 * surface_half;
+    const double half = 2 * (panel->drawing->supports ? surface_half : free_half);
     const struct tree_link *link = &panel->model->tree->links[panel->body->place.link];
     const struct tree_state *s = &panel->at.tree->links[panel->body->place.link];
     const struct curve *curve = link->track->curve;
@@ -371,7 +453,7 @@ static void draw_track(struct panel *panel)
         struct vec r = curve_at(curve, NULL, first + (last - first) * i / segments).r;
         struct vec way = vec_scale(scale, vec_turn(frame, vec_sub(r, now.r)));
         struct vec at = vec_add(P, panel_direction(way));
-        if (i > 0) panel_line(panel, "ground", before, at, 4);
+        if (i > 0) panel_line(panel, panel->drawing->supports ? "ground" : "reference", before, at, 4);
         before = at;
     }
     struct vec e = panel_direction(s->e), side = vec_scale(-9 * link->side, panel_direction(vec_perp(s->e)));

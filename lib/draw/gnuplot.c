@@ -208,6 +208,24 @@ static void write_events(struct text *text, const struct ensemble *run)
     }
 }
 
+/* The names of the events upright beside their lines, in the uppermost plot, where they are that far apart. */
+static void write_event_names(struct text *text, const struct choice *choice, const struct ensemble *run)
+{
+    const struct record *record = choice->record;
+    double apart = (record->times[record->count - 1] - record->times[0]) / 40, last = -HUGE_VAL;
+    for (size_t i = 0; i < run->event_count && run->event_count <= most_events; i++) {
+        const struct run_event *event = &run->events[i];
+        const char *name = event_name(run->model, event), *kind = fbd_event_kind_name(event->kind);
+        if (event->t - last < apart) continue;
+        last = event->t;
+        text_add(text, "set label ");
+        quote(text, event->kind == FBD_EVENT_USER && name[0] ? name : kind);
+        text_add(text, " noenhanced at first ");
+        text_number(text, event->t, digits);
+        text_add(text, ", graph 0.03 left rotate by 90 offset character -0.6,0 front textcolor 'gray30'\n");
+    }
+}
+
 static const char *unit_of(const struct choice *choice, size_t index)
 {
     return choice->record->columns[choice->columns[index]].unit;
@@ -221,10 +239,62 @@ static bool begins_plot(const struct choice *choice, size_t index)
     return true;
 }
 
+/* m/s^2 as m/s², N*m as N·m. */
+static void write_unit(struct text *text, const char *unit)
+{
+    for (; *unit; unit++) {
+        if (*unit == '*')
+            text_add(text, "·");
+        else if (unit[0] == '^' && (unit[1] == '2' || unit[1] == '3'))
+            text_add(text, *++unit == '2' ? "²" : "³");
+        else
+            text_add_bytes(text, unit, 1);
+    }
+}
+
+/* What the columns of one unit are together; the column's own name when it is alone. */
+static const char *axis_title(const struct choice *choice, size_t first, size_t count)
+{
+    const struct record_column *column = &choice->record->columns[choice->columns[first]];
+    if (count == 1) return column->name;
+    switch (column->kind) {
+    case record_coordinate: return strcmp(column->unit, "rad") == 0 ? "angle" : "position";
+    case record_rate: return strcmp(column->unit, "rad/s") == 0 ? "angular velocity" : "velocity";
+    case record_acceleration: return "acceleration";
+    case record_force:
+        return strcmp(column->unit, "N") == 0 || strcmp(column->unit, "lbf") == 0 ? "force" : "moment";
+    case record_work: return "work";
+    case record_energy: return "energy";
+    case record_own: return "state";
+    case record_pose:
+    case record_term:
+    case record_arrow: break;
+    }
+    return "";
+}
+
+/* The legend stands within the plot, above the curves: room for its rows is kept there. */
+static void write_axes(struct text *text, const struct choice *choice, size_t first)
+{
+    size_t count = 0;
+    for (size_t k = first; k < choice->count; k++)
+        count += strcmp(unit_of(choice, k), unit_of(choice, first)) == 0;
+    text_printf(text, "set offsets 0, 0, graph %.2f, graph 0.04\nset ylabel ",
+                0.1 * (double)((count + 2) / 3) + 0.05);
+    struct text title = {0};
+    text_printf(&title, "%s [", axis_title(choice, first, count));
+    write_unit(&title, unit_of(choice, first));
+    text_add(&title, "]");
+    text->failed |= title.failed;
+    quote(text, title.data ? title.data : "");
+    text_free(&title);
+    text_add(text, " noenhanced\n");
+}
+
 static void write_plot(struct text *text, const struct choice *choice, size_t first)
 {
     bool thinned = is_thinned(choice->record);
-    text_printf(text, "set ylabel '[%s]' noenhanced\n", unit_of(choice, first));
+    write_axes(text, choice, first);
     const char *before = "plot ";
     for (size_t k = first, style = 1; k < choice->count; k++) {
         if (strcmp(unit_of(choice, k), unit_of(choice, first)) != 0) continue;
@@ -252,15 +322,20 @@ static void write_script(struct text *text, const struct choice *choice, const s
     write_data(text, choice);
     text_printf(text, "set multiplot layout %zu,1 title ", plots);
     quote(text, run->model->scene->title);
-    text_add(text, " noenhanced\nset grid\nset key outside right top\nset xlabel 't [s]'\nset lmargin 12\n");
-    text_add(text, "set rmargin 24\nset xrange [");
+    text_add(text, " noenhanced\nset grid\nset key inside left top horizontal maxcols 3 samplen 2\nset "
+                   "xlabel 'time t [s]'\n");
+    text_add(text, "set lmargin 12\nset rmargin 4\nset xrange [");
     text_number(text, choice->record->times[0], digits);
     text_add(text, ":");
     text_number(text, choice->record->times[choice->record->count - 1], digits);
     text_add(text, "]\n");
     write_events(text, run);
-    for (size_t k = 0; k < choice->count; k++)
-        if (begins_plot(choice, k)) write_plot(text, choice, k);
+    write_event_names(text, choice, run);
+    for (size_t k = 0, plotted = 0; k < choice->count; k++) {
+        if (!begins_plot(choice, k)) continue;
+        if (plotted++ == 1 && run->event_count > 0) text_add(text, "unset label\n");
+        write_plot(text, choice, k);
+    }
     text_add(text, "unset multiplot\n");
 }
 

@@ -161,7 +161,7 @@ char *fbd_linearization_svg(const fbd_linearization *linearization)
     struct plane plane = {.linear = linearization};
     plane.labels.arena = &plane.arena;
     const char *title = linearization->model->scene->title;
-    svg_begin(&plane.text, (struct vec){width, height}, title[0] ? title : "Eigenvalues",
+    svg_begin(&plane.text, (struct vec){width, height}, 1, title[0] ? title : "Eigenvalues",
               "Eigenvalues of the linear system about the equilibrium, in the complex plane");
     svg_text_at(&plane.text, "heading", (struct vec){5, 9}, title[0] ? title : "Eigenvalues");
     svg_text_at(&plane.text, "note", (struct vec){5, 14}, "Eigenvalues about the equilibrium");

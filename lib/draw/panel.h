@@ -10,6 +10,7 @@
 #define FBD_DRAW_PANEL_H
 
 #include "draw/labelling.h"
+#include "draw/plates.h"
 #include "dynamics/diagram.h"
 #include "dynamics/state.h"
 #include "model/outline.h"
@@ -42,13 +43,17 @@ struct panel {
     struct pose pose;
     struct arrow *arrows; /* of the diagram */
     size_t arrow_count;
-    struct arrow_scale scale;
-    bool components;
+    struct arrow_scale scale,
+        largest; /* largest: of all bodies of the scene, beside which rounding is nothing */
+    const fbd_drawing *drawing;
+    struct plate plate;
+    const char *const *symbols; /* of the arrows, when they are asked for */
 
     struct vec middle;  /* of the body, in the world: the origin of the paper */
     double millimetres; /* on paper per unit of length of the scene */
     bool sized;         /* the body has a size, so that there is a scale of lengths */
     struct vec base;    /* slide: where it touches its surface, in the world */
+    struct vec seat;    /* wedge: the middle of what another body slides on, on paper */
 
     struct panel_arrow *drawn;
     size_t drawn_count;
@@ -83,6 +88,13 @@ void panel_line(struct panel *panel, const char *css, struct vec from, struct ve
 
 /* A label of the fixtures ("theta = 60 deg"), written at once where it is put by panel_write_notes. */
 void panel_note(struct panel *panel, const char *string, struct vec anchor, struct vec toward);
+
+/* How far along its surface, from the point that the force is told at, the line of action of what a slide's surface
+ * gives goes: the force there does what force and couple do. */
+double panel_line_of_action(const struct arrow *arrow, struct vec along);
+
+/* Is the arrow a normal force of a slide with a size, drawn at its line of action, couple and all? */
+bool panel_is_shifted(const struct panel *panel, const struct arrow *arrow);
 
 /* The largest force and moment of the body, for the scales. */
 struct arrow_scale panel_largest(const struct panel *panel);

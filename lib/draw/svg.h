@@ -43,7 +43,8 @@ void svg_text_at(struct text *text, const char *css, struct vec start, const cha
  * wider substitute. */
 double svg_text_width(const char *string, double size);
 
-/* Open the document: size on paper, style sheet, background, <title>. Close with "</svg>\n". */
-void svg_begin(struct text *text, struct vec size, const char *title, const char *description);
+/* Open the document: its size in millimetres, which are printed `scale` times as large; style sheet, background,
+ * <title>. Close with "</svg>\n". */
+void svg_begin(struct text *text, struct vec size, double scale, const char *title, const char *description);
 
 #endif

@@ -213,14 +213,12 @@ static void front(struct text *text, const fbd_cost *cost, const struct axes *ax
 
 /* ---- the methods */
 
-static const char *const colours[] = {"#000000", "#0072B2", "#D55E00", "#009E73",
-                                      "#CC79A7", "#56B4E9", "#E69F00", "#7A5195"};
+enum { colour_count = 8, marker_count = 5 };
 
-enum { colour_count = sizeof colours / sizeof *colours, marker_count = 5 };
-
-static const char *colour_of(size_t series)
+/* Its colour is that of a class, c0 to c7: another one on dark paper. */
+static int colour_of(size_t series)
 {
-    return colours[series % colour_count];
+    return (int)(series % colour_count);
 }
 
 static void marker(struct text *text, size_t series, double x, double y)
@@ -243,8 +241,7 @@ static bool curve(struct text *text, const fbd_cost *cost, const struct axes *ax
     const fbd_series *series = &cost->series[s];
     bool any = false;
     struct text marks = {0};
-    text_printf(text, "<path class=\"curve%s\" stroke=\"%s\" d=\"", series->fixed ? " fixed" : "",
-                colour_of(s));
+    text_printf(text, "<path class=\"curve%s c%d\" d=\"", series->fixed ? " fixed" : "", colour_of(s));
     for (size_t i = series->first; i < series->first + series->count; i++) {
         const fbd_point *point = &cost->points[i];
         if (!is_drawn(point)) continue;
@@ -256,8 +253,8 @@ static bool curve(struct text *text, const fbd_cost *cost, const struct axes *ax
         any = true;
     }
     if (!any) text_add(text, "M0 0");
-    text_printf(text, "\"/>\n<path class=\"marks\" fill=\"%s\" stroke=\"%s\" d=\"%s\"/>\n",
-                series->fixed ? "#ffffff" : colour_of(s), colour_of(s), any ? marks.data : "M0 0");
+    text_printf(text, "\"/>\n<path class=\"marks%s c%d\" d=\"%s\"/>\n", series->fixed ? " open" : "",
+                colour_of(s), any ? marks.data : "M0 0");
     text->failed = text->failed || marks.failed;
     text_free(&marks);
     return any;
@@ -297,13 +294,13 @@ static void names(struct text *text, const fbd_cost *cost, struct label *labels,
     for (size_t i = 0; i < count; i++) {
         const struct label *label = &labels[i];
         const fbd_series *series = &cost->series[label->series];
-        text_printf(text, "<path class=\"leader\" stroke=\"%s\" d=\"M", colour_of(label->series));
+        text_printf(text, "<path class=\"leader c%d\" d=\"M", colour_of(label->series));
         pair(text, label->x + 6, label->y);
         text_add(text, " L");
         pair(text, fmax(right + 6, label->x + 6), label->at);
         text_add(text, " h6\"/>\n");
-        text_printf(text, "<path class=\"marks\" fill=\"%s\" stroke=\"%s\" d=\"",
-                    series->fixed ? "#ffffff" : colour_of(label->series), colour_of(label->series));
+        text_printf(text, "<path class=\"marks%s c%d\" d=\"", series->fixed ? " open" : "",
+                    colour_of(label->series));
         marker(text, label->series, right + 19, label->at);
         text_add(text, "\"/>\n");
         begin_text(text, right + 28, label->at + 4, "");
@@ -333,13 +330,31 @@ static void curves(struct text *text, const fbd_cost *cost, const struct axes *a
 
 /* ---- the whole */
 
+/* For drawings of ours alone, wherever they are put; dark only on a screen. Colours are apart from the paper as text
+ * has to be, 4.5 to 1. */
 static const char style[] =
-    "text{font:13px Helvetica,Arial,sans-serif;fill:#111}.title{font-size:17px;font-weight:bold}"
-    ".small{font-size:11px;fill:#555}.grid{stroke:#dcdcdc;stroke-width:.7}.tick{stroke:#111;stroke-width:.7}"
-    ".frame{fill:none;stroke:#111}.floor{fill:#efefef}.floorline{stroke:#777;stroke-dasharray:5 3}"
+    ".fbd-cost text{font:13px Helvetica,Arial,sans-serif;fill:#111}.fbd-cost .paper{fill:#fff}"
+    ".fbd-cost .title{font-size:17px;font-weight:bold}.fbd-cost .small{font-size:11px;fill:#555}"
+    ".fbd-cost .grid{stroke:#dcdcdc;stroke-width:.7}.fbd-cost .tick{stroke:#111;stroke-width:.7}"
+    ".fbd-cost .frame{fill:none;stroke:#111}.fbd-cost .floor{fill:#efefef}"
+    ".fbd-cost .floorline{stroke:#777;stroke-dasharray:5 3}"
+    ".fbd-cost "
     ".front{fill:none;stroke:#bdbdbd;stroke-width:9;stroke-linejoin:round;stroke-linecap:round;opacity:.75}"
-    ".curve{fill:none;stroke-width:1.5;stroke-linejoin:round}.fixed{stroke-dasharray:6 3}"
-    ".marks{stroke-width:1}.leader{fill:none;stroke-width:.6;stroke-dasharray:1 2}";
+    ".fbd-cost .curve{fill:none;stroke-width:1.5;stroke-linejoin:round}"
+    ".fbd-cost .fixed{stroke-dasharray:6 3}.fbd-cost .marks{stroke-width:1;fill:currentColor}"
+    ".fbd-cost .open{fill:#fff}.fbd-cost .leader{fill:none;stroke-width:.6;stroke-dasharray:1 2}"
+    ".fbd-cost .c0{color:#000000;stroke:#000000}.fbd-cost .c1{color:#0072B2;stroke:#0072B2}"
+    ".fbd-cost .c2{color:#C04F00;stroke:#C04F00}.fbd-cost .c3{color:#00795A;stroke:#00795A}"
+    ".fbd-cost .c4{color:#A8447A;stroke:#A8447A}.fbd-cost .c5{color:#1F78A8;stroke:#1F78A8}"
+    ".fbd-cost .c6{color:#8A6200;stroke:#8A6200}.fbd-cost .c7{color:#7A5195;stroke:#7A5195}"
+    "@media screen and (prefers-color-scheme:dark){.fbd-cost text{fill:#e8e8e8}"
+    ".fbd-cost .paper,.fbd-cost .open{fill:#14171c}.fbd-cost .small{fill:#a8adb5}"
+    ".fbd-cost .grid{stroke:#333a44}.fbd-cost .tick,.fbd-cost .frame{stroke:#ccd}"
+    ".fbd-cost .floor{fill:#20262e}.fbd-cost .floorline{stroke:#99a}.fbd-cost .front{stroke:#4a525d}"
+    ".fbd-cost .c0{color:#ffffff;stroke:#ffffff}.fbd-cost .c1{color:#6fb3ec;stroke:#6fb3ec}"
+    ".fbd-cost .c2{color:#ff9466;stroke:#ff9466}.fbd-cost .c3{color:#4fd0a5;stroke:#4fd0a5}"
+    ".fbd-cost .c4{color:#f0a0cf;stroke:#f0a0cf}.fbd-cost .c5{color:#8ad4ff;stroke:#8ad4ff}"
+    ".fbd-cost .c6{color:#ffc14d;stroke:#ffc14d}.fbd-cost .c7{color:#c79be0;stroke:#c79be0}}";
 
 char *fbd_cost_svg(const fbd_cost *cost)
 {
@@ -347,12 +362,12 @@ char *fbd_cost_svg(const fbd_cost *cost)
     struct text text = {0};
     struct axes axes;
     const char *title = fbd_model_title(cost->model);
-    text_printf(
-        &text,
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" viewBox=\"0 0 %d %d\">\n"
-        "<title>What accuracy costs</title>\n<style>%s</style>\n"
-        "<rect width=\"%d\" height=\"%d\" fill=\"#ffffff\"/>\n",
-        width, height, width, height, style, width, height);
+    text_printf(&text,
+                "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"fbd-cost\" width=\"%d\" height=\"%d\" "
+                "viewBox=\"0 0 %d %d\">\n"
+                "<title>What accuracy costs</title>\n<style>%s</style>\n"
+                "<rect class=\"paper\" width=\"%d\" height=\"%d\"/>\n",
+                width, height, width, height, style, width, height);
     begin_text(&text, left, 32, " class=\"title\"");
     svg_escape(&text, title[0] ? title : "What accuracy costs");
     text_add(&text, "</text>\n");

@@ -285,11 +285,15 @@ class State(Mapping[str, float]):
             count = min(count, lib.fbd_redundant(self._handle, names, count))
             return tuple(text_at(names[i]) for i in range(count))
 
-    def svg(self, body: Optional[str] = None, components: bool = False) -> str:
-        """The free-body diagrams as an SVG document, of one body or of all; with the components of each force."""
+    def svg(self, body: Optional[str] = None, components: bool = False, *, supports: bool = False, symbols: bool = False,
+            worksheet: bool = False, solution: bool = False, scale: float = 0) -> str:
+        """The free-body diagrams as an SVG document, of one body or of all; with the components of each force, with what the
+        bodies are cut free from, with symbols instead of values, as a worksheet or its solution; 10 mm stand for `scale`."""
         name = ffi.NULL if body is None else ffi.new("char[]", bytes_of(body, "the body"))
         with self._lock:
-            drawing = ffi.new("fbd_drawing *", {"body": name, "components": bool(components)})
+            drawing = ffi.new("fbd_drawing *", {
+                "body": name, "components": bool(components), "supports": bool(supports), "symbols": bool(symbols),
+                "worksheet": bool(worksheet), "solution": bool(solution), "scale": float(scale)})
             return taken(checked(lib.fbd_diagram_svg, self._handle, drawing))
 
     def __repr__(self) -> str:

@@ -217,8 +217,10 @@ static void run(struct input *input)
 static void ask_equations(struct input *input, fbd_state *state)
 {
     fbd_drawing drawing = {.components = fuzz_take(&input->choices, 1)};
+    drawing.supports = drawing.symbols = drawing.components;
     if (!fbd_state_close(state, input->errors)) return;
     claim_text(input, "equations", fbd_equations_text(state));
+    claim_text(input, "LaTeX", fbd_equations_latex(state));
     char *svg = fbd_diagram_svg(state, &drawing, input->errors);
     if (svg || fbd_errors_failed_count(input->errors) == 0) claim_drawing(input, "diagram", svg);
     fbd_equations *equations = fbd_assemble(state);

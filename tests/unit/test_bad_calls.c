@@ -175,6 +175,7 @@ static void equations(void **context)
     ANSWERS(fbd_equation_term, is_nan(fbd_equation_term(NULL, "spring")));
     ANSWERS(fbd_equation_term, is_nan(fbd_equation_term(&first, NULL)));
     ANSWERS(fbd_equations_text, !fbd_equations_text(NULL));
+    ANSWERS(fbd_equations_latex, !fbd_equations_latex(NULL));
     ANSWERS(fbd_equations_json, !fbd_equations_json(NULL));
     fbd_equations_free(all);
     fbd_state_free(state);

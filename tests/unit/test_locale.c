@@ -89,6 +89,7 @@ static void put_state(struct text *text, const fbd_model *model, const char *nam
     assert_true(!name || fbd_state_set_text(state, name, value, NULL));
     const fbd_drawing drawing = {.components = true};
     put(text, "equations", fbd_equations_text(state));
+    put(text, "latex", fbd_equations_latex(state));
     put(text, "svg", fbd_diagram_svg(state, &drawing, NULL));
     fbd_statics *statics = fbd_statics_new(state, NULL);
     if (statics) put(text, "statics", fbd_statics_text(statics));

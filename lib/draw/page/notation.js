@@ -46,7 +46,7 @@ function math(tag, ...children) {
 
 // A symbol such as mu_k, T_cord, v_dot, I_O: one letter upright or not, what follows the line below it.
 function mathSymbol(name) {
-  const [, base, dotted, index] = /^([^_]*)(_dot)?_?(.*)$/.exec(name);
+  const [, base, dotted, index] = /^([^_]*)(_dot)?_?(.*)$/.exec(name.replace(/^v([xy])(_dot)?$/, "v$2_$1"));
   const letter = greek[base] || base, node = math("mi", letter + (dotted ? "\u0307" : ""));
   if (dotted) node.setAttribute("class", "dotted"); // of two characters, which MathML would set upright
   if (!index) return node;

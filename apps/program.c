@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "program.h"
+
+#include <errno.h>
+#include <spawn.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "complain.h"
+
+extern char **environ;
+
+bool program_is_there(const char *name)
+{
+    const char *path = getenv("PATH");
+    char place[4096];
+    for (const char *folder = path ? path : ""; *folder;) {
+        size_t length = strcspn(folder, ":");
+        int size = snprintf(place, sizeof place, "%.*s/%s", (int)length, folder, name);
+        if (size > 0 && (size_t)size < sizeof place && access(place, X_OK) == 0) return true;
+        folder += length + (folder[length] == ':');
+    }
+    return false;
+}
+
+/* The text as an unnamed file, at its start. */
+static FILE *text_file(const char *text)
+{
+    FILE *file = tmpfile();
+    if (!file) return NULL;
+    bool written = fwrite(text, 1, strlen(text), file) == strlen(text) && fflush(file) == 0;
+    if (written && fseek(file, 0, SEEK_SET) == 0) return file;
+    fclose(file);
+    return NULL;
+}
+
+/* Start it between two descriptors; what went wrong, as errno says it, or 0. */
+static int start(const char *const *arguments, int input, int output, pid_t *child)
+{
+    posix_spawn_file_actions_t actions;
+    int failed = posix_spawn_file_actions_init(&actions);
+    if (failed) return failed;
+    failed = posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+    if (!failed) failed = posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+    if (!failed)
+        failed =
+            posix_spawnp(child, arguments[0], &actions, NULL, (char *const *)(uintptr_t)arguments, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    return failed;
+}
+
+bool program_run(const char *const *arguments, const char *text, int output)
+{
+    FILE *input = text_file(text);
+    if (!input) {
+        complain("fbd-run: cannot write what %s is to read: %s", arguments[0], strerror(errno));
+        return false;
+    }
+    pid_t child;
+    int status = 1, failed = start(arguments, fileno(input), output, &child);
+    if (failed)
+        complain("fbd-run: cannot start %s: %s", arguments[0], strerror(failed));
+    else
+        while (waitpid(child, &status, 0) < 0 && errno == EINTR) errno = 0;
+    fclose(input);
+    bool done = !failed && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    if (!done && !failed) complain("fbd-run: %s failed", arguments[0]);
+    return done;
+}

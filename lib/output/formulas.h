@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Formulas: an assembled equation in the symbols of the scene (symbols.h), as one writes it by hand,
+ * "m v_dot = -m g sin(phi) - mu_k N + push".
+ *
+ * A term that is a law of a textbook stands as that law; an angle of a slide that a parameter of the file has the value
+ * of is called by that parameter. What is none keeps its symbol, with the axis where the equation has only its
+ * component: R_1x. Of a force and its opposite the one on the body that comes second has the minus sign. What is zero
+ * at the state is left out.
+ */
+#ifndef FBD_OUTPUT_FORMULAS_H
+#define FBD_OUTPUT_FORMULAS_H
+
+#include "output/equations.h"
+#include "output/symbols.h"
+
+struct formulas {
+    struct arena arena;
+    struct fbd_state *state;
+    const char *const *const *symbols;
+};
+
+/* False when memory is out; to be ended in any case. */
+bool formulas_begin(struct formulas *formulas, struct fbd_state *state);
+void formulas_end(struct formulas *formulas);
+
+/* The right side of an equation, "-m g sin(phi) + push"; and its left side, "m v_dot". NULL when memory is out. */
+const char *formula_right(struct formulas *formulas, const struct equation *equation);
+const char *formula_left(struct formulas *formulas, const struct equation *equation);
+
+#endif

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Symbols: the letters that a textbook gives to the forces of a scene: m g, N, mu_k N, T_1, R_2.
+ *
+ * A force and its opposite on another body have one symbol. Letters that stand for several forces are numbered in
+ * the order of the bodies; so are masses where there are several bodies. What the file calls by a name of its own
+ * (an applied force) keeps that name.
+ *
+ * Written plainly: factors apart by blanks, an index behind `_`, Greek letters by name.
+ */
+#ifndef FBD_OUTPUT_SYMBOLS_H
+#define FBD_OUTPUT_SYMBOLS_H
+
+#include "base/arena.h"
+#include "base/text.h"
+#include "dynamics/diagram.h"
+#include "dynamics/state.h"
+
+/* The symbols of each body's arrows, in the order of diagram_fill: symbols[body][arrow]. NULL when memory is out. */
+const char *const *const *symbols_of_forces(const struct fbd_state *state, struct arena *arena);
+
+/* The mass of a body: "m", "m_2". */
+const char *symbol_of_mass(const struct fbd_model *model, int body, struct arena *arena);
+
+/* As it is printed in a drawing: mg, μₖN, T₁. */
+const char *symbol_printed(const char *symbol, struct arena *arena);
+
+/* As LaTeX; \mathit for what is longer than a letter. */
+void symbol_write_latex(struct text *text, const char *symbol);
+
+#endif
