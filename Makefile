@@ -58,6 +58,11 @@ fuzz: $(BUILD)-fuzz/build.ninja $(BUILD)-count/build.ninja
 	tests/fuzz/run $(BUILD)-fuzz --runs=$$(($(RUNS) / 10))
 endif
 
+# Each fault of tests/mutants/list, put into a copy of the sources, has to be noticed by a test; some half an hour.
+mutants:
+	.ci/install-packages run test
+	tests/mutants/run $(BUILD)-mutants
+
 # Random scenes against the independent assembly of tests/cross, with seeds that the tests do not use.
 SCENES = 100000
 SEED = 1000000
@@ -203,5 +208,5 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars event-bars events late-times implicit impacts failures gallery python check-format format lint install uninstall dist deb deb-check clean
+.PHONY: all run mutants test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars event-bars events late-times implicit impacts failures gallery python check-format format lint install uninstall dist deb deb-check clean
 .SECONDARY:
