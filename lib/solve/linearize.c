@@ -312,6 +312,15 @@ static void move_place(struct fbd_state *state, double *place, bool back)
         memcpy(back ? ours[k] : theirs[k], back ? theirs[k] : ours[k], counts[k] * sizeof *place);
 }
 
+/* From an equilibrium that the start is already, by a little of the size of each independent coordinate, and not alike. */
+static void step_aside(const struct independent *independent, double little, double *q)
+{
+    for (size_t k = 0; k < independent->count; k++) {
+        size_t i = (size_t)independent->which[k];
+        q[i] += little * independent->size[i] * (double)(k + 1) / (double)independent->count;
+    }
+}
+
 /* The slopes where it starts, a little back from the equilibrium, and there, where the state stays. */
 static bool look_around(struct looking *looking)
 {
@@ -320,12 +329,17 @@ static bool look_around(struct looking *looking)
     double *q = looking->linear->q, *from = looking->origin;
     move_place(state, from, true);
     slopes_at(looking, looking->before);
-    for (size_t i = 0; i < plan_rates(&state->model->plan); i++) from[i] = q[i] + little * (from[i] - q[i]);
+    bool away = false;
+    for (size_t i = 0; i < plan_rates(&state->model->plan); i++) {
+        away |= from[i] != q[i];
+        from[i] = q[i] + little * (from[i] - q[i]);
+    }
+    if (!away) step_aside(&looking->independent, little, from);
     move_place(state, from, true);
-    slopes_at(looking, looking->beside);
+    bool regular = slopes_at(looking, looking->beside); /* else there is less freedom beside it */
     move_place(state, q, true);
     state_evaluate(state);
-    return slopes_at(looking, looking->there); /* leaves the Jacobian in A */
+    return slopes_at(looking, looking->there) && regular; /* leaves the Jacobian in A */
 }
 
 /* 1, or what find_matrix says: -1 out of memory, -2 another branch holds there. */

