@@ -118,7 +118,8 @@ static int stay_before_poles(struct run *run, struct moment *t)
 /* Look for the first event in (from, t] that changes the motion; on return *t is its time, with y and f
  * there. 1 found, 0 none, -1 failed. Where the event functions change so fast that the scan gives up, the
  * step is cut to what it has seen; one that is noise (it gives up at the very start) is not looked at more
- * closely. */
+ * closely. One that dips again and again, as the gaps of a pile that has just bounced do to the last digits, is cut
+ * where it did so last. */
 static int find_change(struct run *run, struct moment *t)
 {
     enum { most_dips = 8 };
@@ -146,7 +147,10 @@ static int find_change(struct run *run, struct moment *t)
         if (cut_step(run, *t) < 0) return -1;
         start = fmax(when, run->moving.t);
     }
-    return 0;
+    if (!(start < end) || start - run->from <= instant_at(start)) return 0;
+    *t = moment_at(start); /* nothing has happened up to here; beyond nobody has looked */
+    run->restart = true;
+    return cut_step(run, *t);
 }
 
 /* Log the user events in (from, t]. They are looked for when it is known how far the step goes, and change
