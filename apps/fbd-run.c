@@ -155,6 +155,21 @@ static bool data_alone(const struct options *options)
     return options->quiet || place_is_stdout(options->svg) || place_is_stdout(options->json);
 }
 
+static enum exit_code show_equations(const struct options *options, fbd_state *state)
+{
+    const bool components = options->drawing.components;
+    enum exit_code code = exit_done;
+    if (!data_alone(options))
+        code = print(options->latex ? fbd_equations_latex(state)
+                     : components   ? fbd_equations_text_components(state)
+                                    : fbd_equations_text(state),
+                     code);
+    if (code == exit_done && options->json)
+        code = write_text(options->json,
+                          components ? fbd_equations_json_components(state) : fbd_equations_json(state));
+    return code;
+}
+
 static enum exit_code show_state(const fbd_model *model, const struct options *options, fbd_errors *errors)
 {
     fbd_state *state = fbd_state_new(model);
@@ -163,9 +178,7 @@ static enum exit_code show_state(const fbd_model *model, const struct options *o
     if (code == exit_done && options->action == action_equations && !fbd_state_close(state, errors))
         code = exit_failed;
     if (code == exit_done && options->action == action_equations) {
-        if (!data_alone(options))
-            code = print(options->latex ? fbd_equations_latex(state) : fbd_equations_text(state), exit_done);
-        if (code == exit_done && options->json) code = write_text(options->json, fbd_equations_json(state));
+        code = show_equations(options, state);
         if (code == exit_done) code = draw_state(options, state, errors);
     } else if (code == exit_done && options->action == action_static) {
         code = show_statics(options, state, errors);
@@ -235,6 +248,7 @@ static enum exit_code carry_and_write(fbd_simulation *simulation, const struct o
     struct run_progress progress;
     fbd_recording recording = {.every = options->every,
                                .ledger = options->ledger,
+                               .components = options->drawing.components,
                                .csv = options->csv ? whole_file_write : NULL,
                                .csv_context = &outputs->files[output_csv],
                                .motion_only = !options->json && !report,

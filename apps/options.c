@@ -39,7 +39,7 @@ static const char help[] =
     "  --svg FILE           the free-body diagram of every body, at the start or at the time of --at;\n"
     "                       with --linearize the eigenvalues; FILE may end in .pdf or .png\n"
     "  --body NAME          of this body alone\n"
-    "  --components         with the components of each force\n"
+    "  --components         components of forces: there, or with --html, --ledger, --equations\n"
     "  --supports           with the ground and the bearings that the bodies are cut free from\n"
     "  --symbols            arrows labelled m g, N, T_1 instead of names and values\n"
     "  --scale FORCE        10 mm stand for this force, in N or lbf\n"
@@ -331,9 +331,10 @@ bool options_use_stdout(const struct options *options)
            place_is_stdout(options->emit_c);
 }
 
-static bool shapes_drawing(const fbd_drawing *drawing)
+/* `components`: something else shows these. */
+static bool shapes_drawing(const fbd_drawing *drawing, bool components)
 {
-    return drawing->body || drawing->components || drawing->supports || drawing->symbols ||
+    return drawing->body || (drawing->components && !components) || drawing->supports || drawing->symbols ||
            drawing->scale > 0 || drawing->worksheet || drawing->solution;
 }
 
@@ -382,7 +383,8 @@ static bool drawing_agrees(const struct options *options)
 {
     const fbd_drawing *drawing = &options->drawing;
     bool eigenvalues = options->action == action_linearize;
-    if (shapes_drawing(drawing) && (!options->svg || eigenvalues))
+    const bool components = options->html || options->ledger || options->action == action_equations;
+    if (shapes_drawing(drawing, components) && (!options->svg || eigenvalues))
         return usage(
             "--body, --components, --supports, --symbols, --scale, --worksheet and --solution go with the "
             "diagrams of --svg",

@@ -256,8 +256,15 @@ typedef struct fbd_equation {
 
 typedef struct fbd_equations fbd_equations;
 
-/* Assemble all equations at a state; NULL when memory is out. */
+/* Assemble the equations of all coordinates at a state; of a body without any, which is welded, those of the body
+ * cut free. Accelerations are those in the world: "a_x", "alpha" where the body moves on a body that moves. NULL
+ * when memory is out. */
 FBD_API fbd_equations *fbd_assemble(fbd_state *state);
+
+/* With Newton's and Euler's equations of every body cut free, reactions and all: "block.G.x", "block.G.y",
+ * "block.G.angle", behind those of its coordinates. On a slide that nothing joins to a body moments are not
+ * balanced: it knows no rotation. */
+FBD_API fbd_equations *fbd_assemble_components(fbd_state *state);
 FBD_API void fbd_equations_free(fbd_equations *equations);
 FBD_API size_t fbd_equations_count(const fbd_equations *equations);
 /* Equation `index`, in the order of the bodies and of their coordinates. */
@@ -459,7 +466,8 @@ typedef struct fbd_recording {
     fbd_watch *progress; /* told after every step, so it must be quick; or NULL. Ending the run there gives
                             FBD_INTERRUPTED and all outputs complete up to that time */
     void *progress_context;
-    bool table; /* keep the rows that CSV has as numbers, see fbd_result_table; 8 bytes each */
+    bool table;      /* keep the rows that CSV has as numbers, see fbd_result_table; 8 bytes each */
+    bool components; /* where forces are shown: also their components, and moments about the centre of mass */
 } fbd_recording;
 
 /* A column of the rows of a run: "t", "block.x", with error bars "block.x ±" beside it; and its unit. */
@@ -557,12 +565,14 @@ FBD_API char *fbd_emit_c(const fbd_model *model, const fbd_options *options, fbd
 /* The assembled equations, term by term, as text. To be freed with fbd_free, as all texts below; NULL when
  * memory is out. */
 FBD_API char *fbd_equations_text(fbd_state *state);
+FBD_API char *fbd_equations_text_components(fbd_state *state); /* of fbd_assemble_components */
 
 /* The same as LaTeX (amsmath), each equation in symbols of the scene and with the state's numbers. */
 FBD_API char *fbd_equations_latex(fbd_state *state);
 
 /* The same, and the free-body diagrams, as one JSON object. */
 FBD_API char *fbd_equations_json(fbd_state *state);
+FBD_API char *fbd_equations_json_components(fbd_state *state);
 
 /* The plan in words: effects that are simulated, with their number and why they are conservative or not,
  * those that are not and what would have to be listed, the right-hand side, events, structure, the method and

@@ -207,7 +207,7 @@ static bool begin_record(fbd_result *result, const fbd_recording *recording)
 {
     result->record = calloc(1, sizeof *result->record);
     return result->record &&
-           record_begin(result->record, result->simulation->ensemble, &result->ledger, recording->every);
+           record_begin(result->record, result->simulation->ensemble, &result->ledger, recording);
 }
 
 static bool record_into(fbd_result *result, const fbd_recording *recording)

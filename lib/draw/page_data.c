@@ -22,6 +22,7 @@
 #include "draw/page.h"
 #include "draw/page_json.h"
 #include "model/outline.h"
+#include "output/equations.h"
 
 enum { most_bytes = 3600 * 1024, most_listed_events = 60000, bytes_of_event = 26, most_details = 2000 };
 
@@ -147,36 +148,31 @@ static void write_coordinate_equation(struct text *text, const struct record *re
     const struct model_body *body = &model->bodies[b];
     const struct record_of_body *columns = &record->bodies[b];
     const struct label *label = &model->labels[body->first + k];
-    bool pivot = body->kind == motion_pivot, track = body->kind == motion_track,
-         jointed = columns->newton >= 0;
+    bool pivot = body->kind == motion_pivot, track = body->kind == motion_track;
     struct row row = {.coordinate = label->name,
                       .inertia = pivot    ? "I_O"
                                  : k == 2 ? "I_G"
                                           : "m",
                       .inertia_unit = label->inertia_unit,
-                      .acceleration = !jointed ? label->acceleration_name
-                                      : pivot  ? "alpha"
-                                      : track  ? "a_s"
-                                               : "a_x",
+                      .acceleration = equation_acceleration_name(model, body, k),
                       .acceleration_unit = label->acceleration_unit,
                       .unit = label->force_unit,
                       .value = pivot    ? body->I_O
                                : k == 2 ? body->inertia.I_G
                                         : body->inertia.mass,
-                      .column = !jointed ? columns->acceleration + k : columns->newton + (pivot ? 2 : 3)};
+                      .column = columns->equation + k};
     begin_equation(text, &row);
     bool first = true;
     for (size_t i = 0; i < columns->arrow_count; i++) {
         const struct record_of_arrow *arrow = &columns->arrows[i];
-        if (arrow->term >= 0 && arrow->name != body->reaction)
-            write_term(text, arrow->name, arrow->term + k, &first);
+        if (arrow->term >= 0) write_term(text, arrow->name, arrow->term + k, &first);
     }
     if (columns->moving_axis >= 0)
         write_term(text, track ? "turning along" : "moving axis", columns->moving_axis, &first);
     text_add(text, "]}");
 }
 
-/* Newton's and Euler's equations of a jointed body, reactions and all. */
+/* Newton's and Euler's equations of a body cut free, reactions and all. */
 static void write_newton_equations(struct text *text, const struct record *record, int b)
 {
     const struct fbd_model *model = record->model;
@@ -200,11 +196,11 @@ static void write_newton_equations(struct text *text, const struct record *recor
                           .unit = turns ? moment_unit(model) : force_unit(model),
                           .value = turns ? body->inertia.I_G : body->inertia.mass,
                           .column = columns->newton + part};
-        if (part > 0 || body->count == 1) text_add(text, ",");
+        if (part > 0 || body->count > 0) text_add(text, ",");
         begin_equation(text, &row);
         bool first = true;
         for (size_t i = 0; i < columns->arrow_count; i++)
-            write_term(text, columns->arrows[i].name, columns->arrows[i].force + part, &first);
+            write_term(text, columns->arrows[i].name, columns->arrows[i].components + part, &first);
         text_add(text, "]}");
     }
 }
@@ -212,13 +208,12 @@ static void write_newton_equations(struct text *text, const struct record *recor
 static void write_equations(struct text *text, const struct record *record, int b)
 {
     const struct model_body *body = &record->model->bodies[b];
-    bool jointed = record->bodies[b].newton >= 0;
     text_add(text, "\"equations\":[");
-    for (int k = 0; k < body->count && (!jointed || body->count == 1); k++) {
+    for (int k = 0; k < body->count; k++) {
         json_comma(text, (size_t)k);
         write_coordinate_equation(text, record, b, k);
     }
-    if (jointed) write_newton_equations(text, record, b);
+    if (record->components || body->count == 0) write_newton_equations(text, record, b);
     text_add(text, "],");
 }
 
@@ -277,9 +272,6 @@ static void write_body(struct text *text, const struct record *record, int b)
     text_printf(text, "\"parent\":%d,", body->parent);
     json_columns_member(text, "frame", columns->pose, 3);
     json_columns_member(text, "velocity", columns->pose + 3, 2);
-    /* the accelerations of a planar body that is not jointed are those of its centre of mass */
-    bool offset = body->kind == motion_planar && columns->newton < 0 && body->L > 0;
-    text_printf(text, "\"sloped\":%s,", offset ? "false" : "true");
     json_columns_member(text, "coordinates", columns->coordinate, body->count);
     json_columns_member(text, "rates", columns->rate, body->count);
     json_columns_member(text, "accelerations", columns->acceleration, body->count);

@@ -135,12 +135,14 @@ static void remember_start(struct record *record, const struct fbd_state *state)
     memcpy(record->turning + n, state->a, n * sizeof *record->turning);
 }
 
-bool record_begin(struct record *record, struct ensemble *run, struct ledger *ledger, double every)
+bool record_begin(struct record *record, struct ensemble *run, struct ledger *ledger,
+                  const fbd_recording *recording)
 {
     const struct fbd_model *model = run->model;
     struct fbd_state *start = ensemble_state(run);
     size_t loads = model->load_count, n = (size_t)model->plan.n;
-    *record = (struct record){.model = model, .ledger = ledger, .next = 1};
+    *record =
+        (struct record){.model = model, .ledger = ledger, .next = 1, .components = recording->components};
     record->probe = state_new(model);
     record->arrows = calloc(diagram_most_arrows(model), sizeof *record->arrows);
     record->work = calloc(loads + 1, sizeof *record->work);
@@ -149,7 +151,7 @@ bool record_begin(struct record *record, struct ensemble *run, struct ledger *le
     for (size_t i = 0; i < loads; i++)
         record->costly |= model->loads[i].potential_kind == potential_quadrature;
     if (!record_define(record, start) || !make_room(record)) return false;
-    record->every = choose_interval(run, every);
+    record->every = choose_interval(run, recording->every);
     /* The envelope starts with pieces far too small and joins them as the run goes on: it may end early. */
     double length = run->options.until - run->t;
     record->bucket = length / (double)record->bucket_count / 1024;

@@ -41,7 +41,8 @@ struct record_of_arrow {
     const char *name;
     int load;               /* -1 for a reaction */
     int arrow;              /* five columns: fx, fy, point in the body frame, couple */
-    int force, force_count; /* as in the CSV; of a jointed body x, y and the moment about G */
+    int force, force_count; /* as in the CSV */
+    int components;         /* behind or among these: x, y and the moment about G */
     int term;               /* in the equations of the coordinates, or -1 */
     int work;               /* or -1: it is counted with the body that lists it */
 };
@@ -49,8 +50,9 @@ struct record_of_arrow {
 struct record_of_body {
     int coordinate, rate, acceleration; /* first column of each */
     int pose;                           /* three columns, then two: the velocity of G */
-    int newton;                         /* jointed: a_Gx, a_Gy, alpha, a_x of a slide; else -1 */
-    int moving_axis;                    /* jointed pivot on a body: the term of its axis; else -1 */
+    int equation;                       /* the accelerations in the equations of its coordinates */
+    int newton;                         /* three columns: of G, and the angular acceleration */
+    int moving_axis;                    /* what stands beside the forces, see tree_has_more; else -1 */
     size_t arrow_count;
     struct record_of_arrow *arrows;
 };
@@ -73,8 +75,9 @@ struct record {
     size_t bucket_count;
     float *envelope; /* pieces x columns x (least, greatest) */
 
-    double every; /* interval of the regular rows */
-    long next;    /* index of the next regular row */
+    bool components; /* those of forces are to be shown */
+    double every;    /* interval of the regular rows */
+    long next;       /* index of the next regular row */
     struct ledger *ledger;
     struct fbd_state *probe;
     struct arrow *arrows;
@@ -88,7 +91,8 @@ struct record {
 };
 
 /* Set up for a run and take the row of its start. False when memory is out. */
-bool record_begin(struct record *record, struct ensemble *run, struct ledger *ledger, double every);
+bool record_begin(struct record *record, struct ensemble *run, struct ledger *ledger,
+                  const fbd_recording *recording);
 
 /* The rows of (from, run->t], which lies in the last step of every group: see ensemble_next_end. `event`:
  * some have happened at run->t. */

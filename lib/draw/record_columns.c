@@ -5,6 +5,7 @@
 #include "draw/record.h"
 #include "dynamics/tree.h"
 #include "output/equations.h"
+#include "output/force_columns.h"
 
 /* ---- definitions */
 
@@ -27,6 +28,37 @@ static const char *name_of(struct record *record, const struct model_body *body,
     return arena_printf(&record->arena, "%s.%s%s", body->name, name, suffix);
 }
 
+/* What stands in the equations of a body beside its forces, and is not the acceleration of a coordinate
+ * (output/equations.c). */
+static void define_equations(struct record *record, int b)
+{
+    static const char *const of_center[] = {"a_Gx", "a_Gy", "alpha"};
+    static const char *const of_world[] = {"ax", "ay", "alpha"};
+    const struct fbd_model *model = record->model;
+    const struct model_body *body = &model->bodies[b];
+    const struct label *labels = model->labels + body->first;
+    struct record_of_body *columns = &record->bodies[b];
+    const char *linear = model->scene->units == unit_si ? "m/s^2" : "ft/s^2";
+    bool off_center = body->kind == motion_planar && body->parent == ground_body;
+    columns->equation = columns->acceleration;
+    columns->moving_axis = -1;
+    if (!equation_has_coordinate(body)) columns->equation = (int)record->column_count;
+    for (int k = 0; k < body->count && !equation_has_coordinate(body); k++)
+        define(record, record_acceleration, b,
+               name_of(record, body, off_center ? of_center[k] : equation_acceleration_name(model, body, k),
+                       ""),
+               labels[k].acceleration_unit);
+    columns->newton = (int)record->column_count;
+    for (int k = 0; k < 3; k++)
+        define(record, record_acceleration, b, name_of(record, body, "G.", of_world[k]),
+               k == 2 ? "rad/s^2" : linear);
+    bool track = body->kind == motion_track;
+    if (tree_has_more(body))
+        columns->moving_axis =
+            define(record, record_term, b, name_of(record, body, track ? "turning_along" : "moving_axis", ""),
+                   track ? force_unit(model) : moment_unit(model));
+}
+
 static void define_motion(struct record *record, int b)
 {
     const struct fbd_model *model = record->model;
@@ -43,6 +75,7 @@ static void define_motion(struct record *record, int b)
     for (int k = 0; k < body->count; k++)
         define(record, record_acceleration, b, name_of(record, body, labels[k].acceleration_name, ""),
                labels[k].acceleration_unit);
+    define_equations(record, b);
     columns->pose = define(record, record_pose, b, name_of(record, body, "frame", ".x"), length_unit(model));
     define(record, record_pose, b, name_of(record, body, "frame", ".y"), length_unit(model));
     define(record, record_pose, b, name_of(record, body, "frame", ".angle"), "rad");
@@ -51,66 +84,41 @@ static void define_motion(struct record *record, int b)
     define(record, record_rate, b, name_of(record, body, "G", ".vy"), speed);
 }
 
-static bool is_jointed(const struct model_body *body)
-{
-    return body->place.link > 0;
-}
-
-/* What the equations of a jointed body have beside its forces (output/equations_tree.c). */
-static void define_newton(struct record *record, int b)
+/* The columns that the CSV has for a force with its components; the first of them are there without. */
+static void define_force(struct record *record, int b, const struct arrow *source,
+                         struct record_of_arrow *arrow)
 {
     const struct fbd_model *model = record->model;
-    const struct model_body *body = &model->bodies[b];
-    struct record_of_body *columns = &record->bodies[b];
-    const char *linear = model->scene->units == unit_si ? "m/s^2" : "ft/s^2";
-    columns->newton = columns->moving_axis = -1;
-    if (!is_jointed(body)) return;
-    columns->newton = define(record, record_acceleration, b, name_of(record, body, "a_Gx", ""), linear);
-    define(record, record_acceleration, b, name_of(record, body, "a_Gy", ""), linear);
-    define(record, record_acceleration, b, name_of(record, body, "alpha", ""), "rad/s^2");
-    bool track = body->kind == motion_track;
-    if (body->kind == motion_slide || track)
-        define(record, record_acceleration, b, name_of(record, body, track ? "a_s" : "a_x", ""), linear);
-    if (tree_has_more(body))
-        columns->moving_axis =
-            define(record, record_term, b, name_of(record, body, track ? "turning_along" : "moving_axis", ""),
-                   track ? force_unit(model) : moment_unit(model));
-}
-
-/* The columns that the CSV has for a force: see docs/output.md. */
-static void define_force(struct record *record, int b, struct record_of_arrow *arrow)
-{
-    const struct model_body *body = &record->model->bodies[b];
-    const char *force = force_unit(record->model), *moment = moment_unit(record->model);
+    enum force_part parts[force_parts];
     arrow->force = (int)record->column_count;
-    if (!is_jointed(body) && body->count == 1 && arrow->load >= 0) {
-        define(record, record_force, b, name_of(record, body, arrow->name, ""),
-               body->kind == motion_pivot ? moment : force);
-    } else {
-        define(record, record_force, b, name_of(record, body, arrow->name, ".x"), force);
-        define(record, record_force, b, name_of(record, body, arrow->name, ".y"), force);
-        if (is_jointed(body) || body->kind == motion_planar)
-            define(record, record_force, b, name_of(record, body, arrow->name, ".moment"), moment);
+    arrow->force_count = (int)force_columns(model, b, source, record->components, parts);
+    size_t count = force_columns(model, b, source, true, parts);
+    for (size_t k = 0; k < count; k++) {
+        const char *part = force_part_name(parts[k]);
+        int column = define(record, record_force, b,
+                            name_of(record, &model->bodies[b], arrow->name,
+                                    part[0] ? arena_printf(&record->arena, ".%s", part) : ""),
+                            force_part_unit(model, b, parts[k]));
+        if (parts[k] == force_x) arrow->components = column;
     }
-    arrow->force_count = (int)record->column_count - arrow->force;
 }
 
-/* Reactions stand in the equations of jointed bodies: some are those of others. */
-static bool has_term(const struct model_body *body, int load)
+/* What the joint of a body gives is no term of its coordinates' equations, though `normal` is named there. */
+static bool has_term(const struct fbd_model *model, int b, const struct arrow *arrow)
 {
-    return load >= 0 || is_jointed(body);
+    return arrow->load >= 0 || !arrow_is_of_joint(model, b, arrow);
 }
 
 static void define_arrow(struct record *record, int b, size_t index, struct record_of_arrow *arrow)
 {
     static const char *const parts[] = {".fx", ".fy", ".px", ".py", ".couple"};
     const struct model_body *body = &record->model->bodies[b];
-    define_force(record, b, arrow);
+    define_force(record, b, &record->arrows[index], arrow);
     arrow->arrow = (int)record->column_count;
     for (int i = 0; i < 5; i++)
         define(record, record_arrow, b, name_of(record, body, arrow->name, parts[i]), "");
     arrow->term = arrow->work = -1;
-    if (has_term(body, arrow->load)) {
+    if (has_term(record->model, b, &record->arrows[index])) {
         arrow->term = (int)record->column_count;
         for (int k = 0; k < body->count; k++)
             define(record, record_term, b, name_of(record, body, arrow->name, ".term"), "");
@@ -139,13 +147,12 @@ bool record_define(struct record *record, struct fbd_state *start)
 {
     const struct fbd_model *model = record->model;
     size_t most = 4 + (size_t)model->plan.own;
-    for (size_t b = 0; b < model->body_count; b++) most += 20 + 13 * diagram_arrows(model, (int)b);
+    for (size_t b = 0; b < model->body_count; b++) most += 25 + 14 * diagram_arrows(model, (int)b);
     record->columns = ARENA_ARRAY(&record->arena, most, struct record_column);
     record->bodies = ARENA_ARRAY(&record->arena, model->body_count, struct record_of_body);
     if (!record->columns || !record->bodies) return false;
     for (size_t b = 0; b < model->body_count; b++) {
         define_motion(record, (int)b);
-        define_newton(record, (int)b);
         if (!define_arrows(record, (int)b, start)) return false;
     }
     const char *energy = energy_unit(model);
@@ -160,13 +167,27 @@ bool record_define(struct record *record, struct fbd_state *start)
 
 /* ---- one row */
 
-static double *fill_motion(double *out, const struct model_body *body, const struct fbd_state *state,
-                           const struct instant *at, const struct pose *pose)
+/* The columns of define_equations. */
+static double *fill_equations(double *out, const struct record_of_body *columns,
+                              const struct model_body *body, const struct instant *at, const double *a)
+{
+    if (columns->equation != columns->acceleration)
+        for (int k = 0; k < body->count; k++) *out++ = equation_acceleration(body, at, a, k);
+    struct vec a_G = mass_center_acceleration(body, at, a);
+    *out++ = a_G.x;
+    *out++ = a_G.y;
+    *out++ = body_angular_acceleration(body, at, a);
+    if (columns->moving_axis >= 0) *out++ = tree_more(body, at);
+    return out;
+}
+
+static double *fill_motion(double *out, const struct record_of_body *columns, const struct model_body *body,
+                           const struct fbd_state *state, const struct instant *at, const struct pose *pose)
 {
     for (int k = 0; k < body->count; k++) *out++ = state->y[body->first + k];
     for (int k = 0; k < body->count; k++) *out++ = state->y[body->first_rate + k];
-    for (int k = 0; k < body->count; k++)
-        *out++ = is_jointed(body) ? state->a[body->first + k] : equation_acceleration(body, state, k);
+    for (int k = 0; k < body->count; k++) *out++ = state->a[body->first + k];
+    out = fill_equations(out, columns, body, at, state->a);
     *out++ = pose->origin.x;
     *out++ = pose->origin.y;
     *out++ = body_angle(body, at);
@@ -176,52 +197,25 @@ static double *fill_motion(double *out, const struct model_body *body, const str
     return out;
 }
 
-static double *fill_newton(double *out, const struct model_body *body, const struct instant *at)
+static double *fill_arrow(struct record *record, double *out, int b, const struct fbd_state *state,
+                          const struct pose *pose, size_t index, bool energies)
 {
-    if (!is_jointed(body)) return out;
-    const struct tree_state *link = &at->tree->links[body->place.link];
-    struct vec a = tree_mass_center_acceleration(body, at);
-    *out++ = a.x;
-    *out++ = a.y;
-    *out++ = tree_angular_acceleration(body, at);
-    if (body->kind == motion_slide || body->kind == motion_track) *out++ = vec_dot(link->e, a);
-    if (tree_has_more(body)) *out++ = tree_more(body, at);
-    return out;
-}
-
-/* The columns of define_force. */
-static double *fill_force(double *out, const struct model_body *body, const struct load *source,
-                          const struct arrow *arrow, struct vec G)
-{
-    if (!is_jointed(body) && body->count == 1 && source) {
-        *out++ = source->kind == load_normal ? vec_dot(arrow->force, body->n) : arrow->share[0];
-        return out;
-    }
-    *out++ = arrow->force.x;
-    *out++ = arrow->force.y;
-    if (is_jointed(body))
-        *out++ = arrow_moment(arrow, G);
-    else if (body->kind == motion_planar)
-        *out++ = arrow->share[2];
-    return out;
-}
-
-static double *fill_arrow(struct record *record, double *out, const struct model_body *body,
-                          const struct fbd_state *state, const struct pose *pose, size_t index, bool energies)
-{
+    const struct fbd_model *model = record->model;
+    const struct model_body *body = &model->bodies[b];
     const struct arrow *arrow = &record->arrows[index];
-    const struct load *source = arrow->load >= 0 ? record->model->loads[arrow->load].source : NULL;
+    const struct instant at = state_instant(state);
     struct vec G = point_motion(body, pose, body->inertia.G).p;
-    out = fill_force(out, body, source, arrow, G);
+    enum force_part parts[force_parts];
+    size_t columns = force_columns(model, b, arrow, true, parts);
+    for (size_t k = 0; k < columns; k++) *out++ = force_part_value(model, b, &at, arrow, parts[k]);
     struct vec arm = vec_sub(arrow->point, pose->origin), r = pose->rotation;
     *out++ = arrow->force.x;
     *out++ = arrow->force.y;
     *out++ = vec_dot(arm, r);
     *out++ = vec_dot(arm, vec_perp(r));
     *out++ = arrow->couple;
-    if (has_term(body, arrow->load))
-        for (int k = 0; k < body->count; k++)
-            *out++ = is_jointed(body) ? arrow->share[k] : equation_term(body, arrow, k, G);
+    if (has_term(model, b, arrow))
+        for (int k = 0; k < body->count; k++) *out++ = equation_term(body, arrow, k, G);
     if (index < (size_t)body->load_count)
         *out++ = energies ? ledger_work(record->ledger, state, (size_t)arrow->load, record->work) : NAN;
     return out;
@@ -235,10 +229,9 @@ void record_fill(struct record *record, struct fbd_state *state, bool energies)
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
         struct pose pose = body_pose(body, &at);
-        out = fill_motion(out, body, state, &at, &pose);
-        out = fill_newton(out, body, &at);
+        out = fill_motion(out, &record->bodies[b], body, state, &at, &pose);
         size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, record->arrows);
-        for (size_t i = 0; i < count; i++) out = fill_arrow(record, out, body, state, &pose, i, energies);
+        for (size_t i = 0; i < count; i++) out = fill_arrow(record, out, (int)b, state, &pose, i, energies);
     }
     fbd_energy energy = {NAN, NAN, NAN, NAN, NAN, NAN};
     if (energies) energy = ledger_energy(record->ledger, state, record->work);

@@ -82,88 +82,171 @@ struct vec drag_of_load(const struct model_load *load, struct vec v, const struc
     return vec_add(f, (struct vec){formula_value(&load->fx, at), formula_value(&load->fy, at)});
 }
 
-static struct vec link_or_line_force(const struct model_body *body, const struct model_load *load,
-                                     struct motion_of_point point, const struct instant *at)
+/* Where the joint of a body is and the direction of its +x: those of its link, or of its line or axis on the
+ * ground. `turning`: the angle that a body turns by per length of its track. */
+struct joint {
+    struct vec p, e;
+    double turning;
+};
+
+static struct joint joint_of(const struct model_body *body, const struct instant *at)
 {
-    const struct load *source = load->source;
-    if (load->linked) {
-        struct link_law law = {load->anchor, source->stiffness, source->free_length, source->coefficient};
-        return link_force(&law, point);
+    if (body->place.link > 0) {
+        const struct tree_state *s = &at->tree->links[body->place.link];
+        return (struct joint){s->p, s->e, s->turning};
     }
-    double stretch = at->y[body->first] - source->free_length;
-    return vec_scale(-(source->stiffness * stretch + source->coefficient * at->y[body->first_rate]), body->e);
+    if (body->kind == motion_slide) return (struct joint){body->origin, body->e, 0};
+    if (body->kind == motion_pivot) return (struct joint){body->origin, {1, 0}, 0};
+    return (struct joint){{at->y[body->first], at->y[body->first + 1]}, {1, 0}, 0};
 }
 
-/* -dV/dq of each of the body's coordinates: a force in the plane, a force along the slide, a moment about the
- * axis. */
+struct vec body_direction(const struct model_body *body, const struct instant *at)
+{
+    return joint_of(body, at).e;
+}
+
+/* What acts along the line of a slide or track, `f`; what goes along a curve acts where the curve is. */
+static void act_along(const struct model_body *body, const struct joint *joint, double f, struct arrow *arrow)
+{
+    arrow->force = vec_scale(f, joint->e);
+    if (body->kind == motion_track) arrow->point = joint->p;
+}
+
+static void spring_arrow(const struct fbd_model *model, const struct model_load *load,
+                         const struct joint *joint, struct motion_of_point point, const struct instant *at,
+                         struct arrow *arrow)
+{
+    const struct load *source = load->source;
+    const struct model_body *body = &model->bodies[load->body];
+    if (load->linked) {
+        struct motion_of_point end = other_end(model, load, at);
+        struct link_law law = {{0, 0}, source->stiffness, source->free_length, source->coefficient};
+        arrow->force =
+            link_force(&law, (struct motion_of_point){vec_sub(point.p, end.p), vec_sub(point.v, end.v)});
+        return;
+    }
+    double stretch = at->y[body->first] - source->free_length;
+    act_along(body, joint, -(source->stiffness * stretch + source->coefficient * at->y[body->first_rate]),
+              arrow);
+}
+
+/* -dV/dq of each of the body's coordinates, in the directions of its joint; V is a function of where that is. */
 static void potential_arrow(const struct model_body *body, const struct model_load *load,
-                            const struct instant *at, struct arrow *arrow)
+                            const struct joint *joint, const struct instant *at, struct arrow *arrow)
 {
     double f[most_coordinates_of_a_body] = {0};
-    if (load->potential.expr)
-        for (int k = 0; k < body->count; k++) {
-            expr_eval_slot(load->potential.expr, at->t, at->y, 1 + body->first + k,
-                           formula_branches(&load->potential, at), &f[k]);
-            f[k] = -f[k];
-        }
-    if (body->kind == motion_slide) arrow->force = vec_scale(f[0], body->e);
+    for (int k = 0; load->potential.expr && k < body->count; k++) {
+        expr_eval_slot(load->potential.expr, at->t, at->y, 1 + body->first + k,
+                       formula_branches(&load->potential, at), &f[k]);
+        f[k] = -f[k];
+    }
+    if (body->kind == motion_slide || body->kind == motion_track) act_along(body, joint, f[0], arrow);
     if (body->kind == motion_pivot) arrow->couple = f[0];
-    if (body->count > 1) arrow->force = (struct vec){f[0], f[1]};
-    if (body->kind == motion_planar) { /* V is a function of the frame's origin */
-        arrow->point = (struct vec){at->y[body->first], at->y[body->first + 1]};
+    if (body->count > 1) {
+        arrow->force = vec_turn(joint->e, (struct vec){f[0], f[1]});
+        arrow->point = joint->p;
         arrow->couple = f[2];
     }
 }
 
-static void set_arrow(const struct fbd_model *model, const struct model_body *body,
-                      const struct model_load *load, const struct pose *pose, const struct instant *at,
-                      const double *slots, struct arrow *arrow)
+static void drive_arrow(const struct fbd_model *model, const struct model_body *body,
+                        const struct joint *joint, const double *slots, struct arrow *arrow)
 {
+    double drive = -slots[model->plan.frictions[body->drive_pair].hold_slot];
+    if (body->kind == motion_pivot)
+        arrow->couple = drive;
+    else
+        act_along(body, joint, drive, arrow);
+}
+
+static struct arrow posed_arrow(const struct fbd_model *model, int index, const struct pose *pose,
+                                const struct instant *at, const double *slots)
+{
+    const struct model_load *load = &model->loads[index];
+    const struct model_body *body = &model->bodies[load->body];
     const struct load *source = load->source;
+    const struct joint joint = joint_of(body, at);
     struct motion_of_point point = point_motion(body, pose, load->point);
-    arrow->point = load_place(load, point.p, at);
+    struct arrow arrow = {.name = source->name, .load = index, .point = load_place(load, point.p, at)};
     switch (source->kind) {
-    case load_gravity: arrow->force = vec_scale(body->inertia.mass, model->scene->gravity); break;
-    case load_drive:
+    case load_gravity: arrow.force = vec_scale(body->inertia.mass, model->scene->gravity); break;
+    case load_drive: drive_arrow(model, body, &joint, slots, &arrow); break;
     case load_rope:
     case load_belt:
     case load_contact:
     case load_normal: break; /* a reaction: set from the sum of the others */
     case load_friction:
-        arrow->force = vec_scale(friction_at(model, body->friction, at, slots).force, body->e);
+        act_along(body, &joint, friction_at(model, body->friction, at, slots).force, &arrow);
         break;
-    case moment_friction: arrow->couple = friction_at(model, body->friction, at, slots).force; break;
-    case load_applied: arrow->force = applied_force(load, pose, at); break;
+    case moment_friction: arrow.couple = friction_at(model, body->friction, at, slots).force; break;
+    case load_applied: arrow.force = applied_force(load, pose, at); break;
     case load_spring:
-    case load_damper: arrow->force = link_or_line_force(body, load, point, at); break;
-    case load_drag: arrow->force = drag_of_load(load, point.v, at); break;
+    case load_damper: spring_arrow(model, load, &joint, point, at, &arrow); break;
+    case load_drag: arrow.force = drag_of_load(load, point.v, at); break;
     case load_potential:
-    case moment_potential: potential_arrow(body, load, at, arrow); break;
-    case moment_applied: arrow->couple = formula_value(&load->value, at); break;
+    case moment_potential: potential_arrow(body, load, &joint, at, &arrow); break;
+    case moment_applied: arrow.couple = formula_value(&load->value, at); break;
     case moment_spring:
-        arrow->couple = -source->stiffness * (at->y[body->first + body->count - 1] - source->free_length);
+        arrow.couple = -source->stiffness * (at->y[body->first + body->count - 1] - source->free_length);
         break;
     case moment_damper:
-        arrow->couple = -source->coefficient * at->y[body->first_rate + body->count - 1];
+        arrow.couple = -source->coefficient * at->y[body->first_rate + body->count - 1];
         break;
     }
+    return arrow;
+}
+
+struct arrow load_arrow(const struct fbd_model *model, int index, const struct instant *at,
+                        const double *slots)
+{
+    struct pose pose = body_pose(&model->bodies[model->loads[index].body], at);
+    return posed_arrow(model, index, &pose, at, slots);
 }
 
 /* ---- shares and reactions */
 
-static void set_share(const struct model_body *body, const struct pose *pose, struct arrow *arrow)
+bool arrow_is_of_joint(const struct fbd_model *model, int b, const struct arrow *arrow)
 {
-    struct motion_of_point point = {.p = arrow->point};
-    add_force(body, pose, point, arrow->force, arrow->share);
-    if (body->kind == motion_pivot || body->kind == motion_planar)
-        arrow->share[body->count - 1] += arrow->couple;
+    const struct model_body *body = &model->bodies[b];
+    if (arrow->load < 0) return body->place.link == 0 || arrow->name == body->reaction;
+    return model->loads[arrow->load].body == b && model->loads[arrow->load].source->kind == load_normal;
 }
 
-static double share_power(const struct model_body *body, const struct instant *at, const struct arrow *arrow)
+/* What the joint gives acts across its coordinates. */
+static void set_share(const struct fbd_model *model, int b, const struct instant *at, struct arrow *arrow)
+{
+    const struct model_body *body = &model->bodies[b];
+    const struct joint joint = joint_of(body, at);
+    double moment = arrow_moment(arrow, joint.p);
+    for (int k = 0; k < most_coordinates_of_a_body; k++) arrow->share[k] = 0;
+    if (arrow_is_of_joint(model, b, arrow)) return;
+    switch (body->kind) {
+    case motion_slide: arrow->share[0] = vec_dot(joint.e, arrow->force); break;
+    case motion_track: arrow->share[0] = vec_dot(joint.e, arrow->force) + joint.turning * moment; break;
+    case motion_pivot: arrow->share[0] = moment; break;
+    case motion_planar:
+        arrow->share[2] = moment; /* and */
+        /* fall through */
+    case motion_particle:
+        arrow->share[0] = vec_dot(joint.e, arrow->force);
+        arrow->share[1] = vec_cross(joint.e, arrow->force);
+        break;
+    case motion_weld: break;
+    }
+}
+
+/* On the ground the coordinates are all the motion that there is; else the point and the turning of its link. */
+static double power_of(const struct model_body *body, const struct instant *at, const struct arrow *arrow)
 {
     double power = 0;
-    for (int k = 0; k < body->count; k++) power += arrow->share[k] * at->y[body->first_rate + k];
-    return power;
+    if (body->place.link == 0) {
+        for (int k = 0; k < body->count; k++) power += arrow->share[k] * at->y[body->first_rate + k];
+        return power;
+    }
+    const struct tree_state *s = &at->tree->links[body->place.link];
+    struct vec arm = vec_sub(arrow->point, s->p);
+    struct vec v = vec_add(s->v, vec_scale(s->omega, vec_perp(arm)));
+    return vec_dot(arrow->force, v) + arrow->couple * s->omega;
 }
 
 /* The force that keeps the body on its axis or line: m a_G minus all that is listed; on a line, across it
@@ -176,36 +259,47 @@ static struct vec guiding_force(const struct model_body *body, const struct inst
     return body->kind == motion_pivot ? reaction : vec_scale(vec_dot(reaction, body->n), body->n);
 }
 
+/* Add the reaction of a guide or an axis on the ground, or give it to the `normal` that is listed. */
+static size_t add_guide(const struct fbd_model *model, const struct model_body *body,
+                        const struct instant *at, const double *a, struct arrow *arrows, size_t count)
+{
+    const bool pivot = body->kind == motion_pivot;
+    struct vec listed = {0, 0};
+    struct arrow *normal = NULL;
+    if (!pivot && body->kind != motion_slide) return count;
+    for (size_t i = 0; i < count; i++) {
+        if (model->loads[arrows[i].load].source->kind == load_normal) normal = &arrows[i];
+        listed = vec_add(listed, arrows[i].force);
+    }
+    struct vec reaction = guiding_force(body, at, a, listed);
+    if (normal) {
+        normal->force = reaction;
+        return count;
+    }
+    struct pose pose = body_pose(body, at);
+    arrows[count] =
+        (struct arrow){.name = pivot ? "pin" : "guide",
+                       .load = -1,
+                       .force = reaction,
+                       .point = pivot ? body->origin : point_motion(body, &pose, body->inertia.G).p};
+    return count + 1;
+}
+
 size_t diagram_fill(const struct fbd_model *model, int index, const struct instant *at, const double *a,
                     const double *slots, struct arrow *arrows)
 {
     const struct model_body *body = &model->bodies[index];
-    if (body->place.link > 0) return tree_diagram_fill(model, index, at, slots, arrows);
-    struct pose pose = body_pose(body, at);
-    struct vec listed = {0, 0};
-    int normal = -1;
-    for (int i = 0; i < body->load_count; i++) {
-        const struct model_load *load = &model->loads[body->first_load + i];
-        arrows[i] = (struct arrow){.name = load->source->name, .load = body->first_load + i};
-        if (load->source->kind == load_normal) normal = i;
-        set_arrow(model, body, load, &pose, at, slots, &arrows[i]);
-        listed = vec_add(listed, arrows[i].force);
-        set_share(body, &pose, &arrows[i]);
-        arrows[i].power = share_power(body, at, &arrows[i]);
-    }
+    const struct pose pose = body_pose(body, at);
     size_t count = (size_t)body->load_count;
-    bool guided = body->kind == motion_slide || body->kind == motion_pivot;
-    if (!guided) return count;
-    struct vec reaction = guiding_force(body, at, a, listed);
-    if (normal >= 0) {
-        arrows[normal].force = reaction;
-        return count;
+    for (size_t i = 0; i < count; i++)
+        arrows[i] = posed_arrow(model, body->first_load + (int)i, &pose, at, slots);
+    if (body->place.link > 0)
+        count = tree_diagram_add(model, index, at, slots, arrows);
+    else
+        count = add_guide(model, body, at, a, arrows, count);
+    for (size_t i = 0; i < count; i++) {
+        set_share(model, index, at, &arrows[i]);
+        arrows[i].power = power_of(body, at, &arrows[i]);
     }
-    struct vec where =
-        body->kind == motion_pivot ? body->origin : point_motion(body, &pose, body->inertia.G).p;
-    arrows[count] = (struct arrow){.name = body->kind == motion_pivot ? "pin" : "guide",
-                                   .load = -1,
-                                   .force = reaction,
-                                   .point = where};
-    return count + 1;
+    return count;
 }

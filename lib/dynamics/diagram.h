@@ -57,11 +57,21 @@ struct balance balance_of(const struct model_body *body, const struct instant *a
 struct motion_of_point other_end(const struct fbd_model *model, const struct model_load *load,
                                  const struct instant *at);
 
-/* diagram_fill for a jointed body (tree_diagram.c): what it lists, the couplings that hold it, the force of
- * its joint, and the opposite of what acts in the joints of the bodies that move on it. Its shares are those
- * of its own joint. */
-size_t tree_diagram_fill(const struct fbd_model *model, int index, const struct instant *at,
-                         const double *slots, struct arrow *arrows);
+/* For a jointed body, behind what it lists (tree_diagram.c): the couplings that hold it, the force of its
+ * joint, and the opposite of what acts in the joints of the bodies that move on it; a listed `normal` gets its
+ * force. Returns the number of all arrows. */
+size_t tree_diagram_add(const struct fbd_model *model, int index, const struct instant *at,
+                        const double *slots, struct arrow *arrows);
+
+/* A load as an arrow on the body that has it; of a reaction only name and point. */
+struct arrow load_arrow(const struct fbd_model *model, int index, const struct instant *at,
+                        const double *slots);
+
+/* The direction of +x of its motion in the world; (1, 0) on the ground for what is on no line. */
+struct vec body_direction(const struct model_body *body, const struct instant *at);
+
+/* Is it what the joint of body b itself gives, its `normal` included? It does nothing along the coordinates. */
+bool arrow_is_of_joint(const struct fbd_model *model, int b, const struct arrow *arrow);
 
 /* The acceleration of the body's centre of mass. */
 struct vec mass_center_acceleration(const struct model_body *body, const struct instant *at, const double *a);

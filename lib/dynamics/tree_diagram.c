@@ -8,7 +8,6 @@
  */
 #include "dynamics/constraint.h"
 #include "dynamics/diagram.h"
-#include "dynamics/laws.h"
 
 static const struct tree_state *link_of(const struct model_body *body, const struct instant *at)
 {
@@ -65,91 +64,6 @@ double tree_more(const struct model_body *body, const struct instant *at)
     if (body->kind == motion_pivot) return -body->inertia.mass * vec_cross(r, s->A.a);
     struct vec f = vec_scale(body->inertia.mass, tree_mass_center_acceleration(body, at));
     return -s->turning * (body->inertia.I_G * tree_angular_acceleration(body, at) + vec_cross(r, f));
-}
-
-/* ---- listed loads */
-
-/* -dV/dq of each coordinate: in the joint's directions. */
-static void potential_arrow(const struct model_body *body, const struct model_load *load,
-                            const struct instant *at, struct arrow *arrow)
-{
-    const struct tree_state *s = link_of(body, at);
-    double f[most_coordinates_of_a_body] = {0};
-    for (int k = 0; load->potential.expr && k < body->count; k++) {
-        expr_eval_slot(load->potential.expr, at->t, at->y, 1 + body->first + k,
-                       formula_branches(&load->potential, at), &f[k]);
-        f[k] = -f[k];
-    }
-    if (is_guided(body)) arrow->force = vec_scale(f[0], s->e);
-    if (body->kind == motion_track) arrow->point = guide_point(body, at);
-    if (body->kind == motion_pivot) arrow->couple = f[0];
-    if (body->count > 1) {
-        arrow->force = vec_turn(s->e, (struct vec){f[0], f[1]});
-        arrow->point = s->p;
-        arrow->couple = f[2];
-    }
-}
-
-static struct vec spring_force(const struct fbd_model *model, const struct model_body *body,
-                               const struct model_load *load, struct motion_of_point point,
-                               const struct instant *at)
-{
-    const struct load *source = load->source;
-    if (!load->linked) {
-        double stretch = at->y[body->first] - source->free_length;
-        double f = -(source->stiffness * stretch + source->coefficient * at->y[body->first_rate]);
-        return vec_scale(f, link_of(body, at)->e);
-    }
-    struct motion_of_point end = other_end(model, load, at);
-    struct link_law law = {{0, 0}, source->stiffness, source->free_length, source->coefficient};
-    return link_force(&law, (struct motion_of_point){vec_sub(point.p, end.p), vec_sub(point.v, end.v)});
-}
-
-static struct arrow load_arrow(const struct fbd_model *model, int index, const struct instant *at,
-                               const double *slots)
-{
-    const struct model_load *load = &model->loads[index];
-    const struct model_body *body = &model->bodies[load->body];
-    const struct load *source = load->source;
-    struct pose pose = body_pose(body, at);
-    struct motion_of_point point = point_motion(body, &pose, load->point);
-    struct arrow arrow = {.name = source->name, .load = index, .point = load_place(load, point.p, at)};
-    switch (source->kind) {
-    case load_gravity: arrow.force = vec_scale(body->inertia.mass, model->scene->gravity); break;
-    case load_drive: {
-        double drive = -slots[model->plan.frictions[body->drive_pair].hold_slot];
-        if (body->kind == motion_pivot) arrow.couple = drive;
-        if (is_guided(body)) arrow.force = vec_scale(drive, link_of(body, at)->e);
-        if (body->kind == motion_track) arrow.point = guide_point(body, at);
-        break;
-    }
-    case load_rope:
-    case load_belt:
-    case load_contact:
-    case load_normal: break; /* a reaction: see below */
-    case load_friction:
-        arrow.force = vec_scale(friction_at(model, body->friction, at, slots).force, link_of(body, at)->e);
-        if (body->kind == motion_track) arrow.point = guide_point(body, at);
-        break;
-    case moment_friction: arrow.couple = friction_at(model, body->friction, at, slots).force; break;
-    case load_applied: arrow.force = applied_force(load, &pose, at); break;
-    case load_spring:
-    case load_damper:
-        arrow.force = spring_force(model, body, load, point, at);
-        if (!load->linked && body->kind == motion_track) arrow.point = guide_point(body, at);
-        break;
-    case load_drag: arrow.force = drag_of_load(load, point.v, at); break;
-    case load_potential:
-    case moment_potential: potential_arrow(body, load, at, &arrow); break;
-    case moment_applied: arrow.couple = formula_value(&load->value, at); break;
-    case moment_spring:
-        arrow.couple = -source->stiffness * (at->y[body->first + body->count - 1] - source->free_length);
-        break;
-    case moment_damper:
-        arrow.couple = -source->coefficient * at->y[body->first_rate + body->count - 1];
-        break;
-    }
-    return arrow;
 }
 
 static struct arrow opposite(struct arrow arrow, const char *name)
@@ -366,29 +280,6 @@ static struct arrow reaction_arrow(const struct fbd_model *model, int b, const s
 
 /* ---- the whole */
 
-static void set_share(const struct model_body *body, const struct instant *at, struct arrow *arrow)
-{
-    const struct tree_state *s = link_of(body, at);
-    double moment = arrow_moment(arrow, s->p);
-    for (int k = 0; k < most_coordinates_of_a_body; k++) arrow->share[k] = 0;
-    if (is_guided(body)) arrow->share[0] = vec_dot(s->e, arrow->force);
-    if (body->kind == motion_track) arrow->share[0] += s->turning * moment;
-    if (body->kind == motion_pivot) arrow->share[0] = moment;
-    if (body->count > 1) {
-        arrow->share[0] = vec_dot(s->e, arrow->force);
-        arrow->share[1] = vec_cross(s->e, arrow->force);
-        if (body->count > 2) arrow->share[2] = moment;
-    }
-}
-
-static void set_power(const struct instant *at, const struct model_body *body, struct arrow *arrow)
-{
-    const struct tree_state *s = link_of(body, at);
-    struct vec arm = vec_sub(arrow->point, s->p);
-    struct vec v = vec_add(s->v, vec_scale(s->omega, vec_perp(arm)));
-    arrow->power = vec_dot(arrow->force, v) + arrow->couple * s->omega;
-}
-
 /* The forces in the joint of child c, as the body that it moves on feels them. */
 static size_t fill_child(const struct fbd_model *model, int c, const struct instant *at, const double *slots,
                          struct arrow *arrows)
@@ -412,20 +303,17 @@ static size_t fill_child(const struct fbd_model *model, int c, const struct inst
     return count;
 }
 
-size_t tree_diagram_fill(const struct fbd_model *model, int index, const struct instant *at,
-                         const double *slots, struct arrow *arrows)
+size_t tree_diagram_add(const struct fbd_model *model, int index, const struct instant *at,
+                        const double *slots, struct arrow *arrows)
 {
     const struct model_body *body = &model->bodies[index];
-    size_t count = 0;
-    for (int i = body->first_load; i < body->first_load + body->load_count; i++) {
-        arrows[count] = load_arrow(model, i, at, slots);
-        if (model->loads[i].source->kind == load_normal) {
-            const char *name = arrows[count].name;
-            arrows[count] = slide_reaction(model, body, at, slots);
-            arrows[count].name = name;
-            arrows[count].load = i;
-        }
-        count++;
+    size_t count = (size_t)body->load_count;
+    for (size_t i = 0; i < count; i++) {
+        if (model->loads[arrows[i].load].source->kind != load_normal) continue;
+        const struct arrow listed = arrows[i];
+        arrows[i] = slide_reaction(model, body, at, slots);
+        arrows[i].name = listed.name;
+        arrows[i].load = listed.load;
     }
     for (size_t i = model->listed_count; i < model->coupled_count; i++) {
         const struct model_load *load = &model->loads[i];
@@ -441,10 +329,6 @@ size_t tree_diagram_fill(const struct fbd_model *model, int index, const struct 
     if (body->reaction) arrows[count++] = reaction_arrow(model, index, at, slots);
     for (int c = body->child; c >= 0; c = model->bodies[c].sibling)
         count += fill_child(model, c, at, slots, arrows + count);
-    for (size_t i = 0; i < count; i++) {
-        set_share(body, at, &arrows[i]);
-        set_power(at, body, &arrows[i]);
-    }
     return count;
 }
 

@@ -5,12 +5,12 @@
 #include <string.h>
 
 #include "output/finite_result.h"
+#include "output/force_columns.h"
 #include "output/world.h"
 
 enum { default_rows = 500 };
 
-/* ---- columns of forces: a slide shows the component along itself (normal force: across), a pivot the moment
- * about its axis, a body in the plane its components */
+/* ---- columns */
 
 static void head(struct csv *csv, const char *name, const char *unit)
 {
@@ -32,57 +32,27 @@ static void header(struct csv *csv, const char *a, const char *b, const char *pa
     }
 }
 
-static void force_headers(struct csv *csv, const struct model_body *body, const char *name)
-{
-    const char *force = force_unit(csv->model), *moment = moment_unit(csv->model);
-    if (body->count == 1) {
-        header(csv, body->name, name, "", body->kind == motion_pivot ? moment : force);
-        return;
-    }
-    header(csv, body->name, name, "x", force);
-    header(csv, body->name, name, "y", force);
-    if (body->kind == motion_planar) header(csv, body->name, name, "moment", moment);
-}
-
-/* A jointed body has its whole diagram: components and moment about its centre of mass of every force. */
 static void diagram_headers(struct csv *csv, int b, const struct fbd_state *start)
 {
     const struct fbd_model *model = csv->model;
     const struct model_body *body = &model->bodies[b];
-    const char *force = force_unit(model), *moment = moment_unit(model);
     struct instant at = state_instant(start);
     size_t count = diagram_fill(model, b, &at, start->a, start->slots, csv->arrows);
     for (size_t i = 0; i < count; i++) {
+        enum force_part parts[force_parts];
         const char *name = csv->arrows[i].name;
-        header(csv, body->name, name, "x", force);
-        header(csv, body->name, name, "y", force);
-        header(csv, body->name, name, "moment", moment);
+        size_t columns = force_columns(model, b, &csv->arrows[i], csv->recording->components, parts);
+        for (size_t k = 0; k < columns; k++)
+            header(csv, body->name, name, force_part_name(parts[k]), force_part_unit(model, b, parts[k]));
         if (i < (size_t)body->load_count) header(csv, body->name, name, "work", energy_unit(model));
     }
 }
 
 static void ledger_headers(struct csv *csv, const struct fbd_state *start)
 {
-    const struct fbd_model *model = csv->model;
-    const char *energy = energy_unit(model);
-    for (size_t b = 0; b < model->body_count; b++) {
-        const struct model_body *body = &model->bodies[b];
-        if (body->place.link > 0) {
-            diagram_headers(csv, (int)b, start);
-            continue;
-        }
-        for (int i = 0; i < body->load_count; i++) {
-            const char *name = model->loads[body->first_load + i].source->name;
-            force_headers(csv, body, name);
-            header(csv, body->name, name, "work", energy);
-        }
-        if (body->kind == motion_pivot) {
-            header(csv, body->name, "pin", "x", force_unit(model));
-            header(csv, body->name, "pin", "y", force_unit(model));
-        }
-    }
     static const char *const energies[] = {"kinetic", "potential", "work", "residual"};
-    for (int k = 0; k < 4; k++) header(csv, "energy", energies[k], "", energy);
+    for (size_t b = 0; b < csv->model->body_count; b++) diagram_headers(csv, (int)b, start);
+    for (int k = 0; k < 4; k++) header(csv, "energy", energies[k], "", energy_unit(csv->model));
 }
 
 static void headers(struct csv *csv, const struct fbd_state *start)
@@ -134,19 +104,6 @@ static void value(struct csv *csv, double main, double other)
     if (csv->bars) error(csv, bars_difference(csv->bars, main, other));
 }
 
-static double shown_force(const struct csv *csv, const struct model_body *body, const struct arrow *arrow)
-{
-    bool normal = csv->model->loads[arrow->load].source->kind == load_normal;
-    return normal ? vec_dot(arrow->force, body->n) : arrow->share[0];
-}
-
-static void force_values(struct csv *csv, const struct model_body *body, const struct arrow *arrow,
-                         const struct arrow *other)
-{
-    value(csv, shown_force(csv, body, arrow), shown_force(csv, body, other));
-    for (int k = 1; k < body->count; k++) value(csv, arrow->share[k], other->share[k]);
-}
-
 static void work_value(struct csv *csv, size_t load, const struct fbd_state *state)
 {
     double work = ledger_work(csv->ledger, state, load, csv->work);
@@ -154,55 +111,27 @@ static void work_value(struct csv *csv, size_t load, const struct fbd_state *sta
     if (csv->bars) error(csv, bars_work(csv->bars, load, work));
 }
 
-static void body_values(struct csv *csv, size_t b, const struct fbd_state *state)
-{
-    const struct model_body *body = &csv->model->bodies[b];
-    struct instant at = state_instant(state);
-    diagram_fill(csv->model, (int)b, &at, state->a, state->slots, csv->arrows);
-    const struct arrow *others = csv->bars ? bars_diagram(csv->bars, (int)b) : csv->arrows;
-    for (int i = 0; i < body->load_count; i++) {
-        force_values(csv, body, &csv->arrows[i], &others[i]);
-        work_value(csv, (size_t)csv->arrows[i].load, state);
-    }
-    if (body->kind == motion_pivot) {
-        value(csv, csv->arrows[body->load_count].force.x, others[body->load_count].force.x);
-        value(csv, csv->arrows[body->load_count].force.y, others[body->load_count].force.y);
-    }
-}
-
-/* Where the moments of its diagram are taken about. */
-static struct vec mass_center(const struct model_body *body, const struct fbd_state *state)
-{
-    struct instant at = state_instant(state);
-    struct pose pose = body_pose(body, &at);
-    return point_motion(body, &pose, body->inertia.G).p;
-}
-
 static void diagram_values(struct csv *csv, int b, const struct fbd_state *state)
 {
     const struct fbd_model *model = csv->model;
     const struct model_body *body = &model->bodies[b];
     struct instant at = state_instant(state);
-    struct vec G = mass_center(body, state), other_G = csv->bars ? mass_center(body, csv->bars->state) : G;
+    struct instant other_at = csv->bars ? state_instant(csv->bars->state) : at;
     size_t count = diagram_fill(model, b, &at, state->a, state->slots, csv->arrows);
     const struct arrow *others = csv->bars ? bars_diagram(csv->bars, b) : csv->arrows;
     for (size_t i = 0; i < count; i++) {
-        const struct arrow *arrow = &csv->arrows[i], *other = &others[i];
-        value(csv, arrow->force.x, other->force.x);
-        value(csv, arrow->force.y, other->force.y);
-        value(csv, arrow_moment(arrow, G), arrow_moment(other, other_G));
-        if (i < (size_t)body->load_count) work_value(csv, (size_t)arrow->load, state);
+        enum force_part parts[force_parts];
+        size_t columns = force_columns(model, b, &csv->arrows[i], csv->recording->components, parts);
+        for (size_t k = 0; k < columns; k++)
+            value(csv, force_part_value(model, b, &at, &csv->arrows[i], parts[k]),
+                  force_part_value(model, b, &other_at, &others[i], parts[k]));
+        if (i < (size_t)body->load_count) work_value(csv, (size_t)csv->arrows[i].load, state);
     }
 }
 
 static void ledger_values(struct csv *csv, const struct fbd_state *state)
 {
-    for (size_t b = 0; b < csv->model->body_count; b++) {
-        if (csv->model->bodies[b].place.link > 0)
-            diagram_values(csv, (int)b, state);
-        else
-            body_values(csv, b, state);
-    }
+    for (size_t b = 0; b < csv->model->body_count; b++) diagram_values(csv, (int)b, state);
     fbd_energy energy = ledger_energy(csv->ledger, state, csv->work), errors = energy;
     if (csv->bars) errors = bars_energy(csv->bars, &energy);
     number(csv, energy.kinetic);

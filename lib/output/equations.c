@@ -1,4 +1,15 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The equations of a body. First those of its coordinates, in which what its own joint gives does not stand:
+ * of a slide the forces along it, m v_dot = sum of f_x; of a pivot the moments about its axis O. A joint on
+ * another body may accelerate itself, and the accelerations are then those in the world: a_x is the component
+ * of a_G along x, and
+ *
+ *     I_O alpha = sum of moments about O - m r_OG x a_O
+ *
+ * Then, where they are asked for and of a body without coordinates, Newton's and Euler's for the body cut free,
+ * reactions and all: m a_G = sum of forces, I_G alpha = sum of moments about G.
+ */
 #include "output/equations.h"
 
 #include <stdlib.h>
@@ -6,6 +17,8 @@
 
 #include "dynamics/diagram.h"
 #include "dynamics/modes.h"
+#include "dynamics/tree.h"
+#include "output/result.h"
 
 void state_ready(struct fbd_state *state)
 {
@@ -15,62 +28,151 @@ void state_ready(struct fbd_state *state)
         modes_settle(state, NULL);
 }
 
+/* ---- accelerations and shares */
+
+double body_angular_acceleration(const struct model_body *body, const struct instant *at, const double *a)
+{
+    if (body->place.link > 0) return tree_angular_acceleration(body, at);
+    return body->kind == motion_pivot || body->kind == motion_planar ? a[body->first + body->count - 1] : 0;
+}
+
+bool equation_has_coordinate(const struct model_body *body)
+{
+    bool off_center = body->kind == motion_planar && (body->arm.x != 0 || body->arm.y != 0);
+    return body->parent == ground_body && body->kind != motion_track && !off_center;
+}
+
+double equation_acceleration(const struct model_body *body, const struct instant *at, const double *a,
+                             int part)
+{
+    if (equation_has_coordinate(body)) return a[body->first + part];
+    if (body->kind == motion_pivot || part == 2) return body_angular_acceleration(body, at, a);
+    struct vec a_G = mass_center_acceleration(body, at, a), e = body_direction(body, at);
+    return part == 0 ? vec_dot(e, a_G) : vec_cross(e, a_G);
+}
+
+const char *equation_acceleration_name(const struct fbd_model *model, const struct model_body *body, int part)
+{
+    static const char *const in_world[] = {"a_x", "a_y", "alpha"};
+    if (body->parent == ground_body && body->kind != motion_track)
+        return model->labels[body->first + part].acceleration_name;
+    return body->kind == motion_track ? "a_s" : in_world[body->kind == motion_pivot ? 2 : part];
+}
+
 double equation_term(const struct model_body *body, const struct arrow *arrow, int part, struct vec G)
 {
     return body->kind == motion_planar && part == 2 ? arrow_moment(arrow, G) : arrow->share[part];
 }
 
-double equation_acceleration(const struct model_body *body, const struct fbd_state *state, int part)
+static struct vec mass_center(const struct model_body *body, const struct instant *at)
 {
-    if (body->kind == motion_planar && part < 2) {
-        struct instant at = state_instant(state);
-        struct vec a_G = mass_center_acceleration(body, &at, state->a);
-        return part == 0 ? a_G.x : a_G.y;
-    }
-    return state->a[body->first + part];
+    struct pose pose = body_pose(body, at);
+    return point_motion(body, &pose, body->inertia.G).p;
 }
 
-static void fill_equation(struct fbd_equations *all, const struct fbd_state *state, int b, int part,
-                          const struct arrow *arrows, size_t arrow_count)
+/* ---- rows */
+
+static void add_term(struct equation *equation, const char *name, double value, int load)
+{
+    fbd_equation *e = &equation->public;
+    ((fbd_term *)e->terms)[e->term_count] = (fbd_term){name, value};
+    ((int *)equation->loads)[e->term_count++] = load;
+    e->sum += value;
+}
+
+/* Append an equation with room for its terms; NULL when memory is out. */
+static struct equation *add_equation(struct fbd_equations *all, const struct equation *equation, size_t most)
+{
+    fbd_term *terms = ARENA_ARRAY(&all->arena, most, fbd_term);
+    int *loads = ARENA_ARRAY(&all->arena, most, int);
+    if (!terms || !loads) return NULL;
+    struct equation *added = &all->equations[all->count++];
+    *added = *equation;
+    added->public.terms = terms;
+    added->loads = loads;
+    return added;
+}
+
+static void add_of_coordinate(struct fbd_equations *all, const struct fbd_state *state, int b, int part,
+                              const struct arrow *arrows, size_t count)
 {
     const struct fbd_model *model = state->model;
     const struct model_body *body = &model->bodies[b];
     const struct label *label = &model->labels[body->first + part];
-    struct instant at = state_instant(state);
-    struct pose pose = body_pose(body, &at);
-    struct vec G = point_motion(body, &pose, body->inertia.G).p;
-    bool moment = body->kind == motion_pivot || part == 2;
-    fbd_term *terms = ARENA_ARRAY(&all->arena, arrow_count, fbd_term);
-    struct equation *equation = &all->equations[all->count++];
-    *equation = (struct equation){.body = b, .part = part};
-    fbd_equation *public = &equation->public;
-    *public = (fbd_equation){
-        .body = body->name,
-        .coordinate = model->scene->coordinates[body->first + part].name,
-        .inertia_name = body->kind == motion_pivot ? "I_O"
-                        : moment                   ? "I_G"
-                                                   : "m",
-        .acceleration_name = label->acceleration_name,
-        .unit = label->force_unit,
-        .inertia_unit = label->inertia_unit,
-        .acceleration_unit = label->acceleration_unit,
-        .inertia = body->kind == motion_pivot ? body->I_O
-                   : moment                   ? body->inertia.I_G
-                                              : body->inertia.mass,
-        .acceleration = equation_acceleration(body, state, part),
-        .terms = terms,
+    const struct instant at = state_instant(state);
+    const struct vec G = mass_center(body, &at);
+    bool pivot = body->kind == motion_pivot, moment = pivot || part == 2;
+    const struct equation row = {
+        .body = b,
+        .part = part,
+        .public = {.body = body->name,
+                   .coordinate = model->scene->coordinates[body->first + part].name,
+                   .inertia_name = pivot    ? "I_O"
+                                   : moment ? "I_G"
+                                            : "m",
+                   .acceleration_name = equation_acceleration_name(model, body, part),
+                   .unit = label->force_unit,
+                   .inertia_unit = label->inertia_unit,
+                   .acceleration_unit = label->acceleration_unit,
+                   .inertia = pivot    ? body->I_O
+                              : moment ? body->inertia.I_G
+                                       : body->inertia.mass,
+                   .acceleration = equation_acceleration(body, &at, state->a, part)},
     };
-    for (size_t i = 0; terms && i < arrow_count; i++) {
-        if (arrows[i].load < 0) continue; /* reactions of the guide do not act along the motion */
-        double value = equation_term(body, &arrows[i], part, G);
-        terms[public->term_count++] = (fbd_term){arrows[i].name, value};
-        public->sum += value;
-        if (model->loads[arrows[i].load].source->kind == load_normal)
-        public->normal = vec_dot(arrows[i].force, body->n);
+    struct equation *equation = add_equation(all, &row, count + 1);
+    for (size_t i = 0; equation && i < count; i++) {
+        const struct arrow *arrow = &arrows[i];
+        bool of_joint = arrow_is_of_joint(model, b, arrow);
+        if (of_joint && arrow->load < 0) continue;
+        add_term(equation, arrow->name, equation_term(body, arrow, part, G), arrow->load);
+        if (of_joint) equation->public.normal = vec_dot(arrow->force, surface_normal(model, body, &at));
+    }
+    if (equation && tree_has_more(body))
+        add_term(equation, body->kind == motion_track ? "turning along" : "moving axis", tree_more(body, &at),
+                 -1);
+}
+
+static void add_cut_free(struct fbd_equations *all, const struct fbd_state *state, int b,
+                         const struct arrow *arrows, size_t count)
+{
+    static const char *const names[] = {"G.x", "G.y", "G.angle"};
+    static const char *const accelerations[] = {"a_Gx", "a_Gy", "alpha"};
+    const struct fbd_model *model = state->model;
+    const struct model_body *body = &model->bodies[b];
+    const bool si = model->scene->units == unit_si;
+    const struct instant at = state_instant(state);
+    const struct vec G = mass_center(body, &at), a_G = mass_center_acceleration(body, &at, state->a);
+    const double acceleration[] = {a_G.x, a_G.y, body_angular_acceleration(body, &at, state->a)};
+    for (int part = 0; part < 3; part++) {
+        bool moment = part == 2;
+        const struct equation row = {
+            .body = b,
+            .part = part,
+            .cut_free = true,
+            .public = {.body = body->name,
+                       .coordinate = names[part],
+                       .inertia_name = moment ? "I_G" : "m",
+                       .acceleration_name = accelerations[part],
+                       .unit = moment ? moment_unit(model) : force_unit(model),
+                       .inertia_unit = moment ? (si ? "kg*m^2" : "slug*ft^2")
+                                       : si   ? "kg"
+                                              : "slug",
+                       .acceleration_unit = moment ? "rad/s^2"
+                                            : si   ? "m/s^2"
+                                                   : "ft/s^2",
+                       .inertia = moment ? body->inertia.I_G : body->inertia.mass,
+                       .acceleration = acceleration[part]},
+        };
+        struct equation *equation = add_equation(all, &row, count);
+        for (size_t i = 0; equation && i < count; i++) {
+            const struct arrow *arrow = &arrows[i];
+            const double values[] = {arrow->force.x, arrow->force.y, arrow_moment(arrow, G)};
+            add_term(equation, arrow->name, values[part], arrow->load);
+        }
     }
 }
 
-fbd_equations *fbd_assemble(fbd_state *state)
+fbd_equations *assemble(fbd_state *state, bool components)
 {
     if (!state) return NULL;
     const struct fbd_model *model = state->model;
@@ -78,22 +180,30 @@ fbd_equations *fbd_assemble(fbd_state *state)
     if (!all) return NULL;
     state_ready(state);
     struct instant at = state_instant(state);
-    enum { rows_of_a_body = most_coordinates_of_a_body + 1 };
+    enum { rows_of_a_body = most_coordinates_of_a_body + 3 };
     all->equations = ARENA_ARRAY(&all->arena, rows_of_a_body * model->body_count, struct equation);
     for (size_t b = 0; all->equations && b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
         struct arrow *arrows = ARENA_ARRAY(&all->arena, diagram_arrows(model, (int)b), struct arrow);
         if (!arrows) break;
         size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, arrows);
-        if (model->bodies[b].place.link > 0) {
-            equations_of_jointed(all, state, (int)b, arrows, count);
-            continue;
-        }
-        for (int part = 0; part < model->bodies[b].count; part++)
-            fill_equation(all, state, (int)b, part, arrows, count);
+        for (int part = 0; part < body->count; part++)
+            add_of_coordinate(all, state, (int)b, part, arrows, count);
+        if (components || body->count == 0) add_cut_free(all, state, (int)b, arrows, count);
     }
     if (!all->arena.failed) return all;
     fbd_equations_free(all);
     return NULL;
+}
+
+fbd_equations *fbd_assemble(fbd_state *state)
+{
+    return assemble(state, false);
+}
+
+fbd_equations *fbd_assemble_components(fbd_state *state)
+{
+    return assemble(state, true);
 }
 
 void fbd_equations_free(fbd_equations *equations)

@@ -11,10 +11,9 @@
 
 struct equation {
     fbd_equation public;
-    int body, part;   /* the coordinate is number `part` of the body */
-    bool jointed;     /* of a jointed body: see equations_tree.c */
-    const char *side; /* then what its right side is, in words */
-    const int *loads; /* then the load of each term, -1 for none */
+    int body, part;   /* the coordinate is number `part` of the body; of one cut free the direction */
+    bool cut_free;    /* Newton's or Euler's, reactions and all */
+    const int *loads; /* of each term, -1 for none */
 };
 
 struct fbd_equations {
@@ -23,9 +22,8 @@ struct fbd_equations {
     struct equation *equations;
 };
 
-/* The equations of a jointed body (equations_tree.c): that of its joint, then Newton's and Euler's. */
-void equations_of_jointed(struct fbd_equations *all, const struct fbd_state *state, int b,
-                          const struct arrow *arrows, size_t arrow_count);
+/* `components`: with Newton's and Euler's equations of every body. */
+fbd_equations *assemble(fbd_state *state, bool components);
 
 /* Settle the modes if the state was changed, and evaluate. */
 void state_ready(struct fbd_state *state);
@@ -34,13 +32,21 @@ void state_ready(struct fbd_state *state);
  * are taken about its centre of mass, which decouples its equations. */
 double equation_term(const struct model_body *body, const struct arrow *arrow, int part, struct vec G);
 
-/* The acceleration on the other side of that equation, at an evaluated state. */
-double equation_acceleration(const struct model_body *body, const struct fbd_state *state, int part);
+/* The acceleration on the other side of that equation, where a[n] are those of the coordinates, and its name;
+ * is it that of the coordinate itself? */
+double equation_acceleration(const struct model_body *body, const struct instant *at, const double *a,
+                             int part);
+const char *equation_acceleration_name(const struct fbd_model *model, const struct model_body *body,
+                                       int part);
+bool equation_has_coordinate(const struct model_body *body);
+
+/* Of the body in the world. */
+double body_angular_acceleration(const struct model_body *body, const struct instant *at, const double *a);
 
 /* An arrow with its moment about a point, for fbd.h. */
 fbd_arrow public_arrow(const struct arrow *arrow, struct vec about);
 
 /* Write the equations, and what they belong to, as text. */
-void equations_write(struct text *text, struct fbd_state *state);
+void equations_write(struct text *text, struct fbd_state *state, bool components);
 
 #endif

@@ -52,10 +52,8 @@ static void write_states(struct text *text, const struct fbd_state *state)
 
 static void write_term(struct text *text, struct fbd_state *state, const struct equation *equation, size_t i)
 {
-    const struct fbd_model *model = state->model;
-    char remark[term_remark_size] = "";
-    if (!equation->jointed)
-        term_remark(state, model->bodies[equation->body].first_load + (int)i, equation->part, remark);
+    char remark[term_remark_size];
+    equation_remark(state, equation, i, remark);
     text_add(text, i ? ",\n       {" : "\n       {");
     text_json_words(text, "name", equation->public.terms[i].name, ", ");
     text_json_member(text, "value", equation->public.terms[i].value, remark[0] ? ", " : "}");
@@ -65,7 +63,7 @@ static void write_term(struct text *text, struct fbd_state *state, const struct 
 static void write_equation(struct text *text, struct fbd_state *state, const struct equation *equation)
 {
     const fbd_equation *e = &equation->public;
-    const char *mode = equation->jointed ? "" : term_mode(state, equation->body);
+    const char *mode = equation->cut_free ? "" : term_mode(state, equation->body);
     text_add(text, "    {");
     text_json_words(text, "body", e->body, ", ");
     text_json_words(text, "coordinate", e->coordinate, ",\n     ");
@@ -135,11 +133,11 @@ static void write_forces(struct text *text, struct fbd_state *state, struct arro
     text_add(text, "\n  }\n");
 }
 
-char *fbd_equations_json(fbd_state *state)
+static char *json_of(fbd_state *state, bool components)
 {
     if (!state) return NULL;
     struct text text = {0};
-    fbd_equations *all = fbd_assemble(state);
+    fbd_equations *all = assemble(state, components);
     struct arrow *arrows = calloc(diagram_most_arrows(state->model), sizeof *arrows);
     if (all && arrows) {
         text_add(&text, "{\n  ");
@@ -156,4 +154,14 @@ char *fbd_equations_json(fbd_state *state)
     free(arrows);
     fbd_equations_free(all);
     return text.data;
+}
+
+char *fbd_equations_json(fbd_state *state)
+{
+    return json_of(state, false);
+}
+
+char *fbd_equations_json_components(fbd_state *state)
+{
+    return json_of(state, true);
 }

@@ -10,19 +10,14 @@
 
 enum { value_column = 22, unit_column = 40, remark_column = 48 };
 
-static const char *side_of_equation(const struct model_body *body, int part)
+static const char *side_of_equation(const struct model_body *body, const struct equation *equation)
 {
-    switch (body->kind) {
-    case motion_slide: return "sum of forces along x";
-    case motion_pivot: return "sum of moments about O";
-    case motion_particle:
-    case motion_planar:
-    case motion_weld:
-    case motion_track: break;
-    }
-    return part == 0   ? "sum of forces along x"
-           : part == 1 ? "sum of forces along y"
-                       : "sum of moments about G";
+    static const char *const sides[] = {"sum of forces along x", "sum of forces along y",
+                                        "sum of moments about G"};
+    if (equation->cut_free || body->count > 1) return sides[equation->part];
+    return body->kind == motion_pivot   ? "sum of moments about O"
+           : body->kind == motion_track ? "sum of forces along the track"
+                                        : "sum of forces along x";
 }
 
 static void write_row(struct text *text, const char *name, double value, const char *unit, const char *remark)
@@ -40,41 +35,35 @@ static void write_row(struct text *text, const char *name, double value, const c
     text_add(text, "\n");
 }
 
-static void write_jointed(struct text *text, const struct equation *equation)
+/* What the body lists stands there whatever it is; what follows from other bodies where it says something. */
+static void write_terms(struct text *text, struct fbd_state *state, const struct equation *equation)
 {
     const fbd_equation *e = &equation->public;
-    text_printf(text, "  %s.%s: %s %s = %s\n", e->body, e->coordinate, e->inertia_name, e->acceleration_name,
-                equation->side);
-    for (size_t i = 0; i < e->term_count; i++)
-        if (e->terms[i].value != 0) write_row(text, e->terms[i].name, e->terms[i].value, e->unit, "");
-    write_row(text, "sum", e->sum, e->unit, "");
-    write_row(text, e->inertia_name, e->inertia, e->inertia_unit, "");
-    write_row(text, e->acceleration_name, e->acceleration, e->acceleration_unit, "");
-    write_row(text, "residual", e->inertia * e->acceleration - e->sum, e->unit, "");
+    for (size_t i = 0; i < e->term_count; i++) {
+        char remark[term_remark_size];
+        equation_remark(state, equation, i, remark);
+        if (e->terms[i].value == 0 && !remark[0] &&
+            !body_lists(state->model, equation->body, equation->loads[i]))
+            continue;
+        write_row(text, e->terms[i].name, e->terms[i].value, e->unit, remark);
+    }
 }
 
 static void write_equation(struct text *text, struct fbd_state *state, const struct equation *equation)
 {
-    const struct fbd_model *model = state->model;
-    const struct model_body *body = &model->bodies[equation->body];
+    const struct model_body *body = &state->model->bodies[equation->body];
     const fbd_equation *e = &equation->public;
-    const char *G = body->kind == motion_planar && equation->part < 2 ? " of G" : "";
-    if (equation->jointed) {
-        write_jointed(text, equation);
-        return;
-    }
+    const char *G = !equation->cut_free && body->kind == motion_planar && equation->part < 2 ? " of G" : "";
     text_printf(text, "  %s.%s: %s %s%s = %s\n", e->body, e->coordinate, e->inertia_name,
-                e->acceleration_name, G, side_of_equation(body, equation->part));
-    for (size_t i = 0; i < e->term_count; i++) {
-        char remark[term_remark_size];
-        term_remark(state, body->first_load + (int)i, equation->part, remark);
-        write_row(text, e->terms[i].name, e->terms[i].value, e->unit, remark);
-    }
+                e->acceleration_name, G, side_of_equation(body, equation));
+    write_terms(text, state, equation);
     write_row(text, "sum", e->sum, e->unit, "");
     write_row(text, e->inertia_name, e->inertia, e->inertia_unit, "");
     char name[64];
     snprintf(name, sizeof name, "%s%s", e->acceleration_name, G);
-    write_row(text, name, e->acceleration, e->acceleration_unit, term_mode(state, equation->body));
+    write_row(text, name, e->acceleration, e->acceleration_unit,
+              equation->cut_free ? "" : term_mode(state, equation->body));
+    if (equation->cut_free) write_row(text, "residual", e->inertia * e->acceleration - e->sum, e->unit, "");
 }
 
 static void write_body(struct text *text, const struct fbd_state *state, int b)
@@ -82,7 +71,7 @@ static void write_body(struct text *text, const struct fbd_state *state, int b)
     const struct fbd_model *model = state->model;
     const struct model_body *body = &model->bodies[b];
     const struct label *label = &model->labels[body->first + body->count - 1];
-    if (body->kind != motion_pivot || body->place.link > 0) return;
+    if (body->kind != motion_pivot) return;
     text_printf(text, "  %s turns about O: I_O = ", body->name);
     text_number(text, body->I_O, 9);
     text_printf(text, " %s, m = ", label->inertia_unit);
@@ -107,9 +96,9 @@ static void write_states(struct text *text, const struct fbd_state *state)
     }
 }
 
-void equations_write(struct text *text, struct fbd_state *state)
+void equations_write(struct text *text, struct fbd_state *state, bool components)
 {
-    fbd_equations *all = fbd_assemble(state);
+    fbd_equations *all = assemble(state, components);
     if (!all) {
         text->failed = true;
         return;
@@ -127,11 +116,21 @@ void equations_write(struct text *text, struct fbd_state *state)
     fbd_equations_free(all);
 }
 
-char *fbd_equations_text(fbd_state *state)
+static char *text_of(struct fbd_state *state, bool components)
 {
     if (!state) return NULL;
     struct text text = {0};
-    equations_write(&text, state);
+    equations_write(&text, state, components);
     if (text.failed) text_free(&text);
     return text.data;
+}
+
+char *fbd_equations_text(fbd_state *state)
+{
+    return text_of(state, false);
+}
+
+char *fbd_equations_text_components(fbd_state *state)
+{
+    return text_of(state, true);
 }

@@ -42,24 +42,27 @@ static const char *replaced(struct arena *arena, const char *text, const char *w
 /* Is the remark beside a term a formula, and not words about it? */
 static bool is_formula(const char *remark)
 {
-    static const char *const words[] = {"across", "along the", "toward", "drag", "r_OG", "holds", "slips"};
+    static const char *const words[] = {"across", "along the", "toward", "drag",
+                                        "r_OG",   "holds",     "slips",  "through"};
     if (!remark[0]) return false;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (strstr(remark, words[i])) return false;
     return true;
 }
 
-/* The law of load `load` in the equation, with its sign, or NULL. */
-static const char *law_of(struct formulas *formulas, const struct equation *equation, int load)
+/* The law of a term of the equation, with its sign, or NULL. */
+static const char *law_of(struct formulas *formulas, const struct equation *equation, size_t term)
 {
+    const int load = equation->loads[term];
+    if (load < 0) return NULL;
     const struct fbd_model *model = formulas->state->model;
     const struct model_body *body = &model->bodies[equation->body];
     const struct load *source = model->loads[load].source;
     char remark[term_remark_size];
     bool plain = source->kind == load_gravity || source->kind == load_spring || source->kind == load_damper ||
                  source->kind == load_drag || source->kind == moment_spring || source->kind == moment_damper;
-    if (!plain || equation->jointed || model->loads[load].linked) return NULL;
-    term_remark(formulas->state, load, equation->part, remark);
+    if (!plain || body->parent != ground_body || model->loads[load].linked) return NULL;
+    equation_remark(formulas->state, equation, term, remark);
     if (!is_formula(remark)) return NULL;
     const char *law = arena_text(&formulas->arena, remark, strlen(remark));
     if (!law || source->kind != load_gravity) return law;
@@ -121,9 +124,7 @@ static const char *term_by_symbol(struct formulas *formulas, const struct equati
     /* a reaction of a pin has components by itself */
     if (fabs(fabs(value) - size) <= 1e-9 * size && symbol[0] != 'R')
         return arena_printf(&formulas->arena, "%s%s", sign, symbol);
-    const char *axis = equation->jointed && strstr(equation->public.coordinate, ".y") ? "y"
-                       : !equation->jointed && equation->part == 1                    ? "y"
-                                                                                      : "x";
+    const char *axis = equation->part == 1 ? "y" : "x";
     if (strchr(symbol, ' ')) return arena_printf(&formulas->arena, "(%s)_%s", symbol, axis);
     return arena_printf(&formulas->arena, strchr(symbol, '_') ? "%s%s" : "%s_%s", symbol, axis);
 }
@@ -134,7 +135,7 @@ static const char *term_of(struct formulas *formulas, const struct equation *equ
     const fbd_term *term = &equation->public.terms[index];
     int k = arrow_of(arrows, count, term->name);
     if (k < 0) return arena_printf(&formulas->arena, "(%s)", term->name);
-    const char *law = arrows[k].load >= 0 ? law_of(formulas, equation, arrows[k].load) : NULL;
+    const char *law = law_of(formulas, equation, index);
     if (law) return law;
     const char *symbol = formulas->symbols[equation->body][k];
     const char *text = term_by_symbol(formulas, equation, &arrows[k], symbol, term->value);

@@ -328,7 +328,7 @@ char *fbd_result_report(fbd_result *result)
         return text.data;
     }
     write_assembled(&text, model, result->start);
-    equations_write(&text, result->start);
+    equations_write(&text, result->start, false);
     state_ready(end);
     const struct page page = {&text, result, simulation->bars};
     write_events(&page);

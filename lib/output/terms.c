@@ -61,10 +61,15 @@ static void friction_remark(struct fbd_state *state, int b, char *remark)
 static const char *gravity_remark(const struct fbd_model *model, const struct model_body *body, int part)
 {
     struct vec g = model->scene->gravity;
+    const bool on_ground = body->parent == ground_body;
     if (g.x != 0) return "m g";
     switch (body->kind) {
-    case motion_slide: return body->e.y == 0 ? "acts across" : body->e.x == 0 ? "m g" : "-m g sin(along)";
+    case motion_slide:
+        if (!on_ground) return "m g along x";
+        return body->e.y == 0 ? "acts across" : body->e.x == 0 ? "m g" : "-m g sin(along)";
     case motion_pivot:
+        if (body->L == 0) return "through the axis";
+        if (!on_ground) return "r_OG x m g";
         if (body->arm.x == 0) return body->arm.y < 0 ? "-m g L sin(theta)" : "m g L sin(theta)";
         return body->arm.y == 0 && body->arm.x > 0 ? "-m g L cos(theta)" : "r_OG x m g";
     case motion_particle:
@@ -98,16 +103,21 @@ static const char *plain_remark(const struct model_load *load, bool turns)
     }
 }
 
-void term_remark(struct fbd_state *state, int index, int part, char remark[static term_remark_size])
+bool body_lists(const struct fbd_model *model, int body, int load)
+{
+    const struct model_body *b = &model->bodies[body];
+    return load >= b->first_load && load < b->first_load + b->load_count;
+}
+
+static void listed_remark(struct fbd_state *state, int b, const struct model_load *load, int part,
+                          char *remark)
 {
     const struct fbd_model *model = state->model;
-    const struct model_load *load = &model->loads[index];
-    const struct model_body *body = &model->bodies[load->body];
-    remark[0] = '\0';
+    const struct model_body *body = &model->bodies[b];
     switch (load->source->kind) {
     case load_normal: normal_remark(state, body, remark); return;
     case load_friction:
-    case moment_friction: friction_remark(state, load->body, remark); return;
+    case moment_friction: friction_remark(state, b, remark); return;
     case load_applied:
         if (load->source->toward) snprintf(remark, term_remark_size, "toward %s", load->source->toward);
         return;
@@ -116,6 +126,19 @@ void term_remark(struct fbd_state *state, int index, int part, char remark[stati
         snprintf(remark, term_remark_size, "%s",
                  plain_remark(load, body->kind == motion_pivot || body->kind == motion_planar));
     }
+}
+
+void equation_remark(struct fbd_state *state, const struct equation *equation, size_t term,
+                     char remark[static term_remark_size])
+{
+    const struct fbd_model *model = state->model;
+    int index = equation->loads[term];
+    remark[0] = '\0';
+    if (equation->cut_free || index < 0) return;
+    if (body_lists(model, equation->body, index))
+        listed_remark(state, equation->body, &model->loads[index], equation->part, remark);
+    else if (index >= (int)model->listed_count)
+        snprintf(remark, term_remark_size, "%s", plain_remark(&model->loads[index], true));
 }
 
 const char *term_mode(const struct fbd_state *state, int body)

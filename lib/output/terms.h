@@ -5,13 +5,17 @@
 #ifndef FBD_OUTPUT_TERMS_H
 #define FBD_OUTPUT_TERMS_H
 
-#include "dynamics/state.h"
+#include "output/equations.h"
 
 enum { term_remark_size = 160 };
 
-/* Remark for the term of load `index` in equation `part` of its body: "-m g sin(along)", "N = 16.99 N acts
- * across", "slips: -mu_k N", ... */
-void term_remark(struct fbd_state *state, int index, int part, char remark[static term_remark_size]);
+/* Remark for a term of an equation: "-m g sin(along)", "N = 16.99 N acts across", "slips: -mu_k N", ...; empty
+ * for what is there by another body's list, and where the body is cut free. */
+void equation_remark(struct fbd_state *state, const struct equation *equation, size_t term,
+                     char remark[static term_remark_size]);
+
+/* Is it one of the loads that the body itself lists? */
+bool body_lists(const struct fbd_model *model, int body, int load);
 
 /* "sticks" or "slips" for a body with dry friction, else "". */
 const char *term_mode(const struct fbd_state *state, int body);

@@ -124,14 +124,15 @@ class Model:
 
     def run(self, *, until: Optional[float] = None, tolerance: Optional[float] = None, step: Optional[float] = None,
             method: Optional[str] = None, accuracy: Optional[float] = None, error_bars: bool = False,
-            structure: bool = True, every: Optional[float] = None, ledger: bool = False,
+            structure: bool = True, every: Optional[float] = None, ledger: bool = False, components: bool = False,
             progress: Optional[Callable[[Progress], Any]] = None) -> Run:
         """Run the model from t = 0 to its end.
 
         until: end time [s]; tolerance: relative error of a step; step: a fixed step [s]; method: "auto",
         "rk8pd", ...; accuracy: the global accuracy to be delivered, whatever tolerance that takes; error_bars:
         estimate the global errors; structure: False integrates all bodies together; every: interval of the rows
-        [s]; ledger: columns of each force, its work and the energies. What is not given is as in the file.
+        [s]; ledger: columns of each force, its work and the energies; components: with the components of each
+        force. What is not given is as in the file.
 
         ``progress`` is called up to twenty times a second with an :class:`fbd.Progress`; what is true ends the
         run there, as "interrupted". Ctrl-C ends it with KeyboardInterrupt.
@@ -139,8 +140,8 @@ class Model:
         A run that fails is raised as :class:`fbd.RunFailed`, one that does not reach its accuracy as
         :class:`fbd.AccuracyNotReached`, both with the run; one that a lost contact ends is returned, with a warning.
         """
-        return _run.start(self._model, self.title, progress, every, ledger, until=until, tolerance=tolerance,
-                          step=step, method=method, accuracy=accuracy, error_bars=error_bars, structure=structure)
+        return _run.start(self._model, self.title, progress, every, ledger, components, until=until,
+                          tolerance=tolerance, step=step, method=method, accuracy=accuracy, error_bars=error_bars, structure=structure)
 
     def sweep(self, vary: Vary, outputs: Union[str, Sequence[str]] = (), *, zip: bool = False, seed: int = 1,
               jobs: int = 0, until: Optional[float] = None, tolerance: Optional[float] = None,

@@ -55,12 +55,12 @@ class Run(Mapping[str, Column]):
     units: Dict[str, str]  #: of each column
     rows: Column  #: all of them, rows x columns
 
-    def __init__(self, model: Any, options: Any, every: float, ledger: bool, watch: Watch, title: str):
+    def __init__(self, model: Any, options: Any, every: float, watch: Watch, title: str, **columns: bool):
         self._model, self._every, self._title = model, every, title
         self._lock = threading.RLock()
         self._simulation = made(lib.fbd_simulation_new, lib.fbd_simulation_free, (model,), model, options)
         self._bars = bool(options.error_bars)
-        self._result = _record(self._simulation, watch, every, ledger=ledger, table=True)
+        self._result = _record(self._simulation, watch, every, table=True, **columns)
         outcome = lib.fbd_result_outcome(self._result)
         if outcome == lib.FBD_OUT_OF_MEMORY:
             raise MemoryError("fbd: out of memory")
@@ -302,11 +302,11 @@ class Run(Mapping[str, Column]):
 
 
 def start(model: Any, title: str, progress: Optional[Callable[[Progress], Any]], every: Optional[float],
-          ledger: bool, **options: Any) -> Run:
+          ledger: bool, components: bool, **options: Any) -> Run:
     """Make a run of a C model, and judge it."""
     chosen, name = run_options(**options)
     interval = 0.0 if every is None else positive(every, "every")
-    run = Run(model, chosen, interval, bool(ledger), Watch(progress), title)
+    run = Run(model, chosen, interval, Watch(progress), title, ledger=bool(ledger), components=bool(components))
     del name
     run._judge()
     return run

@@ -46,11 +46,12 @@ class Equations(Mapping[str, Equation]):
     Printed they are the text of ``fbd-run --equations``; a notebook shows the free-body diagrams with it.
     """
 
-    def __init__(self, state: "State"):
-        handle = owned(lib.fbd_assemble(state._handle), lib.fbd_equations_free, state._handle)
-        self._text = taken(lib.fbd_equations_text(state._handle))
+    def __init__(self, state: "State", components: bool = False):
+        assemble = lib.fbd_assemble_components if components else lib.fbd_assemble
+        handle = owned(assemble(state._handle), lib.fbd_equations_free, state._handle)
+        self._text = taken((lib.fbd_equations_text_components if components else lib.fbd_equations_text)(state._handle))
         self._svg = taken(checked(lib.fbd_diagram_svg, state._handle, ffi.NULL))
-        self._json = taken(lib.fbd_equations_json(state._handle))
+        self._json = taken((lib.fbd_equations_json_components if components else lib.fbd_equations_json)(state._handle))
         self._equations: Dict[str, Equation] = {}
         for i in range(lib.fbd_equations_count(handle)):
             struct = lib.fbd_equations_get(handle, i)
@@ -257,10 +258,10 @@ class State(Mapping[str, float]):
             checked(lib.fbd_find_equilibrium, self._handle)
         return self
 
-    def equations(self) -> Equations:
-        """The assembled equations here, term by term."""
+    def equations(self, components: bool = False) -> Equations:
+        """The assembled equations here, term by term; with ``components`` also Newton's and Euler's of every body."""
         with self._lock:
-            return Equations(self)
+            return Equations(self, components)
 
     def linearize(self) -> Linearization:
         """Linearise about the equilibrium near it; the state is moved there."""

@@ -132,7 +132,7 @@ static double acceleration_of(const struct absolute *absolute, int b, const char
 static void compare_equations(const struct absolute *absolute, fbd_state *state, struct outcome *outcome)
 {
     const struct scene *scene = absolute->scene;
-    fbd_equations *equations = fbd_assemble(state);
+    fbd_equations *equations = fbd_assemble_components(state);
     double size = absolute->acceleration_size;
     for (int b = 0; b < scene->body_count; b++) size = fmax(size, absolute->force_size / absolute->mass[b].m);
     for (size_t i = 0; i < fbd_equations_count(equations); i++) {

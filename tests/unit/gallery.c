@@ -220,7 +220,7 @@ static fbd_equation find_equation(const struct trial *trial, const fbd_equations
 
 static fbd_equations *assemble(struct trial *trial)
 {
-    fbd_equations *all = fbd_assemble(trial->state);
+    fbd_equations *all = fbd_assemble_components(trial->state);
     assert_non_null(all);
     return all;
 }

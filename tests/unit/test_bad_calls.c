@@ -166,6 +166,7 @@ static void equations(void **context)
     assert_non_null(all);
     const fbd_equation first = fbd_equations_get(all, 0);
     ANSWERS(fbd_assemble, !fbd_assemble(NULL));
+    ANSWERS(fbd_assemble_components, !fbd_assemble_components(NULL));
     ENDURES(fbd_equations_free, fbd_equations_free(NULL));
     ANSWERS(fbd_equations_count, fbd_equations_count(NULL) == 0);
     ANSWERS(fbd_equations_get, !fbd_equations_get(NULL, 0).body);
@@ -176,7 +177,9 @@ static void equations(void **context)
     ANSWERS(fbd_equation_term, is_nan(fbd_equation_term(&first, NULL)));
     ANSWERS(fbd_equations_text, !fbd_equations_text(NULL));
     ANSWERS(fbd_equations_latex, !fbd_equations_latex(NULL));
+    ANSWERS(fbd_equations_text_components, !fbd_equations_text_components(NULL));
     ANSWERS(fbd_equations_json, !fbd_equations_json(NULL));
+    ANSWERS(fbd_equations_json_components, !fbd_equations_json_components(NULL));
     fbd_equations_free(all);
     fbd_state_free(state);
 }

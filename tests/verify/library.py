@@ -16,7 +16,7 @@ PROTOTYPES = {
     "fbd_state_set": (c_bool, [c_void_p, c_char_p, c_double]),
     "fbd_state_get": (c_bool, [c_void_p, c_char_p, POINTER(c_double)]),
     "fbd_state_close": (c_bool, [c_void_p, c_void_p]),
-    "fbd_assemble": (c_void_p, [c_void_p]),
+    "fbd_assemble_components": (c_void_p, [c_void_p]),
     "fbd_equations_find": (Equation, [c_void_p, c_char_p]),
     "fbd_equations_free": (None, [c_void_p]),
 }
@@ -48,7 +48,7 @@ class Model:
         return value.value
 
     def accelerations(self, coordinates):
-        equations = self.fbd.fbd_assemble(self.state)
+        equations = self.fbd.fbd_assemble_components(self.state)
         found = [self.fbd.fbd_equations_find(equations, name.encode()).acceleration for name in coordinates]
         self.fbd.fbd_equations_free(equations)
         return found

@@ -31,7 +31,7 @@ function takeRun(data) {
   // a column whose rate of change is another one is interpolated with it
   run.bodies.forEach((body) => {
     body.coordinates.forEach((c, k) => { run.columns[c].slope = body.rates[k]; });
-    if (body.sloped) body.rates.forEach((c, k) => { run.columns[c].slope = body.accelerations[k]; });
+    body.rates.forEach((c, k) => { run.columns[c].slope = body.accelerations[k]; });
   });
 }
 
