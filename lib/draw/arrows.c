@@ -22,27 +22,7 @@ static const double least_component = 0.02;
 
 static const char *kind_of(const struct fbd_model *model, const struct arrow *arrow)
 {
-    if (arrow->load < 0) return "reaction";
-    switch (model->loads[arrow->load].source->kind) {
-    case load_gravity: return "gravity";
-    case load_normal:
-    case load_rope:
-    case load_belt:
-    case load_contact: return "reaction";
-    case load_friction:
-    case moment_friction: return "friction";
-    case load_drive:
-    case load_applied:
-    case moment_applied: return "applied";
-    case load_spring:
-    case moment_spring: return "spring";
-    case load_damper:
-    case moment_damper:
-    case load_drag: return "damper";
-    case load_potential:
-    case moment_potential: return "potential";
-    }
-    return "applied";
+    return arrow->load < 0 ? "reaction" : load_law(model->loads[arrow->load].source)->drawing;
 }
 
 /* Less than the rounding of the largest is nothing. */

@@ -24,17 +24,7 @@ double arrow_moment(const struct arrow *arrow, struct vec about)
 
 bool arrow_is_reaction(const struct fbd_model *model, const struct arrow *arrow)
 {
-    if (arrow->load < 0) return true;
-    switch (model->loads[arrow->load].source->kind) {
-    case load_normal:
-    case load_friction:
-    case moment_friction:
-    case load_drive:
-    case load_rope:
-    case load_belt:
-    case load_contact: return true;
-    default: return false;
-    }
+    return arrow->load < 0 || load_law(model->loads[arrow->load].source)->follows;
 }
 
 struct vec mass_center_acceleration(const struct model_body *body, const struct instant *at, const double *a)

@@ -86,9 +86,13 @@ static bool note_arrow(const struct fbd_model *model, const struct model_body *b
                                   "it acts at the point that it is directed to (%s),",
                                   name, on, toward))
         return true;
+    const double moments[] = {arrow->couple, arrow_moment(arrow, G)};
+    const char *singular = arrow->load >= 0 ? load_law(model->loads[arrow->load].source)->singular : NULL;
+    if (singular && (not_finite_note(found, force[0], at, "`%s` on `%s`, %s,", name, on, singular) ||
+                     not_finite_note(found, moments[0], at, "`%s` on `%s`, %s,", name, on, singular)))
+        return true;
     for (int k = 0; k < 2; k++)
         if (not_finite_note(found, force[k], at, "the force `%s` on `%s`", name, on)) return true;
-    const double moments[] = {arrow->couple, arrow_moment(arrow, G)};
     for (int k = 0; k < 2; k++)
         if (not_finite_note(found, moments[k], at, "the moment of `%s` on `%s`", name, on)) return true;
     for (int k = 0; k < body->count; k++)

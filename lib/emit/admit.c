@@ -140,35 +140,11 @@ static const char *missing_of(enum constraint_kind kind)
     return "a constraint of a kind that is not known here";
 }
 
-static bool writes_load(enum load_kind kind)
-{
-    switch (kind) {
-    case load_gravity:
-    case load_normal:
-    case load_friction:
-    case load_applied:
-    case load_spring:
-    case load_damper:
-    case load_drag:
-    case load_potential:
-    case moment_applied:
-    case moment_spring:
-    case moment_damper:
-    case moment_friction:
-    case moment_potential:
-    case load_drive: return true;
-    case load_rope:
-    case load_belt:
-    case load_contact: break; /* with their constraints */
-    }
-    return false;
-}
-
 static void check_loads(const struct fbd_model *model, fbd_errors *errors)
 {
     for (size_t i = 0; i < model->load_count; i++) {
         const struct load *load = model->loads[i].source;
-        if (i < model->coupled_count && !writes_load(load->kind))
+        if (i < model->coupled_count && load_law(load)->of_constraint)
             lacks(errors, load->at, "a load of a kind that is not known here", load->name);
     }
 }

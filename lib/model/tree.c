@@ -317,20 +317,10 @@ void tree_add_load(struct builder *builder, int index)
 /* ---- diagrams */
 
 /* Does it act between the two bodies of its joint? */
-static bool acts_in_joint(const struct model_load *load)
+static bool is_in_joint(const struct model_load *load)
 {
-    switch (load->source->kind) {
-    case load_spring:
-    case load_damper: return !load->linked;
-    case load_friction:
-    case load_potential:
-    case moment_spring:
-    case moment_damper:
-    case moment_friction:
-    case moment_potential:
-    case load_normal: return true;
-    default: return false;
-    }
+    enum law_place place = load_law(load->source)->place;
+    return place == acts_in_joint || (place == acts_in_joint_without_end && !load->linked);
 }
 
 static bool has_normal(const struct fbd_model *model, const struct model_body *body)
@@ -402,7 +392,7 @@ static void name_reactions(struct fbd_model *model, struct model_body *body, boo
     struct arena *arena = &model->arena;
     body->reaction = reaction_of(model, body, twisted);
     for (int i = body->first_load; i < body->first_load + body->load_count; i++)
-        model->loads[i].in_joint = acts_in_joint(&model->loads[i]);
+        model->loads[i].in_joint = is_in_joint(&model->loads[i]);
     if (body->parent == ground_body) return;
     struct model_body *parent = &model->bodies[body->parent];
     if (body->reaction) {

@@ -70,40 +70,17 @@ static void write_coordinates(struct text *text, const struct fbd_model *model)
 
 /* ---- effects that are simulated: loads of one kind and one reason together */
 
-static const char *effect_name(enum load_kind kind)
-{
-    switch (kind) {
-    case load_gravity: return "gravity";
-    case load_normal: return "normal force";
-    case load_friction: return "dry friction";
-    case load_applied: return "applied force";
-    case load_spring: return "spring";
-    case load_damper: return "damper";
-    case load_drag: return "drag";
-    case load_potential: return "potential";
-    case moment_applied: return "applied moment";
-    case moment_spring: return "spring (moment)";
-    case moment_damper: return "damper (moment)";
-    case moment_friction: return "bearing friction";
-    case moment_potential: return "potential (moment)";
-    case load_drive: return "prescribed motion";
-    case load_rope: return "rope";
-    case load_belt: return "belt";
-    case load_contact: return "contact";
-    }
-    return "";
-}
-
 static bool same_effect(const struct model_load *a, const struct model_load *b)
 {
-    return a->source->kind == b->source->kind && strcmp(a->why, b->why) == 0;
+    return strcmp(load_law(a->source)->effect, load_law(b->source)->effect) == 0 &&
+           strcmp(a->why, b->why) == 0;
 }
 
 static void write_effect(struct text *text, const struct fbd_model *model, const struct model_load *first)
 {
     size_t count = 0, shown = 0;
     for (size_t i = 0; i < model->load_count; i++) count += same_effect(first, &model->loads[i]);
-    text_printf(text, "  %s (%zu)", effect_name(first->source->kind), count);
+    text_printf(text, "  %s (%zu)", load_law(first->source)->effect, count);
     text_pad(text, 28);
     text_printf(text, "%s\n      ", first->why);
     for (size_t i = 0; i < model->load_count; i++) {

@@ -82,25 +82,9 @@ static const char *gravity_remark(const struct fbd_model *model, const struct mo
 
 static const char *plain_remark(const struct model_load *load, bool turns)
 {
-    switch (load->source->kind) {
-    case load_spring: return load->linked ? "k (l - l0) toward its end" : "-k (x - x0)";
-    case moment_spring: return "-k (theta - theta0)";
-    case load_damper: return load->linked ? "-c l' along its line" : "-c v";
-    case moment_damper: return "-c omega";
-    case load_drag:
-        if (turns)
-            return load_has_wind(load->source) ? "drag at its point, in the wind" : "drag at its point";
-        if (load_has_wind(load->source))
-            return load->source->quadratic == 0 ? "-c (v - w)"
-                   : load->source->linear == 0  ? "-k |v - w| (v - w)"
-                                                : "-(c + k |v - w|) (v - w)";
-        return load->source->quadratic == 0 ? "-c v"
-               : load->source->linear == 0  ? "-k |v| v"
-                                            : "-(c + k |v|) v";
-    case load_potential: return "-dV/dx";
-    case moment_potential: return "-dV/dtheta";
-    default: return "";
-    }
+    const struct law *law = load_law(load->source);
+    if (law->remark) return law->remark(load->source, load->linked, turns);
+    return law->formula ? law->formula : "";
 }
 
 bool body_lists(const struct fbd_model *model, int body, int load)
@@ -118,13 +102,13 @@ static void listed_remark(struct fbd_state *state, int b, const struct model_loa
     case load_normal: normal_remark(state, body, remark); return;
     case load_friction:
     case moment_friction: friction_remark(state, b, remark); return;
-    case load_applied:
-        if (load->source->toward) snprintf(remark, term_remark_size, "toward %s", load->source->toward);
-        return;
     case load_gravity: snprintf(remark, term_remark_size, "%s", gravity_remark(model, body, part)); return;
     default:
-        snprintf(remark, term_remark_size, "%s",
-                 plain_remark(load, body->kind == motion_pivot || body->kind == motion_planar));
+        if (load->source->toward)
+            snprintf(remark, term_remark_size, "toward %s", load->source->toward);
+        else
+            snprintf(remark, term_remark_size, "%s",
+                     plain_remark(load, body->kind == motion_pivot || body->kind == motion_planar));
     }
 }
 

@@ -310,7 +310,17 @@ bool derive_couple(struct entry *entry, bool distance_named)
     return compile(&derived, a_moment, &load->couple);
 }
 
-/* ---- distributed loads */
+/* ---- one value times or over another: distributed loads, constant power */
+
+bool derive_value(struct entry *entry, const char *key, const struct value *value, enum quantity quantity,
+                  const char *behind, enum quantity wanted, struct value *result)
+{
+    struct derived derived = {.entry = entry};
+    const struct node *node = node_of(entry, key);
+    add_value(&derived, node ? node : entry->chosen.node, value, quantity); /* or in the place of all keys */
+    text_add(&derived.text, behind);
+    return compile(&derived, wanted, result);
+}
 
 bool derive_scaled(struct entry *entry, double size)
 {

@@ -10,6 +10,7 @@
 #ifndef FBD_SCENE_LANGUAGE_H
 #define FBD_SCENE_LANGUAGE_H
 
+#include "scene/law.h"
 #include "scene/node.h"
 #include "scene/quantity.h"
 #include "scene/scene.h"
@@ -90,6 +91,7 @@ struct kind {
     const struct group *group;
     unsigned motions;      /* bits 1 << motion_kind: where it makes sense */
     const char *elsewhere; /* hint for other motions */
+    const struct law *law; /* of forces and moments */
 };
 
 struct kinds {

@@ -177,12 +177,12 @@ static const struct group track_group = {"a track", NULL, FIELDS(track_fields),
                                          NULL,      0,    "one coordinate s, the length along a curve"};
 
 static const struct kind motions[] = {
-    {"slide", motion_slide, &slide_group, ~0u, NULL},
-    {"pivot", motion_pivot, &pivot_group, ~0u, NULL},
-    {"particle", motion_particle, &particle_group, ~0u, NULL},
-    {"planar", motion_planar, &planar_group, ~0u, NULL},
-    {"weld", motion_weld, &weld_group, ~0u, NULL},
-    {"track", motion_track, &track_group, ~0u, NULL},
+    {"slide", motion_slide, &slide_group, ~0u, NULL, NULL},
+    {"pivot", motion_pivot, &pivot_group, ~0u, NULL, NULL},
+    {"particle", motion_particle, &particle_group, ~0u, NULL, NULL},
+    {"planar", motion_planar, &planar_group, ~0u, NULL, NULL},
+    {"weld", motion_weld, &weld_group, ~0u, NULL, NULL},
+    {"track", motion_track, &track_group, ~0u, NULL, NULL},
 };
 
 const struct kinds motion_kinds = {"motion", FIELDS(motions)};

@@ -171,16 +171,16 @@ const struct group contact_group = {"a contact", NULL, FIELDS(contact_fields),
                                     NULL,        0,    "two bodies, or a body and the ground, that meet"};
 
 static const struct kind kinds[] = {
-    {"spring", load_spring, &spring_group, ~0u, NULL},
-    {"damper", load_damper, &damper_group, ~0u, NULL},
-    {"pin", coupling_constraint + constraint_pin, &pin_group, ~0u, NULL},
-    {"rod", coupling_constraint + constraint_rod, &rod_group, ~0u, NULL},
-    {"rope", coupling_constraint + constraint_rope, &rope_group, ~0u, NULL},
-    {"gear", coupling_constraint + constraint_gear, &gear_group, ~0u, NULL},
-    {"belt", coupling_constraint + constraint_belt, &belt_group, ~0u, NULL},
-    {"rack", coupling_constraint + constraint_rack, &rack_group, ~0u, NULL},
-    {"roll", coupling_constraint + constraint_roll, &roll_group, ~0u, NULL},
-    {"contact", coupling_constraint + constraint_contact, &contact_group, ~0u, NULL},
+    {"spring", load_spring, &spring_group, ~0u, NULL, NULL},
+    {"damper", load_damper, &damper_group, ~0u, NULL, NULL},
+    {"pin", coupling_constraint + constraint_pin, &pin_group, ~0u, NULL, NULL},
+    {"rod", coupling_constraint + constraint_rod, &rod_group, ~0u, NULL, NULL},
+    {"rope", coupling_constraint + constraint_rope, &rope_group, ~0u, NULL, NULL},
+    {"gear", coupling_constraint + constraint_gear, &gear_group, ~0u, NULL, NULL},
+    {"belt", coupling_constraint + constraint_belt, &belt_group, ~0u, NULL, NULL},
+    {"rack", coupling_constraint + constraint_rack, &rack_group, ~0u, NULL, NULL},
+    {"roll", coupling_constraint + constraint_roll, &roll_group, ~0u, NULL, NULL},
+    {"contact", coupling_constraint + constraint_contact, &contact_group, ~0u, NULL, NULL},
 };
 
 const struct kind *const contact_kind = &kinds[sizeof kinds / sizeof *kinds - 1];

@@ -1,5 +1,10 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The laws of forces and moments: what a file lists under `forces` and `moments`, each as one row. To add one whose
+ * force is a formula: its fields, a function that makes the formula (derive_value) and its row.
+ */
 #include "scene/language.h"
+#include "scene/load_entry.h"
 
 enum {
     on_slide = 1u << motion_slide,
@@ -151,18 +156,95 @@ static const struct field potential_fields[] = {
 static const struct group potential_group =
     LOAD_GROUP("`potential`", "V", potential_fields, "a force f = -dV/dx");
 
+/* ---- what the rows say in words */
+
+static const char *spring_remark(const struct load *load, bool between, bool turns)
+{
+    (void)load;
+    (void)turns;
+    return between ? "k (l - l0) toward its end" : "-k (x - x0)";
+}
+
+static const char *damper_remark(const struct load *load, bool between, bool turns)
+{
+    (void)load;
+    (void)turns;
+    return between ? "-c l' along its line" : "-c v";
+}
+
+static const char *drag_remark(const struct load *load, bool between, bool turns)
+{
+    static const char *const still[] = {"-c v", "-k |v| v", "-(c + k |v|) v"};
+    static const char *const wind[] = {"-c (v - w)", "-k |v - w| (v - w)", "-(c + k |v - w|) (v - w)"};
+    (void)between;
+    if (turns) return load_has_wind(load) ? "drag at its point, in the wind" : "drag at its point";
+    int form = load->quadratic == 0 ? 0 : load->linear == 0 ? 1 : 2;
+    return load_has_wind(load) ? wind[form] : still[form];
+}
+
+/* ---- across a slide */
+
+static bool weight_across(const struct load *load, struct vec gravity, double along)
+{
+    const double aside = 1e-12; /* of g: the rounding of an angle */
+    (void)load;
+    return fabs(vec_cross(vec_unit(along), gravity)) > aside * vec_norm(gravity);
+}
+
+static bool applied_across(const struct load *load, struct vec gravity, double along)
+{
+    (void)gravity;
+    (void)along;
+    return load->angle.expr || load->fx.expr || load->fy.expr;
+}
+
+static bool link_across(const struct load *load, struct vec gravity, double along)
+{
+    (void)gravity;
+    (void)along;
+    return load->anchor.kind != point_absent;
+}
+
+static bool drag_across(const struct load *load, struct vec gravity, double along)
+{
+    (void)gravity;
+    (void)along;
+    return load_has_wind(load);
+}
+
+/* ---- the rows */
+
+#define LAW(...) (&(const struct law){__VA_ARGS__})
+
 static const struct kind forces[] = {
-    {"gravity", load_gravity, &gravity_group, on_all, NULL},
+    {"gravity", load_gravity, &gravity_group, on_all, NULL,
+     LAW(.effect = "gravity", .drawing = "gravity", .rate = rate_never, .across = weight_across)},
     {"normal", load_normal, &normal_group, on_slide | on_track,
-     "a surface belongs to a slide: motion: {slide: {along: 30 deg}}"},
+     "a surface belongs to a slide: motion: {slide: {along: 30 deg}}",
+     LAW(.effect = "normal force", .drawing = "reaction", .place = acts_in_joint, .rate = rate_never,
+         .follows = true, .finish = normal_finish)},
     {"friction", load_friction, &friction_group, on_slide | on_track,
-     "dry friction of a surface belongs to a slide; a rubbing pivot has `friction` under `moments`"},
-    {"applied", load_applied, &applied_group, on_all, NULL},
-    {"distributed", load_applied, &distributed_group, on_all, NULL},
-    {"spring", load_spring, &spring_group, on_all, NULL},
-    {"damper", load_damper, &damper_group, on_all, NULL},
-    {"drag", load_drag, &drag_group, on_all, NULL},
-    {"potential", load_potential, &potential_group, on_moving, "list it where the coordinates are"},
+     "dry friction of a surface belongs to a slide; a rubbing pivot has `friction` under `moments`",
+     LAW(.effect = "dry friction", .drawing = "friction", .place = acts_in_joint, .follows = true,
+         .finish = friction_finish)},
+    {"applied", load_applied, &applied_group, on_all, NULL,
+     LAW(.effect = "applied force", .drawing = "applied", .finish = applied_finish,
+         .across = applied_across)},
+    {"distributed", load_applied, &distributed_group, on_all, NULL,
+     LAW(.effect = "applied force", .drawing = "applied", .finish = distributed_finish,
+         .across = applied_across)},
+    {"spring", load_spring, &spring_group, on_all, NULL,
+     LAW(.effect = "spring", .drawing = "spring", .place = acts_in_joint_without_end, .rate = rate_never,
+         .finish = link_finish, .remark = spring_remark, .across = link_across)},
+    {"damper", load_damper, &damper_group, on_all, NULL,
+     LAW(.effect = "damper", .drawing = "damper", .place = acts_in_joint_without_end, .rate = rate_always,
+         .finish = link_finish, .remark = damper_remark, .across = link_across)},
+    {"drag", load_drag, &drag_group, on_all, NULL,
+     LAW(.effect = "drag", .drawing = "damper", .rate = rate_always, .finish = drag_finish,
+         .remark = drag_remark, .across = drag_across)},
+    {"potential", load_potential, &potential_group, on_moving, "list it where the coordinates are",
+     LAW(.effect = "potential", .drawing = "potential", .place = acts_in_joint, .finish = potential_finish,
+         .formula = "-dV/dx")},
 };
 
 const struct kinds force_kinds = {"force", FIELDS(forces)};
@@ -211,11 +293,45 @@ static const struct group moment_potential_group =
 #define NO_TURNING "a slide and a particle do not turn: use `pivot` or `planar`"
 
 static const struct kind moments[] = {
-    {"applied", moment_applied, &moment_applied_group, on_turning | on_weld | on_track, NO_TURNING},
-    {"spring", moment_spring, &moment_spring_group, on_turning, NO_TURNING},
-    {"damper", moment_damper, &moment_damper_group, on_turning, NO_TURNING},
-    {"friction", moment_friction, &moment_friction_group, on_turning, NO_TURNING},
-    {"potential", moment_potential, &moment_potential_group, on_turning, NO_TURNING},
+    {"applied", moment_applied, &moment_applied_group, on_turning | on_weld | on_track, NO_TURNING,
+     LAW(.effect = "applied moment", .drawing = "applied")},
+    {"spring", moment_spring, &moment_spring_group, on_turning, NO_TURNING,
+     LAW(.effect = "spring (moment)", .drawing = "spring", .place = acts_in_joint, .rate = rate_never,
+         .finish = moment_spring_finish, .formula = "-k (theta - theta0)")},
+    {"damper", moment_damper, &moment_damper_group, on_turning, NO_TURNING,
+     LAW(.effect = "damper (moment)", .drawing = "damper", .place = acts_in_joint, .rate = rate_always,
+         .formula = "-c omega")},
+    {"friction", moment_friction, &moment_friction_group, on_turning, NO_TURNING,
+     LAW(.effect = "bearing friction", .drawing = "friction", .place = acts_in_joint, .follows = true,
+         .finish = friction_finish)},
+    {"potential", moment_potential, &moment_potential_group, on_turning, NO_TURNING,
+     LAW(.effect = "potential (moment)", .drawing = "potential", .place = acts_in_joint,
+         .finish = potential_finish, .formula = "-dV/dtheta")},
 };
 
 const struct kinds moment_kinds = {"moment", FIELDS(moments)};
+
+/* ---- what is not listed */
+
+static const struct {
+    enum load_kind form;
+    struct law law;
+} others[] = {
+    {load_drive, {.effect = "prescribed motion", .drawing = "applied", .follows = true}},
+    {load_rope,
+     {.effect = "rope", .drawing = "reaction", .rate = rate_never, .follows = true, .of_constraint = true}},
+    {load_contact, {.effect = "contact", .drawing = "reaction", .follows = true, .of_constraint = true}},
+    {load_belt,
+     {.effect = "belt", .drawing = "reaction", .rate = rate_never, .follows = true, .of_constraint = true}},
+};
+
+const struct law *law_of_form(enum load_kind form)
+{
+    const struct kinds *const lists[] = {&force_kinds, &moment_kinds};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (others[i].form == form) return &others[i].law;
+    for (int k = 0; k < 2; k++)
+        for (size_t i = 0; i < lists[k]->count; i++)
+            if (lists[k]->kinds[i].value == (int)form) return lists[k]->kinds[i].law;
+    return NULL;
+}

@@ -45,7 +45,14 @@ static inline bool entry_is_slide(const struct entry *entry)
 /* Where it acts: `at`. */
 bool entry_place_read(struct entry *entry);
 
-/* What an applied force and drag need beyond their keys (read_applied.c). */
+/* What laws need beyond their keys: the column `finish` of their table. */
+bool link_finish(struct entry *entry);
+bool normal_finish(struct entry *entry);
+bool friction_finish(struct entry *entry);
+bool potential_finish(struct entry *entry);
+bool moment_spring_finish(struct entry *entry);
+
+/* In read_applied.c. */
 bool applied_finish(struct entry *entry);
 bool drag_finish(struct entry *entry);
 
@@ -70,6 +77,10 @@ bool derive_couple(struct entry *entry, bool distance_named);
 
 /* The size of a force, `size` times its factor. */
 bool derive_scaled(struct entry *entry, double size);
+
+/* The value of `key`, with what stands behind it as in "/v": a formula of the wanted quantity. */
+bool derive_value(struct entry *entry, const char *key, const struct value *value, enum quantity quantity,
+                  const char *behind, enum quantity wanted, struct value *result);
 
 /* The forces of drag in a wind. */
 bool derive_wind(struct entry *entry);

@@ -64,26 +64,18 @@ static bool check_given(struct reader *reader, int index, const struct given_nam
     return fine;
 }
 
-static const char *kind_name(enum load_kind kind)
+/* The row of its law among both tables; a force and a moment of one name share the row of the force, as they share
+ * their counter. */
+static const char *law_name(const struct load *load, size_t *row)
 {
     const struct kinds *const all[] = {&force_kinds, &moment_kinds};
-    for (int k = 0; k < 2; k++)
-        for (size_t i = 0; i < all[k]->count; i++)
-            if (all[k]->kinds[i].value == (int)kind) return all[k]->kinds[i].name;
-    return "load";
-}
-
-/* A force and a moment of one kind share their counter, as they share their name. */
-static enum load_kind counter_of(enum load_kind kind)
-{
-    switch (kind) {
-    case moment_applied: return load_applied;
-    case moment_spring: return load_spring;
-    case moment_damper: return load_damper;
-    case moment_friction: return load_friction;
-    case moment_potential: return load_potential;
-    default: return kind;
-    }
+    const char *name = NULL;
+    for (int k = 0; k < 2 && !name; k++)
+        for (size_t i = 0; i < all[k]->count && !name; i++)
+            if (all[k]->kinds[i].law == load->law) name = all[k]->kinds[i].name;
+    for (*row = 0; name && *row < force_kinds.count; (*row)++)
+        if (strcmp(force_kinds.kinds[*row].name, name) == 0) break;
+    return name;
 }
 
 /* `applied`, `applied_2`, ...: the first from `*number` on that the file does not use itself. */
@@ -107,13 +99,13 @@ bool body_loads_name(struct reader *reader, int index, const char *const *given,
         if (given[i]) names[count++] = (struct given_name){given[i], places[i]};
     if (count > 0) qsort(names, count, sizeof *names, compare);
     bool fine = check_given(reader, index, names, count);
-    int numbers[moment_potential + 1] = {0}, spread = 0;
+    int *numbers = ARENA_ARRAY(reader->arena, force_kinds.count + 1, int);
+    if (!numbers) return false;
     for (size_t i = 0; i < body->load_count; i++) {
         struct load *load = &body->loads[i];
-        bool spreads = load->spread.length > 0;
-        int *number = spreads ? &spread : &numbers[counter_of(load->kind)];
-        const char *kind = spreads ? "distributed" : kind_name(load->kind);
-        load->name = given[i] ? given[i] : next_name(reader, kind, number, names, count);
+        size_t row;
+        const char *kind = law_name(load, &row);
+        load->name = given[i] ? given[i] : next_name(reader, kind, &numbers[row], names, count);
     }
     return fine && !reader->arena->failed;
 }

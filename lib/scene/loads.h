@@ -127,10 +127,13 @@ struct spread {
     double length, center;
 };
 
+struct law;
+
 /* One entry of `forces` or `moments`. Fields that a kind does not use are zero. */
 struct load {
     enum load_kind kind;
-    const char *name; /* unique within the body */
+    const struct law *law; /* of which this is the form; NULL: see load_law */
+    const char *name;      /* unique within the body */
     struct pos at;
 
     /* applied force: either `value` along `angle` (or along the slide when no angle is given), or components.

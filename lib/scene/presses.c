@@ -8,16 +8,8 @@
 /* Does a force act across a slide in the direction `along`, as far as can be told? */
 static bool acts_across(const struct scene *scene, const struct load *load, double along)
 {
-    const double aside = 1e-12;
-    const struct vec gravity = scene->gravity;
-    switch (load->kind) {
-    case load_gravity: return fabs(vec_cross(vec_unit(along), gravity)) > aside * vec_norm(gravity);
-    case load_applied: return load->angle.expr || load->fx.expr || load->fy.expr;
-    case load_spring:
-    case load_damper: return load->anchor.kind != point_absent;
-    case load_drag: return load_has_wind(load);
-    default: return false;
-    }
+    const struct law *law = load_law(load);
+    return law->across && law->across(load, scene->gravity, along);
 }
 
 static const struct load *normal_of(const struct body *body)

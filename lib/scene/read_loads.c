@@ -26,7 +26,7 @@ static bool finish_anchored_spring(struct entry *entry)
     return fine;
 }
 
-static bool finish_link(struct entry *entry)
+bool link_finish(struct entry *entry)
 {
     struct load *load = &entry->keys.load;
     if (entry->keys.to) {
@@ -78,7 +78,7 @@ static bool share_friction(struct entry *entry, bool single)
 }
 
 /* One coefficient stands for both. */
-static bool finish_friction(struct entry *entry)
+bool friction_finish(struct entry *entry)
 {
     struct load *load = &entry->keys.load;
     const char *hint = "`coefficient` means both";
@@ -99,20 +99,27 @@ static bool finish_friction(struct entry *entry)
 }
 
 /* On a vertical line the one side is as much up as the other. A guide does not care. */
-static void finish_normal(struct entry *entry)
+bool normal_finish(struct entry *entry)
 {
     const double upright = 1e-12; /* as where the side is chosen, in model/compile.c */
     struct load *load = &entry->keys.load;
     load->side = (enum normal_side)entry->keys.side;
-    if (load->side != side_up || load->two_sided || !entry_is_slide(entry)) return;
-    if (fabs(vec_unit(entry->motion->along).x) > upright) return;
+    if (load->side != side_up || load->two_sided || !entry_is_slide(entry)) return true;
+    if (fabs(vec_unit(entry->motion->along).x) > upright) return true;
     diag_add(entry->reader->errors, FBD_WARNING, "no-side-up", entry->chosen.at,
              "write `normal: {side: left}` or `normal: {side: right}`, as seen along +x",
              "no side of a vertical line is up: the surface is taken to push to the left of +x");
+    return true;
+}
+
+bool moment_spring_finish(struct entry *entry)
+{
+    entry->keys.load.free_length = entry->keys.neutral;
+    return true;
 }
 
 /* Its slope is taken with respect to coordinates. */
-static bool check_potential(const struct entry *entry)
+bool potential_finish(struct entry *entry)
 {
     const struct value *V = &entry->keys.load.potential;
     if (!V->expr || expr_is_constant(V->expr)) return true;
@@ -122,26 +129,6 @@ static bool check_potential(const struct entry *entry)
     entry_note(entry, "not-here", V->at, "write V in the coordinates of the body",
                "a potential cannot depend on a place in the world or on a state");
     return false;
-}
-
-static bool finish(struct entry *entry)
-{
-    struct load *load = &entry->keys.load;
-    switch (load->kind) {
-    case load_applied:
-        return strcmp(entry->chosen.kind->name, "distributed") == 0 ? distributed_finish(entry)
-                                                                    : applied_finish(entry);
-    case load_spring:
-    case load_damper: return finish_link(entry);
-    case load_friction:
-    case moment_friction: return finish_friction(entry);
-    case load_drag: return drag_finish(entry);
-    case load_normal: finish_normal(entry); return true;
-    case moment_spring: load->free_length = entry->keys.neutral; return true;
-    case load_potential:
-    case moment_potential: return check_potential(entry);
-    default: return true;
-    }
 }
 
 /* ---- entries */
@@ -163,6 +150,7 @@ static bool read_entry(struct entry *entry, const struct kinds *kinds, const str
     if (!kind_read(reader, kinds, node, kinds == &force_kinds ? "forces" : "moments", &entry->chosen))
         return false;
     load->kind = (enum load_kind)entry->chosen.kind->value;
+    load->law = entry->chosen.kind->law;
     load->at = entry->chosen.at;
     ((struct names *)entry->scope.context)->slip_named = false;
     if (!check_place(entry, kinds)) return false;
@@ -171,7 +159,7 @@ static bool read_entry(struct entry *entry, const struct kinds *kinds, const str
     bool keyed = !entry->chosen.node || entry->chosen.node->kind == node_map;
     if (!fine && !keyed) return false;
     if (entry->keys.at && !entry_place_read(entry)) fine = false;
-    return finish(entry) && fine;
+    return (!load->law->finish || load->law->finish(entry)) && fine;
 }
 
 /* Note a second weight, a second surface, friction without a surface. */

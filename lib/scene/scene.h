@@ -13,6 +13,7 @@
 #ifndef FBD_SCENE_SCENE_H
 #define FBD_SCENE_SCENE_H
 
+#include "scene/law.h"
 #include "scene/loads.h"
 
 /* The most summands that are told apart. */

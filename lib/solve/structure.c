@@ -64,25 +64,8 @@ static bool reads_rate(const struct fbd_model *model, const struct value *value)
 /* Friction that slips has the sign of its mode, and depends on the velocity through its coefficients only. */
 static bool depends_on_velocity(const struct fbd_model *model, const struct load *load)
 {
-    switch (load->kind) {
-    case load_damper:
-    case load_drag:
-    case moment_damper: return true;
-    case load_gravity:
-    case load_normal:
-    case load_rope:
-    case load_belt:
-    case load_spring:
-    case moment_spring: return false;
-    case load_contact:
-    case load_drive:
-    case load_friction:
-    case moment_friction:
-    case load_applied:
-    case moment_applied:
-    case load_potential:
-    case moment_potential: break;
-    }
+    enum law_rate rate = load_law(load)->rate;
+    if (rate != rate_by_formulas) return rate == rate_always;
     struct load copy = *load;
     struct value *formulas[most_formulas_of_a_load];
     load_formulas(&copy, formulas);

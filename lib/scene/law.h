@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Law: what a file calls a force or moment, as one row of a table (language_loads.c).
+ *
+ * A law has a form, its load_kind, which says how its force is computed: from a formula of the file, as a spring
+ * between points, as drag at a point, as the slope of a potential, ... Wrench, variation, potential and degree are
+ * those of the form. What a law adds is how it is read and what it is called: a constant power is the form of an
+ * applied force whose formula is P/v, with derivatives, potential, degree and divisions as any formula has them.
+ */
+#ifndef FBD_SCENE_LAW_H
+#define FBD_SCENE_LAW_H
+
+#include "scene/loads.h"
+
+struct entry;
+
+/* Where it acts: on the body, from outside, or between the body and the one that it moves on. */
+enum law_place { acts_on_body, acts_in_joint, acts_in_joint_without_end };
+
+/* Does it go with the velocity? */
+enum law_rate { rate_by_formulas, rate_always, rate_never };
+
+struct law {
+    const char *effect;  /* in words, for --explain */
+    const char *drawing; /* the class of its arrow */
+    enum law_place place;
+    enum law_rate rate;
+    bool follows;         /* from all the others: as what a surface gives, or a rope */
+    bool of_constraint;   /* not listed by itself: it stands for a coupling */
+    const char *singular; /* what is said of it where it is infinite, or NULL */
+
+    /* What is more than one key at a time, and what follows from the keys; or NULL. */
+    bool (*finish)(struct entry *entry);
+
+    /* Its formula in a few symbols: always, or as `remark` has it; `between` two points, on a body that `turns`. */
+    const char *formula;
+    const char *(*remark)(const struct load *load, bool between, bool turns);
+
+    /* Can it act across a slide in the direction `along`? NULL: no. */
+    bool (*across)(const struct load *load, struct vec gravity, double along);
+};
+
+/* The law of a form that nobody has read from a list: of a coupling. */
+const struct law *law_of_form(enum load_kind form);
+
+static inline const struct law *load_law(const struct load *load)
+{
+    return load->law ? load->law : law_of_form(load->kind);
+}
+
+#endif
