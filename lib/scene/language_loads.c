@@ -150,6 +150,29 @@ static const struct field drag_fields[] = {
 static const struct group drag_group =
     LOAD_GROUP("`drag`", NULL, drag_fields, "resistance against the velocity of a point through the air");
 
+static const struct field power_fields[] = {
+    FIELD_VALUE(LOAD(value), "value", a_power, required, "above zero: in the direction of the motion"),
+};
+static const struct group power_group =
+    LOAD_GROUP("`power`", "value", power_fields, "a drive of given power: the force P/v, the moment P/omega");
+
+/* f v = P, M omega = P: the formula has a division by the rate, where the force is infinite. The power is that on
+ * the body, so the rate has to be its velocity in the world. */
+static bool power_finish(struct entry *entry)
+{
+    const struct value P = entry->keys.load.value;
+    const bool turns = entry->keys.load.kind == moment_applied;
+    if (!P.expr || !entry->motion) return P.expr != NULL;
+    if (entry->motion->parent != ground_body) {
+        entry_note(entry, "not-here", entry->chosen.at,
+                   "write it out: `applied: {value: P/v}`, of the velocity meant",
+                   "`power` acts on what moves on the ground: of two moving bodies there are two velocities");
+        return false;
+    }
+    return derive_value(entry, "value", &P, a_power, turns ? "/omega" : "/v", turns ? a_moment : a_force,
+                        &entry->keys.load.value);
+}
+
 static const struct field potential_fields[] = {
     FIELD_VALUE(LOAD(potential), "V", an_energy, required, "potential energy, of the body's coordinates"),
 };
@@ -245,6 +268,10 @@ static const struct kind forces[] = {
     {"potential", load_potential, &potential_group, on_moving, "list it where the coordinates are",
      LAW(.effect = "potential", .drawing = "potential", .place = acts_in_joint, .finish = potential_finish,
          .formula = "-dV/dx")},
+    {"power", load_applied, &power_group, on_slide | on_track,
+     "a drive of given power goes along a slide; under `moments` it turns a pivot",
+     LAW(.effect = "constant power", .drawing = "applied", .finish = power_finish, .formula = "P/v",
+         .singular = "which is P/v and infinite at rest (give it an initial velocity)")},
 };
 
 const struct kinds force_kinds = {"force", FIELDS(forces)};
@@ -307,6 +334,9 @@ static const struct kind moments[] = {
     {"potential", moment_potential, &moment_potential_group, on_turning, NO_TURNING,
      LAW(.effect = "potential (moment)", .drawing = "potential", .place = acts_in_joint,
          .finish = potential_finish, .formula = "-dV/dtheta")},
+    {"power", moment_applied, &power_group, on_pivot, "a drive of given power turns a pivot",
+     LAW(.effect = "constant power", .drawing = "applied", .finish = power_finish, .formula = "P/omega",
+         .singular = "which is P/omega and infinite at rest (give it an initial velocity)")},
 };
 
 const struct kinds moment_kinds = {"moment", FIELDS(moments)};

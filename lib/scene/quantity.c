@@ -16,6 +16,7 @@ static const struct {
     [a_force] = {"a force", "5 N", 1, 1, -2},
     [a_moment] = {"a moment", "5 N*m", 1, 2, -2},
     [an_energy] = {"an energy", "5 J", 1, 2, -2},
+    [a_power] = {"a power", "500 W", 1, 2, -3},
     [an_inertia] = {"a moment of inertia", "0.5 kg*m^2", 1, 2, 0},
     [a_stiffness] = {"a stiffness", "200 N/m", 1, 0, -2},
     [a_torsional_stiffness] = {"a torsional stiffness", "5 N*m/rad", 1, 2, -2},

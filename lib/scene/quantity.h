@@ -19,6 +19,7 @@ enum quantity {
     a_force,
     a_moment,
     an_energy,
+    a_power,
     an_inertia,
     a_stiffness,
     a_torsional_stiffness,
