@@ -5,9 +5,11 @@
  * Two looks, so that nothing new slips through: the keys of the file against those that are known here, and the
  * compiled model against what the other files of this room write.
  */
+#include <assert.h>
 #include <string.h>
 
 #include "emit/emit.h"
+#include "scene/language.h"
 #include "scene/node.h"
 
 /* ---- the keys of the file */
@@ -33,8 +35,6 @@ static const struct words motions = WORDS("slide", "pivot", "particle", "planar"
 static const struct words motion_keys = WORDS("along", "through", "line", "on", "at", "point", "angle", "x",
                                               "theta", "min", "max", "restitution");
 static const struct words initial_keys = WORDS("x", "y", "v", "vx", "vy", "theta", "omega", "assemble");
-static const struct words load_kinds =
-    WORDS("gravity", "normal", "friction", "applied", "spring", "damper", "drag", "potential");
 static const struct words load_keys =
     WORDS("name", "side", "two_sided", "static", "kinetic", "coefficient", "surface_speed", "value", "angle",
           "toward", "fx", "fy", "frame", "at", "stiffness", "free_length", "neutral", "to", "linear",
@@ -88,13 +88,28 @@ static void check_entries(const struct node *list, const struct words *kinds, co
         check_kind(list->items[i], kinds, keys, what, errors);
 }
 
+enum { most_laws = 32 };
+
+/* The names of the laws that say so in their row. */
+static struct words laws_written(const struct kinds *kinds, const char *names[static most_laws])
+{
+    size_t count = 0;
+    assert(kinds->count <= most_laws);
+    for (size_t i = 0; i < kinds->count; i++)
+        if (kinds->kinds[i].law->written_as_c) names[count++] = kinds->kinds[i].name;
+    return (struct words){names, count};
+}
+
 static void check_body(const struct node *body, fbd_errors *errors)
 {
+    const char *names[2][most_laws];
+    const struct words forces = laws_written(&force_kinds, names[0]),
+                       moments = laws_written(&moment_kinds, names[1]);
     check_keys(body, &body_keys, "the key", errors);
     check_entries(value_of(body, "motion"), &motions, &motion_keys, "the motion", errors);
     check_keys(value_of(body, "initial"), &initial_keys, "the key", errors);
-    check_entries(value_of(body, "forces"), &load_kinds, &load_keys, "the force", errors);
-    check_entries(value_of(body, "moments"), &load_kinds, &load_keys, "the moment", errors);
+    check_entries(value_of(body, "forces"), &forces, &load_keys, "the force", errors);
+    check_entries(value_of(body, "moments"), &moments, &load_keys, "the moment", errors);
 }
 
 static void check_file(const struct fbd_model *model, fbd_errors *errors)

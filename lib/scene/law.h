@@ -26,6 +26,7 @@ struct law {
     enum law_place place;
     enum law_rate rate;
     bool follows;         /* from all the others: as what a surface gives, or a rope */
+    bool written_as_c;    /* by --emit-c: it is refused there until somebody has looked */
     bool of_constraint;   /* not listed by itself: it stands for a coupling */
     const char *singular; /* what is said of it where it is infinite, or NULL */
 
