@@ -273,29 +273,3 @@ fbd_table fbd_result_table(const fbd_result *result)
                        .heads = numbers->heads,
                        .values = numbers->values};
 }
-
-fbd_outcome fbd_result_outcome(const fbd_result *result)
-{
-    if (!result) return FBD_FAILED;
-    return result->simulation->ensemble->outcome;
-}
-
-fbd_state *fbd_result_state(fbd_result *result)
-{
-    if (!result) return NULL;
-    return ensemble_state(result->simulation->ensemble);
-}
-
-fbd_energy fbd_result_energy(fbd_result *result)
-{
-    if (!result) return (fbd_energy){NAN, NAN, NAN, NAN, NAN, NAN};
-    return ledger_energy(&result->ledger, fbd_result_state(result), result->ledger.work);
-}
-
-double fbd_result_work(fbd_result *result, const char *body, const char *load)
-{
-    if (!result || !body || !load) return NAN;
-    int index = model_find_load(result->ledger.model, body, load);
-    if (index < 0) return NAN;
-    return ledger_work(&result->ledger, fbd_result_state(result), (size_t)index, result->ledger.work);
-}

@@ -20,12 +20,6 @@ void simulation_end(fbd_simulation *simulation);
  * when memory is out or the writer refused. */
 fbd_result *record(fbd_simulation *simulation, const fbd_recording *recording);
 
-/* Find the errors of the times of the events, with error bars. False when memory is out. */
-bool simulation_match_events(fbd_simulation *simulation);
-
-/* The estimated error of the time of an event; NAN without error bars or memory. */
-double simulation_event_error(fbd_simulation *simulation, size_t index);
-
 /* ---- accuracy on request */
 
 /* The tolerance to begin with. */

@@ -234,48 +234,6 @@ fbd_event fbd_simulation_event(fbd_simulation *simulation, size_t index)
                        .t_error = simulation_event_error(simulation, index)};
 }
 
-static void add_stats(fbd_stats *stats, const struct run *run)
-{
-    const struct stepper_counts counts = switcher_counts(run->stepper);
-    stats->stiff_steps += switcher_stiff_steps(run->stepper);
-    stats->steps += counts.accepted;
-    stats->rhs += run->system.rhs;
-    stats->jacobians += run->system.jacobians;
-    stats->event_samples += (unsigned long)(run->timed.samples + run->moving.samples);
-    for (int kind = 0; kind < rejection_kinds; kind++) stats->rejected += counts.rejected[kind];
-    stats->linear += run->kind == structure_linear;
-    stats->constant += run->kind == structure_constant;
-    stats->velocity_free += run->kind == structure_velocity_free;
-}
-
-fbd_stats fbd_simulation_stats(const fbd_simulation *simulation)
-{
-    if (!simulation) return (fbd_stats){.method = "", .error_estimate = NAN};
-    struct ensemble *ensemble = simulation->ensemble;
-    const struct run_options *options = &ensemble->options;
-    fbd_stats stats = {.method = options_method(options),
-                       .tolerance = options->tolerance,
-                       .events = ensemble->event_count,
-                       .seconds = simulation->seconds,
-                       .groups = ensemble->count,
-                       .error_estimate = NAN,
-                       .accuracy = simulation->accuracy,
-                       .runs = simulation->runs,
-                       .seconds_spent = simulation->seconds_spent};
-    for (size_t i = 0; i < ensemble->count; i++) add_stats(&stats, ensemble->groups[i].run);
-    if (simulation->bars) {
-        const struct companion *companion = simulation->bars->companion;
-        if (ensemble->outcome != FBD_GOING) bars_catch_up(simulation->bars, ensemble);
-        stats.error_estimate = companion_global(companion);
-        fbd_stats other = {0};
-        for (size_t i = 0; i < companion->ensemble->count; i++)
-            add_stats(&other, companion->ensemble->groups[i].run);
-        stats.companion_steps = other.steps;
-        stats.companion_rhs = other.rhs;
-    }
-    return stats;
-}
-
 bool fbd_simulation_blame(const fbd_simulation *simulation, fbd_errors *list)
 {
     const struct ensemble *ensemble = simulation ? simulation->ensemble : NULL;

@@ -270,7 +270,7 @@ bool hand_take_samples(struct hand_check *check, const struct document *document
         fbd_model *changed;
         bool done = random_model(document, check->model, rng, spread, &changed) &&
                     (!changed || sample_model(check, changed, rng));
-        fbd_model_free(changed);
+        model_free(changed);
         if (!done) return false;
     }
     return true;
@@ -336,7 +336,7 @@ char *fbd_check_hand(const fbd_model *model, unsigned seed, size_t *differing)
         text_printf(&text, "seed %u\n", seed);
     }
     bool lost = text.failed || differ < 0;
-    fbd_model_free(split);
+    model_free(split);
     fbd_errors_free(errors);
     free(check.samples);
     if (rng) gsl_rng_free(rng);

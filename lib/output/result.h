@@ -43,6 +43,12 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
 const char *event_body(const struct fbd_model *model, const struct run_event *event);
 const char *event_name(const struct fbd_model *model, const struct run_event *event);
 
+/* Find the errors of the times of the events, with error bars. False when memory is out. */
+bool simulation_match_events(fbd_simulation *simulation);
+
+/* The estimated error of the time of an event; NAN without error bars or memory. */
+double simulation_event_error(fbd_simulation *simulation, size_t index);
+
 /* Units of the scene's system. */
 const char *length_unit(const struct fbd_model *model);
 const char *force_unit(const struct fbd_model *model);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Public interface: error bars.
+ * Result: its error bars.
  */
 #include <stdlib.h>
 
-#include "api/record.h"
+#include "output/result.h"
 
 bool simulation_match_events(fbd_simulation *simulation)
 {
@@ -93,16 +93,4 @@ size_t fbd_result_force_errors(fbd_result *result, size_t body, fbd_arrow *arrow
     }
     free(others);
     return count;
-}
-
-bool fbd_result_accurate(const fbd_result *result)
-{
-    if (!result) return false;
-    const fbd_simulation *simulation = result->simulation;
-    fbd_outcome outcome = simulation->ensemble->outcome;
-    if (simulation->accuracy == 0) return true;
-    if (simulation->cut || outcome == FBD_FAILED || outcome == FBD_INTERRUPTED ||
-        outcome == FBD_OUT_OF_MEMORY)
-        return false;
-    return companion_global(simulation->bars->companion) <= simulation->accuracy;
 }
