@@ -128,6 +128,19 @@ static bool has_coordinates(const struct comparison *comparison, const struct mo
     return true;
 }
 
+/* How large the key's scene is: what places are rounded against. */
+static double size_of_scene(const struct comparison *comparison)
+{
+    struct instant at = state_instant(comparison->key_state);
+    double size = 0;
+    for (size_t b = 0; b < comparison->key->body_count; b++) {
+        const struct model_body *body = &comparison->key->bodies[b];
+        double gyration = sqrt(fmax(body->inertia.I_G, 0) / body->inertia.mass);
+        size = fmax(size, vec_norm(body_pose(body, &at).origin) + body->L + gyration);
+    }
+    return size;
+}
+
 /* Is the frame of the body where that of the key's is? That of a slide may point the other way. */
 static bool is_there(const struct comparison *comparison, size_t b)
 {
@@ -137,10 +150,10 @@ static bool is_there(const struct comparison *comparison, size_t b)
     const struct model_body *other = &comparison->answer->bodies[twin->other];
     struct pose pose = body_pose(body, &at), there = body_pose(other, &other_at);
     struct vec apart = vec_sub(pose.origin, vec_scale(comparison->length, there.origin));
-    double size = 1e-9 * (1 + vec_norm(pose.origin));
+    const double digits = 1e-9; /* that files have */
     bool turned = body->kind != motion_slide && body->kind != motion_particle &&
-                  vec_norm(vec_sub(pose.rotation, there.rotation)) > 1e-9;
-    return vec_norm(apart) <= size && !turned;
+                  vec_norm(vec_sub(pose.rotation, there.rotation)) > digits;
+    return vec_norm(apart) <= digits * size_of_scene(comparison) && !turned;
 }
 
 static void find_twin(struct comparison *comparison, size_t b)

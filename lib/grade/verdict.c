@@ -181,7 +181,9 @@ static const char *inertia_fault(const struct fbd_grade *grade, const struct mod
     double tolerance = grading_of(grade)->tolerance, I = force * length; /* kg m^2 = N m s^2 */
     double I_G = I * body->inertia.I_G, I_O = I * body->I_O, mass = force / length * body->inertia.mass;
     struct vec apart = vec_sub(vec_scale(length, body->inertia.G), key->inertia.G);
-    double size = tolerance * (vec_norm(key->inertia.G) + key->L) + 1e-12;
+    double gyration =
+        sqrt(fmax(key->inertia.I_G, 0) / key->inertia.mass); /* G may be the origin, but for rounding */
+    double size = tolerance * (vec_norm(key->inertia.G) + key->L + gyration);
     bool pivot = key->kind == motion_pivot, turns = pivot || key->kind == motion_planar;
     *kind = FBD_FINDING_INERTIA;
     if (!near(mass, key->inertia.mass, tolerance)) return "the mass is another one";

@@ -103,7 +103,9 @@ static void write_place(struct text *text, const struct fbd_statics *statics)
     for (int i = 0; i < model->plan.n; i++) {
         const struct label *label = &model->labels[i];
         double q = statics->state->y[i], initial = model->scene->coordinates[i].initial;
-        if (fabs(q - initial) <= 1e-12 * fmax(1, fabs(initial))) continue;
+        bool angle = model->scene->coordinates[i].angle;
+        double size = angle ? 1 : statics->length; /* a radian */
+        if (fabs(q - initial) <= 1e-12 * fmax(size, fabs(initial))) continue;
         if (listed++ >= most_listed) continue;
         text_printf(text, listed == 1 ? "Where %s = " : "      %s = ", label->name);
         text_number(text, q, digits);

@@ -4,6 +4,7 @@
 #include "scene/slip_law.h"
 #include "scene/values.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -307,7 +308,8 @@ static const struct kind *find_kind(struct reader *reader, const struct kinds *k
 {
     enum { most_kinds = 16 };
     const char *names[most_kinds];
-    for (size_t i = 0; i < kinds->count && i < most_kinds; i++) {
+    assert(kinds->count <= most_kinds); /* they are tables of our own */
+    for (size_t i = 0; i < kinds->count; i++) {
         names[i] = kinds->kinds[i].name;
         if (strcmp(names[i], name) == 0) return &kinds->kinds[i];
     }
