@@ -351,7 +351,7 @@ static bool grading_agrees(const struct options *options)
         options->run.no_structure || isfinite(options->run.until) || options->run.error_bars ||
         options->settle || options->fmu_version || options->svg || options->html || options->plot ||
         options->plot_of || options->gnuplot || options->ledger || options->every > 0 || options->latex ||
-        shapes_drawing(&options->drawing))
+        shapes_drawing(&options->drawing, false))
         return usage("with --grade go --student, --details, --csv, --json and --quiet only; with --handout "
                      "--student only",
                      "");
@@ -388,7 +388,7 @@ static bool drawing_agrees(const struct options *options)
         return usage(
             "--body, --components, --supports, --symbols, --scale, --worksheet and --solution go with the "
             "diagrams of --svg",
-            "");
+            options->drawing.components ? ", --components also with --html, --ledger and --equations" : "");
     if (drawing->worksheet && (drawing->solution || drawing->symbols || drawing->components))
         return usage(
             "--worksheet has no arrows: --solution, --symbols and --components are for another sheet", "");
