@@ -282,6 +282,7 @@ static void measure(struct sides *sides)
             sides->arm = fmax(sides->arm, at->arm);
         }
     sides->moment = fmax(sides->moment, sides->force * sides->arm);
+    if (sides->force == 0) sides->force = sides->moment; /* of moments alone: that of forces a unit apart */
 }
 
 /* ---- all of it */

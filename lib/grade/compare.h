@@ -50,4 +50,18 @@ struct difference difference_of(const struct sides *sides, const struct item *ke
 bool adds_up(const struct sides *sides, const struct item *const *parts, size_t count,
              const struct item *sum);
 
+/* Is it zero at every state? */
+bool is_nothing(const struct sides *sides, const struct item *item);
+
+/* Some of those of the key that are not used yet, and some of the answer, that do the same together; false when there
+ * are none. The sizes: more is not looked for, since every choice of them is. */
+enum { most_in_group = 8 };
+
+struct group {
+    size_t key_count, count;
+    struct item *key[most_in_group], *items[most_in_group];
+};
+
+bool group_find(struct sides *sides, struct group *group);
+
 #endif

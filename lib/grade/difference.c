@@ -49,20 +49,83 @@ static bool agree(const struct sides *sides, const struct item *key, const struc
     return true;
 }
 
-bool adds_up(const struct sides *sides, const struct item *const *parts, size_t count, const struct item *sum)
+static struct wrench sum_at(const struct item *const *items, size_t count, size_t s)
 {
-    bool follows = sum->follows;
+    struct wrench sum = {.moment = 0};
+    for (size_t i = 0; i < count; i++) {
+        sum.force = vec_add(sum.force, items[i]->at[s].force);
+        sum.moment += items[i]->at[s].moment;
+    }
+    return sum;
+}
+
+/* Do two sums agree, at every state that counts? What follows from other forces is known where the motion is possible,
+ * and the body slips as at the start. */
+static bool sums_agree(const struct sides *sides, const struct item *const *key, size_t key_count,
+                       const struct item *const *parts, size_t count)
+{
+    bool follows = false;
+    for (size_t i = 0; i < key_count; i++) follows = follows || key[i]->follows;
     for (size_t i = 0; i < count; i++) follows = follows || parts[i]->follows;
     for (size_t s = 0; s < sides->samples; s++) {
-        struct wrench all = {.moment = 0};
-        for (size_t i = 0; i < count; i++) {
-            all.force = vec_add(all.force, parts[i]->at[s].force);
-            all.moment += parts[i]->at[s].moment;
-        }
-        bool known = !follows || (sides->possible[s] && sides->like_start[s]);
-        if (known && !near_wrench(sides, &sum->at[s], &all)) return false;
+        if (follows && !(sides->possible[s] && sides->like_start[s])) continue;
+        struct wrench sum = sum_at(key, key_count, s), other = sum_at(parts, count, s);
+        if (!near_wrench(sides, &sum, &other)) return false;
     }
     return true;
+}
+
+bool adds_up(const struct sides *sides, const struct item *const *parts, size_t count, const struct item *sum)
+{
+    return sums_agree(sides, &sum, 1, parts, count);
+}
+
+bool is_nothing(const struct sides *sides, const struct item *item)
+{
+    const struct wrench zero = {.moment = 0};
+    for (size_t s = 0; s < sides->samples; s++)
+        if (!near_wrench(sides, &zero, &item->at[s])) return false;
+    return true;
+}
+
+/* ---- groups */
+
+static size_t take_unused(struct item *items, size_t count, struct item *left[most_in_group])
+{
+    size_t found = 0;
+    for (size_t i = 0; i < count && found < most_in_group; i++)
+        if (!items[i].used && items[i].source) left[found++] = &items[i];
+    return found;
+}
+
+static size_t choose(struct item *const *from, size_t count, unsigned mask, struct item *chosen[most_in_group])
+{
+    size_t found = 0;
+    for (size_t i = 0; i < count; i++)
+        if (mask & (1U << i)) chosen[found++] = from[i];
+    return found;
+}
+
+static bool group_adds_up(const struct sides *sides, const struct group *group)
+{
+    return sums_agree(sides, (const struct item *const *)group->key, group->key_count,
+                      (const struct item *const *)group->items, group->count);
+}
+
+bool group_find(struct sides *sides, struct group *group)
+{
+    struct item *key[most_in_group], *items[most_in_group];
+    size_t key_count = take_unused(sides->key, sides->key_count, key);
+    size_t count = take_unused(sides->items, sides->count, items);
+    for (size_t size = 2; size <= key_count + count; size++)
+        for (unsigned some = 1; some < 1U << key_count; some++) {
+            group->key_count = choose(key, key_count, some, group->key);
+            for (unsigned own = 1; own < 1U << count && group->key_count < size; own++) {
+                group->count = choose(items, count, own, group->items);
+                if (group->key_count + group->count == size && group_adds_up(sides, group)) return true;
+            }
+        }
+    return false;
 }
 
 /* ---- what follows from the others */

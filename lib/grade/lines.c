@@ -34,20 +34,23 @@ static const struct node *pushed_body(struct arena *arena, const struct node *pr
     return list ? node_with(arena, body->value, "forces", list) : NULL;
 }
 
-/* A push on every body, off its centre where it can turn, by a share of its weight, so that ropes stay taut. */
-static void write_pushes(const fbd_model *model, double sign, struct text *text)
+/* A push on every body, off its centre where it can turn, by a share of its weight, so that ropes stay taut. No line is
+ * at right angles to both of them. */
+static const struct vec shares[] = {{1.7, -2.9}, {-3.1, 0.8}};
+
+static void write_pushes(const fbd_model *model, struct vec share, struct text *text)
 {
     double pounds = model->scene->units == unit_us ? 14.6 : 1;
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
         bool turns = body->kind == motion_pivot || body->kind == motion_planar;
-        double weight = sign * 10 * body->inertia.mass * pounds;
+        double mass = body->inertia.mass * pounds;
         text_printf(text, "%s: {applied: {name: fbd_probe, fx: %.17g N, fy: %.17g N%s}}\n", body->name,
-                    0.17 * weight, -0.29 * weight, turns ? ", at: [0.21 m, 0.13 m]" : "");
+                    share.x * mass, share.y * mass, turns ? ", at: [0.21 m, 0.13 m]" : "");
     }
 }
 
-static void push(struct lines *lines, double sign, struct pushed *pushed)
+static void push(struct lines *lines, struct vec share, struct pushed *pushed)
 {
     struct arena *arena = &lines->grade->arena;
     const struct node *bodies = lines_value(lines->root, "bodies"), *made = bodies;
@@ -55,7 +58,7 @@ static void push(struct lines *lines, double sign, struct pushed *pushed)
     if (pushed->made) return;
     fbd_errors *errors = fbd_errors_new();
     pushed->made = true;
-    write_pushes(lines->model, sign, &text);
+    write_pushes(lines->model, share, &text);
     char *kept = errors && !text.failed ? arena_text(arena, text.data, text.length) : NULL;
     bool open = kept && document_open(&pushed->probes, kept, text.length, NULL, errors);
     for (size_t b = 0; open && made && b < bodies->count; b++) {
@@ -94,27 +97,59 @@ static bool agrees_somewhere(const struct line *line)
     return agrees_at(line, 0) || agrees_at(line, 1) || agrees_at(line, 2);
 }
 
-/* A number that was rounded, perhaps: one of two digits or more. */
+static bool is_of_name(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+/* A number that was rounded, perhaps: one of two digits or more, that is no part of a name. */
 static bool has_numbers(const char *text)
 {
     size_t digits = 0;
+    bool name = false;
     for (; *text; text++) {
         bool digit = *text >= '0' && *text <= '9';
-        digits = digit ? digits + 1 : *text == '.' ? digits : 0;
+        name = is_of_name(*text) && (name || !digit);
+        digits = digit && !name ? digits + 1 : *text == '.' ? digits : 0;
         if (digits >= 2) return true;
     }
     return false;
 }
 
-/* Does it name a parameter that the sheet does not have? Those follow from others, and are not varied with them. */
-static bool has_own_names(const struct lines *lines, const char *text)
+static bool names_it(const char *text, const char *name)
+{
+    size_t length = strlen(name);
+    for (const char *at = strstr(text, name); at; at = strstr(at + 1, name))
+        if ((at == text || !is_of_name(at[-1])) && !is_of_name(at[length])) return true;
+    return false;
+}
+
+/* Has the sheet a parameter of that value? Then one of another name is that, and not a number that was rounded. */
+static bool is_of_the_sheet(const struct lines *lines, double value)
+{
+    const struct scene *scene = lines->grade->sheet->scene;
+    for (size_t i = 0; i < scene->parameter_count; i++)
+        if (fabs(scene->parameters[i].value - value) <= 1e-12 * fabs(value)) return true;
+    return false;
+}
+
+/* Does it name parameters that the sheet does not have? Those follow from others, and are not varied with them.
+ * *rounded: one of them may be a number that was rounded. */
+static bool has_own_names(const struct lines *lines, const char *text, bool *rounded)
 {
     const struct scene *scene = lines->model->scene;
     const struct node *known = lines_value(lines->grade->key->document.root, "parameters");
-    for (size_t i = 0; i < scene->parameter_count; i++)
-        if (!node_find(known, scene->parameters[i].name) && strstr(text, scene->parameters[i].name))
-            return true;
-    return false;
+    const struct node *own = lines_value(lines->root, "parameters");
+    bool found = false;
+    for (size_t i = 0; i < scene->parameter_count; i++) {
+        const char *name = scene->parameters[i].name;
+        if (node_find(known, name) || !names_it(text, name)) continue;
+        const struct node *value = lines_value(own, name);
+        found = true;
+        *rounded = *rounded || (value && value->kind == node_scalar && has_numbers(value->text) &&
+                                !is_of_the_sheet(lines, scene->parameters[i].value));
+    }
+    return found;
 }
 
 static bool sample_line(struct lines *lines, const struct node *root, const fbd_model *model, double spread,
@@ -128,29 +163,48 @@ static bool sample_line(struct lines *lines, const struct node *root, const fbd_
     return true;
 }
 
-/* Does it fail under other forces? Where these leave no motion that can be, under their opposites. */
+/* Does it fail under other forces, where these leave a motion that can be? */
 static bool look_at_pushed(struct lines *lines, double tolerance, struct line *line)
 {
-    line->dynamic = true;
-    for (int k = 0; k < 2; k++) {
+    bool seen_any = false;
+    line->dynamic = false;
+    for (size_t k = 0; k < sizeof shares / sizeof *shares && !line->dynamic; k++) {
         struct line other = {.says = 0};
         struct pushed *pushed = &lines->pushed[k];
-        push(lines, k == 0 ? 1 : -1, pushed);
-        if (!pushed->model) return !lines->grade->arena.failed;
+        push(lines, shares[k], pushed);
+        if (!pushed->model) {
+            line->dynamic = true;
+            return !lines->grade->arena.failed;
+        }
         if (!sample_line(lines, pushed->root, pushed->model, 0, tolerance, &other)) return false;
         size_t seen = other.seen[0] + other.seen[1] + other.seen[2];
+        seen_any = seen_any || seen > 0;
         line->dynamic = 2 * (other.agreed[0] + other.agreed[1] + other.agreed[2]) < seen;
-        if (seen > 0) return true;
     }
-    line->dynamic = line->says != 0;
+    if (!seen_any) line->dynamic = line->says != 0;
     return true;
 }
 
-/* For all values of the parameters, or, where it has numbers, for those of the sheet. */
+/* For the values of the sheet: to rounding, or to three digits where it has numbers that may be rounded. */
+static bool look_at_values(struct lines *lines, const char *text, double *tolerance, struct line *line)
+{
+    const struct line general = *line;
+    bool rounded = has_numbers(text), own = has_own_names(lines, text, &rounded);
+    if (!rounded && !own) return true;
+    if (!sample_line(lines, lines->root, lines->model, 0, *tolerance, line)) return false;
+    if (!agrees_somewhere(line) && rounded) {
+        *tolerance = 0.3 * lines->model->scene->grading.tolerance;
+        if (!sample_line(lines, lines->root, lines->model, 0, *tolerance, line)) return false;
+    }
+    line->in_numbers = agrees_somewhere(line);
+    if (!line->in_numbers) *line = general;
+    return true;
+}
+
+/* For all values of the parameters, or for those of the sheet. */
 static bool look_at_line(struct lines *lines, int body, int index, struct line *line)
 {
     const fbd_model *model = lines->model;
-    const char *text = model->scene->bodies[body].hands[index].text;
     double tolerance = 1e-9;
     *line = (struct line){.says = 0};
     lines->check.body = body;
@@ -158,13 +212,9 @@ static bool look_at_line(struct lines *lines, int body, int index, struct line *
     if (diagram_arrows(model, body) >= most_terms) return true;
     line->checked = true;
     if (!sample_line(lines, lines->root, model, 0.3, tolerance, line)) return false;
-    if (!agrees_somewhere(line) && (has_numbers(text) || has_own_names(lines, text))) {
-        struct line general = *line;
-        tolerance = 0.3 * model->scene->grading.tolerance; /* three digits */
-        if (!sample_line(lines, lines->root, model, 0, tolerance, line)) return false;
-        line->in_numbers = agrees_somewhere(line);
-        if (!line->in_numbers) *line = general;
-    }
+    if (!agrees_somewhere(line) &&
+        !look_at_values(lines, model->scene->bodies[body].hands[index].text, &tolerance, line))
+        return false;
     if (agrees_somewhere(line)) return look_at_pushed(lines, tolerance, line);
     struct line again;
     return sample_line(lines, lines->root, model, 0.3, 1e-9, &again); /* for what is said of it */
@@ -180,12 +230,20 @@ static unsigned unknowns(unsigned says)
     return first ? first : second ? second : says;
 }
 
-static void note_student_line(struct lines *lines, int body, int index, const struct line *line)
+/* Kinematics is asked for where the key has it. */
+static bool is_asked(const struct line *line, const struct line *keys, size_t count)
+{
+    for (size_t k = 0; k < count; k++)
+        if (!keys[k].dynamic && (unknowns(keys[k].says) & unknowns(line->says))) return true;
+    return false;
+}
+
+static void note_student_line(struct lines *lines, int body, int index, const struct line *line, bool asked)
 {
     struct fbd_grade *grade = lines->grade;
     const struct body *source = &lines->model->scene->bodies[body];
     const struct hand *hand = &source->hands[index];
-    bool good = agrees_somewhere(line), empty = good && (line->says == 0 || !line->dynamic);
+    bool good = agrees_somewhere(line), empty = good && !asked && (line->says == 0 || !line->dynamic);
     size_t seen = line->seen[0] + line->seen[1] + line->seen[2];
     if (good && !empty && !line->in_numbers) return;
     fbd_finding *finding = finding_add(grade, good && !empty ? FBD_FINDING_RIGHT : FBD_FINDING_DERIVATION,
@@ -268,21 +326,26 @@ static void note_key_line(struct lines *lines, int body, int index, const struct
     text_free(&text);
 }
 
+/* The lines of a body, in the order of the file. */
+static bool look_at_lines(struct lines *lines, int body, struct line *found, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!look_at_line(lines, body, (int)i, &found[i])) return false;
+    return true;
+}
+
 static bool grade_body(struct lines *lines, struct lines *sheet, int body)
 {
     const struct fbd_grade *grade = lines->grade;
     size_t count = lines->model->scene->bodies[body].hand_count;
     size_t key_count = grade->sheet->scene->bodies[body].hand_count;
-    struct line *own = calloc(count + 1, sizeof *own), key;
-    bool done = own != NULL;
+    struct line *own = calloc(count + key_count + 1, sizeof *own), *key = own + count;
+    bool done = own && look_at_lines(sheet, body, key, key_count);
     for (size_t i = 0; done && i < count; i++) {
         done = look_at_line(lines, body, (int)i, &own[i]);
-        if (done) note_student_line(lines, body, (int)i, &own[i]);
+        if (done) note_student_line(lines, body, (int)i, &own[i], is_asked(&own[i], key, key_count));
     }
-    for (size_t k = 0; done && k < key_count; k++) {
-        done = look_at_line(sheet, body, (int)k, &key);
-        if (done) note_key_line(lines, body, (int)k, &key, own, count);
-    }
+    for (size_t k = 0; done && k < key_count; k++) note_key_line(lines, body, (int)k, &key[k], own, count);
     free(own);
     return done;
 }

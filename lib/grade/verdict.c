@@ -307,6 +307,18 @@ static void pair_sums(struct fbd_grade *grade, const char *body, struct sides *s
     }
 }
 
+/* Several of the key and several of the answer that do the same together, as forces at G with one moment for all of
+ * their offsets: the smallest such group first. */
+static void pair_groups(struct fbd_grade *grade, const char *body, struct sides *sides)
+{
+    struct group group;
+    while (group_find(sides, &group)) {
+        for (size_t j = 0; j < group.count; j++) group.items[j]->used = true;
+        for (size_t i = 0; i < group.key_count; i++)
+            add_right(grade, body, group.key[i], group.items[0], "right, together with others");
+    }
+}
+
 /* ---- what is left over, as what it was meant to be */
 
 /* Factors between units, and those of weight for mass. */
@@ -440,12 +452,16 @@ void verdict_on(struct fbd_grade *grade, const struct model_body *key, const str
     compare_inertia(grade, key, body, length, force);
     pair_equal(grade, key->name, sides, masses);
     pair_sums(grade, key->name, sides);
+    pair_groups(grade, key->name, sides);
     bool paired = true;
     while (paired) paired = pair_closest(grade, key->name, sides);
-    for (size_t i = 0; i < sides->key_count; i++)
+    bool complete = true; /* then what is drawn beside it and is zero does no harm */
+    for (size_t i = 0; i < sides->key_count; i++) {
+        complete = complete && sides->key[i].used;
         if (!sides->key[i].used) add_missing(grade, key->name, &key->source->loads[i]);
+    }
     for (size_t j = 0; j < sides->count; j++)
-        if (!sides->items[j].used)
+        if (!sides->items[j].used && !(complete && is_nothing(sides, &sides->items[j])))
             verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, key->name, body->source->loads[j].name,
                                 body->source->loads[j].at, "nothing exerts this on the body");
 }
