@@ -15,9 +15,10 @@
 
 /* A body of the key and the one of that name in the answer. */
 struct twin {
-    int other;   /* -1: there is none, or it moves in another way */
-    double sign; /* -1: its coordinate counts the other way */
-    int slip;    /* of the key's friction at the start */
+    int other;     /* -1: there is none, or it moves in another way */
+    double sign;   /* -1: its coordinate counts the other way */
+    double offset; /* of its coordinate, of a slide or pivot, in the answer's units */
+    int slip;      /* of the key's friction at the start */
     struct sides sides;
 };
 
@@ -69,7 +70,7 @@ static void follow(const struct comparison *comparison)
         for (int k = 0; twin->other >= 0 && k < key->bodies[b].count; k++) {
             int from = key->bodies[b].first + k, to = coordinate_of(answer, key->labels[from].name);
             double scale = key->scene->coordinates[from].angle ? 1 : 1 / comparison->length;
-            state->y[to] = twin->sign * scale * y[from];
+            state->y[to] = twin->sign * scale * y[from] + twin->offset;
             state->y[answer->plan.n + to] = twin->sign * scale * y[key->plan.n + from];
         }
     }
@@ -141,7 +142,8 @@ static double size_of_scene(const struct comparison *comparison)
     return size;
 }
 
-/* Is the frame of the body where that of the key's is? That of a slide may point the other way. */
+/* Is the frame of the body where that of the key's is? That of a slide may point the other way, that of a pivot be
+ * turned in the body by a constant angle. */
 static bool is_there(const struct comparison *comparison, size_t b)
 {
     const struct twin *twin = &comparison->twins[b];
@@ -151,9 +153,24 @@ static bool is_there(const struct comparison *comparison, size_t b)
     struct pose pose = body_pose(body, &at), there = body_pose(other, &other_at);
     struct vec apart = vec_sub(pose.origin, vec_scale(comparison->length, there.origin));
     const double digits = 1e-9; /* that files have */
+    struct vec turn = {cos(twin->offset), sin(twin->offset)};
+    struct vec rotation = body->kind == motion_pivot ? vec_turn(turn, pose.rotation) : pose.rotation;
     bool turned = body->kind != motion_slide && body->kind != motion_particle &&
-                  vec_norm(vec_sub(pose.rotation, there.rotation)) > digits;
+                  vec_norm(vec_sub(rotation, there.rotation)) > digits;
     return vec_norm(apart) <= digits * size_of_scene(comparison) && !turned;
+}
+
+/* Is its centre of mass where that of the key's is? */
+static bool balances_there(const struct comparison *comparison, size_t b)
+{
+    struct instant at = state_instant(comparison->key_state), other_at = state_instant(comparison->state);
+    const struct model_body *body = &comparison->key->bodies[b];
+    const struct model_body *other = &comparison->answer->bodies[comparison->twins[b].other];
+    struct pose pose = body_pose(body, &at), there = body_pose(other, &other_at);
+    struct vec G = point_motion(body, &pose, body->inertia.G).p;
+    struct vec other_G = vec_scale(comparison->length, point_motion(other, &there, other->inertia.G).p);
+    const double digits = 1e-6; /* of lengths that were worked out by hand */
+    return vec_norm(vec_sub(G, other_G)) <= digits * size_of_scene(comparison);
 }
 
 static void find_twin(struct comparison *comparison, size_t b)
@@ -171,16 +188,74 @@ static void find_twin(struct comparison *comparison, size_t b)
     twin->other = -1;
 }
 
-/* At a state that is not at the origin: the place tells which way a coordinate counts. */
-static void find_signs(struct comparison *comparison)
+/* x' = s x + c of a slide: s by its direction, c by where the answer's body is without it. */
+static bool find_slide(struct comparison *comparison, size_t b)
+{
+    struct twin *twin = &comparison->twins[b];
+    if (is_there(comparison, b)) return true;
+    struct instant at = state_instant(comparison->key_state), own = state_instant(comparison->state);
+    struct pose pose = body_pose(&comparison->key->bodies[b], &at);
+    struct pose there = body_pose(&comparison->answer->bodies[twin->other], &own);
+    twin->sign = vec_dot(pose.rotation, there.rotation) < 0 ? -1 : 1;
+    follow(comparison);
+    if (is_there(comparison, b)) return true;
+    own = state_instant(comparison->state);
+    there = body_pose(&comparison->answer->bodies[twin->other], &own);
+    twin->offset =
+        vec_dot(vec_sub(vec_scale(1 / comparison->length, pose.origin), there.origin), there.rotation);
+    follow(comparison);
+    return is_there(comparison, b);
+}
+
+/* theta' = theta + c of a pivot, where the frame lies otherwise in the body: by the starts, which are the same. Where
+ * the centre of mass is not there then either, the body is another one. */
+static bool find_pivot(struct comparison *comparison, size_t b)
+{
+    struct twin *twin = &comparison->twins[b];
+    const struct model_body *body = &comparison->key->bodies[b];
+    const struct model_body *other = &comparison->answer->bodies[twin->other];
+    bool there = is_there(comparison, b);
+    if (there && balances_there(comparison, b)) return true;
+    twin->offset = comparison->answer->scene->coordinates[other->source->first].initial -
+                   comparison->key->scene->coordinates[body->source->first].initial;
+    follow(comparison);
+    if (is_there(comparison, b) && balances_there(comparison, b)) return true;
+    twin->offset = 0;
+    follow(comparison);
+    return there;
+}
+
+static void keep_own(const struct comparison *comparison, size_t b)
+{
+    const struct twin *twin = &comparison->twins[b];
+    const struct model_body *body = &comparison->key->bodies[b];
+    struct fbd_grade *grade = comparison->grade;
+    if (twin->sign > 0 && twin->offset == 0) return;
+    struct own_coordinate *own = ARENA_NEW(&grade->arena, struct own_coordinate);
+    if (!own) return;
+    bool us = comparison->answer->scene->units == unit_us;
+    *own = (struct own_coordinate){.body = body->name,
+                                   .sign = twin->sign,
+                                   .offset = twin->offset,
+                                   .next = grade->own};
+    own->unit = body->kind == motion_pivot ? "rad" : us ? "ft" : "m";
+    coordinates_of(body->kind, &own->names);
+    grade->own = own;
+}
+
+/* At a state that is not at the origin: the place tells how a coordinate counts. */
+static void find_coordinates(struct comparison *comparison)
 {
     for (size_t b = 0; b < comparison->key->body_count; b++) {
         struct twin *twin = &comparison->twins[b];
-        if (twin->other < 0 || is_there(comparison, b)) continue;
-        if (comparison->key->bodies[b].count == 1) {
-            twin->sign = -1;
-            follow(comparison);
-            if (is_there(comparison, b)) continue;
+        enum motion_kind kind = comparison->key->bodies[b].kind;
+        if (twin->other < 0) continue;
+        bool found = kind == motion_slide   ? find_slide(comparison, b)
+                     : kind == motion_pivot ? find_pivot(comparison, b)
+                                            : is_there(comparison, b);
+        if (found) {
+            keep_own(comparison, b);
+            continue;
         }
         verdict_motion(comparison->grade, &comparison->key->bodies[b],
                        &comparison->answer->bodies[twin->other]);
@@ -324,7 +399,7 @@ static void look_at_states(struct comparison *comparison)
     next_state(comparison, 0);
     next_state(comparison, 1);
     follow(comparison);
-    find_signs(comparison);
+    find_coordinates(comparison);
     for (size_t s = 0; s < most_grade_samples; s++) {
         next_state(comparison, s);
         follow(comparison);
@@ -344,6 +419,7 @@ void grade_bodies(struct fbd_grade *grade, const fbd_model *answer)
             const struct model_body *body = &comparison.key->bodies[b];
             if (twin->other < 0) continue;
             measure(&twin->sides);
+            if (body->kind == motion_pivot) twin->sides.turned = twin->offset;
             verdict_on(grade, body, &answer->bodies[twin->other], &twin->sides, comparison.length,
                        comparison.force);
         }

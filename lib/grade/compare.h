@@ -29,6 +29,7 @@ struct sides {
     bool like_start[most_grade_samples];  /* the body slips as it does at the start */
     bool possible[most_grade_samples];    /* the key can move on from there: its reactions mean something */
     bool turns;                           /* moments about G matter */
+    double turned;                        /* the answer's frame lies so in the body, against the key's */
     double tolerance, force, arm, moment; /* sizes of what is compared */
     size_t key_count, count;
     struct item *key, *items;

@@ -98,7 +98,8 @@ static size_t take_unused(struct item *items, size_t count, struct item *left[mo
     return found;
 }
 
-static size_t choose(struct item *const *from, size_t count, unsigned mask, struct item *chosen[most_in_group])
+static size_t choose(struct item *const *from, size_t count, unsigned mask,
+                     struct item *chosen[most_in_group])
 {
     size_t found = 0;
     for (size_t i = 0; i < count; i++)
@@ -106,8 +107,17 @@ static size_t choose(struct item *const *from, size_t count, unsigned mask, stru
     return found;
 }
 
+static bool any_follows(struct item *const *items, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (items[i]->follows) return true;
+    return false;
+}
+
+/* What follows from the other forces on both sides is not compared by its values. */
 static bool group_adds_up(const struct sides *sides, const struct group *group)
 {
+    if (any_follows(group->key, group->key_count) && any_follows(group->items, group->count)) return false;
     return sums_agree(sides, (const struct item *const *)group->key, group->key_count,
                       (const struct item *const *)group->items, group->count);
 }
@@ -117,7 +127,7 @@ bool group_find(struct sides *sides, struct group *group)
     struct item *key[most_in_group], *items[most_in_group];
     size_t key_count = take_unused(sides->key, sides->key_count, key);
     size_t count = take_unused(sides->items, sides->count, items);
-    for (size_t size = 2; size <= key_count + count; size++)
+    for (size_t size = 3; size <= key_count + count; size++)
         for (unsigned some = 1; some < 1U << key_count; some++) {
             group->key_count = choose(key, key_count, some, group->key);
             for (unsigned own = 1; own < 1U << count && group->key_count < size; own++) {

@@ -16,6 +16,7 @@
 
 #include "dynamics/modes.h"
 #include "model/model.h"
+#include "scene/names.h"
 #include "scene/node.h"
 
 enum { most_grade_samples = 32 };
@@ -35,6 +36,15 @@ struct finding {
     struct finding *next;
 };
 
+/* A coordinate that the answer counts otherwise: its own is sign times that of the sheet, and offset. */
+struct own_coordinate {
+    const char *body;
+    const struct coordinate_names *names;
+    double sign, offset;
+    const char *unit; /* of the offset */
+    const struct own_coordinate *next;
+};
+
 struct fbd_grade {
     struct arena arena;
     const struct fbd_key *key;
@@ -46,6 +56,7 @@ struct fbd_grade {
 
     /* while it is being made */
     fbd_model *sheet; /* the key with these values */
+    const struct own_coordinate *own;
     fbd_finding lost; /* what is noted when memory is out: nobody reads it */
 };
 

@@ -247,7 +247,7 @@ static void note_student_line(struct lines *lines, int body, int index, const st
     size_t seen = line->seen[0] + line->seen[1] + line->seen[2];
     if (good && !empty && !line->in_numbers) return;
     fbd_finding *finding = finding_add(grade, good && !empty ? FBD_FINDING_RIGHT : FBD_FINDING_DERIVATION,
-                                       source->name, hand->text, hand->at);
+                                       source->name, line_as_written(lines, source->name, hand), hand->at);
     if (empty)
         finding_say(grade, finding, "it is true whatever the forces are: it says nothing of them");
     else if (good)
@@ -334,7 +334,18 @@ static bool look_at_lines(struct lines *lines, int body, struct line *found, siz
     return true;
 }
 
-static bool grade_body(struct lines *lines, struct lines *sheet, int body)
+/* One line of the answer, in its own coordinates or in those of the sheet. */
+static bool look_at_own(struct lines *lines, struct lines *plain, int body, int index, struct line *line)
+{
+    if (!look_at_line(lines, body, index, line)) return false;
+    if (!plain->model || agrees_somewhere(line)) return true;
+    struct line other;
+    if (!look_at_line(plain, body, index, &other)) return false;
+    if (agrees_somewhere(&other)) *line = other;
+    return true;
+}
+
+static bool grade_body(struct lines *lines, struct lines *plain, struct lines *sheet, int body)
 {
     const struct fbd_grade *grade = lines->grade;
     size_t count = lines->model->scene->bodies[body].hand_count;
@@ -342,7 +353,7 @@ static bool grade_body(struct lines *lines, struct lines *sheet, int body)
     struct line *own = calloc(count + key_count + 1, sizeof *own), *key = own + count;
     bool done = own && look_at_lines(sheet, body, key, key_count);
     for (size_t i = 0; done && i < count; i++) {
-        done = look_at_line(lines, body, (int)i, &own[i]);
+        done = look_at_own(lines, plain, body, (int)i, &own[i]);
         if (done) note_student_line(lines, body, (int)i, &own[i], is_asked(&own[i], key, key_count));
     }
     for (size_t k = 0; done && k < key_count; k++) note_key_line(lines, body, (int)k, &key[k], own, count);
@@ -367,16 +378,31 @@ static void close_lines(struct lines *lines)
     if (lines->rng) gsl_rng_free(lines->rng);
 }
 
+/* The same lines read in the coordinates of the sheet, where the answer has others. */
+static bool read_plain(struct lines *lines, struct lines *plain)
+{
+    if (!lines->grade->own || !lines->model) return true;
+    fbd_errors *errors = fbd_errors_new();
+    plain->answer = lines->answer;
+    plain->root = lines_as_written(lines);
+    if (errors && plain->root) plain->model = lines_try(plain, plain->root, true, false, errors);
+    fbd_errors_free(errors);
+    return errors && plain->root;
+}
+
 void grade_lines(struct fbd_grade *grade, const struct node *root)
 {
-    struct lines lines = {.grade = grade}, sheet = {.grade = grade, .model = grade->sheet};
+    struct lines lines = {.grade = grade}, plain = lines, sheet = {.grade = grade, .model = grade->sheet};
     sheet.root = grade->key->document.root;
-    bool done = open_lines(&lines) && open_lines(&sheet);
+    bool done = open_lines(&lines) && open_lines(&plain) && open_lines(&sheet);
     if (done) lines_read(&lines, root);
-    done = done && lines.model != NULL;
-    for (size_t b = 0; done && b < lines.model->body_count; b++) done = grade_body(&lines, &sheet, (int)b);
+    done = done && lines.model != NULL && read_plain(&lines, &plain);
+    for (size_t b = 0; done && b < lines.model->body_count; b++)
+        done = grade_body(&lines, &plain, &sheet, (int)b);
     if (!done) grade->arena.failed = true;
     fbd_model_free(lines.model);
+    fbd_model_free(plain.model);
     close_lines(&lines);
+    close_lines(&plain);
     close_lines(&sheet);
 }

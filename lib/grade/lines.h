@@ -18,10 +18,11 @@ struct pushed {
 
 struct lines {
     struct fbd_grade *grade;
-    const struct node *root; /* the key with the answer's derivations */
-    bool left_out;           /* all of these */
+    const struct node *answer; /* its tree, as it is; NULL for the key */
+    const struct node *root;   /* the key with the answer's derivations */
+    bool left_out;             /* all of these */
     fbd_model *model;
-    struct pushed pushed[2]; /* the same with other forces on all bodies, and with their opposites */
+    struct pushed pushed[2]; /* the same with other forces on all bodies */
     struct hand_check check;
     gsl_rng *rng;
 };
@@ -35,5 +36,17 @@ fbd_model *lines_try(struct lines *lines, const struct node *root, bool hands, b
 /* Put the derivations of an answer into the scene of the key and compile it, without those that cannot be read, which
  * are noted. No model when memory is out. */
 void lines_read(struct lines *lines, const struct node *answer);
+
+/* ---- coordinates of the answer's own (coordinates.c) */
+
+/* The derivations of a body in the coordinates of the sheet. NULL when memory is out, or `hand` is. */
+const struct node *coordinates_of_sheet(struct fbd_grade *grade, const struct node *hand, const char *body);
+
+/* The lines that were read, in the coordinates of the sheet after all: an answer may have taken its derivations from
+ * there. NULL when memory is out. */
+const struct node *lines_as_written(struct lines *lines);
+
+/* A derivation as the student wrote it. */
+const char *line_as_written(const struct lines *lines, const char *body, const struct hand *hand);
 
 #endif

@@ -38,14 +38,17 @@ static const struct node *with_parameters(struct arena *arena, const struct node
     return all ? node_with(arena, root, "parameters", all) : NULL;
 }
 
-static const struct node *with_lines(struct arena *arena, const struct node *root, const struct node *answer)
+static const struct node *with_lines(struct fbd_grade *grade, const struct node *root,
+                                     const struct node *answer)
 {
+    struct arena *arena = &grade->arena;
     const struct node *bodies = lines_value(root, "bodies"), *others = lines_value(answer, "bodies"),
                       *made = bodies;
     for (size_t b = 0; made && b < bodies->count; b++) {
         const struct node *other = lines_value(others, bodies->pairs[b].key);
         const struct node *hand = lines_value(other, "hand");
-        const struct node *body = node_with(arena, bodies->pairs[b].value, "hand", hand);
+        const struct node *same = coordinates_of_sheet(grade, hand, bodies->pairs[b].key);
+        const struct node *body = node_with(arena, bodies->pairs[b].value, "hand", same);
         made = body ? node_with(arena, made, bodies->pairs[b].key, body) : NULL;
     }
     return made ? node_with(arena, root, "bodies", made) : NULL;
@@ -150,7 +153,7 @@ static void leave_out_all(struct lines *lines, fbd_errors *errors)
     const struct node *key = grade->key->document.root;
     const fbd_error *error = first_error(errors);
     if (error) finding_of_error(grade, FBD_FINDING_UNREADABLE, "", "", error);
-    lines->root = lines->left_out ? NULL : with_lines(&grade->arena, key, NULL);
+    lines->root = lines->left_out ? NULL : with_lines(grade, key, NULL);
     lines->left_out = true;
 }
 
@@ -172,7 +175,8 @@ static void compile_lines(struct lines *lines)
 void lines_read(struct lines *lines, const struct node *answer)
 {
     struct arena *arena = &lines->grade->arena;
-    const struct node *plain = with_lines(arena, lines->grade->key->document.root, answer);
+    lines->answer = answer;
+    const struct node *plain = with_lines(lines->grade, lines->grade->key->document.root, answer);
     lines->root = plain ? with_parameters(arena, plain, answer) : NULL;
     if (lines->root) check_parameters(lines, plain);
     compile_lines(lines);

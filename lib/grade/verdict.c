@@ -174,13 +174,21 @@ void verdict_on_others(struct fbd_grade *grade, const fbd_model *answer)
 
 /* ---- inertia */
 
+/* G in the frame of the key; from the axis where there is one. */
+static struct vec centre_of(const struct model_body *body, double length, double turned)
+{
+    struct vec turn = {cos(turned), sin(turned)}, G = body->inertia.G;
+    if (body->kind == motion_pivot) G = vec_sub(G, body->pin);
+    return vec_scale(length, vec_turn(turn, G));
+}
+
 static const char *inertia_fault(const struct fbd_grade *grade, const struct model_body *key,
-                                 const struct model_body *body, double length, double force,
-                                 fbd_finding_kind *kind)
+                                 const struct model_body *body, const struct sides *sides, double length,
+                                 double force, fbd_finding_kind *kind)
 {
     double tolerance = grading_of(grade)->tolerance, I = force * length; /* kg m^2 = N m s^2 */
     double I_G = I * body->inertia.I_G, I_O = I * body->I_O, mass = force / length * body->inertia.mass;
-    struct vec apart = vec_sub(vec_scale(length, body->inertia.G), key->inertia.G);
+    struct vec apart = vec_sub(centre_of(body, length, sides->turned), centre_of(key, 1, 0));
     double gyration =
         sqrt(fmax(key->inertia.I_G, 0) / key->inertia.mass); /* G may be the origin, but for rounding */
     double size = tolerance * (vec_norm(key->inertia.G) + key->L + gyration);
@@ -199,11 +207,12 @@ static const char *inertia_fault(const struct fbd_grade *grade, const struct mod
 }
 
 static void compare_inertia(struct fbd_grade *grade, const struct model_body *key,
-                            const struct model_body *body, double length, double force)
+                            const struct model_body *body, const struct sides *sides, double length,
+                            double force)
 {
     const struct grading_points *points = &grading_of(grade)->points;
     fbd_finding_kind kind;
-    const char *fault = inertia_fault(grade, key, body, length, force, &kind);
+    const char *fault = inertia_fault(grade, key, body, sides, length, force, &kind);
     if (!fault && points->inertia == 0) return;
     fbd_finding *finding =
         finding_add(grade, fault ? kind : FBD_FINDING_RIGHT, key->name, "", body->source->at);
@@ -257,6 +266,7 @@ static void pair_equal(struct fbd_grade *grade, const char *body, struct sides *
                 struct item *key = &sides->key[i], *item = &sides->items[j];
                 if (key->used || item->used || !key->source || !item->source) continue;
                 if (same_kind && key->source->kind != item->source->kind) continue;
+                if (is_nothing(sides, item) && !is_nothing(sides, key)) continue; /* where friction rests */
                 struct difference difference = difference_of(sides, key, item);
                 if (difference.relation == is_same || follows_mass(key, item, &difference, masses))
                     add_right(grade, body, key, item, "right");
@@ -449,19 +459,16 @@ void verdict_on(struct fbd_grade *grade, const struct model_body *key, const str
                 struct sides *sides, double length, double force)
 {
     double masses = force / length * body->inertia.mass / key->inertia.mass;
-    compare_inertia(grade, key, body, length, force);
+    compare_inertia(grade, key, body, sides, length, force);
     pair_equal(grade, key->name, sides, masses);
     pair_sums(grade, key->name, sides);
     pair_groups(grade, key->name, sides);
     bool paired = true;
     while (paired) paired = pair_closest(grade, key->name, sides);
-    bool complete = true; /* then what is drawn beside it and is zero does no harm */
-    for (size_t i = 0; i < sides->key_count; i++) {
-        complete = complete && sides->key[i].used;
+    for (size_t i = 0; i < sides->key_count; i++)
         if (!sides->key[i].used) add_missing(grade, key->name, &key->source->loads[i]);
-    }
     for (size_t j = 0; j < sides->count; j++)
-        if (!sides->items[j].used && !(complete && is_nothing(sides, &sides->items[j])))
+        if (!sides->items[j].used && !is_nothing(sides, &sides->items[j]))
             verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, key->name, body->source->loads[j].name,
                                 body->source->loads[j].at, "nothing exerts this on the body");
 }

@@ -99,3 +99,61 @@ const struct node *node_empty_map(struct arena *arena)
     if (made) *made = (struct node){.kind = node_map, .height = 1, .size = 1};
     return made;
 }
+
+static const struct node *rewritten_scalar(struct arena *arena, const struct node *node, const char *text)
+{
+    struct node *made = text ? copy_of(arena, node) : NULL;
+    if (!made) return NULL;
+    made->text = text;
+    made->length = strlen(text);
+    made->many_lines = false;
+    return made;
+}
+
+static bool rewrite_pairs(struct arena *arena, struct node *made, const struct node *node,
+                          const char *change(struct arena *arena, const struct node *scalar,
+                                             const void *context),
+                          const void *context)
+{
+    struct pair *pairs = ARENA_ARRAY(arena, node->count + 1, struct pair);
+    struct pair **sorted = ARENA_ARRAY(arena, node->count + 1, struct pair *);
+    if (!pairs || !sorted) return false;
+    for (size_t i = 0; i < node->count; i++) {
+        pairs[i] = node->pairs[i];
+        pairs[i].value = node_rewritten(arena, node->pairs[i].value, change, context);
+        if (!pairs[i].value) return false;
+        sorted[i] = &pairs[i];
+    }
+    if (node->count > 1) qsort(sorted, node->count, sizeof *sorted, compare_pairs);
+    made->pairs = pairs;
+    made->sorted = sorted;
+    return true;
+}
+
+static bool rewrite_items(struct arena *arena, struct node *made, const struct node *node,
+                          const char *change(struct arena *arena, const struct node *scalar,
+                                             const void *context),
+                          const void *context)
+{
+    const struct node **items = ARENA_ARRAY(arena, node->count + 1, const struct node *);
+    if (!items) return false;
+    for (size_t i = 0; i < node->count; i++) {
+        items[i] = node_rewritten(arena, node->items[i], change, context);
+        if (!items[i]) return false;
+    }
+    made->items = items;
+    return true;
+}
+
+const struct node *node_rewritten(struct arena *arena, const struct node *node,
+                                  const char *change(struct arena *arena, const struct node *scalar,
+                                                     const void *context),
+                                  const void *context)
+{
+    if (node->kind == node_null) return node;
+    if (node->kind == node_scalar) return rewritten_scalar(arena, node, change(arena, node, context));
+    struct node *made = copy_of(arena, node);
+    bool done = made && (node->kind == node_map ? rewrite_pairs(arena, made, node, change, context)
+                                                : rewrite_items(arena, made, node, change, context));
+    return done ? made : NULL;
+}

@@ -24,6 +24,12 @@ const struct node *node_appended(struct arena *arena, const struct node *list, c
 /* The first `most` items of a list. */
 const struct node *node_shortened(struct arena *arena, const struct node *list, size_t most);
 
+/* A tree with other texts in its scalars. NULL when memory is out. */
+const struct node *node_rewritten(struct arena *arena, const struct node *node,
+                                  const char *change(struct arena *arena, const struct node *scalar,
+                                                     const void *context),
+                                  const void *context);
+
 /* An empty mapping. */
 const struct node *node_empty_map(struct arena *arena);
 

@@ -232,7 +232,7 @@ CASES += [
     ("block", "another m", {"m: 2 kg}": "m: 2 kg, g: 0.001 m/s^2}"}, None, None),
     ("bounce", "right at the start only", {"- gravity": '- applied: {name: weight, fx: "1e6[N/s]*t", fy: "-9.81[N]*(1 + 1e6[1/s]*t)"}'},
      "superfluous", "weight"),
-    ("rest", "friction of nothing", {"- friction: {static: 0.9, kinetic: 0.8}": "- applied: {name: rub, value: 0 N}"}, "superfluous", "rub"),
+    ("rest", "friction of nothing", {"- friction: {static: 0.9, kinetic: 0.8}": "- applied: {name: rub, value: 0 N}"}, "missing", ""),
     ("rest", "friction as at the start", {"- friction: {static: 0.9, kinetic: 0.8}": "- applied: {name: rub, value: -3 N}"}, "superfluous", "rub"),
     ("rope", "kinematics", {"m*(v_dot - g) + m_2*(v_dot + g) = 0*v_dot*m": "v_dot = -two.v_dot"}, "derivation", None),
 ]

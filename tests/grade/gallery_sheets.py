@@ -20,13 +20,18 @@ except ImportError:
     print("1..0 # SKIP python3-yaml is not installed")
     sys.exit(0)
 
-from answers import ERRORS, SAME, Sheet, read, write
+from answers import SAME
+from mistakes import ERRORS
+from trees import Sheet, read, write
 
 RUN = sys.argv[1]
 SHEETS = int(sys.argv[2]) if len(sys.argv) > 2 else 200
 SEED = int(sys.argv[3]) if len(sys.argv) > 3 else 1
 SOURCE = Path(os.environ["FBD_SOURCE_ROOT"])
 TOGETHER = 12  # answers to one key
+
+# Forces that act for less of the run than random states find.
+SHORT = {"pulse_in_a_coast.yaml"}
 
 
 def is_it(one, expected):
@@ -51,6 +56,13 @@ def fault(result, expected):
     return "more is accused than the error" if more else ""
 
 
+def agrees(model, sheet):
+    """Does a line with an error say what is so, as 0 = 2*(0)?"""
+    path = model.parent / "line.yaml"
+    path.write_text(write(sheet.root), encoding="utf-8")
+    return subprocess.run([RUN, "--check-hand", "--quiet", str(path)], stdout=subprocess.DEVNULL, check=False).returncode != 4
+
+
 def make_answer(model, rng):
     """(text, what was done to it, expected finding or None)."""
     sheet = Sheet(read(model), rng)
@@ -58,6 +70,8 @@ def make_answer(model, rng):
     if rng.random() < 0.5:
         for error in rng.sample(ERRORS, len(ERRORS)):
             expected = error(sheet)
+            if expected and "derivation" in expected[0] and agrees(model, sheet):
+                return make_answer(model, rng)
             if expected:
                 done.append(f"ERROR {error.__name__} {expected}")
                 break
@@ -85,7 +99,7 @@ def grade(folder, model, numbers, report):
 
 
 def main():
-    models = [model for model in sorted((SOURCE / "models").glob("*/*.yaml")) if Sheet(read(model), None).bodies]
+    models = [model for model in sorted((SOURCE / "models").glob("*/*.yaml")) if model.name not in SHORT and Sheet(read(model), None).bodies]
     counts = {"right": 0, "wrong": 0}
     faults = []
 

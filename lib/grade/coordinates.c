@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Derivations in coordinates of the answer's own.
+ *
+ * An answer may count x the other way or from elsewhere: x' = s x + c with s = 1 or -1. Its derivations then hold on
+ * the mechanics of the sheet with s x + c written for x', s v for its rate, and s v_dot for its acceleration.
+ */
+#include <ctype.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "grade/lines.h"
+#include "scene/node_edit.h"
+
+struct rewriting {
+    const struct fbd_grade *grade;
+    const char *body; /* whose derivation it is */
+};
+
+static bool is_word(const char *word, size_t length, const char *name)
+{
+    return name && strlen(name) == length && memcmp(word, name, length) == 0;
+}
+
+static bool is_part(char c)
+{
+    return isalnum((unsigned char)c) || c == '_';
+}
+
+/* What stands for a name of this coordinate; false when it is none of its names. */
+static bool add_in_its_place(struct text *text, const struct own_coordinate *own, const char *word,
+                             size_t length)
+{
+    const struct coordinate_names *names = own->names;
+    bool angle = names->angle && is_word(word, length, "angle");
+    bool place = is_word(word, length, names->name) || angle;
+    bool rate = is_word(word, length, names->rate) || is_word(word, length, names->rate_alias) ||
+                is_word(word, length, names->acceleration) ||
+                is_word(word, length, names->acceleration_alias[0]) ||
+                is_word(word, length, names->acceleration_alias[1]);
+    if (!place && !rate) return false;
+    text_add(text, own->sign < 0 ? "(-" : "(");
+    if (strcmp(own->body, "") != 0) text_printf(text, "%s.", own->body);
+    text_add_bytes(text, word, length);
+    if (place) text_printf(text, " + (%.17g[%s])", own->offset, own->unit);
+    text_add(text, ")");
+    return true;
+}
+
+/* A word with its dots: `x` of the body at hand, or `body.x`. */
+static void add_word(const struct rewriting *rewriting, struct text *text, const char *word, size_t length)
+{
+    const char *dot = memchr(word, '.', length);
+    for (const struct own_coordinate *own = rewriting->grade->own; own; own = own->next) {
+        struct own_coordinate named = *own;
+        size_t before = dot ? (size_t)(dot - word) + 1 : 0;
+        if (dot ? !is_word(word, before - 1, own->body) : strcmp(own->body, rewriting->body) != 0) continue;
+        if (!dot) named.body = "";
+        if (add_in_its_place(text, &named, word + before, length - before)) return;
+    }
+    text_add_bytes(text, word, length);
+}
+
+/* Units in brackets and names of functions stay. */
+static void rewrite(const struct rewriting *rewriting, const char *from, struct text *text)
+{
+    while (*from) {
+        size_t length = 1;
+        if (*from == '[') {
+            length = strcspn(from, "]");
+            text_add_bytes(text, from, length);
+        } else if (is_part(*from)) {
+            while (is_part(from[length]) || from[length] == '.') length++;
+            bool number = isdigit((unsigned char)*from);
+            if (number || from[length + strspn(from + length, " ")] == '(')
+                text_add_bytes(text, from, length);
+            else
+                add_word(rewriting, text, from, length);
+        } else {
+            text_add_bytes(text, from, 1);
+        }
+        from += length;
+    }
+}
+
+static const char *rewritten(struct arena *arena, const struct node *scalar, const void *context)
+{
+    struct text text = {0};
+    rewrite(context, scalar->text, &text);
+    const char *made = text.failed ? NULL : arena_text(arena, text.data ? text.data : "", text.length);
+    text_free(&text);
+    return made;
+}
+
+const struct node *coordinates_of_sheet(struct fbd_grade *grade, const struct node *hand, const char *body)
+{
+    const struct rewriting rewriting = {grade, body};
+    return grade->own && hand ? node_rewritten(&grade->arena, hand, rewritten, &rewriting) : hand;
+}
+
+/* ---- back */
+
+static const char *find_text(const struct node *node, struct pos at)
+{
+    if (node->kind == node_scalar)
+        return node->at.line == at.line && node->at.column == at.column ? node->text : NULL;
+    const char *found = NULL;
+    for (size_t i = 0; i < node->count && !found; i++)
+        found = find_text(node->kind == node_map ? node->pairs[i].value : node->items[i], at);
+    return found;
+}
+
+static const char *as_written(struct arena *arena, const struct node *scalar, const void *context)
+{
+    const char *found = context ? find_text(context, scalar->at) : NULL;
+    return found ? found : arena_text(arena, scalar->text, scalar->length);
+}
+
+static const struct node *hand_of(const struct node *root, const char *body)
+{
+    return lines_value(lines_value(lines_value(root, "bodies"), body), "hand");
+}
+
+const char *line_as_written(const struct lines *lines, const char *body, const struct hand *hand)
+{
+    const struct node *own = hand_of(lines->answer, body);
+    const char *found = own ? find_text(own, hand->at) : NULL;
+    return found ? found : hand->text;
+}
+
+const struct node *lines_as_written(struct lines *lines)
+{
+    struct arena *arena = &lines->grade->arena;
+    const struct node *bodies = lines_value(lines->root, "bodies"), *made = bodies;
+    for (size_t b = 0; made && b < bodies->count; b++) {
+        const char *name = bodies->pairs[b].key;
+        const struct node *hand = hand_of(lines->root, name);
+        if (!hand) continue;
+        const struct node *plain = node_rewritten(arena, hand, as_written, hand_of(lines->answer, name));
+        const struct node *body = plain ? node_with(arena, bodies->pairs[b].value, "hand", plain) : NULL;
+        made = body ? node_with(arena, made, name, body) : NULL;
+    }
+    return made ? node_with(arena, lines->root, "bodies", made) : NULL;
+}
