@@ -51,6 +51,9 @@ struct difference difference_of(const struct sides *sides, const struct item *ke
 bool adds_up(const struct sides *sides, const struct item *const *parts, size_t count,
              const struct item *sum);
 
+/* Does the answer have a normal force or friction for that of the key? Then it is held against it, and no formula is. */
+bool is_drawn_as_such(const struct sides *sides, const struct item *key);
+
 /* Is it zero at every state? */
 bool is_nothing(const struct sides *sides, const struct item *item);
 

@@ -5,7 +5,6 @@
  * An answer may count x the other way or from elsewhere: x' = s x + c with s = 1 or -1. Its derivations then hold on
  * the mechanics of the sheet with s x + c written for x', s v for its rate, and s v_dot for its acceleration.
  */
-#include <ctype.h>
 #include <string.h>
 
 #include "base/text.h"
@@ -22,9 +21,14 @@ static bool is_word(const char *word, size_t length, const char *name)
     return name && strlen(name) == length && memcmp(word, name, length) == 0;
 }
 
+static bool is_digit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
 static bool is_part(char c)
 {
-    return isalnum((unsigned char)c) || c == '_';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || is_digit(c) || c == '_';
 }
 
 /* What stands for a name of this coordinate; false when it is none of its names. */
@@ -71,7 +75,7 @@ static void rewrite(const struct rewriting *rewriting, const char *from, struct 
             text_add_bytes(text, from, length);
         } else if (is_part(*from)) {
             while (is_part(from[length]) || from[length] == '.') length++;
-            bool number = isdigit((unsigned char)*from);
+            bool number = is_digit(*from);
             if (number || from[length + strspn(from + length, " ")] == '(')
                 text_add_bytes(text, from, length);
             else

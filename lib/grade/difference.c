@@ -80,6 +80,15 @@ bool adds_up(const struct sides *sides, const struct item *const *parts, size_t 
     return sums_agree(sides, &sum, 1, parts, count);
 }
 
+bool is_drawn_as_such(const struct sides *sides, const struct item *key)
+{
+    for (size_t i = 0; i < sides->count && key->follows; i++) {
+        const struct item *item = &sides->items[i];
+        if (!item->used && item->source && item->source->kind == key->source->kind) return true;
+    }
+    return false;
+}
+
 bool is_nothing(const struct sides *sides, const struct item *item)
 {
     const struct wrench zero = {.moment = 0};
@@ -107,17 +116,16 @@ static size_t choose(struct item *const *from, size_t count, unsigned mask,
     return found;
 }
 
-static bool any_follows(struct item *const *items, size_t count)
+static bool any_as_such(const struct sides *sides, const struct group *group)
 {
-    for (size_t i = 0; i < count; i++)
-        if (items[i]->follows) return true;
+    for (size_t i = 0; i < group->key_count; i++)
+        if (is_drawn_as_such(sides, group->key[i])) return true;
     return false;
 }
 
-/* What follows from the other forces on both sides is not compared by its values. */
 static bool group_adds_up(const struct sides *sides, const struct group *group)
 {
-    if (any_follows(group->key, group->key_count) && any_follows(group->items, group->count)) return false;
+    if (any_as_such(sides, group)) return false;
     return sums_agree(sides, (const struct item *const *)group->key, group->key_count,
                       (const struct item *const *)group->items, group->count);
 }

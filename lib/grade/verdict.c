@@ -266,6 +266,7 @@ static void pair_equal(struct fbd_grade *grade, const char *body, struct sides *
                 struct item *key = &sides->key[i], *item = &sides->items[j];
                 if (key->used || item->used || !key->source || !item->source) continue;
                 if (same_kind && key->source->kind != item->source->kind) continue;
+                if (key->source->kind != item->source->kind && is_drawn_as_such(sides, key)) continue;
                 if (is_nothing(sides, item) && !is_nothing(sides, key)) continue; /* where friction rests */
                 struct difference difference = difference_of(sides, key, item);
                 if (difference.relation == is_same || follows_mass(key, item, &difference, masses))
@@ -306,7 +307,8 @@ static void pair_sums(struct fbd_grade *grade, const char *body, struct sides *s
     struct item *parts[3];
     for (size_t k = 0; k < sides->key_count; k++) {
         struct item *key = &sides->key[k];
-        if (!key->used && key->source && find_parts(sides, sides->items, sides->count, key, parts) > 0)
+        bool asked = !key->used && key->source && !is_drawn_as_such(sides, key);
+        if (asked && find_parts(sides, sides->items, sides->count, key, parts) > 0)
             add_right(grade, body, key, parts[0], "right, together with its other components");
     }
     for (size_t j = 0; j < sides->count; j++) {

@@ -267,6 +267,9 @@ extern const struct group initial_groups[], exact_groups[]; /* by enum motion_ki
 extern const struct kinds motion_kinds, force_kinds, moment_kinds, coupling_kinds;
 extern const struct kind *const contact_kind; /* among the couplings, or in a list of its own */
 
+/* The keys that describe shapes, one by one, NULL behind the last: has this shape (enum shape_kind) the key? */
+const char *shape_dimension(size_t index, int shape, bool *taken);
+
 /* ---- how a table is written: one row for each key, `at` being the offset in the structure */
 
 #define FIELD_PLAIN(key, type, quantity, flags, at, doc)                                                     \

@@ -61,6 +61,13 @@ static unsigned taken_by(enum shape_kind shape)
     return use_center;
 }
 
+const char *shape_dimension(size_t index, int shape, bool *taken)
+{
+    if (index >= dimension_count) return NULL;
+    *taken = (taken_by((enum shape_kind)shape) & dimensions[index].bit) != 0;
+    return dimensions[index].key;
+}
+
 /* What the moment of inertia about the axis that faces the plane depends on. */
 static unsigned needed_by(enum shape_kind shape, char axis)
 {

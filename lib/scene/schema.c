@@ -6,6 +6,7 @@
 
 #include "base/format.h"
 #include "scene/language.h"
+#include "scene/schema_rules.h"
 
 /* ---- pieces of JSON */
 
@@ -38,6 +39,22 @@ static const char polygon_schema[] =
 
 /* ---- values */
 
+/* The default that the doc string says at its end, where it is a value. */
+static void add_default(struct text *text, const struct field *field)
+{
+    const char *said = strstr(field->doc, "default ");
+    if (!said) return;
+    said += strlen("default ");
+    size_t length = strcspn(said, " ,;:)");
+    bool number = length > 0 && strspn(said, "0123456789.") >= length && said[length] != ' ';
+    bool word = false;
+    for (size_t i = 0; i < field->choice_count; i++)
+        word = word || (strlen(field->choices[i].name) == length &&
+                        memcmp(field->choices[i].name, said, length) == 0);
+    if (number) text_printf(text, "\"default\": %.*s, ", (int)length, said);
+    if (word) text_printf(text, "\"default\": \"%.*s\", ", (int)length, said);
+}
+
 /* A plain number, whose sign is known; a text may be a quantity or an expression. */
 static void add_quantity(struct text *text, const struct field *field)
 {
@@ -49,6 +66,7 @@ static void add_quantity(struct text *text, const struct field *field)
     struct text doc = {0};
     text_printf(&doc, "%s; %s", field->doc, quantity_name(field->quantity));
     text_add(text, "], ");
+    add_default(text, field);
     if (!doc.failed) add_doc(text, doc.data);
     text->failed |= doc.failed;
     text_free(&doc);
@@ -65,8 +83,18 @@ static void add_words(struct text *text, const struct field *field)
         text_json_string(text, field->choices[i].name);
     }
     text_add(text, "], ");
+    add_default(text, field);
     add_doc(text, field->doc);
     text_add(text, "}");
+}
+
+/* What a mapping is called in the rules, or NULL. */
+static const char *name_of(const struct group *group)
+{
+    return group == &part_group       ? "part"
+           : group == &simulate_group ? "simulate"
+           : group == &event_group    ? "event"
+                                      : NULL;
 }
 
 /* `name`: of its definition, where that has needs, or NULL. */
@@ -76,7 +104,7 @@ static void add_group(struct text *text, const struct group *group, const char *
 static void add_entry(struct text *text, const struct field *field, enum entries entries)
 {
     switch (entries) {
-    case each_group: add_group(text, field->group, field->group == &part_group ? "part" : NULL); break;
+    case each_group: add_group(text, field->group, name_of(field->group)); break;
     case each_kind:
         assert(field->kinds); /* each_kind goes with FIELD_KINDS */
         text_printf(text, "{\"$ref\": \"#/definitions/%ss\"}", field->kinds->noun);
@@ -122,7 +150,7 @@ static void add_any(struct text *text, const struct field *field)
         add_list(text, field);
         text_add(text, "]}");
     } else if (field->group) {
-        add_group(text, field->group, NULL);
+        add_group(text, field->group, name_of(field->group));
     } else {
         text_add(text, "{\"$ref\": \"#/definitions/place\"}");
     }
@@ -142,7 +170,7 @@ static void add_plain(struct text *text, const struct field *field)
         if (field->entries != one_value)
             add_map(text, field);
         else if (field->group)
-            add_group(text, field->group, NULL);
+            add_group(text, field->group, name_of(field->group));
         else
             text_add(text, "{\"type\": \"object\"}"); /* `initial` and `exact`: as the motion says */
         break;
@@ -198,70 +226,6 @@ static bool has_required(const struct group *group)
     return has_required(group->base);
 }
 
-/* What a mapping needs at least one of: keys, several of them joined by `+`. */
-static const struct {
-    const char *name, *keys;
-} needs[] = {
-    {"body", "mass parts"},
-    {"part", "mass"},
-    {"table", "file points"},
-    {"force_applied", "value fx fy"},
-    {"force_drag", "linear quadratic"},
-    {"force_friction", "coefficient static kinetic"},
-    {"moment_friction", "coefficient static kinetic"},
-    {"rod", "length from+to"},
-    {"sphere", "radius"},
-    {"cylinder", "radius"},
-    {"disc", "radius"},
-    {"disk", "radius"},
-    {"solid_cylinder", "radius"},
-    {"hollow_cylinder", "outer_radius+inner_radius"},
-    {"prism", "a+b b+c a+c"},
-    {"rectangular_prism", "a+b b+c a+c"},
-    {"ring", "radius"},
-    {"thin_ring", "radius"},
-};
-
-static const char *find_needs(const char *name)
-{
-    for (size_t i = 0; name && i < sizeof needs / sizeof *needs; i++)
-        if (strcmp(needs[i].name, name) == 0) return needs[i].keys;
-    return NULL;
-}
-
-static void add_needs(struct text *text, const char *keys)
-{
-    text_add(text, "\"anyOf\": [{\"required\": [\"");
-    for (const char *c = keys; *c; c++) {
-        if (*c == ' ')
-            text_add(text, "\"]}, {\"required\": [\"");
-        else if (*c == '+')
-            text_add(text, "\", \"");
-        else
-            text_add_bytes(text, c, 1);
-    }
-    text_add(text, "\"]}]");
-}
-
-/* The sizes that a shape needs, unless its moment of inertia is given. */
-static void add_shape_rules(struct text *text)
-{
-    const struct field *shape = &part_group.fields[0];
-    while (strcmp(shape->key, "shape") != 0) shape++;
-    bool first = true;
-    for (size_t i = 0; i < shape->choice_count; i++) {
-        const char *name = shape->choices[i].name, *keys = find_needs(name);
-        if (!keys) continue;
-        next(text, &first);
-        text_printf(text,
-                    "{\"if\": {\"required\": [\"shape\"], \"properties\": {\"shape\": {\"const\": \"%s\"}}, "
-                    "\"not\": {\"required\": [\"inertia\"]}},\n\"then\": {",
-                    name);
-        add_needs(text, keys);
-        text_add(text, "}}");
-    }
-}
-
 /* The members of the schema of a mapping. */
 static void add_members(struct text *text, const struct group *group, const char *name)
 {
@@ -272,14 +236,15 @@ static void add_members(struct text *text, const struct group *group, const char
     add_fields(text, group, &first);
     text_add(text, "},\n\"additionalProperties\": false");
     if (list_required(text, group, false)) text_add(text, "]");
-    const char *keys = find_needs(name);
+    const char *keys = schema_needs(name);
     if (keys) {
         text_add(text, ",\n");
-        add_needs(text, keys);
+        schema_add_needs(text, keys);
     }
+    schema_add_exclusions(text, name);
     if (group != &part_group) return;
     text_add(text, ",\n\"allOf\": [\n");
-    add_shape_rules(text);
+    schema_add_shapes(text);
     text_add(text, "]");
 }
 
@@ -321,7 +286,7 @@ static bool may_be_bare(const struct kinds *kinds, const struct kind *kind)
 {
     char name[64];
     format_into(name, sizeof name, "%s_%s", kinds->noun, kind->name);
-    return !find_needs(name) && !has_required(kind->group);
+    return !schema_needs(name) && !has_required(kind->group);
 }
 
 /* One of those that go with `motion`, a bit or all of them. */
@@ -379,7 +344,7 @@ static void add_of_motion(struct text *text, const char *key, const struct kinds
 static void add_motion_rules(struct text *text)
 {
     text_add(text, ",\n\"allOf\": [\n");
-    add_shape_rules(text);
+    schema_add_shapes(text);
     for (size_t i = 0; i < motion_kinds.count; i++) {
         const struct kind *kind = &motion_kinds.kinds[i];
         text_printf(text,

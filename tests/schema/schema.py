@@ -19,8 +19,9 @@ except ImportError as missing:
 SOURCE = Path(os.environ["FBD_SOURCE_ROOT"])
 RUN = os.environ["FBD_RUN"]
 
-# What a schema can see. The rest takes units, expressions, the names of a file or more than one key at a time.
-STRUCTURAL = {"unknown-key", "missing-key", "unknown-choice", "unknown-kind", "wrong-type", "missing-value"}
+# What a schema can see. The rest takes units, expressions or the names of a file.
+STRUCTURAL = {"unknown-key", "missing-key", "unknown-choice", "unknown-kind", "wrong-type", "missing-value", "conflicting-keys",
+              "not-here"}
 
 # Of these ids, what it cannot see, with the reason.
 BEYOND = {
@@ -30,6 +31,21 @@ BEYOND = {
     "belt_without_tension.yaml": "needed where the axes keep their distance",
     "wound_without_radius.yaml": "needed unless the body is a disc",
     "spring_without_end.yaml": "needed unless the body slides",
+    "around_no_drum.yaml": "how many places the rope has",
+    "belt_with_two_tensions.yaml": "whether axes move",
+    "distance_without_toward.yaml": "a name in an expression",
+    "event_direction_against_sign.yaml": "a sign in an expression",
+    "every_twice.yaml": "two places of the file",
+    "inertia_about_no_pivot.yaml": "a word that the motion allows",
+    "input_drives.yaml": "a name in an expression",
+    "output_points_twice.yaml": "two places of the file",
+    "rope_length_of_a_motion.yaml": "a name in an expression",
+    "slip_outside_friction.yaml": "a name in an expression",
+    "state_in_a_potential.yaml": "a name in an expression",
+    "track_of_time.yaml": "a name in an expression",
+    "track_start_by_another.yaml": "a name in an expression",
+    "track_that_does_not_turn.yaml": "two places of the file",
+    "wound_on_no_end.yaml": "names of the file",
 }
 
 
@@ -68,7 +84,7 @@ def main():
     schema = json.loads(text)
     jsonschema.Draft7Validator.check_schema(schema)
     validator = jsonschema.Draft7Validator(schema)
-    print("1..3")
+    print("1..4")
     print(f"# {len(text)} bytes")
 
     models = sorted((SOURCE / "models").rglob("*.yaml"))
@@ -84,6 +100,8 @@ def main():
     undocumented = [key for key, value in schema["definitions"]["body"]["properties"].items()
                     if not value.get("description")]
     check(3, "keys have descriptions", undocumented)
+    defaults = {key: text.decode().count(f'"default": {key}') for key in ('"up"', '"world"', "0,", "1,")}
+    check(4, "and defaults where these are values", [key for key, count in defaults.items() if not count])
 
 
 if __name__ == "__main__":
