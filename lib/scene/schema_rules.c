@@ -98,7 +98,7 @@ static void refuse_others(struct text *text, int shape, const char *name)
         if (!taken) text_printf(&others, "%s%s", others.length ? " " : "", key);
     if (pairs) text_printf(&others, " %s", pairs);
     text_add(text, "\"not\": {");
-    if (!others.failed) schema_add_needs(text, others.data);
+    if (others.data && !others.failed) schema_add_needs(text, others.data);
     text->failed |= others.failed;
     text_free(&others);
     text_add(text, "}");
