@@ -39,6 +39,7 @@ BEYOND = {
     "inertia_about_no_pivot.yaml": "a word that the motion allows",
     "input_drives.yaml": "a name in an expression",
     "output_points_twice.yaml": "two places of the file",
+    "power_on_a_body.yaml": "what `on` says beside it",
     "rope_length_of_a_motion.yaml": "a name in an expression",
     "slip_outside_friction.yaml": "a name in an expression",
     "state_in_a_potential.yaml": "a name in an expression",
