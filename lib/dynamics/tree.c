@@ -16,7 +16,8 @@
 static size_t doubles_of(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
-    return 4 * tree->envelope_size + 7 * (size_t)tree_unknowns(tree) + 3 * (size_t)model->plan.n;
+    size_t borne = tree->meeting_count > 0 ? (size_t)tree->count : 0;
+    return 4 * tree->envelope_size + 7 * (size_t)tree_unknowns(tree) + 3 * (size_t)model->plan.n + borne;
 }
 
 size_t tree_work_size(const struct fbd_model *model)
@@ -52,7 +53,8 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->a_along = work->a + n;
     work->scale = work->a_along + n;
     work->ordered = work->scale + unknowns;
-    void *behind = work->ordered + unknowns;
+    work->borne = work->ordered + unknowns;
+    void *behind = work->borne + (tree->meeting_count > 0 ? links : 0);
     work->envelope = behind;
     behind = work->envelope + unknowns;
     work->mark = behind;
@@ -168,7 +170,7 @@ static void set_joint_forces(const struct fbd_model *model, const struct instant
 }
 
 /* The largest of a tie and of what it joins, for all of them. */
-static double spread_borne(const struct tree *tree, struct tree_work *work, const struct tie *tie)
+static void spread_borne(const struct tree *tree, struct tree_work *work, const struct tie *tie)
 {
     double most = 0;
     for (int pass = 0; pass < 2; pass++)
@@ -176,21 +178,20 @@ static double spread_borne(const struct tree *tree, struct tree_work *work, cons
             const struct row *row = &work->rows[j];
             for (int k = 0; row->lambda != 0 && k < row->port_count; k++) {
                 const struct port *port = &row->ports[k];
-                struct tree_state *s = &work->links[port->link];
+                double *borne = &work->borne[port->link];
                 if (port->link == 0) continue;
                 double own = fabs(row->lambda) * vec_norm(port->force) / tree->links[port->link].mass;
-                most = fmax(most, fmax(own, s->borne));
-                s->borne = fmax(s->borne, most);
+                most = fmax(most, fmax(own, *borne));
+                *borne = fmax(*borne, most);
             }
         }
-    return most;
 }
 
 /* What the lowest of a pile bears is the sum of all above it, and cancels but for rounding. Along a pile two ways do,
  * for what touches each other is mostly numbered along it; where that is not so a size is too small somewhere. */
 static void set_borne(const struct tree *tree, struct tree_work *work)
 {
-    for (int i = 0; i < tree->count; i++) work->links[i].borne = 0;
+    for (int i = 0; i < tree->count; i++) work->borne[i] = 0;
     for (int i = 0; i < tree->tie_count; i++) spread_borne(tree, work, &tree->ties[i]);
     for (int i = tree->tie_count; i-- > 0;) spread_borne(tree, work, &tree->ties[i]);
 }
@@ -209,7 +210,7 @@ static void drop_rounding(const struct tree *tree, struct tree_work *work, doubl
         const double *unit = work->unit + link->coordinate;
         double *own = a + link->coordinate, radius = sqrt(link->I_O / link->mass);
         double net = fmax(hypot(unit[0], unit[1]), radius * fabs(unit[2]));
-        double least = rounding * net + sums * work->links[i].borne;
+        double least = rounding * net + sums * work->borne[i];
         if (hypot(own[0], own[1]) <= least && radius * fabs(own[2]) <= least) own[0] = own[1] = own[2] = 0;
     }
 }

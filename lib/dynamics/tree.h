@@ -55,7 +55,6 @@ struct tree_state {
     };
     bool locked;     /* it sticks */
     double held;     /* then the acceleration of its surface */
-    double borne;    /* where there are contacts: what one force of a constraint alone would do [m/s^2] */
     struct wrench F; /* what the joint passes to the link, by tree_transmitted */
 };
 
@@ -100,6 +99,7 @@ struct tree_work {
     bool complete;       /* A and F of the links are final, see tree_complete */
     double fastest;      /* the speed of the fastest link; negative: to be found, see constraint.c; */
     double spin;         /* then with the largest angular speed */
+    double *borne; /* count, where there are contacts: what one force alone would do to a link [m/s^2] */
 };
 
 /* Bytes that a workspace needs (a multiple of the size of a double), and laying it out. */
