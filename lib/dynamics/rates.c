@@ -5,6 +5,7 @@
 
 #include "dynamics/laws.h"
 #include "dynamics/own.h"
+#include "dynamics/tree_bare.h"
 
 struct row {
     rates_function *function;
@@ -191,6 +192,15 @@ static int whole_row(double t, const double y[], double dydt[], void *params)
     return 0;
 }
 
+static int bare_row(double t, const double y[], double dydt[], void *params)
+{
+    const struct row *row = params;
+    const struct fbd_state *state = row->all->state;
+    (void)t;
+    tree_bare_rates(state->model, state->tree, y, dydt);
+    return 0;
+}
+
 /* The states of the file's own. */
 static int own_row(double t, const double y[], double dydt[], void *params)
 {
@@ -351,7 +361,10 @@ void rates_bind(struct rates *rates)
 {
     const struct fbd_model *model = rates->state->model;
     rates->count = 0;
-    if (model->tree || model->absolute_count > 0 || state_sliding(rates->state)) { /* one solution for all */
+    if (rates->kind == rates_by_rows && tree_is_bare(model) && !state_sliding(rates->state)) {
+        rates->rows[rates->count++] = (struct row){.function = bare_row, .all = rates};
+    } else if (model->tree || model->absolute_count > 0 ||
+               state_sliding(rates->state)) { /* one solution for all */
         rates->rows[rates->count++] = (struct row){.function = whole_row, .all = rates};
     } else {
         for (int b = 0; b < (int)rates->state->model->body_count; b++) bind_body(rates, b);
@@ -401,6 +414,7 @@ struct rates_census rates_census(const struct rates *rates)
                      : function == part_row     ? &census.parts
                      : function == formulas_row ? &census.formulas
                      : function == particle_row ? &census.particles
+                     : function == bare_row     ? &census.bare
                                                 : &census.bodies;
         (*count)++;
     }

@@ -17,6 +17,7 @@
  *     parts        (... + scale (sum of c u^k, c sin(w u + p)) - F) / m   one formula of this shape (expr/parts.h)
  *     formulas     (... + sum of scale f(t, q, v) - F) / m
  *     body         the stages of forward.h                                everything else
+ *     bare tree    tree_bare.h                                            pivots under gravity and the like
  *     own          z' = f(t, q, v, z)                                     the states of the file's own
  *
  * Each row adds up in the order of forces.c and multiplies by the same 1/m: the bits are those of
@@ -51,7 +52,7 @@ struct fbd_state *rates_state(void *params);
 
 /* How many rows of each kind there are, for those who want to know. */
 struct rates_census {
-    int steady, held, affine, sine, parts, formulas, particles, own, bodies;
+    int steady, held, affine, sine, parts, formulas, particles, own, bare, bodies;
 };
 
 struct rates_census rates_census(const struct rates *rates);

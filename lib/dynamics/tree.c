@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "dynamics/friction.h"
+#include "dynamics/tree_bare.h"
 #include "dynamics/tree_system.h"
 
 /* ---- memory */
@@ -25,7 +26,8 @@ size_t tree_work_size(const struct fbd_model *model)
     const struct tree *tree = model->tree;
     size_t links = (size_t)tree->count, unknowns = (size_t)tree_unknowns(tree);
     size_t ints = (links + 5 * unknowns + 2) / 2 * 2;
-    size_t link = sizeof(struct tree_state) + sizeof(struct tree_rhs) + sizeof(struct tree_variation);
+    size_t link = sizeof(struct tree_state) + sizeof(struct tree_rhs) + sizeof(struct tree_variation) +
+                  sizeof(struct tree_bare);
     return links * link + (size_t)tree->row_count * sizeof(struct row) +
            (size_t)tree->tie_count * sizeof(struct tie_state) + doubles_of(model) * sizeof(double) +
            unknowns * sizeof(size_t) + ints * sizeof(int);
@@ -38,7 +40,8 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->links = memory;
     work->x = (struct tree_rhs *)(work->links + links);
     work->variation = (struct tree_variation *)(work->x + links);
-    work->rows = (struct row *)(work->variation + links);
+    work->bare = (struct tree_bare *)(work->variation + links);
+    work->rows = (struct row *)(work->bare + links);
     work->ties = (struct tie_state *)(work->rows + tree->row_count);
     work->lower = (double *)(work->ties + tree->tie_count);
     work->upper = work->lower + tree->envelope_size;

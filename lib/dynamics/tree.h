@@ -67,6 +67,7 @@ struct tree_variation {
     double held;
 };
 
+struct tree_bare;
 struct row;
 struct tie_state;
 
@@ -74,6 +75,7 @@ struct tree_work {
     struct tree_state *links;                       /* tree.count; links[0] is the ground */
     struct tree_rhs *x;                             /* tree.count */
     struct tree_variation *variation;               /* tree.count */
+    struct tree_bare *bare;                         /* tree.count, see tree_bare.h */
     struct row *rows;                               /* row_count: constraints, see constraint.h */
     struct tie_state *ties;                         /* tie_count: what they keep of the start */
     double *lower, *upper, *diagonal, *inverse, *z; /* the system of tree_system.h */

@@ -21,7 +21,7 @@ static void move_slide(const struct tree_link *link, const struct tree_state *pa
 {
     s->angle = parent->angle + link->along;
     s->omega = parent->omega;
-    s->turn = vec_turn(parent->turn, vec_unit(link->along));
+    s->turn = vec_turn(parent->turn, link->tilt);
     s->e = vec_turn(parent->turn, link->e);
     s->d = vec_add(vec_turn(parent->turn, link->at), vec_scale(joint.q[0], s->e));
     s->v = vec_scale(joint.v[0], s->e);

@@ -96,12 +96,14 @@ static void set_link(const struct fbd_model *model, struct tree_link *link, int 
                                .along = body->kind == motion_slide ? motion->along : 0,
                                .pair = -1,
                                .normal_slot = -1};
+    link->tilt = vec_unit(link->along);
     if (motion->parent == ground_body) return;
     const struct placement *parent = &model->bodies[motion->parent].place;
     link->parent = parent->link;
     link->at = placement_point(parent, motion->through);
     link->e = vec_turn(parent->turn, link->e);
     link->along += parent->angle;
+    link->tilt = vec_unit(link->along);
 }
 
 static void add_inertia(struct tree_link *link, const struct model_body *body)
@@ -115,6 +117,7 @@ static void add_inertia(struct tree_link *link, const struct model_body *body)
     link->mass = mass;
     link->moment = vec_add(link->moment, vec_scale(inertia->mass, G));
     link->I_O += inertia->I_G + inertia->mass * vec_dot(G, G);
+    link->inverse_I_O = 1 / link->I_O;
     link->across = link->I_O > 0 ? link->mass * link->I_G / link->I_O : 0;
 }
 
@@ -188,6 +191,7 @@ static void add_following(struct builder *builder, const struct model_body *body
 static void add_moment(struct builder *builder, const struct model_body *body, const struct formula *value)
 {
     struct tree *tree = builder->model->tree;
+    if (formula_is_constant(value) && value->constant == 0) return;
     if (formula_is_constant(value))
         add_following(builder, body, (struct vec){0, 0}, (struct vec){0, 0}, value->constant);
     else

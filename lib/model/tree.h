@@ -36,13 +36,15 @@ struct tree_track {
 struct tree_link {
     int body, parent; /* its body; the link that it moves on, less than its own number */
     enum motion_kind kind;
-    int coordinate; /* the first of its coordinates */
-    struct vec at;  /* pivot: the axis; slide: where x = 0; else the zero of x, y; from the parent's O */
-    struct vec e;   /* slide, free: direction of +x; track: of the x axis of its curve */
-    int side;       /* slide, track: its surface pushes to the left (+1) or the right (-1) of +x */
-    double along;   /* angle of the link's frame in its parent's at q = 0; track: of its curve */
+    int coordinate;  /* the first of its coordinates */
+    struct vec at;   /* pivot: the axis; slide: where x = 0; else the zero of x, y; from the parent's O */
+    struct vec e;    /* slide, free: direction of +x; track: of the x axis of its curve */
+    int side;        /* slide, track: its surface pushes to the left (+1) or the right (-1) of +x */
+    struct vec tilt; /* cosine and sine of `along` */
+    double along;    /* angle of the link's frame in its parent's at q = 0; track: of its curve */
     struct tree_track *track; /* or NULL */
     double mass, I_O;         /* with all that is welded to it; I_O about O */
+    double inverse_I_O;       /* 1 / I_O */
     double I_G;               /* about the centre of mass */
     double across; /* mass I_G / I_O: its inertia at O across the arm to its centre, when it turns freely */
     struct vec moment;   /* mass times the vector from O to its centre of mass */

@@ -76,6 +76,7 @@ static void write_rows(struct text *text, const struct fbd_model *model, struct 
         {rows.formulas, "with formulas"},
         {rows.particles, "particle with springs, dampers or drag at its points"},
         {rows.own, "rates of the states of the file"},
+        {rows.bare, "chains of pivots with constant forces, without their places in the world"},
         {rows.bodies, model->tree ? "jointed bodies, all together" : "body by the general path"},
     };
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)

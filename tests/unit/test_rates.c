@@ -12,9 +12,11 @@
 
 #include "dynamics/modes.h"
 #include "dynamics/rates.h"
+#include "dynamics/tree_bare.h"
 #include "random_numbers.h"
 #include "scenes.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -75,6 +77,68 @@ static void rows_give_the_bits_of_the_general_path(void **unused)
     for (size_t i = 0; i < all_scenes_count; i++) check_scene(&all_scenes[i], &numbers);
 }
 
+/* Up to three chains of up to five pivots, on the ground or on a slide, with gravity, constant forces, springs, dampers
+ * and moments in joints, and what is welded to a link. */
+static void add_chain(struct random_numbers *numbers, int chain, FILE *out)
+{
+    int count = 2 + (int)(random_bits(numbers) % 4);
+    bool slides = random_bits(numbers) % 2;
+    for (int i = 0; i < count; i++) {
+        double m = random_between(numbers, 0.1, 3), x = random_between(numbers, -1, 1),
+               angle = random_between(numbers, -3, 3);
+        fprintf(out,
+                "  b%d_%d:\n    shape: rod\n    mass: %.17g\n    from: [%.17g, 0.1]\n    to: [0.3, %.17g]\n",
+                chain, i, m, x, random_between(numbers, 0.5, 2));
+        if (i == 0 && slides)
+            fprintf(out, "    motion: {slide: {along: %.17g rad}}\n", angle);
+        else if (i == 0)
+            fprintf(out, "    motion: {pivot: {at: [0.2, %d]}}\n", chain);
+        else
+            fprintf(out, "    motion: {pivot: {on: b%d_%d, at: [%.17g, 0.4], point: left}}\n", chain, i - 1,
+                    x);
+        fprintf(out,
+                "    forces:\n      - gravity\n      - applied: {name: f, value: %.17g, angle: %.17g rad, "
+                "at: right}\n",
+                m, angle);
+        if ((i > 0 || !slides) && random_bits(numbers) % 2)
+            fprintf(out,
+                    "    moments:\n      - spring: {stiffness: 3, neutral: %.17g rad}\n      - damper: "
+                    "{coefficient: 0.2}\n"
+                    "%s",
+                    angle, count == 5 ? "      - applied: {name: drive, value: 2}\n" : "");
+    }
+    if (random_bits(numbers) % 2)
+        fprintf(out,
+                "  tip%d: {shape: point, mass: 0.7, motion: {weld: {on: b%d_%d, at: right}}, forces: "
+                "[gravity]}\n",
+                chain, chain, count - 1);
+}
+
+static void bare_chains_give_the_bits_of_the_general_path(void **unused)
+{
+    (void)unused;
+    struct random_numbers numbers = {seed};
+    int bare = 0;
+    for (int draw = 0; draw < 60; draw++) {
+        char *text;
+        size_t length;
+        FILE *out = open_memstream(&text, &length);
+        assert_non_null(out);
+        fprintf(out, "fbd: 1\nbodies:\n");
+        for (int chain = (int)(random_bits(&numbers) % 3); chain >= 0; chain--)
+            add_chain(&numbers, chain, out);
+        fprintf(out, "simulate: {until: 1}\n");
+        assert_int_equal(fclose(out), 0);
+        struct named_scene scene = {"chains", text};
+        fbd_model *model = model_from(text);
+        bare += model->tree && tree_is_bare(model);
+        fbd_model_free(model);
+        check_scene(&scene, &numbers);
+        free(text);
+    }
+    assert_true(bare > 20); /* the others have constant moments */
+}
+
 /* ---- which rows */
 
 #define BODY(motion, rest)                                                                                   \
@@ -96,9 +160,9 @@ static void check_census(const struct expectation *want)
     struct rates_census got = rates_census(rates);
     if (memcmp(&got, &want->rows, sizeof got) != 0)
         fail_msg("%s: %d steady, %d held, %d affine, %d sine, %d of one part, %d with formulas, %d "
-                 "particles, %d bodies",
+                 "particles, %d bare, %d bodies",
                  want->name, got.steady, got.held, got.affine, got.sine, got.parts, got.formulas,
-                 got.particles, got.bodies);
+                 got.particles, got.bare, got.bodies);
     rates_free(rates);
     fbd_state_free(state);
     fbd_model_free(model);
@@ -136,6 +200,13 @@ static void every_scene_gets_the_least_row_that_does(void **unused)
          "fbd: 1\nbodies:\n  b:\n    motion: {pivot: {at: [0, 0]}}\n    shape: point\n    mass: 2\n"
          "    center: [0, -1 m]\n    forces: [gravity]\nsimulate: {until: 1}\n",
          {.sine = 1}},
+        {"a double pendulum",
+         "fbd: 1\nbodies:\n  a: {shape: rod, mass: 1, length: 1, motion: {pivot: {point: left}}, forces: "
+         "[gravity]}\n"
+         "  b: {shape: rod, mass: 1, length: 1, motion: {pivot: {on: a, at: right, point: left}}, forces: "
+         "[gravity]}\n"
+         "simulate: {until: 1}\n",
+         {.bare = 1}},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) check_census(&rows[i]);
 }
@@ -144,6 +215,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_give_the_bits_of_the_general_path),
+        cmocka_unit_test(bare_chains_give_the_bits_of_the_general_path),
         cmocka_unit_test(every_scene_gets_the_least_row_that_does),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dynamics/tree_bare.h"
+
+#include "dynamics/tree.h"
+
+/* ---- which trees are */
+
+static bool acts_in_joints_alone(const struct fbd_model *model, int b)
+{
+    const struct body_terms *terms = &model->plan.bodies[b];
+    return model->bodies[b].place.link > 0 && terms->sine.count == 0 && terms->square.count == 0 &&
+           terms->formulas.count == 0 && terms->potentials.count == 0 && !terms->at_points &&
+           terms->across.count == 0 && terms->friction < 0 && terms->offset < 0;
+}
+
+bool tree_is_bare(const struct fbd_model *model)
+{
+    const struct tree *tree = model->tree;
+    if (!tree || tree->loaded || tree->watched_count + tree->tie_count > 0 || model->plan.friction_count > 0)
+        return false;
+    for (int k = 0; k < tree->acting_count; k++)
+        if (!acts_in_joints_alone(model, tree->acting[k])) return false;
+    for (int i = 1; i < tree->count; i++) {
+        const struct tree_link *link = &tree->links[i];
+        bool slides = link->kind == motion_slide && link->parent == 0, chained = link->parent == i - 1;
+        if (!(link->kind == motion_pivot || slides) || !(chained || link->parent == 0)) return false;
+    }
+    return true;
+}
+
+/* ---- outward: the courses
+ *
+ * A pivot on the ground has its O at rest and answers with J and a moment alone, a slide on the ground does not turn
+ * and answers with M and a force. */
+
+/* What goes on from link to link. */
+struct course {
+    double omega;
+    struct vec turn, a;
+};
+
+/* All sines and cosines first: numbers that stand in registers do not outlive a call. */
+static void turn_links(const struct tree_link *links, int count, const double *y, struct tree_bare *s)
+{
+    bool turns = links->kind == motion_pivot;
+    double angle = turns ? links->along + y[links->coordinate] : links->along;
+    s->turn = turns ? vec_unit(angle) : links->tilt;
+    for (int i = 1; i < count; i++) {
+        angle = angle + links[i].along + y[links[i].coordinate];
+        s[i].turn = vec_unit(angle);
+    }
+}
+
+static inline struct course set_out_from_ground(const struct tree_link *link, double v, struct tree_bare *s)
+{
+    if (link->kind == motion_slide) return (struct course){0, s->turn, {0, 0}};
+    s->p.moment = -link->sine * s->turn.y - link->cosine * s->turn.x;
+    return (struct course){v, s->turn, {0, 0}};
+}
+
+static inline struct course set_out(const struct tree_link *link, const struct course *on, double v,
+                                    struct tree_bare *s)
+{
+    double w2 = on->omega * on->omega, omega = on->omega + v, own = omega * omega, m = link->mass;
+    struct vec turn = s->turn, d = vec_turn(on->turn, link->at), mr = vec_turn(turn, link->moment);
+    struct vec a = {on->a.x - w2 * d.x, on->a.y - w2 * d.y};
+    s->d = d;
+    s->mr = mr;
+    s->p.force = (struct vec){m * a.x - own * mr.x - link->force.x, m * a.y - own * mr.y - link->force.y};
+    s->p.moment = vec_cross(mr, a) - link->sine * turn.y - link->cosine * turn.x;
+    return (struct course){omega, turn, a};
+}
+
+static void set_joint_forces(const struct fbd_model *model, const double *y, struct tree_bare *links)
+{
+    const struct plan *plan = &model->plan;
+    const struct tree *tree = model->tree;
+    for (int k = 0; k < tree->acting_count; k++) {
+        const struct body_terms *terms = &plan->bodies[tree->acting[k]];
+        double *g = &links[model->bodies[tree->acting[k]].place.link].g;
+        const struct affine_term *term = plan->affine + terms->affine.first;
+        *g = 0;
+        for (int i = 0; i < terms->affine.count; i++, term++)
+            *g += term->c0 - term->kq * y[term->coordinate] - term->kv * y[plan->n + term->coordinate];
+    }
+}
+
+/* ---- inward: what a link passes on to the one before, about O of that */
+
+struct passed {
+    struct inertia_about_O I;
+    struct wrench p;
+};
+
+static inline struct passed pass(const struct inertia_about_O *R, struct wrench p, const struct tree_bare *s)
+{
+    struct vec f = vec_add(p.force, vec_scale(s->u * s->D, s->h)), k = vec_perp(s->d),
+               Rk = inertia_times(R, k);
+    return (struct passed){{vec_dot(k, Rk), Rk, R->xx, R->xy, R->yy}, {s->g + vec_cross(s->d, f), f}};
+}
+
+static inline struct passed pass_last(const struct tree_link *link, struct tree_bare *s)
+{
+    s->D = link->inverse_I_O;
+    s->u = s->g - s->p.moment;
+    s->h = vec_perp(s->mr);
+    struct inertia_about_O R = tree_last_pivot(link, s->mr, s->D);
+    return pass(&R, s->p, s);
+}
+
+static inline struct passed pass_on(const struct tree_link *link, const struct passed *behind,
+                                    struct tree_bare *s)
+{
+    double m = link->mass;
+    struct inertia_about_O I = {link->I_O + behind->I.J, vec_add(vec_perp(s->mr), behind->I.h),
+                                m + behind->I.xx, behind->I.xy, m + behind->I.yy};
+    struct wrench p = {s->p.moment + behind->p.moment, vec_add(s->p.force, behind->p.force)};
+    s->D = 1 / I.J;
+    s->u = s->g - p.moment;
+    s->h = I.h;
+    struct inertia_about_O R = tree_pivot(&I, s->D);
+    return pass(&R, p, s);
+}
+
+/* The acceleration in the joint on the ground. */
+static double give_way(const struct tree_link *link, const struct passed *behind, const struct tree_bare *s)
+{
+    if (link->kind == motion_pivot)
+        return 1 / (link->I_O + behind->I.J) * (s->g - (s->p.moment + behind->p.moment));
+    struct inertia_about_O I = {
+        0, {0, 0}, link->mass + behind->I.xx, behind->I.xy, link->mass + behind->I.yy};
+    struct vec force = vec_sub(behind->p.force, link->force);
+    double D = 1 / vec_dot(link->e, inertia_times(&I, link->e));
+    return D * (s->g - vec_dot(link->e, force));
+}
+
+/* ---- all of it, chain by chain */
+
+static void chain(const struct tree_link *links, struct tree_bare *s, int count, const double *y,
+                  const double *v, double *a)
+{
+    struct passed passed = {{0, {0, 0}, 0, 0, 0}, {0, {0, 0}}};
+    turn_links(links, count, y, s);
+    struct course course = set_out_from_ground(links, v[links->coordinate], s);
+    for (int i = 1; i < count; i++) course = set_out(&links[i], &course, v[links[i].coordinate], &s[i]);
+    if (count > 1) passed = pass_last(&links[count - 1], &s[count - 1]);
+    for (int i = count - 2; i > 0; i--) passed = pass_on(&links[i], &passed, &s[i]);
+    double own = give_way(links, &passed, s);
+    bool turns = links->kind == motion_pivot;
+    struct acceleration A = {turns ? own : 0, {0, 0}};
+    if (!turns) A.a = vec_scale(own, links->e);
+    a[links->coordinate] = own;
+    for (int i = 1; i < count; i++) {
+        double before = A.alpha;
+        A = acceleration_at(A, s[i].d);
+        A.alpha = s[i].D * (s[i].u - vec_dot(s[i].h, A.a));
+        a[links[i].coordinate] = A.alpha - before;
+    }
+}
+
+void tree_bare_rates(const struct fbd_model *model, struct tree_work *work, const double *y, double *dydt)
+{
+    const struct tree *tree = model->tree;
+    const int n = model->plan.n;
+    if (tree->acting_count > 0) set_joint_forces(model, y, work->bare);
+    for (int i = 0; i < n; i++) dydt[i] = y[n + i];
+    for (int i = 1; i < tree->count; i = tree->links[i].end)
+        chain(&tree->links[i], &work->bare[i], tree->links[i].end - i, y, y + n, dydt + n);
+}

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Chains on which nothing acts but constant forces and, in their joints, springs, dampers and constant moments:
+ * pivots on pivots, the first of them on the ground or on a slide of it. Pendulums, and carts with poles, are such
+ * trees, and gravity asks for no place in the world. So of all that tree.h computes, the right-hand side leaves out
+ * where the points O are and how fast they move, and of what moves on the ground all that only the ground would
+ * feel. Each number that remains is made by the same operations in the same order as there: the bits are those of
+ * state_rates.
+ */
+#ifndef FBD_DYNAMICS_TREE_BARE_H
+#define FBD_DYNAMICS_TREE_BARE_H
+
+#include "dynamics/spatial.h"
+#include "model/model.h"
+
+struct tree_work;
+
+/* What is left of tree_state and tree_rhs. */
+struct tree_bare {
+    struct vec turn, d, mr, h; /* h of what it has with all behind it */
+    struct wrench p;           /* of the link alone */
+    double g, u, D;
+};
+
+/* Is it one, and is there nothing in the scene beside it? */
+bool tree_is_bare(const struct fbd_model *model);
+
+/* dydt[2 n] at y; of the workspace only `bare` is used. */
+void tree_bare_rates(const struct fbd_model *model, struct tree_work *work, const double *y, double *dydt);
+
+#endif
