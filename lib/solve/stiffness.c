@@ -13,6 +13,12 @@ static const double gain_for_implicit = 1.8, gain_for_explicit = 1.2;
 /* Half the limit of stability, for the steps of the explicit method are longer. */
 static const double h_rate_for_explicit = 3;
 
+/* A step without error, that is within rounding, tells the explicit method nothing of longer ones; but where even the
+ * fastest rate does little within it they will come, and the implicit method is not needed. Next to a singular position
+ * of a mechanism both make short steps, and after it dop853 was asked with steps so short that they had no error,
+ * for ever. */
+static const double h_rate_without_error = 1;
+
 /* The shortest and the longest wait: an attempt at rodas5p costs as much as so many steps. */
 static int waits(const struct stiffness *s, int steps)
 {
@@ -58,6 +64,7 @@ static bool gains(double ratio, int estimate_order, double gain)
 bool stiffness_decide(struct stiffness *s, double ratio, int estimate_order, double h_rate)
 {
     bool better = gains(ratio, estimate_order, s->implicit ? gain_for_explicit : gain_for_implicit);
+    if (s->implicit && ratio == 0) better = h_rate < h_rate_without_error;
     if (s->implicit && !(h_rate < h_rate_for_explicit)) better = false;
     if (!better) {
         s->votes = 0;

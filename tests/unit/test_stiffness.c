@@ -146,6 +146,20 @@ static void fast_rates_bar_the_way_back(void **state)
     }
 }
 
+/* The explicit method makes no error in the short steps of the implicit one, in which nothing is fast. */
+static void steps_without_error_and_without_fast_rates_open_it(void **state)
+{
+    (void)state;
+    const double h_rates[] = {0.1, 1.1, NAN};
+    for (size_t i = 0; i < sizeof h_rates / sizeof *h_rates; i++) {
+        struct stiffness s;
+        stiffness_start(&s, 1);
+        s.implicit = true;
+        stiffness_decide(&s, 0, explicit_order, h_rates[i]);
+        assert_true(stiffness_decide(&s, 0, explicit_order, h_rates[i]) == (i == 0));
+    }
+}
+
 static void the_rate_is_that_of_the_system_in_all_units(void **state)
 {
     (void)state;
@@ -242,6 +256,7 @@ int main(void)
         cmocka_unit_test(failed_attempts_and_such_without_error_change_nothing),
         cmocka_unit_test(an_event_between_two_answers_makes_them_void),
         cmocka_unit_test(fast_rates_bar_the_way_back),
+        cmocka_unit_test(steps_without_error_and_without_fast_rates_open_it),
         cmocka_unit_test(the_rate_is_that_of_the_system_in_all_units),
         cmocka_unit_test(real_motions_get_the_method_that_suits_them),
     };
