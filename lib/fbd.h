@@ -174,10 +174,11 @@ FBD_API fbd_coordinate fbd_model_coordinate(const fbd_model *model, size_t index
 typedef struct fbd_parameter {
     const char *name, *unit; /* coherent unit of the value; "" for a pure number, also one that takes whatever
                                 dimension its use needs */
-    const char *description; /* of an input, "" without */
+    const char *description; /* "" without */
     double value;
-    bool input;   /* of `inputs`: it may change while the motion goes on */
-    bool derived; /* the file defines it by other parameters, or gravity */
+    bool input;       /* of `inputs`: it may change while the motion goes on */
+    bool derived;     /* the file defines it by other parameters, or gravity */
+    double low, high; /* from where to where a slider should move it; NAN where the file does not say */
 } fbd_parameter;
 
 /* Those of `parameters` in the order of the file, then those of `inputs`. Past the last one: without a name. */

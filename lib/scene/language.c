@@ -18,8 +18,8 @@ static const struct field scene_fields[] = {
                "acceleration of gravity: a magnitude, straight down, or a pair [gx, gy]"),
     FIELD_NUMBER(offsetof(struct scene_keys, datum), "datum", a_length, 0,
                  "height y at which the potential energy of gravity is zero"),
-    FIELD_ENTRIES(offsetof(struct scene_keys, parameters), "parameters", field_map, 0, each_number, NULL,
-                  "named constants: name: quantity or expression of other parameters"),
+    FIELD_ENTRIES(offsetof(struct scene_keys, parameters), "parameters", field_map, 0, each_group,
+                  &parameter_group, "named constants: name: quantity or expression of other parameters"),
     FIELD_ENTRIES(offsetof(struct scene_keys, inputs), "inputs", field_map, 0, each_group, &input_group,
                   "what comes from outside while the motion goes on, with its value at the start"),
     FIELD_ENTRIES(offsetof(struct scene_keys, tables), "tables", field_map, 0, each_group, &table_group,
@@ -66,10 +66,22 @@ static const struct field output_fields[] = {
                   "in the world"),
 };
 
+#define CONSTANT_FIELDS(value_doc)                                                                           \
+    FIELD_NODE(offsetof(struct constant_keys, value), "value", field_scalar, required, NULL, value_doc),     \
+        FIELD_NODE(offsetof(struct constant_keys, range), "range", field_list, 0, NULL,                      \
+                   "[low, high]: from where to where a slider moves it"),                                    \
+        FIELD_TEXT(offsetof(struct constant_keys, description), "description",                               \
+                   "one line that says what it is")
+
+static const struct field parameter_fields[] = {
+    CONSTANT_FIELDS("quantity or expression of other parameters"),
+};
+
+const struct group parameter_group = {"a parameter", "value", FIELDS(parameter_fields),
+                                      NULL,          0,       "a named constant"};
+
 static const struct field input_fields[] = {
-    FIELD_NODE(offsetof(struct input_keys, value), "value", field_scalar, required, NULL,
-               "its value at the start, with its unit: it keeps that until it is given another"),
-    FIELD_TEXT(offsetof(struct input_keys, description), "description", "one line that says what it is"),
+    CONSTANT_FIELDS("its value at the start, with its unit: it keeps that until it is given another"),
 };
 
 const struct group input_group = {"an input", "value", FIELDS(input_fields),

@@ -123,8 +123,9 @@ struct table_keys {
     int interpolation, beyond; /* enum table_interpolation, enum table_beyond */
 };
 
-struct input_keys {
-    const struct node *value;
+/* Of a parameter or an input. */
+struct constant_keys {
+    const struct node *value, *range;
     const char *description;
 };
 
@@ -259,7 +260,8 @@ struct hand_keys {
 extern const struct choice method_choices[];
 
 extern const struct group scene_group, ground_group, line_group, simulate_group, output_group, event_group;
-extern const struct group around_group, wound_group, contact_group, input_group, table_group, own_state_group;
+extern const struct group around_group, wound_group, contact_group, parameter_group, input_group, table_group,
+    own_state_group;
 extern const struct group grading_group;
 extern const struct group *const grading_points_group;
 extern const struct group body_group, part_group, inertia_group, hand_group, place_group;

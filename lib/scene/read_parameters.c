@@ -129,9 +129,10 @@ static void define(struct reader *reader, size_t index)
     struct definition *definition = &reader->definitions[index];
     parameter->name = arena_text(reader->arena, pair->key, strlen(pair->key));
     parameter->description = "";
+    parameter->low = parameter->high = NAN;
     parameter->at = pair->at;
     parameter->input = index >= count_of(reader->parameters);
-    definition->node = parameter->input ? input_read(reader, pair, parameter) : pair->value;
+    definition->node = constant_read(reader, pair, parameter, &definition->range);
     if (!check_parameter_name(reader, pair, parameter->input) || !definition->node)
         definition->progress = failed;
 }
@@ -298,12 +299,23 @@ struct symbol parameter_symbol(struct reader *reader, size_t index, struct pos a
                            .value = parameter->value};
 }
 
+static void read_range(struct reader *reader, size_t index)
+{
+    const struct definition *definition = &reader->definitions[index];
+    if (definition->progress != done || !definition->range) return;
+    bool outer = reader->varies;
+    constant_range(reader, definition->range, !definition->override && !definition->varies,
+                   &reader->scene->parameters[index]);
+    reader->varies = outer;
+}
+
 void parameters_finish(struct reader *reader)
 {
     for (size_t i = 0; i < reader->scene->parameter_count; i++) {
         struct parameter *parameter = &reader->scene->parameters[i];
         char unit[64];
         resolve(reader, i, parameter->at);
+        read_range(reader, i);
         unit_name(parameter->dim, reader->scene->units, unit, sizeof unit);
         parameter->unit = arena_text(reader->arena, unit, strlen(unit));
     }

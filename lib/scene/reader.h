@@ -22,7 +22,7 @@ enum progress { untouched, in_progress, done, failed };
 
 /* What is known of a parameter beside its place in the scene. */
 struct definition {
-    const struct node *node;
+    const struct node *node, *range; /* its value; range NULL when not given */
     const struct override *override; /* or NULL */
     enum progress progress;
     bool varies; /* from reading to reading: it does itself, or names what does */
@@ -132,10 +132,16 @@ bool definition_open(struct reader *reader, struct open_definition *open, const 
 void definition_close(struct reader *reader, const struct open_definition *open);
 void definition_note_circle(struct reader *reader, const char *name, struct pos at);
 
-/* ---- inputs (read_inputs.c): parameters that may change while a motion goes on */
+/* ---- what entries of `parameters` and `inputs` say (read_constants.c) */
 
-/* What `inputs` says of one; NULL with a note when nothing that can be read says its value. */
-const struct node *input_read(struct reader *reader, const struct pair *pair, struct parameter *input);
+/* The value of one; NULL with a note when nothing that can be read says it. *range: of its slider, or NULL. */
+const struct node *constant_read(struct reader *reader, const struct pair *pair, struct parameter *parameter,
+                                 const struct node **range);
+
+/* Read the range of a parameter whose value is known; `value_of_file`: not set from outside, where it may lie
+ * beyond. */
+bool constant_range(struct reader *reader, const struct node *range, bool value_of_file,
+                    struct parameter *parameter);
 
 /* ---- tables (read_tables.c), as parameters */
 

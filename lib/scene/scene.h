@@ -193,7 +193,7 @@ struct parameter {
     const char *name, *description; /* description "" when not given */
     const char *unit;               /* coherent; "" for a pure number, or when nothing says which */
     struct pos at;
-    double value;
+    double value, low, high; /* low to high: of a slider; NAN when not given */
     struct dim dim;
     bool bare; /* given without a unit */
     bool used;

@@ -27,14 +27,14 @@ static void a_model_lists_parameters_then_inputs(void **unused)
     struct trial trial =
         trial_parse("fbd: 1\n"
                     "inputs: {F: {value: 2 kN, description: push}, n: 3}\n"
-                    "parameters: {w: m*g, m: 3 kg}\n"
+                    "parameters: {w: m*g, m: {value: 3 kg, range: [1, 5000 g], description: load}}\n"
                     "bodies: {b: {mass: m, motion: slide, forces: [applied: {value: n*F - w}]}}\n"
                     "simulate: {until: 1 s}\n");
     static const fbd_parameter want[] = {
-        {"w", "N", "", 3 * 9.81, false, true},
-        {"m", "kg", "", 3, false, false},
-        {"F", "N", "push", 2000, true, false},
-        {"n", "", "", 3, true, false},
+        {"w", "N", "", 3 * 9.81, false, true, NAN, NAN},
+        {"m", "kg", "load", 3, false, false, 1, 5},
+        {"F", "N", "push", 2000, true, false, NAN, NAN},
+        {"n", "", "", 3, true, false, NAN, NAN},
     };
     assert_int_equal(fbd_model_parameter_count(trial.model), 4);
     for (size_t i = 0; i < 4; i++) {
@@ -43,6 +43,8 @@ static void a_model_lists_parameters_then_inputs(void **unused)
         assert_string_equal(got.unit, want[i].unit);
         assert_string_equal(got.description, want[i].description);
         assert_true(fabs(got.value - want[i].value) < 1e-12 * want[i].value);
+        assert_true(isnan(want[i].low) ? isnan(got.low) && isnan(got.high)
+                                       : got.low == want[i].low && got.high == want[i].high);
         assert_int_equal(got.input, want[i].input);
         assert_int_equal(got.derived, want[i].derived);
     }
