@@ -148,6 +148,26 @@ python: all
 	/usr/bin/python3 -m venv --system-site-packages $(BUILD)-python
 	PKG_CONFIG_PATH=$(CURDIR)/$(BUILD)/meson-uninstalled $(BUILD)-python/bin/pip install --no-build-isolation ./python
 
+# What makes a page live (fbd-run --html page.html --live): the library for browsers, into build-live, where it stays;
+# and fbd-run with it inside.
+LIVE = build-live
+live: $(BUILD)/build.ninja
+	.ci/install-packages run live
+	lib/live/module/make $(LIVE)
+	meson configure $(BUILD) -Dlive=enabled -Dlive-files=$(CURDIR)/$(LIVE)
+	ninja -C $(BUILD)
+
+# Every model of the gallery live in Chromium, held against fbd-run; takes some minutes.
+live-check: live $(BUILD)/.tests
+	ninja -C $(BUILD)
+	FBD_ALL_PAGES=1 .ci/test $(BUILD) --no-rebuild --timeout-multiplier 10 live
+
+# A folder that can be served from anywhere: every model live, and these documents.
+SITE = $(BUILD)/site
+site: live
+	.ci/install-packages site
+	docs/make-site $(BUILD)/apps/fbd-run $(SITE)
+
 install: all
 	meson install -C $(BUILD) --no-rebuild
 	cp $(BUILD)/meson-logs/install-log.txt $(BUILD)/installed.txt
@@ -208,5 +228,9 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
+<<<<<<< HEAD
 .PHONY: all run mutants test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars event-bars events late-times implicit impacts failures gallery python check-format format lint install uninstall dist deb deb-check clean
+=======
+.PHONY: all run test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars event-bars events late-times implicit impacts failures gallery python live live-check site check-format format lint install uninstall dist deb deb-check clean
+>>>>>>> feb6ac0 (live pages: libfbd as WebAssembly in the page of --html --live; fbd-run --without; make live, make site)
 .SECONDARY:

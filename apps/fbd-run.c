@@ -321,12 +321,30 @@ static enum exit_code act(const fbd_model *model, const struct options *options,
     return run(model, options, errors);
 }
 
+/* The same model without the effects that are to be left out. */
+static fbd_model *leave_out(fbd_model *model, const struct options *options, fbd_errors *errors)
+{
+    if (!model || options->without_count == 0) return model;
+    fbd_errors *others = fbd_errors_new(); /* what the whole file is warned of has been said */
+    const char *name = strcmp(options->model, "-") == 0 ? NULL : options->model;
+    char *text = fbd_model_without(model, options->without, options->without_count, errors);
+    fbd_model_free(model);
+    model = text && others
+                ? fbd_model_parse(text, strlen(text), name, options->settings, options->setting_count, others)
+                : NULL;
+    if (!model && others) fbd_errors_print(others, stderr);
+    fbd_errors_free(others);
+    fbd_free(text);
+    return model;
+}
+
 static enum exit_code read_and_act(const struct options *options)
 {
     fbd_errors *errors = fbd_errors_new();
     if (!errors) return no_memory();
     fbd_model *model = fbd_model_read(options->model, options->settings, options->setting_count, errors);
     if (options->watched) watch_tell(options->watched, errors);
+    model = leave_out(model, options, errors);
     enum exit_code code = !model                           ? exit_bad_model
                           : options_spare(options, errors) ? act(model, options, errors)
                                                            : exit_usage;

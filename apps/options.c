@@ -16,6 +16,7 @@ static const char help[] =
     "\n"
     "What is simulated\n"
     "  --set NAME=VALUE     give a parameter of the file another value (may be repeated)\n"
+    "  --without NAME       leave an effect out, as block.friction (may be repeated)\n"
     "  --method NAME        integrate with this method (auto, dop853, rodas5p, rk8pd, msbdf, ...)\n"
     "  --tolerance NUMBER   relative error per step (default: the file's, else 1e-10)\n"
     "  --accuracy NUMBER    global error allowed, relative to the size of the motion, instead of a "
@@ -33,6 +34,7 @@ static const char help[] =
     "  --error-bars         estimate the error of everything that is written, by a second run that goes "
     "along\n"
     "  --html FILE          one page that plays the motion, with plots, equations and events\n"
+    "  --live               with --html: the page has sliders and an editor, and runs anew when they move\n"
     "  --plot FILE          plots of coordinates and energies by gnuplot; FILE ends in .svg, .png or .pdf\n"
     "  --plot-of NAME,...   of these columns of the CSV (block.v,block.friction)\n"
     "  --gnuplot FILE       the script of the plots, with its data\n"
@@ -128,6 +130,8 @@ enum {
     option_details,
     option_handout,
     option_watch,
+    option_without,
+    option_live,
     option_fmu,
     option_fmu_version,
 };
@@ -174,6 +178,8 @@ static const struct option long_options[] = {
     {"details", no_argument, NULL, option_details},
     {"handout", no_argument, NULL, option_handout},
     {"watch", no_argument, NULL, option_watch},
+    {"without", required_argument, NULL, option_without},
+    {"live", no_argument, NULL, option_live},
     {"fmu", required_argument, NULL, option_fmu},
     {"fmu-version", required_argument, NULL, option_fmu_version},
     {"schema", no_argument, NULL, option_schema},
@@ -226,6 +232,15 @@ static bool fmu_can_be_made(void)
                  "");
 }
 
+static bool live_can_be_made(void)
+{
+    if (fbd_has_live()) return true;
+    return usage(
+        "this fbd was built without --live: `make live` in its source compiles the library for browsers "
+        "(Debian's emscripten) and builds it anew",
+        "");
+}
+
 static bool take_fmu_version(int *version)
 {
     unsigned long value;
@@ -259,6 +274,11 @@ static bool take_option(const struct command_line *unused, int option, void *con
         if (options->at_count == most_settings) return usage("too many --at", "");
         options->at[options->at_count++] = optarg;
         return true;
+    case option_without:
+        if (options->without_count == most_settings) return usage("too many --without", "");
+        options->without[options->without_count++] = optarg;
+        return true;
+    case option_live: options->live = true; return live_can_be_made();
     case option_svg: options->svg = optarg; return true;
     case option_html:
         if (!fbd_has_html())
@@ -351,7 +371,11 @@ static bool grading_agrees(const struct options *options)
         options->run.no_structure || isfinite(options->run.until) || options->run.error_bars ||
         options->settle || options->fmu_version || options->svg || options->html || options->plot ||
         options->plot_of || options->gnuplot || options->ledger || options->every > 0 || options->latex ||
+<<<<<<< HEAD
         shapes_drawing(&options->drawing, false))
+=======
+        shapes_drawing(&options->drawing) || options->without_count)
+>>>>>>> feb6ac0 (live pages: libfbd as WebAssembly in the page of --html --live; fbd-run --without; make live, make site)
         return usage("with --grade go --student, --details, --csv, --json and --quiet only; with --handout "
                      "--student only",
                      "");
@@ -412,6 +436,7 @@ static bool options_agree(const struct options *options)
     if (options->latex && options->action != action_equations)
         return usage("--latex goes with --equations", "");
     if (options->fmu_version && !options->fmu) return usage("--fmu-version goes with --fmu", "");
+    if (options->live && !options->html) return usage("--live goes with --html", "");
     if (options->settle && !rests) return usage("--settle goes with --static", "");
     if (stands_still && !rests && !draws && options->json)
         return usage("--json belongs to a run, --equations, --linearize, --static or --grade", "");

@@ -25,6 +25,8 @@ struct options {
     } action;
     fbd_setting settings[most_settings];
     size_t setting_count;
+    const char *without[most_settings]; /* effects that are left out */
+    size_t without_count;
     const char *at[most_settings]; /* a time, or coordinates: "theta=180 deg" */
     size_t at_count;
     fbd_options run;
@@ -41,7 +43,7 @@ struct options {
     size_t answer_count;
     const char *fmu;
     int fmu_version; /* 0 when it is not given */
-    bool watch;
+    bool watch, live;
     const struct watched_run *watched; /* of --watch, or NULL */
 };
 

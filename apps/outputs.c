@@ -49,7 +49,11 @@ static bool put_text(struct whole_file *file, char *text)
 
 static char *page_of(const struct options *options, fbd_result *result, fbd_errors *errors)
 {
-    char *page = fbd_result_html(result, errors);
+    const fbd_live_options live = {.settings = options->settings,
+                                   .setting_count = options->setting_count,
+                                   .run = &options->run};
+    char *page =
+        options->live ? fbd_result_live_html(result, &live, errors) : fbd_result_html(result, errors);
     if (!page || !options->watched) return page;
     page = live_page_make(page, options->watched->stamp);
     if (!page) complain("fbd-run: out of memory");

@@ -976,6 +976,42 @@ FBD_API fbd_finding fbd_grade_finding(const fbd_grade *grade, size_t index);
 FBD_API char *fbd_grade_text(const fbd_grade *grade, bool details);
 FBD_API char *fbd_grade_json(const fbd_grade *grade, bool details);
 
+/* ---------------------------------------------------------------- pages that run */
+
+/* What of the file can be moved by a slider or switched off, and where it stands in the text, as one JSON object
+ * (lib/live/controls.c says what is in it). To be freed with fbd_free; NULL with a note in `errors` when memory is out. */
+FBD_API char *fbd_model_controls(const fbd_model *model, fbd_errors *errors);
+
+/* The text of the file without some of the effects that it lists: "block.friction", or the name of a coupling or contact.
+ * What stands on lines of its own becomes a comment there; so do derivations by hand of the bodies concerned. To be
+ * freed with fbd_free; NULL with a note in `errors`: `unknown-effect`, or memory is out. */
+FBD_API char *fbd_model_without(const fbd_model *model, const char *const *effects, size_t count,
+                                fbd_errors *errors);
+
+/* The notes of a list, as one JSON list of {severity, id, message, hint, line, column}. To be freed with fbd_free; NULL when
+ * memory is out. */
+FBD_API char *fbd_errors_json(fbd_errors *errors);
+
+/* What a page of --html knows of a run, as one JSON object (lib/draw/page_data.c says what is in it), for a run that was
+ * recorded with `keep`. To be freed with fbd_free; NULL with a note in `errors`: `not-recorded`, or memory is out. */
+FBD_API char *fbd_result_page_data(fbd_result *result, fbd_errors *errors);
+
+/* Was the library built with what makes a page live: itself as WebAssembly (`make live`)? */
+FBD_API bool fbd_has_live(void);
+
+/* What the page begins with, beside the file: how the model was read and run; all may be left out. */
+typedef struct fbd_live_options {
+    size_t size; /* sizeof(fbd_live_options), or 0 */
+    const fbd_setting *settings;
+    size_t setting_count;
+    const fbd_options *run; /* until, method and tolerance; NULL for the file's */
+} fbd_live_options;
+
+/* As fbd_result_html, with the library itself and the text of the model in it: the page has sliders, an editor and
+ * checkboxes, and runs anew whenever something moves. At most 1.5 MB. NULL with a note in `errors`: `no-live` where the
+ * library was built without it, `cannot-read` for the data file of a table, and those of fbd_result_html. */
+FBD_API char *fbd_result_live_html(fbd_result *result, const fbd_live_options *options, fbd_errors *errors);
+
 /* ---------------------------------------------------------------- models for other simulators */
 
 /* A model as a Functional Mock-up Unit (fmi-standard.org): docs/fmi.md. */

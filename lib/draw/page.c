@@ -16,8 +16,13 @@ static const struct page_asset *find_asset(const char *name, size_t length)
     return NULL;
 }
 
+const struct page_asset *page_asset_find(const char *name)
+{
+    return find_asset(name, strlen(name));
+}
+
 /* In a script element `<` could end the element or begin a comment; in JSON it stands within strings only. */
-static void add_json(struct text *text, const struct text *json)
+void page_add_json(struct text *text, const struct text *json)
 {
     size_t from = 0;
     for (size_t i = 0; i < json->length; i++) {
@@ -29,38 +34,78 @@ static void add_json(struct text *text, const struct text *json)
     text_add_bytes(text, json->data + from, json->length - from);
 }
 
-/* Copy the template; a line of `@NAME@` stands for the asset NAME, the title or the data. */
-static void fill_template(struct text *text, const struct page_asset *template, const char *title,
-                          const struct text *json)
+static const struct page_part *find_part(const struct page_part *parts, const char *mark, size_t length)
+{
+    for (; parts->mark; parts++)
+        if (strlen(parts->mark) == length && memcmp(parts->mark, mark, length) == 0) return parts;
+    return NULL;
+}
+
+/* One line of the template; false when it leaves nothing behind. */
+static bool fill_line(struct text *text, const char *line, size_t length, const struct page_part *parts)
+{
+    bool mark = length > 2 && line[0] == '@' && line[length - 1] == '@';
+    const struct page_asset *asset = mark ? find_asset(line + 1, length - 2) : NULL;
+    const struct page_part *part = mark ? find_part(parts, line + 1, length - 2) : NULL;
+    if (asset)
+        text_add_bytes(text, (const char *)asset->data, asset->size);
+    else if (part)
+        part->write(text, part->context);
+    else if (!mark || length < 6 || strncmp(line, "@LIVE", 5) != 0)
+        text_add_bytes(text, line, length);
+    else
+        return false;
+    return true;
+}
+
+static void fill_template(struct text *text, const struct page_asset *template, const struct page_part *parts)
 {
     const char *line = (const char *)template->data, *end = line + template->size;
     while (line < end) {
         const char *stop = memchr(line, '\n', (size_t)(end - line));
         size_t length = stop ? (size_t)(stop - line) : (size_t)(end - line);
-        bool mark = length > 2 && line[0] == '@' && line[length - 1] == '@';
-        const struct page_asset *asset = mark ? find_asset(line + 1, length - 2) : NULL;
-        if (asset)
-            text_add_bytes(text, (const char *)asset->data, asset->size);
-        else if (mark && strncmp(line, "@TITLE@", length) == 0)
-            svg_escape(text, title);
-        else if (mark && strncmp(line, "@DATA@", length) == 0)
-            add_json(text, json);
-        else
-            text_add_bytes(text, line, length);
-        text_add(text, "\n");
+        if (fill_line(text, line, length, parts)) text_add(text, "\n");
         line += length + 1;
     }
 }
 
 bool fbd_has_html(void)
 {
-    return find_asset("page.html", strlen("page.html")) != NULL;
+    return page_asset_find("page.html") != NULL;
 }
 
-static char *make_page(fbd_result *result, fbd_errors *errors)
+static bool is_recorded(const fbd_result *result, fbd_errors *errors)
+{
+    if (result->record) return true;
+    diag_add(errors, FBD_ERROR, "not-recorded", (struct pos){0, 0}, "set `keep` in fbd_recording",
+             "the run was not recorded");
+    return false;
+}
+
+static void write_title(struct text *text, const void *context)
+{
+    svg_escape(text, context);
+}
+
+static void write_data(struct text *text, const void *context)
+{
+    page_add_json(text, context);
+}
+
+/* The caller's parts, and those that every page has. */
+static void fill_page(struct text *page, const struct page_asset *template, const char *title,
+                      const struct text *json, const struct page_part *parts)
+{
+    enum { most_slots = 16 };
+    struct page_part all[most_slots] = {{"TITLE", write_title, title}, {"DATA", write_data, json}};
+    for (size_t i = 2; parts->mark && i + 1 < most_slots; i++) all[i] = *parts++;
+    fill_template(page, template, all);
+}
+
+char *page_make(fbd_result *result, size_t most_bytes, const struct page_part *parts, fbd_errors *errors)
 {
     const struct fbd_model *model = result->simulation->ensemble->model;
-    const struct page_asset *template = find_asset("page.html", strlen("page.html"));
+    const struct page_asset *template = page_asset_find("page.html");
     diag_in_file(errors, model->scene->file);
     if (!template) {
         diag_add(errors, FBD_ERROR, "no-page", (struct pos){0, 0},
@@ -68,15 +113,11 @@ static char *make_page(fbd_result *result, fbd_errors *errors)
                  "this fbd was built without the HTML page");
         return NULL;
     }
-    if (!result->record) {
-        diag_add(errors, FBD_ERROR, "not-recorded", (struct pos){0, 0}, "set `keep` in fbd_recording",
-                 "the run was not recorded");
-        return NULL;
-    }
+    if (!is_recorded(result, errors)) return NULL;
     struct text json = {0}, page = {0};
-    bool done = page_data_write(&json, result, result->record);
+    bool done = page_data_write(&json, result, result->record, most_bytes);
     const char *title = model->scene->title[0] ? model->scene->title : "fbd";
-    if (done) fill_template(&page, template, title, &json);
+    if (done) fill_page(&page, template, title, &json, parts);
     text_free(&json);
     if (done && !page.failed) return page.data;
     text_free(&page);
@@ -84,11 +125,41 @@ static char *make_page(fbd_result *result, fbd_errors *errors)
     return NULL;
 }
 
+/* Nothing but what the page itself has. */
+static void write_policy(struct text *text, const void *context)
+{
+    (void)context;
+    text_add(text, "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
+                   "'unsafe-inline'; "
+                   "script-src 'unsafe-inline'; img-src data:\">");
+}
+
 char *fbd_result_html(fbd_result *result, fbd_errors *list)
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    char *page = result ? make_page(result, errors) : call_refuse(errors, "there is no result");
+    const struct page_part parts[] = {{"POLICY", write_policy, NULL}, {0}};
+    char *page = result ? page_make(result, 0, parts, errors) : call_refuse(errors, "there is no result");
     diag_end(&call);
     return page;
+}
+
+static char *make_data(fbd_result *result, fbd_errors *errors)
+{
+    struct text json = {0};
+    diag_in_file(errors, result->simulation->ensemble->model->scene->file);
+    if (!is_recorded(result, errors)) return NULL;
+    if (page_data_write(&json, result, result->record, 0) && !json.failed) return json.data;
+    text_free(&json);
+    diag_out_of_memory(errors);
+    return NULL;
+}
+
+char *fbd_result_page_data(fbd_result *result, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    char *data = result ? make_data(result, errors) : call_refuse(errors, "there is no result");
+    diag_end(&call);
+    return data;
 }

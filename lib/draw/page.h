@@ -19,8 +19,26 @@ struct page_asset {
 extern const struct page_asset page_assets[];
 extern const size_t page_asset_count;
 
-/* The data of the page as JSON: see page_data.c for its members. False when memory is out. */
-bool page_data_write(struct text *text, fbd_result *result, struct record *record);
+/* The one called so, or NULL. */
+const struct page_asset *page_asset_find(const char *name);
+
+/* The data of the page as JSON: see page_data.c for its members; its numbers take at most so many bytes, 0: what a page
+ * may have by itself. False when memory is out. */
+bool page_data_write(struct text *text, fbd_result *result, struct record *record, size_t most_bytes);
+
+/* What stands in the page in the place of a line `@MARK@` that is no asset's. */
+struct page_part {
+    const char *mark;
+    void (*write)(struct text *text, const void *context);
+    const void *context;
+};
+
+/* The page of a run with those parts, the last one without a mark; lines that begin with `@LIVE` are left out where no
+ * part has their mark. NULL with a note in `errors`. */
+char *page_make(fbd_result *result, size_t most_bytes, const struct page_part *parts, fbd_errors *errors);
+
+/* JSON within a script element. */
+void page_add_json(struct text *text, const struct text *json);
 
 /* Its members `links` and `ties`. */
 void page_links_write(struct text *text, const struct record *record);

@@ -392,10 +392,12 @@ static void write_head(struct text *text, fbd_result *result)
                 stats.steps, stats.rejected, stats.rhs, stats.jacobians, stats.stiff_steps);
 }
 
-bool page_data_write(struct text *text, fbd_result *result, struct record *record)
+bool page_data_write(struct text *text, fbd_result *result, struct record *record, size_t most)
 {
     struct pack pack;
-    size_t bytes = most_bytes - bytes_of_event * listed_events(result->simulation->ensemble);
+    size_t bytes = most ? most : most_bytes,
+           events = bytes_of_event * listed_events(result->simulation->ensemble);
+    bytes -= events < bytes / 2 ? events : bytes / 2;
     if (!pack_begin(&pack, record, bytes)) return false;
     text_add(text, "{");
     write_head(text, result);

@@ -81,10 +81,27 @@ function drawMarks(context, area, graph) {
 function setWindow(from, to) {
   if (!(to > from) || (from === plotWindow.from && to === plotWindow.to)) return;
   Object.assign(plotWindow, { from, to });
-  for (const chart of charts) {
-    if (chart.graph) chart.graph.updateOptions({ file: chartRows(chart.spec.columns, from, to), dateWindow: [from, to], valueRange: null });
-  }
+  redrawCharts();
   placeCursors();
+}
+
+function redrawChart(chart) {
+  const { from, to } = plotWindow;
+  chart.stale = false;
+  chart.graph.updateOptions({ file: chartRows(chart.spec.columns, from, to), dateWindow: [from, to], valueRange: null });
+}
+
+// Those out of sight when they come into it.
+function redrawCharts() {
+  for (const chart of charts) {
+    if (!chart.graph) continue;
+    if (chart.unseen || !chart.box.open) chart.stale = true; else redrawChart(chart);
+  }
+}
+
+// After another run: is one folded away that has something to show now, or the other way round?
+function chartsAreOthers() {
+  return charts.some(({ spec, empty }) => emptiness(spec) !== empty);
 }
 
 // What a plot of zeros says instead: nothing but rounding in it, or, of the residual, less than a billionth of the energies.
@@ -147,7 +164,7 @@ function makeChart(spec) {
   plot.append(holder, cursor);
   box.append(title, legend, plot);
   document.getElementById("charts").append(box);
-  const chart = { spec, holder, box, cursor, graph: null, hidden: spec.columns.map(() => false), unseen: false };
+  const chart = { spec, holder, box, cursor, empty, graph: null, stale: false, hidden: spec.columns.map(() => false), unseen: false };
   chart.values = spec.columns.map((c, i) => {
     const [item, text] = legendItem(chart, c, i);
     legend.append(item);
@@ -159,11 +176,13 @@ function makeChart(spec) {
     if (!box.isConnected) return; // it is told of later
     if (box.open && !chart.graph) makeGraph(chart);
     else if (box.open) chart.graph.resize();
+    if (box.open && chart.stale) redrawChart(chart);
     refresh();
   });
   // a plot out of sight needs no cursor and no values; a browser that does not tell draws them all
   box.addEventListener("contentvisibilityautostatechange", (event) => {
     chart.unseen = event.skipped;
+    if (chart.stale && !event.skipped) redrawChart(chart);
     if (!event.skipped) refresh();
   });
   charts.push(chart);

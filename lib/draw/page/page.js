@@ -246,6 +246,32 @@ function showRun(data) {
   makeDetails(chosenBodies());
 }
 
+// What the page is made of: bodies, forces and columns by name.
+function makeup({ columns, bodies }) {
+  return JSON.stringify([columns.map(({ n, u }) => [n, u]), bodies.map(({ name, arrows, equations }) => [name, arrows, equations.map((e) => [e.name, e.terms])])]);
+}
+
+// Another run of the page's model: the eye, the time and what is switched on stay as they are where the run is made of
+// the same.
+function showAgain(data) {
+  const { t } = player, whole = plotWindow.from === run.start && plotWindow.to === run.end;
+  if (makeup(data) !== makeup(run)) {
+    showRun(data);
+    seek(t);
+    return;
+  }
+  takeRun(data);
+  eventTimes = run.events.times;
+  const { from, to } = plotWindow, kept = !whole && to <= run.end && from >= run.start;
+  Object.assign(plotWindow, kept ? { from, to } : { from: run.start, to: run.end });
+  describeRun();
+  measure();
+  fit();
+  makeTables(chosenBodies());
+  if (chartsAreOthers()) makeCharts(chosenBodies()); else redrawCharts();
+  seek(t);
+}
+
 // Keys belong to the page but where the focus has a use of its own for them.
 function takesKey(target, key) {
   if (target.isContentEditable || ["SELECT", "TEXTAREA"].includes(target.tagName)) return true;

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Live: a model whose text is changed while one looks at it, by sliders, checkboxes and an editor. Whatever is moved is
+ * moved in the text, so that what runs, what is saved and what fbd-run would read are one and the same.
+ */
+#ifndef FBD_LIVE_LIVE_H
+#define FBD_LIVE_LIVE_H
+
+#include "base/text.h"
+#include "model/model.h"
+#include "scene/spans.h"
+
+/* An entry of the file that lists an effect: a force or moment of a body, a coupling or a contact. */
+struct live_effect {
+    const char *body; /* NULL for a coupling or contact */
+    const char *name;
+    int owner;       /* the mapping that has the list: of the body, or of the file */
+    const char *key; /* of the list there: "forces", "moments", "couplings", "contacts" */
+    size_t index;    /* in the list */
+};
+
+/* All that are written as entries of lists of their own (an alias is not), at most `room` of them; returns how many
+ * there are. */
+size_t live_effects(const struct fbd_model *model, const struct spans *spans, struct live_effect *effects,
+                    size_t room);
+
+/* Is it called `name`: "block.friction", or "cable" for a coupling? */
+bool live_effect_is(const struct live_effect *effect, const char *name);
+
+#endif

@@ -1,0 +1,195 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The page of a run with the library itself in it: lib/live/page on top of lib/draw/page.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/call.h"
+#include "base/diag.h"
+#include "base/file.h"
+#include "draw/page.h"
+#include "draw/page_json.h"
+#include "live/live.h"
+#include "output/result.h"
+
+/* What the page may have in all; what is not its numbers takes some 900 KB, and base 64 four bytes for three. */
+enum { most_page_bytes = 1500000, most_script_bytes = 260000 };
+
+struct live_page {
+    struct text parts; /* the model, and the texts of the worker */
+    const struct page_asset *wasm;
+};
+
+bool fbd_has_live(void)
+{
+    return page_asset_find("fbd-live.wasm.base64") != NULL;
+}
+
+/* ---- the parts */
+
+/* WebAssembly is compiled, and a worker is made of the page's own text; still nothing is asked for. */
+static void write_policy(struct text *text, const void *context)
+{
+    (void)context;
+    text_add(text, "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
+                   "'unsafe-inline'; "
+                   "script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:; img-src data:\">");
+}
+
+static void write_asset(struct text *text, const void *context)
+{
+    const struct page_asset *asset = page_asset_find(context);
+    if (asset) text_add_bytes(text, (const char *)asset->data, asset->size);
+}
+
+static void write_scripts(struct text *text, const void *context)
+{
+    static const char *const names[] = {"engine.js", "knobs.js", "editor.js", "share.js", "bench.js"};
+    (void)context;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) write_asset(text, names[i]);
+}
+
+static void write_parts(struct text *text, const void *context)
+{
+    const struct live_page *page = context;
+    text_add(text, "<script type=\"application/json\" id=\"live-parts\">\n");
+    page_add_json(text, &page->parts);
+    text_add(text, "\n</script>\n<script type=\"text/plain\" id=\"live-wasm\">\n");
+    text_add_bytes(text, (const char *)page->wasm->data, page->wasm->size);
+    text_add(text, "\n</script>");
+}
+
+/* ---- the model */
+
+static void add_asset_text(struct text *text, const char *name)
+{
+    struct text copy = {0};
+    json_key(text, name);
+    write_asset(&copy, name);
+    text_add_bytes(&copy, "", 1);
+    text_json_string(text, copy.data ? copy.data : "");
+    text->failed |= copy.failed;
+    text_free(&copy);
+}
+
+/* The data file of a table under the name that the model has for it. */
+static bool add_file(struct text *text, const struct scene *scene, const char *path, size_t index,
+                     fbd_errors *errors)
+{
+    const char *slash = strrchr(scene->file ? scene->file : "", '/');
+    size_t folder = slash ? (size_t)(slash - scene->file) + 1 : 0, length;
+    const char *name = strncmp(path, scene->file ? scene->file : "", folder) == 0 ? path + folder : path;
+    char *data = file_text(path, &length, errors);
+    json_comma(text, index);
+    text_add(text, "[");
+    text_json_string(text, name);
+    text_add(text, ",");
+    text_json_string(text, data ? data : "");
+    text_add(text, "]");
+    free(data);
+    return data != NULL;
+}
+
+static bool add_files(struct text *text, const struct scene *scene, fbd_errors *errors)
+{
+    bool done = true;
+    size_t count = 0;
+    text_add(text, "\"files\":[");
+    for (size_t i = 0; i < scene->table_count; i++)
+        if (scene->tables[i].path)
+            done = add_file(text, scene, scene->tables[i].path, count++, errors) && done;
+    text_add(text, "],\n");
+    return done;
+}
+
+/* What was said on the command line, by the keys of the sliders. */
+static void add_moved(struct text *text, const fbd_live_options *options)
+{
+    const fbd_options *run = options->run;
+    text_add(text, "\"moved\":{");
+    for (size_t i = 0; i < options->setting_count; i++) {
+        struct text key = {0};
+        text_printf(&key, "parameters.%s", options->settings[i].name);
+        json_text_member(text, key.data ? key.data : "", options->settings[i].value);
+        text->failed |= key.failed;
+        text_free(&key);
+    }
+    if (run->method) json_text_member(text, "method", run->method);
+    if (run->tolerance > 0) text_printf(text, "\"tolerance\":\"%g\",", run->tolerance);
+    if (isfinite(run->until)) text_printf(text, "\"until\":\"%.17g s\",", run->until);
+    text_add(text, "\"\":\"\"},\n");
+}
+
+static bool make_parts(struct live_page *page, const struct fbd_model *model, const fbd_live_options *options,
+                       fbd_errors *errors)
+{
+    struct text *text = &page->parts, source = {0};
+    const char *file = model->scene->file ? model->scene->file : "", *slash = strrchr(file, '/');
+    const char *name = slash ? slash + 1 : file;
+    text_add_bytes(&source, model->source, model->source_length);
+    text_add_bytes(&source, "", 1);
+    text_add(text, "{");
+    json_text_member(text, "name", *name && *name != '<' ? name : "model.yaml");
+    json_text_member(text, "text", source.data ? source.data : "");
+    add_moved(text, options);
+    bool done = add_files(text, model->scene, errors);
+    add_asset_text(text, "fbd-live.js");
+    text_add(text, ",\n");
+    add_asset_text(text, "worker.js");
+    text_add(text, "}");
+    if (text->failed || source.failed) diag_out_of_memory(errors);
+    done = done && !text->failed && !source.failed;
+    text_free(&source);
+    return done;
+}
+
+/* What is left for the numbers of the run that the page comes with. */
+static size_t room_for_numbers(const struct live_page *page)
+{
+    size_t taken = page->wasm->size + page->parts.length + most_script_bytes;
+    const size_t least = 100000;
+    return taken + least < most_page_bytes ? (most_page_bytes - taken) / 4 * 3 : least;
+}
+
+static char *make_page(fbd_result *result, const fbd_live_options *options, fbd_errors *errors)
+{
+    const struct fbd_model *model = result->simulation->ensemble->model;
+    struct live_page page = {.wasm = page_asset_find("fbd-live.wasm.base64")};
+    diag_in_file(errors, model->scene->file);
+    if (!page.wasm) {
+        diag_add(errors, FBD_ERROR, "no-live", (struct pos){0, 0},
+                 "`make live` compiles the library for browsers (Debian's emscripten); then build again",
+                 "this fbd was built without live pages");
+        return NULL;
+    }
+    const struct page_part parts[] = {{"POLICY", write_policy, NULL},
+                                      {"LIVE-STYLE", write_asset, "live.css"},
+                                      {"LIVE-PANEL", write_asset, "live.html"},
+                                      {"LIVE-EDITOR", write_asset, "live-editor.html"},
+                                      {"LIVE-SCRIPT", write_scripts, NULL},
+                                      {"LIVE-PARTS", write_parts, &page},
+                                      {0}};
+    char *text = NULL;
+    if (make_parts(&page, model, options, errors))
+        text = page_make(result, room_for_numbers(&page), parts, errors);
+    text_free(&page.parts);
+    return text;
+}
+
+char *fbd_result_live_html(fbd_result *result, const fbd_live_options *options, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    fbd_live_options own = {0};
+    fbd_options run = FBD_OPTIONS_DEFAULT;
+    bool sized =
+        call_options(&own, sizeof own, options, errors) && call_options(&run, sizeof run, own.run, errors);
+    bool meant = sized && result && call_has_settings(own.settings, own.setting_count);
+    if (sized && !meant) call_refuse(errors, "there is no result, or a setting has no value");
+    own.run = &run;
+    char *page = meant ? make_page(result, &own, errors) : NULL;
+    diag_end(&call);
+    return page;
+}

@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What the worker of a live page calls, compiled to WebAssembly by emscripten: texts in, JSON out. It is the library
+ * behind a few functions, as fbd-run is: nothing is computed here.
+ *
+ * `off` has the effects that are switched off, one a line. Answers are to be freed with free(); NULL when memory is out.
+ */
+#include <emscripten.h>
+#include <gsl/gsl_errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fbd.h"
+#include "module.h"
+
+enum { most_off = 256 };
+
+/* ---- texts */
+
+static char *joined(const char *const *parts)
+{
+    size_t length = 0;
+    for (const char *const *part = parts; *part; part++) length += strlen(*part);
+    char *text = malloc(length + 1), *end = text;
+    for (const char *const *part = parts; text && *part; part++) end = stpcpy(end, *part);
+    return text;
+}
+
+/* Names of a text, one a line; the text is cut up. */
+static size_t split(char *text, const char *names[most_off])
+{
+    size_t count = 0;
+    for (char *name = strtok(text, "\n"); name && count < most_off; name = strtok(NULL, "\n"))
+        names[count++] = name;
+    return count;
+}
+
+/* ---- models */
+
+/* The text without what is off; NULL with notes when that is no model. */
+static char *without(const char *text, const char *name, const char *off, fbd_errors *errors)
+{
+    char *list = strdup(off), *shown = NULL;
+    const char *names[most_off];
+    size_t count = list ? split(list, names) : 0;
+    fbd_model *model = count > 0 ? fbd_model_parse(text, strlen(text), name, NULL, 0, errors) : NULL;
+    if (count == 0)
+        shown = strdup(text);
+    else if (model)
+        shown = fbd_model_without(model, names, count, errors);
+    fbd_model_free(model);
+    free(list);
+    return shown;
+}
+
+static fbd_model *read_model(const char *text, const char *name, const char *off, fbd_errors *errors)
+{
+    char *shown = without(text, name, off, errors);
+    fbd_model *model = shown ? fbd_model_parse(shown, strlen(shown), name, NULL, 0, errors) : NULL;
+    free(shown);
+    return model;
+}
+
+/* {"errors": ..., KEY: VALUE}; frees what it is given. */
+static char *answer(fbd_errors *errors, const char *key, char *value)
+{
+    char *notes = fbd_errors_json(errors);
+    const char *const parts[] = {"{\"errors\":", notes ? notes : "[]",   ",\"", key,
+                                 "\":",          value ? value : "null", "}",   NULL};
+    char *all = joined(parts);
+    free(notes);
+    free(value);
+    fbd_errors_free(errors);
+    return all;
+}
+
+char *live_text(const char *text, const char *name, const char *off)
+{
+    fbd_errors *errors = fbd_errors_new();
+    char *shown = without(text, name, off, errors);
+    fbd_errors_free(errors);
+    return shown;
+}
+
+char *live_controls(const char *text, const char *name)
+{
+    fbd_errors *errors = fbd_errors_new();
+    fbd_model *model = fbd_model_parse(text, strlen(text), name, NULL, 0, errors);
+    char *controls = model ? fbd_model_controls(model, errors) : NULL;
+    fbd_model_free(model);
+    return answer(errors, "controls", controls);
+}
+
+/* ---- runs */
+
+EM_JS(void, tell_progress, (double done, double all), { Module.progress(done, all); })
+
+/* Not more often than a page shows it. */
+static int progress(void *context, const fbd_progress *now)
+{
+    double *last = context, clock = emscripten_get_now();
+    if (clock - *last < 100) return 0;
+    *last = clock;
+    bool run = strcmp(now->what, "run") == 0;
+    tell_progress(run ? now->t : now->share, run ? now->until : 1);
+    return 0;
+}
+
+char *live_run(const char *text, const char *name, const char *off)
+{
+    fbd_errors *errors = fbd_errors_new();
+    fbd_model *model = read_model(text, name, off, errors);
+    fbd_simulation *simulation = model ? fbd_simulation_new(model, NULL, errors) : NULL;
+    double last = emscripten_get_now();
+    fbd_recording recording = {.keep = true, .progress = progress, .progress_context = &last};
+    fbd_result *result = simulation ? fbd_simulation_run(simulation, &recording) : NULL;
+    fbd_outcome outcome = result ? fbd_result_outcome(result) : FBD_DONE;
+    if (result && outcome != FBD_DONE && outcome != FBD_STOPPED) fbd_simulation_blame(simulation, errors);
+    char *data = result ? fbd_result_page_data(result, errors) : NULL;
+    fbd_result_free(result);
+    fbd_simulation_free(simulation);
+    fbd_model_free(model);
+    return answer(errors, "data", data);
+}
+
+struct growing {
+    char *text;
+    size_t length, room;
+};
+
+static int grow(void *context, const char *text, size_t length)
+{
+    struct growing *growing = context;
+    if (growing->length + length + 1 > growing->room) {
+        size_t room = 2 * (growing->length + length + 1);
+        char *more = realloc(growing->text, room);
+        if (!more) return 1;
+        growing->text = more;
+        growing->room = room;
+    }
+    memcpy(growing->text + growing->length, text, length);
+    growing->length += length;
+    growing->text[growing->length] = '\0';
+    return 0;
+}
+
+char *live_csv(const char *text, const char *name, const char *off)
+{
+    fbd_errors *errors = fbd_errors_new();
+    fbd_model *model = read_model(text, name, off, errors);
+    fbd_simulation *simulation = model ? fbd_simulation_new(model, NULL, errors) : NULL;
+    struct growing csv = {0};
+    fbd_recording recording = {.ledger = true, .csv = grow, .csv_context = &csv};
+    fbd_result *result = simulation ? fbd_simulation_run(simulation, &recording) : NULL;
+    fbd_result_free(result);
+    fbd_simulation_free(simulation);
+    fbd_model_free(model);
+    fbd_errors_free(errors);
+    return csv.text;
+}
+
+/* ---- what accuracy costs */
+
+char *live_cost(const char *text, const char *name, const char *off, double budget)
+{
+    fbd_errors *errors = fbd_errors_new();
+    fbd_model *model = read_model(text, name, off, errors);
+    double last = emscripten_get_now();
+    fbd_cost_options options = FBD_COST_OPTIONS_DEFAULT;
+    options.budget = budget;
+    options.progress = progress;
+    options.progress_context = &last;
+    fbd_cost *cost = model ? fbd_cost_new(model, &options, errors) : NULL;
+    char *svg = cost ? fbd_cost_svg(cost) : NULL;
+    fbd_cost_free(cost);
+    fbd_model_free(model);
+    fbd_errors_free(errors);
+    return svg;
+}
+
+int main(void)
+{
+    gsl_set_error_handler_off(); /* every status is looked at instead */
+    return 0;
+}

@@ -1,0 +1,218 @@
+"use strict";
+
+// The live page: the text of the model is what runs, what is saved and what a link carries; sliders change it where it
+// says their number. Effects that are off are left out of the text that runs.
+
+const bench = { base: parts.text, moved: new Map(), off: new Set(), controls: null, asked: "", shown: 0, runner: null, coster: null };
+
+// The text with what has been moved since `controls` were asked for.
+function benchText() {
+  const changes = [...bench.moved].map(([key, value]) => [controlOf(key).written, value]).sort((a, b) => b[0].from - a[0].from);
+  let text = bench.base;
+  for (const [place, value] of changes) {
+    const written = place.to === undefined ? place.before + value + place.behind : value;
+    text = text.slice(0, place.from) + written + text.slice(place.to ?? place.from);
+  }
+  return text;
+}
+
+function offNames() {
+  return [...bench.off].join("\n");
+}
+
+// ---- what can be moved
+
+function controlList(controls) {
+  const list = [];
+  for (const control of controls.parameters) list.push([`parameters.${control.name}`, control]);
+  for (const control of controls.initial) if (control.written) list.push([`initial.${control.name}`, control]);
+  list.push(["until", controls.until], ["tolerance", controls.tolerance], ["method", controls.method]);
+  return list;
+}
+
+function controlOf(key) {
+  return controlList(bench.controls).find(([other]) => other === key)[1];
+}
+
+function moved(key, value) {
+  if (!bench.controls || !controlOf(key).written) return;
+  bench.moved.set(key, value);
+  setEditor(benchText());
+  askForRun();
+}
+
+// What is given as a number first; other initial values are folded away.
+function makeKnobs() {
+  const given = [], zero = [];
+  knobs.clear();
+  for (const [key, control] of controlList(bench.controls)) {
+    if (key === "method" || key === "tolerance") continue;
+    const unsaid = key.startsWith("initial") && control.written.number === undefined;
+    (unsaid ? zero : given).push(makeKnob(key, control, bench.base, moved));
+  }
+  element("live-knobs").replaceChildren(...given);
+  element("live-more").replaceChildren(...zero);
+  element("live-more").parentElement.hidden = zero.length === 0;
+  bench.keys = keyList();
+}
+
+function keyList() {
+  return controlList(bench.controls).map(([key, control]) => key + (control.written ? "" : "-")).join(" ");
+}
+
+function effectName(effect) {
+  return effect.body ? `${effect.body}.${effect.name}` : effect.name;
+}
+
+function makeEffects() {
+  const names = new Set();
+  element("live-effects").replaceChildren(...bench.controls.effects.map((effect) => {
+    const label = document.createElement("label"), box = document.createElement("input"), name = effectName(effect);
+    names.add(name);
+    box.type = "checkbox";
+    box.checked = !bench.off.has(name);
+    box.dataset.effect = name;
+    box.addEventListener("change", () => {
+      if (box.checked) bench.off.delete(name); else bench.off.add(name);
+      askForRun();
+    });
+    label.append(box, ` ${bench.controls.effects.some((other) => other.body !== effect.body) ? name : effect.name}`);
+    return label;
+  }));
+  for (const name of bench.off) if (!names.has(name)) bench.off.delete(name);
+  element("live-effects").parentElement.hidden = names.size === 0;
+}
+
+function showMethod() {
+  const { controls } = bench, select = element("live-method"), box = element("live-tolerance");
+  if (!select.length) select.replaceChildren(...["auto", ...controls.methods].map((name) => new Option(name)));
+  select.value = controls.chosen;
+  select.disabled = !controls.method.written;
+  box.disabled = controls.accuracy || controls.step || !controls.tolerance.written;
+  if (document.activeElement !== box) box.value = controls.tolerance.value ?? "1e-10";
+}
+
+// The controls of the text that was asked about.
+function takeControls(text, controls) {
+  bench.base = text;
+  bench.controls = controls;
+  bench.moved.clear();
+  if (bench.keys === keyList()) for (const [key, control] of controlList(controls)) { if (knobs.has(key)) setKnob(key, control, text); }
+  else makeKnobs();
+  makeEffects();
+  showMethod();
+}
+
+// ---- runs
+
+function say(text, css = "") {
+  Object.assign(element("live-says"), { textContent: text, className: css });
+}
+
+function answeredControls(text, answer) {
+  const { errors, controls } = JSON.parse(answer);
+  if (text !== editor.value) return;
+  showNotes(errors);
+  if (controls) takeControls(text, controls);
+  element("live-side").classList.toggle("stale", !controls);
+  if (!controls) say("not a model yet: see the notes on the text", "error");
+}
+
+function answeredRun(question, answer) {
+  const { errors, data } = JSON.parse(answer);
+  if (question.off) showNotes(errors); // of the text without what is off, line by line the same
+  const wrong = errors.find((note) => note.severity === "error");
+  if (data) showAgain(data);
+  if (wrong || !data) say(wrong ? wrong.message : "there is no run", "error");
+  else say(`ran in ${(performance.now() - bench.since).toFixed(0)} ms`);
+  bench.shown++;
+  bench.runFor = question.text + question.off;
+  element("live-stop").hidden = true;
+  keepLink();
+}
+
+// One question after the other: what can be moved, then how it moves.
+function askForRun() {
+  const text = editor.value, off = offNames();
+  bench.since = performance.now();
+  bench.coster?.stop();
+  bench.runner.ask("both", [text, parts.name, off], (answer) => {
+    const [controls, run] = answer;
+    answeredControls(text, controls);
+    if (run) answeredRun({ text, off }, run);
+    else { bench.shown++; element("live-stop").hidden = true; }
+  });
+}
+
+// ---- what accuracy costs
+
+function showCosts() {
+  if (!element("live-costs").open) return;
+  const picture = element("live-diagram"), says = element("live-cost-says");
+  says.textContent = "measuring…";
+  bench.coster = bench.coster || makeAsker(([share]) => { says.textContent = `measuring… ${Math.round(100 * share)} %`; });
+  bench.coster.ask("cost", [editor.value, parts.name, offNames()], (svg) => {
+    says.textContent = svg ? "" : "nothing to measure: the scene does not run";
+    picture.hidden = !svg;
+    if (svg) picture.src = `data:image/svg+xml,${encodeURIComponent(svg)}`;
+  }, [3]);
+}
+
+// ---- the start
+
+function stopRun() {
+  bench.runner.stop();
+  element("live-stop").hidden = true;
+  say("stopped", "error");
+}
+
+function connectBench() {
+  let typing = 0;
+  editor.addEventListener("input", () => {
+    showLineNumbers();
+    clearTimeout(typing);
+    typing = setTimeout(askForRun, 150);
+  });
+  editor.addEventListener("scroll", scrollEditor);
+  element("live-method").addEventListener("change", () => moved("method", element("live-method").value));
+  element("live-tolerance").addEventListener("change", () => moved("tolerance", element("live-tolerance").value.trim()));
+  element("live-costs").addEventListener("toggle", showCosts);
+  element("live-measure").addEventListener("click", showCosts);
+  element("live-stop").addEventListener("click", stopRun);
+  element("live-reset").addEventListener("click", () => { setModel(ownText(), []); });
+  connectShare();
+}
+
+function setModel(text, off) {
+  bench.off = new Set(off);
+  setEditor(text);
+  askForRun();
+}
+
+// The text that the page came with, and what the command line had set.
+function ownText() {
+  if (!bench.first) return parts.text;
+  Object.assign(bench, { base: parts.text, controls: bench.first });
+  const known = new Map(controlList(bench.first));
+  bench.moved = new Map(Object.entries(parts.moved).filter(([key]) => known.get(key)?.written));
+  return benchText();
+}
+
+async function startBench() {
+  setEditor(parts.text);
+  connectBench();
+  await compileEngine();
+  bench.runner = makeAsker(([t, until]) => {
+    element("live-stop").hidden = false;
+    say(`t = ${show(t)} s of ${show(until)} s`);
+  });
+  bench.runner.failed = (message) => say(`the run has failed: ${message}`, "error");
+  const controls = await new Promise((answered) => { bench.runner.ask("controls", [parts.text, parts.name], answered); });
+  bench.first = JSON.parse(controls).controls;
+  bench.own = ownText();
+  const linked = await readLink();
+  setModel(linked ? linked.text : bench.own, linked ? linked.off : []);
+}
+
+startBench().catch((error) => say(`this browser cannot run the library: ${error.message}`, "error"));
+window.fbd.bench = bench;

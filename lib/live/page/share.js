@@ -1,0 +1,100 @@
+"use strict";
+
+// What is shown as a file, as a link and as a command line.
+
+// The text that runs: without what is off.
+function savedText(answered) {
+  if (bench.off.size === 0) answered(editor.value);
+  else bench.runner.ask("text", [editor.value, parts.name, offNames()], (text) => answered(text ?? editor.value));
+}
+
+function saveText() {
+  savedText((text) => {
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(new Blob([text], { type: "text/yaml" }));
+    link.download = parts.name;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  });
+}
+
+// ---- links: the text and what is off, deflated, in the fragment
+
+async function through(bytes, stream) {
+  return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
+}
+
+async function packed(state) {
+  const bytes = await through(new TextEncoder().encode(JSON.stringify(state)), new CompressionStream("deflate-raw"));
+  return btoa(String.fromCharCode(...bytes)).replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
+}
+
+async function unpacked(text) {
+  const bytes = new Uint8Array(decode(text.replace(/-/g, "+").replace(/_/g, "/")));
+  return JSON.parse(new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw"))));
+}
+
+async function readLink() {
+  const match = /^#m=([\w-]+)$/.exec(location.hash);
+  if (!match) return null;
+  try {
+    const { text, off } = await unpacked(match[1]);
+    return typeof text === "string" && Array.isArray(off) ? { text, off } : null;
+  } catch { return null; }
+}
+
+// The address says what is shown; that of the page as it came is left as it is.
+async function keepLink() {
+  const own = editor.value === bench.own && bench.off.size === 0;
+  const address = own ? location.pathname + location.search : `#m=${await packed({ text: editor.value, off: [...bench.off] })}`;
+  try { history.replaceState(null, "", address); } catch { /* a page of a file: the link is there to be copied */ }
+  bench.link = own ? location.href.split("#")[0] : location.href.split("#")[0] + address;
+  showCommand();
+}
+
+// ---- the command line
+
+function quoted(text) {
+  return /^[\w./:=+-]+$/.test(text) ? text : `'${text.replace(/'/g, "'\\''")}'`;
+}
+
+// Parameters and the run can be set by options; whatever else differs takes the saved file.
+function commandLine() {
+  const first = bench.first, words = ["fbd-run"];
+  let text = parts.text;
+  if (!first || !bench.controls) return null;
+  const now = new Map(controlList(bench.controls)), options = { until: "--until", method: "--method", tolerance: "--tolerance" };
+  const changes = [];
+  for (const [key, control] of controlList(first)) {
+    const other = now.get(key), place = control.written, written = other?.written;
+    if (!place || !written || written.to === undefined || key.startsWith("initial")) continue;
+    const value = bench.base.slice(written.from, written.to);
+    if (place.to !== undefined && value === parts.text.slice(place.from, place.to)) continue;
+    changes.push([place, place.to === undefined ? place.before + value + place.behind : value]);
+    if (options[key]) words.push(options[key], quoted(value.replace(/\s+/g, "")));
+    else words.push("--set", quoted(`${key.slice("parameters.".length)}=${value}`));
+  }
+  for (const [place, value] of changes.sort((a, b) => b[0].from - a[0].from)) text = text.slice(0, place.from) + value + text.slice(place.to ?? place.from);
+  for (const name of bench.off) words.push("--without", quoted(name));
+  return text === bench.base ? [...words, quoted(parts.name)].join(" ") : null;
+}
+
+function showCommand() {
+  element("live-command").textContent = commandLine() || `fbd-run ${quoted(parts.name)}   # as saved by Save YAML`;
+}
+
+function copy(text, button) {
+  const said = button.textContent;
+  navigator.clipboard.writeText(text).then(() => { button.textContent = "copied"; }, () => { window.prompt("", text); });
+  setTimeout(() => { button.textContent = said; }, 1200);
+}
+
+function connectShare() {
+  element("live-save").addEventListener("click", saveText);
+  element("live-link").addEventListener("click", () => copy(bench.link || location.href, element("live-link")));
+  element("live-copy").addEventListener("click", () => copy(element("live-command").textContent, element("live-copy")));
+  addEventListener("hashchange", async () => {
+    const linked = await readLink();
+    if (linked) setModel(linked.text, linked.off);
+  });
+}

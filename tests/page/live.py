@@ -1,0 +1,272 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The live page in a headless Chromium: what runs in the page is what fbd-run says, sliders move it by mouse and keyboard,
+the editor marks what is wrong where it is, effects go off and on, links carry what is shown, and nothing is asked for.
+Skipped where the library for browsers has not been made (`make live`)."""
+import csv
+import json
+import os
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(os.environ["FBD_SOURCE_ROOT"]) / "tests/tools"))
+from browser import Browser, Missing  # noqa: E402
+from claims import claim, close, finish, skip  # noqa: E402
+from fbd import MODELS, result, run  # noqa: E402
+
+INCLINE = MODELS / "kinetics/incline.yaml"
+PENDULUM = MODELS / "rotation/compound_pendulum.yaml"
+SAME = 1e-9  # of the largest size of a column: sin, cos and exp of the two C libraries differ in the last digit
+LARGEST = 1500000  # bytes of a page
+QUICK = 50  # ms from the slider to the picture
+# What grows such differences: their numbers are held to the events and to the size of the motion.
+CHAOTIC = {"double_pendulum", "chain_of_ten_rods", "n_four_bar", "andrews_squeezer", "dominoes", "woodpecker"}
+SLOW = {"million_revolutions", "long_pendulum"}  # minutes in a browser on a busy machine
+
+WORKER = """
+    const asked = arguments[0], asker = makeAsker(() => {});
+    const answer = await new Promise((done) => asker.ask(asked, [bench.own, parts.name, ""], done));
+    asker.worker.terminate();
+    return answer;"""
+
+
+def wait_for(browser, condition, seconds=60):
+    end = time.monotonic() + seconds
+    while not browser.run(f"return {condition}"):
+        assert time.monotonic() < end, f"never: {condition}; it says {browser.run('return element(`live-says`).textContent')}"
+        time.sleep(0.02)
+
+
+def live_page(folder, model, *options):
+    path = folder / f"{Path(model).stem}.html"
+    run("--quiet", "--html", path, "--live", *options, model, code=None)
+    return path
+
+
+def open_live(browser, path, fragment=""):
+    browser.open(path, fragment)
+    wait_for(browser, "typeof bench === 'object' && bench.shown > 0", 600)
+
+
+def settled(browser, action, *arguments):
+    """Does something to the page, and waits until what it asked for is shown."""
+    before = browser.run(f"const before = bench.shown; {action}; return before;", *arguments)
+    wait_for(browser, f"bench.shown > {before} && !bench.runner.busy && !bench.runner.waiting")
+
+
+def is_quiet(browser, path):
+    console = browser.log("browser")
+    assert console == [], console
+    foreign = [address for address in browser.requests()
+               if not address.startswith((path.parent.as_uri(), "data:", "blob:", "chrome:"))]
+    assert foreign == [], foreign
+
+
+def numbers_of(text):
+    rows = list(csv.reader(text.splitlines()))
+    return rows[0], [[float(cell) for cell in row] for row in rows[1:]]
+
+
+def same_motion(browser, model, tolerance):
+    """The CSV that the worker writes, beside that of fbd-run."""
+    want_head, want = numbers_of(run("--csv", "-", "--ledger", model, code=None))
+    head, rows = numbers_of(browser.run(WORKER, "csv"))
+    assert head == want_head
+    assert len(rows) == len(want), (len(rows), len(want))
+    worst = (0, "")
+    for k, name in enumerate(head):
+        # a residual is what is left of the energies, a force that cancels is measured by the largest one with its unit
+        unit = name[name.rfind("["):]
+        size = max((abs(row[i]) for row in want for i, other in enumerate(head) if other.endswith(unit)), default=0) or 1
+        worst = max(worst, (max(abs(a[k] - b[k]) for a, b in zip(rows, want)) / size, name))
+    assert worst[0] <= tolerance, worst
+    return rows == want
+
+
+def same_events(browser, model):
+    got = browser.run("return run.events.times.map((t, i) => [t, eventLabel(i).kind])")
+    want = [[event["t"], event["kind"]] for event in json.loads(run("--json", "-", model, code=None))["events"]]
+    assert [kind for _, kind in got] == [kind for _, kind in want][:len(got)], (got[:5], want[:5])
+    for (t, _), (u, _) in zip(got, want):
+        close(t, u, SAME * max(abs(u), 1))
+
+
+def check_models(browser, folder, share):
+    models = sorted(MODELS.glob("*/*.yaml"))
+    equal = 0
+    for number, model in enumerate(models):
+        if number % share or (model.stem in SLOW and share > 1):
+            continue
+        with claim(f"{model.stem}: the live run has the events and numbers of fbd-run"):
+            path = live_page(folder, model)
+            assert path.stat().st_size <= LARGEST, path.stat().st_size
+            open_live(browser, path)
+            if model.stem not in CHAOTIC:
+                same_events(browser, model)
+            equal += same_motion(browser, model, 1e-3 if model.stem in CHAOTIC else SAME)
+            is_quiet(browser, path)
+    print(f"# {equal} of the CSV are the same byte for byte")
+
+
+SLIDER = "const slider = document.querySelector('[aria-label=\"{0}, slider\"]');"
+
+
+def check_sliders(browser, folder):
+    path = live_page(folder, INCLINE)
+    open_live(browser, path)
+    with claim("every parameter has a slider, with its unit, and so have initial values and the end"):
+        names = browser.run("return [...document.querySelectorAll('#live .knob')].map((row) => row.firstChild.textContent + ' ' + row.lastChild.value)")
+        for name in ("phi 30 deg", "mu_s 0.5", "v0 3 m/s", "block.x 0 m", "block.v v0", "until 3 s"):
+            assert name in names, (name, names)
+    with claim("a slider that is dragged by the mouse runs the model anew, and writes into its text"):
+        box = browser.run(SLIDER.format("phi") + "slider.scrollIntoView(); const r = slider.getBoundingClientRect(); return [r.left, r.top, r.width, r.height];")
+        before = browser.run("return bench.shown")
+        browser.click(box[0] + 0.25 * box[2], box[1] + box[3] / 2)
+        wait_for(browser, f"bench.shown > {before} && !bench.runner.busy")
+        phi = browser.run("return /phi: (.*? deg)/.exec(editor.value)[1]")
+        assert 10 < float(phi.split()[0]) < 20, phi
+        want = result("--set", f"phi={phi}", INCLINE)
+        close(browser.run("return fbd.value('block.x', run.end)"), want["final"]["block"]["x"], 1e-9)
+    with claim("the arrows of the keyboard move it by a step"):
+        browser.run(SLIDER.format("phi") + "slider.focus();")
+        before = browser.run("return bench.shown")
+        browser.press("\ue014")
+        wait_for(browser, f"bench.shown > {before} && !bench.runner.busy")
+        after = float(browser.run("return /phi: (.*?) deg/.exec(editor.value)[1]"))
+        assert 0 < after - float(phi.split()[0]) < 1, (phi, after)
+    with claim("the command line that it shows gives the same end"):
+        words = browser.run("return element('live-command').textContent")
+        assert words.startswith("fbd-run --set 'phi=") and words.endswith("incline.yaml"), words
+    with claim("a slider of an initial value that the file does not give writes one"):
+        settled(browser, "setModel(bench.own, [])")
+        settled(browser, "moved('initial.block.x', '0.5 m')")
+        assert browser.run("return /initial: .*x: 0.5 m/.test(editor.value)"), browser.run("return editor.value")
+        close(browser.run("return fbd.value('block.x', 0)"), 0.5, 0)
+    with claim("a slider moves while a run is under way, and the last place counts"):
+        settled(browser, "setModel(bench.own, [])")
+        settled(browser, SLIDER.format("phi") + "for (const v of [10, 20, 40]) { slider.value = v; slider.dispatchEvent(new Event('input')); }")
+        close(browser.run("return fbd.value('block.x', run.end)"), result("--set", "phi=40 deg", INCLINE)["final"]["block"]["x"], 1e-9)
+    with claim("the page is quiet and asks for nothing"):
+        is_quiet(browser, path)
+
+
+def check_editor(browser, folder):
+    path = live_page(folder, PENDULUM)
+    open_live(browser, path)
+    with claim("what is wrong in the text is marked where it is, with what to write; the picture stays"):
+        settled(browser, "setEditor(editor.value.replace('gravity', 'gravty')); editor.dispatchEvent(new Event('input'))")
+        note = browser.run("return [document.querySelector('#live-notes button').textContent, document.querySelector('#live-marks mark').textContent]")
+        assert "gravty" in note[0] and ": error: " in note[0] and note[1] == "gravty", note
+        assert browser.run("return run.bodies.length") == 1
+    with claim("a click on the note goes there"):
+        browser.run("document.querySelector('#live-notes button').click()")
+        assert browser.run("return editor.value.slice(editor.selectionStart, editor.selectionEnd)") == "gravty"
+    with claim("mended, it runs again"):
+        settled(browser, "setEditor(bench.own); editor.dispatchEvent(new Event('input'))")
+        assert browser.run("return element('live-notes').childElementCount") == 0
+    with claim("keys belong to the editor while one types"):
+        browser.run("editor.focus()")
+        browser.press(" ")
+        assert not browser.run("return fbd.player.playing")
+    with claim("the page is quiet and asks for nothing"):
+        is_quiet(browser, path)
+
+
+def check_effects(browser, folder):
+    path = live_page(folder, INCLINE)
+    open_live(browser, path)
+    with claim("an effect that is switched off is not simulated: as by --without"):
+        settled(browser, "document.querySelector('[data-effect=\"block.friction\"]').click()")
+        close(browser.run("return fbd.value('block.x', run.end)"), result("--without", "block.friction", INCLINE)["final"]["block"]["x"], 1e-9)
+        assert not browser.run("return run.columns.some((column) => column.n === 'block.friction')")
+        assert "--without block.friction" in browser.run("return element('live-command').textContent")
+    with claim("what is saved runs the same, with the entry as a comment"):
+        text = browser.run("return new Promise((done) => savedText(done))")
+        saved = folder / "saved.yaml"
+        saved.write_text(text, encoding="utf-8")
+        assert any(line.strip().startswith("# - friction") for line in text.splitlines()), text
+        close(result(saved)["final"]["block"]["x"], result("--without", "block.friction", INCLINE)["final"]["block"]["x"], 0)
+    with claim("a link carries the text and what is off"):
+        wait_for(browser, "/#m=/.test(bench.link || '')")
+        fragment = browser.run("return '#' + bench.link.split('#')[1]")
+        settled(browser, "setModel(bench.own, [])")
+        open_live(browser, path, fragment)
+        wait_for(browser, "bench.off.has('block.friction')")
+        assert not browser.run("return run.columns.some((column) => column.n === 'block.friction')")
+    with claim("switched on again, it is there"):
+        settled(browser, "document.querySelector('[data-effect=\"block.friction\"]').click()")
+        close(browser.run("return fbd.value('block.x', run.end)"), result(INCLINE)["final"]["block"]["x"], 1e-9)
+    with claim("method and tolerance are chosen in the page"):
+        settled(browser, "element('live-method').value = 'rk4'; element('live-method').dispatchEvent(new Event('change'))")
+        assert browser.run("return run.stats.method") == "rk4"
+    with claim("what accuracy costs is measured in the page"):
+        browser.run("element('live-costs').open = true")
+        wait_for(browser, "element('live-diagram').complete && element('live-diagram').naturalWidth > 100", 120)
+    with claim("the page is quiet and asks for nothing"):
+        is_quiet(browser, path)
+
+
+def check_set(browser, folder):
+    with claim("what the command line sets is where the sliders begin"):
+        path = live_page(folder, INCLINE, "--set", "phi=40 deg", "--until", "2")
+        open_live(browser, path)
+        assert browser.run("return /phi: 40 deg/.test(editor.value) && run.end === 2")
+    with claim("a model that reads data from a file has it in the page"):
+        path = live_page(folder, MODELS / "data/measured_push.yaml")
+        open_live(browser, path)
+        assert browser.run("return element('live-notes').childElementCount") == 0
+
+
+def check_speed(browser, folder):
+    for model, name in ((INCLINE, "parameters.phi"), (PENDULUM, "parameters.theta0")):
+        with claim(f"{model.stem}: from the slider to the picture in {QUICK} ms"):
+            open_live(browser, live_page(folder, model))
+            whole, running, drawing = browser.run("""
+                const knob = knobs.get(arguments[0]), whole = [], running = [], drawing = [];
+                for (let i = 0; i < 24; i++) {
+                  knob.slider.value = knob.range[0] + (knob.range[1] - knob.range[0]) * (0.3 + 0.02 * i);
+                  const before = bench.shown, start = performance.now();
+                  knob.slider.dispatchEvent(new Event("input"));
+                  while (bench.shown === before) await new Promise((done) => setTimeout(done, 0));
+                  whole.push(performance.now() - start);
+                }
+                const asker = makeAsker(() => {}), question = [editor.value, parts.name, ""];
+                for (let i = 0; i < 24; i++) {
+                  const start = performance.now();
+                  const [, answer] = await new Promise((done) => asker.ask("both", question, done)), asked = performance.now();
+                  showAgain(JSON.parse(answer).data);
+                  running.push(asked - start);
+                  drawing.push(performance.now() - asked);
+                }
+                asker.worker.terminate();
+                return [whole, running, drawing].map((list) => list.sort((a, b) => a - b));""", name)
+            print(f"# {model.stem}: median {whole[len(whole) // 2]:.0f} ms, least {whole[0]:.0f} ms; of it the run {running[0]:.1f} ms, "
+                  f"the picture {drawing[0]:.1f} ms at least")
+            # what the machine does at the same time is not the page's: the least of each part
+            assert running[0] + drawing[0] < QUICK, (running, drawing)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        probe = run("--quiet", "--html", folder / "probe.html", "--live", INCLINE, code=None)
+        if not (folder / "probe.html").exists():
+            skip("this fbd-run has no live pages: make live")
+        del probe
+        try:
+            with Browser(1100, 1000) as browser:
+                check_sliders(browser, folder)
+                check_editor(browser, folder)
+                check_effects(browser, folder)
+                check_set(browser, folder)
+                check_speed(browser, folder)
+                check_models(browser, folder, 1 if os.environ.get("FBD_ALL_PAGES") else 9)
+        except Missing as missing:
+            skip(str(missing))
+    finish()
+
+
+if __name__ == "__main__":
+    main()
