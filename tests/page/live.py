@@ -244,8 +244,11 @@ def check_speed(browser, folder):
                 return [whole, running, drawing].map((list) => list.sort((a, b) => a - b));""", name)
             print(f"# {model.stem}: median {whole[len(whole) // 2]:.0f} ms, least {whole[0]:.0f} ms; of it the run {running[0]:.1f} ms, "
                   f"the picture {drawing[0]:.1f} ms at least")
-            # what the machine does at the same time is not the page's: the least of each part
-            assert running[0] + drawing[0] < QUICK, (running, drawing)
+            # the least of each part; where all processors are busy with something else it says nothing of the page
+            if os.getloadavg()[0] < os.cpu_count() + 1:
+                assert running[0] + drawing[0] < QUICK, (running, drawing)
+            else:
+                print(f"# not judged: the machine is busy, {os.getloadavg()[0]:.0f} want {os.cpu_count()} processors")
 
 
 def main():

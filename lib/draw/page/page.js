@@ -248,7 +248,8 @@ function showRun(data) {
 
 // What the page is made of: bodies, forces and columns by name.
 function makeup({ columns, bodies }) {
-  return JSON.stringify([columns.map(({ n, u }) => [n, u]), bodies.map(({ name, arrows, equations }) => [name, arrows, equations.map((e) => [e.name, e.terms])])]);
+  const parts = bodies.map(({ name, arrows, equations }) => [name, arrows, equations.map((e) => [e.name, e.terms])]);
+  return JSON.stringify([columns.map(({ n, u }) => [n, u]), parts]);
 }
 
 // Another run of the page's model: the eye, the time and what is switched on stay as they are where the run is made of

@@ -9,9 +9,9 @@ const bench = { base: parts.text, moved: new Map(), off: new Set(), controls: nu
 function benchText() {
   const changes = [...bench.moved].map(([key, value]) => [controlOf(key).written, value]).sort((a, b) => b[0].from - a[0].from);
   let text = bench.base;
-  for (const [place, value] of changes) {
-    const written = place.to === undefined ? place.before + value + place.behind : value;
-    text = text.slice(0, place.from) + written + text.slice(place.to ?? place.from);
+  for (const [spot, value] of changes) {
+    const written = spot.to === undefined ? spot.before + value + spot.behind : value;
+    text = text.slice(0, spot.from) + written + text.slice(spot.to ?? spot.from);
   }
   return text;
 }
@@ -137,9 +137,9 @@ function askForRun() {
   bench.since = performance.now();
   bench.coster?.stop();
   bench.runner.ask("both", [text, parts.name, off], (answer) => {
-    const [controls, run] = answer;
+    const [controls, motion] = answer;
     answeredControls(text, controls);
-    if (run) answeredRun({ text, off }, run);
+    if (motion) answeredRun({ text, off }, motion);
     else { bench.shown++; element("live-stop").hidden = true; }
   });
 }

@@ -9,9 +9,9 @@ const patience = 2000; // ms
 const engine = { module: null, script: URL.createObjectURL(new Blob([parts["fbd-live.js"], "\n", parts["worker.js"]], { type: "text/javascript" })) };
 
 async function compileEngine() {
-  const packed = new Blob([decode(element("live-wasm").textContent.trim())]).stream();
+  const bytes = new Blob([decode(element("live-wasm").textContent.trim())]).stream();
   const headers = { "Content-Type": "application/wasm" };
-  engine.module = await WebAssembly.compileStreaming(new Response(packed.pipeThrough(new DecompressionStream("gzip")), { headers }));
+  engine.module = await WebAssembly.compileStreaming(new Response(bytes.pipeThrough(new DecompressionStream("gzip")), { headers }));
 }
 
 // A worker for one kind of question; told(share) hears how far it is.

@@ -13,22 +13,22 @@ const spans = { deg: 180, rad: Math.PI, "rad/s": 10, m: 1, "m/s": 5, ft: 3, "ft/
 
 // How the number of a control is written: {number, unit, factor}; of an expression its value.
 function quantityOf(control, text) {
-  const place = control.written, unit = control.unit === "rad" ? "deg" : control.unit;
-  if (place && place.number !== undefined) {
-    const written = text.slice(place.from, place.to);
-    return { number: Number(written.slice(0, place.number)), unit: written.slice(place.number).trim(), factor: place.factor };
+  const spot = control.written, units = control.unit === "rad" ? "deg" : control.unit;
+  if (spot && spot.number !== undefined) {
+    const written = text.slice(spot.from, spot.to);
+    return { number: Number(written.slice(0, spot.number)), unit: written.slice(spot.number).trim(), factor: spot.factor };
   }
-  const factor = unit === "deg" ? Math.PI / 180 : 1;
-  return { number: Number(((control.value ?? 0) / factor).toPrecision(12)), unit, factor };
+  const factor = units === "deg" ? Math.PI / 180 : 1;
+  return { number: Number(((control.value ?? 0) / factor).toPrecision(12)), unit: units, factor };
 }
 
 // From where to where: as the file says, or twice as far as now.
-function rangeOf(control, { number, unit, factor }, key) {
+function rangeOf(control, { number, unit: units, factor }, key) {
   if (control.low !== null && control.low !== undefined) return [control.low / factor, control.high / factor];
   if (key === "until") return [0, niceAbove(3 * number)];
-  if (number === 0) return [-(spans[unit] || 1), spans[unit] || 1];
-  const far = niceAbove(2 * Math.abs(number)), near = positive.includes(unit || control.unit) && key.startsWith("parameters") ? far / 20 : 0;
-  if (key.startsWith("initial") && unit !== "m" && unit !== "ft") return [-far, far];
+  if (number === 0) return [-(spans[units] || 1), spans[units] || 1];
+  const far = niceAbove(2 * Math.abs(number)), near = positive.includes(units || control.unit) && key.startsWith("parameters") ? far / 20 : 0;
+  if (key.startsWith("initial") && units !== "m" && units !== "ft") return [-far, far];
   return number > 0 ? [near, far] : [-far, -near];
 }
 
@@ -45,8 +45,8 @@ function writtenAs(knob, number) {
   return `${Number(Number(number).toFixed(Math.min(digits, 20)))}${knob.quantity.unit ? ` ${knob.quantity.unit}` : ""}`;
 }
 
-// A slider and a box for the same number; moved(key, text) puts it into the model.
-function makeKnob(key, control, text, moved) {
+// A slider and a box for the same number; tell(key, text) puts it into the model.
+function makeKnob(key, control, text, tell) {
   const row = document.createElement("label"), name = document.createElement("span");
   const slider = document.createElement("input"), box = document.createElement("input"), knob = { row, slider, box };
   row.className = "knob";
@@ -59,9 +59,9 @@ function makeKnob(key, control, text, moved) {
   box.setAttribute("aria-label", control.name);
   slider.addEventListener("input", () => {
     box.value = writtenAs(knob, slider.value);
-    moved(key, box.value);
+    tell(key, box.value);
   });
-  box.addEventListener("change", () => moved(key, box.value.trim()));
+  box.addEventListener("change", () => tell(key, box.value.trim()));
   row.append(name, slider, box);
   knobs.set(key, knob);
   setKnob(key, control, text);
@@ -69,20 +69,20 @@ function makeKnob(key, control, text, moved) {
 }
 
 function setKnob(key, control, text) {
-  const knob = knobs.get(key), quantity = quantityOf(control, text), place = control.written;
-  const fixed = !place || control.derived || !Number.isFinite(quantity.number);
-  if (!knob.range || (knob.quantity.unit !== quantity.unit) || quantity.number < knob.range[0] || quantity.number > knob.range[1]) {
-    knob.range = rangeOf(control, quantity, key);
-    if (quantity.number < knob.range[0]) knob.range[0] = quantity.number;
-    if (quantity.number > knob.range[1]) knob.range[1] = quantity.number;
+  const knob = knobs.get(key), amount = quantityOf(control, text), spot = control.written;
+  const fixed = !spot || control.derived || !Number.isFinite(amount.number);
+  if (!knob.range || (knob.quantity.unit !== amount.unit) || amount.number < knob.range[0] || amount.number > knob.range[1]) {
+    knob.range = rangeOf(control, amount, key);
+    if (amount.number < knob.range[0]) knob.range[0] = amount.number;
+    if (amount.number > knob.range[1]) knob.range[1] = amount.number;
     knob.step = stepOf(knob.range);
   }
-  Object.assign(knob, { control, quantity });
+  Object.assign(knob, { control, quantity: amount });
   if (document.activeElement !== knob.slider) {
     Object.assign(knob.slider, { min: knob.range[0], max: knob.range[1], step: knob.step });
-    knob.slider.value = quantity.number;
+    knob.slider.value = amount.number;
   }
   for (const input of [knob.slider, knob.box]) input.disabled = fixed;
   if (document.activeElement === knob.box || document.activeElement === knob.slider) return;
-  knob.box.value = place && place.to !== undefined ? text.slice(place.from, place.to) : `${show(quantity.number)} ${quantity.unit}`.trim();
+  knob.box.value = spot && spot.to !== undefined ? text.slice(spot.from, spot.to) : `${show(amount.number)} ${amount.unit}`.trim();
 }

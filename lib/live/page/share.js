@@ -20,18 +20,18 @@ function saveText() {
 
 // ---- links: the text and what is off, deflated, in the fragment
 
-async function through(bytes, stream) {
+async function piped(bytes, stream) {
   return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
 }
 
 async function packed(state) {
-  const bytes = await through(new TextEncoder().encode(JSON.stringify(state)), new CompressionStream("deflate-raw"));
+  const bytes = await piped(new TextEncoder().encode(JSON.stringify(state)), new CompressionStream("deflate-raw"));
   return btoa(String.fromCharCode(...bytes)).replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
 }
 
 async function unpacked(text) {
   const bytes = new Uint8Array(decode(text.replace(/-/g, "+").replace(/_/g, "/")));
-  return JSON.parse(new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw"))));
+  return JSON.parse(new TextDecoder().decode(await piped(bytes, new DecompressionStream("deflate-raw"))));
 }
 
 async function readLink() {
@@ -48,6 +48,8 @@ async function keepLink() {
   const own = editor.value === bench.own && bench.off.size === 0;
   const address = own ? location.pathname + location.search : `#m=${await packed({ text: editor.value, off: [...bench.off] })}`;
   try { history.replaceState(null, "", address); } catch { /* a page of a file: the link is there to be copied */ }
+  // the newest address counts
+  // eslint-disable-next-line require-atomic-updates
   bench.link = own ? location.href.split("#")[0] : location.href.split("#")[0] + address;
   showCommand();
 }
@@ -63,18 +65,18 @@ function commandLine() {
   const first = bench.first, words = ["fbd-run"];
   let text = parts.text;
   if (!first || !bench.controls) return null;
-  const now = new Map(controlList(bench.controls)), options = { until: "--until", method: "--method", tolerance: "--tolerance" };
+  const known = new Map(controlList(bench.controls)), options = { until: "--until", method: "--method", tolerance: "--tolerance" };
   const changes = [];
   for (const [key, control] of controlList(first)) {
-    const other = now.get(key), place = control.written, written = other?.written;
-    if (!place || !written || written.to === undefined || key.startsWith("initial")) continue;
+    const other = known.get(key), spot = control.written, written = other?.written;
+    if (!spot || !written || written.to === undefined || key.startsWith("initial")) continue;
     const value = bench.base.slice(written.from, written.to);
-    if (place.to !== undefined && value === parts.text.slice(place.from, place.to)) continue;
-    changes.push([place, place.to === undefined ? place.before + value + place.behind : value]);
+    if (spot.to !== undefined && value === parts.text.slice(spot.from, spot.to)) continue;
+    changes.push([spot, spot.to === undefined ? spot.before + value + spot.behind : value]);
     if (options[key]) words.push(options[key], quoted(value.replace(/\s+/g, "")));
     else words.push("--set", quoted(`${key.slice("parameters.".length)}=${value}`));
   }
-  for (const [place, value] of changes.sort((a, b) => b[0].from - a[0].from)) text = text.slice(0, place.from) + value + text.slice(place.to ?? place.from);
+  for (const [spot, value] of changes.sort((a, b) => b[0].from - a[0].from)) text = text.slice(0, spot.from) + value + text.slice(spot.to ?? spot.from);
   for (const name of bench.off) words.push("--without", quoted(name));
   return text === bench.base ? [...words, quoted(parts.name)].join(" ") : null;
 }
