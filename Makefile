@@ -228,9 +228,5 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-<<<<<<< HEAD
-.PHONY: all run mutants test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars event-bars events late-times implicit impacts failures gallery python check-format format lint install uninstall dist deb deb-check clean
-=======
-.PHONY: all run test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars event-bars events late-times implicit impacts failures gallery python live live-check site check-format format lint install uninstall dist deb deb-check clean
->>>>>>> feb6ac0 (live pages: libfbd as WebAssembly in the page of --html --live; fbd-run --without; make live, make site)
+.PHONY: all run mutants test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars event-bars events late-times implicit impacts failures gallery python live live-check site check-format format lint install uninstall dist deb deb-check clean
 .SECONDARY:

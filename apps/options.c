@@ -371,11 +371,7 @@ static bool grading_agrees(const struct options *options)
         options->run.no_structure || isfinite(options->run.until) || options->run.error_bars ||
         options->settle || options->fmu_version || options->svg || options->html || options->plot ||
         options->plot_of || options->gnuplot || options->ledger || options->every > 0 || options->latex ||
-<<<<<<< HEAD
-        shapes_drawing(&options->drawing, false))
-=======
-        shapes_drawing(&options->drawing) || options->without_count)
->>>>>>> feb6ac0 (live pages: libfbd as WebAssembly in the page of --html --live; fbd-run --without; make live, make site)
+        shapes_drawing(&options->drawing, false) || options->without_count)
         return usage("with --grade go --student, --details, --csv, --json and --quiet only; with --handout "
                      "--student only",
                      "");
