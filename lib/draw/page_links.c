@@ -13,6 +13,7 @@
 #include "draw/page.h"
 #include "draw/page_json.h"
 #include "dynamics/constraint.h"
+#include "expr/curve.h"
 
 /* ---- links */
 
@@ -89,11 +90,31 @@ static int force_column(const struct record *record, const struct tie *tie)
     return -1;
 }
 
+/* The line of a slot in the frame of its body; without ends of its own, none. */
+static void write_slot(struct text *text, const struct fbd_model *model, const struct tie *tie)
+{
+    enum { segments = 240 };
+    const struct constraint *source = &model->scene->constraints[tie->constraint];
+    struct vec from = end_point(model, source, 1), e = vec_unit(source->along);
+    if (!tie->curve && !(isfinite(tie->from) && isfinite(tie->to))) return;
+    double first = tie->curve ? tie->curve->start : tie->from;
+    double length = tie->curve ? tie->curve->length : tie->to - tie->from;
+    int count = tie->curve ? segments : 1;
+    text_add(text, "\"points\":[");
+    for (int i = 0; i <= count; i++) {
+        double s = first + length * i / count;
+        struct vec r = tie->curve ? curve_at(tie->curve, NULL, s).r : vec_scale(s, e);
+        json_comma(text, (size_t)i);
+        json_vector(text, vec_add(from, r));
+    }
+    text_add(text, "],");
+}
+
 static void write_tie(struct text *text, const struct record *record, const struct tie *tie,
                       const struct tie_state *state)
 {
     static const char *const kinds[] = {"pin",  "rod",     "gear", "rope", "roll",
-                                        "rack", "contact", "belt", "rope"};
+                                        "rack", "contact", "belt", "rope", "slot"};
     const struct fbd_model *model = record->model;
     text_add(text, "\n{");
     json_text_member(text, "kind", kinds[tie->kind]);
@@ -101,6 +122,7 @@ static void write_tie(struct text *text, const struct record *record, const stru
     text_add(text, "\"ends\":[");
     for (int k = 0; k < tie->end_count; k++) write_end(text, model, tie, state, k);
     text_add(text, "],");
+    if (tie->kind == constraint_slot) write_slot(text, model, tie);
     json_number_member(text, "length", tie->reels ? 0 : state->zero);
     json_vector_member(text, "e", vec_unit(model->scene->constraints[tie->constraint].along));
     text_printf(text, "\"side\":%d,\"force\":%d}", state->side[0], force_column(record, tie));

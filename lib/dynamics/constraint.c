@@ -71,6 +71,7 @@ static void evaluate(const struct view *view, const struct tie *tie, const struc
     case constraint_capstan: capstan_rows(view, tie, state, rows); break;
     case constraint_belt: belt_rows(view, tie, state, rows); break;
     case constraint_contact: contact_rows(view, tie, state, rows); break;
+    case constraint_slot: slot_row(view, tie, state, rows); break;
     }
 }
 
@@ -104,7 +105,9 @@ void constraints_start(const struct fbd_model *model, const struct instant *at)
         if (tie->kind == constraint_rope) rope_start(model, &view, tie, state);
         if (tie->kind == constraint_capstan) capstan_start(model, &view, tie, state);
         if (tie->kind == constraint_belt) belt_start(&view, tie, state);
-        if (tie->kind == constraint_pin || tie->kind == constraint_contact) continue;
+        if (tie->kind == constraint_slot) slot_start(&view, tie, state);
+        if (tie->kind == constraint_pin || tie->kind == constraint_contact || tie->kind == constraint_slot)
+            continue;
         evaluate(&view, tie, state, rows);
         if (tie->kind == constraint_belt) {
             for (int k = 0; k < tie->row_count; k++) state->laid[k] = rows[k].g.x;

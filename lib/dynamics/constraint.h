@@ -14,6 +14,8 @@
  *          move
  *   capstan (a rope that rubs on a drum)  g = (L - g_1 - g_2) / 2 and (g_1 - g_2) / 2 of its strands: their multipliers
  *          are T_1 + T_2 and T_2 - T_1, and T_1 / T_2 <= exp(mu beta) is |T_2 - T_1| <= tanh(mu beta / 2) (T_1 + T_2)
+ *   slot   g = n . (P - r), r = r(s) the foot of P on the curve, e(s) . (P - r) = 0; on one side of it, a roller has
+ *          -+n . (P - r) - R
  *   roll   g = n . (C - P) - R, and the rack's row
  *   contact, at a side: as roll, with the side's outward normal; of two circles:
  *          g = |C_1 - C_2| - R_1 - R_2, and R_1 (phi - theta_1) + R_2 (phi - theta_2) along them, phi the
@@ -53,6 +55,7 @@ struct tie_state {
     double turned[2]; /* and how far they have turned since, by constraints_follow */
     double laid[2]; /* what the first and the last disc of a rope add to its way at the start; of a belt: its
                          rows */
+    double foot;    /* slot: the length along it, by constraints_follow */
     int feature;    /* contact: at which it is; no_feature while it is open */
 };
 
@@ -113,6 +116,10 @@ double rope_wound(const struct fbd_model *model, const struct tree_work *work, i
  * how fast it grows [m/s]. */
 double rope_piece(const struct fbd_model *model, const struct tree_work *work, int index, int k,
                   double *rate);
+
+/* How far the point of a slot is before its end (0: `from`, 1: `to`), and how fast that grows. */
+double slot_left(const struct fbd_model *model, const struct tree_work *work, int index, int end,
+                 double *rate);
 
 /* The tensions of the strands of a belt, as its rows have them. */
 void belt_tensions(const struct fbd_model *model, const struct tree_work *work, int index, double tension[2]);

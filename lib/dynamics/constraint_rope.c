@@ -181,6 +181,8 @@ void constraints_follow(const struct fbd_model *model, struct tree_work *work)
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
         struct tie_state *state = &work->ties[i];
+        if (tie->kind == constraint_slot)
+            slot_follow(&(struct view){tree, work, false, NULL, NULL}, tie, state);
         if (tie->kind != constraint_rope && tie->kind != constraint_belt && tie->kind != constraint_capstan)
             continue;
         for (int end = 0; end < 2; end++)

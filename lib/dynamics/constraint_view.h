@@ -121,6 +121,11 @@ void capstan_start(const struct fbd_model *model, const struct view *view, const
                    struct tie_state *state);
 double capstan_starts_round(const struct tie *tie, const struct tie_state *state);
 
+/* A slot, and what it keeps: how far along it its point is (constraint_slot.c). */
+void slot_row(const struct view *view, const struct tie *tie, const struct tie_state *state, struct row *row);
+void slot_start(const struct view *view, const struct tie *tie, struct tie_state *state);
+void slot_follow(const struct view *view, const struct tie *tie, struct tie_state *state);
+
 /* Of a belt: half the difference of its strands, and their sum. `laid` has their values at the start. */
 void belt_rows(const struct view *view, const struct tie *tie, const struct tie_state *state,
                struct row *rows);

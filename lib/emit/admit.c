@@ -150,6 +150,7 @@ static const char *missing_of(enum constraint_kind kind)
     case constraint_capstan:
         return "a rope that rubs on a drum is a constraint beside the joints, and sticks";
     case constraint_roll: return "rolling is a constraint beside the joints";
+    case constraint_slot: return "a slot is a constraint beside the joints";
     case constraint_contact: return "contacts and stops need impacts";
     }
     return "a constraint of a kind that is not known here";

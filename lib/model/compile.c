@@ -189,13 +189,13 @@ static bool set_named_ties(struct builder *builder)
         if (!source) return false;
         bool rope = constraint->kind == constraint_rope;
         bool contact = constraint->kind == constraint_contact, belt = constraint->kind == constraint_belt;
-        bool capstan = constraint->kind == constraint_capstan;
+        bool capstan = constraint->kind == constraint_capstan, slot = constraint->kind == constraint_slot;
         source->kind = rope                    ? load_rope
-                       : contact               ? load_contact
+                       : contact || slot       ? load_contact
                        : belt                  ? load_belt
                        : constraint->mu_s.expr ? load_friction
                                                : load_normal;
-        source->name = rope || contact || belt || capstan
+        source->name = rope || contact || belt || capstan || slot
                            ? constraint->name
                            : arena_printf(&model->arena, "%s.friction", constraint->name);
         source->at = constraint->at;

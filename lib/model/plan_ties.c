@@ -89,6 +89,16 @@ static void plan_belt(struct fbd_model *model, struct tie *tie)
     }
 }
 
+/* What lies on one side of its slot comes off where that would have to pull. */
+static void plan_slot(struct fbd_model *model, struct tie *tie)
+{
+    struct plan *plan = &model->plan;
+    tie->normal_slot = plan->slots++;
+    plan->contacts[plan->contact_count++] =
+        (struct contact){constraint_first_body(&model->scene->constraints[tie->constraint]), tie->load,
+                         tie->normal_slot, -1};
+}
+
 /* A prescribed motion is a joint that sticks to a surface which moves so. */
 static void plan_drive(struct builder *builder, struct model_body *body)
 {
@@ -115,7 +125,7 @@ void plan_ties(struct builder *builder)
     int load = (int)model->coupled_count - 1, last = -1;
     for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
         struct tie *tie = &model->tree->ties[i];
-        bool named = tie_has_surface(tie) || tie->kind == constraint_rope || tie->kind == constraint_belt;
+        bool named = constraint_has_load(&model->scene->constraints[tie->constraint]);
         if (!named) continue;
         if (tie->constraint != last)
             load++; /* the pieces of a rope share one, and the features of a contact */
@@ -127,6 +137,8 @@ void plan_ties(struct builder *builder)
             plan_contact(builder, tie);
         else if (tie->kind == constraint_belt)
             plan_belt(model, tie);
+        else if (tie->kind == constraint_slot)
+            plan_slot(model, tie);
         else
             plan_rope(builder, tie);
     }

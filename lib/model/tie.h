@@ -40,14 +40,17 @@ struct tie {
     struct formula reel; /* so */
     double preload;      /* belt: `tension` of the file */
     bool crossed;
-    double turns;      /* capstan: beside what is seen */
-    int slack_slot[2]; /* belt: where minus the tensions of its strands go */
-    int normal_slot;   /* roll: where minus its normal force goes */
-    int load;          /* roll, rope: its entry in the model's loads */
-    int pair;          /* roll, contact: its dry friction; rope: its mode; index into plan.frictions, or -1 */
-    int surface;       /* roll, contact: the mode of its normal force, closed (`stick`) or open; index into
+    double turns;              /* capstan: beside what is seen */
+    const struct curve *curve; /* slot: NULL for a line */
+    double from, to;           /* slot: its ends, by length; infinite where it has none */
+    int presses;               /* slot: the side to which it only presses, or 0 */
+    int slack_slot[2];         /* belt: where minus the tensions of its strands go */
+    int normal_slot;           /* roll, slot that only presses: where minus its normal force goes */
+    int load;                  /* roll, rope: its entry in the model's loads */
+    int pair;    /* roll, contact: its dry friction; rope: its mode; index into plan.frictions, or -1 */
+    int surface; /* roll, contact: the mode of its normal force, closed (`stick`) or open; index into
                         plan.frictions, else -1 */
-    int meeting;       /* contact: index into tree.meetings, else -1 */
+    int meeting; /* contact: index into tree.meetings, else -1 */
     int root[most_constraint_ends], root_count; /* first links of the trees that it joins */
 };
 
@@ -67,6 +70,12 @@ bool model_is_driven(const struct fbd_model *model);
 static inline bool tie_has_surface(const struct tie *tie)
 {
     return tie->kind == constraint_roll || tie->kind == constraint_contact || tie->kind == constraint_capstan;
+}
+
+/* Is it a slot that only presses? */
+static inline bool tie_presses(const struct tie *tie)
+{
+    return tie->kind == constraint_slot && tie->presses != 0;
 }
 
 /* Add a tie of contact `index` of the scene for one feature of the meeting. */

@@ -345,7 +345,8 @@ static void find_held(const struct fbd_model *model, bool *twisted)
 {
     for (size_t c = 0; c < model->scene->constraint_count; c++) {
         const struct constraint *constraint = &model->scene->constraints[c];
-        bool lines = constraint->kind == constraint_roll || constraint->kind == constraint_rack;
+        bool lines = constraint->kind == constraint_roll || constraint->kind == constraint_rack ||
+                     constraint->kind == constraint_slot;
         for (int k = 0; k < constraint->end_count; k++) {
             const struct point *point = &constraint->point[k];
             int b = constraint->body[k];

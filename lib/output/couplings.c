@@ -85,6 +85,7 @@ static const struct {
     {constraint_gear, "gear: two circles roll on each other"},
     {constraint_rack, "rack: a circle and a line move along together"},
     {constraint_roll, "roll: a circle on a line"},
+    {constraint_slot, "slot: a point stays on a line or curve of another body"},
     {constraint_belt, "belt: two discs turn together; its length, where the axes move"},
     {constraint_capstan, "rope that rubs: its way keeps its length, and it sticks to its drum or slips"},
     {constraint_rope, "rope: its way keeps its length while it is taut"},

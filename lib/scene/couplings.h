@@ -20,6 +20,9 @@ bool body_turns(const struct body *body);
 /* The circle at end k: its centre, and its radius if that is not given (0). The body turns. */
 bool coupling_circle_set(struct reader *reader, struct constraint *constraint, int k, double radius);
 
+/* A point on a line or curve (read_slot.c). */
+bool slot_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
+
 /* A rope with all that its discs say (read_ropes.c). */
 bool rope_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
 

@@ -226,8 +226,9 @@ enum { frame_world, frame_body };
 struct coupling_keys {
     const char *name;
     const struct node *between, *through, *radii, *body, *on, *center, *wound, *around;
-    double stiffness, free_length, coefficient, length, radius, tension;
-    bool inside, crossed;
+    const struct node *x, *y, *from, *to; /* slot */
+    double stiffness, free_length, coefficient, length, radius, tension, along;
+    bool inside, crossed, closed;
     struct value mu_s, mu_k, restitution, reel;
     int law, side; /* enum impact_law, enum contact_side */
 };

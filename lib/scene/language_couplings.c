@@ -138,6 +138,30 @@ static const struct field rack_fields[] = {
 static const struct group rack_group =
     COUPLING_GROUP("a rack", rack_fields, "a pitch circle and a line that move along together");
 
+static const struct choice slot_sides[] = {
+    {"left", 1, "to the left of growing length"},
+    {"right", -1, "to its right"},
+};
+
+static const struct field slot_fields[] = {
+    FIELD_ENTRIES(
+        COUPLING(between), "between", field_list, required, each_word, NULL,
+        "the point that is guided, and the body that the slot is in: through its origin, or a point of it"),
+    FIELD_NUMBER(COUPLING(along), "along", an_angle, 0, "direction of a straight one; default the x axis"),
+    FIELD_NODE(COUPLING(x), "x", field_scalar, 0, NULL, "of a curve: x as an expression of p"),
+    FIELD_NODE(COUPLING(y), "y", field_scalar, 0, NULL, "of a curve: y as an expression of p, or of x"),
+    FIELD_NODE(COUPLING(from), "from", field_scalar, 0, NULL,
+               "p, or x, where it begins; of a straight one the length"),
+    FIELD_NODE(COUPLING(to), "to", field_scalar, 0, NULL, "where it ends"),
+    FIELD_FLAG(COUPLING(closed), "closed", "true: the ends of the curve meet, as those of a cam"),
+    FIELD_CHOICE(COUPLING(side), "side", slot_sides,
+                 "the side on which the point lies and from which it may come off; default: held on both"),
+    FIELD_NUMBER(COUPLING(radius), "radius", a_length, positive,
+                 "of a roller about the point, which rolls on that side without friction"),
+};
+static const struct group slot_group =
+    COUPLING_GROUP("a slot", slot_fields, "a point of a body stays on a line or curve of another one");
+
 static const struct choice laws[] = {
     {"stronge", 0, "the work that restitution gives back is e^2 of what compression took"},
     {"poisson", 1, "the impulse of restitution is e times that of compression"},
@@ -180,6 +204,7 @@ static const struct kind kinds[] = {
     {"belt", coupling_constraint + constraint_belt, &belt_group, ~0u, NULL, NULL},
     {"rack", coupling_constraint + constraint_rack, &rack_group, ~0u, NULL, NULL},
     {"roll", coupling_constraint + constraint_roll, &roll_group, ~0u, NULL, NULL},
+    {"slot", coupling_constraint + constraint_slot, &slot_group, ~0u, NULL, NULL},
     {"contact", coupling_constraint + constraint_contact, &contact_group, ~0u, NULL, NULL},
 };
 

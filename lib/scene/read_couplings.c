@@ -242,6 +242,7 @@ static bool read_constraint(struct reader *reader, const struct chosen *chosen,
     case constraint_rope: return rope_read(reader, keys, constraint);
     case constraint_rack: return read_rack(reader, keys, constraint);
     case constraint_roll: return read_roll(reader, keys, constraint);
+    case constraint_slot: return slot_read(reader, keys, constraint);
     case constraint_contact: return contact_read(reader, keys, constraint);
     }
     return false;

@@ -52,7 +52,7 @@ static bool read_bound(struct reader *reader, const struct node *node, const cha
 }
 
 /* The range, and the dimension of the parameter: that of its ends. Bare numbers are lengths in y(x). */
-static bool read_range(struct reader *reader, const struct motion_keys *keys, struct curve *curve,
+static bool read_range(struct reader *reader, const struct curve_keys *keys, struct curve *curve,
                        struct dim *dim)
 {
     const struct dim length = DIM_LENGTH;
@@ -73,7 +73,7 @@ static bool read_range(struct reader *reader, const struct motion_keys *keys, st
 /* ---- the formulas */
 
 static const struct expr *read_formula(struct reader *reader, const struct node *node, const char *key,
-                                       struct track_names *track)
+                                       const char *what, struct track_names *track)
 {
     struct scope scope = track->constants;
     struct value value;
@@ -83,9 +83,9 @@ static const struct expr *read_formula(struct reader *reader, const struct node 
     if (!expr_is_constant(value.expr) && expr_uses_time(value.expr)) {
         diag_add(reader->errors, FBD_ERROR, "not-here", node->at,
                  diag_hint(reader->errors,
-                           "write it as an expression of `%s`; a track that moves lies on a body, `on: NAME`",
-                           track->parameter),
-                 "the `%s` of a track depends on nothing but its parameter `%s`", key, track->parameter);
+                           "write it as an expression of `%s`; %s that moves lies on a body that does",
+                           track->parameter, what),
+                 "the `%s` of %s depends on nothing but its parameter `%s`", key, what, track->parameter);
         return NULL;
     }
     return value.expr;
@@ -101,8 +101,8 @@ static const struct expr *parameter_itself(struct reader *reader, struct track_n
     return expr_compile(reader->arena, "x", at, &scope, &want, reader->errors);
 }
 
-static void note_fault(struct reader *reader, int index, const struct curve *curve, enum curve_fault fault,
-                       double p)
+static void note_fault(struct reader *reader, const struct curve_keys *keys, const struct curve *curve,
+                       enum curve_fault fault, double p)
 {
     static const char *const faults[][2] = {
         [curve_not_finite] = {"has no finite place, direction or curvature",
@@ -118,41 +118,55 @@ static void note_fault(struct reader *reader, int index, const struct curve *cur
         [curve_open] = {"is `closed`, and does not come back to where it begins", "let its ends meet"},
         [curve_bent] = {"is `closed`, and its ends meet at an angle", "round it off"},
     };
-    const struct body *body = &reader->scene->bodies[index];
-    const struct motion_keys *keys = &reader->drafts[index].motion_keys;
     double range = curve->to - curve->from;
     if (fault == curve_no_memory) {
         reader->arena->failed = true;
         return;
     }
-    diag_add(reader->errors, FBD_ERROR, "bad-track", keys->y->at, faults[fault][1],
-             "the track of `%s` %s, at %s = %.6g", body->name, faults[fault][0], keys->x ? "p" : "x",
-             fabs(p) < 1e-8 * range ? 0 : p);
+    diag_add(reader->errors, FBD_ERROR, "bad-track", keys->y->at, faults[fault][1], "%s %s, at %s = %.6g",
+             keys->name, faults[fault][0], keys->x ? "p" : "x", fabs(p) < 1e-8 * range ? 0 : p);
+}
+
+const struct curve *curve_read(struct reader *reader, const struct curve_keys *keys)
+{
+    struct curve *curve = ARENA_ARRAY(reader->arena, 1, struct curve);
+    struct dim dim;
+    if (!curve || !read_range(reader, keys, curve, &dim)) return NULL;
+    struct track_names track = names_of(reader, keys->body, keys->x ? "p" : "x", dim);
+    curve->closed = keys->closed;
+    curve->x = keys->x ? read_formula(reader, keys->x, "x", keys->what, &track)
+                       : parameter_itself(reader, &track, keys->y->at);
+    curve->y = read_formula(reader, keys->y, "y", keys->what, &track);
+    if (!curve->x || !curve->y) return NULL;
+    double place = 0;
+    enum curve_fault fault = curve_make(curve, reader->arena, keys->label, &place);
+    if (fault == curve_made) return curve;
+    note_fault(reader, keys, curve, fault, place);
+    return NULL;
+}
+
+static struct curve_keys keys_of(const struct motion_keys *keys, int index)
+{
+    return (struct curve_keys){.x = keys->x,
+                               .y = keys->y,
+                               .from = keys->from,
+                               .to = keys->to,
+                               .closed = keys->closed,
+                               .body = index,
+                               .what = "a track"};
 }
 
 bool track_read(struct reader *reader, int index)
 {
     struct motion *motion = &reader->scene->bodies[index].motion;
     const struct motion_keys *keys = &reader->drafts[index].motion_keys;
-    struct curve *curve = ARENA_ARRAY(reader->arena, 1, struct curve);
-    struct dim dim;
-    if (!curve || !keys->y || !keys->from || !keys->to || !read_range(reader, keys, curve, &dim))
-        return false;
-    struct track_names track = names_of(reader, index, keys->x ? "p" : "x", dim);
-    curve->closed = keys->closed;
-    curve->x =
-        keys->x ? read_formula(reader, keys->x, "x", &track) : parameter_itself(reader, &track, keys->y->at);
-    curve->y = read_formula(reader, keys->y, "y", &track);
-    if (!curve->x || !curve->y) return false;
-    double place = 0;
-    enum curve_fault fault = curve_make(curve, reader->arena, reader->scene->bodies[index].name, &place);
-    if (fault != curve_made) {
-        note_fault(reader, index, curve, fault, place);
-        return false;
-    }
-    motion->curve = curve;
+    struct curve_keys own = keys_of(keys, index);
+    if (!keys->y || !keys->from || !keys->to) return false;
+    own.label = reader->scene->bodies[index].name;
+    own.name = arena_printf(reader->arena, "the track of `%s`", own.label);
+    motion->curve = own.name ? curve_read(reader, &own) : NULL;
     motion->turns = keys->turn;
-    return true;
+    return motion->curve != NULL;
 }
 
 /* ---- where it starts */
@@ -162,12 +176,12 @@ static bool read_parameter(struct reader *reader, int index, const struct node *
                            double *s)
 {
     const struct curve *curve = reader->scene->bodies[index].motion.curve;
-    const struct motion_keys *keys = &reader->drafts[index].motion_keys;
+    const struct curve_keys keys = keys_of(&reader->drafts[index].motion_keys, index);
     struct curve range;
     struct dim dim, own;
     double p;
     bool bare;
-    if (!read_range(reader, keys, &range, &dim)) return false;
+    if (!read_range(reader, &keys, &range, &dim)) return false;
     if (!read_bound(reader, node, key, &dim, &p, &own, &bare)) return false;
     if (p >= curve->from && p <= curve->to) {
         *s = curve_length_at(curve, p);

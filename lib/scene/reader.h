@@ -184,6 +184,17 @@ bool body_parts_read(struct reader *reader, int body);
 bool body_motion_read(struct reader *reader, int body);
 
 /* The curve of a track, when its keys are read; where the body starts on it (read_track.c). */
+/* A curve as a file gives it. */
+struct curve_keys {
+    const struct node *x, *y, *from, *to; /* x may be NULL: y is a function of x */
+    bool closed;
+    int body;                        /* whose names its formulas know, or ground_body */
+    const char *what, *name, *label; /* "a track", "the track of `bead`", and what its ends are called */
+};
+
+/* The curve, in the room of the scene; NULL after noting what is wrong. */
+const struct curve *curve_read(struct reader *reader, const struct curve_keys *keys);
+
 bool track_read(struct reader *reader, int body);
 bool track_initial_read(struct reader *reader, int body, struct initial_keys *keys);
 

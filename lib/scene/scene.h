@@ -44,6 +44,7 @@ enum constraint_kind {
     constraint_contact, /* two bodies, or a body and the ground, that meet and part */
     constraint_belt,    /* a belt round two discs */
     constraint_capstan, /* a rope that rubs on a disc which it goes round */
+    constraint_slot,    /* a point on a line or curve of a body */
 };
 
 /* A convex polygon of the ground, corners counter-clockwise. */
@@ -79,11 +80,14 @@ struct constraint {
     struct point point[most_constraint_ends];
     double radius[most_constraint_ends]; /* gear, roll, rack; rope: of the disc at this place, else 0 */
     int side[most_constraint_ends];      /* rope: +1 when it goes counter-clockwise round the disc */
-    int wound[2];      /* rope: where it leaves the disc at its first and last place that it is wound on, enum
+    int wound[2];    /* rope: where it leaves the disc at its first and last place that it is wound on, enum
                           wound_side; 0 without one */
-    double spare[2];   /* and how much of it is wound there at the start; HUGE_VAL: enough */
-    bool crossed;      /* belt */
-    double turns;      /* capstan: whole turns round the disc, beside what is seen */
+    double spare[2]; /* and how much of it is wound there at the start; HUGE_VAL: enough */
+    bool crossed;    /* belt */
+    double turns;    /* capstan: whole turns round the disc, beside what is seen */
+    const struct curve *curve; /* slot: in the frame of end 1 at its point; NULL for the line along `along` */
+    double from, to;           /* slot: where that line ends, by its length; infinite where it does not */
+    int presses; /* slot: the side to which it only presses, +1 to the left of growing length; 0: it holds both */
     double tension;    /* belt: of both strands while it drives nothing; 0: as its length says */
     struct value reel; /* rope: its length where it varies with the time; else expr NULL */
     bool length_given;
@@ -99,7 +103,8 @@ static inline bool constraint_has_load(const struct constraint *constraint)
 {
     return constraint->kind == constraint_roll || constraint->kind == constraint_rope ||
            constraint->kind == constraint_contact || constraint->kind == constraint_belt ||
-           constraint->kind == constraint_capstan;
+           constraint->kind == constraint_capstan ||
+           (constraint->kind == constraint_slot && constraint->presses != 0);
 }
 
 /* The first of its bodies that is not the ground: a rope may begin with points of the ground, one of its

@@ -183,6 +183,25 @@ static bool unclear_side(const struct fbd_state *state, int index, struct pos *a
     return false;
 }
 
+/* The point of a slot is beyond an end of it. */
+static bool beyond_slot(const struct fbd_state *state, int index, struct pos *at, struct text *lack)
+{
+    const double digits = 1e-6;
+    const struct fbd_model *model = state->model;
+    const struct tie *tie = &model->tree->ties[index];
+    double rate;
+    for (int end = 0; end < 2; end++) {
+        double limit = end == 0 ? tie->from : tie->to;
+        if (!isfinite(limit)) continue;
+        double left = slot_left(model, state->tree, index, end, &rate);
+        if (left >= -digits * fabs(limit)) continue;
+        if (at) *at = model->scene->constraints[tie->constraint].at;
+        text_printf(lack, "the point of `%s` is beyond the end of its slot, by %.6g", tie->name, -left);
+        return true;
+    }
+    return false;
+}
+
 bool fit_blocked(struct fbd_state *state, struct pos *at, struct text *lack)
 {
     const struct fbd_model *model = state->model;
@@ -193,6 +212,7 @@ bool fit_blocked(struct fbd_state *state, struct pos *at, struct text *lack)
         const struct tie *tie = &tree->ties[i];
         bool rope =
             tie->kind == constraint_rope || tie->kind == constraint_belt || tie->kind == constraint_capstan;
+        if (tie->kind == constraint_slot && beyond_slot(state, i, at, lack)) return true;
         if (!rope) continue;
         if (unclear_side(state, i, at, lack)) return true;
         int k = rope_blocked_at(model, state->tree, i);

@@ -329,6 +329,7 @@ fbd_outcome run_advance(struct run *run)
     }
     run_watch_pulleys(run, &t);
     run_watch_drums(run, &t);
+    run_watch_slots(run, &t);
     accept(run, t);
     if (crawls(run)) {
         if (run->crowd > 0)

@@ -216,6 +216,9 @@ void run_check_pulleys(struct run *run);
  * the step there and end the run (drum.c). */
 void run_watch_drums(struct run *run, struct moment *t);
 
+/* The same where the point of a slot has come to an end of it (slot.c). */
+void run_watch_slots(struct run *run, struct moment *t);
+
 /* Where a rope has got taut that is longer than what was wound allows, end the run. After events: `during` is
  * free. */
 void run_check_drums(struct run *run);

@@ -153,6 +153,15 @@ void start_contact_words(const struct fbd_model *model, const struct contact *co
                  ". Give it more `tension`, or what pulls its axes apart more force, or end the run before");
         return;
     }
+    if (belt->kind == load_contact) {
+        text_printf(text, " `%s` comes off its slot `%s`, which would have to pull (N = ",
+                    model->bodies[contact->body].name, belt->name);
+        text_number(text, N, 6);
+        text_add(text,
+                 "). Leave `side` out if it is held on both sides, press it on by a spring, or end the run "
+                 "before, by an event");
+        return;
+    }
     text_printf(text, " `%s` leaves its surface: the normal force would have to pull (N = ",
                 model->bodies[contact->body].name);
     text_number(text, N, 6);

@@ -73,6 +73,7 @@ static const char *limit_name(struct fbd_statics *statics, const struct rest_lim
         const struct tie *tie = &model->tree->ties[i];
         if (tie->kind == constraint_belt && tie->load == load)
             return tie->end[0].name[plan->contacts[limit->index].slot == tie->slack_slot[1]];
+        if (tie_presses(tie) && tie->load == load) return tie->name;
         if (tie->kind == constraint_capstan && tie->load == load)
             return tie->row_name[limit->kind != limit_normal];
         if (tie->kind == constraint_roll && tie->load == load)

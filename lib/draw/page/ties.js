@@ -35,6 +35,16 @@ function prepareLine(tie) {
   if (line.body >= 0) run.bodies[line.body].board = true;
 }
 
+// A slot without ends is as long as its point goes, and a little more.
+function prepareSlot(tie) {
+  const [x, y] = tie.ends[1].point, [ex, ey] = tie.e, board = tie.ends[1].body >= 0 && run.bodies[tie.ends[1].body].board;
+  prepareLine(tie);
+  if (tie.ends[1].body >= 0) run.bodies[tie.ends[1].body].board = board;
+  const pad = 0.15 * (tie.span[1] - tie.span[0]);
+  tie.points = [tie.span[0] - pad, tie.span[1] + pad].map((s) => [x + s * ex, y + s * ey]);
+  tie.span = null;
+}
+
 // Both wheels have teeth of one pitch, and mesh at the start.
 function prepareGear(tie) {
   const row = rowAt(run.start), frameOf = (b) => frameAt(run.bodies[b], run.start, row);
@@ -72,6 +82,7 @@ function prepareTies() {
   prepareWedges();
   for (const tie of run.ties) {
     if (tie.kind === "roll" || tie.kind === "rack") prepareLine(tie);
+    if (tie.kind === "slot" && !tie.points) prepareSlot(tie);
     if (tie.kind === "gear") prepareGear(tie);
   }
   run.bodies.forEach((body, index) => {
@@ -122,6 +133,7 @@ function tiePoints(frameOf) {
       const [x, y] = tieEnd(end, frameOf), r = Math.abs(end.radius);
       if (tie.kind !== "roll" || end.body >= 0) points.push([x - r, y - r], [x + r, y + r]);
     }
+    if (tie.points) points.push(...tie.points.map((p) => tie.ends[1].body < 0 ? p : place(frameOf(tie.ends[1].body), ...p)));
     if (tie.span && tie.ends[1].body >= 0) points.push(...lineEnds(tie).map((p) => place(frameOf(tie.ends[1].body), ...p)));
   }
   for (const { corners } of run.surfaces) if (corners) points.push(...corners);
@@ -147,7 +159,7 @@ function drawStillTies() {
     if (tie.kind === "roll" && tie.ends[1].body < 0) drawSurface(tie.ends[1].point, tie.e, tie.n, 0);
     tie.ends.forEach((end, k) => {
       const [x, y] = toScreen(end.point), last = k === 0 || k + 1 === tie.ends.length;
-      if (end.body >= 0 || tie.kind === "roll") return;
+      if (end.body >= 0 || tie.kind === "roll" || tie.kind === "slot") return;
       if (end.wound) drawDrum(x, y, end.radius);
       else if (tie.kind === "rope" && last) hatch([x - 16, y], [x + 16, y], 0, -1);
       if (tie.kind === "rope" && !end.wound) dot(x, y, 3.5, view.colour.soft);
@@ -300,6 +312,19 @@ function drawGear(tie, frames) {
   }
 }
 
+// The groove, or the face of a cam, and its pin or roller.
+function drawSlot(tie, frames) {
+  const frame = (end) => end.body < 0 ? null : frames[end.body], [pin, slot] = tie.ends, on = frame(slot);
+  path(tie.points.map((point) => toScreen(on ? place(on, ...point) : point)));
+  strokeWith(view.colour.edge, 2);
+  const [x, y] = toScreen(tieEnd(pin, (b) => frames[b]));
+  pen.beginPath();
+  pen.arc(x, y, Math.max(pin.radius * view.scale, 3.5), 0, 2 * Math.PI);
+  pen.fillStyle = view.colour.paper;
+  pen.fill();
+  strokeWith(view.colour.edge, 1.4);
+}
+
 function drawPin([x, y]) {
   dot(x, y, 3.5, view.colour.paper);
   strokeWith(view.colour.edge, 1.4);
@@ -312,6 +337,7 @@ function drawTiesOver(frames, t, row) {
     if (tie.kind === "gear") drawGear(tie, frames);
     if (tie.kind === "belt") drawBelt(tie, frames);
     if (tie.kind === "pin") drawPin(places()[0]);
+    if (tie.kind === "slot") drawSlot(tie, frames);
     if (tie.kind === "rod") {
       path(places());
       strokeWith(view.colour.edge, 2.4);

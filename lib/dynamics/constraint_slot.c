@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The row of a slot. With u the point P in the frame of the slot, its foot r(s) is where e(s) . (u - r(s)) = 0, and
+ * the distance h = n(s) . (u - r(s)) to the left of the curve has the gradient n there:
+ *
+ *     g = sigma h - R,   sigma = +1 or -1 on its side, R the radius of a roller
+ *
+ * As jets s follows from Newton's method: with s exact, f = e . (u - r) and f_s = -(1 - kappa h), each step
+ * s - f / f_s with f_s held gains one order in the rates or in the variation, and three are all that a jet has. A
+ * straight slot is the curve r = (s, 0).
+ */
+#include <float.h>
+
+#include "dynamics/constraint_view.h"
+#include "expr/curve.h"
+
+/* A place on the curve, with what its jets need. */
+struct foot {
+    struct curve_place at;
+    double bend2; /* kappa'' */
+};
+
+static struct foot foot_at(const struct tie *tie, double s, bool varied)
+{
+    if (!tie->curve) return (struct foot){.at = {.r = {s, 0}, .e = {1, 0}}};
+    return (struct foot){curve_at(tie->curve, NULL, s), varied ? curve_slope_rate(tie->curve, NULL, s) : 0};
+}
+
+/* The curve along s: r' = e, e' = kappa n, n' = -kappa e. */
+static struct jet_vec place_along(const struct foot *foot, struct jet s)
+{
+    struct vec e = foot->at.e, n = vec_perp(e);
+    double k = foot->at.bend, k1 = foot->at.slope;
+    struct vec f2 = vec_scale(k, n), f3 = vec_sub(vec_scale(k1, n), vec_scale(k * k, e));
+    return (struct jet_vec){jet_apply(s, foot->at.r.x, e.x, f2.x, f3.x),
+                            jet_apply(s, foot->at.r.y, e.y, f2.y, f3.y)};
+}
+
+static struct jet_vec tangent_along(const struct foot *foot, struct jet s)
+{
+    struct vec e = foot->at.e, n = vec_perp(e);
+    double k = foot->at.bend, k1 = foot->at.slope;
+    struct vec f1 = vec_scale(k, n), f2 = vec_sub(vec_scale(k1, n), vec_scale(k * k, e));
+    struct vec f3 = vec_sub(vec_scale(foot->bend2 - k * k * k, n), vec_scale(3 * k * k1, e));
+    return (struct jet_vec){jet_apply(s, e.x, f1.x, f2.x, f3.x), jet_apply(s, e.y, f1.y, f2.y, f3.y)};
+}
+
+/* ---- where the foot is */
+
+static double distance_at(const struct tie *tie, struct vec u, double s)
+{
+    return vec_norm(vec_sub(u, curve_at(tie->curve, NULL, s).r));
+}
+
+/* The place of the curve that is nearest, among many. */
+static double nearest_of_all(const struct tie *tie, struct vec u)
+{
+    enum { samples_of_a_panel = 16 };
+    const struct curve *curve = tie->curve;
+    int count = samples_of_a_panel * curve->panel_count;
+    double best = curve->start, least = HUGE_VAL;
+    for (int i = 0; i <= count; i++) {
+        double s = curve->start + curve->length * i / count, d = distance_at(tie, u, s);
+        if (d < least) least = d, best = s;
+    }
+    return best;
+}
+
+/* From a guess; false where it does not get there. */
+static bool foot_near(const struct tie *tie, struct vec u, double *s)
+{
+    enum { most_steps = 40 };
+    double last = HUGE_VAL;
+    for (int i = 0; i < most_steps; i++) {
+        struct foot foot = foot_at(tie, *s, false);
+        struct vec d = vec_sub(u, foot.at.r);
+        double slope = 1 - foot.at.bend * vec_dot(vec_perp(foot.at.e), d);
+        if (!(slope > 0.05)) return false;
+        double step = vec_dot(foot.at.e, d) / slope;
+        /* At rounding the steps do not get smaller any more. */
+        if (fabs(step) >= last && last <= 1e-12 * (fabs(*s) + vec_norm(u))) return true;
+        *s += step;
+        last = fabs(step);
+        if (step == 0) return isfinite(*s);
+    }
+    return false;
+}
+
+static double foot_of(const struct tie *tie, struct vec u, double guess)
+{
+    double s = guess;
+    if (!tie->curve) return u.x;
+    if (foot_near(tie, u, &s)) return s;
+    s = nearest_of_all(tie, u);
+    double rough = s;
+    return foot_near(tie, u, &s) ? s : rough;
+}
+
+/* ---- jets */
+
+/* The frame of the slot as jets, and its point in it. */
+struct slot_view {
+    struct jet_vec P, x, y, u;
+};
+
+static struct slot_view look(const struct view *view, const struct tie *tie)
+{
+    struct slot_view slot = {.P = point_of(view, &tie->end[0]), .x = turning(view, tie->end[1].link, tie->e)};
+    struct jet_vec d = jet_vec_sub(slot.P, point_of(view, &tie->end[1]));
+    slot.y = jet_perp(slot.x);
+    slot.u = (struct jet_vec){jet_dot(slot.x, d), jet_dot(slot.y, d)};
+    return slot;
+}
+
+/* The length along the slot, at its point. */
+static struct jet length_of(const struct tie *tie, const struct slot_view *slot, const struct foot *foot,
+                            double at)
+{
+    enum { orders = 3 };
+    struct vec d = vec_sub(jet_value(slot->u), foot->at.r);
+    double slope = 1 - foot->at.bend * vec_dot(vec_perp(foot->at.e), d);
+    struct jet s = jet_constant(at);
+    if (!tie->curve) return slot->u.x;
+    for (int i = 0; i < orders; i++) {
+        struct jet_vec off = jet_vec_sub(slot->u, place_along(foot, s));
+        struct jet f = jet_dot(tangent_along(foot, s), off);
+        s = jet_add(s, jet_scale(1 / slope, f));
+        s.x = at; /* known to rounding */
+    }
+    return s;
+}
+
+void slot_row(const struct view *view, const struct tie *tie, const struct tie_state *state, struct row *row)
+{
+    struct slot_view slot = look(view, tie);
+    double at = foot_of(tie, jet_value(slot.u), state->foot), sigma = tie->presses < 0 ? -1 : 1;
+    struct foot foot = foot_at(tie, at, view->varied);
+    struct jet s = length_of(tie, &slot, &foot, at);
+    struct jet_vec n = jet_vec_times(jet_constant(sigma), jet_perp(tangent_along(&foot, s)));
+    struct jet_vec off = jet_vec_sub(slot.u, place_along(&foot, s));
+    struct jet g = jet_sub(jet_dot(n, off), jet_constant(tie->end[0].radius));
+    struct jet_vec along = jet_vec_times(n.x, slot.x), across = jet_vec_times(n.y, slot.y);
+    struct jet_vec world = {jet_add(along.x, across.x), jet_add(along.y, across.y)};
+    start_row(row, g);
+    add_port(view, row, tie, 0, slot.P, world);
+    add_port(view, row, tie, 1, slot.P, negative(world));
+}
+
+/* ---- what it keeps */
+
+void slot_start(const struct view *view, const struct tie *tie, struct tie_state *state)
+{
+    struct vec u = jet_value(look(view, tie).u);
+    if (tie->curve) state->foot = foot_of(tie, u, nearest_of_all(tie, u));
+}
+
+void slot_follow(const struct view *view, const struct tie *tie, struct tie_state *state)
+{
+    state->foot = foot_of(tie, jet_value(look(view, tie).u), state->foot);
+}
+
+double slot_left(const struct fbd_model *model, const struct tree_work *work, int index, int end,
+                 double *rate)
+{
+    const struct tie *tie = &model->tree->ties[index];
+    struct view view = {model->tree, work, false, NULL, NULL};
+    struct slot_view slot = look(&view, tie);
+    double at = foot_of(tie, jet_value(slot.u), work->ties[index].foot);
+    struct foot foot = foot_at(tie, at, false);
+    struct jet s = length_of(tie, &slot, &foot, at);
+    *rate = end == 0 ? s.x1 : -s.x1;
+    return end == 0 ? s.x - tie->from : tie->to - s.x;
+}
