@@ -37,6 +37,7 @@ static const char *letter_of_tie(const struct tie *tie, int part)
     case constraint_rack: return "F";
     case constraint_roll:
     case constraint_contact: return part == 0 ? "N" : "f";
+    case constraint_slot: return "N";
     }
     return "R";
 }

@@ -29,6 +29,8 @@ BEYOND = {
     "distributed_without_direction.yaml": "needed unless the body slides",
     "cylinder_lying_without_length.yaml": "needed for this axis",
     "belt_without_tension.yaml": "needed where the axes keep their distance",
+    "slot_roller_without_side.yaml": "needed beside `radius`",
+    "slot_without_range.yaml": "needed for a curve",
     "wound_without_radius.yaml": "needed unless the body is a disc",
     "spring_without_end.yaml": "needed unless the body slides",
     "around_no_drum.yaml": "how many places the rope has",
