@@ -897,7 +897,8 @@ typedef struct fbd_drawing {
     bool symbols;     /* arrows labelled by symbols, m g, N, T_1, instead of names and values */
     bool worksheet;   /* the bodies cut free and no arrows, with lines to write on */
     bool solution;    /* of that worksheet: arrows by symbols, and each symbol's value on its line */
-    double scale;     /* the force, in the scene's unit, that 10 mm stand for; 0: a round one that suits all bodies */
+    double
+        scale; /* the force, in the scene's unit, that 10 mm stand for; 0: a round one that suits all bodies */
 } fbd_drawing;
 
 /* The free-body diagrams of a state as an SVG 1.1 document in millimetres, to be freed with fbd_free. `drawing`
