@@ -160,10 +160,11 @@ static enum exit_code show_equations(const struct options *options, fbd_state *s
     const bool components = options->drawing.components;
     enum exit_code code = exit_done;
     if (!data_alone(options))
-        code = print(options->latex ? fbd_equations_latex(state)
-                     : components   ? fbd_equations_text_components(state)
-                                    : fbd_equations_text(state),
-                     code);
+        code =
+            print(options->latex ? (components ? fbd_equations_latex_components : fbd_equations_latex)(state)
+                  : components   ? fbd_equations_text_components(state)
+                                 : fbd_equations_text(state),
+                  code);
     if (code == exit_done && options->json)
         code = write_text(options->json,
                           components ? fbd_equations_json_components(state) : fbd_equations_json(state));

@@ -3,7 +3,6 @@
 
 #include <errno.h>
 #include <spawn.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -47,8 +46,7 @@ static int start(const char *const *arguments, int input, int output, pid_t *chi
     failed = posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
     if (!failed) failed = posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
     if (!failed)
-        failed =
-            posix_spawnp(child, arguments[0], &actions, NULL, (char *const *)(uintptr_t)arguments, environ);
+        failed = posix_spawnp(child, arguments[0], &actions, NULL, (char *const *)arguments, environ);
     posix_spawn_file_actions_destroy(&actions);
     return failed;
 }

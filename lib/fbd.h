@@ -570,6 +570,7 @@ FBD_API char *fbd_equations_text_components(fbd_state *state); /* of fbd_assembl
 
 /* The same as LaTeX (amsmath), each equation in symbols of the scene and with the state's numbers. */
 FBD_API char *fbd_equations_latex(fbd_state *state);
+FBD_API char *fbd_equations_latex_components(fbd_state *state);
 
 /* The same, and the free-body diagrams, as one JSON object. */
 FBD_API char *fbd_equations_json(fbd_state *state);

@@ -171,7 +171,8 @@ static void write_heading(const struct panel *panel, struct text *text, struct v
     const char *symbol =
         panel->symbols ? symbol_of_mass(panel->model, (int)(body - panel->model->bodies), panel->arena) : "m";
     const char *printed = symbol ? symbol_printed(symbol, panel->arena) : NULL;
-    text_printf(&line, "%s = %.4g %s", printed ? printed : "m", body->inertia.mass, mass);
+    if (!printed) line.failed = true;
+    text_printf(&line, "%s = %.4g %s", printed ? printed : "", body->inertia.mass, mass);
     bool turns = body->kind == motion_pivot || body->kind == motion_planar;
     if (turns)
         text_printf(&line, ", %s = %.4g %s", body->kind == motion_pivot ? "I_O" : "I_G",
@@ -290,12 +291,12 @@ enum { most_columns = 8 };
  * the document. With `text` they are written as well. */
 static struct vec lay_out(const struct sheet *sheet, double width, double top, struct text *text)
 {
-    double wide = 0, heights[most_columns];
+    double wide = 0, heights[most_columns] = {0};
     for (size_t i = 0; i < sheet->count; i++)
         wide = fmax(wide, panel_size(&sheet->panels[i], &sheet->notes[i]).x);
     double fit = (width - 2 * margin + gap) / (wide + gap);
     int columns = fit >= most_columns ? most_columns : fit < 1 ? 1 : (int)fit;
-    if ((size_t)columns > sheet->count) columns = (int)sheet->count;
+    if ((size_t)columns > sheet->count && sheet->count > 0) columns = (int)sheet->count;
     for (int c = 0; c < columns; c++) heights[c] = top;
     for (size_t i = 0; i < sheet->count; i++) {
         int shortest = 0;

@@ -279,8 +279,8 @@ static void write_axes(struct text *text, const struct choice *choice, size_t fi
     size_t count = 0;
     for (size_t k = first; k < choice->count; k++)
         count += strcmp(unit_of(choice, k), unit_of(choice, first)) == 0;
-    text_printf(text, "set offsets 0, 0, graph %.2f, graph 0.04\nset ylabel ",
-                0.1 * (double)((count + 2) / 3) + 0.05);
+    size_t rows = (count + 2) / 3;
+    text_printf(text, "set offsets 0, 0, graph %.2f, graph 0.04\nset ylabel ", 0.1 * (double)rows + 0.05);
     struct text title = {0};
     text_printf(&title, "%s [", axis_title(choice, first, count));
     write_unit(&title, unit_of(choice, first));

@@ -22,7 +22,7 @@
 #include "draw/page.h"
 #include "draw/page_json.h"
 #include "model/outline.h"
-#include "output/equations.h"
+#include "output/formulas.h"
 
 enum { most_bytes = 3600 * 1024, most_listed_events = 60000, bytes_of_event = 26, most_details = 2000 };
 
@@ -108,6 +108,49 @@ static void write_arrow(struct text *text, const struct record_of_arrow *arrow)
     text_printf(text, "\"reaction\":%s,\"work\":%d}", arrow->load < 0 ? "true" : "false", arrow->work);
 }
 
+/* The equations of the start, for their symbols. */
+struct symbolic {
+    struct formulas formulas;
+    fbd_equations *equations;
+    const struct equation *now; /* the one that is written, or NULL */
+};
+
+/* A state is made ready by what looks at it: that is done to a copy. */
+static bool symbolic_begin(struct symbolic *symbolic, const fbd_state *start)
+{
+    enum { most_bodies = 100 }; /* numbering takes the square of it, and nobody reads that many equations */
+    if (start->model->body_count > most_bodies) return true;
+    fbd_state *copy = fbd_state_new(start->model);
+    if (!copy || !fbd_state_copy(copy, start)) {
+        fbd_state_free(copy);
+        return false;
+    }
+    symbolic->equations = assemble(copy, true);
+    bool begun = formulas_begin(&symbolic->formulas, copy);
+    symbolic->formulas.general = true;
+    return begun && symbolic->equations;
+}
+
+static void symbolic_end(struct symbolic *symbolic)
+{
+    fbd_equations_free(symbolic->equations);
+    formulas_end(&symbolic->formulas);
+    fbd_state_free(symbolic->formulas.state);
+}
+
+static const struct equation *find_equation(const fbd_equations *all, const char *name)
+{
+    size_t length;
+    for (size_t i = 0; i < all->count; i++) {
+        const fbd_equation *e = &all->equations[i].public;
+        length = strlen(e->body);
+        if (strncmp(name, e->body, length) == 0 && name[length] == '.' &&
+            strcmp(name + length + 1, e->coordinate) == 0)
+            return &all->equations[i];
+    }
+    return NULL;
+}
+
 /* One equation: inertia * acceleration = sum of terms. */
 struct row {
     const char *body, *coordinate, *inertia, *inertia_unit, *acceleration, *acceleration_unit, *unit;
@@ -115,15 +158,18 @@ struct row {
     int column; /* of the acceleration */
 };
 
-static void begin_equation(struct text *text, const struct row *row)
+static void begin_equation(struct text *text, struct symbolic *symbolic, const struct row *row)
 {
     struct text name = {0};
     text_printf(&name, row->body ? "%s.%s" : "%s%s", row->body ? row->body : "", row->coordinate);
     text_add(text, "\n{");
     json_text_member(text, "name", name.data ? name.data : "");
+    symbolic->now = name.data && symbolic->equations ? find_equation(symbolic->equations, name.data) : NULL;
     text->failed |= name.failed;
     text_free(&name);
+    const char *left = symbolic->now ? formula_left(&symbolic->formulas, symbolic->now) : NULL;
     json_text_member(text, "inertia", row->inertia);
+    json_text_member(text, "left", left ? left : "");
     json_number_member(text, "value", row->value);
     json_text_member(text, "inertiaUnit", row->inertia_unit);
     json_text_member(text, "accelerationName", row->acceleration);
@@ -132,17 +178,22 @@ static void begin_equation(struct text *text, const struct row *row)
     text_printf(text, "\"acceleration\":%d,\"terms\":[", row->column);
 }
 
-static void write_term(struct text *text, const char *name, int column, bool *first)
+static void write_term(struct text *text, struct symbolic *symbolic, const char *name, int column,
+                       bool *first)
 {
+    const char *symbol = symbolic->now ? formula_term(&symbolic->formulas, symbolic->now, name) : "";
     if (!*first) text_add(text, ",");
     *first = false;
     text_add(text, "[");
     text_json_string(text, name);
-    text_printf(text, ",%d]", column);
+    text_printf(text, ",%d,", column);
+    text_json_string(text, symbol ? symbol : "");
+    text_add(text, "]");
 }
 
 /* The equation of a coordinate. */
-static void write_coordinate_equation(struct text *text, const struct record *record, int b, int k)
+static void write_coordinate_equation(struct text *text, struct symbolic *symbolic,
+                                      const struct record *record, int b, int k)
 {
     const struct fbd_model *model = record->model;
     const struct model_body *body = &model->bodies[b];
@@ -161,19 +212,20 @@ static void write_coordinate_equation(struct text *text, const struct record *re
                                : k == 2 ? body->inertia.I_G
                                         : body->inertia.mass,
                       .column = columns->equation + k};
-    begin_equation(text, &row);
+    begin_equation(text, symbolic, &row);
     bool first = true;
     for (size_t i = 0; i < columns->arrow_count; i++) {
         const struct record_of_arrow *arrow = &columns->arrows[i];
-        if (arrow->term >= 0) write_term(text, arrow->name, arrow->term + k, &first);
+        if (arrow->term >= 0) write_term(text, symbolic, arrow->name, arrow->term + k, &first);
     }
     if (columns->moving_axis >= 0)
-        write_term(text, track ? "turning along" : "moving axis", columns->moving_axis, &first);
+        write_term(text, symbolic, track ? "turning along" : "moving axis", columns->moving_axis, &first);
     text_add(text, "]}");
 }
 
 /* Newton's and Euler's equations of a body cut free, reactions and all. */
-static void write_newton_equations(struct text *text, const struct record *record, int b)
+static void write_newton_equations(struct text *text, struct symbolic *symbolic, const struct record *record,
+                                   int b)
 {
     const struct fbd_model *model = record->model;
     const struct model_body *body = &model->bodies[b];
@@ -197,23 +249,23 @@ static void write_newton_equations(struct text *text, const struct record *recor
                           .value = turns ? body->inertia.I_G : body->inertia.mass,
                           .column = columns->newton + part};
         if (part > 0 || body->count > 0) text_add(text, ",");
-        begin_equation(text, &row);
+        begin_equation(text, symbolic, &row);
         bool first = true;
         for (size_t i = 0; i < columns->arrow_count; i++)
-            write_term(text, columns->arrows[i].name, columns->arrows[i].components + part, &first);
+            write_term(text, symbolic, columns->arrows[i].name, columns->arrows[i].components + part, &first);
         text_add(text, "]}");
     }
 }
 
-static void write_equations(struct text *text, const struct record *record, int b)
+static void write_equations(struct text *text, struct symbolic *symbolic, const struct record *record, int b)
 {
     const struct model_body *body = &record->model->bodies[b];
     text_add(text, "\"equations\":[");
     for (int k = 0; k < body->count; k++) {
         json_comma(text, (size_t)k);
-        write_coordinate_equation(text, record, b, k);
+        write_coordinate_equation(text, symbolic, record, b, k);
     }
-    if (record->components || body->count == 0) write_newton_equations(text, record, b);
+    if (record->components || body->count == 0) write_newton_equations(text, symbolic, record, b);
     text_add(text, "],");
 }
 
@@ -261,7 +313,7 @@ static void write_guide(struct text *text, const struct fbd_model *model, const 
     text_add(text, "},");
 }
 
-static void write_body(struct text *text, const struct record *record, int b)
+static void write_body(struct text *text, struct symbolic *symbolic, const struct record *record, int b)
 {
     static const char *const motions[] = {"slide", "pivot", "particle", "planar", "weld", "track"};
     const struct model_body *body = &record->model->bodies[b];
@@ -276,7 +328,7 @@ static void write_body(struct text *text, const struct record *record, int b)
     json_columns_member(text, "rates", columns->rate, body->count);
     json_columns_member(text, "accelerations", columns->acceleration, body->count);
     write_guide(text, record->model, body);
-    write_equations(text, record, b);
+    write_equations(text, symbolic, record, b);
     text_add(text, "\"shapes\":[");
     for (size_t i = 0; i < body->source->part_count; i++) {
         struct outline_part part = outline_of_part(&body->source->parts[i]);
@@ -395,6 +447,7 @@ static void write_head(struct text *text, fbd_result *result)
 bool page_data_write(struct text *text, fbd_result *result, struct record *record, size_t most)
 {
     struct pack pack;
+    struct symbolic symbolic = {0};
     size_t bytes = most ? most : most_bytes,
            events = bytes_of_event * listed_events(result->simulation->ensemble);
     bytes -= events < bytes / 2 ? events : bytes / 2;
@@ -404,10 +457,12 @@ bool page_data_write(struct text *text, fbd_result *result, struct record *recor
     write_columns(text, &pack);
     write_numbers(text, &pack);
     text_add(text, "\"bodies\":[");
-    for (size_t b = 0; b < record->model->body_count; b++) {
+    if (!symbolic_begin(&symbolic, result->start)) text->failed = true;
+    for (size_t b = 0; b < record->model->body_count && !text->failed; b++) {
         json_comma(text, b);
-        write_body(text, record, (int)b);
+        write_body(text, &symbolic, record, (int)b);
     }
+    symbolic_end(&symbolic);
     text_add(text, "],\n");
     page_links_write(text, record);
     page_ties_write(text, result, record);

@@ -70,12 +70,12 @@ static void write_equation(struct text *text, struct formulas *formulas, const s
     text_add(text, "\n\\end{align*}\n");
 }
 
-char *fbd_equations_latex(fbd_state *state)
+static char *latex_of(fbd_state *state, bool components)
 {
     if (!state) return NULL;
     struct text text = {0};
     struct formulas formulas;
-    fbd_equations *all = fbd_assemble(state);
+    fbd_equations *all = assemble(state, components);
     bool begun = formulas_begin(&formulas, state);
     if (all && begun) {
         text_add(&text, "% Equations at t = ");
@@ -92,4 +92,14 @@ char *fbd_equations_latex(fbd_state *state)
     fbd_equations_free(all);
     if (text.failed) text_free(&text);
     return text.data;
+}
+
+char *fbd_equations_latex(fbd_state *state)
+{
+    return latex_of(state, false);
+}
+
+char *fbd_equations_latex_components(fbd_state *state)
+{
+    return latex_of(state, true);
 }

@@ -34,8 +34,9 @@ static const char *slope_of(struct formulas *formulas, const struct model_body *
 /* `text` with each word `word` replaced. */
 static const char *replaced(struct arena *arena, const char *text, const char *word, const char *by)
 {
-    const char *at = strstr(text, word);
+    const char *at = text ? strstr(text, word) : NULL;
     if (!at) return text;
+    if (!by) return NULL;
     return arena_printf(arena, "%.*s%s%s", (int)(at - text), text, by, at + strlen(word));
 }
 
@@ -109,6 +110,12 @@ static bool is_of_moments(const struct equation *equation)
     return equation->public.inertia_name[0] == 'I';
 }
 
+/* The equation of a slide's own coordinate: a force along it is whole there at all times. */
+static bool is_along_a_line(const struct formulas *formulas, const struct equation *equation)
+{
+    return !equation->cut_free && formulas->state->model->bodies[equation->body].kind == motion_slide;
+}
+
 /* A force by its symbol: whole where the equation has the whole of it, else its component or its moment. */
 static const char *term_by_symbol(struct formulas *formulas, const struct equation *equation,
                                   const struct arrow *arrow, const char *symbol, double value)
@@ -121,12 +128,24 @@ static const char *term_by_symbol(struct formulas *formulas, const struct equati
         if (size == 0) return arena_printf(&formulas->arena, "%s%s", sign, symbol);
         return arena_printf(&formulas->arena, "M_%s(%s)", point, symbol);
     }
-    /* a reaction of a pin has components by itself */
-    if (fabs(fabs(value) - size) <= 1e-9 * size && symbol[0] != 'R')
+    /* a reaction of a pin has components by itself; what is whole now need not be so at another time */
+    const struct model_load *load = arrow->load >= 0 ? &formulas->state->model->loads[arrow->load] : NULL;
+    bool weight = load && load->source->kind == load_gravity;
+    if (formulas->general && load && load->source->kind == load_applied)
+        sign = ""; /* its value has the sign */
+    if (fabs(fabs(value) - size) <= 1e-9 * size && symbol[0] != 'R' &&
+        (!formulas->general || weight || is_along_a_line(formulas, equation)))
         return arena_printf(&formulas->arena, "%s%s", sign, symbol);
     const char *axis = equation->part == 1 ? "y" : "x";
     if (strchr(symbol, ' ')) return arena_printf(&formulas->arena, "(%s)_%s", symbol, axis);
     return arena_printf(&formulas->arena, strchr(symbol, '_') ? "%s%s" : "%s_%s", symbol, axis);
+}
+
+/* Friction in general: its symbol where it holds, numbered as its surface's normal force is. */
+static const char *friction_symbol(struct formulas *formulas, const char *symbol)
+{
+    const char *N = strncmp(symbol, "mu_k N", strlen("mu_k N")) == 0 ? symbol + strlen("mu_k N") : NULL;
+    return N ? arena_printf(&formulas->arena, "f%s", N) : symbol;
 }
 
 static const char *term_of(struct formulas *formulas, const struct equation *equation, size_t index,
@@ -138,7 +157,11 @@ static const char *term_of(struct formulas *formulas, const struct equation *equ
     const char *law = law_of(formulas, equation, index);
     if (law) return law;
     const char *symbol = formulas->symbols[equation->body][k];
-    const char *text = term_by_symbol(formulas, equation, &arrows[k], symbol, term->value);
+    bool rubs = formulas->general && arrows[k].load >= 0 &&
+                formulas->state->model->loads[arrows[k].load].source->kind == load_friction;
+    if (rubs && is_along_a_line(formulas, equation)) return friction_symbol(formulas, symbol);
+    if (rubs) symbol = friction_symbol(formulas, symbol);
+    const char *text = !symbol ? NULL : term_by_symbol(formulas, equation, &arrows[k], symbol, term->value);
     struct arrow *room =
         ARENA_ARRAY(&formulas->arena, diagram_most_arrows(formulas->state->model), struct arrow);
     if (!text || !room) return NULL;
@@ -166,6 +189,19 @@ const char *formula_right(struct formulas *formulas, const struct equation *equa
                     : arena_printf(&formulas->arena, "%s %s %s", right, minus ? "-" : "+", term + minus);
     }
     return right && !right[0] ? "0" : right;
+}
+
+const char *formula_term(struct formulas *formulas, const struct equation *equation, const char *name)
+{
+    const struct fbd_state *state = formulas->state;
+    struct instant at = state_instant(state);
+    struct arrow *arrows = ARENA_ARRAY(&formulas->arena, diagram_most_arrows(state->model), struct arrow);
+    if (!arrows) return NULL;
+    size_t count = diagram_fill(state->model, equation->body, &at, state->a, state->slots, arrows);
+    for (size_t i = 0; i < equation->public.term_count; i++)
+        if (strcmp(equation->public.terms[i].name, name) == 0 && arrow_of(arrows, count, name) >= 0)
+            return term_of(formulas, equation, i, arrows, count);
+    return "";
 }
 
 const char *formula_left(struct formulas *formulas, const struct equation *equation)

@@ -18,6 +18,7 @@ struct formulas {
     struct arena arena;
     struct fbd_state *state;
     const char *const *const *symbols;
+    bool general; /* for every time of a run, not for this state alone */
 };
 
 /* False when memory is out; to be ended in any case. */
@@ -27,5 +28,9 @@ void formulas_end(struct formulas *formulas);
 /* The right side of an equation, "-m g sin(phi) + push"; and its left side, "m v_dot". NULL when memory is out. */
 const char *formula_right(struct formulas *formulas, const struct equation *equation);
 const char *formula_left(struct formulas *formulas, const struct equation *equation);
+
+/* One term, by its name, as it stands at every time: with its sign, friction as `f` whether it slips or holds, and
+ * reactions by their components. NULL when memory is out; "" for a term that is no force. */
+const char *formula_term(struct formulas *formulas, const struct equation *equation, const char *name);
 
 #endif

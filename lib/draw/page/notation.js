@@ -57,3 +57,29 @@ function mathSymbol(name) {
 function inMath(name) {
   return math("math", mathSymbol(name));
 }
+
+// A formula as it is written plainly (symbols.h): words, products by a blank, signs, parentheses.
+function mathOf(text) {
+  const nodes = [];
+  for (const [token] of text.matchAll(/[A-Za-z][A-Za-z0-9_']*|_[A-Za-z0-9]+|[0-9.]+|\S/g)) {
+    const last = nodes[nodes.length - 1];
+    if (token === "deg") nodes.push(math("mo", "°"));
+    else if (token === "sin" || token === "cos") nodes.push(math("mi", token), math("mo", "\u2061"));
+    else if (/^[A-Za-z]/.test(token)) nodes.push(mathSymbol(token));
+    else if (/^[0-9.]/.test(token)) nodes.push(math("mn", token));
+    else if (token.startsWith("_")) nodes.push(math("msub", nodes.pop(), math("mi", token.slice(1))));
+    else nodes.push(math("mo", token === "-" ? "−" : token));
+    const newest = nodes[nodes.length - 1], factors = last && last.localName !== "mo" && newest.localName !== "mo";
+    if (factors && token[0] !== "_") nodes.splice(nodes.length - 1, 0, math("mo", "\u2062"));
+  }
+  return nodes;
+}
+
+// A line of its own, which scrolls where it is too long.
+function mathLine(row) {
+  const box = document.createElement("div"), whole = math("math", row);
+  box.className = "formula";
+  whole.setAttribute("display", "block");
+  box.append(whole);
+  return box;
+}

@@ -57,11 +57,51 @@ function sumOf(terms, t, row) {
   return Math.abs(sum) < 5e-7 * largest ? 0 : sum;
 }
 
+// The terms of an equation that are anything at some time.
+function livingTerms(equation) {
+  return equation.terms.filter(([, index]) => sizeOf(index) > roundingOf(equation.unit));
+}
+
+// The equation as one writes it by hand; null where its terms have no symbols.
+function inSymbols(equation) {
+  const terms = livingTerms(equation);
+  if (!terms.length || terms.some(([, , symbol]) => !symbol)) return null;
+  const row = math("mrow", ...mathOf(equation.left), math("mo", "="));
+  terms.forEach(([, , symbol], i) => {
+    const negative = symbol.startsWith("-");
+    if (i || negative) row.append(math("mo", negative ? "−" : "+"));
+    row.append(...mathOf(negative ? symbol.slice(1) : symbol));
+  });
+  return mathLine(row);
+}
+
+// The same with the numbers of the cursor's time.
+function inNumbers(equation) {
+  const row = math("mrow");
+  const number = (value, format) => {
+    const text = document.createTextNode("");
+    changing.push([text, value, format]);
+    return math("mn", text);
+  };
+  const upright = (units) => math("mtext", `\u2009${unit(units)}`);
+  row.append(math("mn", show(equation.value, 4)), upright(equation.inertiaUnit), math("mo", "·"), math("mo", "("),
+    number(valueIn(equation.acceleration), (value) => show(value, 4)), upright(equation.accelerationUnit), math("mo", ")"), math("mo", "="));
+  livingTerms(equation).forEach(([, index], i) => {
+    const sign = document.createTextNode("");
+    changing.push([sign, valueIn(index), (value) => (value < 0 ? "−" : i ? "+" : "")]);
+    row.append(math("mo", sign), number(valueIn(index), (value) => show(Math.abs(value), 4)));
+  });
+  row.append(upright(equation.unit));
+  return mathLine(row);
+}
+
 // One equation: the terms, their sum, the inertia and the acceleration.
 function equationTable(equation) {
   const box = document.createElement("div"), table = document.createElement("table"), units = unit(equation.unit);
-  table.createCaption().append(`${quantity(equation.name)}: `, math("math", math("mrow", mathSymbol(equation.inertia), math("mo", "\u2062"),
-    mathSymbol(equation.accelerationName), math("mo", "="), math("mo", "∑"))));
+  const symbols = inSymbols(equation), name = Object.assign(document.createElement("div"), { className: "name", textContent: quantity(equation.name) });
+  box.append(name);
+  if (symbols) box.append(symbols, inNumbers(equation));
+  else box.append(mathLine(math("mrow", ...mathOf(`${equation.inertia} ${equation.accelerationName}`), math("mo", "="), math("mo", "∑"))));
   for (const [term, index] of equation.terms) addChanging(table, term, valueIn(index), units);
   addChanging(table, "sum", (t, row) => sumOf(equation.terms, t, row), units, "sum");
   addRow(table, [[inMath(equation.inertia)], [show(equation.value), true], [unit(equation.inertiaUnit)]]);
@@ -86,7 +126,7 @@ function showTables(t) {
   const row = rowAt(t), clock = `t = ${show(t)} s`;
   element("equations-time").textContent = clock;
   element("ledger-time").textContent = clock;
-  for (const [text, value] of changing) write(text, show(value(t, row)));
+  for (const [text, value, format] of changing) write(text, (format || show)(value(t, row)));
 }
 
 function makeDetails(bodies) {

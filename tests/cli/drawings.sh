@@ -1,0 +1,83 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# Diagrams of --svg by their options: worksheets, symbols, scales, statics, other formats; equations as LaTeX.
+set -u
+. "$FBD_SOURCE_ROOT/tests/cli/program.sh"
+incline=$models/kinetics/incline.yaml
+crank=$models/couplings/slider_crank.yaml
+ladder=$models/statics/ladder.yaml
+
+draw() { # draw MODEL ARGUMENT...: the diagram of the start in `out`
+    model=$1
+    shift
+    run --quiet --equations --svg - "$@" "$model"
+}
+
+lacks() { # lacks PATTERN FILE
+    ! grep -qE -- "$1" "$2"
+}
+
+# ---- what is drawn
+check 'a body is cut free' exits 0 draw "$incline"
+check 'without the ground' lacks 'class="(ground|hatch)"' out
+check '--supports' exits 0 draw "$incline" --supports
+check 'draws it' says 'class="hatch"' out
+check '--symbols' exits 0 draw "$incline" --symbols
+for symbol in mg N μₖN push; do
+    check "labels an arrow $symbol" says ">$symbol</text>" out
+done
+check 'without values' lacks 'class="label middle"[^<]*> *[a-z]* [0-9.]+ N<' out
+check '--worksheet' exits 0 draw "$crank" --worksheet
+check 'has no arrows' lacks 'class="arrow' out
+check 'but bodies' says 'id="crank-outline"' out
+check '--solution' exits 0 draw "$crank" --solution
+check 'has symbols with their values' says '>R₂ = 19.66 N, pin<' out
+check 'and those of the opposite force' says '>R₂ = 19.66 N, connecting_rod.pin<' out
+check 'all bodies have one scale of forces' sh -c '[ "$(grep -o "forces: 10 mm = [^<]*" out | sort -u | wc -l)" -eq 1 ]'
+check '--scale' exits 0 draw "$crank" --scale 12
+check 'is that of every body' sh -c '[ "$(grep -c "forces: 10 mm = 12 N" out)" -eq 3 ]'
+check 'a body alone has the scale of the scene' exits 0 draw "$crank" --body piston
+check 'as it has among the others' says 'forces: 10 mm = 8 N' out
+foreign_rules() { # rules of the drawing's style that are not for drawings of ours alone
+    sed -n '/<style/,/<\/style>/p' "$1" | grep -v '<style\|</style>\|^@media\|^}' | tr '}' '\n' | sed 's/{.*//' | tr ',' '\n' | grep -v '^$\|^\.fbd '
+}
+check 'inlined in a page the style says nothing about the rest of it' sh -c '[ -z "$1" ]' - "$(foreign_rules out)"
+
+# ---- gears without a shape: the force stands at the mesh, one radius from the axis
+check 'gears' exits 0 draw "$models/couplings/gear_pair.yaml"
+check 'are drawn as wheels' sh -c '[ "$(grep -c "circle class=\"body\"" out)" -eq 2 ]'
+check 'with the force at the mesh' says '<title>mesh on pinion: .*acts at \(0.05, 0\) m' out
+
+# ---- at rest
+check '--static --svg' exits 0 run --quiet --static --svg ladder.svg "$ladder"
+check 'has the reactions of the statics' says '<title>normal on foot: \(0, 1015.82' ladder.svg
+
+# ---- mistakes
+check '--worksheet has no arrows to label' exits 2 draw "$crank" --worksheet --symbols
+check '--symbols without --svg is 2' exits 2 run --symbols "$crank"
+check 'and for eigenvalues' exits 2 run --linearize --svg - --symbols "$models/vibration/damped_oscillator.yaml"
+check 'a scale is above zero' exits 2 draw "$crank" --scale 0
+check '--latex goes with --equations' exits 2 run --latex "$crank"
+
+# ---- other formats
+check 'without a converter .pdf is 2' exits 2 sh -c 'PATH=/nowhere "$0" --quiet --svg none.pdf "$1" 2>err' "$FBD_RUN" "$incline"
+check 'and says which one is missing' says 'rsvg-convert \(Debian: librsvg2-bin\)' err
+check 'and nothing is written' test ! -e none.pdf
+if command -v rsvg-convert >/dev/null || command -v inkscape >/dev/null; then
+    check '.pdf' exits 0 run --quiet --svg sheet.pdf "$crank"
+    check 'is one' says '^%PDF' sheet.pdf
+    check '.png' exits 0 run --quiet --svg sheet.png "$crank"
+    check 'is one' says 'PNG' sheet.png
+    check 'of eigenvalues as well' exits 0 run --quiet --linearize --svg plane.png "$models/vibration/damped_oscillator.yaml"
+else
+    echo '# neither rsvg-convert nor inkscape is installed: other formats are left out'
+fi
+
+# ---- LaTeX
+check '--equations --latex' exits 0 run --equations --latex "$incline"
+check 'has the symbols of the file' says '^m\\,\\dot\{v\} &= -m\\,g\\,\\sin \(\\phi \) - \\mu _\{k\}\\,N \+ \\mathit\{push\} ' out
+check 'and the numbers of the state' says '&= -9.81 - 8.49571 \+ 5\\,\\mathrm\{N\}' out
+check 'of bodies cut free' exits 0 run --equations --components --latex "$crank"
+check 'a force and its opposite have one symbol' sh -c 'grep -q "R_{1x} - R_{2x}" out && grep -q "R_{3x} + R_{2x}" out'
+finish
