@@ -40,6 +40,8 @@ enum row_kind {
     row_rod,
     row_rope, /* a piece between two places that hold it */
     row_gear,
+    row_belt_turn, /* half of what one strand is longer than the other */
+    row_belt_length,
     row_rack,
     row_roll_normal,
     row_roll_along,
@@ -146,6 +148,9 @@ void absolute_list(struct absolute *absolute, const double *lambda, bool doubt);
 
 /* Limit of a grip that holds: mu_s N; of one that slips: mu_k N. 1 in place of N for a bearing. */
 double grip_coefficient(const struct absolute *absolute, const struct grip *grip, bool kinetic);
+
+/* Does a strand of a belt push? */
+bool belts_push(const struct absolute *absolute);
 
 /* Accelerations and multipliers in the modes of the grips. With `list`, all wrenches and what is unique. */
 void absolute_solve(struct absolute *absolute, bool list);

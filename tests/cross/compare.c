@@ -45,14 +45,14 @@ static bool differ(double theirs, double ours, double size, double tolerance, do
 /* ---- forces: all arrows of a name together, as force and moment about G */
 
 /* Forces of a rope on a pulley carry what is on the other side behind a dot, and a body that it visits twice
- * has two, numbered: here they are one. */
+ * has two, numbered: here they are one, and so are the strands of a belt. */
 static bool is_called(const struct scene *scene, const char *arrow, const char *name)
 {
     if (strcmp(arrow, name) == 0) return true;
     for (int c = 0; c < scene->coupling_count; c++) {
         const struct coupling *coupling = &scene->coupling[c];
         size_t length = strlen(coupling->name);
-        if (coupling->kind == rope && strcmp(name, coupling->name) == 0 &&
+        if ((coupling->kind == rope || coupling->kind == belt) && strcmp(name, coupling->name) == 0 &&
             strncmp(arrow, name, length) == 0 && (arrow[length] == '.' || arrow[length] == '_'))
             return true;
     }

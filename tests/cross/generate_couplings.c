@@ -13,7 +13,8 @@ static const double pi = 3.141592653589793;
 
 static struct coupling *add_coupling(struct scene *scene, enum coupling_kind kind)
 {
-    static const char *const names[] = {"spring", "damper", "pin", "rod", "rope", "gear", "rack", "roll"};
+    static const char *const names[] = {"spring", "damper", "pin",  "rod", "rope",
+                                        "gear",   "rack",   "roll", "belt"};
     struct coupling *coupling = &scene->coupling[scene->coupling_count];
     memset(coupling, 0, sizeof *coupling);
     coupling->kind = kind;
@@ -243,6 +244,61 @@ static void add_gear(struct random *random, struct scene *scene)
     }
 }
 
+/* ---- belts */
+
+/* A disc on an axis of its own, or welded to what is on it. */
+static int add_belt_disc(struct random *random, struct scene *scene, int on, struct vec2 at, double radius)
+{
+    add_wheel(random, scene, on, at, radius);
+    if (scene->body_count == most_bodies || random_chance(random, 0.7)) return scene->body_count - 1;
+    struct body *body = random_body(random, scene, weld, scene->body_count - 1);
+    random_disc(random, body, radius);
+    body->at = (struct spot){at_pair, {0, 0}};
+    body->point = (struct spot){.point = at_origin};
+    return scene->body_count - 1;
+}
+
+/* What pulls the axes apart, whatever else acts. */
+static void add_pull(struct random *random, struct body *carriage)
+{
+    struct load *load = &carriage->load[carriage->load_count++];
+    *load = (struct load){.kind = applied, .form = along_slide, .name = "pull", .at = {.point = at_G}};
+    load->value = constant_formula(dim_force, random_between(random, 200, 600));
+}
+
+/* Both discs on one base, at a distance that they keep, or the second on a carriage that is pulled away. */
+static void add_belt(struct random *random, struct scene *scene)
+{
+    if (scene->body_count + 5 > most_bodies) return;
+    int base = random_base(random, scene), on = base;
+    bool crossed = random_chance(random, 0.4), carried = random_chance(random, 0.4);
+    double r1 = random_between(random, 0.1, 0.4), r2 = random_between(random, 0.1, 0.4);
+    double d = r1 + r2 + random_between(random, 0.2, 1.5), angle = random_between(random, -pi, pi);
+    struct vec2 at = {random_between(random, -1, 1), random_between(random, -1, 1)};
+    struct vec2 there = {at.x + d * cos(angle), at.y + d * sin(angle)};
+    int first = add_belt_disc(random, scene, base, at, r1);
+    if (carried) {
+        struct body *carriage = random_body(random, scene, slide, base);
+        on = scene->body_count - 1;
+        carriage->at = (struct spot){at_pair, there};
+        carriage->point = (struct spot){.point = at_origin};
+        carriage->along = angle;
+        carriage->q[0] = random_between(random, 0, 1);
+        there = (struct vec2){0, 0};
+        add_pull(random, carriage);
+    }
+    int second = add_belt_disc(random, scene, on, there, r2);
+    struct coupling *coupling = add_coupling(scene, belt);
+    coupling->end[0] = (struct end){.body = first, .at = {.point = at_G}};
+    coupling->end[1] = (struct end){.body = second, .at = {.point = at_G}};
+    coupling->crossed = crossed;
+    if (!carried) coupling->tension = random_between(random, 100, 300);
+    if (random_chance(random, 0.5)) {
+        coupling->radius[0] = r1;
+        coupling->radius[1] = r2;
+    }
+}
+
 /* A rack that slides on the base, and a pinion on the base beside its line, on either side. */
 static void add_rack(struct random *random, struct scene *scene)
 {
@@ -315,7 +371,7 @@ static void add_roll(struct random *random, struct scene *scene, const struct ta
 void random_coupling(struct random *random, struct scene *scene, const struct taste *taste)
 {
     if (scene->coupling_count == most_couplings) return;
-    switch (random_below(random, 10)) {
+    switch (random_below(random, 11)) {
     case 0: add_between(random, scene, spring_of_two); break;
     case 1: add_between(random, scene, damper_of_two); break;
     case 2:
@@ -326,5 +382,6 @@ void random_coupling(struct random *random, struct scene *scene, const struct ta
     case 7: add_gear(random, scene); break;
     case 8: add_rack(random, scene); break;
     case 9: add_roll(random, scene, taste); break;
+    case 10: add_belt(random, scene); break;
     }
 }

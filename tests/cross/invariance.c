@@ -126,6 +126,21 @@ static bool is_slack(const struct absolute *absolute)
     return false;
 }
 
+/* What a force is called in the view: in a mirror the strands of a belt change places. */
+static const char *name_there(const struct scene *scene, const char *name, const struct view *view,
+                              char room[64])
+{
+    for (int c = 0; view->mirror < 0 && c < scene->coupling_count; c++) {
+        const char *belt_name = scene->coupling[c].name;
+        size_t length = strlen(belt_name);
+        if (scene->coupling[c].kind != belt || strncmp(name, belt_name, length) != 0 || name[length] != '.')
+            continue;
+        snprintf(room, 64, "%s.%s", belt_name, strcmp(name + length, ".left") == 0 ? "right" : "left");
+        return room;
+    }
+    return name;
+}
+
 static void compare_forces(const struct absolute *absolute, const struct scene *scene,
                            const struct answers *one, const struct scene *other_scene,
                            const struct answers *other, const struct view *view, double tolerance,
@@ -136,10 +151,11 @@ static void compare_forces(const struct absolute *absolute, const struct scene *
         if (b == view->changed) continue;
         for (size_t i = 0; i < one->count[b]; i++) {
             const char *name = one->name[b][i];
+            char room[64];
             double w[3], got[3];
             if (!is_unique(absolute, b, name)) continue;
             sum_of(one, b, name, w);
-            sum_of(other, there, name, got);
+            sum_of(other, there, name_there(scene, name, view, room), got);
             struct vec2 f = seen(view, (struct vec2){w[0], w[1]});
             double want[3] = {view->force * f.x, view->force * f.y,
                               view->force * view->length * view->mirror * w[2]};

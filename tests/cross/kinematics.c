@@ -148,8 +148,8 @@ static struct place end_place(const struct absolute *absolute, const struct coup
     const struct end *end = &coupling->end[k];
     if (end->body < 0) return point_of(absolute, -1, end->at.where);
     struct vec2 centre = spot_of(&absolute->scene->body[end->body], &end->at);
-    bool circle = end->pulley || ((coupling->kind == gear || coupling->kind == rack) && k == 0) ||
-                  (coupling->kind == gear && k == 1) || (coupling->kind == roll && k == 0);
+    bool pair = coupling->kind == gear || coupling->kind == belt;
+    bool circle = end->pulley || pair || ((coupling->kind == rack || coupling->kind == roll) && k == 0);
     if (circle) circle_of(absolute->scene, coupling, k, &centre);
     return point_of(absolute, end->body, centre);
 }
@@ -245,6 +245,34 @@ static struct series rope_value(const struct absolute *absolute, const struct ro
     return length;
 }
 
+/* Of a belt, in each strand, counted as on a rope between where the discs take it along. Strand 0 leaves disc 0 on
+ * its right, so that it runs counter-clockwise there, and strand 1 comes back. With the angles of both it is known
+ * but for whole turns of the line of centres. */
+static struct series belt_value(const struct absolute *absolute, const struct row *row)
+{
+    const struct coupling *coupling = &absolute->scene->coupling[row->owner];
+    const struct end *end = coupling->end;
+    struct series strand[2];
+    struct vec2 unused;
+    double sR[2];
+    for (int k = 0; k < 2; k++)
+        sR[k] = circle_of(absolute->scene, coupling, k, &unused) * (k == 1 && coupling->crossed ? -1 : 1);
+    for (int i = 0; i < 2; i++) {
+        int from = i, to = 1 - i;
+        struct straight piece = straight_piece(end_place(absolute, coupling, from), sR[from],
+                                               end_place(absolute, coupling, to), sR[to]);
+        struct series left = ser_sub(piece.angle, angle_of(absolute, end[from].body));
+        struct series come = ser_sub(angle_of(absolute, end[to].body), piece.angle);
+        strand[i] = ser_add(piece.length, ser_add(ser_scale(sR[from], left), ser_scale(sR[to], come)));
+    }
+    bool turns = row->kind == row_belt_turn;
+    struct series g = ser_scale(0.5, turns ? ser_sub(strand[0], strand[1]) : ser_add(strand[0], strand[1]));
+    double whole = 0.5 * turn * (sR[0] - sR[1]);
+    g.u -= row->zero;
+    if (whole != 0) g.u = remainder(g.u, whole);
+    return g;
+}
+
 double straight_way(const struct absolute *absolute, const struct coupling *coupling)
 {
     struct vec2 unused;
@@ -294,6 +322,8 @@ struct series row_value(const struct absolute *absolute, const struct row *row)
     case row_pin_x: g = off_joint(absolute, row->owner).x; break;
     case row_pin_y: g = off_joint(absolute, row->owner).y; break;
     case row_rope: return rope_value(absolute, row);
+    case row_belt_turn:
+    case row_belt_length: return belt_value(absolute, row);
     case row_gear: g = gear_value(absolute, coupling); break;
     case row_rack:
     case row_roll_normal:

@@ -217,10 +217,31 @@ static void put_load(const struct target *target, int b, const struct load *load
     }
 }
 
+/* A belt pulls its axes together with 2 T cos(gamma), sin(gamma) = (R_1 -+ R_2) / d; the moments of its strands are
+ * equal and opposite. */
+static void put_tension(const struct target *target, const struct coupling *coupling)
+{
+    const struct absolute *absolute = target->absolute;
+    struct vec2 p[2];
+    double R[2];
+    for (int k = 0; k < 2; k++) {
+        struct vec2 centre;
+        R[k] = circle_of(absolute->scene, coupling, k, &centre);
+        p[k] = here(point_of(absolute, coupling->end[k].body, centre));
+    }
+    double dx = p[1].x - p[0].x, dy = p[1].y - p[0].y, d = hypot(dx, dy);
+    double sine = (coupling->crossed ? R[0] + R[1] : R[0] - R[1]) / d;
+    double pull = 2 * coupling->tension * sqrt(1 - sine * sine);
+    for (int k = 0; k < 2; k++)
+        put(target, coupling->end[k].body, coupling->name,
+            times((k == 0 ? pull : -pull) / d, (struct vec2){dx, dy}), p[k], 0);
+}
+
 static void put_coupling(const struct target *target, const struct coupling *coupling)
 {
     const struct absolute *absolute = target->absolute;
     struct place P[2];
+    if (coupling->tension > 0) put_tension(target, coupling);
     if (coupling->kind != spring_of_two && coupling->kind != damper_of_two) return;
     for (int k = 0; k < 2; k++) {
         const struct end *end = &coupling->end[k];

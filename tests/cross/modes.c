@@ -87,6 +87,17 @@ static void solve_with_guides(struct absolute *absolute)
     for (int round = 0; round < 4 && absolute_turn_guides(absolute); round++) absolute_solve(absolute, true);
 }
 
+bool belts_push(const struct absolute *absolute)
+{
+    for (int j = 0; j < absolute->row_count; j++) {
+        if (absolute->row[j].kind != row_belt_turn) continue;
+        double T = absolute->scene->coupling[absolute->row[j].owner].tension;
+        double both = T > 0 ? -T : absolute->lambda[j + 1] / 2;
+        if (!(both + fabs(absolute->lambda[j]) / 2 < 0)) return true;
+    }
+    return false;
+}
+
 static bool is_consistent(struct absolute *absolute, const bool *open)
 {
     solve_with_guides(absolute);
@@ -141,5 +152,5 @@ bool absolute_settle(struct absolute *absolute)
     if (found < 0 || (choices > 3 && found > 0)) return false;
     choose(absolute, open, found);
     solve_with_guides(absolute);
-    return true;
+    return !belts_push(absolute);
 }

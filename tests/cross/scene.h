@@ -187,7 +187,7 @@ struct body {
 
 /* ---- couplings */
 
-enum coupling_kind { spring_of_two, damper_of_two, pin, rod, rope, gear, rack, roll };
+enum coupling_kind { spring_of_two, damper_of_two, pin, rod, rope, gear, rack, roll, belt };
 
 enum wound_side { wound_left, wound_right, wound_top, wound_bottom };
 
@@ -211,8 +211,10 @@ struct coupling {
     bool reels;       /* rope: its length is */
     struct formula reel;
     bool inside;
-    bool centered; /* roll: about end[0].at, not about the round part */
-    int line;      /* roll: of the ground, or -1 for the x axis of end[1] */
+    bool crossed;   /* belt */
+    double tension; /* belt on axes that keep their distance: of both strands while it drives nothing; or 0 */
+    bool centered;  /* roll: about end[0].at, not about the round part */
+    int line;       /* roll: of the ground, or -1 for the x axis of end[1] */
     bool has_friction;
     struct formula mu_s, mu_k;
 };
@@ -246,7 +248,7 @@ struct mass mass_of(const struct body *body);
 struct vec2 spot_of(const struct body *body, const struct spot *spot);
 const struct piece *round_piece(const struct body *body);
 
-/* Radius and centre of the circle at end k of a gear, rack, roll or pulley. */
+/* Radius and centre of the circle at end k of a gear, belt, rack, roll or pulley. */
 double circle_of(const struct scene *scene, const struct coupling *coupling, int k, struct vec2 *centre);
 
 struct formula constant_formula(enum dimension dimension, double value);

@@ -194,6 +194,12 @@ static void add_coupling(struct absolute *absolute, int c)
         row->zero = coupling->length > 0 ? coupling->length : row_value(absolute, row).u;
         break;
     case rope: add_rope(absolute, c); break;
+    case belt:
+        for (int k = 0; k < (coupling->tension > 0 ? 1 : 2); k++) {
+            row = add_row(absolute, k == 0 ? row_belt_turn : row_belt_length, c, 0);
+            row->zero = row_value(absolute, row).u;
+        }
+        break;
     case roll: add_roll(absolute, c); break;
     case spring_of_two:
     case damper_of_two: break;

@@ -379,6 +379,7 @@ static void convert(struct scene *scene, double l, double f)
         coupling->length *= l;
         coupling->radius[0] *= l;
         coupling->radius[1] *= l;
+        coupling->tension *= f;
         for (int k = 0; k < coupling->count; k++) scale_pair(&coupling->end[k].at.where, l);
     }
 }

@@ -84,7 +84,7 @@ static bool keep_centre(struct scene *scene, int b, struct vec2 G)
         for (int k = 0; k < scene->coupling[c].count; k++) {
             struct end *end = &scene->coupling[c].end[k];
             bool circle = end->pulley || scene->coupling[c].kind == gear || scene->coupling[c].kind == rack ||
-                          scene->coupling[c].kind == roll;
+                          scene->coupling[c].kind == belt || scene->coupling[c].kind == roll;
             if (end->body != b || circle || end->at.point != at_G) continue;
             if (body->point_count == most_points) return false;
             body->points[body->point_count] = G;

@@ -354,7 +354,8 @@ static void say_rope(struct writer *w, int c)
 
 static void say_coupling(struct writer *w, int c)
 {
-    static const char *const kinds[] = {"spring", "damper", "pin", "rod", "rope", "gear", "rack", "roll"};
+    static const char *const kinds[] = {"spring", "damper", "pin",  "rod", "rope",
+                                        "gear",   "rack",   "roll", "belt"};
     const struct coupling *coupling = &w->scene->coupling[c];
     say(w, "  - %s: {name: %s", kinds[coupling->kind], coupling->name);
     if (coupling->kind == roll) {
@@ -375,12 +376,14 @@ static void say_coupling(struct writer *w, int c)
     if (coupling->length > 0) key_number(w, "length", coupling->length);
     if ((coupling->kind == rack || coupling->kind == roll) && coupling->radius[0] > 0)
         key_number(w, "radius", coupling->radius[0]);
-    if (coupling->kind == gear && coupling->radius[0] > 0) {
+    if ((coupling->kind == gear || coupling->kind == belt) && coupling->radius[0] > 0) {
         char one[32], two[32];
         say(w, ", radii: [%s, %s]", number(coupling->radius[0], one), number(coupling->radius[1], two));
     }
     if (coupling->kind == rope) say_rope(w, c);
     if (coupling->inside) say(w, ", inside: true");
+    if (coupling->crossed) say(w, ", crossed: true");
+    if (coupling->tension > 0) key_number(w, "tension", coupling->tension);
     say(w, "}\n");
 }
 
