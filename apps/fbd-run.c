@@ -33,6 +33,18 @@ static enum exit_code print(char *text, enum exit_code code)
     return standard_output_arrives("fbd-run") ? code : exit_failed;
 }
 
+/* Say so when the energy shows that the motion is not that of the scene. */
+static enum exit_code balanced(fbd_result *result)
+{
+    double residual = fbd_result_energy(result).residual, explained = fbd_result_residual_explained(result);
+    if (!(fabs(residual) > explained)) return exit_done;
+    complain("fbd-run: the motion is not accurate: the residual of its energy is %.2g, where the tolerance "
+             "explains "
+             "%.2g. Steps have gone over something much shorter than they are: give a small --step",
+             residual, explained);
+    return exit_inaccurate;
+}
+
 /* Say so when the accuracy that was asked for has not been reached; `interrupt` may be NULL. */
 static enum exit_code accurate(const fbd_result *result, const fbd_simulation *simulation,
                                const struct interrupt *interrupt)
@@ -269,6 +281,7 @@ static enum exit_code carry_and_write(fbd_simulation *simulation, const struct o
     fbd_outcome outcome = result ? fbd_result_outcome(result) : FBD_FAILED;
     if (outcome != FBD_FAILED && outcome != FBD_INTERRUPTED && code == exit_done)
         code = accurate(result, simulation, interrupt);
+    if (code == exit_done) code = balanced(result);
     if (result && outcome != FBD_DONE && outcome != FBD_STOPPED) {
         if (!fbd_simulation_blame(simulation, errors))
             complain("fbd-run: %s", fbd_simulation_reason(simulation));

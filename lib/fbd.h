@@ -510,6 +510,12 @@ FBD_API fbd_outcome fbd_result_outcome(const fbd_result *result);
 FBD_API fbd_state *fbd_result_state(fbd_result *result); /* the last good state; owned by the result */
 FBD_API fbd_energy fbd_result_energy(fbd_result *result);
 
+/* How large a residual of the energy [the scene's unit of energy] the tolerance and rounding explain. Where it is larger
+ * the motion is not that of the scene, whatever its steps say of their errors: they have gone over pulses that are much
+ * shorter than they are (not all of them show there). INFINITY for steps of fixed size, NAN where only the motion was
+ * wanted. */
+FBD_API double fbd_result_residual_explained(fbd_result *result);
+
 /* The work that a force or moment of a body has done since the start; NAN when there is no such name. */
 FBD_API double fbd_result_work(fbd_result *result, const char *body, const char *load);
 

@@ -103,6 +103,7 @@ static bool observe(void *context, struct ensemble *ensemble, size_t group)
     /* A group that is alone, in a run that stops for nothing, has no other to wait for. */
     bool alone = ensemble->count == 1 && going->whole;
     tell_progress(going, alone ? ensemble->groups[group].run->state->t : ensemble->t);
+    if (result->ledger.works) ledger_note(&result->ledger, &ensemble->groups[group]);
     if (!result->ledger.any || !ledger_integrates(&result->ledger, &ensemble->groups[group])) return true;
     double before = processor_seconds(); /* a call of the system: not for every step of a thousand groups */
     bool done = ledger_step(&result->ledger, ensemble, group);
@@ -187,7 +188,7 @@ static bool carry(fbd_result *result, const fbd_recording *recording, struct csv
     struct bars *bars = simulation->bars;
     bool whole = !csv && !result->record && !bars;
     struct going going = {result, recording, 0, whole, first_slice};
-    if (result->ledger.any || (recording && recording->progress))
+    if (result->ledger.works || (recording && recording->progress))
         ensemble->observer = (struct observer){&going, observe, observe_again};
     if (bars && recording && recording->progress) {
         bars->is_ended = is_ended;

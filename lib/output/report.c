@@ -223,6 +223,12 @@ static void write_energy(const struct page *page)
     text_printf(page->text,
                 "  residual %.2e %s: change of kinetic + potential, less that work (0 for the true motion)\n",
                 energy.residual, energy_unit(page->result->ledger.model));
+    double explained = fbd_result_residual_explained(page->result);
+    if (fabs(energy.residual) > explained)
+        text_printf(
+            page->text,
+            "  the tolerance explains %.2e %s of it: steps have gone over what is shorter than they are\n",
+            explained, energy_unit(page->result->ledger.model));
 }
 
 /* "3 independent groups; constant accelerations in 1, ..."; nothing for one group without structure. */

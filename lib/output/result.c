@@ -25,6 +25,14 @@ fbd_energy fbd_result_energy(fbd_result *result)
     return ledger_energy(&result->ledger, fbd_result_state(result), result->ledger.work);
 }
 
+double fbd_result_residual_explained(fbd_result *result)
+{
+    if (!result) return NAN;
+    fbd_stats stats = fbd_simulation_stats(result->simulation);
+    if (result->simulation->ensemble->options.step > 0) return HUGE_VAL;
+    return ledger_explained(&result->ledger, fbd_result_state(result), stats.tolerance, (double)stats.steps);
+}
+
 double fbd_result_work(fbd_result *result, const char *body, const char *load)
 {
     if (!result || !body || !load) return NAN;

@@ -24,6 +24,7 @@ struct outcome {
     char what[400];
     double error, size; /* of what differs; size: what it is measured against */
     bool ran, broke_off, sensitive;
+    bool pulsed; /* the library has gone over pulses that are shorter than its steps */
     double until;
     double worst_acceleration, worst_force, worst_state; /* relative, of what agrees */
 };

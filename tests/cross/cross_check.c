@@ -22,7 +22,7 @@
 #include "write.h"
 
 struct counts {
-    unsigned long scenes, unfit, runs, broke_off, sensitive, verdicts[verdict_count];
+    unsigned long scenes, unfit, runs, broke_off, sensitive, pulsed, verdicts[verdict_count];
     double acceleration, force, state;
     unsigned long variants[variant_count], variant_runs, variant_failures[variant_count];
     double variant_force, variant_state; /* of those that are not moved by 1e6 m */
@@ -103,6 +103,7 @@ static void check_scene(uint64_t seed, bool run, struct counts *counts)
     counts->runs += outcome.ran;
     counts->broke_off += outcome.broke_off;
     counts->sensitive += outcome.sensitive;
+    counts->pulsed += outcome.pulsed;
     counts->acceleration = fmax(counts->acceleration, outcome.worst_acceleration);
     counts->force = fmax(counts->force, outcome.worst_force);
     counts->state = fmax(counts->state, outcome.worst_state);
@@ -168,6 +169,7 @@ static void add_counts(struct counts *sum, const struct counts *counts)
     sum->runs += counts->runs;
     sum->broke_off += counts->broke_off;
     sum->sensitive += counts->sensitive;
+    sum->pulsed += counts->pulsed;
     for (int i = 0; i < verdict_count; i++) sum->verdicts[i] += counts->verdicts[i];
     sum->acceleration = fmax(sum->acceleration, counts->acceleration);
     sum->force = fmax(sum->force, counts->force);
@@ -218,8 +220,9 @@ static void report(const struct plan *plan, const struct counts *counts)
     printf("%s%lu scenes from seed %llu: %lu compared, %lu left out (no consistent or no well-conditioned "
            "start)\n",
            mark, counts->scenes, (unsigned long long)plan->first, compared, counts->unfit);
-    printf("%s%lu runs, of these %lu up to their first event, %lu too sensitive to compare\n", mark,
-           counts->runs, counts->broke_off, counts->sensitive);
+    printf("%s%lu runs, of these %lu up to their first event, %lu too sensitive to compare, %lu with pulses "
+           "shorter than steps\n",
+           mark, counts->runs, counts->broke_off, counts->sensitive, counts->pulsed);
     printf("%slargest differences: accelerations %.2g, forces %.2g of the largest term, states %.2g\n", mark,
            counts->acceleration, counts->force, counts->state);
     for (int i = agrees + 1; i < verdict_count; i++) {
