@@ -47,25 +47,6 @@ static struct jet_vec tangent_along(const struct foot *foot, struct jet s)
 
 /* ---- where the foot is */
 
-static double distance_at(const struct tie *tie, struct vec u, double s)
-{
-    return vec_norm(vec_sub(u, curve_at(tie->curve, NULL, s).r));
-}
-
-/* The place of the curve that is nearest, among many. */
-static double nearest_of_all(const struct tie *tie, struct vec u)
-{
-    enum { samples_of_a_panel = 16 };
-    const struct curve *curve = tie->curve;
-    int count = samples_of_a_panel * curve->panel_count;
-    double best = curve->start, least = HUGE_VAL;
-    for (int i = 0; i <= count; i++) {
-        double s = curve->start + curve->length * i / count, d = distance_at(tie, u, s);
-        if (d < least) least = d, best = s;
-    }
-    return best;
-}
-
 /* From a guess; false where it does not get there. */
 static bool foot_near(const struct tie *tie, struct vec u, double *s)
 {
@@ -91,7 +72,7 @@ static double foot_of(const struct tie *tie, struct vec u, double guess)
     double s = guess;
     if (!tie->curve) return u.x;
     if (foot_near(tie, u, &s)) return s;
-    s = nearest_of_all(tie, u);
+    s = curve_near(tie->curve, u);
     double rough = s;
     return foot_near(tie, u, &s) ? s : rough;
 }
@@ -151,7 +132,7 @@ void slot_row(const struct view *view, const struct tie *tie, const struct tie_s
 void slot_start(const struct view *view, const struct tie *tie, struct tie_state *state)
 {
     struct vec u = jet_value(look(view, tie).u);
-    if (tie->curve) state->foot = foot_of(tie, u, nearest_of_all(tie, u));
+    if (tie->curve) state->foot = foot_of(tie, u, curve_near(tie->curve, u));
 }
 
 void slot_follow(const struct view *view, const struct tie *tie, struct tie_state *state)

@@ -199,7 +199,9 @@ bool arrow_is_of_joint(const struct fbd_model *model, int b, const struct arrow 
 {
     const struct model_body *body = &model->bodies[b];
     if (arrow->load < 0) return body->place.link == 0 || arrow->name == body->reaction;
-    return model->loads[arrow->load].body == b && model->loads[arrow->load].source->kind == load_normal;
+    /* What presses a rolling body against its line is not listed by it: no joint, though its load is a normal force. */
+    bool listed = arrow->load >= body->first_load && arrow->load < body->first_load + body->load_count;
+    return listed && model->loads[arrow->load].source->kind == load_normal;
 }
 
 /* What the joint gives acts across its coordinates. */

@@ -298,3 +298,27 @@ double curve_length_at(const struct curve *curve, double p)
     }
     return wanted == 0 ? panel->s : panel->s + panel->length * (1 + x) / 2;
 }
+
+/* By the formulas alone: lengths and slopes are not asked for before the nearest is found. */
+static void look_near(const struct curve *curve, const struct curve_piece *piece,
+                      const struct curve_panel *panel, struct vec r, double *least, double *nearest)
+{
+    enum { samples = 16 };
+    for (int i = 0; i <= samples; i++) {
+        double p = panel->p + panel->wide * i / samples;
+        struct vec place = {expr_eval(curve->x, 0, &p, piece->branch_x),
+                            expr_eval(curve->y, 0, &p, piece->branch_y)};
+        double away = vec_norm(vec_sub(place, r));
+        if (away < *least) *least = away, *nearest = p;
+    }
+}
+
+double curve_near(const struct curve *curve, struct vec r)
+{
+    double least = HUGE_VAL, nearest = curve->from;
+    for (int i = 0; i < curve->piece_count; i++)
+        for (int k = 0; k < curve->pieces[i].count; k++)
+            look_near(curve, &curve->pieces[i], &curve->panels[curve->pieces[i].first + k], r, &least,
+                      &nearest);
+    return curve_length_at(curve, nearest);
+}

@@ -70,6 +70,9 @@ struct curve_place curve_at(const struct curve *curve, const int *piece, double 
 /* d2 kappa / ds2. */
 double curve_slope_rate(const struct curve *curve, const int *piece, double s);
 
+/* The arc length of the place that is nearest to r among sixteen of each panel: where to begin to look for the foot. */
+double curve_near(const struct curve *curve, struct vec r);
+
 /* The arc length at parameter p within its range, and back. */
 double curve_length_at(const struct curve *curve, double p);
 double curve_parameter(const struct curve *curve, double s);

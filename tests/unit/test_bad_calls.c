@@ -259,6 +259,7 @@ static void results(void **context)
     ANSWERS(fbd_result_table, !fbd_result_table(result).values); /* it was not recorded */
     ANSWERS(fbd_result_state, !fbd_result_state(NULL));
     ANSWERS(fbd_result_energy, is_nan(fbd_result_energy(NULL).kinetic));
+    ANSWERS(fbd_result_residual_explained, is_nan(fbd_result_residual_explained(NULL)));
     ANSWERS(fbd_result_work, is_nan(fbd_result_work(NULL, "block", "spring")));
     ANSWERS(fbd_result_work, is_nan(fbd_result_work(result, NULL, "spring")));
     ANSWERS(fbd_result_work, is_nan(fbd_result_work(result, "block", NULL)));
