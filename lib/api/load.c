@@ -131,7 +131,8 @@ size_t fbd_model_parameter_count(const fbd_model *model)
 
 fbd_parameter fbd_model_parameter(const fbd_model *model, size_t index)
 {
-    if (index >= fbd_model_parameter_count(model)) return (fbd_parameter){.value = NAN, .low = NAN, .high = NAN};
+    if (index >= fbd_model_parameter_count(model))
+        return (fbd_parameter){.value = NAN, .low = NAN, .high = NAN};
     const struct parameter *parameter = &model->scene->parameters[index];
     return (fbd_parameter){.name = parameter->name,
                            .unit = parameter->unit,

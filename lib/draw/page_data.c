@@ -140,10 +140,9 @@ static void symbolic_end(struct symbolic *symbolic)
 
 static const struct equation *find_equation(const fbd_equations *all, const char *name)
 {
-    size_t length;
     for (size_t i = 0; i < all->count; i++) {
         const fbd_equation *e = &all->equations[i].public;
-        length = strlen(e->body);
+        const size_t length = strlen(e->body);
         if (strncmp(name, e->body, length) == 0 && name[length] == '.' &&
             strcmp(name + length + 1, e->coordinate) == 0)
             return &all->equations[i];

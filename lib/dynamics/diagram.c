@@ -230,8 +230,8 @@ static void set_share(const struct fbd_model *model, int b, const struct instant
 /* On the ground the coordinates are all the motion that there is; else the point and the turning of its link. */
 static double power_of(const struct model_body *body, const struct instant *at, const struct arrow *arrow)
 {
-    double power = 0;
     if (body->place.link == 0) {
+        double power = 0;
         for (int k = 0; k < body->count; k++) power += arrow->share[k] * at->y[body->first_rate + k];
         return power;
     }

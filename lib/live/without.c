@@ -239,8 +239,10 @@ static char *write_without(const struct fbd_model *model, const char *const *nam
         struct leaving leaving = {
             spans, effects, off, room, {.text = model->source, .length = model->source_length}};
         fine = choose(&leaving, off, names, count, errors);
-        if (fine) leave_out(&leaving);
-        if (fine) apply(&text, &leaving.changes);
+        if (fine) {
+            leave_out(&leaving);
+            apply(&text, &leaving.changes);
+        }
         free(leaving.changes.list);
     } else {
         diag_out_of_memory(errors);

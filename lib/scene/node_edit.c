@@ -111,8 +111,8 @@ static const struct node *rewritten_scalar(struct arena *arena, const struct nod
 }
 
 static bool rewrite_pairs(struct arena *arena, struct node *made, const struct node *node,
-                          const char *change(struct arena *arena, const struct node *scalar,
-                                             const void *context),
+                          const char *(*change)(struct arena *arena, const struct node *scalar,
+                                                const void *context),
                           const void *context)
 {
     struct pair *pairs = ARENA_ARRAY(arena, node->count + 1, struct pair);
@@ -131,8 +131,8 @@ static bool rewrite_pairs(struct arena *arena, struct node *made, const struct n
 }
 
 static bool rewrite_items(struct arena *arena, struct node *made, const struct node *node,
-                          const char *change(struct arena *arena, const struct node *scalar,
-                                             const void *context),
+                          const char *(*change)(struct arena *arena, const struct node *scalar,
+                                                const void *context),
                           const void *context)
 {
     const struct node **items = ARENA_ARRAY(arena, node->count + 1, const struct node *);
@@ -146,8 +146,8 @@ static bool rewrite_items(struct arena *arena, struct node *made, const struct n
 }
 
 const struct node *node_rewritten(struct arena *arena, const struct node *node,
-                                  const char *change(struct arena *arena, const struct node *scalar,
-                                                     const void *context),
+                                  const char *(*change)(struct arena *arena, const struct node *scalar,
+                                                        const void *context),
                                   const void *context)
 {
     if (node->kind == node_null) return node;

@@ -26,8 +26,8 @@ const struct node *node_shortened(struct arena *arena, const struct node *list, 
 
 /* A tree with other texts in its scalars. NULL when memory is out. */
 const struct node *node_rewritten(struct arena *arena, const struct node *node,
-                                  const char *change(struct arena *arena, const struct node *scalar,
-                                                     const void *context),
+                                  const char *(*change)(struct arena *arena, const struct node *scalar,
+                                                        const void *context),
                                   const void *context);
 
 /* An empty mapping. */
