@@ -249,9 +249,25 @@ static bool take_fmu_version(int *version)
     return true;
 }
 
+static const double tiny = 1e-300; /* above 0 */
+
+/* What a drawing shows, and how. */
+static bool take_drawing(struct options *options, int option)
+{
+    switch (option) {
+    case option_body: options->drawing.body = optarg; return true;
+    case option_components: options->drawing.components = true; return true;
+    case option_supports: options->drawing.supports = true; return true;
+    case option_symbols: options->drawing.symbols = true; return true;
+    case option_scale: return take_number("scale", tiny, &options->drawing.scale);
+    case option_worksheet: options->drawing.worksheet = true; return true;
+    case option_solution: options->drawing.solution = true; return true;
+    default: return usage("unknown option, or an option without its value", "");
+    }
+}
+
 static bool take_option(const struct command_line *unused, int option, void *context)
 {
-    const double tiny = 1e-300; /* above 0 */
     struct options *options = context;
     (void)unused;
     switch (option) {
@@ -290,13 +306,6 @@ static bool take_option(const struct command_line *unused, int option, void *con
     case option_plot: options->plot = optarg; return true;
     case option_plot_of: options->plot_of = optarg; return true;
     case option_gnuplot: options->gnuplot = optarg; return true;
-    case option_body: options->drawing.body = optarg; return true;
-    case option_components: options->drawing.components = true; return true;
-    case option_supports: options->drawing.supports = true; return true;
-    case option_symbols: options->drawing.symbols = true; return true;
-    case option_scale: return take_number("scale", tiny, &options->drawing.scale);
-    case option_worksheet: options->drawing.worksheet = true; return true;
-    case option_solution: options->drawing.solution = true; return true;
     case option_latex: options->latex = true; return true;
     case option_seed: return take_seed(&options->seed);
     case option_equations: return choose_action(options, action_equations);
@@ -312,7 +321,7 @@ static bool take_option(const struct command_line *unused, int option, void *con
     case option_handout: return choose_action(options, action_handout);
     case option_fmu: options->fmu = optarg; return fmu_can_be_made() && choose_action(options, action_fmu);
     case option_fmu_version: return take_fmu_version(&options->fmu_version);
-    default: return usage("unknown option, or an option without its value", "");
+    default: return take_drawing(options, option);
     }
 }
 

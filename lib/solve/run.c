@@ -272,6 +272,16 @@ static bool crawls(struct run *run)
     return run->crawl > most_steps;
 }
 
+/* A run that crawls fails: of events that crowd, where there were any. */
+static void check_crawl(struct run *run)
+{
+    if (!crawls(run)) return;
+    if (run->crowd > 0)
+        run_fail_chatter(run);
+    else
+        run_fail_step(run, stepper_underflow);
+}
+
 /* Keep the next step away from where a force is infinite; false at such a place. */
 static bool heed_poles(struct run *run)
 {
@@ -331,13 +341,7 @@ fbd_outcome run_advance(struct run *run)
     run_watch_drums(run, &t);
     run_watch_slots(run, &t);
     accept(run, t);
-    if (crawls(run)) {
-        if (run->crowd > 0)
-            run_fail_chatter(run);
-        else
-            run_fail_step(run, stepper_underflow);
-        return run->outcome;
-    }
+    check_crawl(run);
     if (run->outcome != FBD_GOING) return run->outcome;
     if (run->projected) counted_system_rhs(&run->system, t.t, run->y, run->f);
     timed = timed && moment_equal(t, limit);

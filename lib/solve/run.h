@@ -138,7 +138,7 @@ struct run {
 
 /* A run at the start of the model, modes settled, events of t = 0 applied. NULL when memory is out. */
 struct run *run_new(const struct fbd_model *model, const struct run_options *options,
-                    const struct state_start *start);
+                    const struct state_start *begin);
 void run_free(struct run *run);
 
 /* One turn of the loop. */
