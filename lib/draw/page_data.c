@@ -120,11 +120,9 @@ static bool symbolic_begin(struct symbolic *symbolic, const fbd_state *start)
 {
     enum { most_bodies = 100 }; /* numbering takes the square of it, and nobody reads that many equations */
     if (start->model->body_count > most_bodies) return true;
-    fbd_state *copy = fbd_state_new(start->model);
-    if (!copy || !fbd_state_copy(copy, start)) {
-        fbd_state_free(copy);
-        return false;
-    }
+    fbd_state *copy = state_new(start->model);
+    if (!copy) return false;
+    state_copy(copy, start);
     symbolic->equations = assemble(copy, true);
     bool begun = formulas_begin(&symbolic->formulas, copy);
     symbolic->formulas.general = true;
@@ -135,7 +133,7 @@ static void symbolic_end(struct symbolic *symbolic)
 {
     fbd_equations_free(symbolic->equations);
     formulas_end(&symbolic->formulas);
-    fbd_state_free(symbolic->formulas.state);
+    state_free(symbolic->formulas.state);
 }
 
 static const struct equation *find_equation(const fbd_equations *all, const char *name)

@@ -58,7 +58,7 @@ double ledger_work(struct ledger *ledger, const struct fbd_state *state, size_t 
  * in each - the most that was in motion and what went through by forces without a potential - and the rounding of what
  * it is the difference of. A motion whose steps have gone over a short pulse is far beyond it: its work is looked at in
  * other places than the steps are. NAN where no works are integrated. */
-double ledger_explained(struct ledger *ledger, const struct fbd_state *state, double tolerance, double steps);
+double ledger_explained(struct ledger *ledger, struct fbd_state *state, double tolerance, double steps);
 
 /* Energies at a state, given the integrals up to there. */
 fbd_energy ledger_energy(struct ledger *ledger, const struct fbd_state *state, const double *work);
