@@ -335,18 +335,23 @@ static enum exit_code act(const fbd_model *model, const struct options *options,
     return run(model, options, errors);
 }
 
-/* The same model without the effects that are to be left out. */
-static fbd_model *leave_out(fbd_model *model, const struct options *options, fbd_errors *errors)
+/* The same model without the effects that are to be left out; where there is none *code says why. */
+static fbd_model *leave_out(fbd_model *model, const struct options *options, fbd_errors *errors,
+                            enum exit_code *code)
 {
     if (!model || options->without_count == 0) return model;
     fbd_errors *others = fbd_errors_new(); /* what the whole file is warned of has been said */
+    if (!others) *code = no_memory();
     const char *name = strcmp(options->model, "-") == 0 ? NULL : options->model;
     char *text = fbd_model_without(model, options->without, options->without_count, errors);
     fbd_model_free(model);
     model = text && others
                 ? fbd_model_parse(text, strlen(text), name, options->settings, options->setting_count, others)
                 : NULL;
-    if (!model && others) fbd_errors_print(others, stderr);
+    if (!model && others) {
+        fbd_errors_print(others, stderr);
+        *code = exit_code_for(*code, others);
+    }
     fbd_errors_free(others);
     fbd_free(text);
     return model;
@@ -358,8 +363,9 @@ static enum exit_code read_and_act(const struct options *options)
     if (!errors) return no_memory();
     fbd_model *model = fbd_model_read(options->model, options->settings, options->setting_count, errors);
     if (options->watched) watch_tell(options->watched, errors);
-    model = leave_out(model, options, errors);
-    enum exit_code code = !model                           ? exit_bad_model
+    enum exit_code missing = exit_bad_model;
+    model = leave_out(model, options, errors, &missing);
+    enum exit_code code = !model                           ? missing
                           : options_spare(options, errors) ? act(model, options, errors)
                                                            : exit_usage;
     fflush(stdout);

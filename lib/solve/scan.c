@@ -443,11 +443,15 @@ static int mark_crossed(struct scan *scan, double t)
     int status = known ? 0 : take_sample(scan, point, t);
     if (status) return status;
     scan->t = t;
+    /* Those that are searched in the other turn may have been negative for long. */
     bool ahead = scan->groups && !scan->follow;
+    const struct proof_group *group = scan->groups;
     for (size_t i = 0; i < scan->count; i++) {
         size_t first = scan->found_in->first;
+        while (group && i >= group->first + group->count) group++;
         bool found = i >= first && i < first + scan->found_in->count;
         bool falls = ahead ? point->rates[i] < 0 : known && crosses(&scan->points[0], point, i);
+        falls = falls && (!group || group->aside == scan->aside);
         scan->crossed[i] = point->values[i] < 0 && (found || falls);
     }
     return 1;

@@ -129,7 +129,8 @@ def test_parts_outlive_the_whole():
     import gc
 
     parts = []
-    for path in sorted(MODELS.glob("*/*.yaml"))[::7]:
+    with_statics = [path for path in sorted(MODELS.glob("*/*.yaml")) if path.stem != "constant_power"]  # infinite at rest
+    for path in with_statics[::7]:
         model = fbd.Model(path)
         run = model.run(until=0.01, progress=lambda progress: None)
         parts += [run["t"], run.end, run.events, model.equations(), run.stats]
