@@ -51,7 +51,7 @@ static bool is_used_up(const struct drum *drum, double left)
 /* A time in a stretch at which it is used up, where it may be at its least; NAN where it is not. */
 static double used_up_within(const struct drum *drum, double from, double to)
 {
-    double before, after, rate;
+    double before = 0, after = 0, rate;
     double left = left_at(drum, from, &before);
     if (is_used_up(drum, left)) return from;
     left = left_at(drum, to, &after);
@@ -122,7 +122,7 @@ static double piece_at(struct run *run, int index, int k, double t, double *rate
 /* Where a piece is at its shortest within the last step: it may go through nothing and grow again, beyond the rim. */
 static double shortest_at(struct run *run, int index, int k, double little, double to)
 {
-    double from = run->from, before, after, rate;
+    double from = run->from, before = 0, after = 0, rate;
     piece_at(run, index, k, from, &before);
     piece_at(run, index, k, to, &after);
     while (before < 0 && after > 0) {
