@@ -313,7 +313,7 @@ double shortest_piece(const struct absolute *absolute)
 struct series row_value(const struct absolute *absolute, const struct row *row)
 {
     const struct scene *scene = absolute->scene;
-    const struct coupling *coupling = &scene->coupling[row->owner];
+    const struct coupling *coupling = row->kind < row_link_pin_x ? NULL : &scene->coupling[row->owner];
     struct series g = ser(0);
     switch (row->kind) {
     case row_angle: g = turned(absolute, row->owner); break;
