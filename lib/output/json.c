@@ -305,7 +305,8 @@ static void write_energy(struct text *text, fbd_result *result)
     member(text, "potential", energy.potential, false);
     member(text, "work", energy.work, false);
     member(text, "residual", energy.residual, false);
-    member(text, "residual_explained", fbd_result_residual_explained(result), false);
+    double explained = fbd_result_residual_explained(result); /* infinite for steps of fixed size */
+    if (isfinite(explained)) member(text, "residual_explained", explained, false);
     member(text, "initial_kinetic", energy.initial_kinetic, false);
     member(text, "initial_potential", energy.initial_potential, true);
     text_add(text, "},\n");
