@@ -20,7 +20,7 @@ static void cannot_read(fbd_errors *errors, const char *path, const char *why)
     diag_add(errors, FBD_ERROR, "cannot-read", (struct pos){0, 0}, NULL, "cannot read the file: %s", why);
 }
 
-/* The whole of a stream, or NULL with *why, which is NULL when memory is out. */
+/* The whole of a stream, with a zero behind it, or NULL with *why, which is NULL when memory is out. */
 static char *read_stream(FILE *stream, size_t *length, const char **why)
 {
     size_t room = 16384;
@@ -33,6 +33,7 @@ static char *read_stream(FILE *stream, size_t *length, const char **why)
         *length += fread(text + *length, 1, room - *length, stream);
         if (*length < room) {
             *why = ferror(stream) ? strerror(errno) : NULL;
+            text[*length] = '\0';
             if (!*why) return text;
             free(text);
             return NULL;

@@ -245,6 +245,7 @@ static void open_answer(struct fbd_grade *grade, const char *path, struct answer
         note_absent(grade, "the answer is empty");
         return;
     }
+    answer_mend(grade, answer->text, length);
     bool open = document_open(&answer->document, answer->text, length, grade->file, errors);
     if (open && fbd_errors_failed_count(errors) == 0 && answer->document.root->kind == node_map)
         answer->root = shorten_lists(grade, strip(grade, answer->document.root));

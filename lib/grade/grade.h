@@ -97,6 +97,9 @@ struct answer {
 bool answer_read(struct fbd_grade *grade, const char *path, struct answer *answer, fbd_errors *errors);
 void answer_close(struct answer *answer);
 
+/* Blank the entries for which YAML cannot read a text, each with a finding (mend.c). */
+void answer_mend(struct fbd_grade *grade, char *text, size_t length);
+
 /* ---- comparing */
 
 /* Forces and moments of all bodies (compare.c), derivations (lines.c). */

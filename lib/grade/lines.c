@@ -19,9 +19,17 @@ struct line {
     unsigned says;
     size_t seen[slips], agreed[slips];
     bool checked;
-    bool dynamic;    /* it fails when other forces act: it is not of the motion alone */
-    unsigned met;    /* the unknowns of the line of the key that it has met */
-    bool in_numbers; /* for the values of the sheet, not for others */
+    bool dynamic;         /* it fails when other forces act: it is not of the motion alone */
+    unsigned met;         /* the unknowns of the line of the key that it has met */
+    bool in_numbers;      /* for the values of the sheet, not for others */
+    double share;         /* of a line of the key: in how many of its cases it is met */
+    fbd_finding *finding; /* what is said of a line of the key */
+};
+
+/* The lines of a body, in the order of the file: its own, and those of the key. */
+struct body_lines {
+    struct line *own, *key;
+    size_t count, key_count;
 };
 
 /* ---- the same scene with other forces */
@@ -295,35 +303,90 @@ static bool find_line(struct line *own, size_t count, const struct line *key, in
     return false;
 }
 
-/* Is a line of the key met, and by which share of its cases? */
-static void note_key_line(struct lines *lines, int body, int index, const struct line *key, struct line *own,
-                          size_t count)
+/* By which share of its cases a line of the key is met. */
+static double share_met(const struct line *key, struct line *own, size_t count)
 {
-    struct fbd_grade *grade = lines->grade;
     int seen = 0, met = 0;
     for (int slip = 0; slip < slips; slip++) {
         bool found = key->seen[slip] > 0 && find_line(own, count, key, slip);
         seen += key->seen[slip] > 0;
         met += found;
     }
-    double share = seen ? (double)met / seen : 0;
+    return seen ? (double)met / seen : 0;
+}
+
+static void say_of_key_line(struct lines *lines, int body, const struct line *key)
+{
+    struct fbd_grade *grade = lines->grade;
     const char *name = unknown_of(lines, body, key->says);
     struct text text = {0};
-    fbd_finding *finding = finding_add(grade, share > 0 ? FBD_FINDING_RIGHT : FBD_FINDING_MISSING,
-                                       lines->model->bodies[body].name, "", (struct pos){0, 0});
-    finding->most = grade->key->model->scene->grading.points.derivation;
-    finding->points = share * finding->most;
-    text_printf(&text, "%s%s%s", share > 0 ? "the equation" : "a right equation", name ? " for " : "",
+    fbd_finding *finding = key->finding;
+    finding->kind = key->share > 0 ? FBD_FINDING_RIGHT : FBD_FINDING_MISSING;
+    finding->points = key->share * finding->most;
+    text_printf(&text, "%s%s%s", key->share > 0 ? "the equation" : "a right equation", name ? " for " : "",
                 name ? name : "");
-    text_add(&text, share == 1  ? " is right"
-                    : share > 0 ? " is right for one direction of slip only"
-                                : " is missing");
+    text_add(&text, key->share == 1  ? " is right"
+                    : key->share > 0 ? " is right for one direction of slip only"
+                                     : " is missing");
     finding_say(grade, finding, text.data ? text.data : "");
-    text.length = 0;
-    text_printf(&text, "the key has `%s`", grade->sheet->scene->bodies[body].hands[index].text);
-    finding_tell(grade, finding, text.data ? text.data : "");
     if (text.failed) grade->arena.failed = true;
     text_free(&text);
+}
+
+static void note_key_line(struct lines *lines, int body, int index, struct line *key)
+{
+    struct fbd_grade *grade = lines->grade;
+    struct text text = {0};
+    key->finding =
+        finding_add(grade, FBD_FINDING_MISSING, lines->model->bodies[body].name, "", (struct pos){0, 0});
+    key->finding->most = grade->key->model->scene->grading.points.derivation;
+    text_printf(&text, "the key has `%s`", grade->sheet->scene->bodies[body].hands[index].text);
+    finding_tell(grade, key->finding, text.data ? text.data : "");
+    if (text.failed) grade->arena.failed = true;
+    text_free(&text);
+    say_of_key_line(lines, body, key);
+}
+
+static bool is_of_motion(const struct line *line)
+{
+    const unsigned accelerations = ((1U << hand_mass) - 1) | (unsigned)hand_others;
+    return line->dynamic && (line->says & accelerations) != 0;
+}
+
+static double share_agreed(const struct line *line)
+{
+    int seen = 0, agreed = 0;
+    for (int slip = 0; slip < slips; slip++) {
+        seen += line->seen[slip] > 0;
+        agreed += agrees_at(line, slip);
+    }
+    return seen ? (double)agreed / seen : 0;
+}
+
+/* With one degree of freedom there is one equation of motion, whichever acceleration it is written for. Where none of
+ * the key's is met, the first is by the answer's first that is true: a second one might be the same again. */
+static void meet_by_another(struct lines *lines, struct body_lines *bodies, size_t count)
+{
+    struct line *wanted = NULL, *given = NULL;
+    size_t body = 0;
+    for (size_t b = 0; b < count; b++) {
+        for (size_t k = 0; k < bodies[b].key_count; k++) {
+            struct line *key = &bodies[b].key[k];
+            if (is_of_motion(key) && key->share > 0) return;
+            if (!is_of_motion(key) || wanted) continue;
+            wanted = key;
+            body = b;
+        }
+        for (size_t i = 0; i < bodies[b].count; i++) {
+            struct line *own = &bodies[b].own[i];
+            if (is_of_motion(own) && own->met == 0 && agrees_somewhere(own) && !given) given = own;
+        }
+    }
+    if (!wanted || !given) return;
+    for (size_t k = 0; k < sizeof shares / sizeof *shares; k++) push(lines, shares[k], &lines->pushed[k]);
+    if (!lines_one_freedom(lines)) return;
+    wanted->share = share_agreed(given);
+    say_of_key_line(lines, (int)body, wanted);
 }
 
 /* The lines of a body, in the order of the file. */
@@ -345,20 +408,35 @@ static bool look_at_own(struct lines *lines, struct lines *plain, int body, int 
     return true;
 }
 
-static bool grade_body(struct lines *lines, struct lines *plain, struct lines *sheet, int body)
+static bool grade_body(struct lines *lines, struct lines *plain, struct lines *sheet, int body,
+                       struct body_lines *found)
 {
-    const struct fbd_grade *grade = lines->grade;
-    size_t count = lines->model->scene->bodies[body].hand_count;
-    size_t key_count = grade->sheet->scene->bodies[body].hand_count;
-    struct line *own = calloc(count + key_count + 1, sizeof *own), *key = own + count;
-    bool done = own && look_at_lines(sheet, body, key, key_count);
-    for (size_t i = 0; done && i < count; i++) {
-        done = look_at_own(lines, plain, body, (int)i, &own[i]);
-        if (done) note_student_line(lines, body, (int)i, &own[i], is_asked(&own[i], key, key_count));
+    found->count = lines->model->scene->bodies[body].hand_count;
+    found->key_count = lines->grade->sheet->scene->bodies[body].hand_count;
+    found->own = ARENA_ARRAY(&lines->grade->arena, found->count + found->key_count + 1, struct line);
+    found->key = found->own ? found->own + found->count : NULL;
+    bool done = found->own && look_at_lines(sheet, body, found->key, found->key_count);
+    for (size_t i = 0; done && i < found->count; i++) {
+        done = look_at_own(lines, plain, body, (int)i, &found->own[i]);
+        if (done)
+            note_student_line(lines, body, (int)i, &found->own[i],
+                              is_asked(&found->own[i], found->key, found->key_count));
     }
-    for (size_t k = 0; done && k < key_count; k++) note_key_line(lines, body, (int)k, &key[k], own, count);
-    free(own);
+    for (size_t k = 0; done && k < found->key_count; k++) {
+        found->key[k].share = share_met(&found->key[k], found->own, found->count);
+        note_key_line(lines, body, (int)k, &found->key[k]);
+    }
     return done;
+}
+
+static bool grade_all(struct lines *lines, struct lines *plain, struct lines *sheet)
+{
+    size_t count = lines->model->body_count;
+    struct body_lines *bodies = ARENA_ARRAY(&lines->grade->arena, count + 1, struct body_lines);
+    bool done = bodies != NULL;
+    for (size_t b = 0; done && b < count; b++) done = grade_body(lines, plain, sheet, (int)b, &bodies[b]);
+    if (done) meet_by_another(lines, bodies, count);
+    return done && !lines->grade->arena.failed;
 }
 
 static bool open_lines(struct lines *lines)
@@ -397,8 +475,7 @@ void grade_lines(struct fbd_grade *grade, const struct node *root)
     bool done = open_lines(&lines) && open_lines(&plain) && open_lines(&sheet);
     if (done) lines_read(&lines, root);
     done = done && lines.model != NULL && read_plain(&lines, &plain);
-    for (size_t b = 0; done && b < lines.model->body_count; b++)
-        done = grade_body(&lines, &plain, &sheet, (int)b);
+    done = done && grade_all(&lines, &plain, &sheet);
     if (!done) grade->arena.failed = true;
     fbd_model_free(lines.model);
     fbd_model_free(plain.model);

@@ -37,6 +37,9 @@ fbd_model *lines_try(struct lines *lines, const struct node *root, bool hands, b
  * are noted. No model when memory is out. */
 void lines_read(struct lines *lines, const struct node *answer);
 
+/* Has the scene one degree of freedom? Its pushes are made (freedom.c). */
+bool lines_one_freedom(struct lines *lines);
+
 /* ---- coordinates of the answer's own (coordinates.c) */
 
 /* The derivations of a body in the coordinates of the sheet. NULL when memory is out, or `hand` is. */

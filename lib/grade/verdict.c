@@ -350,6 +350,8 @@ static const char *unit_of_ratio(double ratio, double g)
         {1 / 4.4482216152605, "its unit may be wrong: newtons where pounds are meant"},
         {57.29577951308232, "its unit may be wrong: degrees where radians are meant"},
         {1 / 57.29577951308232, "its unit may be wrong: radians where degrees are meant"},
+        {1.3558179483314004, "its unit may be wrong: pound-feet where newton-metres are meant"},
+        {1 / 1.3558179483314004, "its unit may be wrong: newton-metres where pound-feet are meant"},
         {0.3048, "its unit may be wrong: feet where metres are meant, or the other way"},
         {1 / 0.3048, "its unit may be wrong: feet where metres are meant, or the other way"},
     };

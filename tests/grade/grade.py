@@ -7,6 +7,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+import inventions
 from errors import CASES, KEYS, RIGHT
 
 RUN = sys.argv[1]
@@ -61,15 +62,29 @@ def test_right(folder):
               json.dumps(wrong, indent=1)[:1500])
 
 
+def test_inventions(folder):
+    for number, (name, what, changes, expected) in enumerate(inventions.CASES):
+        key, answer = folder / f"{name}.key.yaml", folder / f"invention{number}.yaml"
+        answer.write_text(changed(inventions.KEYS[name], changes), encoding="utf-8")
+        code, (result,) = grade(key, answer)
+        wrong = [one for one in result["tests"] if one["kind"] != "right"]
+        full = result["score"] == 1
+        found = sorted(one["kind"] for one in wrong)
+        claim(found == expected and full == (code == 0) == (expected in ([], ["unreadable"])),
+              f"{name}: {what}: {', '.join(expected) or 'right'}", json.dumps(wrong, indent=1)[:1500])
+
+
 def main():
     with tempfile.TemporaryDirectory() as path:
         folder = Path(path)
-        for name, text in KEYS.items():
+        assert not set(KEYS) & set(inventions.KEYS)
+        for name, text in {**KEYS, **inventions.KEYS}.items():
             (folder / f"{name}.key.yaml").write_text(text, encoding="utf-8")
             code, (result,) = grade(folder / f"{name}.key.yaml", folder / f"{name}.key.yaml")
             claim(code == 0 and result["score"] == 1, f"{name}: the key passes itself", json.dumps(result)[:1500])
         test_cases(folder)
         test_right(folder)
+        test_inventions(folder)
     print(f"1..{count}")
     return bad > 0
 

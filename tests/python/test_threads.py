@@ -67,17 +67,18 @@ def test_sweeps_of_several_threads(pendulum):
     lambda model: model.run(until=2e4, every=1e3).at(1.9e4),
 ])
 def test_python_goes_on_meanwhile(pendulum, work):
-    thread = threading.Thread(target=work, args=(pendulum,))
-    ticks = []
-    begin = time.perf_counter()
-    thread.start()
-    while thread.is_alive():
-        ticks.append(time.perf_counter())
-        time.sleep(0.001)
-    wall = time.perf_counter() - begin
-    assert wall > 0.1, "too quick to tell"
-    # With the interpreter held the whole work would be one gap.
-    assert np.max(np.diff([begin, *ticks])) < 0.5 * wall
+    """The switch interval is beyond the work: only where the library works without the interpreter does another thread
+    come to its turn again and again, in any time."""
+    thread, turns, interval = threading.Thread(target=work, args=(pendulum,)), 0, sys.getswitchinterval()
+    sys.setswitchinterval(1e6)
+    try:
+        thread.start()
+        while thread.is_alive():
+            turns += 1
+            time.sleep(0)
+    finally:
+        sys.setswitchinterval(interval)
+    assert turns > 50  # with the interpreter held it is none, or the few at the ends
 
 
 SLOW = {
@@ -112,6 +113,34 @@ def test_ctrl_c_ends_what_takes_long(slow):
         assert time.perf_counter() - begin < 5
     assert said == "interrupted done\n"
     assert process.returncode == 0
+
+
+# Here the other thread alone can end what goes on.
+HELD = """
+import os, signal, sys, threading, time, fbd
+model = fbd.Model(sys.argv[1])
+sys.setswitchinterval(1e6)
+begun, turns = threading.Event(), 0
+
+def other():
+    global turns
+    begun.set()
+    for turns in range(1, 1001):
+        time.sleep(0)
+    os.kill(os.getpid(), signal.SIGINT)
+
+threading.Thread(target=other, daemon=True).start()
+begun.wait()
+try:
+    model.run(until=1e9, every=1e6)
+except KeyboardInterrupt:
+    print("ended after", turns)
+"""
+
+
+def test_another_thread_ends_a_run():
+    done = subprocess.run([sys.executable, "-c", HELD, str(PENDULUM)], stdout=subprocess.PIPE, text=True, timeout=60, check=True)
+    assert done.stdout == "ended after 1000\n"
 
 
 MANY = """
