@@ -134,6 +134,7 @@ const char *diag_hint(fbd_errors *errors, const char *format, ...)
 void diag_in_file(fbd_errors *errors, const char *file)
 {
     errors->file = file ? diag_hint(errors, "%s", file) : NULL;
+    if (file && !errors->file) diag_out_of_memory(errors);
 }
 
 void diag_reads(fbd_errors *errors, const char *path)

@@ -11,6 +11,7 @@
 #include "base/call.h"
 #include "base/format.h"
 #include "draw/panel.h"
+#include "dynamics/mass.h"
 #include "output/equations.h"
 #include "output/result.h"
 #include "output/symbols.h"
@@ -172,11 +173,12 @@ static void write_heading(const struct panel *panel, struct text *text, struct v
         panel->symbols ? symbol_of_mass(panel->model, (int)(body - panel->model->bodies), panel->arena) : "m";
     const char *printed = symbol ? symbol_printed(symbol, panel->arena) : NULL;
     if (!printed) line.failed = true;
-    text_printf(&line, "%s = %.4g %s", printed ? printed : "", body->inertia.mass, mass);
+    text_printf(&line, "%s = %.4g %s", printed ? printed : "", body_mass(body, &panel->at), mass);
     bool turns = body->kind == motion_pivot || body->kind == motion_planar;
     if (turns)
         text_printf(&line, ", %s = %.4g %s", body->kind == motion_pivot ? "I_O" : "I_G",
-                    body->kind == motion_pivot ? body->I_O : body->inertia.I_G,
+                    body->kind == motion_pivot ? body_I_O(body, &panel->at)
+                                               : body_inertia(body, &panel->at).I_G,
                     panel->model->scene->units == unit_si ? "kg·m²" : "slug·ft²");
     svg_text_at(text, "heading", at, body->name);
     if (line.failed)

@@ -151,8 +151,10 @@ static const struct equation *find_equation(const fbd_equations *all, const char
 /* One equation: inertia * acceleration = sum of terms. */
 struct row {
     const char *body, *coordinate, *inertia, *inertia_unit, *acceleration, *acceleration_unit, *unit;
-    double value;
-    int column; /* of the acceleration */
+    double value; /* of the inertia, at the start */
+    int column;   /* of the acceleration */
+    int mass;     /* of the mass, with which the inertia goes, or -1; */
+    double start; /* and what it is at the start */
 };
 
 static void begin_equation(struct text *text, struct symbolic *symbolic, const struct row *row)
@@ -168,6 +170,10 @@ static void begin_equation(struct text *text, struct symbolic *symbolic, const s
     json_text_member(text, "inertia", row->inertia);
     json_text_member(text, "left", left ? left : "");
     json_number_member(text, "value", row->value);
+    if (row->mass >= 0) {
+        text_printf(text, "\"mass\":%d,", row->mass);
+        json_number_member(text, "massAtStart", row->start);
+    }
     json_text_member(text, "inertiaUnit", row->inertia_unit);
     json_text_member(text, "accelerationName", row->acceleration);
     json_text_member(text, "accelerationUnit", row->acceleration_unit);
@@ -208,7 +214,9 @@ static void write_coordinate_equation(struct text *text, struct symbolic *symbol
                       .value = pivot    ? body->I_O
                                : k == 2 ? body->inertia.I_G
                                         : body->inertia.mass,
-                      .column = columns->equation + k};
+                      .column = columns->equation + k,
+                      .mass = columns->mass,
+                      .start = body->inertia.mass};
     begin_equation(text, symbolic, &row);
     bool first = true;
     for (size_t i = 0; i < columns->arrow_count; i++) {
@@ -244,7 +252,9 @@ static void write_newton_equations(struct text *text, struct symbolic *symbolic,
                                                      : "ft/s^2",
                           .unit = turns ? moment_unit(model) : force_unit(model),
                           .value = turns ? body->inertia.I_G : body->inertia.mass,
-                          .column = columns->newton + part};
+                          .column = columns->newton + part,
+                          .mass = columns->mass,
+                          .start = body->inertia.mass};
         if (part > 0 || body->count > 0) text_add(text, ",");
         begin_equation(text, symbolic, &row);
         bool first = true;

@@ -53,6 +53,7 @@ struct record_of_body {
     int equation;                       /* the accelerations in the equations of its coordinates */
     int newton;                         /* three columns: of G, and the angular acceleration */
     int moving_axis;                    /* what stands beside the forces, see tree_has_more; else -1 */
+    int mass;                           /* where it varies; else -1 */
     size_t arrow_count;
     struct record_of_arrow *arrows;
 };

@@ -3,6 +3,7 @@
  * The columns of a record, and the numbers of one row: both in the same order.
  */
 #include "draw/record.h"
+#include "dynamics/mass.h"
 #include "dynamics/tree.h"
 #include "output/equations.h"
 #include "output/force_columns.h"
@@ -41,6 +42,7 @@ static void define_equations(struct record *record, int b)
     const char *linear = model->scene->units == unit_si ? "m/s^2" : "ft/s^2";
     bool off_center = body->kind == motion_planar && body->parent == ground_body;
     columns->equation = columns->acceleration;
+    columns->mass = -1;
     columns->moving_axis = -1;
     if (!equation_has_coordinate(body)) columns->equation = (int)record->column_count;
     for (int k = 0; k < body->count && !equation_has_coordinate(body); k++)
@@ -57,6 +59,9 @@ static void define_equations(struct record *record, int b)
         columns->moving_axis =
             define(record, record_term, b, name_of(record, body, track ? "turning_along" : "moving_axis", ""),
                    track ? force_unit(model) : moment_unit(model));
+    if (body->varies)
+        columns->mass = define(record, record_term, b, name_of(record, body, "m", ""),
+                               model->scene->units == unit_si ? "kg" : "slug");
 }
 
 static void define_motion(struct record *record, int b)
@@ -178,6 +183,7 @@ static double *fill_equations(double *out, const struct record_of_body *columns,
     *out++ = a_G.y;
     *out++ = body_angular_acceleration(body, at, a);
     if (columns->moving_axis >= 0) *out++ = tree_more(body, at);
+    if (columns->mass >= 0) *out++ = body_mass(body, at);
     return out;
 }
 

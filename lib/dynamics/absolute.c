@@ -5,6 +5,7 @@
 
 #include "dynamics/constraint.h"
 #include "dynamics/friction.h"
+#include "dynamics/mass.h"
 
 size_t extended_size(const struct fbd_model *model)
 {
@@ -21,6 +22,8 @@ static double choose(enum absolute_kind kind, struct motion_of_point at, double 
     case absolute_angle: return angle;
     case absolute_angle_dot: return omega;
     case absolute_acceleration: /* output/hand.c */
+    case absolute_mass:
+    case absolute_mass_rate:
     case absolute_slip: break;
     }
     return 0;
@@ -63,6 +66,19 @@ static double slip_along(const struct fbd_model *model, const struct model_absol
 
 /* ---- all of them */
 
+/* How fast masses change goes with the rates of states, which may name any of the others. */
+static void write_mass_rates(const struct fbd_model *model, const struct instant *at, double *y)
+{
+    double *places = y + plan_size(&model->plan) + hand_slots;
+    struct instant written = *at;
+    written.y = y;
+    for (size_t k = 0; k < model->absolute_count; k++) {
+        const struct model_absolute *absolute = &model->absolutes[k];
+        if (absolute->kind == absolute_mass_rate)
+            places[k] = body_mass_rate(model, &model->bodies[absolute->body], &written);
+    }
+}
+
 void absolutes_write(const struct fbd_model *model, const struct instant *at, double *y)
 {
     double *places = y + plan_size(&model->plan) + hand_slots;
@@ -73,10 +89,13 @@ void absolutes_write(const struct fbd_model *model, const struct instant *at, do
             places[k] = slip_at(model, absolute, at);
             continue;
         }
+        if (absolute->kind == absolute_mass) places[k] = body_mass(body, at);
+        if (absolute->kind == absolute_mass || absolute->kind == absolute_mass_rate) continue;
         struct pose pose = body_pose(body, at);
         places[k] = choose(absolute->kind, point_motion(body, &pose, absolute->point), body_angle(body, at),
                            pose.omega);
     }
+    write_mass_rates(model, at, y);
 }
 
 struct instant instant_extend(const struct fbd_model *model, const struct instant *at)
@@ -107,6 +126,12 @@ static double varied(const struct fbd_model *model, const struct model_absolute 
 {
     const struct model_body *body = &model->bodies[absolute->body];
     if (absolute->kind == absolute_slip) return slip_along(model, absolute, at, along);
+    if (absolute->kind == absolute_mass) {
+        double variation;
+        formula_along(&body->mass, at, along, &variation);
+        return variation;
+    }
+    if (absolute->kind == absolute_mass_rate) return body_mass_rate_along(model, body, at, along);
     if (body->place.link > 0) {
         const struct tree_variation *d = &at->tree->variation[body->place.link];
         return choose(absolute->kind, jointed_along(body, at, absolute->point), d->angle, d->omega);
@@ -126,7 +151,10 @@ struct direction direction_extend(const struct fbd_model *model, const struct in
     double *dy = at->extended + extended_size(model);
     if (along->dy != dy) memcpy(dy, along->dy, size * sizeof *dy);
     if (model->tree) tree_move_along(model, at, along);
-    for (size_t k = 0; k < model->absolute_count; k++)
-        dy[size + hand_slots + k] = varied(model, &model->absolutes[k], at, along);
-    return (struct direction){along->dt, dy};
+    const struct direction extended = {along->dt, dy};
+    for (int rates = 0; rates < 2; rates++) /* how fast masses change goes with all the others */
+        for (size_t k = 0; k < model->absolute_count; k++)
+            if ((model->absolutes[k].kind == absolute_mass_rate) == (rates == 1))
+                dy[size + hand_slots + k] = varied(model, &model->absolutes[k], at, &extended);
+    return extended;
 }

@@ -2,6 +2,7 @@
 #include "dynamics/diagram.h"
 
 #include "dynamics/laws.h"
+#include "dynamics/mass.h"
 #include "dynamics/tree.h"
 
 size_t diagram_arrows(const struct fbd_model *model, int body)
@@ -159,11 +160,12 @@ static struct arrow posed_arrow(const struct fbd_model *model, int index, const 
     struct motion_of_point point = point_motion(body, pose, load->point);
     struct arrow arrow = {.name = source->name, .load = index, .point = load_place(load, point.p, at)};
     switch (source->kind) {
-    case load_gravity: arrow.force = vec_scale(body->inertia.mass, model->scene->gravity); break;
+    case load_gravity: arrow.force = vec_scale(body_mass(body, at), model->scene->gravity); break;
     case load_drive: drive_arrow(model, body, &joint, slots, &arrow); break;
     case load_rope:
     case load_belt:
     case load_contact:
+    case load_carried:
     case load_normal: break; /* a reaction: set from the sum of the others */
     case load_friction:
         act_along(body, &joint, friction_at(model, body->friction, at, slots).force, &arrow);

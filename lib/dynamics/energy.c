@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/energy.h"
 
+#include "dynamics/mass.h"
 #include "dynamics/tree.h"
 
 #include <gsl/gsl_errno.h>
@@ -21,7 +22,7 @@ double kinetic_energy(const struct model_body *body, const struct instant *at)
     case motion_track: break;
     }
     struct vec v_G = point_motion(body, &pose, body->inertia.G).v;
-    return (m * vec_dot(v_G, v_G) + body->inertia.I_G * pose.omega * pose.omega) / 2;
+    return body_share(body, at) * (m * vec_dot(v_G, v_G) + body->inertia.I_G * pose.omega * pose.omega) / 2;
 }
 
 double jointed_kinetic_energy(struct fbd_state *state)

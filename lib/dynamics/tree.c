@@ -69,6 +69,12 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->damping = 1e-6;
     work->accuracy = 1e-10;
     work->links[0].turn = work->links[0].e = (struct vec){1, 0};
+    for (int i = 1; i < tree->count; i++) {
+        struct tree_state *s = &work->links[i];
+        s->mass = tree->links[i].mass;
+        s->I_O = tree->links[i].I_O;
+        s->across = tree->links[i].across;
+    }
 }
 
 /* ---- results */

@@ -38,6 +38,7 @@ struct tree_state {
     struct vec turn;          /* cosine and sine of the angle */
     struct vec p, v;          /* of O */
     struct vec d;             /* from the parent's O */
+    double mass, I_O, across; /* those of the link, at this instant */
     struct vec mr;            /* mass times the vector from O to the centre of mass */
     struct vec e;             /* slide, track: direction of +x; free: that of the x axis of the body below */
     struct acceleration A;    /* first the bias, then the acceleration */
@@ -134,7 +135,7 @@ double tree_angular_acceleration(const struct model_body *body, const struct ins
 bool tree_has_more(const struct model_body *body);
 double tree_more(const struct model_body *body, const struct instant *at);
 
-/* Kinematics alone: where the links are and how they move. */
+/* Kinematics alone: where the links are, how they move, and what of them there is. */
 void tree_move(const struct fbd_model *model, const struct instant *at);
 
 /* ---- parts, for the files of the tree */
@@ -151,6 +152,11 @@ void tree_bias_along(const struct tree *tree, const struct instant *at, const st
 /* Subtract what acts on the links from their p; its variation (tree_loads.c). */
 void tree_load(const struct tree *tree, const struct instant *at);
 void tree_load_along(const struct tree *tree, const struct instant *at, const struct direction *along);
+
+/* Masses that vary (tree_mass.c): what the links are at this instant, the weights of such bodies, and how both vary. */
+void tree_weigh(const struct tree *tree, const struct instant *at);
+void tree_weights(const struct tree *tree, const struct instant *at);
+void tree_bulk_along(const struct tree *tree, const struct instant *at, const struct direction *along);
 
 /* The sweeps (tree_sweep.c). Inward, with the inertias: once for an instant. Then again and again for other
  * right-hand sides in work->x. Outward: accelerations of the joints to a[n]. */
@@ -185,11 +191,10 @@ static inline struct inertia_about_O tree_pivot(const struct inertia_about_O *I,
  * and m - |m r|^2 / J = m I_G / J is a constant: a sum of squares, where the difference loses what is left of m to
  * a force along the rod - a cart of 1e-6 kg under a pole of 1 kg that passes the vertical had its acceleration to
  * ten digits. */
-static inline struct inertia_about_O tree_last_pivot(const struct tree_link *link, struct vec mr, double D)
+static inline struct inertia_about_O tree_last_pivot(double across, struct vec mr, double D)
 {
     struct vec r = vec_scale(D, mr);
-    return (
-        struct inertia_about_O){0, {0, 0}, link->across + r.x * mr.x, r.x * mr.y, link->across + r.y * mr.y};
+    return (struct inertia_about_O){0, {0, 0}, across + r.x * mr.x, r.x * mr.y, across + r.y * mr.y};
 }
 
 /* The direction that the surface of the slide of link i pushes to. */

@@ -104,7 +104,7 @@ static inline struct passed pass_last(const struct tree_link *link, struct tree_
     s->D = link->inverse_I_O;
     s->u = s->g - s->p.moment;
     s->h = vec_perp(s->mr);
-    struct inertia_about_O R = tree_last_pivot(link, s->mr, s->D);
+    struct inertia_about_O R = tree_last_pivot(link->across, s->mr, s->D);
     return pass(&R, s->p, s);
 }
 

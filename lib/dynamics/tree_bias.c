@@ -71,11 +71,11 @@ static inline __attribute__((always_inline)) void bias(const struct tree *tree, 
         }
         if (curved && link->track) bend(link, s, at->y[n + link->coordinate]);
         if (s->locked) hold(link, s);
-        double own = s->omega * s->omega, alpha = s->A.alpha, m = link->mass;
+        double own = s->omega * s->omega, alpha = s->A.alpha, m = s->mass;
         x[i].p.force.x = m * s->A.a.x - alpha * s->mr.y - own * s->mr.x - link->force.x;
         x[i].p.force.y = m * s->A.a.y + alpha * s->mr.x - own * s->mr.y - link->force.y;
         x[i].p.moment =
-            vec_cross(s->mr, s->A.a) + link->I_O * alpha - link->sine * s->turn.y - link->cosine * s->turn.x;
+            vec_cross(s->mr, s->A.a) + s->I_O * alpha - link->sine * s->turn.y - link->cosine * s->turn.x;
     }
 }
 
@@ -133,11 +133,11 @@ void tree_bias_along(const struct tree *tree, const struct instant *at, const st
         if (s->locked && link->kind == motion_pivot) d->A.alpha += d->held;
         if (s->locked && link->kind != motion_pivot) d->A.a = vec_add(d->A.a, vec_scale(d->held, s->e));
         if (s->locked && link->track) d->A.alpha += d->held * s->turning;
-        struct vec dmr = turning(d->angle, s->mr), f = vec_scale(link->mass, d->A.a);
+        struct vec dmr = turning(d->angle, s->mr), f = vec_scale(s->mass, d->A.a);
         f = vec_add(f, vec_add(turning(d->A.alpha, s->mr), turning(s->A.alpha, dmr)));
         f = vec_sub(f, vec_scale(2 * s->omega * d->omega, s->mr));
         x[i].p.force = vec_sub(f, vec_scale(s->omega * s->omega, dmr));
-        x[i].p.moment = vec_cross(dmr, s->A.a) + vec_cross(s->mr, d->A.a) + link->I_O * d->A.alpha -
+        x[i].p.moment = vec_cross(dmr, s->A.a) + vec_cross(s->mr, d->A.a) + s->I_O * d->A.alpha -
                         (link->sine * s->turn.x - link->cosine * s->turn.y) * d->angle;
     }
 }

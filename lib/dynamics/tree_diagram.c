@@ -8,6 +8,7 @@
  */
 #include "dynamics/constraint.h"
 #include "dynamics/diagram.h"
+#include "dynamics/mass.h"
 
 static const struct tree_state *link_of(const struct model_body *body, const struct instant *at)
 {
@@ -61,9 +62,9 @@ double tree_more(const struct model_body *body, const struct instant *at)
 {
     const struct tree_state *s = link_of(body, at);
     struct vec r = vec_turn(s->turn, body->arm);
-    if (body->kind == motion_pivot) return -body->inertia.mass * vec_cross(r, s->A.a);
-    struct vec f = vec_scale(body->inertia.mass, tree_mass_center_acceleration(body, at));
-    return -s->turning * (body->inertia.I_G * tree_angular_acceleration(body, at) + vec_cross(r, f));
+    if (body->kind == motion_pivot) return -body_mass(body, at) * vec_cross(r, s->A.a);
+    struct vec f = vec_scale(body_mass(body, at), tree_mass_center_acceleration(body, at));
+    return -s->turning * (body_inertia(body, at).I_G * tree_angular_acceleration(body, at) + vec_cross(r, f));
 }
 
 static struct arrow opposite(struct arrow arrow, const char *name)
@@ -222,10 +223,10 @@ static void add_needs(const struct fbd_model *model, int b, const struct instant
                       struct vec point, struct wrench *sum)
 {
     const struct model_body *body = &model->bodies[b];
-    struct vec f = vec_scale(body->inertia.mass, tree_mass_center_acceleration(body, at));
+    struct vec f = vec_scale(body_mass(body, at), tree_mass_center_acceleration(body, at));
     sum->force = vec_add(sum->force, f);
     sum->moment += vec_cross(vec_sub(mass_center(body, at), point), f) +
-                   body->inertia.I_G * tree_angular_acceleration(body, at);
+                   body_inertia(body, at).I_G * tree_angular_acceleration(body, at);
     for (int i = body->first_load; i < body->first_load + body->load_count; i++) {
         struct arrow arrow = load_arrow(model, i, at, slots);
         add_arrow(sum, &arrow, point);
@@ -335,8 +336,9 @@ size_t tree_diagram_add(const struct fbd_model *model, int index, const struct i
 struct balance balance_of(const struct model_body *body, const struct instant *at, const struct arrow *arrows,
                           size_t count)
 {
-    struct balance balance = {.m_a = vec_scale(body->inertia.mass, tree_mass_center_acceleration(body, at)),
-                              .I_alpha = body->inertia.I_G * tree_angular_acceleration(body, at)};
+    const struct inertia inertia = body_inertia(body, at);
+    struct balance balance = {.m_a = vec_scale(inertia.mass, tree_mass_center_acceleration(body, at)),
+                              .I_alpha = inertia.I_G * tree_angular_acceleration(body, at)};
     struct vec G = mass_center(body, at);
     double forces = vec_norm(balance.m_a), moments = fabs(balance.I_alpha);
     for (size_t i = 0; i < count; i++) {
@@ -346,7 +348,7 @@ struct balance balance_of(const struct model_body *body, const struct instant *a
         forces = fmax(forces, vec_norm(arrows[i].force));
         moments = fmax(moments, fabs(moment));
     }
-    moments = fmax(moments, forces * sqrt(body->inertia.I_G / body->inertia.mass));
+    moments = fmax(moments, forces * sqrt(inertia.I_G / inertia.mass));
     double off = vec_norm(vec_sub(balance.force, balance.m_a));
     double turned = fabs(balance.moment - balance.I_alpha);
     balance.residual = fmax(forces > 0 ? off / forces : 0, moments > 0 ? turned / moments : 0);

@@ -88,7 +88,7 @@ static enum holds_found solve(struct fbd_state *state, const struct decided *dec
 /* What the friction of a joint alone does to its body: an acceleration that is left of sums of such sizes. */
 static double accelerated(const struct fbd_state *state, int pair)
 {
-    const struct tree_link *link = &state->model->tree->links[link_of(state, pair)];
+    const struct tree_state *link = &state->tree->links[link_of(state, pair)];
     const struct friction *friction = pair_of(state, pair);
     struct instant at = state_instant(state);
     double inertia = friction->normal_slot >= 0 ? link->mass : link->I_O;

@@ -125,6 +125,7 @@ void tree_load(const struct tree *tree, const struct instant *at)
         struct drag_law law = {drag->linear, drag->quadratic};
         apply(&x[drag->link], arm.r, drag_force(&law, arm.at.v));
     }
+    if (tree->bulk_count > 0) tree_weights(tree, at);
 }
 
 void tree_load_along(const struct tree *tree, const struct instant *at, const struct direction *along)
@@ -152,4 +153,5 @@ void tree_load_along(const struct tree *tree, const struct instant *at, const st
         apply_along(&x[drag->link], &arm, &d, drag_force(&law, arm.at.v),
                     drag_variation(&law, arm.at.v, d.at.v));
     }
+    if (tree->bulk_count > 0) tree_bulk_along(tree, at, along);
 }

@@ -98,6 +98,7 @@ void tree_move(const struct fbd_model *model, const struct instant *at)
         move_all(model, at, true);
     else
         move_all(model, at, false);
+    if (model->tree->bulk_count > 0) tree_weigh(model->tree, at);
 }
 
 /* d(R a) = dangle k x R a. */

@@ -88,7 +88,8 @@ static void sweep_inward(const struct tree *tree, struct tree_work *work)
         s->D = D;
         x->p = p;
         x->u = u;
-        struct inertia_about_O R = last ? tree_last_pivot(&tree->links[i], s->mr, D) : tree_pivot(&I, D);
+        struct inertia_about_O R =
+            last ? tree_last_pivot(tree->links[i].across, s->mr, D) : tree_pivot(&I, D);
         passed = pass(&R, x->g, vec_add(p.force, vec_scale(u * D, I.h)), s->d);
         to = tree->links[i].parent;
     }

@@ -10,7 +10,7 @@ static void factor_pivot(const struct tree_link *link, int i, struct tree_state 
 {
     const struct inertia_about_O *I = &s->I;
     s->D = 1 / I->J;
-    *rest = link->end == i + 1 ? tree_last_pivot(link, s->mr, s->D) : tree_pivot(I, s->D);
+    *rest = link->end == i + 1 ? tree_last_pivot(s->across, s->mr, s->D) : tree_pivot(I, s->D);
 }
 
 static void factor_slide(struct tree_state *s, struct inertia_about_O *rest)
@@ -106,9 +106,8 @@ static inline __attribute__((always_inline)) void factor(const struct tree *tree
     links[0].I = (struct inertia_about_O){0, {0, 0}, 0, 0, 0};
     work->x[0].p = (struct wrench){0, {0, 0}};
     for (int i = 1; i < tree->count; i++) {
-        const struct tree_link *link = &tree->links[i];
-        links[i].I =
-            (struct inertia_about_O){link->I_O, {-links[i].mr.y, links[i].mr.x}, link->mass, 0, link->mass};
+        struct tree_state *s = &links[i];
+        s->I = (struct inertia_about_O){s->I_O, {-s->mr.y, s->mr.x}, s->mass, 0, s->mass};
     }
     for (int i = tree->count - 1; i > 0; i--) {
         const struct tree_link *link = &tree->links[i];

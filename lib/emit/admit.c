@@ -156,6 +156,13 @@ static const char *missing_of(enum constraint_kind kind)
     return "a constraint of a kind that is not known here";
 }
 
+static void check_masses(const struct fbd_model *model, fbd_errors *errors)
+{
+    for (size_t b = 0; b < model->body_count; b++)
+        if (model->bodies[b].varies)
+            lacks(errors, model->bodies[b].source->mass.at, "a mass that varies", model->bodies[b].name);
+}
+
 static void check_loads(const struct fbd_model *model, fbd_errors *errors)
 {
     for (size_t i = 0; i < model->load_count; i++) {
@@ -208,6 +215,7 @@ bool emit_admits(const struct fbd_model *model, fbd_errors *errors)
         if (scene->bodies[b].assemble)
             lacks(errors, scene->bodies[b].at, "a start that is found from couplings", scene->bodies[b].name);
     check_loads(model, errors);
+    check_masses(model, errors);
     check_switches(model, errors);
     check_friction(model, errors);
     return fbd_errors_failed_count(errors) == before;

@@ -58,6 +58,8 @@ static struct verdict judge_applied(const struct model_body *body, const struct 
                   formula_depends(body, &load->fx) | formula_depends(body, &load->fy);
     bool moment = load->source->kind == moment_applied, jointed = body->place.link > 0;
     bool one_coordinate = body->kind == motion_slide || body->kind == motion_pivot;
+    const char *work = load_law(load->source)->work;
+    if (work) return (struct verdict){potential_none, work};
     if (on & ~(unsigned)depends_place && !load->source->toward)
         return (struct verdict){potential_none, why_not(on)};
     bool turns = jointed || (body->kind != motion_slide && body->kind != motion_particle);
@@ -94,7 +96,13 @@ static struct verdict judge(const struct model_body *body, const struct model_lo
     static const char linear_spring[] = "conservative: V = k (stretch)^2 / 2";
     static const char dissipative[] = "not conservative: it depends on velocity";
     switch (load->source->kind) {
-    case load_gravity: return (struct verdict){potential_gravity, "conservative: V = m g h"};
+    case load_gravity:
+        if (body->varies)
+            return (struct verdict){potential_none, "counted as work: the mass of the body varies"};
+        return (struct verdict){potential_gravity, "conservative: V = m g h"};
+    case load_carried:
+        return (struct verdict){potential_none,
+                                "the kinetic energy that mass brings or takes at the speed of the body"};
     case load_drive:
         return (struct verdict){potential_none, "not conservative: whatever the prescribed motion takes"};
     case load_rope:

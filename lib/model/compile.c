@@ -99,6 +99,8 @@ static void set_body(struct model_body *body, const struct body *source, const s
                                 .sibling = -1,
                                 .drive = -1,
                                 .drive_pair = -1,
+                                .varies = source->mass.expr != NULL,
+                                .carried = -1,
                                 .arrow_count = (int)source->load_count + 1,
                                 .friction = -1};
     body->inertia = inertia_of_parts(source->parts, source->part_count, motion->point);
@@ -210,6 +212,7 @@ static bool set_drives(struct builder *builder)
 {
     struct fbd_model *model = builder->model;
     size_t next = model->load_count;
+    for (size_t b = 0; b < model->body_count; b++) next -= model->bodies[b].varies;
     for (size_t b = model->body_count; b-- > 0;) {
         struct model_body *body = &model->bodies[b];
         if (!body->source->motion.prescribed.expr) continue;
@@ -221,6 +224,27 @@ static bool set_drives(struct builder *builder)
         body->drive_on_parent = arena_printf(&model->arena, "%s.drive", body->name);
         if (body->parent >= 0) model->bodies[body->parent].arrow_count++;
         set_load(builder, &model->loads[next], source, (int)b);
+    }
+    return true;
+}
+
+/* What comes and goes with a mass that varies, by name. */
+static bool set_carried(struct builder *builder)
+{
+    struct fbd_model *model = builder->model;
+    size_t next = model->load_count;
+    for (size_t b = model->body_count; b-- > 0;) {
+        struct model_body *body = &model->bodies[b];
+        if (!body->varies) continue;
+        struct load *source = ARENA_ARRAY(&model->arena, 1, struct load);
+        if (!source) return false;
+        *source = (struct load){.kind = load_carried, .name = "mass", .at = body->source->mass.at};
+        body->carried = (int)--next;
+        set_load(builder, &model->loads[next], source, (int)b);
+        body->mass = builder_formula(builder, &body->source->mass, (int)b, (int)next);
+        const struct formula inverse = {.expr = body->source->inverse_mass.expr, .branch = -1}; /* as it is */
+        model->plan.poles[model->plan.pole_count++] =
+            (struct pole){inverse, (int)b, (int)next, -1, expr_poles(inverse.expr)};
     }
     return true;
 }
@@ -262,11 +286,12 @@ static bool allocate(struct fbd_model *model)
     for (size_t c = 0; c < scene->constraint_count; c++)
         model->load_count += constraint_has_load(&scene->constraints[c]);
     for (size_t b = 0; b < scene->body_count; b++)
-        model->load_count += scene->bodies[b].motion.prescribed.expr != NULL;
+        model->load_count += (size_t)(scene->bodies[b].motion.prescribed.expr != NULL) +
+                             (size_t)(scene->bodies[b].mass.expr != NULL);
     model->bodies = ARENA_ARRAY(&model->arena, model->body_count, struct model_body);
     model->loads = ARENA_ARRAY(&model->arena, model->load_count, struct model_load);
     size_t formulas = most_formulas_of_a_load * model->load_count + 2 * scene->event_count +
-                      scene->own_count + scene->body_count;
+                      scene->own_count + 3 * scene->body_count;
     model->plan.rates = ARENA_ARRAY(&model->arena, scene->own_count, struct formula);
     model->plan.watches = ARENA_ARRAY(&model->arena, scene->event_count, struct watch);
     model->plan.kinks = ARENA_ARRAY(&model->arena, formulas, struct kink);
@@ -316,9 +341,10 @@ static struct fbd_model *compile(struct scene *scene, bool labels, fbd_errors *e
         model->own_labels = own_labels_make(&model->arena, scene);
         if (labels) model->labels = labels_make(&model->arena, scene);
         done = model->own_labels && (model->labels || !labels) && set_named_ties(&builder) &&
-               set_drives(&builder) && set_absolutes(model) && set_output_points(model) &&
-               tree_number(model) && tracks_set(&builder) && tree_name_reactions(model) &&
-               arrows_name(model) && plan_build(&builder) && classify_loads(&builder);
+               set_drives(&builder) && set_carried(&builder) && set_absolutes(model) &&
+               set_output_points(model) && tree_number(model) && tracks_set(&builder) &&
+               tree_name_reactions(model) && arrows_name(model) && plan_build(&builder) &&
+               classify_loads(&builder);
         set_rates(&builder);
         set_watches(&builder);
         if (done) done = slips_find(model);

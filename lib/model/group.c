@@ -47,6 +47,8 @@ static void copy_body(const struct copy *copy, const struct body *from)
         coordinate->body = (int)to->body_count;
     }
     to->body_count++;
+    renumber(copy, &body->mass.expr);
+    renumber(copy, &body->inverse_mass.expr);
     copy_loads(copy, body);
 }
 

@@ -24,6 +24,9 @@ struct model_body {
     struct inertia inertia; /* mass, G in the body frame, I_G */
     double I_O;             /* pivot: about the axis */
     double L;               /* pivot: distance from O to G */
+    bool varies;            /* its mass does; then the inertia is that at the start, */
+    struct formula mass;    /* this is its mass, and inertia goes with it (dynamics/mass.h) */
+    int carried;            /* its entry in the loads: the energy that goes with the mass; else -1 */
     struct vec origin;      /* slide: where x = 0; pivot: the axis O */
     struct vec arm;  /* pivot: from the axis to G; planar: from the frame's origin to G; in the body frame */
     struct vec pin;  /* pivot: the point of the body that sits on the axis, in the body frame */

@@ -307,6 +307,7 @@ static void add_load(struct builder *builder, struct model_body *body, int index
     case load_rope:
     case load_belt:
     case load_contact:
+    case load_carried:
     case load_normal: break; /* the contact below, and the friction that needs it */
     case load_friction:
     case moment_friction: add_friction(builder, body, index); break;

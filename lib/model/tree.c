@@ -18,7 +18,9 @@ static void mark_jointed(const struct fbd_model *model, bool *jointed)
     const struct scene *scene = model->scene;
     for (size_t b = 0; b < scene->body_count; b++) {
         int parent = scene->bodies[b].motion.parent;
-        if (scene->bodies[b].motion.prescribed.expr || scene->bodies[b].motion.curve) jointed[b] = true;
+        if (scene->bodies[b].motion.prescribed.expr || scene->bodies[b].motion.curve ||
+            scene->bodies[b].mass.expr)
+            jointed[b] = true;
         if (parent == ground_body) continue;
         jointed[b] = true;
         jointed[parent] = true;
@@ -121,12 +123,28 @@ static void add_inertia(struct tree_link *link, const struct model_body *body)
     link->across = link->I_O > 0 ? link->mass * link->I_G / link->I_O : 0;
 }
 
+static void add_bulk(struct tree *tree, int b, const struct model_body *body)
+{
+    for (size_t i = 0; i < tree->bulk_count; i++)
+        if (tree->bulks[i].link == body->place.link) tree->bulks[i].last = false;
+    struct tree_bulk *bulk = &tree->bulks[tree->bulk_count++];
+    *bulk = (struct tree_bulk){.link = body->place.link,
+                               .body = b,
+                               .mass = body->mass,
+                               .start = body->inertia.mass,
+                               .G = placement_point(&body->place, body->inertia.G),
+                               .square = body->inertia.I_G / body->inertia.mass,
+                               .last = true};
+}
+
 bool tree_number(struct fbd_model *model)
 {
     struct family family;
     if (!find_family(model, &family)) return false;
     size_t count = 0;
-    for (size_t b = 0; b < model->body_count; b++) count += family.jointed[b];
+    size_t bulks = 0;
+    for (size_t b = 0; b < model->body_count; b++)
+        count += family.jointed[b], bulks += model->bodies[b].varies;
     if (count == 0) return true;
     struct tree *tree = ARENA_ARRAY(&model->arena, 1, struct tree);
     if (!tree) return false;
@@ -135,6 +153,7 @@ bool tree_number(struct fbd_model *model)
     tree->pairs = ARENA_ARRAY(&model->arena, count, int);
     tree->acting = ARENA_ARRAY(&model->arena, model->body_count, int);
     tree->watched = ARENA_ARRAY(&model->arena, count, int);
+    tree->bulks = ARENA_ARRAY(&model->arena, bulks, struct tree_bulk);
     if (model->arena.failed) return false;
     order_bodies(model, tree, &family);
     tree->count = 1;
@@ -148,6 +167,7 @@ bool tree_number(struct fbd_model *model)
             set_link(model, &tree->links[tree->count++], tree->bodies[i]);
         }
         add_inertia(&tree->links[body->place.link], body);
+        if (body->varies) add_bulk(tree, tree->bodies[i], body);
     }
     for (int i = 1; i < tree->count; i++) {
         int parent = tree->links[i].parent;
@@ -289,6 +309,13 @@ static void add_joint_spring(struct builder *builder, const struct model_body *b
     term->c0 += source->stiffness * source->free_length;
 }
 
+static struct tree_bulk *bulk_of(struct builder *builder, int b)
+{
+    struct tree_bulk *bulk = builder->model->tree->bulks;
+    while (bulk->body != b) bulk++;
+    return bulk;
+}
+
 void tree_add_load(struct builder *builder, int index)
 {
     const struct model_load *load = &builder->model->loads[index];
@@ -296,8 +323,11 @@ void tree_add_load(struct builder *builder, int index)
     const struct load *source = load->source;
     switch (source->kind) {
     case load_gravity:
-        add_world_force(builder, body, body->inertia.G,
-                        vec_scale(body->inertia.mass, builder->model->scene->gravity));
+        if (body->varies)
+            bulk_of(builder, load->body)->g = builder->model->scene->gravity;
+        else
+            add_world_force(builder, body, body->inertia.G,
+                            vec_scale(body->inertia.mass, builder->model->scene->gravity));
         break;
     case load_applied: add_applied(builder, body, load); break;
     case load_spring:
@@ -310,6 +340,7 @@ void tree_add_load(struct builder *builder, int index)
     case load_rope:
     case load_belt:
     case load_contact:
+    case load_carried:
     case load_normal:
     case load_friction:
     case moment_friction:
@@ -448,9 +479,9 @@ bool tree_finish(struct fbd_model *model)
         if (tree->links[i].normal_slot >= 0 || tree->links[i].pair >= 0)
             tree->watched[tree->watched_count++] = i;
     tree->loaded = tree->following_count + tree->force_count + tree->moment_count + tree->spring_count +
-                       tree->drag_count >
+                       tree->drag_count + tree->bulk_count >
                    0;
-    tree->pivots_only = tree->watched_count == 0;
+    tree->pivots_only = tree->watched_count == 0 && tree->bulk_count == 0;
     for (int i = 1; i < tree->count; i++) {
         if (tree->links[i].kind != motion_pivot) tree->pivots_only = false;
         if (tree->links[i].track) tree->curved = true;

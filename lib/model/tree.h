@@ -90,15 +90,27 @@ struct tree_drag {
     double linear, quadratic;
 };
 
+/* A body of the link whose mass varies. Its share of the constants of the link is that at the start. */
+struct tree_bulk {
+    int link, body;
+    struct vec G;  /* its centre of mass, from O */
+    double start;  /* its mass then */
+    double square; /* of its radius of gyration about G */
+    struct formula mass;
+    struct vec g; /* gravity, where that acts on it; else 0 */
+    bool last;    /* of those of its link */
+};
+
 struct tree {
     int count; /* links, the ground included; links[0] is the ground */
     struct tree_link *links;
-    size_t following_count, force_count, moment_count, spring_count, drag_count;
+    size_t following_count, force_count, moment_count, spring_count, drag_count, bulk_count;
     struct tree_following *following;
     struct tree_force *forces;
     struct tree_moment *moments;
     struct tree_spring *springs;
     struct tree_drag *drags;
+    struct tree_bulk *bulks;
     int acting_count;         /* bodies whose own terms count: not jointed, or with forces in the joint */
     int *acting;              /* their numbers */
     bool loaded;              /* something of the lists above acts on links */

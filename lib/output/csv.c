@@ -46,6 +46,7 @@ static void diagram_headers(struct csv *csv, int b, const struct fbd_state *star
             header(csv, body->name, name, force_part_name(parts[k]), force_part_unit(model, b, parts[k]));
         if (i < (size_t)body->load_count) header(csv, body->name, name, "work", energy_unit(model));
     }
+    if (body->carried >= 0) header(csv, body->name, "mass", "work", energy_unit(model));
 }
 
 static void ledger_headers(struct csv *csv, const struct fbd_state *start)
@@ -127,6 +128,7 @@ static void diagram_values(struct csv *csv, int b, const struct fbd_state *state
                   force_part_value(model, b, &other_at, &others[i], parts[k]));
         if (i < (size_t)body->load_count) work_value(csv, (size_t)csv->arrows[i].load, state);
     }
+    if (body->carried >= 0) work_value(csv, (size_t)body->carried, state);
 }
 
 static void ledger_values(struct csv *csv, const struct fbd_state *state)

@@ -16,6 +16,7 @@
 #include <string.h>
 
 #include "dynamics/diagram.h"
+#include "dynamics/mass.h"
 #include "dynamics/modes.h"
 #include "dynamics/tree.h"
 #include "output/result.h"
@@ -114,9 +115,9 @@ static void add_of_coordinate(struct fbd_equations *all, const struct fbd_state 
                    .unit = label->force_unit,
                    .inertia_unit = label->inertia_unit,
                    .acceleration_unit = label->acceleration_unit,
-                   .inertia = pivot    ? body->I_O
-                              : moment ? body->inertia.I_G
-                                       : body->inertia.mass,
+                   .inertia = pivot    ? body_I_O(body, &at)
+                              : moment ? body_inertia(body, &at).I_G
+                                       : body_mass(body, &at),
                    .acceleration = equation_acceleration(body, &at, state->a, part)},
     };
     struct equation *equation = add_equation(all, &row, count + 1);
@@ -162,7 +163,7 @@ static void add_cut_free(struct fbd_equations *all, const struct fbd_state *stat
                        .acceleration_unit = moment ? "rad/s^2"
                                             : si   ? "m/s^2"
                                                    : "ft/s^2",
-                       .inertia = moment ? body->inertia.I_G : body->inertia.mass,
+                       .inertia = moment ? body_inertia(body, &at).I_G : body_mass(body, &at),
                        .acceleration = acceleration[part]},
         };
         struct equation *equation = add_equation(all, &row, count);

@@ -7,6 +7,7 @@
 
 #include "base/diag.h"
 #include "dynamics/diagram.h"
+#include "dynamics/mass.h"
 #include "dynamics/project.h"
 #include "output/random_state.h"
 
@@ -37,9 +38,9 @@ static void extend(const struct fbd_state *state, int b, const struct arrow *arr
     for (size_t k = 0; k < model->absolute_count; k++)
         if (model->absolutes[k].kind == absolute_acceleration)
             extra[hand_slots + k] = state->a[model->absolutes[k].coordinate];
-    extra[hand_mass] = body->inertia.mass;
-    extra[hand_I_G] = body->inertia.I_G;
-    extra[hand_I_O] = body->I_O;
+    extra[hand_mass] = body_mass(body, &at);
+    extra[hand_I_G] = body_inertia(body, &at).I_G;
+    extra[hand_I_O] = body_I_O(body, &at);
     extra[hand_L] = body->L;
     for (size_t i = 0; i < arrow_count; i++)
         if (arrows[i].load >= 0 && model->loads[arrows[i].load].source->kind == load_normal)
@@ -50,9 +51,11 @@ static void extend(const struct fbd_state *state, int b, const struct arrow *arr
     }
 }
 
-static double inertia_of(const struct model_body *body, int part)
+static double inertia_of(const struct model_body *body, int part, const struct instant *at)
 {
-    return body->kind == motion_pivot ? body->I_O : part == 2 ? body->inertia.I_G : body->inertia.mass;
+    return body->kind == motion_pivot ? body_I_O(body, at)
+           : part == 2                ? body_inertia(body, at).I_G
+                                      : body_mass(body, at);
 }
 
 /* The slope of left - right with respect to each acceleration; the one that is not zero names the coordinate.
@@ -77,7 +80,8 @@ static int accelerated_part(const struct hand *hand, int size, int count, double
 /* What gravity's term would be if sine and cosine were exchanged. */
 static double swapped_gravity(const struct model_body *body, const struct fbd_state *state)
 {
-    double weight = body->inertia.mass * vec_norm(state->model->scene->gravity);
+    struct instant at = state_instant(state);
+    double weight = body_mass(body, &at) * vec_norm(state->model->scene->gravity);
     if (body->kind == motion_slide) return -weight * body->e.x;
     return body->kind == motion_pivot ? -weight * body->L * cos(state->y[body->first]) : 0;
 }
@@ -86,6 +90,7 @@ static void take_factors(const struct model_body *body, const struct fbd_state *
 {
     const struct scene *scene = state->model->scene;
     bool slide = body->kind == motion_slide, pivot = body->kind == motion_pivot;
+    struct instant at = state_instant(state);
     int angle = body_angle_coordinate(body);
     double q = state->y[body->first], v = state->y[body->first_rate];
     factors[factor_cos_angle] = angle >= 0 ? cos(state->y[angle]) : NAN;
@@ -93,7 +98,7 @@ static void take_factors(const struct model_body *body, const struct fbd_state *
     factors[factor_cos_along] = slide ? body->e.x : NAN;
     factors[factor_sin_along] = slide ? body->e.y : NAN;
     factors[factor_L] = pivot ? body->L : NAN;
-    factors[factor_m] = body->inertia.mass;
+    factors[factor_m] = body_mass(body, &at);
     factors[factor_g] = vec_norm(scene->gravity);
     factors[factor_sign] = body->count == 1 ? copysign(1, v) : NAN;
     factors[factor_rate] = body->count == 1 ? v : NAN;
@@ -156,7 +161,7 @@ static void take_sample(struct hand_check *check, const struct hand *hand, struc
     check->part = part;
     if (part >= 0) {
         sample.coefficient = slope;
-        sample.I = inertia_of(body, part);
+        sample.I = inertia_of(body, part, &at);
         sample.a = state->a[body->first + part];
         sample.a_hand = sample.a - (sample.left - sample.right) / slope;
         scale = sample.I / slope;
@@ -176,9 +181,9 @@ static void take_sample(struct hand_check *check, const struct hand *hand, struc
     for (int i = 0; part >= 0 && i < body->load_count; i++) sample.mechanics += fabs(sample.terms[i]);
     take_summands(check, hand, state->t, y, scale, &sample);
     take_factors(body, state, sample.factors);
-    sample.I_G = body->inertia.I_G;
+    sample.I_G = body_inertia(body, &at).I_G;
     sample.L = body->L;
-    sample.m_L2 = body->inertia.mass * body->L * body->L;
+    sample.m_L2 = body_mass(body, &at) * body->L * body->L;
     sample.gravity_swapped = swapped_gravity(body, state);
     for (int k = 0; k < body->count; k++) {
         sample.q[k] = state->y[body->first + k];

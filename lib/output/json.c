@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "dynamics/diagram.h"
+#include "dynamics/mass.h"
 #include "output/couplings.h"
 #include "output/equations.h"
 #include "output/result.h"
@@ -252,7 +253,17 @@ static void write_body_forces(struct text *text, fbd_result *result, struct fbd_
         if (bars) write_force_error(text, bars, body, arrow, &others[i], moment, work);
         text_add(text, "}");
     }
-    if (count > 0) text_add(text, "\n    ");
+    if (body->carried >= 0) {
+        text_add(text, count > 0 ? ",\n      \"mass\": {" : "\n      \"mass\": {");
+        static const char *const none[] = {"fx", "fy", "moment", "moment_G", "moment_O"};
+        for (int i = 0; i < 5; i++) member(text, none[i], 0, false);
+        member(text, "x", point_motion(body, &pose, body->inertia.G).p.x, false);
+        member(text, "y", point_motion(body, &pose, body->inertia.G).p.y, false);
+        member(text, "power", body_carried_power(model, body, &at), false);
+        member(text, "work", ledger_work(ledger, state, (size_t)body->carried, ledger->work), true);
+        text_add(text, "}");
+    }
+    if (count > 0 || body->carried >= 0) text_add(text, "\n    ");
 }
 
 static void write_forces(struct text *text, fbd_result *result, struct fbd_state *state)

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "dynamics/energy.h"
+#include "dynamics/mass.h"
 
 static double kinetic(const struct fbd_model *model, const struct instant *at)
 {
@@ -62,6 +63,11 @@ static void add_powers(struct ledger *ledger, const struct group *group, const s
         for (int i = 0; i < body->load_count; i++)
             wanted |= ledger->integrated[group_load(group, body->first_load + i)];
         if (!wanted) continue;
+        if (body->carried >= 0) {
+            double power = body_carried_power(model, body, &at);
+            work[group_load(group, body->carried)] += weight * power;
+            ledger->turnover += weight * fabs(power);
+        }
         size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, ledger->arrows);
         for (size_t i = 0; i < count; i++) {
             int load = group_load(group, ledger->arrows[i].load);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "dynamics/diagram.h"
+#include "dynamics/mass.h"
 #include "output/couplings.h"
 #include "output/equations.h"
 #include "output/result.h"
@@ -98,6 +99,16 @@ static void write_friction(struct text *text, struct fbd_state *state, int b)
         text_add(text, "   (sticks)");
 }
 
+/* Of a body whose mass varies: behind its coordinates. */
+static void write_mass(const struct page *page, const struct model_body *body, const struct fbd_state *state)
+{
+    const struct instant at = state_instant(state);
+    text_pad(page->text, 16 + column(page, 26, 38) * 2 * (size_t)body->count);
+    text_add(page->text, " m = ");
+    text_number(page->text, body_mass(body, &at), digits);
+    text_printf(page->text, " %s", state->model->scene->units == unit_si ? "kg" : "slug");
+}
+
 static void write_final(const struct page *page)
 {
     struct text *text = page->text;
@@ -121,6 +132,7 @@ static void write_final(const struct page *page)
             if (page->bars) plus_minus(page, bars_component(page->bars, state, (size_t)component));
             text_printf(text, " %s", rate ? label->rate_unit : label->unit);
         }
+        if (body->varies) write_mass(page, body, state);
         if (body->friction >= 0) write_friction(text, state, (int)b);
         text_add(text, "\n");
     }
@@ -141,6 +153,22 @@ static void force(const struct page *page, double main, double other)
 {
     text_number(page->text, main, 6);
     if (page->bars) plus_minus(page, bars_difference(page->bars, main, other));
+}
+
+static void write_work(const struct page *page, const struct fbd_state *state, size_t load)
+{
+    struct text *text = page->text;
+    struct ledger *ledger = &page->result->ledger;
+    double work = ledger_work(ledger, state, load, ledger->work);
+    text_pad(text, column(page, 60, 92));
+    text_add(text, "work ");
+    if (isnan(work)) {
+        text_add(text, "not integrated\n");
+        return;
+    }
+    text_number(text, work, digits);
+    if (page->bars) plus_minus(page, bars_work(page->bars, load, work));
+    text_printf(text, " %s\n", energy_unit(ledger->model));
 }
 
 /* `other`: the same arrow of the companion, or `arrow`. */
@@ -169,16 +197,16 @@ static void write_force(const struct page *page, const struct fbd_state *state, 
         text_add(text, "\n");
         return;
     }
-    double work = ledger_work(ledger, state, (size_t)arrow->load, ledger->work);
-    text_pad(text, column(page, 60, 92));
-    text_add(text, "work ");
-    if (isnan(work)) {
-        text_add(text, "not integrated\n");
-        return;
-    }
-    text_number(text, work, digits);
-    if (page->bars) plus_minus(page, bars_work(page->bars, (size_t)arrow->load, work));
-    text_printf(text, " %s\n", energy_unit(model));
+    write_work(page, state, (size_t)arrow->load);
+}
+
+/* No force, but the energy that mass brings or takes. */
+static void write_carried(const struct page *page, const struct fbd_state *state,
+                          const struct model_body *body)
+{
+    text_printf(page->text, "    %s", state->model->loads[body->carried].source->name);
+    text_add(page->text, " that comes or goes, at the speed of the body");
+    write_work(page, state, (size_t)body->carried);
 }
 
 static void write_forces(const struct page *page)
@@ -194,6 +222,7 @@ static void write_forces(const struct page *page)
         size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, ledger->arrows);
         const struct arrow *others = page->bars ? bars_diagram(page->bars, (int)b) : ledger->arrows;
         for (size_t i = 0; i < count; i++) write_force(page, state, &ledger->arrows[i], &others[i]);
+        if (model->bodies[b].carried >= 0) write_carried(page, state, &model->bodies[b]);
     }
 }
 

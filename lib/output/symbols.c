@@ -75,6 +75,7 @@ static const char *letter_of_load(const struct model_load *load)
     case load_potential: return "F";
     case load_damper:
     case load_drag: return "D";
+    case load_carried:
     case load_drive: return "F";
     case moment_spring:
     case moment_damper:

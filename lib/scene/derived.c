@@ -372,3 +372,47 @@ bool derive_wind(struct entry *entry)
     }
     return true;
 }
+
+/* ---- mass that leaves or comes */
+
+static void add_mass_rate(struct derived *derived)
+{
+    const struct point none = {.kind = point_fixed};
+    add_term(derived, name_of_place(derived->entry->reader, derived->entry->body, &none, absolute_mass_rate));
+}
+
+bool derive_exhaust(struct entry *entry)
+{
+    struct derived derived = {.entry = entry};
+    text_add(&derived.text, "-");
+    add_mass_rate(&derived);
+    text_add(&derived.text, "*");
+    add_value(&derived, node_of(entry, "exhaust"), &entry->keys.exhaust, a_velocity);
+    return compile(&derived, a_force, &entry->keys.load.value);
+}
+
+bool derive_entering(struct entry *entry, const struct value *along, const struct value *x,
+                     const struct value *y)
+{
+    struct load *load = &entry->keys.load;
+    for (int part = 0; part < (along->expr ? 1 : 2); part++) {
+        struct derived derived = {.entry = entry};
+        const struct node *node = entry->keys.velocity;
+        add_mass_rate(&derived);
+        text_add(&derived.text, "*(");
+        add_value(&derived, along->expr ? node : node->items[part],
+                  along->expr ? along
+                  : part == 0 ? x
+                              : y,
+                  a_velocity);
+        text_add(&derived.text, " - ");
+        if (along->expr)
+            text_add(&derived.text, "v");
+        else
+            add_place(&derived, entry->body, &load->point, part == 0 ? absolute_vx : absolute_vy);
+        text_add(&derived.text, ")");
+        struct value *force = along->expr ? &load->value : part == 0 ? &load->fx : &load->fy;
+        if (!compile(&derived, a_force, force)) return false;
+    }
+    return true;
+}

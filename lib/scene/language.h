@@ -39,6 +39,7 @@ enum field_flag_bits {
     not_negative = 4, /* zero or above */
     slips = 8,        /* may name `slip`, */
     slips_not = 16,   /* which is 0 here */
+    may_vary = 32,    /* a number; where it is none but varies it is infinite, and to be read again */
 };
 
 struct choice {
@@ -210,9 +211,9 @@ struct exact_keys {
 struct load_keys {
     struct load load;
     const char *name;
-    const struct node *value, *at, *from, *to, *toward, *wind;
+    const struct node *value, *at, *from, *to, *toward, *wind, *velocity;
     double neutral;
-    struct value coefficient, factor;
+    struct value coefficient, factor, exhaust;
     int side, frame;
 };
 

@@ -25,8 +25,8 @@ static const struct choice axes[] = {
 };
 
 static const struct field part_fields[] = {
-    FIELD_NUMBER(offsetof(struct part_keys, mass), "mass", a_mass, 0,
-                 "its mass; below zero for a hole in a part"),
+    FIELD_NUMBER(offsetof(struct part_keys, mass), "mass", a_mass, may_vary,
+                 "its mass, of a body it may vary; below zero for a hole in a part"),
     FIELD_CHOICE(offsetof(struct part_keys, shape), "shape", shapes, "its form; default point"),
     FIELD_CHOICE(
         offsetof(struct part_keys, axis), "axis", axes,

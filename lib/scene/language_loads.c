@@ -150,6 +150,21 @@ static const struct field drag_fields[] = {
 static const struct group drag_group =
     LOAD_GROUP("`drag`", NULL, drag_fields, "resistance against the velocity of a point through the air");
 
+static const struct field thrust_fields[] = {
+    FIELD_VALUE(offsetof(struct load_keys, exhaust), "exhaust", a_velocity, 0,
+                "speed relative to the body at which mass leaves, against the direction of the thrust"),
+    FIELD_VALUE(LOAD(angle), "angle", an_angle, 0, "direction of the thrust, from the x axis of `frame`"),
+    FIELD_CHOICE(offsetof(struct load_keys, frame), "frame", frames,
+                 "what the angle refers to; default world"),
+    FIELD_NODE(offsetof(struct load_keys, velocity), "velocity", field_any, 0, NULL,
+               "velocity in the world that mass has before it comes or after it has left: [vx, vy], on a "
+               "slide of the ground along +x"),
+    AT_ROW,
+};
+static const struct group thrust_group = LOAD_GROUP(
+    "`thrust`", NULL, thrust_fields,
+    "the force of mass that leaves or comes with a velocity of its own, of a body whose mass varies");
+
 static const struct field power_fields[] = {
     FIELD_VALUE(LOAD(value), "value", a_power, required, "above zero: in the direction of the motion"),
 };
@@ -269,6 +284,10 @@ static const struct kind forces[] = {
     {"potential", load_potential, &potential_group, on_moving, "list it where the coordinates are",
      LAW(.effect = "potential", .written_as_c = true, .drawing = "potential", .place = acts_in_joint,
          .finish = potential_finish, .formula = "-dV/dx")},
+    {"thrust", load_applied, &thrust_group, on_all, NULL,
+     LAW(.effect = "thrust", .drawing = "applied", .rate = rate_always, .finish = thrust_finish,
+         .work = "not conservative: it comes with the mass that does", .formula = "u dm/dt",
+         .across = applied_across)},
     {"power", load_applied, &power_group, on_slide | on_track,
      "a drive of given power goes along a slide; under `moments` it turns a pivot",
      LAW(.effect = "constant power", .written_as_c = true, .drawing = "applied", .finish = power_finish,
@@ -350,6 +369,8 @@ static const struct {
     struct law law;
 } others[] = {
     {load_drive, {.effect = "prescribed motion", .drawing = "applied", .follows = true}},
+    {load_carried,
+     {.effect = "mass that varies", .drawing = "applied", .rate = rate_always, .follows = true}},
     {load_rope,
      {.effect = "rope", .drawing = "reaction", .rate = rate_never, .follows = true, .of_constraint = true}},
     {load_contact, {.effect = "contact", .drawing = "reaction", .follows = true, .of_constraint = true}},

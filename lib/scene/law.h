@@ -28,6 +28,7 @@ struct law {
     bool follows;         /* from all the others: as what a surface gives, or a rope */
     bool written_as_c;    /* by --emit-c: it is refused there until somebody has looked */
     bool of_constraint;   /* not listed by itself: it stands for a coupling */
+    const char *work;     /* why it has no potential, whatever its formulas say; or NULL */
     const char *singular; /* what is said of it where it is infinite, or NULL */
 
     /* What is more than one key at a time, and what follows from the keys; or NULL. */

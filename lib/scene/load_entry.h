@@ -59,6 +59,9 @@ bool drag_finish(struct entry *entry);
 /* A distributed load as its resultant (read_distributed.c). */
 bool distributed_finish(struct entry *entry);
 
+/* The force of mass that leaves or comes (read_thrust.c). */
+bool thrust_finish(struct entry *entry);
+
 /* A pair of values, as [2 m/s, "sin(t)"]; `hint` says how it is written. */
 bool entry_pair_read(struct entry *entry, const struct node *node, const char *what, enum quantity quantity,
                      const char *hint, struct value *x, struct value *y);
@@ -81,6 +84,12 @@ bool derive_scaled(struct entry *entry, double size);
 /* The value of `key`, with what stands behind it as in "/v": a formula of the wanted quantity. */
 bool derive_value(struct entry *entry, const char *key, const struct value *value, enum quantity quantity,
                   const char *behind, enum quantity wanted, struct value *result);
+
+/* Of a thrust: its size along its direction by the exhaust, or what follows from the velocity of the mass in the world,
+ * along the line of a slide or, where `velocity` is a pair, as components. */
+bool derive_exhaust(struct entry *entry);
+bool derive_entering(struct entry *entry, const struct value *along, const struct value *x,
+                     const struct value *y);
 
 /* The forces of drag in a wind. */
 bool derive_wind(struct entry *entry);

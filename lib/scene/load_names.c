@@ -25,7 +25,8 @@ static int compare_key(const void *key, const void *element)
     return strcmp(key, ((const struct given_name *)element)->name);
 }
 
-/* Is it how the force of the body's joint is called, or what its prescribed motion takes? */
+/* Is it how the force of the body's joint is called, what its prescribed motion takes, or the energy that goes with its
+ * mass? */
 static bool is_of_joint(const struct reader *reader, int index, const char *name)
 {
     static const char *const forces[] = {[motion_slide] = "guide",
@@ -35,6 +36,7 @@ static bool is_of_joint(const struct reader *reader, int index, const char *name
                                          [motion_track] = "guide"};
     const struct draft *draft = &reader->drafts[index];
     enum motion_kind kind = reader->scene->bodies[index].motion.kind;
+    if (draft->mass_varies && strcmp(name, "mass") == 0) return true;
     if (!draft->motion_known) return false;
     if (draft->motion_keys.prescribed && strcmp(name, "drive") == 0) return true;
     return kind != motion_planar && strcmp(name, forces[kind]) == 0;
@@ -47,7 +49,10 @@ static bool check_given(struct reader *reader, int index, const struct given_nam
     for (size_t i = 0; i < count; i++) {
         if (is_of_joint(reader, index, names[i].name)) {
             diag_add(reader->errors, FBD_ERROR, "duplicate-name", names[i].at, "choose another name",
-                     "the force of the joint of this body is called `%s` already", names[i].name);
+                     strcmp(names[i].name, "mass") == 0
+                         ? "the energy that goes with the mass of this body is called `%s` already"
+                         : "the force of the joint of this body is called `%s` already",
+                     names[i].name);
             fine = false;
         }
         if (name_is_reserved(names[i].name)) {

@@ -120,6 +120,7 @@ enum load_kind {
     load_rope,    /* not listed: a rope under `couplings`, see struct constraint */
     load_contact, /* not listed: a contact, likewise */
     load_belt,    /* not listed: a belt, likewise */
+    load_carried, /* not listed: no force, but the energy that comes and goes with a mass that varies */
 };
 
 /* A distributed load along a line: how long that is, and how far from its start the resultant acts. */

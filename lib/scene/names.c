@@ -121,7 +121,25 @@ static struct symbol absolute_slot(struct reader *reader, const struct absolute 
     bool angle = wanted->kind == absolute_angle || wanted->kind == absolute_angle_dot || wanted->angular;
     if (wanted->kind == absolute_acceleration)
         angle = scene->coordinates[scene->bodies[wanted->body].first + wanted->part].angle;
-    return variable(coordinate_dim(angle, derivative), 1 + scene_size(scene) + hand_slots + k);
+    struct dim dim = coordinate_dim(angle, derivative);
+    if (wanted->kind == absolute_mass) dim = DIM_MASS;
+    if (wanted->kind == absolute_mass_rate) dim = dim_over(DIM_MASS, DIM_TIME);
+    return variable(dim, 1 + scene_size(scene) + hand_slots + k);
+}
+
+/* The mass `m` of a body: of one that varies what it is now, which has a rate `m_dot`. */
+static struct symbol mass_symbol(const struct names *names, int body, const char *name)
+{
+    const struct draft *draft = &names->reader->drafts[body];
+    const bool rate = strcmp(name, "m_dot") == 0;
+    const struct absolute mass = {.body = body,
+                                  .point = {.kind = point_fixed},
+                                  .kind = rate ? absolute_mass_rate : absolute_mass};
+    if (!rate && strcmp(name, "m") != 0) return unknown;
+    if (draft->mass_varies && names->place != place_exact) return absolute_slot(names->reader, &mass);
+    if (draft->mass_varies || rate) return unknown;
+    if (!draft->mass_known) return failed_before;
+    return (struct symbol){.kind = symbol_constant, .dim = DIM_MASS, .value = draft->mass};
 }
 
 struct symbol name_of_place(struct reader *reader, int body, const struct point *point,
@@ -224,6 +242,7 @@ static struct symbol dotted_symbol(const struct names *names, const char *name, 
     if (names->place == place_exact) return unknown;
     if (!reader->drafts[index].motion_known) return failed_before;
     struct symbol own = coordinate_symbol(names, index, dot + 1);
+    if (own.kind == symbol_unknown) own = mass_symbol(names, index, dot + 1);
     if (own.kind == symbol_unknown && names->place == place_hand)
         own = other_acceleration(names, index, dot + 1);
     return own.kind != symbol_unknown ? own : absolute_symbol(names, index, dot + 1);
@@ -304,15 +323,13 @@ static struct symbol hand_symbol(const struct names *names, const char *name)
         if ((slot == hand_mu_s || slot == hand_mu_k) && !draft->has_friction) return unknown;
         return variable(known[i].dim, 1 + scene_size(reader->scene) + (size_t)slot);
     }
-    return acceleration_symbol(names, name);
+    const struct symbol rate = strcmp(name, "m_dot") == 0 ? mass_symbol(names, names->body, name) : unknown;
+    return rate.kind != symbol_unknown ? rate : acceleration_symbol(names, name);
 }
 
 static struct symbol load_symbol(const struct names *names, const char *name)
 {
-    if (strcmp(name, "m") != 0) return unknown;
-    const struct draft *draft = &names->reader->drafts[names->body];
-    if (!draft->mass_known) return failed_before;
-    return (struct symbol){.kind = symbol_constant, .dim = DIM_MASS, .value = draft->mass};
+    return mass_symbol(names, names->body, name);
 }
 
 static struct symbol other_symbol(const struct names *names, const char *name)

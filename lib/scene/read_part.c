@@ -286,6 +286,12 @@ static bool check_mass(struct reader *reader, const struct node *map, struct pos
     return false;
 }
 
+/* A mass that varies is read when all that it may name is known (read_mass.c); until then that of the part is 1. */
+static bool varies(double mass)
+{
+    return isinf(mass);
+}
+
 static bool check_positive_mass(struct reader *reader, const struct node *map, double mass)
 {
     if (!(mass <= 0)) return true;
@@ -299,7 +305,9 @@ static bool read_single(struct reader *reader, int index)
 {
     struct body *body = &reader->scene->bodies[index];
     struct draft *draft = &reader->drafts[index];
-    const struct part_keys *keys = &draft->keys.part;
+    struct part_keys *keys = &draft->keys.part;
+    draft->mass_varies = varies(keys->mass);
+    if (draft->mass_varies) keys->mass = 1;
     body->parts = ARENA_NEW(reader->arena, struct part);
     if (!body->parts) return false;
     body->part_count = 1;
@@ -331,6 +339,14 @@ static bool read_named_part(struct reader *reader, int index, const struct pair 
     bool named = name_check(reader->errors, pair->key, pair->at, "a part");
     bool fine = fields_read(reader, &part_group, pair->value, pair->at, &reader->constants, &keys) && named;
     if (pair->value->kind != node_map && pair->value->kind != node_null) return false;
+    if (varies(keys.mass)) {
+        const char *hint = diag_hint(reader->errors,
+                                     "make it a body of its own: `%s: {mass: ..., motion: {weld: {on: %s}}}`",
+                                     pair->key, body->name);
+        diag_add(reader->errors, FBD_ERROR, "not-constant", node_find(pair->value, "mass")->value->at, hint,
+                 "the mass of a part cannot vary, since the centre of mass would move in the body");
+        return false;
+    }
     bool mass = check_mass(reader, pair->value, pair->at, pair->key, keys.mass);
     if (!read_part(reader, index, pair->value, pair->at, &keys, part)) fine = false;
     draft->mass += keys.mass;

@@ -67,6 +67,7 @@ struct draft {
     double mass; /* total */
     struct motion_keys motion_keys;
     bool mass_known, motion_known, motion_read;
+    bool mass_varies;
     bool faulty_parts; /* noted: points may be missing */
     bool has_normal, has_friction;
 };
@@ -215,6 +216,10 @@ bool body_prescribed_read(struct reader *reader, int body);
 /* [x, y], G, O or the name of a point of the body. */
 bool body_point_read(struct reader *reader, int body, const struct node *node, const char *what,
                      struct point *point);
+
+/* Its mass where that varies, when coordinates are numbered, and what it is at the start (read_mass.c). */
+bool body_mass_read(struct reader *reader, int body);
+bool masses_start(struct reader *reader);
 
 /* What acts on it (read_loads.c, load_names.c), and what the user derived (read_hand.c). */
 bool body_loads_read(struct reader *reader, int body);

@@ -118,12 +118,12 @@ static void read_bodies(struct reader *reader)
     parents_check(reader);
     if (!number_coordinates(reader)) return;
     for (int b = 0; b < count && !is_hopeless(reader); b++) {
-        bool initial = body_initial_read(reader, b);
+        bool initial = body_initial_read(reader, b), mass = body_mass_read(reader, b);
         bool loads = body_loads_read(reader, b);
         bool hand = reader->without_hands || body_hand_read(reader, b);
         bool exact = reader->without_hands || body_exact_read(reader, b);
         bool prescribed = body_prescribed_read(reader, b);
-        if (!initial || !loads || !hand || !exact || !prescribed) scene->bodies[b].complete = false;
+        if (!initial || !mass || !loads || !hand || !exact || !prescribed) scene->bodies[b].complete = false;
     }
     if (fbd_errors_failed_count(reader->errors) == 0) reactions_add(reader);
 }
@@ -148,6 +148,7 @@ static void read_scene(struct reader *reader, const struct override *overrides, 
     read_top(reader, &keys);
     read_bodies(reader);
     if (!is_hopeless(reader) && reader->scene->coordinates) own_states_read(reader);
+    if (!is_hopeless(reader) && fbd_errors_failed_count(reader->errors) == 0) masses_start(reader);
     if (!is_hopeless(reader) && reader->bodies) couplings_read(reader, keys.couplings, keys.contacts);
     if (!is_hopeless(reader)) simulate_read(reader, &keys);
     if (!is_hopeless(reader)) grading_read(reader, keys.grading);

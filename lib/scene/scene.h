@@ -146,6 +146,10 @@ struct body {
     bool complete; /* false when errors in it were reported: later checks leave it alone */
     struct motion motion;
     int first, count; /* its coordinates */
+    struct value
+        mass; /* where it varies: with the time, coordinates, states; else expr NULL. The mass of the part
+                          is that at the start then */
+    struct value inverse_mass; /* and 1/m, by which its accelerations divide */
     size_t part_count, point_count, load_count, hand_count;
     struct part *parts;
     struct named_point *points; /* all names: given ones and those of its shape */
@@ -169,6 +173,8 @@ struct absolute {
         absolute_angle_dot,
         absolute_acceleration, /* derivations by hand: of coordinate `part` of the body */
         absolute_slip,         /* the speed of a pair of dry friction on its surface */
+        absolute_mass,         /* of a body whose mass varies, */
+        absolute_mass_rate,    /* and its rate of change */
     } kind;
     int part;
     int roll; /* absolute_slip of a rolling body: 1 + index of its constraint; 0: of the body's own pair */

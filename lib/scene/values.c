@@ -129,6 +129,37 @@ static const struct expr *compile(struct reader *reader, const struct node *node
     return value_compile(reader, node, &want, scope);
 }
 
+/* Would it do but for what it depends on? */
+static bool varies(struct reader *reader, const struct node *node, enum quantity quantity)
+{
+    const struct expr_want want = {.dim = quantity_dim(quantity),
+                                   .any_dim = true,
+                                   .constant = true,
+                                   .what = "value"};
+    bool boolean, found = false;
+    bool plain =
+        node->kind == node_scalar && strcspn(node->text, "0123456789") == 0 && !strpbrk(node->text, "[*+-");
+    if (node->kind != node_scalar || node->length == 0 || plain || scalar_boolean(node->text, &boolean))
+        return false;
+    fbd_errors *errors = fbd_errors_new(), *given = reader->errors;
+    if (!errors) {
+        diag_out_of_memory(reader->errors);
+        return false;
+    }
+    reader->errors = errors;
+    bool outer = reader->varies;
+    if (scalar_check_number(node->text, node->text_at, "value", errors))
+        expr_compile(reader->arena, node->text, node->text_at, &reader->constants, &want, errors);
+    reader->varies = outer;
+    reader->errors = given;
+    if (errors->out_of_memory || errors->arena.failed) diag_out_of_memory(given);
+    for (const struct diag_note *note = errors->first; note; note = note->next)
+        found |= strcmp(note->error.id, "not-constant") == 0 ||
+                 (strcmp(note->error.id, "unknown-name") == 0 && strstr(node->text, "states."));
+    fbd_errors_free(errors);
+    return found;
+}
+
 static bool check_range(struct reader *reader, const struct node *node, const char *what, unsigned flags,
                         double number)
 {
@@ -143,6 +174,10 @@ static bool check_range(struct reader *reader, const struct node *node, const ch
 bool value_number(struct reader *reader, const struct node *node, const char *what, enum quantity quantity,
                   unsigned flags, double *number)
 {
+    if ((flags & may_vary) && varies(reader, node, quantity)) {
+        *number = HUGE_VAL;
+        return true;
+    }
     const struct expr *expr = compile(reader, node, what, quantity, true, &reader->constants);
     if (!expr || !check_range(reader, node, what, flags, expr_value(expr))) return false;
     *number = expr_value(expr);

@@ -11,7 +11,7 @@
 #include "scene/language.h"
 #include "scene/reader.h"
 
-/* A constant. `flags` are field_flag_bits. */
+/* A constant; infinite for one that varies, where `flags`, of field_flag_bits, allow it. */
 bool value_number(struct reader *reader, const struct node *node, const char *what, enum quantity quantity,
                   unsigned flags, double *number);
 

@@ -6,11 +6,13 @@
  * rounding of the arm, a difference of two places in the world, times the force.
  */
 #include "solve/balance.h"
+#include "dynamics/mass.h"
 
 #include <assert.h>
 #include <float.h>
 #include <math.h>
 
+#include "dynamics/mass.h"
 #include "dynamics/rest_system.h"
 #include "dynamics/tree.h"
 #include "expr/unit.h"
@@ -50,11 +52,12 @@ static struct sums sums_of(const struct fbd_state *state, int b, struct arrow *a
     const struct pose pose = body_pose(body, &at);
     const struct vec G = point_motion(body, &pose, body->inertia.G).p;
     const bool jointed = body->place.link > 0;
-    struct sums sums = {.m_a = vec_scale(body->inertia.mass, mass_center_acceleration(body, &at, state->a))};
+    struct sums sums = {.m_a =
+                            vec_scale(body_mass(body, &at), mass_center_acceleration(body, &at, state->a))};
     double alpha = jointed                      ? tree_angular_acceleration(body, &at)
                    : body->kind == motion_pivot ? state->a[body->first]
                                                 : state->a[body->first + body->count - 1];
-    sums.I_alpha = body->inertia.I_G * alpha;
+    sums.I_alpha = body_inertia(body, &at).I_G * alpha;
     double slid = slid_size(state, body);
     sums.force = vec_norm(sums.m_a) + slid;
     sums.moment = fabs(sums.I_alpha) + slid;

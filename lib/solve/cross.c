@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "dynamics/energy.h"
 #include "dynamics/kinematics.h"
 #include "expr/table.h"
 #include "solve/passages.h"
@@ -84,6 +85,27 @@ static void check_drive(struct run *run, const struct kink *kink, bool rope)
              place ? x[1] : v[1]);
 }
 
+/* What drops off at once goes on with the velocity of the body, and takes its kinetic energy along; what would come at
+ * once would come by an impact. */
+static void check_mass(struct run *run, const struct kink *kink)
+{
+    const struct fbd_model *model = run->model;
+    const struct model_body *body = &model->bodies[kink->body];
+    const struct expr *law = kink->formula.expr;
+    struct instant at = state_instant(run->state);
+    double before = expr_eval(law, run->state->t, run->state->y, run->during->branch + kink->formula.branch),
+           after = expr_eval(law, run->state->t, run->state->y, run->state->branch + kink->formula.branch);
+    if (!jumps(before, after, fabs(before) + fabs(after))) return;
+    if (after > before || after <= 0) {
+        run_fail(run, FBD_BROKEN, "at t = %.9g the mass of `%s` jumps from %.6g to %.6g: %s", run_time(run),
+                 body->name, before, after,
+                 after > 0 ? "what comes at once comes by an impact, which is not followed. Let it grow"
+                           : "nothing is left of it");
+        return;
+    }
+    run->impact_work[body->carried] += (after - before) / after * kinetic_energy(body, &at);
+}
+
 void run_check_counts(struct run *run)
 {
     const struct plan *plan = &run->model->plan;
@@ -109,6 +131,7 @@ void run_check_drives(struct run *run)
     for (size_t i = 0; i < plan->kink_count; i++) {
         int load = plan->kinks[i].load;
         enum load_kind kind = load >= 0 ? run->model->loads[load].source->kind : load_applied;
+        if (kind == load_carried) check_mass(run, &plan->kinks[i]);
         if (kind == load_drive || kind == load_rope) check_drive(run, &plan->kinks[i], kind == load_rope);
     }
 }

@@ -78,6 +78,7 @@ static void join_all(const struct scene *scene, int *parent, struct division *di
             join(parent, (int)b, body->motion.parent);
         else if (body->count == 0) /* has no motion of its own that could be integrated */
             join(parent, (int)b, 0);
+        join_read(scene, parent, body->mass.expr, (int)b);
         for (size_t i = 0; i < body->load_count; i++) join_load(scene, parent, &body->loads[i], (int)b);
     }
     for (size_t b = 1; scene->own_count > 0 && b < scene->body_count; b++) join(parent, (int)b, 0);

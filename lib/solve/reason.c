@@ -114,6 +114,14 @@ void run_fail_pole(struct run *run, const struct pole *pole)
         return;
     }
     const struct load *load = model->loads[pole->load].source;
+    if (load->kind == load_carried) {
+        run_fail(
+            run, FBD_BROKEN,
+            "at t = %.9g the mass of `%s` comes to nothing, and what acts on it would accelerate it without "
+            "bound. End the run before by an event, or let some of it stay: `max(..., 2[kg])`",
+            run_time(run), model->bodies[pole->body].name);
+        return;
+    }
     if (load->toward && pole->formula.expr == load->angle.expr) {
         run_fail(
             run, FBD_FAILED,

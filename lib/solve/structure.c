@@ -210,6 +210,7 @@ static enum expr_degree degree_of_load(const struct fbd_model *model, const stru
     case moment_damper: return expr_affine;
     case load_rope:
     case load_belt:
+    case load_carried:
     case load_contact:
     case load_drive:
     case load_potential:

@@ -32,6 +32,27 @@ const struct named_scene all_scenes[] = {
      "      - drag: {linear: 0.1 N*s/m, quadratic: 0.05 N*s^2/m^2}\n"
      "      - potential: {V: '0.5*3[N/m]*x^2 + 0.25*2[N/m^3]*x^4 - 0.1[N]*x*cos(t/1[s])'}\n"
      "simulate: {until: 1 s}\n"},
+    {"masses that vary, of bodies on each other, with thrusts",
+     "fbd: 1\n"
+     "bodies:\n"
+     "  hull:\n"
+     "    mass: '3[kg] + 0.5[kg]*sin(hull.x/1[m] + t/1[s])'\n"
+     "    shape: rod\n"
+     "    length: 1 m\n"
+     "    motion: planar\n"
+     "    forces:\n"
+     "      - gravity\n"
+     "      - thrust: {exhaust: '3[m/s] + 0.2*vx', angle: 20 deg, frame: body, at: left}\n"
+     "  arm:\n"
+     "    mass: '1[kg] + 0.2[kg]*cos(theta)*hull.x/1[m]'\n"
+     "    shape: rod\n"
+     "    length: 0.6 m\n"
+     "    motion: {pivot: {on: hull, at: right, point: left}}\n"
+     "    forces:\n"
+     "      - gravity\n"
+     "      - thrust: {velocity: [1 m/s, '0.3*hull.vx'], at: right}\n"
+     "    moments: [damper: 0.1 N*m*s]\n"
+     "simulate: {until: 1 s}\n"},
     {"pivot with forces off the axis and moments",
      "fbd: 1\n"
      "gravity: [0.5, -9.7]\n"

@@ -15,7 +15,9 @@
 
 #include "dynamics/diagram.h"
 #include "dynamics/energy.h"
+#include "dynamics/mass.h"
 #include "dynamics/modes.h"
+#include "dynamics/tree.h"
 #include "scenes.h"
 
 enum { states = 20, most_arrows = 20 };
@@ -79,12 +81,15 @@ static void check_newton(const struct named_scene *scene, fbd_state *state)
             size += vec_norm(arrows[i].force) + fabs(arrow_moment(&arrows[i], G));
         }
         /* Sums of some ten terms in another order than the plan's: a few roundings of their size. */
-        double tolerance = 1e-13 * size, m = body->inertia.mass;
+        double tolerance = 1e-13 * size, m = body_mass(body, &at);
         near("sum of forces along x", scene->name, sum.x, m * a.x, tolerance);
         near("sum of forces along y", scene->name, sum.y, m * a.y, tolerance);
+        double alpha = body->place.link > 0 ? tree_angular_acceleration(body, &at)
+                       : body->count > 0    ? state->a[body->first + body->count - 1]
+                                            : 0;
         if (body->kind == motion_pivot || body->kind == motion_planar)
-            near("sum of moments about G", scene->name, moment,
-                 body->inertia.I_G * state->a[body->first + body->count - 1], tolerance);
+            near("sum of moments about G", scene->name, moment, body_inertia(body, &at).I_G * alpha,
+                 tolerance);
     }
 }
 

@@ -57,6 +57,13 @@ function sumOf(terms, t, row) {
   return Math.abs(sum) < 5e-7 * largest ? 0 : sum;
 }
 
+// The inertia of an equation, which goes with a mass that varies.
+function inertiaIn(equation) {
+  if (equation.mass === undefined) return () => equation.value;
+  const mass = valueIn(equation.mass);
+  return (t, row) => equation.value * mass(t, row) / equation.massAtStart;
+}
+
 // The terms of an equation that are anything at some time.
 function livingTerms(equation) {
   return equation.terms.filter(([, index]) => sizeOf(index) > roundingOf(equation.unit));
@@ -84,7 +91,7 @@ function inNumbers(equation) {
     return math("mn", text);
   };
   const upright = (units) => math("mtext", `\u2009${unit(units)}`);
-  row.append(math("mn", show(equation.value, 4)), upright(equation.inertiaUnit), math("mo", "·"), math("mo", "("),
+  row.append(number(inertiaIn(equation), (value) => show(value, 4)), upright(equation.inertiaUnit), math("mo", "·"), math("mo", "("),
     number(valueIn(equation.acceleration), (value) => show(value, 4)), upright(equation.accelerationUnit), math("mo", ")"), math("mo", "="));
   livingTerms(equation).forEach(([, index], i) => {
     const sign = document.createTextNode("");
@@ -104,7 +111,7 @@ function equationTable(equation) {
   else box.append(mathLine(math("mrow", ...mathOf(`${equation.inertia} ${equation.accelerationName}`), math("mo", "="), math("mo", "∑"))));
   for (const [term, index] of equation.terms) addChanging(table, term, valueIn(index), units);
   addChanging(table, "sum", (t, row) => sumOf(equation.terms, t, row), units, "sum");
-  addRow(table, [[inMath(equation.inertia)], [show(equation.value), true], [unit(equation.inertiaUnit)]]);
+  addChanging(table, inMath(equation.inertia), inertiaIn(equation), unit(equation.inertiaUnit));
   addChanging(table, inMath(equation.accelerationName), valueIn(equation.acceleration), unit(equation.accelerationUnit));
   box.append(table);
   return box;
