@@ -45,7 +45,7 @@ static void define_equations(struct record *record, int b)
     columns->mass = -1;
     columns->moving_axis = -1;
     if (!equation_has_coordinate(body)) columns->equation = (int)record->column_count;
-    for (int k = 0; k < body->count && !equation_has_coordinate(body); k++)
+    for (int k = 0; k < body->count && k < most_coordinates_of_a_body && !equation_has_coordinate(body); k++)
         define(record, record_acceleration, b,
                name_of(record, body, off_center ? of_center[k] : equation_acceleration_name(model, body, k),
                        ""),

@@ -97,7 +97,7 @@ def write(model, folder):
 
 def missing(name, text):
     """What of a model is not written, as its text has it; "" for one that is taken."""
-    new = re.search(r"^(states|inputs):|\b(track|distributed): ", text, re.MULTILINE)
+    new = re.search(r"^(states|inputs):|\b(track|distributed|thrust): ", text, re.MULTILINE)
     if new:
         return new[1] or new[2]
     couplings = text.partition("\ncouplings:")[2].partition("\nsimulate:")[0].partition("\ncontacts:")[0]
