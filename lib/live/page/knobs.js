@@ -8,7 +8,7 @@ function niceAbove(value) {
   return power * ([1, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10].find((step) => digit <= step * (1 + 1e-9)) || 10);
 }
 
-const positive = ["kg", "g", "t", "slug", "lbm", "m", "cm", "mm", "ft", "in", "kg*m^2", "slug*ft^2"]; // masses and sizes: 0 is none
+const positive = ["kg", "slug", "m", "ft", "kg*m^2", "slug*ft^2", "s"]; // masses, sizes and durations: 0 is none
 const spans = { deg: 180, rad: Math.PI, "rad/s": 10, m: 1, "m/s": 5, ft: 3, "ft/s": 15 }; // of what starts at 0
 
 // How the number of a control is written: {number, unit, factor}; of an expression its value.
@@ -26,8 +26,9 @@ function quantityOf(control, text) {
 function rangeOf(control, { number, unit: units, factor }, key) {
   if (control.low !== null && control.low !== undefined) return [control.low / factor, control.high / factor];
   if (key === "until") return [0, niceAbove(3 * number)];
+  if (!control.unit && number >= 0 && number <= 1) return [0, 1]; // of friction, of an impact: a share
   if (number === 0) return [-(spans[units] || 1), spans[units] || 1];
-  const far = niceAbove(2 * Math.abs(number)), near = positive.includes(units || control.unit) && key.startsWith("parameters") ? far / 20 : 0;
+  const far = niceAbove(2 * Math.abs(number)), near = positive.includes(control.unit) && key.startsWith("parameters") ? far / 20 : 0;
   if (key.startsWith("initial") && units !== "m" && units !== "ft") return [-far, far];
   return number > 0 ? [near, far] : [-far, -near];
 }
@@ -59,8 +60,9 @@ function makeKnob(key, control, text, tell) {
   box.setAttribute("aria-label", control.name);
   slider.addEventListener("input", () => {
     box.value = writtenAs(knob, slider.value);
-    tell(key, box.value);
+    tell(key, box.value, true);
   });
+  slider.addEventListener("change", () => tell(key, box.value));
   box.addEventListener("change", () => tell(key, box.value.trim()));
   row.append(name, slider, box);
   knobs.set(key, knob);
