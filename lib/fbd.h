@@ -469,6 +469,8 @@ typedef struct fbd_recording {
     void *progress_context;
     bool table;      /* keep the rows that CSV has as numbers, see fbd_result_table; 8 bytes each */
     bool components; /* where forces are shown: also their components, and moments about the centre of mass */
+    unsigned
+        rows; /* of `keep`: at least so many at regular times; 0 for 2000, which play smoothly at any zoom */
 } fbd_recording;
 
 /* A column of the rows of a run: "t", "block.x", with error bars "block.x ±" beside it; and its unit. */

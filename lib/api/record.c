@@ -119,7 +119,7 @@ static void observe_again(void *context, struct ensemble *ensemble, size_t group
 
 /* The next time at which there is something to do other than a row: a sample of the errors, the end of a step
  * for the record, or, since who watches wants to be asked, the end of a slice; where one group goes to the
- * end without a stop it asks after each step. */
+ * end without a stop, or all stop at each other's steps, it asks after each step. */
 static double next_stop(const struct going *going)
 {
     const struct bars *bars = going->result->simulation->bars;
@@ -127,7 +127,7 @@ static double next_stop(const struct going *going)
     double next = bars ? bars_next(bars) : HUGE_VAL;
     if (going->result->record) next = fmin(next, ensemble_next_end(ensemble));
     bool told = going->recording && going->recording->progress;
-    if (told && !(ensemble->count == 1 && going->whole))
+    if (told && !going->result->record && !(ensemble->count == 1 && going->whole))
         next = fmin(next, fmax(ensemble->t + going->slice * ensemble->options.until,
                                nextafter(ensemble->t, HUGE_VAL)));
     return next;

@@ -20,9 +20,11 @@ INCLINE = MODELS / "kinetics/incline.yaml"
 PENDULUM = MODELS / "rotation/compound_pendulum.yaml"
 SAME = 1e-9  # of the largest size of a column: sin, cos and exp of the two C libraries differ in the last digit
 LARGEST = 1500000  # bytes of a page
-QUICK = 50  # ms from the slider to the picture
+QUICK = 50  # ms from the slider to the scene and the numbers beside it; the plots follow
 # What grows such differences: their numbers are held to the events and to the size of the motion.
 CHAOTIC = {"double_pendulum", "chain_of_ten_rods", "n_four_bar", "andrews_squeezer", "dominoes", "woodpecker"}
+# Balls in a row touch exactly: whether one opens and closes at the instant of a blow is a matter of the last bit.
+UNDECIDED = {"cradle"}
 SLOW = {"million_revolutions", "long_pendulum"}  # minutes in a browser on a busy machine
 
 WORKER = """
@@ -79,7 +81,9 @@ def same_motion(browser, model, tolerance):
     for k, name in enumerate(head):
         # a residual is what is left of the energies, a force that cancels is measured by the largest one with its unit
         unit = name[name.rfind("["):]
-        size = max((abs(row[i]) for row in want for i, other in enumerate(head) if other.endswith(unit)), default=0) or 1
+        least = 1 if unit == "[rad]" else 0  # angles are counted from anywhere
+        size = max((abs(row[i]) for row in want for i, other in enumerate(head) if other.endswith(unit)), default=0)
+        size = max(size, least) or 1
         worst = max(worst, (max(abs(a[k] - b[k]) for a, b in zip(rows, want)) / size, name))
     assert worst[0] <= tolerance, worst
     return rows == want
@@ -103,7 +107,7 @@ def check_models(browser, folder, share):
             path = live_page(folder, model)
             assert path.stat().st_size <= LARGEST, path.stat().st_size
             open_live(browser, path)
-            if model.stem not in CHAOTIC:
+            if model.stem not in CHAOTIC | UNDECIDED:
                 same_events(browser, model)
             equal += same_motion(browser, model, 1e-3 if model.stem in CHAOTIC else SAME)
             is_quiet(browser, path)
@@ -125,7 +129,7 @@ def check_sliders(browser, folder):
         before = browser.run("return bench.shown")
         browser.click(box[0] + 0.25 * box[2], box[1] + box[3] / 2)
         wait_for(browser, f"bench.shown > {before} && !bench.runner.busy")
-        phi = browser.run("return /phi: (.*? deg)/.exec(editor.value)[1]")
+        phi = browser.run("return /phi: \\{value: (.*? deg)/.exec(editor.value)[1]")
         assert 10 < float(phi.split()[0]) < 20, phi
         want = result("--set", f"phi={phi}", INCLINE)
         close(browser.run("return fbd.value('block.x', run.end)"), want["final"]["block"]["x"], 1e-9)
@@ -134,7 +138,7 @@ def check_sliders(browser, folder):
         before = browser.run("return bench.shown")
         browser.press("\ue014")
         wait_for(browser, f"bench.shown > {before} && !bench.runner.busy")
-        after = float(browser.run("return /phi: (.*?) deg/.exec(editor.value)[1]"))
+        after = float(browser.run("return /phi: \\{value: (.*?) deg/.exec(editor.value)[1]"))
         assert 0 < after - float(phi.split()[0]) < 1, (phi, after)
     with claim("the command line that it shows gives the same end"):
         words = browser.run("return element('live-command').textContent")
@@ -192,6 +196,7 @@ def check_effects(browser, folder):
         wait_for(browser, "/#m=/.test(bench.link || '')")
         fragment = browser.run("return '#' + bench.link.split('#')[1]")
         settled(browser, "setModel(bench.own, [])")
+        wait_for(browser, "location.hash === ''")
         open_live(browser, path, fragment)
         wait_for(browser, "bench.off.has('block.friction')")
         assert not browser.run("return run.columns.some((column) => column.n === 'block.friction')")
@@ -212,38 +217,41 @@ def check_set(browser, folder):
     with claim("what the command line sets is where the sliders begin"):
         path = live_page(folder, INCLINE, "--set", "phi=40 deg", "--until", "2")
         open_live(browser, path)
-        assert browser.run("return /phi: 40 deg/.test(editor.value) && run.end === 2")
+        assert browser.run("return /value: 40 deg/.test(editor.value) && run.end === 2")
     with claim("a model that reads data from a file has it in the page"):
         path = live_page(folder, MODELS / "data/measured_push.yaml")
         open_live(browser, path)
-        assert browser.run("return element('live-notes').childElementCount") == 0
+        assert (notes := browser.run("return element('live-notes').textContent")) == "", notes
 
 
 def check_speed(browser, folder):
     for model, name in ((INCLINE, "parameters.phi"), (PENDULUM, "parameters.theta0")):
         with claim(f"{model.stem}: from the slider to the picture in {QUICK} ms"):
             open_live(browser, live_page(folder, model))
-            whole, running, drawing = browser.run("""
-                const knob = knobs.get(arguments[0]), whole = [], running = [], drawing = [];
+            whole, plots, running, drawing = browser.run("""
+                const knob = knobs.get(arguments[0]), whole = [], plots = [], running = [], drawing = [];
+                const wait = () => charts.some(({ stale, unseen, box }) => stale && !unseen && box.open);
                 for (let i = 0; i < 24; i++) {
                   knob.slider.value = knob.range[0] + (knob.range[1] - knob.range[0]) * (0.3 + 0.02 * i);
                   const before = bench.shown, start = performance.now();
                   knob.slider.dispatchEvent(new Event("input"));
                   while (bench.shown === before) await new Promise((done) => setTimeout(done, 0));
                   whole.push(performance.now() - start);
+                  while (wait()) await new Promise((done) => setTimeout(done, 0));
+                  plots.push(performance.now() - start);
                 }
                 const asker = makeAsker(() => {}), question = [editor.value, parts.name, ""];
                 for (let i = 0; i < 24; i++) {
                   const start = performance.now();
-                  const [, answer] = await new Promise((done) => asker.ask("both", question, done)), asked = performance.now();
+                  const [, answer] = await new Promise((done) => asker.ask("both", question, done, [rowsUnderWay])), asked = performance.now();
                   showAgain(JSON.parse(answer).data);
                   running.push(asked - start);
                   drawing.push(performance.now() - asked);
                 }
                 asker.worker.terminate();
-                return [whole, running, drawing].map((list) => list.sort((a, b) => a - b));""", name)
+                return [whole, plots, running, drawing].map((list) => list.sort((a, b) => a - b));""", name)
             print(f"# {model.stem}: median {whole[len(whole) // 2]:.0f} ms, least {whole[0]:.0f} ms; of it the run {running[0]:.1f} ms, "
-                  f"the picture {drawing[0]:.1f} ms at least")
+                  f"the scene {drawing[0]:.1f} ms at least; with all plots {plots[len(plots) // 2]:.0f} ms, {plots[0]:.0f} ms")
             # the least of each part; where all processors are busy with something else it says nothing of the page
             if os.getloadavg()[0] < os.cpu_count() + 1:
                 assert running[0] + drawing[0] < QUICK, (running, drawing)

@@ -101,17 +101,22 @@ struct recorded {
     fbd_result *result;
 };
 
-static struct recorded record_run(const char *text, double until)
+static struct recorded record_rows(const char *text, double until, unsigned rows)
 {
     struct recorded run = {.model = model_from(text), .errors = fbd_errors_new()};
     fbd_options options = FBD_OPTIONS_DEFAULT;
-    fbd_recording recording = {.keep = true};
+    fbd_recording recording = {.keep = true, .rows = rows};
     options.until = until;
     run.simulation = fbd_simulation_new(run.model, &options, run.errors);
     assert_non_null(run.simulation);
     run.result = fbd_simulation_run(run.simulation, &recording);
     assert_non_null(run.result);
     return run;
+}
+
+static struct recorded record_run(const char *text, double until)
+{
+    return record_rows(text, until, 0);
 }
 
 static void end_run(struct recorded *run)
@@ -164,6 +169,29 @@ static void a_thinned_record_keeps_events_and_extremes(void **unused)
         assert_true(fabs((double)cell[0] + pi) < 1e-4 && fabs((double)cell[1]) < 1e-4);
     }
     end_run(&run);
+}
+
+static void fewer_rows_are_of_the_same_motion(void **unused)
+{
+    (void)unused;
+    struct recorded run = record_run(pendulum, 5), few = record_rows(pendulum, 5, 50);
+    const struct record *all = run.result->record, *some = few.result->record;
+    size_t regular = 0, k = 0;
+    assert_true(some->count < all->count / 4);
+    for (size_t i = 0; i < some->count; i++) {
+        double t = some->times[i], tenths = 10 * t;
+        if (fabs(tenths - round(tenths)) > 1e-9) continue; /* the end of a step */
+        regular++;
+        while (k + 1 < all->count && all->times[k] < t - 1e-9) k++;
+        /* the times differ by their roundings, and what moves with them */
+        for (size_t c = 0; c < all->column_count; c++) {
+            double a = all->rows[k * all->column_count + c], b = some->rows[i * all->column_count + c];
+            assert_true(fabs(a - b) <= 1e-10 * fmax(1, fabs(a)));
+        }
+    }
+    assert_int_equal(regular, 51);
+    end_run(&run);
+    end_run(&few);
 }
 
 /* The value that the page makes of a packed column. */
@@ -343,6 +371,7 @@ int main(void)
         cmocka_unit_test(labels_of_random_crowds_never_overlap),
         cmocka_unit_test(outlines_have_the_sizes_of_their_shapes),
         cmocka_unit_test(a_thinned_record_keeps_events_and_extremes),
+        cmocka_unit_test(fewer_rows_are_of_the_same_motion),
         cmocka_unit_test(packing_loses_nothing),
         cmocka_unit_test(what_was_not_recorded_cannot_be_shown),
         cmocka_unit_test(an_interrupted_run_ends_where_it_was_told_to),

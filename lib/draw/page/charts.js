@@ -99,9 +99,34 @@ function redrawCharts() {
   }
 }
 
+// The same one after the other, each in a task of its own: the scene and the hands on the page need not wait for them.
+// Where new runs come faster than all plots are drawn each has its turn.
+const drawing = new MessageChannel();
+let drawnLast = 0;
+
+function redrawChartsSoon() {
+  for (const chart of charts) chart.stale = chart.graph !== null;
+  drawing.port2.postMessage(null);
+}
+
+drawing.port1.onmessage = () => {
+  const waits = ({ stale, unseen, box }) => stale && !unseen && box.open;
+  for (let k = 1; k <= charts.length; k++) {
+    const next = (drawnLast + k) % charts.length;
+    if (!waits(charts[next])) continue;
+    drawnLast = next;
+    redrawChart(charts[next]);
+    if (charts.some(waits)) drawing.port2.postMessage(null);
+    return;
+  }
+};
+
 // After another run: is one folded away that has something to show now, or the other way round?
 function chartsAreOthers() {
-  return charts.some(({ spec, empty }) => emptiness(spec) !== empty);
+  const says = charts.map(({ spec }) => emptiness(spec));
+  if (charts.some(({ empty }, i) => Boolean(says[i]) !== empty)) return true;
+  charts.forEach(({ note }, i) => write(note, says[i] && ` ${says[i]}`));
+  return false;
 }
 
 // What a plot of zeros says instead: nothing but rounding in it, or, of the residual, less than a billionth of the energies.
@@ -156,7 +181,10 @@ function makeChart(spec) {
   const plot = document.createElement("div"), cursor = document.createElement("div"), holder = document.createElement("div"), empty = emptiness(spec);
   box.className = "chart";
   title.append(Object.assign(document.createElement("h2"), { textContent: `${spec.title} [${unit(spec.unit)}]` }));
-  if (empty) title.append(Object.assign(document.createElement("span"), { className: "soft", textContent: ` ${empty}` }));
+  const note = document.createTextNode(empty && ` ${empty}`), soft = document.createElement("span");
+  soft.className = "soft";
+  soft.append(note);
+  title.append(soft);
   legend.className = "legend";
   plot.className = "plot";
   cursor.className = "cursor";
@@ -164,7 +192,7 @@ function makeChart(spec) {
   plot.append(holder, cursor);
   box.append(title, legend, plot);
   document.getElementById("charts").append(box);
-  const chart = { spec, holder, box, cursor, empty, graph: null, stale: false, hidden: spec.columns.map(() => false), unseen: false };
+  const chart = { spec, holder, box, cursor, note, empty: empty !== "", graph: null, stale: false, hidden: spec.columns.map(() => false), unseen: false };
   chart.values = spec.columns.map((c, i) => {
     const [item, text] = legendItem(chart, c, i);
     legend.append(item);

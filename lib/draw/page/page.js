@@ -262,12 +262,17 @@ function seekHash() {
 
 // ---- the start
 
+// What the tables have but numbers that change with time.
+function tablesSay(bodies) {
+  const equations = bodies.map((body) => body.equations.map((equation) => [equation, livingTerms(equation)]));
+  return JSON.stringify([equations, bodies.map((body) => body.arrows)]);
+}
+
 // What is said of the run as a whole.
 function describeRun() {
   element("title").textContent = run.title || "fbd";
   element("summary").textContent = `t = ${show(run.start)} s to ${show(run.end)} s, ${run.bodies.length} ${run.bodies.length === 1 ? "body" : "bodies"}` +
     (run.reason ? `. The run ended early: ${run.reason}` : "");
-  Object.assign(element("scrub"), { min: run.start, max: run.end });
   listEvents();
   showCost();
 }
@@ -285,6 +290,7 @@ function showRun(data) {
   takeRun(data);
   eventTimes = run.events.times;
   Object.assign(plotWindow, { from: run.start, to: run.end, hover: null });
+  Object.assign(element("scrub"), { min: run.start, max: run.end });
   describeRun();
   fillChoices();
   measure();
@@ -300,9 +306,9 @@ function makeup({ columns, bodies }) {
 }
 
 // Another run of the page's model: the eye, the time and what is switched on stay as they are where the run is made of
-// the same.
+// the same. First the scene and the numbers beside it, then the rest.
 function showAgain(data) {
-  const { t } = player, whole = plotWindow.from === run.start && plotWindow.to === run.end;
+  const { t } = player, said = tablesSay(chosenBodies()), whole = plotWindow.from === run.start && plotWindow.to === run.end;
   if (makeup(data) !== makeup(run)) {
     showRun(data);
     seek(t);
@@ -312,12 +318,14 @@ function showAgain(data) {
   eventTimes = run.events.times;
   const { from, to } = plotWindow, kept = !whole && to <= run.end && from >= run.start;
   Object.assign(plotWindow, kept ? { from, to } : { from: run.start, to: run.end });
-  describeRun();
+  Object.assign(element("scrub"), { min: run.start, max: run.end });
   measure();
-  fit();
-  makeTables(chosenBodies());
-  if (chartsAreOthers()) makeCharts(chosenBodies()); else redrawCharts();
+  aim();
+  if (tablesSay(chosenBodies()) !== said) makeTables(chosenBodies());
+  if (chartsAreOthers()) makeCharts(chosenBodies()); else redrawChartsSoon();
   seek(t);
+  clearTimeout(player.describing);
+  player.describing = setTimeout(describeRun, 0);
 }
 
 // Keys belong to the page but where the focus has a use of its own for them.

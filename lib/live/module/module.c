@@ -106,13 +106,16 @@ static int progress(void *context, const fbd_progress *now)
     return 0;
 }
 
-char *live_run(const char *text, const char *name, const char *off)
+char *live_run(const char *text, const char *name, const char *off, double rows)
 {
     fbd_errors *errors = fbd_errors_new();
     fbd_model *model = read_model(text, name, off, errors);
     fbd_simulation *simulation = model ? fbd_simulation_new(model, NULL, errors) : NULL;
     double last = emscripten_get_now();
-    fbd_recording recording = {.keep = true, .progress = progress, .progress_context = &last};
+    fbd_recording recording = {.keep = true,
+                               .rows = (unsigned)rows,
+                               .progress = progress,
+                               .progress_context = &last};
     fbd_result *result = simulation ? fbd_simulation_run(simulation, &recording) : NULL;
     fbd_outcome outcome = result ? fbd_result_outcome(result) : FBD_DONE;
     if (result && outcome != FBD_DONE && outcome != FBD_STOPPED) fbd_simulation_blame(simulation, errors);

@@ -11,8 +11,9 @@ char *live_text(const char *text, const char *name, const char *off);
 /* {errors, controls}: what fbd_model_controls says, or null. */
 char *live_controls(const char *text, const char *name);
 
-/* {errors, data}: what fbd_result_page_data says, or null where there was no run. */
-char *live_run(const char *text, const char *name, const char *off);
+/* {errors, data}: what fbd_result_page_data says, or null where there was no run; of at least so many regular rows (see
+ * fbd_recording). */
+char *live_run(const char *text, const char *name, const char *off, double rows);
 
 /* The CSV with its ledger, for tests; NULL where there was no run. */
 char *live_csv(const char *text, const char *name, const char *off);

@@ -34,11 +34,13 @@ function controlOf(key) {
   return controlList(bench.controls).find(([other]) => other === key)[1];
 }
 
-function moved(key, value) {
+// While a slider is under way the run is shown in fewer rows; the worker is asked before the page changes its texts.
+function moved(key, value, underWay = false) {
   if (!bench.controls || !controlOf(key).written) return;
   bench.moved.set(key, value);
-  setEditor(benchText());
-  askForRun();
+  const text = benchText();
+  askForRun(text, underWay ? rowsUnderWay : 0);
+  setEditor(text);
 }
 
 // What is given as a number first; other initial values are folded away.
@@ -65,7 +67,9 @@ function effectName(effect) {
 }
 
 function makeEffects() {
-  const names = new Set();
+  const names = new Set(), made = JSON.stringify(bench.controls.effects.map(({ body, name }) => [body, name]).concat([...bench.off]));
+  if (made === bench.effectsMade) return;
+  bench.effectsMade = made;
   element("live-effects").replaceChildren(...bench.controls.effects.map((effect) => {
     const label = document.createElement("label"), box = document.createElement("input"), name = effectName(effect);
     names.add(name);
@@ -128,12 +132,15 @@ function answeredRun(question, answer) {
   bench.shown++;
   bench.runFor = question.text + question.off;
   element("live-stop").hidden = true;
-  keepLink();
+  keepLinkSoon();
 }
 
+// Of a run that is shown while a slider moves: enough for the eye, a quarter of the usual ones.
+const rowsUnderWay = 500;
+
 // One question after the other: what can be moved, then how it moves.
-function askForRun() {
-  const text = editor.value, off = offNames();
+function askForRun(text = editor.value, rows = 0) {
+  const off = offNames();
   bench.since = performance.now();
   bench.coster?.stop();
   bench.runner.ask("both", [text, parts.name, off], (answer) => {
@@ -141,7 +148,7 @@ function askForRun() {
     answeredControls(text, controls);
     if (motion) answeredRun({ text, off }, motion);
     else { bench.shown++; element("live-stop").hidden = true; }
-  });
+  }, [rows]);
 }
 
 // ---- what accuracy costs
@@ -171,7 +178,7 @@ function connectBench() {
   editor.addEventListener("input", () => {
     showLineNumbers();
     clearTimeout(typing);
-    typing = setTimeout(askForRun, 150);
+    typing = setTimeout(() => askForRun(), 150);
   });
   editor.addEventListener("scroll", scrollEditor);
   element("live-method").addEventListener("change", () => moved("method", element("live-method").value));

@@ -43,6 +43,13 @@ async function readLink() {
   } catch { return null; }
 }
 
+// Browsers count how often an address is changed: it is when nothing has moved for a while.
+function keepLinkSoon() {
+  clearTimeout(bench.linking);
+  bench.linking = setTimeout(keepLink, 300);
+  showCommand();
+}
+
 // The address says what is shown; that of the page as it came is left as it is.
 async function keepLink() {
   const own = editor.value === bench.own && bench.off.size === 0;
@@ -96,6 +103,7 @@ function connectShare() {
   element("live-link").addEventListener("click", () => copy(bench.link || location.href, element("live-link")));
   element("live-copy").addEventListener("click", () => copy(element("live-command").textContent, element("live-copy")));
   addEventListener("hashchange", async () => {
+    clearTimeout(bench.linking);
     const linked = await readLink();
     if (linked) setModel(linked.text, linked.off);
   });

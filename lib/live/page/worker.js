@@ -33,13 +33,13 @@ async function begin({ module, files }) {
   postMessage({ ready: true });
 }
 
-// What can be moved in a text, and its run.
-function both([text, name, off]) {
+// What can be moved in a text, and its run in so many rows.
+function both([text, name, off], rows) {
   const controls = call("controls", [text, name], []);
-  return [controls, controls.endsWith("\"controls\":null}") ? null : call("run", [text, name, off], [])];
+  return [controls, controls.endsWith("\"controls\":null}") ? null : call("run", [text, name, off], rows)];
 }
 
 self.onmessage = ({ data }) => {
   if (data.module) begin(data);
-  else postMessage({ answer: data.call === "both" ? both(data.texts) : call(data.call, data.texts, data.numbers || []) });
+  else postMessage({ answer: data.call === "both" ? both(data.texts, data.numbers) : call(data.call, data.texts, data.numbers || []) });
 };
