@@ -52,11 +52,22 @@ function connectEye() {
 // window is no concern of the reader of a sheet.
 const paper = { on: false, width: 672, height: 400, ratio: 3 };
 
+// A formula that is wider than its column is written smaller: paper does not scroll.
+function fitFormulas(on) {
+  for (const box of document.querySelectorAll(".formula")) {
+    const whole = box.firstChild;
+    whole.style.fontSize = "";
+    const share = on ? box.clientWidth / whole.getBoundingClientRect().width : 1;
+    if (share < 1) whole.style.fontSize = `${(12 * share).toFixed(2)}px`;
+  }
+}
+
 function setPaper(on) {
   if (paper.on === on) return;
   paper.on = on;
   document.documentElement.classList.toggle("paper", on);
   for (const chart of charts) chart.unseen = false;
+  fitFormulas(on);
   if (on) fit([paper.width, paper.height], paper.ratio);
   else fit();
   restyleCharts(on ? paper.ratio : null);

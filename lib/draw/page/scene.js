@@ -189,6 +189,14 @@ function drawBody(body, frame) {
   for (const hole of [false, true]) for (const shape of body.shapes) if (Boolean(shape.hole) === hole) drawShape(body, frame, shape);
 }
 
+// Labels are read better beside a bar than on it.
+function avoidBars(frames) {
+  run.bodies.forEach((body, i) => {
+    for (const { kind, corners } of body.shapes)
+      if (kind === "bar") avoidLine(...toScreen(shapePoint(body, frames[i], corners[0])), ...toScreen(shapePoint(body, frames[i], corners[1])));
+  });
+}
+
 // The way of the last rows: of a usual run the whole way, of a long one what the eye can still tell apart.
 function drawTrace(body, t) {
   const most = 2500, pieces = 300, point = tracePoint(body), points = [];
@@ -221,6 +229,7 @@ function drawScene(t, shows, chosen) {
     drawPin(toScreen([frames[i].x, frames[i].y]));
   });
   beginLabels();
+  avoidBars(frames);
   if (shows.axes) drawScales(shows);
   if (shows.axes) drawAngles(frames, t, row, chosen);
   run.bodies.forEach((body, i) => {

@@ -115,7 +115,7 @@ function measure() {
 }
 
 // The length of an arrow in pixels; beyond `longest` it is cut.
-const arrowShare = 0.18, cutShare = 0.24;
+const arrowShare = 0.14, cutShare = 0.19;
 
 function pixelsPerForce() {
   return arrowShare * Math.min(view.width, view.height) / view.force;
@@ -125,15 +125,27 @@ function longestArrow() {
   return cutShare * Math.min(view.width, view.height);
 }
 
+// Of lines s X + x those that are uppermost for some s: the upper hull of the points (X, x), from left to right.
+function uppermost(points) {
+  const hull = [];
+  for (const p of [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1])) {
+    for (let n = hull.length; n > 1; n--) {
+      const [X, x] = hull[n - 2], [Y, y] = hull[n - 1];
+      if ((Y - X) * (p[1] - x) < (y - x) * (p[0] - X)) break;
+      hull.pop();
+    }
+    hull.push(p);
+  }
+  return hull;
+}
+
 // The largest scale s at which s X + x, for X of the world and x in pixels, spans no more than `room`; and its ends.
 function fitAxis(points, room) {
-  const span = (s) => {
-    let low = Infinity, high = -Infinity;
-    for (const [X, x] of points) { low = Math.min(low, s * X + x); high = Math.max(high, s * X + x); }
-    return [low, high];
-  };
-  let least = Infinity, most = -Infinity, low = 0, high = 1e-9;
-  for (const [X] of points) { least = Math.min(least, X); most = Math.max(most, X); }
+  const upper = uppermost(points), lower = uppermost(points.map(([X, x]) => [-X, -x]));
+  const height = (hull, s) => hull.reduce((most, [X, x]) => Math.max(most, s * X + x), -Infinity);
+  const span = (s) => [-height(lower, s), height(upper, s)];
+  const least = upper[0][0], most = upper[upper.length - 1][0];
+  let low = 0, high = 1e-9;
   if (!(most - least > 1e-12 * Math.max(Math.abs(most), Math.abs(least)))) return { most: Infinity, span };
   const fits = (s) => { const [a, b] = span(s); return b - a <= room; };
   while (fits(high) && high < 1e30) high *= 4;
