@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <string.h>
+#include <strings.h>
 
 #include "complain.h"
 #include "program.h"
@@ -23,8 +24,19 @@ enum format { format_pdf, format_png, format_svg };
 static enum format format_of(const char *file)
 {
     const char *end = strrchr(file, '.');
-    if (end && strcmp(end, ".pdf") == 0) return format_pdf;
-    return end && strcmp(end, ".png") == 0 ? format_png : format_svg;
+    if (end && strcasecmp(end, ".pdf") == 0) return format_pdf;
+    return end && strcasecmp(end, ".png") == 0 ? format_png : format_svg;
+}
+
+/* Does its name promise a picture of another kind? */
+static bool is_another_kind(const char *file)
+{
+    static const char *const others[] = {".jpg",  ".jpeg", ".gif", ".webp", ".bmp",
+                                         ".tiff", ".tif",  ".eps", ".ps"};
+    const char *end = strrchr(file, '.');
+    for (size_t i = 0; end && i < sizeof others / sizeof *others; i++)
+        if (strcasecmp(end, others[i]) == 0) return true;
+    return false;
 }
 
 /* The first converter that is there, or NULL. */
@@ -38,6 +50,7 @@ static const char *const *converter_for(enum format format)
 bool picture_can_be_written(const struct command_line *line, const char *file)
 {
     enum format format = format_of(file);
+    if (is_another_kind(file)) return command_line_usage(line, "--svg makes .svg, .pdf and .png, not ", file);
     if (format == format_svg || converter_for(format)) return true;
     return command_line_usage(
         line,

@@ -57,6 +57,8 @@ check 'has the reactions of the statics' says '<title>normal on foot: \(0, 1015.
 check '--worksheet has no arrows to label' exits 2 draw "$crank" --worksheet --symbols
 check '--symbols without --svg is 2' exits 2 run --symbols "$crank"
 check 'and for eigenvalues' exits 2 run --linearize --svg - --symbols "$models/vibration/damped_oscillator.yaml"
+check 'a file that promises another picture is 2' exits 2 run --quiet --svg crank.jpg "$crank"
+check 'and none is written' test ! -e crank.jpg
 check 'a scale is above zero' exits 2 draw "$crank" --scale 0
 check '--latex goes with --equations' exits 2 run --latex "$crank"
 
