@@ -73,6 +73,10 @@ void ties_keep(struct fbd_state *state, const struct fbd_state *from);
  * than half a turn before it is noted again. */
 void constraints_follow(const struct fbd_model *model, struct tree_work *work);
 
+/* The points that follow curves have been moved by a projection: where they are on them now. What winds has its place
+ * from the motion alone. */
+void slots_follow(const struct fbd_model *model, struct tree_work *work);
+
 /* Put tie `index`, of a contact, to a feature of its meeting (or to none), as the links are. */
 void tie_set_feature(const struct fbd_model *model, struct tree_work *work, int index, int feature);
 

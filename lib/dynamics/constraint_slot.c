@@ -140,6 +140,13 @@ void slot_follow(const struct view *view, const struct tie *tie, struct tie_stat
     state->foot = foot_of(tie, jet_value(look(view, tie).u), state->foot);
 }
 
+void slots_follow(const struct fbd_model *model, struct tree_work *work)
+{
+    const struct view view = {model->tree, work, false, NULL, NULL};
+    for (int i = 0; i < model->tree->tie_count; i++)
+        if (model->tree->ties[i].curve) slot_follow(&view, &model->tree->ties[i], &work->ties[i]);
+}
+
 double slot_left(const struct fbd_model *model, const struct tree_work *work, int index, int end,
                  double *rate)
 {

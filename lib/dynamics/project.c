@@ -292,6 +292,7 @@ static bool project_position(struct fbd_state *state, const struct place *place)
     size_t bytes = (size_t)state->model->plan.n * sizeof *state->y;
     double *before = state->scratch, share = 1;
     prepare(place);
+    slots_follow(place->model, place->at.tree); /* from afar: searched once, and not in every evaluation */
     struct misfit misfit = misfit_of(place);
     for (int k = 0; k < most_steps && misfit.position > rounding(place); k++) {
         memcpy(before, state->y, bytes);
@@ -300,6 +301,7 @@ static bool project_position(struct fbd_state *state, const struct place *place)
         prepare(place);
         struct misfit after = misfit_of(place);
         if (after.position < misfit.position) {
+            slots_follow(place->model, place->at.tree);
             misfit = after;
             share = fmin(1, 2 * share);
             continue;

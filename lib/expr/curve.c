@@ -161,6 +161,19 @@ static enum curve_fault make_panels(struct curve *curve, struct arena *arena, co
     return fault;
 }
 
+static void take_samples(struct curve *curve)
+{
+    for (int i = 0; i < curve->piece_count; i++)
+        for (int k = 0; k < curve->pieces[i].count; k++) {
+            struct curve_panel *panel = &curve->panels[curve->pieces[i].first + k];
+            for (int j = 0; j <= panel_samples; j++) {
+                double p = panel->p + panel->wide * j / panel_samples;
+                panel->at[j] = (struct vec){expr_eval(curve->x, 0, &p, curve->pieces[i].branch_x),
+                                            expr_eval(curve->y, 0, &p, curve->pieces[i].branch_y)};
+            }
+        }
+}
+
 enum curve_fault curve_make(struct curve *curve, struct arena *arena, const char *name, double *place)
 {
     double *ends;
@@ -169,6 +182,7 @@ enum curve_fault curve_make(struct curve *curve, struct arena *arena, const char
     if (fault == curve_made) fault = count_up(curve, place);
     if (fault == curve_made && curve->closed) fault = check_closed(curve, place);
     if (fault == curve_made) fault = make_ends(curve, arena, name);
+    if (fault == curve_made) take_samples(curve);
     return fault;
 }
 
@@ -299,26 +313,16 @@ double curve_length_at(const struct curve *curve, double p)
     return wanted == 0 ? panel->s : panel->s + panel->length * (1 + x) / 2;
 }
 
-/* By the formulas alone: lengths and slopes are not asked for before the nearest is found. */
-static void look_near(const struct curve *curve, const struct curve_piece *piece,
-                      const struct curve_panel *panel, struct vec r, double *least, double *nearest)
-{
-    enum { samples = 16 };
-    for (int i = 0; i <= samples; i++) {
-        double p = panel->p + panel->wide * i / samples;
-        struct vec place = {expr_eval(curve->x, 0, &p, piece->branch_x),
-                            expr_eval(curve->y, 0, &p, piece->branch_y)};
-        double away = vec_norm(vec_sub(place, r));
-        if (away < *least) *least = away, *nearest = p;
-    }
-}
-
 double curve_near(const struct curve *curve, struct vec r)
 {
     double least = HUGE_VAL, nearest = curve->from;
-    for (int i = 0; i < curve->piece_count; i++)
-        for (int k = 0; k < curve->pieces[i].count; k++)
-            look_near(curve, &curve->pieces[i], &curve->panels[curve->pieces[i].first + k], r, &least,
-                      &nearest);
+    for (int k = 0; k < curve->panel_count; k++) {
+        const struct curve_panel *panel = &curve->panels[k];
+        for (int j = 0; j <= panel_samples; j++) {
+            struct vec off = vec_sub(panel->at[j], r);
+            double away = vec_dot(off, off);
+            if (away < least) least = away, nearest = panel->p + panel->wide * j / panel_samples;
+        }
+    }
     return curve_length_at(curve, nearest);
 }

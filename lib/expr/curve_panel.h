@@ -7,7 +7,7 @@
 
 #include "expr/curve.h"
 
-enum { panel_order = 24 };
+enum { panel_order = 24, panel_samples = 16 };
 
 struct curve_panel {
     double p, wide;        /* from p to p + wide */
@@ -16,6 +16,7 @@ struct curve_panel {
     struct vec e, end;     /* that direction, and the one where it ends */
     double u[panel_order]; /* (p(s) - p) / wide as a series in s */
     double bend[panel_order];
+    struct vec at[panel_samples + 1]; /* places, evenly in p, to look for the nearest of them */
 };
 
 struct curve_piece {

@@ -62,6 +62,10 @@ static struct verdict judge_applied(const struct model_body *body, const struct 
     if (work) return (struct verdict){potential_none, work};
     if (on & ~(unsigned)depends_place && !load->source->toward)
         return (struct verdict){potential_none, why_not(on)};
+    if (on == 0 && !load->source->conservative && !load->source->toward)
+        return (struct verdict){
+            potential_none,
+            "counted as work: a given force (`conservative: true` counts it as potential energy)"};
     bool turns = jointed || (body->kind != motion_slide && body->kind != motion_particle);
     if (load->source->toward)
         return (struct verdict){potential_none, "counted as work: it points to a place"};

@@ -3,6 +3,7 @@
  * The report of a run: equations at the start, events, final state, forces and their work, energy, cost.
  */
 #include <stdlib.h>
+#include <string.h>
 
 #include "dynamics/diagram.h"
 #include "dynamics/mass.h"
@@ -241,6 +242,26 @@ static void energy_row(const struct page *page, const char *name, double start, 
     text_printf(text, "%s\n", energy_unit(page->result->ledger.model));
 }
 
+/* What the potential energy is of. */
+static void write_potentials(const struct page *page)
+{
+    const struct fbd_model *model = page->result->ledger.model;
+    const char *before = "  potential is that of ";
+    for (size_t i = 0; i < model->load_count; i++) {
+        const struct model_load *load = &model->loads[i];
+        const char *effect = load_law(load->source)->effect;
+        size_t earlier = 0;
+        if (load->potential_kind == potential_none || load->potential_kind == potential_workless) continue;
+        while (earlier < i && (model->loads[earlier].potential_kind == potential_none ||
+                               strcmp(load_law(model->loads[earlier].source)->effect, effect) != 0))
+            earlier++;
+        if (earlier < i) continue;
+        text_printf(page->text, "%s%s", before, effect);
+        before = ", ";
+    }
+    if (before[0] == ',') text_add(page->text, "\n");
+}
+
 static void write_energy(const struct page *page)
 {
     fbd_energy energy = fbd_result_energy(page->result), error = fbd_result_energy_error(page->result);
@@ -252,6 +273,7 @@ static void write_energy(const struct page *page)
     text_printf(page->text,
                 "  residual %.2e %s: change of kinetic + potential, less that work (0 for the true motion)\n",
                 energy.residual, energy_unit(page->result->ledger.model));
+    write_potentials(page);
     double explained = fbd_result_residual_explained(page->result);
     if (fabs(energy.residual) > explained)
         text_printf(
@@ -308,6 +330,26 @@ static void write_accuracy(const struct page *page, const fbd_stats *stats)
                 : page->result->simulation->cut ? "NOT reached when it was interrupted, this is the best"
                                                 : "NOT reached, this is the best",
                 stats->runs, stats->runs == 1 ? "" : "s", 1e3 * stats->seconds_spent);
+}
+
+/* With which values it ran. */
+static void write_parameters(const struct page *page)
+{
+    enum { most_parameters = 40 };
+    const struct scene *scene = page->result->ledger.model->scene;
+    struct text *text = page->text;
+    if (scene->parameter_count > 0) text_add(text, "\nParameters\n");
+    for (size_t i = 0; i < scene->parameter_count && i < most_parameters; i++) {
+        const struct parameter *parameter = &scene->parameters[i];
+        text_printf(text, "  %s", parameter->name);
+        text_pad(text, 16);
+        text_add(text, " = ");
+        text_number(text, parameter->value, digits);
+        text_printf(text, "%s%s%s\n", unit_word(parameter->unit)[0] ? " " : "", unit_word(parameter->unit),
+                    parameter->input ? ", an input" : "");
+    }
+    if (scene->parameter_count > most_parameters)
+        text_printf(text, "  and %zu more\n", scene->parameter_count - most_parameters);
 }
 
 static void write_cost(const struct page *page)
@@ -372,6 +414,7 @@ char *fbd_result_report(fbd_result *result)
     write_forces(&page);
     write_energy(&page);
     couplings_report(&text, result);
+    write_parameters(&page);
     write_cost(&page);
     if (text.failed) text_free(&text);
     return text.data;

@@ -84,6 +84,10 @@ static const struct field friction_fields[] = {
 static const struct group friction_group =
     LOAD_GROUP("`friction`", "coefficient", friction_fields, "dry friction on a slide with `normal`");
 
+#define CONSERVATIVE_ROW                                                                                     \
+    FIELD_FLAG(LOAD(conservative), "conservative",                                                           \
+               "true: its work counts as potential energy, where it has one; default: as work")
+
 static const struct field applied_fields[] = {
     FIELD_NODE(offsetof(struct load_keys, value), "value", field_any, 0, NULL,
                "its size along `angle` (on a slide: along +x), or a pair [fx, fy]"),
@@ -98,6 +102,7 @@ static const struct field applied_fields[] = {
     FIELD_NODE(offsetof(struct load_keys, at), "at", field_any, 0, &place_group,
                "point of the body, a name or [x, y], default G; or {point: ..., offset: [x, y]}, that far "
                "from it along the axes of the world"),
+    CONSERVATIVE_ROW,
 };
 static const struct group applied_group =
     LOAD_GROUP("an applied force", "value", applied_fields, "a given force");
@@ -300,6 +305,7 @@ const struct kinds force_kinds = {"force", FIELDS(forces)};
 
 static const struct field moment_applied_fields[] = {
     FIELD_VALUE(LOAD(value), "value", a_moment, required, "counter-clockwise"),
+    CONSERVATIVE_ROW,
 };
 static const struct group moment_applied_group =
     LOAD_GROUP("an applied moment", "value", moment_applied_fields, "a given moment");

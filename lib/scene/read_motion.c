@@ -120,6 +120,7 @@ bool body_prescribed_read(struct reader *reader, int index)
                  "a prescribed `%s` cannot name an input: the place would jump with it", name);
         fine = false;
     }
+    if (fine) smoothness_note(reader, node->at, name, expr);
     const struct pair *initial = node_find(draft->node, "initial");
     if (initial) {
         diag_add(reader->errors, FBD_ERROR, "conflicting-keys", initial->at, "delete it",

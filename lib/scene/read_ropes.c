@@ -112,7 +112,10 @@ static bool set_length(struct reader *reader, const struct value *length, struct
     }
     constraint->reel = *length;
     constraint->length_given = true;
-    if (expr_variables(length->expr, &slots) == 0) return true;
+    if (expr_variables(length->expr, &slots) == 0) {
+        smoothness_note(reader, length->at, "length", length->expr);
+        return true;
+    }
     diag_add(reader->errors, FBD_ERROR, "not-here", length->at, "write it as an expression of t",
              "the `length` of a rope cannot depend on a motion: a drum that it is wound on turns");
     return false;

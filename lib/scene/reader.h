@@ -213,6 +213,9 @@ struct vec body_centre_of_mass(const struct body *body);
 bool body_initial_read(struct reader *reader, int body);
 bool body_prescribed_read(struct reader *reader, int body);
 
+/* Warn of a motion that is prescribed by tables whose second derivative jumps, or the first one (smooth.c). */
+void smoothness_note(struct reader *reader, struct pos at, const char *what, const struct expr *expr);
+
 /* [x, y], G, O or the name of a point of the body. */
 bool body_point_read(struct reader *reader, int body, const struct node *node, const char *what,
                      struct point *point);

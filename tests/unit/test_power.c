@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "gallery.h"
+#include "run_checks.h"
 
 #include <string.h>
 
@@ -71,12 +71,42 @@ static void a_brake_of_constant_power_ends_at_rest(void **unused)
     checks_end(&checks);
 }
 
+/* A constant push is work, and potential energy where the file says so: on a line, at a pivot, between bodies. */
+static void pushes_are_work_unless_asked(void **unused)
+{
+    struct checks checks = {0};
+    char text[text_room];
+    (void)unused;
+    for (int asked = 0; asked < 2; asked++) {
+        const char *flag = asked ? ", conservative: true" : "";
+        snprintf(text, sizeof text,
+                 "fbd: 1\n"
+                 "bodies:\n"
+                 "  block: {mass: 2, motion: slide, forces: [applied: {value: 5%s}]}\n"
+                 "  wheel: {mass: 2, inertia: 0.1, motion: pivot, moments: [applied: {value: 0.3%s}]}\n"
+                 "  arm: {mass: 1, inertia: 0.1, motion: {pivot: {on: block}}, moments: [applied: {value: "
+                 "0.2%s}]}\n"
+                 "simulate: {until: 1}\n",
+                 flag, flag, flag);
+        struct trial trial = run_of(text);
+        double work =
+            5 * get(&trial, "block.x") + 0.3 * get(&trial, "wheel.theta") + 0.2 * get(&trial, "arm.theta");
+        fbd_energy energy = fbd_result_energy(trial.result);
+        check_close(&checks, "work", energy.work, asked ? 0 : work, same);
+        check_close(&checks, "potential", energy.potential, asked ? -work : 0, same);
+        check_energy(&checks, &trial);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_work_is_power_times_time),
         cmocka_unit_test(at_rest_it_is_refused_by_name),
         cmocka_unit_test(a_brake_of_constant_power_ends_at_rest),
+        cmocka_unit_test(pushes_are_work_unless_asked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
