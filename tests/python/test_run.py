@@ -137,7 +137,7 @@ def test_stick_and_slip(incline):
 def test_energy_works_and_errors(incline):
     run = incline.run(error_bars=True, ledger=True)
     energy = run.energy
-    assert energy.work == pytest.approx(run.work("block", "friction"), rel=1e-12)
+    assert energy.work == pytest.approx(run.work("block", "friction") + run.work("block", "push"), rel=1e-12)
     assert abs(energy.residual) < 1e-9 and run.work("block", "friction") < 0
     assert run.energy_error.kinetic >= 0
     assert 0 <= run.error("block.x") < 1e-8 and run.work_error("block", "friction") < 1e-6
