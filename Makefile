@@ -166,7 +166,7 @@ live-check: live $(BUILD)/.tests
 SITE = $(BUILD)/site
 site: live
 	.ci/install-packages site
-	docs/make-site $(BUILD)/apps/fbd-run $(SITE)
+	$(or $(wildcard /usr/bin/python3),python3) docs/make-site $(BUILD)/apps/fbd-run $(SITE)
 
 install: all
 	meson install -C $(BUILD) --no-rebuild
