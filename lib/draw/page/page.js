@@ -69,6 +69,13 @@ function livingTerms(equation) {
   return equation.terms.filter(([, index]) => sizeOf(index) > roundingOf(equation.unit));
 }
 
+// The sign of a term: the first one's has no room around it.
+function termSign(first, text) {
+  const sign = math("mo", text);
+  if (first) for (const side of ["lspace", "rspace"]) sign.setAttribute(side, "0");
+  return sign;
+}
+
 // The equation as one writes it by hand; null where its terms have no symbols.
 function inSymbols(equation) {
   const terms = livingTerms(equation);
@@ -76,7 +83,7 @@ function inSymbols(equation) {
   const row = math("mrow", ...mathOf(equation.left), math("mo", "="));
   terms.forEach(([, , symbol], i) => {
     const negative = symbol.startsWith("-");
-    if (i || negative) row.append(math("mo", negative ? "−" : "+"));
+    if (i || negative) row.append(termSign(i === 0, negative ? "−" : "+"));
     row.append(...mathOf(negative ? symbol.slice(1) : symbol));
   });
   return mathLine(row);
@@ -96,7 +103,7 @@ function inNumbers(equation) {
   livingTerms(equation).forEach(([, index], i) => {
     const sign = document.createTextNode("");
     changing.push([sign, valueIn(index), (value) => (value < 0 ? "−" : i ? "+" : "")]);
-    row.append(math("mo", sign), number(valueIn(index), (value) => show(Math.abs(value), 4)));
+    row.append(termSign(i === 0, sign), number(valueIn(index), (value) => show(Math.abs(value), 4)));
   });
   row.append(upright(equation.unit));
   return mathLine(row);

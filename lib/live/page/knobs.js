@@ -30,7 +30,7 @@ function rangeOf(control, { number, unit: units, factor }, key) {
   if (number === 0) return [-(spans[units] || 1), spans[units] || 1];
   const far = niceAbove(2 * Math.abs(number)), near = positive.includes(control.unit) && key.startsWith("parameters") ? far / 20 : 0;
   if (key.startsWith("initial") && units !== "m" && units !== "ft") return [-far, far];
-  return number > 0 ? [near, far] : [-far, -near];
+  return number > 0 ? [near, far] : [-far, far];
 }
 
 // A step that is a round number, some two hundred of them.
