@@ -82,6 +82,31 @@ char *arena_printf(struct arena *arena, const char *format, ...)
     return text;
 }
 
+uintptr_t arena_twin(const struct arena *a, const struct arena *b, uintptr_t address)
+{
+    const struct arena_chunk *of_a = a->chunks, *of_b = b->chunks;
+    for (; of_a && of_b; of_a = of_a->next, of_b = of_b->next) {
+        uintptr_t start = (uintptr_t)of_a->data;
+        if (address >= start && address < start + of_a->used)
+            return (uintptr_t)of_b->data + (address - start);
+    }
+    return 0;
+}
+
+bool arena_compare(const struct arena *a, const struct arena *b, arena_difference *differs, void *context)
+{
+    struct arena_chunk *of_a = a->chunks;
+    const struct arena_chunk *of_b = b->chunks;
+    for (; of_a && of_b; of_a = of_a->next, of_b = of_b->next) {
+        if (of_a->used != of_b->used) return false;
+        uint64_t *words = (uint64_t *)of_a->data;
+        const uint64_t *twins = (const uint64_t *)of_b->data;
+        for (size_t i = 0; i < of_a->used / sizeof *words; i++)
+            if (words[i] != twins[i] && !differs(context, &words[i], twins[i])) return false;
+    }
+    return !of_a && !of_b;
+}
+
 void arena_free(struct arena *arena)
 {
     while (arena->chunks) {

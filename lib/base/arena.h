@@ -11,6 +11,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 struct arena_chunk;
 
@@ -27,6 +28,16 @@ char *arena_text(struct arena *arena, const char *text, size_t length);
 
 /* printf into the arena; NULL when memory is out. */
 char *arena_printf(struct arena *arena, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* The address in `b` of what is at an address in `a`, 0 where nothing of `a` is there: the two were filled by the same
+ * calls. */
+uintptr_t arena_twin(const struct arena *a, const struct arena *b, uintptr_t address);
+
+/* Told of a word of one arena that differs from its twin; false ends the comparison. */
+typedef bool arena_difference(void *context, uint64_t *word, uint64_t twin);
+
+/* Compare two arenas word by word. False when they were not filled by the same calls, or `differs` said so. */
+bool arena_compare(const struct arena *a, const struct arena *b, arena_difference *differs, void *context);
 
 /* Give everything back; the arena is then empty and may be used again. */
 void arena_free(struct arena *arena);

@@ -133,7 +133,8 @@ const char *diag_hint(fbd_errors *errors, const char *format, ...)
 
 void diag_in_file(fbd_errors *errors, const char *file)
 {
-    errors->file = file ? diag_hint(errors, "%s", file) : NULL;
+    if (errors->file && file && strcmp(errors->file, file) == 0) return;
+    errors->file = file ? arena_text(&errors->arena, file, strlen(file)) : NULL;
     if (file && !errors->file) diag_out_of_memory(errors);
 }
 

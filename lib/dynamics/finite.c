@@ -120,6 +120,23 @@ static bool note_arrows(const struct fbd_state *state, struct arrow *arrows, boo
     return false;
 }
 
+/* Are all arrows finite, given ones and reactions? Mostly they are, and no order is asked for. */
+static bool arrows_finite(const struct fbd_state *state, struct arrow *arrows)
+{
+    const struct fbd_model *model = state->model;
+    struct instant at = state_instant(state);
+    struct not_finite unused;
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
+        struct pose pose = body_pose(body, &at);
+        struct vec G = point_motion(body, &pose, body->inertia.G).p;
+        size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, arrows);
+        for (size_t i = 0; i < count; i++)
+            if (note_arrow(model, body, &arrows[i], G, &unused)) return false;
+    }
+    return true;
+}
+
 static bool note_energies(const struct fbd_state *state, struct not_finite *found)
 {
     const struct fbd_model *model = state->model;
@@ -165,9 +182,10 @@ enum finite finite_check(const struct fbd_state *state, struct not_finite *found
 {
     struct arrow *arrows = calloc(diagram_most_arrows(state->model), sizeof *arrows);
     if (!arrows) return finite_no_memory;
+    bool fine = arrows_finite(state, arrows);
     bool odd = note_coordinates(state, found) || note_own(state, found) ||
-               note_arrows(state, arrows, false, found) || note_accelerations(state, found) ||
-               note_arrows(state, arrows, true, found) || note_limits(state, found) ||
+               (!fine && note_arrows(state, arrows, false, found)) || note_accelerations(state, found) ||
+               (!fine && note_arrows(state, arrows, true, found)) || note_limits(state, found) ||
                note_energies(state, found);
     free(arrows);
     return odd ? finite_not : finite_all;

@@ -321,15 +321,28 @@ static void set_watches(struct builder *builder)
     }
 }
 
-static struct fbd_model *compile(struct scene *scene, bool labels, fbd_errors *errors)
+static bool set_labels(struct fbd_model *model, bool labels, const struct fbd_model *like)
+{
+    const struct scene *scene = model->scene;
+    model->own_labels = like ? like->own_labels : own_labels_make(&model->arena, scene);
+    if (like)
+        model->labels = like->labels;
+    else if (labels)
+        model->labels = labels_make(&model->arena, scene);
+    return model->own_labels && (model->labels || !labels);
+}
+
+static struct fbd_model *compile(struct scene *scene, bool labels, const struct fbd_model *like,
+                                 fbd_errors *errors)
 {
     struct fbd_model *model = calloc(1, sizeof *model);
     if (!model) {
         diag_out_of_memory(errors);
-        scene_free(scene);
+        if (!like) scene_free(scene);
         return NULL;
     }
     model->scene = scene;
+    model->scene_lent = like != NULL;
     struct builder builder = {.model = model, .errors = errors};
     bool done = allocate(model);
     for (size_t b = 0; done && b < scene->body_count; b++)
@@ -338,13 +351,10 @@ static struct fbd_model *compile(struct scene *scene, bool labels, fbd_errors *e
         for (size_t b = 0; b < scene->body_count; b++) model->assembles |= scene->bodies[b].assemble;
         set_loads(&builder);
         set_couplings(&builder);
-        model->own_labels = own_labels_make(&model->arena, scene);
-        if (labels) model->labels = labels_make(&model->arena, scene);
-        done = model->own_labels && (model->labels || !labels) && set_named_ties(&builder) &&
-               set_drives(&builder) && set_carried(&builder) && set_absolutes(model) &&
-               set_output_points(model) && tree_number(model) && tracks_set(&builder) &&
-               tree_name_reactions(model) && arrows_name(model) && plan_build(&builder) &&
-               classify_loads(&builder);
+        done = set_labels(model, labels, like) && set_named_ties(&builder) && set_drives(&builder) &&
+               set_carried(&builder) && set_absolutes(model) && set_output_points(model) &&
+               tree_number(model) && tracks_set(&builder) && tree_name_reactions(model) &&
+               arrows_name(model) && plan_build(&builder) && classify_loads(&builder);
         set_rates(&builder);
         set_watches(&builder);
         if (done) done = slips_find(model);
@@ -363,18 +373,23 @@ static struct fbd_model *compile(struct scene *scene, bool labels, fbd_errors *e
 
 struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors)
 {
-    return compile(scene, true, errors);
+    return compile(scene, true, NULL, errors);
 }
 
 struct fbd_model *model_compile_group(struct scene *scene, fbd_errors *errors)
 {
-    return compile(scene, false, errors);
+    return compile(scene, false, NULL, errors);
+}
+
+struct fbd_model *model_compile_again(struct scene *scene, const struct fbd_model *like, fbd_errors *errors)
+{
+    return compile(scene, true, like, errors);
 }
 
 void model_free(struct fbd_model *model)
 {
     if (!model) return;
-    scene_free(model->scene);
+    if (!model->scene_lent) scene_free(model->scene);
     free(model->source);
     arena_free(&model->arena);
     free(model);

@@ -86,7 +86,8 @@ struct model_load {
 
 struct fbd_model {
     struct arena arena;
-    struct scene *scene; /* owned */
+    struct scene *scene;
+    bool scene_lent; /* it is not owned */
     char *source;        /* the file's text, owned: hand derivations are checked under changed parameters */
     size_t source_length;
     size_t body_count;
@@ -109,6 +110,10 @@ struct fbd_model {
  * and inertias that no body can have
  * (`bad-inertia`), ... */
 struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors);
+
+/* The same for a scene that stays its owner's and has the bodies, parameters and units of `like`, whose labels serve
+ * here and which must outlive the model. */
+struct fbd_model *model_compile_again(struct scene *scene, const struct fbd_model *like, fbd_errors *errors);
 
 void model_free(struct fbd_model *model);
 

@@ -109,7 +109,7 @@ static bool compile_text(struct derived *derived, enum quantity quantity, fbd_er
         diag_out_of_memory(reader->errors);
         return false;
     }
-    value->expr = expr_compile(reader->arena, derived->text.data, at, &scope, &want, errors);
+    value->expr = expr_compile(reader->derived, derived->text.data, at, &scope, &want, errors);
     if (errors->out_of_memory) diag_out_of_memory(reader->errors);
     if (!value->expr && !errors->out_of_memory && !reader->arena->failed)
         entry_note(derived->entry, "expression-too-long", at,

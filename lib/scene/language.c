@@ -134,7 +134,7 @@ static const struct choice impact_choices[] = {
 };
 
 static const struct field simulate_fields[] = {
-    FIELD_VALUE(offsetof(struct simulate_keys, until), "until", a_time, required | positive,
+    FIELD_VALUE(offsetof(struct simulate_keys, until), "until", a_time, required | positive | stored,
                 "time at which the run ends"),
     FIELD_NUMBER(offsetof(struct simulate_keys, tolerance), "tolerance", a_number, positive,
                  "error allowed in one step, relative to the size of the motion; 2.2e-16 to 0.1"),

@@ -40,6 +40,8 @@ enum field_flag_bits {
     slips = 8,        /* may name `slip`, */
     slips_not = 16,   /* which is 0 here */
     may_vary = 32,    /* a number; where it is none but varies it is infinite, and to be read again */
+    stored = 64, /* reading stores the number and asks of it on which side of 0 and 1 it lies, nothing else:
+                         what varies may be put in its place (patch.h) */
 };
 
 struct choice {

@@ -25,24 +25,27 @@ static const struct choice axes[] = {
 };
 
 static const struct field part_fields[] = {
-    FIELD_NUMBER(offsetof(struct part_keys, mass), "mass", a_mass, may_vary,
+    FIELD_NUMBER(offsetof(struct part_keys, mass), "mass", a_mass, may_vary | stored,
                  "its mass, of a body it may vary; below zero for a hole in a part"),
     FIELD_CHOICE(offsetof(struct part_keys, shape), "shape", shapes, "its form; default point"),
     FIELD_CHOICE(
         offsetof(struct part_keys, axis), "axis", axes,
         "the axis of the shape that is perpendicular to the drawing; default x for a cylinder or ring, "
         "z for the rest"),
-    FIELD_NUMBER(offsetof(struct part_keys, length), "length", a_length, positive,
+    FIELD_NUMBER(offsetof(struct part_keys, length), "length", a_length, positive | stored,
                  "length of a rod or cylinder"),
-    FIELD_NUMBER(offsetof(struct part_keys, radius), "radius", a_length, positive,
+    FIELD_NUMBER(offsetof(struct part_keys, radius), "radius", a_length, positive | stored,
                  "radius of a sphere, cylinder or ring"),
     FIELD_NUMBER(offsetof(struct part_keys, outer_radius), "outer_radius", a_length, positive,
                  "outer radius of a hollow cylinder"),
     FIELD_NUMBER(offsetof(struct part_keys, inner_radius), "inner_radius", a_length, not_negative,
                  "inner radius of a hollow cylinder"),
-    FIELD_NUMBER(offsetof(struct part_keys, a), "a", a_length, positive, "side of a prism along its x axis"),
-    FIELD_NUMBER(offsetof(struct part_keys, b), "b", a_length, positive, "side of a prism along its y axis"),
-    FIELD_NUMBER(offsetof(struct part_keys, c), "c", a_length, positive, "side of a prism along its z axis"),
+    FIELD_NUMBER(offsetof(struct part_keys, a), "a", a_length, positive | stored,
+                 "side of a prism along its x axis"),
+    FIELD_NUMBER(offsetof(struct part_keys, b), "b", a_length, positive | stored,
+                 "side of a prism along its y axis"),
+    FIELD_NUMBER(offsetof(struct part_keys, c), "c", a_length, positive | stored,
+                 "side of a prism along its z axis"),
     FIELD_VECTOR(offsetof(struct part_keys, from), "from", a_length, "left end of a rod, in the body frame"),
     FIELD_VECTOR(offsetof(struct part_keys, to), "to", a_length, "right end of a rod, in the body frame"),
     FIELD_VECTOR(offsetof(struct part_keys, center), "center", a_length,
@@ -56,7 +59,7 @@ static const struct field part_fields[] = {
 const struct group part_group = {"a part", NULL, FIELDS(part_fields), NULL, 0, "one piece of a body"};
 
 static const struct field inertia_fields[] = {
-    FIELD_NUMBER(offsetof(struct inertia_keys, value), "value", an_inertia, required,
+    FIELD_NUMBER(offsetof(struct inertia_keys, value), "value", an_inertia, required | stored,
                  "the moment of inertia"),
     FIELD_NODE(offsetof(struct inertia_keys, about), "about", field_any, 0, NULL,
                "G, O (the pivot), a point of the body or [x, y]; default G"),
@@ -101,11 +104,11 @@ const struct group body_group = {"a body",
 #define STOP_ROWS                                                                                            \
     FIELD_NODE(MOTION(low), "min", field_scalar, 0, NULL, "a stop: the least that the coordinate can be"),   \
         FIELD_NODE(MOTION(high), "max", field_scalar, 0, NULL, "a stop: the most that it can be"),           \
-        FIELD_NUMBER(MOTION(restitution), "restitution", a_number, not_negative,                             \
+        FIELD_NUMBER(MOTION(restitution), "restitution", a_number, not_negative | stored,                    \
                      "e of an impact on a stop, 0 to 1; default 0")
 
 static const struct field slide_fields[] = {
-    FIELD_NUMBER(MOTION(along), "along", an_angle, 0, "direction of +x; default 0: to the right"),
+    FIELD_NUMBER(MOTION(along), "along", an_angle, stored, "direction of +x; default 0: to the right"),
     FIELD_NODE(MOTION(through), "through", field_any, 0, NULL,
                "where x = 0: [x, y] or a point of what it moves on; default [0, 0]"),
     FIELD_NODE(MOTION(line), "line", field_scalar, 0, NULL,
@@ -190,13 +193,13 @@ const struct kinds motion_kinds = {"motion", FIELDS(motions)};
 /* ---- where it starts */
 
 #define POSITION(index, key)                                                                                 \
-    FIELD_NUMBER(offsetof(struct initial_keys, q[index]), key, a_length, 0, "position at t = 0")
+    FIELD_NUMBER(offsetof(struct initial_keys, q[index]), key, a_length, stored, "position at t = 0")
 #define SPEED(index, key)                                                                                    \
-    FIELD_NUMBER(offsetof(struct initial_keys, v[index]), key, a_velocity, 0, "velocity at t = 0")
+    FIELD_NUMBER(offsetof(struct initial_keys, v[index]), key, a_velocity, stored, "velocity at t = 0")
 #define ANGLE(index)                                                                                         \
-    FIELD_NUMBER(offsetof(struct initial_keys, q[index]), "theta", an_angle, 0, "angle at t = 0")
+    FIELD_NUMBER(offsetof(struct initial_keys, q[index]), "theta", an_angle, stored, "angle at t = 0")
 #define ANGLE_RATE(index)                                                                                    \
-    FIELD_NUMBER(offsetof(struct initial_keys, v[index]), "omega", an_angular_velocity, 0,                   \
+    FIELD_NUMBER(offsetof(struct initial_keys, v[index]), "omega", an_angular_velocity, stored,              \
                  "angular velocity at t = 0")
 
 #define ASSEMBLE                                                                                             \

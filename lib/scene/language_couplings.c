@@ -20,8 +20,9 @@ static const struct group named = {"a coupling", NULL, FIELDS(name_fields), NULL
 
 static const struct field spring_fields[] = {
     BETWEEN_ROW,
-    FIELD_NUMBER(COUPLING(stiffness), "stiffness", a_stiffness, required | not_negative, "force per length"),
-    FIELD_NUMBER(COUPLING(free_length), "free_length", a_length, not_negative,
+    FIELD_NUMBER(COUPLING(stiffness), "stiffness", a_stiffness, required | not_negative | stored,
+                 "force per length"),
+    FIELD_NUMBER(COUPLING(free_length), "free_length", a_length, not_negative | stored,
                  "length without force; default 0"),
 };
 static const struct group spring_group =
@@ -29,7 +30,7 @@ static const struct group spring_group =
 
 static const struct field damper_fields[] = {
     BETWEEN_ROW,
-    FIELD_NUMBER(COUPLING(coefficient), "coefficient", a_damping, required | not_negative,
+    FIELD_NUMBER(COUPLING(coefficient), "coefficient", a_damping, required | not_negative | stored,
                  "force per velocity"),
 };
 static const struct group damper_group =
@@ -40,7 +41,8 @@ static const struct group pin_group = COUPLING_GROUP("a pin", pin_fields, "holds
 
 static const struct field rod_fields[] = {
     BETWEEN_ROW,
-    FIELD_NUMBER(COUPLING(length), "length", a_length, positive, "distance; default that at the start"),
+    FIELD_NUMBER(COUPLING(length), "length", a_length, positive | stored,
+                 "distance; default that at the start"),
 };
 static const struct group rod_group =
     COUPLING_GROUP("a rod", rod_fields, "massless: keeps two points at their distance");
@@ -108,7 +110,7 @@ static const struct field belt_fields[] = {
                   "of the discs; default those of their shapes"),
     FIELD_FLAG(COUPLING(crossed), "crossed",
                "true: it crosses itself, and the discs turn against each other"),
-    FIELD_NUMBER(COUPLING(tension), "tension", a_force, positive,
+    FIELD_NUMBER(COUPLING(tension), "tension", a_force, positive | stored,
                  "of both strands while it drives nothing, where the axes keep their distance"),
 };
 static const struct group belt_group =
@@ -123,9 +125,10 @@ static const struct field roll_fields[] = {
         COUPLING(center), "center", field_any, 0, NULL,
         "centre of its circle: a point of the body, a name or [x, y]; default that of its round shape, "
         "without one G"),
-    FIELD_VALUE(COUPLING(mu_s), "static", a_number, not_negative | slips_not,
+    FIELD_VALUE(COUPLING(mu_s), "static", a_number, not_negative | slips_not | stored,
                 "coefficient of static friction"),
-    FIELD_VALUE(COUPLING(mu_k), "kinetic", a_number, not_negative | slips, "coefficient of kinetic friction"),
+    FIELD_VALUE(COUPLING(mu_k), "kinetic", a_number, not_negative | slips | stored,
+                "coefficient of kinetic friction"),
 };
 static const struct group roll_group =
     COUPLING_GROUP("`roll`", roll_fields, "a round body on a line; without coefficients it never slips");
@@ -181,11 +184,11 @@ static const struct field contact_fields[] = {
     FIELD_ENTRIES(COUPLING(between), "between", field_list, required, each_word, NULL,
                   "a body or body.point, and what it meets: the same of another body, or a line, polygon or "
                   "point of the ground"),
-    FIELD_VALUE(COUPLING(restitution), "restitution", a_number, not_negative,
+    FIELD_VALUE(COUPLING(restitution), "restitution", a_number, not_negative | stored,
                 "e of an impact, 0 to 1; may depend on the approach speed, `approach`; default 0"),
-    FIELD_VALUE(COUPLING(mu_s), "static", a_number, not_negative,
+    FIELD_VALUE(COUPLING(mu_s), "static", a_number, not_negative | stored,
                 "coefficient of static friction; default that of kinetic friction"),
-    FIELD_VALUE(COUPLING(mu_k), "kinetic", a_number, not_negative,
+    FIELD_VALUE(COUPLING(mu_k), "kinetic", a_number, not_negative | stored,
                 "coefficient of kinetic friction; default that of static friction"),
     FIELD_CHOICE(COUPLING(law), "law", laws, "what `restitution` is a share of"),
     FIELD_CHOICE(COUPLING(side), "side", contact_sides,

@@ -74,11 +74,13 @@ static const struct group normal_group =
     LOAD_GROUP("`normal`", NULL, normal_fields, "the force of the surface across a slide");
 
 static const struct field friction_fields[] = {
-    FIELD_VALUE(LOAD(mu_s), "static", a_number, not_negative | slips_not, "coefficient of static friction"),
-    FIELD_VALUE(LOAD(mu_k), "kinetic", a_number, not_negative | slips, "coefficient of kinetic friction"),
-    FIELD_VALUE(offsetof(struct load_keys, coefficient), "coefficient", a_number, not_negative | slips,
-                "both coefficients"),
-    FIELD_VALUE(LOAD(surface_speed), "surface_speed", a_velocity, 0,
+    FIELD_VALUE(LOAD(mu_s), "static", a_number, not_negative | slips_not | stored,
+                "coefficient of static friction"),
+    FIELD_VALUE(LOAD(mu_k), "kinetic", a_number, not_negative | slips | stored,
+                "coefficient of kinetic friction"),
+    FIELD_VALUE(offsetof(struct load_keys, coefficient), "coefficient", a_number,
+                not_negative | slips | stored, "both coefficients"),
+    FIELD_VALUE(LOAD(surface_speed), "surface_speed", a_velocity, stored,
                 "velocity of the surface along +x, as of a belt; default 0"),
 };
 static const struct group friction_group =
@@ -91,9 +93,9 @@ static const struct group friction_group =
 static const struct field applied_fields[] = {
     FIELD_NODE(offsetof(struct load_keys, value), "value", field_any, 0, NULL,
                "its size along `angle` (on a slide: along +x), or a pair [fx, fy]"),
-    FIELD_VALUE(LOAD(angle), "angle", an_angle, 0, "its direction, from the x axis of `frame`"),
-    FIELD_VALUE(LOAD(fx), "fx", a_force, 0, "component along x"),
-    FIELD_VALUE(LOAD(fy), "fy", a_force, 0, "component along y"),
+    FIELD_VALUE(LOAD(angle), "angle", an_angle, stored, "its direction, from the x axis of `frame`"),
+    FIELD_VALUE(LOAD(fx), "fx", a_force, stored, "component along x"),
+    FIELD_VALUE(LOAD(fy), "fy", a_force, stored, "component along y"),
     FIELD_NODE(offsetof(struct load_keys, toward), "toward", field_any, 0, NULL,
                "its direction: to a point of the ground ([x, y] or ground.P) or of another body (body.P), "
                "which then feels the opposite"),
@@ -125,9 +127,10 @@ static const struct group distributed_group =
     LOAD_GROUP("a distributed load", NULL, distributed_fields, "a force per length along a line of the body");
 
 static const struct field spring_fields[] = {
-    FIELD_NUMBER(LOAD(stiffness), "stiffness", a_stiffness, required | not_negative, "force per length"),
-    FIELD_NUMBER(LOAD(free_length), "free_length", a_length, 0, "length without force; default 0"),
-    FIELD_NUMBER(offsetof(struct load_keys, neutral), "neutral", a_length, 0,
+    FIELD_NUMBER(LOAD(stiffness), "stiffness", a_stiffness, required | not_negative | stored,
+                 "force per length"),
+    FIELD_NUMBER(LOAD(free_length), "free_length", a_length, stored, "length without force; default 0"),
+    FIELD_NUMBER(offsetof(struct load_keys, neutral), "neutral", a_length, stored,
                  "on a slide without `to`: the coordinate without force; default 0"),
     AT_ROW,
     TO_ROW,
@@ -137,7 +140,8 @@ static const struct group spring_group =
                "a linear spring to a point of the ground, or along a slide");
 
 static const struct field damper_fields[] = {
-    FIELD_NUMBER(LOAD(coefficient), "coefficient", a_damping, required | not_negative, "force per velocity"),
+    FIELD_NUMBER(LOAD(coefficient), "coefficient", a_damping, required | not_negative | stored,
+                 "force per velocity"),
     AT_ROW,
     TO_ROW,
 };
@@ -146,8 +150,9 @@ static const struct group damper_group =
                "a linear damper to a point of the ground, or along a slide");
 
 static const struct field drag_fields[] = {
-    FIELD_NUMBER(LOAD(linear), "linear", a_damping, not_negative, "force per velocity"),
-    FIELD_NUMBER(LOAD(quadratic), "quadratic", a_quadratic_drag, not_negative, "force per velocity squared"),
+    FIELD_NUMBER(LOAD(linear), "linear", a_damping, not_negative | stored, "force per velocity"),
+    FIELD_NUMBER(LOAD(quadratic), "quadratic", a_quadratic_drag, not_negative | stored,
+                 "force per velocity squared"),
     FIELD_ENTRIES(offsetof(struct load_keys, wind), "wind", field_any, 0, each_pair, NULL,
                   "velocity of the air, [x, y]; default still air"),
     AT_ROW,
@@ -171,7 +176,8 @@ static const struct group thrust_group = LOAD_GROUP(
     "the force of mass that leaves or comes with a velocity of its own, of a body whose mass varies");
 
 static const struct field power_fields[] = {
-    FIELD_VALUE(LOAD(value), "value", a_power, required, "above zero: in the direction of the motion"),
+    FIELD_VALUE(LOAD(value), "value", a_power, required | stored,
+                "above zero: in the direction of the motion"),
 };
 static const struct group power_group =
     LOAD_GROUP("`power`", "value", power_fields, "a drive of given power: the force P/v, the moment P/omega");
@@ -194,7 +200,8 @@ static bool power_finish(struct entry *entry)
 }
 
 static const struct field potential_fields[] = {
-    FIELD_VALUE(LOAD(potential), "V", an_energy, required, "potential energy, of the body's coordinates"),
+    FIELD_VALUE(LOAD(potential), "V", an_energy, required | stored,
+                "potential energy, of the body's coordinates"),
 };
 static const struct group potential_group =
     LOAD_GROUP("`potential`", "V", potential_fields, "a force f = -dV/dx");
@@ -304,16 +311,16 @@ const struct kinds force_kinds = {"force", FIELDS(forces)};
 /* ---- moments */
 
 static const struct field moment_applied_fields[] = {
-    FIELD_VALUE(LOAD(value), "value", a_moment, required, "counter-clockwise"),
+    FIELD_VALUE(LOAD(value), "value", a_moment, required | stored, "counter-clockwise"),
     CONSERVATIVE_ROW,
 };
 static const struct group moment_applied_group =
     LOAD_GROUP("an applied moment", "value", moment_applied_fields, "a given moment");
 
 static const struct field moment_spring_fields[] = {
-    FIELD_NUMBER(LOAD(stiffness), "stiffness", a_torsional_stiffness, required | not_negative,
+    FIELD_NUMBER(LOAD(stiffness), "stiffness", a_torsional_stiffness, required | not_negative | stored,
                  "moment per angle"),
-    FIELD_NUMBER(offsetof(struct load_keys, neutral), "neutral", an_angle, 0,
+    FIELD_NUMBER(offsetof(struct load_keys, neutral), "neutral", an_angle, stored,
                  "angle without moment; default 0"),
 };
 static const struct group moment_spring_group =
@@ -321,7 +328,7 @@ static const struct group moment_spring_group =
                "a linear torsional spring to the ground");
 
 static const struct field moment_damper_fields[] = {
-    FIELD_NUMBER(LOAD(coefficient), "coefficient", a_torsional_damping, required | not_negative,
+    FIELD_NUMBER(LOAD(coefficient), "coefficient", a_torsional_damping, required | not_negative | stored,
                  "moment per angular velocity"),
 };
 static const struct group moment_damper_group =
@@ -329,12 +336,12 @@ static const struct group moment_damper_group =
                "a linear torsional damper to the ground");
 
 static const struct field moment_friction_fields[] = {
-    FIELD_VALUE(LOAD(mu_s), "static", a_moment, not_negative | slips_not,
+    FIELD_VALUE(LOAD(mu_s), "static", a_moment, not_negative | slips_not | stored,
                 "largest moment that holds the bearing at rest"),
-    FIELD_VALUE(LOAD(mu_k), "kinetic", a_moment, not_negative | slips, "moment while it turns"),
-    FIELD_VALUE(offsetof(struct load_keys, coefficient), "coefficient", a_moment, not_negative | slips,
-                "both"),
-    FIELD_VALUE(LOAD(surface_speed), "surface_speed", an_angular_velocity, 0,
+    FIELD_VALUE(LOAD(mu_k), "kinetic", a_moment, not_negative | slips | stored, "moment while it turns"),
+    FIELD_VALUE(offsetof(struct load_keys, coefficient), "coefficient", a_moment,
+                not_negative | slips | stored, "both"),
+    FIELD_VALUE(LOAD(surface_speed), "surface_speed", an_angular_velocity, stored,
                 "angular velocity of the bearing; default 0"),
 };
 static const struct group moment_friction_group =

@@ -47,7 +47,7 @@ bool entry_place_read(struct entry *entry)
 
 static bool read_component(struct entry *entry, const struct node *node, struct value *value)
 {
-    return value_formula(entry->reader, node, "value", a_force, 0, &entry->scope, value);
+    return value_formula(entry->reader, node, "value", a_force, stored, &entry->scope, value);
 }
 
 static bool read_applied_value(struct entry *entry)

@@ -41,7 +41,7 @@ static bool derive_inverse(struct reader *reader, const struct node *node, const
     if (text.failed || !errors)
         diag_out_of_memory(reader->errors);
     else
-        body->inverse_mass.expr = expr_compile(reader->arena, text.data, node->at, scope, &want, errors);
+        body->inverse_mass.expr = expr_compile(reader->derived, text.data, node->at, scope, &want, errors);
     if (errors && errors->out_of_memory) diag_out_of_memory(reader->errors);
     fbd_errors_free(errors);
     text_free(&text);

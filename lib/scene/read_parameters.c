@@ -94,7 +94,7 @@ static bool apply_overrides(struct reader *reader, const struct override *overri
             table->varies = !overrides[i].value;
         } else if (definition) {
             definition->override = overrides[i].value ? &overrides[i] : NULL;
-            definition->varies = !overrides[i].value;
+            definition->varies = !overrides[i].value || overrides[i].varies;
         } else {
             note_unknown_override(reader, &overrides[i]);
         }
@@ -191,19 +191,22 @@ void definition_close(struct reader *reader, const struct open_definition *open)
 static const struct expr *compile_parameter(struct reader *reader, const struct node *node, const char *name)
 {
     struct value value;
-    bool fine = value_formula(reader, node, name, a_parameter, 0, &reader->constants, &value);
+    bool fine = value_formula(reader, node, name, a_parameter, stored, &reader->constants, &value);
     return fine ? value.expr : NULL;
 }
 
 /* A value given from outside: text without a place in the file. */
-static const struct expr *compile_override(struct reader *reader, const struct override *override)
+const struct expr *override_compile(struct reader *reader, const struct override *override)
 {
     const struct node node = {.kind = override->value[0] ? node_scalar : node_null,
                               .size = 1,
                               .height = 1,
                               .text = override->value,
                               .length = strlen(override->value)};
-    return compile_parameter(reader, &node, override->name);
+    reader->outside = override;
+    const struct expr *expr = compile_parameter(reader, &node, override->name);
+    reader->outside = NULL;
+    return expr;
 }
 
 /* A pure number that the file does not give as a bare one was written with a unit of angle, most likely. */
@@ -245,7 +248,7 @@ static bool override_parameter(struct reader *reader, struct parameter *paramete
                                const struct override *override)
 {
     const char *file = enter_override(reader, override);
-    const struct expr *expr = compile_override(reader, override);
+    const struct expr *expr = override_compile(reader, override);
     bool fine = expr && replace_value(reader, parameter, expr, override);
     reader->errors->file = file;
     return fine;
@@ -274,12 +277,13 @@ static void resolve(struct reader *reader, size_t index, struct pos at)
     if (definition->progress != untouched) return;
     definition->progress = failed;
     if (!definition_open(reader, &open, reader->scene->parameters[index].name, at)) return;
-    bool outer = reader->varies;
+    bool outer = reader->varies, outer_names = reader->names_varying;
     reader->varies = false;
     definition->progress = in_progress;
     definition->progress = evaluate(reader, index) ? done : failed;
     definition->varies |= reader->varies;
     reader->varies = outer;
+    reader->names_varying = outer_names;
     definition_close(reader, &open);
 }
 
@@ -290,7 +294,7 @@ struct symbol parameter_symbol(struct reader *reader, size_t index, struct pos a
     reader->names_parameters = true;
     resolve(reader, index, at);
     enum progress progress = reader->definitions[index].progress;
-    if (reader->definitions[index].varies) reader->varies = true;
+    if (reader->definitions[index].varies) reader->varies = reader->names_varying = true;
     if (progress == in_progress) definition_note_circle(reader, parameter->name, at);
     if (progress != done) return (struct symbol){.kind = symbol_failed};
     return (struct symbol){.kind = symbol_constant,
@@ -370,16 +374,17 @@ struct symbol gravity_symbol(struct reader *reader, struct pos at)
     if (reader->gravity_progress == untouched) {
         reader->gravity_progress = failed;
         if (definition_open(reader, &open, "gravity", at)) {
-            bool outer = reader->varies;
+            bool outer = reader->varies, outer_names = reader->names_varying;
             reader->varies = false;
             reader->gravity_progress = in_progress;
             reader->gravity_progress = read_gravity(reader) ? done : failed;
             reader->gravity_varies = reader->varies;
             reader->varies = outer;
+            reader->names_varying = outer_names;
             definition_close(reader, &open);
         }
     }
-    if (reader->gravity_varies) reader->varies = true;
+    if (reader->gravity_varies) reader->varies = reader->names_varying = true;
     reader->names_parameters = true;
     if (reader->gravity_progress != done) return (struct symbol){.kind = symbol_failed};
     return (struct symbol){.kind = symbol_constant,

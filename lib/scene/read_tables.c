@@ -348,7 +348,7 @@ struct table_symbol table_symbol(struct reader *reader, const char *name, struct
     struct table_draft *draft = &reader->table_drafts[index];
     draft->used = true;
     resolve(reader, index, at);
-    if (draft->varies) reader->varies = true;
+    if (draft->varies) reader->varies = reader->names_varying = true;
     if (draft->progress == in_progress) definition_note_circle(reader, name, at);
     if (draft->progress != done) return (struct table_symbol){NULL, true};
     return (struct table_symbol){&reader->scene->tables[index].shared->table, false};

@@ -98,18 +98,31 @@ struct reader {
     const struct open_definition *open;
     int open_depth;
 
-    const struct programs *known; /* of an earlier reading of the same file, or NULL */
-    struct programs *keep;        /* where those go that hold for later readings, or NULL */
-    bool varies;                  /* the expression that is being compiled holds for this reading only */
-    bool names_parameters;        /* the table or definition that is being read names some, or gravity */
-    bool names_inputs;            /* what has been compiled names some */
-    const struct override *time;  /* of the input that stands in its place, or NULL */
+    const struct programs *known;   /* of an earlier reading of the same file, or NULL */
+    struct programs *keep;          /* where those go that hold for later readings, or NULL */
+    struct record *record;          /* where what varies is noted, or NULL (patch.h) */
+    struct arena *exprs;            /* where expressions are compiled to: `arena`, unless they are noted */
+    struct arena *derived;          /* and those that follow from others */
+    const struct override *outside; /* whose value is being read, or NULL */
+    bool names_varying;    /* the expression names what varies, by its value; `varies` also by its slot */
+    bool varies;           /* the expression that is being compiled holds for this reading only */
+    bool names_parameters; /* the table or definition that is being read names some, or gravity */
+    bool names_inputs;     /* what has been compiled names some */
+    const struct override *time; /* of the input that stands in its place, or NULL */
 
     struct names constant_names;
     struct scope constants; /* parameters, g, pi */
 };
 
+/* Make a scene, as scene_make does, in a reader that holds what it knew; `record` and `keep` may be NULL (scene.c). */
+struct scene *scene_read_by(struct reader *reader, const struct document *document,
+                            const struct override *overrides, size_t override_count, struct programs *keep,
+                            struct record *record, fbd_errors *errors);
+
 /* ---- parameters (read_parameters.c) */
+
+/* The value of an override, whose text has no place in the file. */
+const struct expr *override_compile(struct reader *reader, const struct override *override);
 
 /* Set up names and overrides. False only when memory is out. */
 bool parameters_start(struct reader *reader, const struct override *overrides, size_t count);

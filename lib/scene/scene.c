@@ -5,6 +5,7 @@
 #include "scene/node.h"
 #include "scene/programs.h"
 #include "scene/reader.h"
+#include "scene/record.h"
 #include "scene/values.h"
 
 #include <stdlib.h>
@@ -202,22 +203,33 @@ void document_close(struct document *document)
     arena_free(&document->arena);
 }
 
-static struct scene *make(const struct document *document, const struct override *overrides,
-                          size_t override_count, struct programs *keep, fbd_errors *errors)
+static void start(struct reader *reader, const struct document *document, struct scene *scene,
+                  struct programs *keep, struct record *record, fbd_errors *errors)
+{
+    struct arena *arena = &scene->arena;
+    *reader = (struct reader){.scene = scene, .arena = arena, .errors = errors, .root = document->root};
+    reader->without_hands = document->without_hands;
+    reader->split_hands = document->split_hands;
+    reader->known = document->programs;
+    reader->keep = keep;
+    reader->record = record;
+    reader->exprs = record ? &record->exprs : arena;
+    reader->derived = record ? &record->derived : arena;
+    reader->tables_of = document->like ? document->like : document->first;
+    reader->same_files = document->like != NULL;
+    reader->same_parameters = document->same_parameters;
+}
+
+struct scene *scene_read_by(struct reader *reader, const struct document *document,
+                            const struct override *overrides, size_t override_count, struct programs *keep,
+                            struct record *record, fbd_errors *errors)
 {
     const char *file = document->file;
     diag_in_file(errors, file);
     struct scene *scene = new_scene(file, errors);
     if (!scene) return NULL;
-    struct reader reader = {.scene = scene, .arena = &scene->arena, .errors = errors, .root = document->root};
-    reader.without_hands = document->without_hands;
-    reader.split_hands = document->split_hands;
-    reader.known = document->programs;
-    reader.keep = keep;
-    reader.tables_of = document->like ? document->like : document->first;
-    reader.same_files = document->like != NULL;
-    reader.same_parameters = document->same_parameters;
-    if (check_root(&reader)) read_scene(&reader, overrides, override_count);
+    start(reader, document, scene, keep, record, errors);
+    if (check_root(reader)) read_scene(reader, overrides, override_count);
     if (scene->arena.failed || errors->arena.failed) diag_out_of_memory(errors);
     if (scene->coordinates && !errors->out_of_memory) return scene;
     scene_free(scene);
@@ -229,7 +241,9 @@ bool document_prepare(struct document *document, const struct override *override
 {
     struct programs *programs = calloc(1, sizeof *programs);
     if (!programs) diag_out_of_memory(errors);
-    if (programs) document->first = make(document, overrides, override_count, programs, errors);
+    struct reader reader;
+    if (programs)
+        document->first = scene_read_by(&reader, document, overrides, override_count, programs, NULL, errors);
     document->programs = programs;
     return document->first && fbd_errors_failed_count(errors) == 0;
 }
@@ -237,7 +251,8 @@ bool document_prepare(struct document *document, const struct override *override
 struct scene *scene_make(const struct document *document, const struct override *overrides,
                          size_t override_count, fbd_errors *errors)
 {
-    return make(document, overrides, override_count, NULL, errors);
+    struct reader reader;
+    return scene_read_by(&reader, document, overrides, override_count, NULL, NULL, errors);
 }
 
 struct scene *scene_read(const char *text, size_t length, const char *file, const struct override *overrides,

@@ -298,6 +298,7 @@ struct override {
         as_time; /* an input stands in the place of the time, and the time is the constant `now`: derivatives by
                           time are by it */
     double now;
+    bool varies; /* its value will be another one in the next reading (patch.h) */
 };
 
 /* A model file as a tree of its YAML: constant once it is open, shareable by threads. Scenes under other

@@ -2,6 +2,7 @@
 #include "scene/values.h"
 
 #include "base/utf8.h"
+#include "scene/record.h"
 #include "scene/scalar.h"
 
 #include <string.h>
@@ -75,11 +76,13 @@ const struct expr *value_compile(struct reader *reader, const struct node *node,
     struct program program = {.site = site_of(node, want, scope)};
     const struct program *known = programs_find(reader->known, &program.site);
     if (known) return known->left;
-    bool outer = reader->varies;
-    reader->varies = false;
-    program.left = expr_compile(reader->arena, node->text, node->text_at, scope, want, reader->errors);
+    bool outer = reader->varies, outer_names = reader->names_varying;
+    reader->varies = reader->names_varying = false;
+    program.left = expr_compile(reader->exprs, node->text, node->text_at, scope, want, reader->errors);
     if (program.left) keep(reader, &program, last);
+    if (reader->record) record_compiled(reader, node, program.left);
     reader->varies |= outer;
+    reader->names_varying |= outer_names;
     replace_notes(reader, node, last);
     return program.left;
 }
@@ -91,15 +94,18 @@ bool value_relation(struct reader *reader, const struct node *node, const struct
     struct diag_note *last = reader->errors->last;
     struct program program = {.site = site_of(node, want, scope)};
     const struct program *known = programs_find(reader->known, &program.site);
-    bool outer = reader->varies, fine = known != NULL;
+    bool outer = reader->varies, outer_names = reader->names_varying, fine = known != NULL;
     if (known) {
         program = *known;
     } else {
-        reader->varies = false;
-        fine = expr_compile_relation(reader->arena, node->text, node->text_at, scope, want, reader->errors,
+        reader->varies = reader->names_varying = false;
+        fine = expr_compile_relation(reader->exprs, node->text, node->text_at, scope, want, reader->errors,
                                      &program.left, &program.relation, &program.right);
         if (fine) keep(reader, &program, last);
+        if (reader->record) record_compiled(reader, node, program.left);
+        if (reader->record) record_compiled(reader, node, program.right);
         reader->varies |= outer;
+        reader->names_varying |= outer_names;
         replace_notes(reader, node, last);
     }
     *left = program.left;
@@ -109,8 +115,9 @@ bool value_relation(struct reader *reader, const struct node *node, const struct
 }
 
 static const struct expr *compile(struct reader *reader, const struct node *node, const char *what,
-                                  enum quantity quantity, bool constant, const struct scope *scope)
+                                  enum quantity quantity, unsigned flags, const struct scope *scope)
 {
+    bool constant = scope == &reader->constants;
     bool boolean;
     bool is_number = node->kind == node_scalar && node->length > 0 &&
                      (node->quoted || !scalar_boolean(node->text, &boolean));
@@ -126,7 +133,9 @@ static const struct expr *compile(struct reader *reader, const struct node *node
                                    .angle = quantity == an_angle,
                                    .any_dim = quantity == a_parameter,
                                    .what = what};
-    return value_compile(reader, node, &want, scope);
+    const struct expr *expr = value_compile(reader, node, &want, scope);
+    if (expr && reader->record && (flags & stored)) record_site(reader, expr, flags, &want, scope->context);
+    return expr;
 }
 
 /* Would it do but for what it depends on? */
@@ -147,16 +156,19 @@ static bool varies(struct reader *reader, const struct node *node, enum quantity
         return false;
     }
     reader->errors = errors;
-    bool outer = reader->varies;
+    bool outer = reader->varies, outer_names = reader->names_varying;
+    struct arena tried = {0};
     if (scalar_check_number(node->text, node->text_at, "value", errors))
-        expr_compile(reader->arena, node->text, node->text_at, &reader->constants, &want, errors);
+        expr_compile(&tried, node->text, node->text_at, &reader->constants, &want, errors);
     reader->varies = outer;
+    reader->names_varying = outer_names;
     reader->errors = given;
-    if (errors->out_of_memory || errors->arena.failed) diag_out_of_memory(given);
+    if (errors->out_of_memory || errors->arena.failed || tried.failed) diag_out_of_memory(given);
     for (const struct diag_note *note = errors->first; note; note = note->next)
         found |= strcmp(note->error.id, "not-constant") == 0 ||
                  (strcmp(note->error.id, "unknown-name") == 0 && strstr(node->text, "states."));
     fbd_errors_free(errors);
+    arena_free(&tried);
     return found;
 }
 
@@ -178,7 +190,7 @@ bool value_number(struct reader *reader, const struct node *node, const char *wh
         *number = HUGE_VAL;
         return true;
     }
-    const struct expr *expr = compile(reader, node, what, quantity, true, &reader->constants);
+    const struct expr *expr = compile(reader, node, what, quantity, flags, &reader->constants);
     if (!expr || !check_range(reader, node, what, flags, expr_value(expr))) return false;
     *number = expr_value(expr);
     return true;
@@ -187,8 +199,7 @@ bool value_number(struct reader *reader, const struct node *node, const char *wh
 bool value_formula(struct reader *reader, const struct node *node, const char *what, enum quantity quantity,
                    unsigned flags, const struct scope *scope, struct value *value)
 {
-    bool constant = scope == &reader->constants;
-    const struct expr *expr = compile(reader, node, what, quantity, constant, scope);
+    const struct expr *expr = compile(reader, node, what, quantity, flags, scope);
     if (!expr) return false;
     if (expr_is_constant(expr) && !check_range(reader, node, what, flags, expr_value(expr))) return false;
     *value = (struct value){expr, node->at};

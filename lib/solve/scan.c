@@ -23,6 +23,7 @@ static int take_counted(void *context, double t, double *values, double *rates)
 bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *context)
 {
     *scan = (struct scan){.count = count, .sample = sample, .context = context};
+    if (count == 0) return true; /* nothing is looked for */
     scan->points = calloc(spare_points, sizeof *scan->points);
     scan->memory = calloc((size_t)2 * spare_points * count + 1, sizeof *scan->memory);
     scan->crossed = calloc(3 * count + 1, sizeof *scan->crossed);
@@ -65,6 +66,7 @@ void scan_free(struct scan *scan)
 bool scan_use_enclosures(struct scan *scan, struct proof_group *groups, size_t count, proof_enclose *enclose,
                          scan_follower *follow)
 {
+    if (scan->count == 0) return true;
     size_t most = 1;
     for (size_t g = 0; g < count; g++)
         if (groups[g].count > most) most = groups[g].count;

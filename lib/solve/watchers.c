@@ -97,9 +97,9 @@ static void add_all(struct watchers *watchers, const struct fbd_model *model)
 }
 
 /* Neighbours of the same kind and index. */
-static bool group_watchers(const struct fbd_model *model, struct watcher_set *set)
+static bool group_watchers(struct arena *memory, const struct fbd_model *model, struct watcher_set *set)
 {
-    set->groups = calloc(set->count + 1, sizeof *set->groups);
+    set->groups = ARENA_ARRAY(memory, set->count + 1, struct proof_group);
     if (!set->groups) return false;
     struct proof_group *group = set->groups - 1;
     for (size_t i = 0; i < set->count; i++) {
@@ -128,20 +128,19 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
     *watchers = (struct watchers){0};
     add_all(watchers, model); /* once to count, once to fill */
     size_t timed = watchers->timed.count, moving = watchers->moving.count;
-    watchers->timed = (struct watcher_set){.watchers = calloc(timed + 1, sizeof(struct watcher))};
-    watchers->moving = (struct watcher_set){.watchers = calloc(moving + 1, sizeof(struct watcher))};
-    watchers->scratch = calloc(6 * margins + 1, sizeof(double));
-    watchers->held = calloc((size_t)plan->branches + 1, sizeof *watchers->held);
-    watchers->zeros = calloc((size_t)plan->branches + 1, sizeof *watchers->zeros);
-    watchers->place = calloc(2 * extended_size(model) + 1, sizeof(double));
-    watchers->margins = calloc(2 * margins + 1, sizeof *watchers->margins);
-    watchers->armed = calloc(plan->watch_count + 1, sizeof(int));
-    watchers->fired = calloc(plan->watch_count + 1, sizeof(double));
-    watchers->most = calloc(2 * plan->watch_count + 1, sizeof(double));
-    watchers->fast = calloc(2 * plan->friction_count + 1, sizeof(double));
-    if (!watchers->timed.watchers || !watchers->moving.watchers || !watchers->scratch || !watchers->armed ||
-        !watchers->fired || !watchers->most || !watchers->margins || !watchers->held || !watchers->zeros ||
-        !watchers->place || !watchers->fast) {
+    struct arena *memory = &watchers->memory;
+    watchers->timed = (struct watcher_set){.watchers = ARENA_ARRAY(memory, timed + 1, struct watcher)};
+    watchers->moving = (struct watcher_set){.watchers = ARENA_ARRAY(memory, moving + 1, struct watcher)};
+    watchers->scratch = ARENA_ARRAY(memory, 6 * margins + 1, double);
+    watchers->held = ARENA_ARRAY(memory, (size_t)plan->branches + 1, bool);
+    watchers->zeros = ARENA_ARRAY(memory, (size_t)plan->branches + 1, int);
+    watchers->place = ARENA_ARRAY(memory, 2 * extended_size(model) + 1, double);
+    watchers->margins = ARENA_ARRAY(memory, 2 * margins + 1, struct enclosure);
+    watchers->armed = ARENA_ARRAY(memory, plan->watch_count + 1, int);
+    watchers->fired = ARENA_ARRAY(memory, plan->watch_count + 1, double);
+    watchers->most = ARENA_ARRAY(memory, 2 * plan->watch_count + 1, double);
+    watchers->fast = ARENA_ARRAY(memory, 2 * plan->friction_count + 1, double);
+    if (memory->failed) {
         watchers_free(watchers);
         return false;
     }
@@ -150,26 +149,15 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
     watchers->band = watchers->most + plan->watch_count;
     watchers->quiet = watchers->fast + plan->friction_count;
     add_all(watchers, model);
-    if (group_watchers(model, &watchers->timed) && group_watchers(model, &watchers->moving)) return true;
+    if (group_watchers(memory, model, &watchers->timed) && group_watchers(memory, model, &watchers->moving))
+        return true;
     watchers_free(watchers);
     return false;
 }
 
 void watchers_free(struct watchers *watchers)
 {
-    free(watchers->timed.groups);
-    free(watchers->moving.groups);
-    free(watchers->margins);
-    free(watchers->held);
-    free(watchers->zeros);
-    free(watchers->place);
-    free(watchers->timed.watchers);
-    free(watchers->moving.watchers);
-    free(watchers->scratch);
-    free(watchers->armed);
-    free(watchers->fired);
-    free(watchers->most);
-    free(watchers->fast);
+    arena_free(&watchers->memory);
     *watchers = (struct watchers){0};
 }
 

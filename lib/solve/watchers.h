@@ -16,6 +16,7 @@
 #ifndef FBD_SOLVE_WATCHERS_H
 #define FBD_SOLVE_WATCHERS_H
 
+#include "base/arena.h"
 #include "dynamics/modes.h"
 #include "solve/proof.h"
 
@@ -47,6 +48,7 @@ struct watcher_set {
 };
 
 struct watchers {
+    struct arena memory;       /* of all that follows */
     struct watcher_set timed;  /* functions of t alone */
     struct watcher_set moving; /* all others */
     double *scratch;           /* margins, rates and roundings of one kink */

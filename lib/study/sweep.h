@@ -12,6 +12,7 @@
 #define FBD_STUDY_SWEEP_H
 
 #include "model/model.h"
+#include "scene/patch.h"
 #include "study/axes.h"
 #include "study/columns.h"
 
@@ -38,6 +39,8 @@ struct row_maker {
     size_t *starts;             /* of the texts of the values */
     struct text values;
     struct extreme *extremes;
+    struct patch *patch; /* a scene that takes the values of one run after the other, or NULL */
+    uint64_t rows;       /* so far */
     fbd_stop *stop; /* asked in every step, or NULL */
     void *stop_context;
 };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * A sweep of 10,000 runs, by one thread and by two in turn: runs in a second, what the second thread gains,
- * and how much of a run is the run itself and how much is making its model. Processor time beside wall time:
+ * how much of a run is the run itself and how much is making its model, and runs of a single step. Processor time beside wall time:
  * on a machine with other work, twice the runs per second of processor time is what two free processors give.
  *
  * Usage: bench_sweep MODEL VARY
@@ -61,21 +61,38 @@ static double measure_alone(const char *text, size_t length, int repetitions)
     return (processor_seconds() - start) / repetitions;
 }
 
-static fbd_sweep *open_sweep(const char *path, const char *vary)
+/* `until`: of all runs, 0 for that of the file. */
+static fbd_sweep *open_sweep(const char *path, const char *vary, double until)
 {
     fbd_errors *errors = fbd_errors_new();
-    const fbd_sweep_plan plan = {.vary = &vary, .vary_count = 1};
+    const fbd_options options = {.until = until};
+    const fbd_sweep_plan plan = {.vary = &vary, .vary_count = 1, .run = &options};
     fbd_sweep *sweep = errors ? fbd_sweep_read(path, &plan, errors) : NULL;
     if (errors && !sweep) fbd_errors_print(errors, stderr);
     fbd_errors_free(errors);
     return sweep;
 }
 
+/* Runs of one step: what setting one up, writing its row and freeing it takes. */
+static void measure_short(const char *path, const char *vary)
+{
+    static double rate[pairs];
+    const double one_step = 1e-6;
+    fbd_sweep *sweep = open_sweep(path, vary, one_step);
+    if (!sweep) exit(1);
+    for (int i = 0; i < pairs; i++)
+        rate[i] = (double)fbd_sweep_run_count(sweep) / measure(sweep, 1).processor;
+    double runs = median(rate, pairs);
+    printf("runs of one step: %.0f in a second of processor time (bound: 200000), %.1f us each\n", runs,
+           1e6 / runs);
+    fbd_sweep_free(sweep);
+}
+
 int main(int argc, char **argv)
 {
     static double rate[pairs], busy[pairs], gain[pairs], loss[pairs];
     gsl_set_error_handler_off();
-    fbd_sweep *sweep = argc == 3 ? open_sweep(argv[1], argv[2]) : NULL;
+    fbd_sweep *sweep = argc == 3 ? open_sweep(argv[1], argv[2], 0) : NULL;
     if (!sweep) return 2;
     double runs = (double)fbd_sweep_run_count(sweep);
     measure(sweep, 2); /* to warm up */
@@ -99,6 +116,7 @@ int main(int argc, char **argv)
            lost, 2 / lost);
     printf("a run of the sweep: %.1f us; read, compiled and run by itself: %.1f us\n", 1e6 / busy_rate,
            1e6 * alone);
+    measure_short(argv[1], argv[2]);
     fbd_sweep_free(sweep);
     return 0;
 }

@@ -1,0 +1,396 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/patch.h"
+
+#include "scene/record.h"
+#include "scene/values.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- noting what is compiled */
+
+void record_compiled(const struct reader *reader, const struct node *node, const struct expr *expr)
+{
+    struct record *record = reader->record;
+    if (record->count == record->room) {
+        size_t room = record->room ? 2 * record->room : 32;
+        struct site *sites = ARENA_ARRAY(&record->exprs, room, struct site);
+        if (!sites) return; /* noticed by the arena */
+        if (record->count) memcpy(sites, record->sites, record->count * sizeof *sites);
+        record->sites = sites;
+        record->room = room;
+    }
+    bool from_outside = reader->outside && node->at.line == 0;
+    record->sites[record->count++] =
+        (struct site){.node = from_outside ? NULL : node,
+                      .outside = from_outside ? reader->outside : NULL,
+                      .expr = expr,
+                      .varies = reader->names_varying || (from_outside && reader->outside->varies)};
+}
+
+void record_site(const struct reader *reader, const struct expr *expr, unsigned flags,
+                 const struct expr_want *want, const struct names *names)
+{
+    struct record *record = reader->record;
+    struct site *site = record->count ? &record->sites[record->count - 1] : NULL;
+    if (!site || site->expr != expr) return; /* compiled in an earlier reading: it does not vary */
+    site->patched = !names->slip_named && !names->distance_named && !names->along;
+    site->constants = names == &reader->constant_names;
+    site->flags = flags;
+    site->want = *want;
+    site->names = *names;
+    site->names.known = NULL;
+    site->names.known_count = 0;
+}
+
+/* ---- one reading */
+
+struct reading {
+    struct scene *scene;
+    struct reader reader;
+    struct record record;
+};
+
+static void close_reading(struct reading *reading)
+{
+    scene_free(reading->scene);
+    arena_free(&reading->record.exprs);
+    arena_free(&reading->record.derived);
+}
+
+static bool read_with(struct reading *reading, const struct document *document,
+                      const struct override *overrides, size_t count)
+{
+    fbd_errors *errors = fbd_errors_new();
+    struct record *record = &reading->record;
+    if (!errors) return false;
+    reading->scene = scene_read_by(&reading->reader, document, overrides, count, NULL, record, errors);
+    bool fine = reading->scene && fbd_errors_failed_count(errors) == 0 && !errors->out_of_memory &&
+                !record->exprs.failed && !record->derived.failed;
+    fbd_errors_free(errors);
+    return fine;
+}
+
+/* ---- where values are stored */
+
+/* A word of the scene that is the value of a site, or the pointer to its expression. */
+struct stored_word {
+    uint64_t *word;
+    size_t site;
+    bool pointer;
+};
+
+struct patch {
+    struct reading reading;
+    struct override *own; /* as the readings had them */
+    size_t count;
+    struct stored_word *words;
+    size_t word_count, word_room;
+    size_t absolutes; /* places in the world that expressions name */
+    struct arena exprs;
+    fbd_errors *errors;
+};
+
+static uint64_t bits_of(double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+static bool is_number(const struct site *site)
+{
+    return site->expr && expr_is_constant(site->expr);
+}
+
+/* NOLINTNEXTLINE(readability-non-const-parameter): it is written to, later */
+static bool add_word(struct patch *patch, uint64_t *word, size_t site, bool pointer)
+{
+    if (patch->word_count == patch->word_room) {
+        size_t room = patch->word_room ? 2 * patch->word_room : 32;
+        struct stored_word *words = realloc(patch->words, room * sizeof *words);
+        if (!words) return false;
+        patch->words = words;
+        patch->word_room = room;
+    }
+    patch->words[patch->word_count++] = (struct stored_word){word, site, pointer};
+    return true;
+}
+
+struct comparison {
+    struct patch *patch;
+    const struct reading *beside;
+};
+
+/* Is it the place in the other reading of what `word` points to? */
+static bool same_place(const struct reading *a, const struct reading *b, uint64_t word, uint64_t twin)
+{
+    uintptr_t other = arena_twin(&a->scene->arena, &b->scene->arena, (uintptr_t)word);
+    if (!other) other = arena_twin(&a->record.derived, &b->record.derived, (uintptr_t)word);
+    return other && other == twin;
+}
+
+/* The sum of the parts' masses, as reading them makes it. */
+static double mass_of_parts(const struct body *body)
+{
+    double mass = 0;
+    for (size_t i = 0; i < body->part_count; i++) mass += body->parts[i].mass;
+    return mass;
+}
+
+static bool is_mass(const struct reading *reading, const uint64_t *word)
+{
+    for (size_t b = 0; b < reading->scene->body_count; b++)
+        if ((const void *)word == &reading->reader.drafts[b].mass) return true;
+    return false;
+}
+
+/* NOLINTNEXTLINE(readability-non-const-parameter): as arena_compare asks for */
+static bool in_derived(void *context, uint64_t *word, uint64_t twin)
+{
+    const struct comparison *comparison = context;
+    return same_place(&comparison->patch->reading, comparison->beside, *word, twin);
+}
+
+/* A word that is not the same in the two readings. */
+static bool in_scene(void *context, uint64_t *word, uint64_t twin)
+{
+    struct comparison *comparison = context;
+    struct patch *patch = comparison->patch;
+    const struct record *first = &patch->reading.record, *second = &comparison->beside->record;
+    if (same_place(&patch->reading, comparison->beside, *word, twin)) return true;
+    for (size_t i = 0; i < first->count; i++) {
+        const struct site *a = &first->sites[i], *b = &second->sites[i];
+        if (*word == (uintptr_t)a->expr && twin == (uintptr_t)b->expr)
+            return !a->varies || add_word(patch, word, i, true);
+        if (a->varies && is_number(a) && *word == bits_of(expr_value(a->expr)) &&
+            twin == bits_of(expr_value(b->expr)))
+            return add_word(patch, word, i, false);
+    }
+    return is_mass(&patch->reading, word);
+}
+
+/* What has no place in the arena. */
+static bool compare_top(struct comparison *comparison)
+{
+    uint64_t *words = (uint64_t *)comparison->patch->reading.scene;
+    const uint64_t *twins = (const uint64_t *)comparison->beside->scene;
+    for (size_t i = offsetof(struct scene, file) / sizeof *words; i < sizeof(struct scene) / sizeof *words;
+         i++)
+        if (words[i] != twins[i] && !in_scene(comparison, &words[i], twins[i])) return false;
+    return true;
+}
+
+/* ---- may it be patched? */
+
+enum side { below_zero, at_zero, up_to_one, beyond_one, at_no_side };
+
+static enum side side_of(double value)
+{
+    return value < 0    ? below_zero
+           : value == 0 ? at_zero
+           : value <= 1 ? up_to_one
+           : value > 1  ? beyond_one
+                        : at_no_side;
+}
+
+/* Do two expressions look the same to all who ask without evaluating them? */
+static bool same_kind(const struct expr *a, const struct expr *b)
+{
+    if (expr_is_constant(a) != expr_is_constant(b) || expr_is_bare(a) != expr_is_bare(b) ||
+        !dim_equal(expr_dim(a), expr_dim(b)))
+        return false;
+    if (expr_is_constant(a)) return side_of(expr_value(a)) == side_of(expr_value(b));
+    const int *slots_a, *slots_b;
+    size_t count = expr_variables(a, &slots_a);
+    return expr_variables(b, &slots_b) == count &&
+           (count == 0 || memcmp(slots_a, slots_b, count * sizeof *slots_a) == 0) &&
+           expr_uses_time(a) == expr_uses_time(b) && expr_switches(a) == expr_switches(b) &&
+           expr_poles(a) == expr_poles(b) && expr_degree(a) == expr_degree(b);
+}
+
+/* The parameter that an expression is nothing but, through definitions that are nothing but others; -1 for none. */
+static long name_of(const struct reader *reader, const struct site *site)
+{
+    size_t index;
+    const struct scene *scene = reader->scene;
+    if (site->outside) return parameters_find(reader, site->outside->name, &index) ? (long)index : -1;
+    const struct node *node = site->node;
+    for (size_t i = 0; i < scene->parameter_count; i++)
+        if (reader->definitions[i].node == node && !reader->definitions[i].override) {
+            const char *text = node->text;
+            return parameters_find(reader, text, &index) && index != i
+                       ? name_of(reader, &(struct site){.node = reader->definitions[index].node,
+                                                        .outside = reader->definitions[index].override})
+                       : (long)i;
+        }
+    if (!parameters_find(reader, node->text, &index)) return -1;
+    return name_of(reader, &(struct site){.node = reader->definitions[index].node,
+                                          .outside = reader->definitions[index].override});
+}
+
+/* Two sites with the same values both times have to be the same quantity: their words cannot be told apart. */
+static bool told_apart(const struct reading *a, const struct reading *b, size_t i, size_t k)
+{
+    const struct site *of_a = a->record.sites, *of_b = b->record.sites;
+    if (!of_a[i].varies || !of_a[k].varies || !is_number(&of_a[i]) || !is_number(&of_a[k])) return true;
+    if (bits_of(expr_value(of_a[i].expr)) != bits_of(expr_value(of_a[k].expr)) ||
+        bits_of(expr_value(of_b[i].expr)) != bits_of(expr_value(of_b[k].expr)))
+        return true;
+    const struct node *of_i = of_a[i].node, *of_k = of_a[k].node;
+    bool constants = of_a[i].constants && of_a[k].constants;
+    if (constants && of_i && of_k && strcmp(of_i->text, of_k->text) == 0) return true;
+    long name = name_of(&a->reader, &of_a[i]);
+    return name >= 0 && name == name_of(&a->reader, &of_a[k]);
+}
+
+static bool check_sites(const struct reading *a, const struct reading *b)
+{
+    if (a->record.count != b->record.count) return false;
+    for (size_t i = 0; i < a->record.count; i++) {
+        const struct site *of_a = &a->record.sites[i], *of_b = &b->record.sites[i];
+        if (of_a->node != of_b->node || of_a->outside != of_b->outside || !of_a->expr != !of_b->expr)
+            return false;
+        if (!of_a->varies) continue;
+        if (!of_a->patched || !same_kind(of_a->expr, of_b->expr)) return false;
+        for (size_t k = 0; k < i; k++)
+            if (!told_apart(a, b, i, k)) return false;
+    }
+    return true;
+}
+
+/* Do the masses of bodies follow from those of their parts, as they stand? */
+static bool check_masses(const struct reading *reading)
+{
+    for (size_t b = 0; b < reading->scene->body_count; b++)
+        if (bits_of(mass_of_parts(&reading->scene->bodies[b])) != bits_of(reading->reader.drafts[b].mass))
+            return false;
+    return true;
+}
+
+static bool find_words(struct patch *patch, const struct reading *beside)
+{
+    struct comparison comparison = {patch, beside};
+    struct reading *reading = &patch->reading;
+    return check_sites(reading, beside) && check_masses(reading) && check_masses(beside) &&
+           arena_compare(&reading->record.derived, &beside->record.derived, in_derived, &comparison) &&
+           arena_compare(&reading->scene->arena, &beside->scene->arena, in_scene, &comparison) &&
+           compare_top(&comparison);
+}
+
+/* ---- making and freeing */
+
+static bool make(struct patch *patch, const struct document *document, const struct override *overrides,
+                 const char *const *beside)
+{
+    struct reading second = {0};
+    memcpy(patch->own, overrides, patch->count * sizeof *overrides);
+    bool fine = read_with(&patch->reading, document, patch->own, patch->count);
+    for (size_t i = 0; i < patch->count; i++)
+        if (beside[i]) patch->own[i].value = beside[i];
+    fine = fine && read_with(&second, document, patch->own, patch->count) && find_words(patch, &second);
+    close_reading(&second);
+    return fine;
+}
+
+struct patch *patch_new(const struct document *document, const struct override *overrides, size_t count,
+                        const char *const *beside)
+{
+    struct patch *patch = calloc(1, sizeof *patch);
+    if (!patch) return NULL;
+    patch->count = count;
+    patch->own = calloc(count + 1, sizeof *patch->own);
+    patch->errors = fbd_errors_new();
+    if (!patch->own || !patch->errors || !make(patch, document, overrides, beside)) {
+        patch_free(patch);
+        return NULL;
+    }
+    patch->absolutes = patch->reading.scene->absolute_count;
+    struct reader *reader = &patch->reading.reader;
+    reader->errors = patch->errors;
+    reader->record = NULL;
+    reader->exprs = &patch->exprs;
+    return patch;
+}
+
+void patch_free(struct patch *patch)
+{
+    if (!patch) return;
+    close_reading(&patch->reading);
+    arena_free(&patch->exprs);
+    fbd_errors_free(patch->errors);
+    free(patch->own);
+    free(patch->words);
+    free(patch);
+}
+
+/* ---- other values */
+
+static const struct expr *compile(struct patch *patch, struct site *site, const struct override *overrides)
+{
+    struct reader *reader = &patch->reading.reader;
+    if (site->outside) return override_compile(reader, &overrides[site->outside - patch->own]);
+    if (site->constants) return value_compile(reader, site->node, &site->want, &reader->constants);
+    const struct scope scope = names_scope(&site->names);
+    return value_compile(reader, site->node, &site->want, &scope);
+}
+
+static void store(const struct patch *patch, size_t site, const struct expr *expr)
+{
+    bool number = expr_is_constant(expr);
+    for (size_t k = 0; k < patch->word_count; k++) {
+        const struct stored_word *word = &patch->words[k];
+        if (word->site != site) continue;
+        if (word->pointer)
+            *word->word = (uintptr_t)expr;
+        else if (number)
+            *word->word = bits_of(expr_value(expr));
+    }
+}
+
+/* The masses of whole bodies, which expressions may name. */
+static void add_masses(struct reading *reading)
+{
+    for (size_t b = 0; b < reading->scene->body_count; b++)
+        reading->reader.drafts[b].mass = mass_of_parts(&reading->scene->bodies[b]);
+}
+
+/* In the order in which they were compiled, so that what names others finds their new values. Where one is refused
+ * the scene keeps a part of them, until it takes others. */
+static bool renew(struct patch *patch, const struct override *overrides)
+{
+    struct record *record = &patch->reading.record;
+    bool added = false;
+    for (size_t i = 0; i < record->count; i++) {
+        struct site *site = &record->sites[i];
+        if (!site->varies) continue;
+        if (!site->constants && !added) add_masses(&patch->reading);
+        added = !site->constants;
+        const struct expr *expr = compile(patch, site, overrides);
+        if (!expr || !same_kind(site->expr, expr)) return false;
+        store(patch, i, expr);
+    }
+    return true;
+}
+
+/* Notes, even warnings, are for the reader to give. */
+static bool is_quiet(struct patch *patch)
+{
+    if (patch->errors->count == 0 && !patch->errors->out_of_memory) return true;
+    fbd_errors *fresh = fbd_errors_new();
+    if (!fresh) return false;
+    fbd_errors_free(patch->errors);
+    patch->errors = patch->reading.reader.errors = fresh;
+    return false;
+}
+
+struct scene *patch_apply(struct patch *patch, const struct override *overrides)
+{
+    struct reading *reading = &patch->reading;
+    arena_free(&patch->exprs);
+    bool fine = renew(patch, overrides);
+    if (!is_quiet(patch) || !fine || reading->scene->absolute_count != patch->absolutes ||
+        patch->exprs.failed || reading->scene->arena.failed)
+        return NULL;
+    return reading->scene;
+}
