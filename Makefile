@@ -115,6 +115,11 @@ late-times: $(BUILD)/.tests
 	ninja -C $(BUILD) tests/unit/test_late_times
 	FBD_LATE_SCENES=10000 FBD_MANY_SWITCHES=1000000 $(BUILD)/tests/unit/test_late_times
 
+# What the default method costs beside the best one on each model, and whether less tolerance was ever worse.
+methods: $(BUILD)/.tests
+	ninja -C $(BUILD) tests/bench/bench_methods
+	$(BUILD)/tests/bench/bench_methods models/*/*.yaml
+
 # The implicit methods beside GSL's own; takes some minutes.
 implicit: $(BUILD)/.tests
 	ninja -C $(BUILD) tests/bench/bench_implicit
@@ -228,5 +233,5 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run mutants test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars event-bars events late-times implicit impacts failures gallery python live live-check site check-format format lint install uninstall dist deb deb-check clean
+.PHONY: all run mutants test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars event-bars events late-times implicit methods impacts failures gallery python live live-check site check-format format lint install uninstall dist deb deb-check clean
 .SECONDARY:

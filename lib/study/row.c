@@ -277,6 +277,7 @@ static struct fbd_model *make_model(struct row_maker *maker, fbd_errors *errors)
     const struct fbd_sweep *sweep = maker->sweep;
     size_t count = sweep->axes.member_count + sweep->fixed_count;
     struct scene *scene = patched(maker);
+    diag_in_file(errors, sweep->document.file);
     if (scene) return model_compile_again(scene, sweep->base, errors);
     scene = scene_make(&sweep->document, maker->overrides, count, errors);
     return scene ? model_compile(scene, errors) : NULL;

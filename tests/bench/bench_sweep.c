@@ -7,6 +7,7 @@
  * Usage: bench_sweep MODEL VARY
  */
 #include <gsl/gsl_errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -61,11 +62,12 @@ static double measure_alone(const char *text, size_t length, int repetitions)
     return (processor_seconds() - start) / repetitions;
 }
 
-/* `until`: of all runs, 0 for that of the file. */
+/* `until`: of all runs, NAN for that of the file. */
 static fbd_sweep *open_sweep(const char *path, const char *vary, double until)
 {
     fbd_errors *errors = fbd_errors_new();
-    const fbd_options options = {.until = until};
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    options.until = until;
     const fbd_sweep_plan plan = {.vary = &vary, .vary_count = 1, .run = &options};
     fbd_sweep *sweep = errors ? fbd_sweep_read(path, &plan, errors) : NULL;
     if (errors && !sweep) fbd_errors_print(errors, stderr);
@@ -92,7 +94,7 @@ int main(int argc, char **argv)
 {
     static double rate[pairs], busy[pairs], gain[pairs], loss[pairs];
     gsl_set_error_handler_off();
-    fbd_sweep *sweep = argc == 3 ? open_sweep(argv[1], argv[2], 0) : NULL;
+    fbd_sweep *sweep = argc == 3 ? open_sweep(argv[1], argv[2], NAN) : NULL;
     if (!sweep) return 2;
     double runs = (double)fbd_sweep_run_count(sweep);
     measure(sweep, 2); /* to warm up */
