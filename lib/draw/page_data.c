@@ -192,6 +192,7 @@ static void write_term(struct text *text, struct symbolic *symbolic, const char 
     text_printf(text, ",%d,", column);
     text_json_string(text, symbol ? symbol : "");
     text_add(text, "]");
+    text->failed |= symbolic->formulas.arena.failed;
 }
 
 /* The equation of a coordinate. */

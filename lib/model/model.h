@@ -88,7 +88,7 @@ struct fbd_model {
     struct arena arena;
     struct scene *scene;
     bool scene_lent; /* it is not owned */
-    char *source;        /* the file's text, owned: hand derivations are checked under changed parameters */
+    char *source;    /* the file's text, owned: hand derivations are checked under changed parameters */
     size_t source_length;
     size_t body_count;
     size_t load_count;    /* the loads that bodies list, then the couplings that are springs and dampers */

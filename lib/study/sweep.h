@@ -41,7 +41,7 @@ struct row_maker {
     struct extreme *extremes;
     struct patch *patch; /* a scene that takes the values of one run after the other, or NULL */
     uint64_t rows;       /* so far */
-    fbd_stop *stop; /* asked in every step, or NULL */
+    fbd_stop *stop;      /* asked in every step, or NULL */
     void *stop_context;
 };
 
