@@ -72,9 +72,13 @@ static void carry(const fbd_model *model, const fbd_options *options, struct mot
     fbd_errors_free(errors);
 }
 
+/* What is as small beside all else is rounding, as the speed across its line of a wheel that rolls. */
+static const double nothing = 1e-12;
+
 static double distance(const struct motion *a, const struct motion *b)
 {
-    double worst = 0;
+    double worst = 0, most = 0;
+    for (size_t i = 0; i < times * b->size; i++) most = fmax(most, fabs(b->values[i]));
     for (size_t i = 0; i < a->size; i++) {
         double size = 0, apart = 0;
         for (size_t k = 0; k < times; k++) {
@@ -82,7 +86,7 @@ static double distance(const struct motion *a, const struct motion *b)
             size = fmax(size, fabs(y));
             apart = fmax(apart, fabs(x - y));
         }
-        if (size > 0) worst = fmax(worst, apart / size);
+        if (size > nothing * most) worst = fmax(worst, apart / size);
     }
     return worst;
 }
@@ -108,7 +112,8 @@ static void compare(const char *path, struct outcome table[method_count][toleran
     }
     for (int m = 0; m < method_count; m++)
         for (int t = 1; t < tolerances; t++)
-            if (table[m][t].error > fmax(table[m][t - 1].error, floor_of_errors))
+            if (isfinite(table[m][t].error) &&
+                table[m][t].error > fmax(table[m][t - 1].error, floor_of_errors))
                 printf("worse: %s, %s: %.1e at %.0e, %.1e at %.0e\n", path, methods[m], table[m][t - 1].error,
                        tolerance[t - 1], table[m][t].error, tolerance[t]);
     fflush(stdout);
