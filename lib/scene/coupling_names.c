@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The names of the couplings: as given, or their kind, numbered where that is taken. Names that are taken are
- * kept sorted: a scene may have a hundred thousand couplings, and as many forces whose names they must not
- * bear.
+ * The names of the couplings: as given, or their kind; of further ones of a kind that with the bodies which they join,
+ * `rod_crank_slider`, which says which, and numbered where that is taken, too.
+ * Names that are taken are kept sorted: a scene may have a hundred thousand couplings, and as many forces whose names
+ * they must not bear.
  */
 #include "scene/coupling_names.h"
 
@@ -92,28 +93,69 @@ static bool check_given(struct reader *reader, const struct taken_names *taken,
     return false;
 }
 
-/* `spring`, `spring_2`, ...: the first from `*number` on that is free. */
-static const char *next_name(struct reader *reader, const char *kind, int *number,
-                             const struct taken_names *taken)
+/* ---- names for those that have none */
+
+static const char *body_name(const struct reader *reader, int body)
+{
+    return body == ground_body ? "ground" : reader->scene->bodies[body].name;
+}
+
+/* `rod_crank_slider`: those of whom the kind alone is taken, in the order of these names and then of the file. */
+static bool list_bases(struct reader *reader, const struct coupling_name *names, size_t count,
+                       struct taken_names *bases)
+{
+    *bases = (struct taken_names){ARENA_ARRAY(reader->arena, count, struct taken), 0};
+    for (size_t i = 0; bases->names && i < count; i++) {
+        if (names[i].name) continue;
+        const char *base =
+            arena_printf(reader->arena, "%s_%s_%s", names[i].kind->name, body_name(reader, names[i].body[0]),
+                         body_name(reader, names[i].body[1]));
+        if (!base) return false;
+        bases->names[bases->count++] = (struct taken){base, (ptrdiff_t)i};
+    }
+    if (bases->count > 0) qsort(bases->names, bases->count, sizeof *bases->names, compare);
+    return bases->names != NULL;
+}
+
+/* The base, or the first number behind it that is free. Numbers of different bases never make the same name. */
+static const char *numbered(struct reader *reader, const char *base, int *number,
+                            const struct taken_names *taken, const struct taken_names *bases)
 {
     for (;;) {
         int n = ++*number;
-        const char *name = n == 1 ? kind : arena_printf(reader->arena, "%s_%d", kind, n);
-        if (!name || !find(taken, name)) return name;
+        const char *name = n == 1 ? base : arena_printf(reader->arena, "%s_%d", base, n);
+        if (!name || (!find(taken, name) && (n == 1 || !find(bases, name)))) return name;
     }
+}
+
+static bool name_by_bodies(struct reader *reader, struct coupling_name *names, size_t count,
+                           const struct taken_names *taken)
+{
+    struct taken_names bases;
+    int number = 0;
+    if (!list_bases(reader, names, count, &bases)) return false;
+    for (size_t k = 0; k < bases.count; k++) {
+        const struct taken *base = &bases.names[k];
+        if (k == 0 || strcmp(base->name, base[-1].name) != 0) number = 0;
+        const char *name = numbered(reader, base->name, &number, taken, &bases);
+        if (!name) return false;
+        names[base->index].name = name;
+    }
+    return true;
 }
 
 bool couplings_name(struct reader *reader, struct coupling_name *names, size_t count)
 {
     struct taken_names taken;
-    int *numbers = ARENA_ARRAY(reader->arena, coupling_kinds.count, int);
-    if (!numbers || !collect(reader, names, count, &taken)) return false;
+    bool *used = ARENA_ARRAY(reader->arena, coupling_kinds.count, bool);
+    if (!used || !collect(reader, names, count, &taken)) return false;
     for (size_t i = 0; i < count; i++)
         if (names[i].name && !check_given(reader, &taken, names, i)) return false;
     for (size_t i = 0; i < count; i++) {
-        int *number = &numbers[names[i].kind - coupling_kinds.kinds];
-        if (!names[i].name) names[i].name = next_name(reader, names[i].kind->name, number, &taken);
-        if (!names[i].name) return false;
+        bool *kind = &used[names[i].kind - coupling_kinds.kinds];
+        if (names[i].name || *kind) continue;
+        *kind = true; /* the first without a name */
+        if (!find(&taken, names[i].kind->name)) names[i].name = names[i].kind->name;
     }
-    return true;
+    return name_by_bodies(reader, names, count, &taken);
 }

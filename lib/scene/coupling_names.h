@@ -9,6 +9,7 @@ struct coupling_name {
     const char *name; /* NULL where the file gives none */
     const struct kind *kind;
     struct pos at;
+    int body[2]; /* at its first and last end, or ground_body */
 };
 
 /* Give a name of its own to each coupling that has none. False, and noted, where a given one is taken by a

@@ -186,7 +186,7 @@ static void add_stop(struct reader *reader, size_t b, int end, double limit, str
                                 .contact = {.stop = end == 0 ? 1 : -1, .limit = limit}};
     stop->contact.e = reader->drafts[b].motion_keys.restitution;
     *name = (struct coupling_name){arena_printf(reader->arena, end == 0 ? "%s_min" : "%s_max", body->name),
-                                   contact_kind, at};
+                                   contact_kind, at, {ground_body, ground_body}};
 }
 
 bool stops_read(struct reader *reader, struct coupling_name *names)

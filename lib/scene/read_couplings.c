@@ -263,17 +263,25 @@ static bool read_coupling(struct reader *reader, const struct node *node, bool c
                           .body = ground_body};
     struct scope scope = names_scope(&names);
     bool fine = fields_read(reader, chosen.kind->group, chosen.node, chosen.at, &scope, &keys);
-    *name = (struct coupling_name){keys.name, chosen.kind, chosen.at};
-    if (chosen.kind->value >= coupling_constraint)
-        return fine && share_friction(reader, chosen.node, &scope, &keys) &&
-               read_constraint(reader, &chosen, &keys, &scene->constraints[scene->constraint_count++]);
+    *name = (struct coupling_name){keys.name, chosen.kind, chosen.at, {ground_body, ground_body}};
+    if (chosen.kind->value >= coupling_constraint) {
+        struct constraint *constraint = &scene->constraints[scene->constraint_count++];
+        if (!fine || !share_friction(reader, chosen.node, &scope, &keys) ||
+            !read_constraint(reader, &chosen, &keys, constraint))
+            return false;
+        name->body[0] = constraint->body[0];
+        name->body[1] = constraint->body[constraint->end_count - 1];
+        return true;
+    }
     struct coupling *coupling = &scene->couplings[scene->coupling_count++];
     coupling->load = (struct load){.kind = (enum load_kind)chosen.kind->value,
                                    .at = chosen.at,
                                    .stiffness = keys.stiffness,
                                    .free_length = keys.free_length,
                                    .coefficient = keys.coefficient};
-    return read_between(reader, keys.between, coupling) && fine;
+    if (!read_between(reader, keys.between, coupling)) return false;
+    for (int end = 0; end < 2; end++) name->body[end] = coupling->body[end];
+    return fine;
 }
 
 bool couplings_read(struct reader *reader, const struct node *couplings, const struct node *contacts)
