@@ -39,12 +39,23 @@ static double node(int j)
     return -cos(pi * (j + 0.5) / order);
 }
 
+/* cos(k phi) at node j, by which every series is fitted: to ask the library each time would be most of the work. */
+struct cosines {
+    double at[order][order];
+};
+
+static void fill(struct cosines *cosines)
+{
+    for (int k = 0; k < order; k++)
+        for (int j = 0; j < order; j++) cosines->at[k][j] = cos(pi * k * (j + 0.5) / order);
+}
+
 /* The series through the values at the nodes. */
-static void fit(const double *f, double *c)
+static void fit(const struct cosines *cosines, const double *f, double *c)
 {
     for (int k = 0; k < order; k++) {
         double sum = 0;
-        for (int j = 0; j < order; j++) sum += f[j] * cos(pi * k * (j + 0.5) / order);
+        for (int j = 0; j < order; j++) sum += f[j] * cosines->at[k][j];
         c[k] = 2 * sum / order * (k % 2 == 0 ? 1 : -1);
     }
 }
@@ -68,6 +79,7 @@ static bool ends(const double *c, double share, double size)
 struct draft {
     const struct curve *curve;
     const struct curve_piece *piece;
+    const struct cosines *cosines;
     double from, wide;
     double speed[order],
         length[order + 1];     /* series in p: |r'|, and the length from where the panel begins */
@@ -91,9 +103,9 @@ static bool fit_speed(struct draft *draft, double *bad)
         y[j] = jet.d.y;
         draft->fastest = fmax(draft->fastest, speed[j]);
     }
-    fit(speed, draft->speed);
-    fit(x, draft->x);
-    fit(y, draft->y);
+    fit(draft->cosines, speed, draft->speed);
+    fit(draft->cosines, x, draft->x);
+    fit(draft->cosines, y, draft->y);
     const double *c = draft->speed;
     for (int k = 1; k <= order; k++)
         draft->length[k] = (c[k - 1] - (k + 1 < order ? c[k + 1] : 0)) / (2 * k) * draft->wide / 2;
@@ -150,9 +162,9 @@ static bool fit_panel(const struct draft *draft, double share, struct curve_pane
         struct curve_jet jet = curve_jet_at(draft->curve, draft->piece, draft->from + draft->wide * u[j]);
         bend[j] = curve_jet_bend(&jet);
     }
-    fit(u, panel->u);
+    fit(draft->cosines, u, panel->u);
     meet_ends(panel->u);
-    fit(bend, panel->bend);
+    fit(draft->cosines, bend, panel->bend);
     double turn = most_from(panel->bend, 0) * panel->length;
     return ends(panel->u, share, 1) && turn <= most_turn &&
            ends(panel->bend, lost * share, fmax(turn, 1e-3) / panel->length);
@@ -177,8 +189,11 @@ enum curve_fault curve_fit(const struct curve *curve, const struct curve_piece *
     const double first_share = 8, digits = 1e-14, narrowest = 1e-9, still = 1e-3;
     double range = curve->to - curve->from, wide = range / first_share, fastest = 0;
     double size = fmax(fabs(from), fabs(to));
+    struct cosines cosines;
+    fill(&cosines);
     while (from < to) {
-        struct draft draft = {.curve = curve, .piece = piece, .from = from, .wide = fmin(wide, to - from)};
+        struct draft draft = {
+            .curve = curve, .piece = piece, .cosines = &cosines, .from = from, .wide = fmin(wide, to - from)};
         struct curve_panel panel;
         *place = from;
         if (!fit_speed(&draft, place)) return curve_not_finite;
