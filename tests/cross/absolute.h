@@ -30,14 +30,17 @@ enum {
 };
 
 enum row_kind {
-    row_angle,  /* of the body in the frame that it moves on, less a constant */
-    row_across, /* slide: off its line */
-    row_along,  /* slide: along its line */
-    row_pin_x,  /* pivot, weld: off the point, along x of the world */
+    row_angle,   /* of the body in the frame that it moves on, less a constant */
+    row_across,  /* slide: off its line */
+    row_along,   /* slide: along its line */
+    row_track,   /* off its curve */
+    row_tangent, /* of the frame in the direction of its curve */
+    row_pin_x,   /* pivot, weld: off the point, along x of the world */
     row_pin_y,
     row_link_pin_x, /* the same of a coupling */
     row_link_pin_y,
     row_rod,
+    row_slot, /* off its curve, on the left of it */
     row_rope, /* a piece between two places that hold it */
     row_gear,
     row_belt_turn, /* half of what one strand is longer than the other */
@@ -87,7 +90,7 @@ struct absolute {
 
     /* the instant */
     double t;
-    double x[3 * most_bodies], v[3 * most_bodies];
+    double x[3 * most_bodies], v[3 * most_bodies], z[most_states];
     struct {
         struct series x, y, angle, c, s;
     } pose[most_bodies];
@@ -127,6 +130,16 @@ enum { seed_motion = -1, seed_path = -2 }; /* with velocities and a = 0; with ac
 void absolute_seed(struct absolute *absolute, int seed);
 struct place point_of(const struct absolute *absolute, int body, struct vec2 point);
 struct place direction_of(const struct absolute *absolute, int body, double angle);
+/* paths.c: r(p) or a derivative of it, the foot of a place, how far it is on the left of that, the length from p = 0,
+ * and p at such a length. */
+struct place path_place(const struct path *path, struct series p, int derivative);
+struct series path_foot(const struct path *path, struct place C);
+struct series path_distance(const struct path *path, struct place C);
+struct series path_length(const struct path *path, struct series p);
+struct series path_parameter(const struct path *path, struct series s);
+
+struct place tangent_of(const struct absolute *absolute,
+                        int body); /* of the curve that it moves on, at its point */
 struct series angle_of(const struct absolute *absolute, int body);
 struct series row_value(const struct absolute *absolute, const struct row *row);
 struct series coordinate_of(const struct absolute *absolute, int body, int index);

@@ -120,11 +120,13 @@ static double acceleration_of(const struct absolute *absolute, int b, const char
 {
     const struct body *body = &absolute->scene->body[b];
     const double *a = &absolute->a[3 * b];
-    struct place e = direction_of(absolute, body->on, body->motion == slide ? body->along : 0);
+    struct place e = body->motion == track
+                         ? tangent_of(absolute, b)
+                         : direction_of(absolute, body->on, body->motion == slide ? body->along : 0);
     if (strcmp(coordinate, "G.x") == 0) return a[0];
     if (strcmp(coordinate, "G.y") == 0) return a[1];
     if (strcmp(coordinate, "G.angle") == 0 || strcmp(coordinate, "theta") == 0) return a[2];
-    if (strcmp(coordinate, "x") == 0) return e.x.u * a[0] + e.y.u * a[1];
+    if (strcmp(coordinate, "x") == 0 || strcmp(coordinate, "s") == 0) return e.x.u * a[0] + e.y.u * a[1];
     if (strcmp(coordinate, "y") == 0) return e.x.u * a[1] - e.y.u * a[0];
     return NAN;
 }
@@ -170,11 +172,19 @@ bool library_state(const struct scene *scene, const fbd_state *state, double *q,
             enum motion motion = scene->body[b].motion;
             char name[40], rate[40];
             int index = motion == pivot ? 2 : i;
-            snprintf(name, sizeof name, "%s.%s", scene->body[b].name, names[index]);
-            snprintf(rate, sizeof rate, "%s.%s", scene->body[b].name, motion == slide ? "v" : rates[index]);
+            bool along = motion == slide || motion == track;
+            snprintf(name, sizeof name, "%s.%s", scene->body[b].name, motion == track ? "s" : names[index]);
+            snprintf(rate, sizeof rate, "%s.%s", scene->body[b].name, along ? "v" : rates[index]);
             if (!fbd_state_get(state, name, &q[k]) || !fbd_state_get(state, rate, &v[k])) return false;
         }
     return true;
+}
+
+bool state_value(const fbd_state *state, int i, double *z)
+{
+    char name[24];
+    snprintf(name, sizeof name, "states.z%d", i);
+    return fbd_state_get(state, name, z);
 }
 
 /* The first event after which the modes of the start are no longer those of the run, or INFINITY. */
@@ -222,6 +232,12 @@ static void compare_coordinates(const struct absolute *absolute, const struct sc
     absolute_coordinates(absolute, our_q, our_v);
     for (int b = 0; b < scene->body_count; b++) k += coordinate_count(scene->body[b].motion);
     double size = motion_size(our_q, our_v, k), none = 0;
+    for (int i = 0; i < scene->state_count; i++) {
+        double z = NAN, most = fmax(1, fabs(absolute->z[i]));
+        if (!state_value(state, i, &z) || differ(z, absolute->z[i], most, state_tolerance, &none))
+            fail(outcome, states_differ, "states.z%d at t = %g: library %.15g; independent %.15g", i,
+                 outcome->until, z, absolute->z[i]);
+    }
     for (int i = 0; i < k; i++) {
         if (!differ(q[i], our_q[i], size, state_tolerance, &none) &&
             !differ(v[i], our_v[i], size, state_tolerance, &none))
@@ -272,6 +288,7 @@ static void compare_last_instant(const struct absolute *absolute, const struct s
     struct absolute last = *absolute;
     double q[3 * most_bodies], v[3 * most_bodies];
     if (!library_state(scene, state, q, v)) return;
+    for (int i = 0; i < scene->state_count; i++) state_value(state, i, &last.z[i]);
     absolute_place(&last, outcome->until, q, v);
     absolute_solve(&last, true);
     bool good = last.consistent && last.accelerations_unique && last.condition < 1e4;
@@ -314,6 +331,9 @@ static void compare_run(const struct scene *scene, const struct absolute *start,
                         double until, struct outcome *outcome)
 {
     fbd_simulation *simulation = NULL;
+    struct absolute ahead = *start;
+    /* Towards a singular position there is nothing to compare, and much to search for events. */
+    if (!absolute_integrate(&ahead, until, 1e-6)) return;
     fbd_result *result = library_run(model, until, &simulation, outcome);
     double change = result ? library_change(simulation) : INFINITY;
     if (result && isfinite(change)) {

@@ -40,6 +40,7 @@ bool scene_is_sensitive(const struct absolute *start, const struct absolute *end
 fbd_model *library_model(const struct scene *scene, double until, struct outcome *outcome);
 fbd_result *library_run(const fbd_model *model, double until, fbd_simulation **simulation,
                         struct outcome *outcome);
+bool state_value(const fbd_state *state, int i, double *z); /* number i of those of the scene */
 bool library_state(const struct scene *scene, const fbd_state *state, double *q, double *v);
 double library_change(fbd_simulation *simulation);
 

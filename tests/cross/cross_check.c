@@ -74,6 +74,7 @@ static void print_failure(struct scene *scene, const struct outcome *outcome)
                             .outcome = *outcome};
     printf("# seed %llu: %s: %s\n", (unsigned long long)scene->seed, verdict_name(outcome->verdict),
            outcome->what);
+    fflush(stdout);
     scene_shrink(scene, fails_alike, &wanted);
     printf("# shrunk: %s\n", wanted.outcome.what);
     print_scene(scene);

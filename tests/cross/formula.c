@@ -5,6 +5,13 @@ struct formula_function {
     double f, f1, f2;
 };
 
+static struct formula_function by_table(const struct table *table, double u)
+{
+    double f[3];
+    value_by_table(table, u, f);
+    return (struct formula_function){f[0], f[1], f[2]};
+}
+
 static struct formula_function apply(enum function function, double u)
 {
     double e = exp(-u * u), h = sqrt(1 + u * u), th = tanh(u);
@@ -23,7 +30,7 @@ static struct formula_function apply(enum function function, double u)
     case f_ramp: return (struct formula_function){fmax(0, u), u > 0, 0};
     case f_clamp: return (struct formula_function){fmax(-1, fmin(1, u)), fabs(u) < 1, 0};
     case f_branch: return (struct formula_function){u > 0 ? u * u : 0, u > 0 ? 2 * u : 0, u > 0 ? 2 : 0};
-    case function_count: break;
+    case f_table: break;
     }
     return (struct formula_function){NAN, NAN, NAN};
 }
@@ -35,6 +42,7 @@ static double variable_value(const struct absolute *absolute, const struct varia
     int b = variable->body, i = variable->index;
     struct vec2 point = {0, 0};
     if (variable->kind == var_time) return absolute->t;
+    if (variable->kind == var_state) return absolute->z[i];
     if (i >= 0 && variable->kind >= var_place_x && variable->kind <= var_place_vy)
         point = scene->body[b].points[i];
     struct place place = point_of(absolute, b, point);
@@ -47,7 +55,8 @@ static double variable_value(const struct absolute *absolute, const struct varia
     case var_place_vy: return place.y.u1;
     case var_angle: return angle_of(absolute, b).u;
     case var_angle_rate: return angle_of(absolute, b).u1;
-    case var_time: break;
+    case var_time:
+    case var_state: break;
     }
     return NAN;
 }
@@ -66,7 +75,8 @@ struct series formula_series(const struct absolute *absolute, const struct formu
             struct series value = {variable_value(absolute, v), flows, 0};
             u = ser_add(u, ser_scale(v->coefficient, value));
         }
-        struct formula_function f = apply(s->function, u.u);
+        struct formula_function f = s->function == f_table ? by_table(&absolute->scene->table[s->table], u.u)
+                                                           : apply(s->function, u.u);
         double factor = s->factor * (s->parameter < 0 ? 1 : absolute->scene->parameter[s->parameter]);
         sum = ser_add(sum, ser_scale(factor, ser_chain(f.f, f.f1, f.f2, u)));
     }

@@ -67,6 +67,25 @@ static double arm_of(const struct body *body)
     return mass.I_G + mass.m * ((mass.G.x - O.x) * (mass.G.x - O.x) + (mass.G.y - O.y) * (mass.G.y - O.y));
 }
 
+struct path random_path(struct random *random, bool closed)
+{
+    struct path path = {.form = closed || random_chance(random, 0.5) ? path_oval : path_wave};
+    path.along = random_chance(random, 0.5) ? 0 : random_between(random, -pi, pi);
+    if (path.form == path_oval) {
+        path.a = random_between(random, closed ? 0.6 : 1, 1.8);
+        path.b = random_between(random, closed ? 0.6 : 1, 1.8);
+        path.from = closed ? 0 : -3;
+        path.to = closed ? 2 * pi : 3;
+    } else {
+        path.a = random_between(random, 0.1, 0.5);
+        path.b = random_between(random, -pi, pi);
+        path.wave = random_between(random, 0.5, 1.2);
+        path.from = -5;
+        path.to = 5;
+    }
+    return path;
+}
+
 struct body *random_body(struct random *random, struct scene *scene, enum motion motion, int on)
 {
     int b = scene->body_count++;
@@ -80,8 +99,13 @@ struct body *random_body(struct random *random, struct scene *scene, enum motion
     for (int i = 0; i < body->piece_count; i++)
         random_piece(random, &body->piece[i], i == 0 && (motion == pivot || motion == planar));
     if (motion == slide || motion == weld) body->along = random_between(random, -pi, pi);
-    if (motion == slide || motion == pivot || motion == weld) body->at = random_spot(random, scene, on);
-    if ((motion == pivot || motion == weld) && random_chance(random, 0.6))
+    if (motion == slide || motion == pivot || motion == weld || motion == track)
+        body->at = random_spot(random, scene, on);
+    if (motion == track) {
+        body->path = random_path(random, false);
+        body->keeps_direction = random_chance(random, 0.4);
+    }
+    if ((motion == pivot || motion == weld || motion == track) && random_chance(random, 0.6))
         body->point = random_spot(random, scene, b);
     if (motion == pivot && arm_of(body) < 0.02) body->piece[0].mass += 1;
     for (int i = 0; i < coordinate_count(motion); i++) {
@@ -95,8 +119,9 @@ struct body *random_body(struct random *random, struct scene *scene, enum motion
 
 static enum motion random_motion(struct random *random, int on)
 {
-    static const enum motion motions[] = {slide, slide, pivot, pivot, pivot, particle, planar, planar, weld};
-    enum motion motion = motions[random_below(random, 9)];
+    static const enum motion motions[] = {slide,    slide,  pivot,  pivot, pivot,
+                                          particle, planar, planar, weld,  track};
+    enum motion motion = motions[random_below(random, 10)];
     return motion == weld && on < 0 ? pivot : motion;
 }
 
@@ -107,10 +132,10 @@ static void random_tree(struct random *random, struct scene *scene, int count)
                      ? random_below(random, scene->body_count)
                      : -1;
         struct body *body = random_body(random, scene, random_motion(random, on), on);
-        if (body->motion != slide && body->motion != pivot) continue;
+        if (body->motion != slide && body->motion != pivot && body->motion != track) continue;
         if (!random_chance(random, 0.12)) continue;
         body->driven = true;
-        body->drive = random_drive(random, body->motion == slide ? dim_length : dim_angle);
+        body->drive = random_drive(random, body->motion != pivot ? dim_length : dim_angle);
     }
 }
 
@@ -135,7 +160,8 @@ static void keep_start(struct scene *scene, const struct absolute *absolute)
     absolute_coordinates(absolute, q, v);
     for (int b = 0; b < scene->body_count; b++)
         for (int i = 0; i < coordinate_count(scene->body[b].motion); i++, k++)
-            scene->body[b].v[i] = fabs(v[k]) < 1e-9 ? 0 : v[k]; /* rounding of what stands still */
+            scene->body[b].v[i] =
+                fabs(v[k]) < 1e-8 ? 0 : v[k]; /* rounding of what stands still, by a short lever too */
 }
 
 /* One-sided surfaces are turned to the side on which they push. */
@@ -143,8 +169,10 @@ static void turn_surfaces(struct scene *scene, const struct absolute *absolute)
 {
     for (int i = 0; i < absolute->grip_count; i++) {
         const struct grip *grip = &absolute->grip[i];
-        if (grip->kind != grip_contact || grip->load < 0) continue;
-        if (grip->press * absolute->lambda[grip->normal] >= 0) continue;
+        if (grip->kind != grip_contact || grip->press * absolute->lambda[grip->normal] >= 0) continue;
+        if (absolute->row[grip->row].kind == row_slot && scene->coupling[grip->owner].radius[0] == 0)
+            scene->coupling[grip->owner].side = grip->press > 0 ? right_side : left_side;
+        if (grip->load < 0) continue;
         struct load *load = &scene->body[grip->owner].load[grip->load];
         load->side = load->side == left_side ? right_side : left_side;
     }
@@ -181,10 +209,13 @@ bool scene_generate(struct scene *scene, struct absolute *absolute, uint64_t see
     memset(scene, 0, sizeof *scene);
     scene->seed = seed;
     random_world(&random, scene);
+    if (random_chance(&random, 0.3)) random_tables(&random, scene, taste.kinks);
+    if (random_chance(&random, 0.3)) scene->state_count = 1 + random_below(&random, most_states);
     random_tree(&random, scene, 1 + random_below(&random, 5));
     int couplings = taste.couplings ? 1 + random_below(&random, 2) : 0;
     for (int i = 0; i < couplings; i++) random_coupling(&random, scene, &taste);
     for (int b = 0; b < scene->body_count; b++) random_loads(&random, scene, b, &taste);
+    random_states(&random, scene);
     if (!scene_fit(scene, absolute)) return false;
     for (int i = 0; i < absolute->grip_count; i++) absolute->grip[i].mode = holds;
     absolute_solve(absolute, true);

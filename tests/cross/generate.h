@@ -34,11 +34,16 @@ struct formula random_formula(struct random *random, const struct scene *scene, 
 void random_loads(struct random *random, struct scene *scene, int body, const struct taste *taste);
 struct formula random_drive(struct random *random, enum dimension dimension);
 
+void random_tables(struct random *random, struct scene *scene, bool kinks);
+void random_states(struct random *random, struct scene *scene);
+
 /* generate_couplings.c; `absolute` has the bodies so far at their start */
 void random_coupling(struct random *random, struct scene *scene, const struct taste *taste);
 int random_point(struct random *random, struct body *body);
 
 /* generate.c */
+/* A curve that is not closed, for a length of at least 3 to both sides of p = 0; or round. */
+struct path random_path(struct random *random, bool closed);
 struct body *random_body(struct random *random, struct scene *scene, enum motion motion, int on);
 void random_disc(struct random *random, struct body *body, double radius);
 

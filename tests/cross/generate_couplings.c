@@ -13,8 +13,8 @@ static const double pi = 3.141592653589793;
 
 static struct coupling *add_coupling(struct scene *scene, enum coupling_kind kind)
 {
-    static const char *const names[] = {"spring", "damper", "pin",  "rod", "rope",
-                                        "gear",   "rack",   "roll", "belt"};
+    static const char *const names[] = {"spring", "damper", "pin",  "rod",  "rope",
+                                        "gear",   "rack",   "roll", "belt", "slot"};
     struct coupling *coupling = &scene->coupling[scene->coupling_count];
     memset(coupling, 0, sizeof *coupling);
     coupling->kind = kind;
@@ -368,10 +368,54 @@ static void add_roll(struct random *random, struct scene *scene, const struct ta
     body->q[1] = O.y.u + far * e.y.u + side * radius * e.x.u - centre.y;
 }
 
+/* ---- slots: the point is put onto the curve, or its roller beside it */
+
+static struct vec2 beside(const struct coupling *coupling, double p)
+{
+    struct place at = path_place(&coupling->path, ser(p), 0), d = path_place(&coupling->path, ser(p), 1);
+    double off = coupling->side == left_side ? coupling->radius[0] : -coupling->radius[0];
+    double speed = hypot(d.x.u, d.y.u);
+    return (struct vec2){at.x.u - off * d.y.u / speed, at.y.u + off * d.x.u / speed};
+}
+
+static void add_slot(struct random *random, struct scene *scene)
+{
+    struct absolute absolute;
+    int b = random_below(random, scene->body_count), base = other_than(random, scene, b);
+    struct body *body = &scene->body[b];
+    if (body->point_count == most_points) return;
+    struct coupling *coupling = add_coupling(scene, slot);
+    coupling->end[0] = (struct end){.body = b, .at = {.point = body->point_count}};
+    coupling->end[1] = (struct end){.body = base, .at = {.point = at_origin}};
+    if (base < 0)
+        coupling->end[1].at =
+            (struct spot){at_pair, {random_between(random, -1, 1), random_between(random, -1, 1)}};
+    else if (random_chance(random, 0.5))
+        coupling->end[1].at.point = random_point(random, &scene->body[base]);
+    bool closed = random_chance(random, 0.5);
+    coupling->path = random_path(random, closed);
+    if (random_chance(random, 0.4))
+        coupling->path =
+            (struct path){.form = path_line, .along = random_between(random, -pi, pi), .from = -6, .to = 6};
+    if (coupling->path.form == path_oval && !closed) coupling->path = random_path(random, true);
+    coupling->one_sided = random_chance(random, 0.5);
+    coupling->side = random_chance(random, 0.5) ? left_side : right_side;
+    if (coupling->one_sided && random_chance(random, 0.5))
+        coupling->radius[0] = random_between(random, 0.05, 0.25);
+    start(&absolute, scene);
+    double p =
+        coupling->path.form == path_oval ? random_between(random, 0.3, 6) : random_between(random, -1, 1);
+    struct vec2 r = beside(coupling, p);
+    struct place e = direction_of(&absolute, base, 0);
+    struct vec2 O = end_world(&absolute, &coupling->end[1]);
+    struct vec2 P = {O.x + e.x.u * r.x - e.y.u * r.y, O.y + e.y.u * r.x + e.x.u * r.y};
+    body->points[body->point_count++] = local_of(&absolute, b, P);
+}
+
 void random_coupling(struct random *random, struct scene *scene, const struct taste *taste)
 {
     if (scene->coupling_count == most_couplings) return;
-    switch (random_below(random, 11)) {
+    switch (random_below(random, 13)) {
     case 0: add_between(random, scene, spring_of_two); break;
     case 1: add_between(random, scene, damper_of_two); break;
     case 2:
@@ -383,5 +427,7 @@ void random_coupling(struct random *random, struct scene *scene, const struct ta
     case 8: add_rack(random, scene); break;
     case 9: add_roll(random, scene, taste); break;
     case 10: add_belt(random, scene); break;
+    case 11:
+    case 12: add_slot(random, scene); break;
     }
 }

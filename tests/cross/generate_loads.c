@@ -17,10 +17,20 @@ static struct variable own_coordinate(struct random *random, const struct scene 
                              .index = random_below(random, n)};
 }
 
+/* Its angle is then known but for whole turns. */
+static bool turns_on_a_curve(const struct scene *scene, int b)
+{
+    for (; b >= 0; b = scene->body[b].on)
+        if (scene->body[b].motion == track) return true;
+    return false;
+}
+
 /* Anything that a force may speak of. Places in the world of a point whose name is also a coordinate are left
  * to the coordinate. */
 static struct variable any_variable(struct random *random, const struct scene *scene, int own)
 {
+    if (scene->state_count > 0 && random_chance(random, 0.25))
+        return (struct variable){.kind = var_state, .index = random_below(random, scene->state_count)};
     int b = random_chance(random, 0.5) ? own : random_below(random, scene->body_count);
     const struct body *body = &scene->body[b];
     int n = coordinate_count(body->motion);
@@ -31,11 +41,15 @@ static struct variable any_variable(struct random *random, const struct scene *s
     case 2:
         if (n > 0) variable = own_coordinate(random, scene, b, random_chance(random, 0.3));
         break;
-    case 3: variable.kind = random_chance(random, 0.7) ? var_angle : var_angle_rate; break;
+    case 3:
+        variable.kind =
+            random_chance(random, 0.7) && !turns_on_a_curve(scene, b) ? var_angle : var_angle_rate;
+        break;
     case 4:
         variable.kind = (enum variable_kind)(var_place_x + random_below(random, 4));
         variable.index = body->point_count > 0 ? random_below(random, body->point_count) : -1;
-        if (variable.index < 0 && body->motion != pivot && body->motion != weld) variable.kind = var_angle;
+        if (variable.index < 0 && body->motion != pivot && body->motion != weld && body->motion != track)
+            variable.kind = var_angle_rate;
         break;
     }
     return variable;
@@ -70,6 +84,10 @@ static struct summand random_summand(struct random *random, const struct scene *
     struct summand summand = {.factor = random_between(random, -size, size), .parameter = -1};
     summand.function = random_function(random, kinks);
     summand.shift = random_between(random, -1, 1);
+    if (scene->table_count > 0 && random_chance(random, 0.5)) {
+        summand.function = f_table;
+        summand.table = random_below(random, scene->table_count);
+    }
     if (scene->parameter_count > 0 && random_chance(random, 0.4))
         summand.parameter = random_below(random, scene->parameter_count);
     return summand;
@@ -77,7 +95,7 @@ static struct summand random_summand(struct random *random, const struct scene *
 
 static void add_variable(struct random *random, struct summand *summand, struct variable variable)
 {
-    bool rate = variable.kind == var_rate || variable.kind >= var_place_vx;
+    bool rate = variable.kind == var_rate || (variable.kind >= var_place_vx && variable.kind != var_state);
     variable.coefficient =
         random_between(random, 0.2, rate ? 0.5 : 1) * (random_chance(random, 0.5) ? 1 : -1);
     summand->variable[summand->count++] = variable;
@@ -109,6 +127,43 @@ static struct formula time_formula(struct random *random, enum dimension dimensi
                                           .shift = random_between(random, -1, 1)};
     formula.summand[0].variable[0].coefficient = random_between(random, 0.5, 2);
     return formula;
+}
+
+/* Where forces jump with them or have corners only with `kinks`. */
+void random_tables(struct random *random, struct scene *scene, bool kinks)
+{
+    scene->table_count = random_below(random, most_tables + 1);
+    for (int i = 0; i < scene->table_count; i++) {
+        struct table *table = &scene->table[i];
+        table->interpolation =
+            (enum interpolation)(kinks ? random_below(random, 5) : 2 + random_below(random, 3));
+        table->beyond = (enum beyond)random_below(random, 3);
+        table->count = 5 + random_below(random, most_table_points - 4);
+        double x = random_between(random, kinks ? -3 : -9, kinks ? -1 : -7);
+        for (int k = 0; k < table->count; k++) {
+            table->x[k] = x;
+            table->y[k] = random_between(random, -1, 1);
+            x += random_between(random, kinks ? 0.4 : 2, 4);
+        }
+        bool jumps = kinks && table->interpolation == by_lines;
+        if (table->beyond == beyond_repeats && !jumps) table->y[table->count - 1] = table->y[0];
+    }
+}
+
+/* After all bodies are there: they may speak of any of them, and of each other. */
+void random_states(struct random *random, struct scene *scene)
+{
+    for (int i = 0; i < scene->state_count; i++) {
+        struct state *state = &scene->state[i];
+        state->initial = random_between(random, -1, 1);
+        state->rate =
+            random_formula(random, scene, random_below(random, scene->body_count), dim_number, 2, false);
+        if (state->rate.count == most_summands) continue;
+        struct summand *decay = &state->rate.summand[state->rate.count++];
+        *decay = (struct summand){.factor = -1, .parameter = -1, .function = f_linear, .count = 1};
+        decay->variable[0] =
+            (struct variable){.kind = var_state, .index = i, .coefficient = random_between(random, 0.2, 3)};
+    }
 }
 
 struct formula random_drive(struct random *random, enum dimension dimension)
@@ -180,9 +235,11 @@ static void add_applied(struct random *random, struct scene *scene, int b, bool 
 {
     struct load *load = add_load(scene, b, applied);
     if (!load) return;
-    load->form = scene->body[b].motion == slide ? (enum applied_form)random_below(random, 3)
-                                                : (enum applied_form)(1 + random_below(random, 2));
-    load->follows = random_chance(random, 0.4);
+    bool along =
+        scene->body[b].motion == slide || (scene->body[b].motion == track && !scene->body[b].keeps_direction);
+    load->form =
+        along ? (enum applied_form)random_below(random, 3) : (enum applied_form)(1 + random_below(random, 2));
+    load->follows = random_chance(random, 0.4) && !scene->body[b].keeps_direction;
     load->at = some_spot(random, &scene->body[b]);
     load->value = random_formula(random, scene, b, dim_force, 10, kinks);
     load->second = load->form == components ? random_formula(random, scene, b, dim_force, 10, kinks)
@@ -242,6 +299,32 @@ static void add_drag(struct random *random, struct scene *scene, int b)
     if (load->windy) random_pair(random, scene, b, dim_speed, 4, load->wind);
 }
 
+static struct spot end_of_line(struct random *random, struct body *body)
+{
+    if (random_chance(random, 0.5)) return (struct spot){.point = random_point(random, body)};
+    return (struct spot){at_pair, {random_between(random, -0.6, 0.6), random_between(random, -0.6, 0.6)}};
+}
+
+static void add_distributed(struct random *random, struct scene *scene, int b)
+{
+    struct body *body = &scene->body[b];
+    struct load *load = add_load(scene, b, distributed);
+    if (!load) return;
+    load->at = end_of_line(random, body);
+    load->end = end_of_line(random, body);
+    struct vec2 p = spot_of(body, &load->at), q = spot_of(body, &load->end);
+    if (hypot(p.x - q.x, p.y - q.y) < 0.1) {
+        body->load_count--;
+        return;
+    }
+    load->curved = random_chance(random, 0.5);
+    for (int k = 0; k < 2; k++) load->per_length[k] = random_between(random, 0.5, 6);
+    load->form = body->motion == slide && random_chance(random, 0.4) ? along_slide : along_angle;
+    load->follows = random_chance(random, 0.4) && !scene->body[b].keeps_direction;
+    load->value = random_formula(random, scene, b, dim_number, 1, false);
+    if (load->form != along_slide) load->second = random_formula(random, scene, b, dim_angle, 3, false);
+}
+
 static void add_potential(struct random *random, struct scene *scene, int b, bool moment)
 {
     struct load *load = add_load(scene, b, moment ? moment_potential : potential);
@@ -252,7 +335,7 @@ static void add_moment(struct random *random, struct scene *scene, int b, const 
 {
     enum motion motion = scene->body[b].motion;
     struct load *load;
-    switch (random_below(random, motion == weld ? 1 : 5)) {
+    switch (random_below(random, motion == weld || motion == track ? 1 : 5)) {
     case 0:
         load = add_load(scene, b, moment_applied);
         if (load) load->value = random_formula(random, scene, b, dim_moment, 4, taste->kinks);
@@ -277,13 +360,15 @@ static void add_moment(struct random *random, struct scene *scene, int b, const 
 void random_loads(struct random *random, struct scene *scene, int b, const struct taste *taste)
 {
     enum motion motion = scene->body[b].motion;
-    bool turns = motion == pivot || motion == planar || motion == weld;
+    bool turns = motion == pivot || motion == planar || motion == weld || motion == track;
+    bool along = motion == slide || motion == track;
     if (random_chance(random, 0.8)) add_load(scene, b, gravity);
-    if (motion == slide && random_chance(random, 0.4)) add_surface(random, scene, b, taste);
+    if (along && random_chance(random, 0.4)) add_surface(random, scene, b, taste);
     if (random_chance(random, 0.4)) add_applied(random, scene, b, taste->kinks);
     if (random_chance(random, 0.3)) add_link(random, scene, b, spring);
     if (random_chance(random, 0.2)) add_link(random, scene, b, damper);
     if (random_chance(random, 0.2)) add_drag(random, scene, b);
+    if (random_chance(random, 0.2)) add_distributed(random, scene, b);
     if (motion != weld && random_chance(random, 0.2)) add_potential(random, scene, b, false);
     if (turns && random_chance(random, 0.4)) add_moment(random, scene, b, taste);
 }

@@ -7,25 +7,48 @@
 
 #include "absolute.h"
 
-enum { levels = 7, most_state = 6 * most_bodies, most_steps = 3000 };
+enum { levels = 7, most_state = 6 * most_bodies + most_states, most_steps = 3000 };
+
+/* Positions, velocities and states, one after the other. */
+static int state_size(const struct absolute *absolute)
+{
+    return 2 * absolute->n + absolute->scene->state_count;
+}
+
+static void put_state(struct absolute *absolute, const double *y)
+{
+    size_t n = (size_t)absolute->n;
+    memcpy(absolute->x, y, n * sizeof *y);
+    memcpy(absolute->v, y + n, n * sizeof *y);
+    memcpy(absolute->z, y + 2 * n, (size_t)absolute->scene->state_count * sizeof *y);
+}
+
+static void get_state(const struct absolute *absolute, double *y)
+{
+    size_t n = (size_t)absolute->n;
+    memcpy(y, absolute->x, n * sizeof *y);
+    memcpy(y + n, absolute->v, n * sizeof *y);
+    memcpy(y + 2 * n, absolute->z, (size_t)absolute->scene->state_count * sizeof *y);
+}
 
 static void rates(struct absolute *absolute, double t, const double *y, double *dy)
 {
     size_t n = (size_t)absolute->n;
     absolute->t = t;
-    memcpy(absolute->x, y, n * sizeof *y);
-    memcpy(absolute->v, y + n, n * sizeof *y);
+    put_state(absolute, y);
     absolute_solve(absolute, false);
     if (absolute_turn_guides(absolute)) absolute_solve(absolute, false);
     memcpy(dy, y + n, n * sizeof *y);
     memcpy(dy + n, absolute->a, n * sizeof *y);
+    for (int i = 0; i < absolute->scene->state_count; i++)
+        dy[2 * n + (size_t)i] = formula_value(absolute, &absolute->scene->state[i].rate);
 }
 
 /* Over h in 2 k substeps: its error has even powers of the substep alone. */
 static void midpoint(struct absolute *absolute, double t, double h, int k, const double *y, const double *dy,
                      double *end)
 {
-    int n = 2 * absolute->n, steps = 2 * k;
+    int n = state_size(absolute), steps = 2 * k;
     double before[most_state], now[most_state], slope[most_state], s = h / steps;
     for (int i = 0; i < n; i++) {
         before[i] = y[i];
@@ -49,7 +72,7 @@ static void midpoint(struct absolute *absolute, double t, double h, int k, const
 static double step(struct absolute *absolute, double t, double h, const double *y, double tolerance,
                    double *end)
 {
-    int n = 2 * absolute->n;
+    int n = state_size(absolute);
     double before[levels][most_state], dy[most_state], error = INFINITY; /* before[j - 1]: T(k - 1, j) */
     rates(absolute, t, y, dy);
     for (int k = 1; k <= levels && !(k > 4 && error < 1); k++) {
@@ -71,19 +94,15 @@ static double step(struct absolute *absolute, double t, double h, const double *
 
 bool absolute_integrate(struct absolute *absolute, double until, double tolerance)
 {
-    int n = absolute->n;
     double y[most_state], end[most_state], t = absolute->t, h = fmin(0.05, until - t);
     for (int steps = 0; t < until; steps++) {
         if (steps == most_steps) return false;
-        memcpy(y, absolute->x, (size_t)n * sizeof *y);
-        memcpy(y + n, absolute->v, (size_t)n * sizeof *y);
+        get_state(absolute, y);
         bool last = t + h >= until;
         if (last) h = until - t;
         double error = step(absolute, t, h, y, tolerance, end);
         bool good = error < 1;
-        const double *now = good ? end : y;
-        memcpy(absolute->x, now, (size_t)n * sizeof *y);
-        memcpy(absolute->v, now + n, (size_t)n * sizeof *y);
+        put_state(absolute, good ? end : y);
         if (!good) {
             absolute->t = t;
             h *= error > 1e4 || !(error < 1e300) ? 0.3 : 0.6;

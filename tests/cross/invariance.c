@@ -35,6 +35,7 @@ static void take_place(struct absolute *absolute, const struct scene *scene, fbd
     double q[3 * most_bodies], v[3 * most_bodies], t = 0;
     absolute_start(absolute, scene);
     fbd_state_get(state, "t", &t);
+    for (int i = 0; i < scene->state_count; i++) state_value(state, i, &absolute->z[i]);
     if (library_state(scene, state, q, v)) absolute_place(absolute, t, q, v);
 }
 
@@ -200,8 +201,13 @@ static double end_difference(const struct scene *scene, const struct answers *on
         size = fmax(size, fmax(fabs(turned), fabs(rate)));
         most = fmax(most, hypot(L * P.x + view->shift.x - other_p.x, L * P.y + view->shift.y - other_p.y));
         most = fmax(most, hypot(L * V.x - other_v.x, L * V.y - other_v.y));
-        most = fmax(most, fabs(view->mirror * turned - other_turned));
+        /* On a curve the direction is taken from where the body is, without whole turns. */
+        most = fmax(most, fabs(remainder(view->mirror * turned - other_turned, 2 * acos(-1))));
         most = fmax(most, fabs(view->mirror * rate - other_rate));
+    }
+    for (int i = 0; i < scene->state_count; i++) {
+        size = fmax(size, fabs(one->end.z[i]));
+        most = fmax(most, fabs(one->end.z[i] - other->end.z[i]));
     }
     return most / size;
 }
@@ -220,6 +226,7 @@ static void start_there(struct scene *scene, const struct answers *one)
     double q[3 * most_bodies], v[3 * most_bodies];
     int k = 0;
     absolute_coordinates(&one->at, q, v);
+    for (int i = 0; i < scene->state_count; i++) scene->state[i].initial = one->at.z[i];
     for (int b = 0; b < scene->body_count; b++)
         for (int i = 0; i < coordinate_count(scene->body[b].motion); i++, k++) {
             scene->body[b].q[i] = q[k];

@@ -74,13 +74,32 @@ static struct place off_joint(const struct absolute *absolute, int b)
     return place_sub(point_of(absolute, b, own), point_of(absolute, body->on, at));
 }
 
+/* The same in the frame that it moves on. */
+static struct place on_its_base(const struct absolute *absolute, int b)
+{
+    struct place d = off_joint(absolute, b), e = direction_of(absolute, absolute->scene->body[b].on, 0);
+    return (struct place){place_dot(e, d), place_dot(place_left(e), d)};
+}
+
 struct series coordinate_of(const struct absolute *absolute, int b, int index)
 {
     const struct body *body = &absolute->scene->body[b];
+    if (body->motion == track)
+        return path_length(&body->path, path_foot(&body->path, on_its_base(absolute, b)));
     if (body->motion == pivot || index == 2) return turned(absolute, b);
     struct place d = off_joint(absolute, b);
     struct place e = direction_of(absolute, body->on, body->motion == slide ? body->along : 0);
     return place_dot(index == 0 ? e : place_left(e), d);
+}
+
+struct place tangent_of(const struct absolute *absolute, int b)
+{
+    const struct body *body = &absolute->scene->body[b];
+    struct place e = direction_of(absolute, body->on, 0);
+    struct series p = path_foot(&body->path, on_its_base(absolute, b));
+    struct place d = path_place(&body->path, ser(p.u), 1);
+    struct series speed = place_length(d);
+    return place_scale(ser_inverse(speed), place_add(place_scale(d.x, e), place_scale(d.y, place_left(e))));
 }
 
 void absolute_coordinates(const struct absolute *absolute, double *q, double *v)
@@ -109,6 +128,12 @@ static void place_body(struct absolute *absolute, int b, const struct series *q)
     if (body->motion == slide) p = place_add(p, place_scale(q[0], e));
     if (body->motion == particle || body->motion == planar)
         p = place_add(p, place_add(place_scale(q[0], e), place_scale(q[1], place_left(e))));
+    if (body->motion == track) {
+        struct series at_p = path_parameter(&body->path, q[0]);
+        struct place r = path_place(&body->path, at_p, 0), d = path_place(&body->path, at_p, 1);
+        p = place_add(p, place_add(place_scale(r.x, e), place_scale(r.y, place_left(e))));
+        if (!body->keeps_direction) angle = ser_add(angle, place_angle(d));
+    }
     if (body->motion == pivot) angle = ser_add(angle, q[0]);
     if (body->motion == planar) angle = ser_add(angle, q[2]);
     struct series c = ser_cos(angle), s = ser_sin(angle);
@@ -142,6 +167,16 @@ void absolute_place(struct absolute *absolute, double t, const double *q, const 
 }
 
 /* ---- rows */
+
+/* How the frame of a body on a curve is turned against the curve there. */
+static struct series off_tangent(const struct absolute *absolute, int b)
+{
+    const struct path *path = &absolute->scene->body[b].path;
+    struct place d = path_place(path, path_foot(path, on_its_base(absolute, b)), 1);
+    struct series off = ser_sub(turned(absolute, b), place_angle(d));
+    off.u = remainder(off.u, turn);
+    return off;
+}
 
 static struct place end_place(const struct absolute *absolute, const struct coupling *coupling, int k)
 {
@@ -310,6 +345,15 @@ double shortest_piece(const struct absolute *absolute)
     return shortest;
 }
 
+static struct series slot_value(const struct absolute *absolute, const struct coupling *coupling)
+{
+    struct place e = direction_of(absolute, coupling->end[1].body, 0);
+    struct place d = place_sub(end_place(absolute, coupling, 0), end_place(absolute, coupling, 1));
+    struct place C = {place_dot(e, d), place_dot(place_left(e), d)};
+    double off = coupling->side == left_side ? coupling->radius[0] : -coupling->radius[0];
+    return ser_sub(path_distance(&coupling->path, C), ser(off));
+}
+
 struct series row_value(const struct absolute *absolute, const struct row *row)
 {
     const struct scene *scene = absolute->scene;
@@ -318,6 +362,11 @@ struct series row_value(const struct absolute *absolute, const struct row *row)
     switch (row->kind) {
     case row_angle: g = turned(absolute, row->owner); break;
     case row_along: g = coordinate_of(absolute, row->owner, 0); break;
+    case row_track:
+        g = path_distance(&scene->body[row->owner].path, on_its_base(absolute, row->owner));
+        break;
+    case row_tangent: g = off_tangent(absolute, row->owner); break;
+    case row_slot: g = slot_value(absolute, coupling); break;
     case row_across: g = coordinate_of(absolute, row->owner, 1); break;
     case row_pin_x: g = off_joint(absolute, row->owner).x; break;
     case row_pin_y: g = off_joint(absolute, row->owner).y; break;

@@ -128,6 +128,8 @@ static struct vec2 applied_force(const struct target *target, int b, const struc
     double first = formula_value(absolute, &load->value), second = 0;
     if (load->form != along_slide) second = formula_value(absolute, &load->second);
     int frame = load->follows || load->form == along_slide ? b : -1;
+    if (load->form == along_slide && absolute->scene->body[b].motion == track)
+        return times(first, here(tangent_of(absolute, b)));
     if (load->form == components) {
         struct place e = direction_of(absolute, frame, 0);
         return sum(times(first, here(e)), times(second, here(place_left(e))));
@@ -148,6 +150,9 @@ static void put_potential(const struct target *target, int b, const struct load 
     if (body->motion == slide) {
         struct place e = direction_of(absolute, body->on, body->along);
         put_in_joint(target, b, load->name, times(slope[0], here(e)), G, 0);
+    } else if (body->motion == track) {
+        struct vec2 P = here(point_of(absolute, b, spot_of(body, &body->point)));
+        put_in_joint(target, b, load->name, times(slope[0], here(tangent_of(absolute, b))), P, 0);
     } else if (body->motion == pivot) {
         put_in_joint(target, b, load->name, (struct vec2){0, 0}, O, slope[0]);
     } else {
@@ -185,6 +190,27 @@ static void put_drag(const struct target *target, int b, const struct load *load
         0);
 }
 
+/* What acts at each place, by Gauss's rule of three places: exact for what is cubic in s with its moments. */
+static void put_distributed(const struct target *target, int b, const struct load *load)
+{
+    static const double places[] = {-0.77459666924148337704, 0, 0.77459666924148337704};
+    static const double weights[] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
+    const struct absolute *absolute = target->absolute;
+    const struct body *body = &absolute->scene->body[b];
+    struct vec2 from = spot_of(body, &load->at), to = spot_of(body, &load->end), f = {0, 0};
+    double length = hypot(to.x - from.x, to.y - from.y), factor = formula_value(absolute, &load->value);
+    double angle = load->form == along_slide ? 0 : formula_value(absolute, &load->second);
+    int frame = load->follows || load->form == along_slide ? b : -1;
+    struct vec2 e = here(direction_of(absolute, frame, angle));
+    for (int i = 0; i < 3; i++) {
+        double share = (1 + places[i]) / 2, s = share * length, *w = (double *)load->per_length;
+        double size = load->curved ? w[0] + w[1] * s * s : w[0] + (w[1] - w[0]) * share;
+        f = times(weights[i] * length / 2 * size * factor, e);
+        struct vec2 p = {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y)};
+        put(target, b, load->name, f, here(point_of(absolute, b, p)), 0);
+    }
+}
+
 static void put_load(const struct target *target, int b, const struct load *load)
 {
     const struct absolute *absolute = target->absolute;
@@ -204,6 +230,7 @@ static void put_load(const struct target *target, int b, const struct load *load
     case spring:
     case damper: put_spring(target, b, load); break;
     case drag: put_drag(target, b, load); break;
+    case distributed: put_distributed(target, b, load); break;
     case potential:
     case moment_potential: put_potential(target, b, load); break;
     case moment_applied: put(target, b, load->name, none, G, formula_value(absolute, &load->value)); break;

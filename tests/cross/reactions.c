@@ -16,7 +16,7 @@ static void put(struct absolute *absolute, int b, const char *name, const double
 
 static const char *joint_name(const struct body *body)
 {
-    for (int i = 0; body->motion == slide && i < body->load_count; i++)
+    for (int i = 0; (body->motion == slide || body->motion == track) && i < body->load_count; i++)
         if (body->load[i].kind == normal) return body->load[i].name;
     return body->motion == pivot ? "pin" : body->motion == weld ? "weld" : "guide";
 }

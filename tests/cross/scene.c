@@ -6,7 +6,8 @@
 
 int coordinate_count(enum motion motion)
 {
-    static const int count[] = {[slide] = 1, [pivot] = 1, [particle] = 2, [planar] = 3, [weld] = 0};
+    static const int count[] = {
+        [slide] = 1, [pivot] = 1, [particle] = 2, [planar] = 3, [weld] = 0, [track] = 1};
     return count[motion];
 }
 

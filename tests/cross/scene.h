@@ -20,6 +20,9 @@ enum {
     most_summands = 8,
     most_variables = 4,
     most_lines = 3,
+    most_tables = 2,
+    most_states = 2,
+    most_table_points = 7,
     name_room = 24,
 };
 
@@ -45,6 +48,7 @@ enum function {
     f_clamp,
     f_branch, /* if(u > 0, u^2, 0) */
     function_count,
+    f_table = function_count, /* a table of the scene */
 };
 
 enum variable_kind {
@@ -57,6 +61,7 @@ enum variable_kind {
     var_place_vy,
     var_angle, /* of the frame of `body` in the world */
     var_angle_rate,
+    var_state, /* number `index` of the scene */
 };
 
 struct variable {
@@ -69,9 +74,21 @@ struct summand {
     double factor;
     int parameter; /* the factor is this parameter times `factor`; or -1 */
     enum function function;
+    int table;
     int count;
     struct variable variable[most_variables];
     double shift;
+};
+
+/* A function by its points, numbers of numbers. */
+enum interpolation { by_lines, by_steps, by_cubics, by_akima, by_steffen };
+enum beyond { beyond_holds, beyond_is_zero, beyond_repeats };
+
+struct table {
+    enum interpolation interpolation;
+    enum beyond beyond;
+    int count;
+    double x[most_table_points], y[most_table_points];
 };
 
 /* What a formula is: chooses the units of its literals. */
@@ -95,7 +112,15 @@ struct formula {
 
 /* ---- bodies */
 
-enum motion { slide, pivot, particle, planar, weld };
+enum motion { slide, pivot, particle, planar, weld, track };
+
+/* A plane curve, turned by `along`: a line through the origin; (p, a sin(wave p + b)); (a cos p, b sin p). */
+enum path_form { path_line, path_wave, path_oval };
+
+struct path {
+    enum path_form form;
+    double along, a, b, wave, from, to;
+};
 
 enum shape {
     point_shape,
@@ -134,6 +159,7 @@ enum load_kind {
     damper,
     drag,
     potential,
+    distributed,
     moment_applied,
     moment_spring,
     moment_damper,
@@ -162,6 +188,9 @@ struct load {
     struct formula offset[2];
     bool windy; /* drag */
     struct formula wind[2];
+    double per_length
+        [2];     /* distributed, from `at` to `end`, `value` times: at both ends, straight between them; */
+    bool curved; /* or [0] + [1] s^2 */
     double stiffness, neutral, coefficient, quadratic;
     enum side side;
     bool two_sided;
@@ -174,6 +203,8 @@ struct body {
     double along;
     struct spot at;    /* on `on`: the axis, zero of the slide, or place of the weld */
     struct spot point; /* of its own, that sits there */
+    struct path path;  /* track: from `at`, in the frame of `on` */
+    bool keeps_direction;
     bool driven;
     struct formula drive;
     int piece_count;
@@ -187,7 +218,7 @@ struct body {
 
 /* ---- couplings */
 
-enum coupling_kind { spring_of_two, damper_of_two, pin, rod, rope, gear, rack, roll, belt };
+enum coupling_kind { spring_of_two, damper_of_two, pin, rod, rope, gear, rack, roll, belt, slot };
 
 enum wound_side { wound_left, wound_right, wound_top, wound_bottom };
 
@@ -214,7 +245,11 @@ struct coupling {
     bool crossed;   /* belt */
     double tension; /* belt on axes that keep their distance: of both strands while it drives nothing; or 0 */
     bool centered;  /* roll: about end[0].at, not about the round part */
-    int line;       /* roll: of the ground, or -1 for the x axis of end[1] */
+    struct path
+        path; /* slot: from end[1], on which the place end[0] stays, or a circle of radius[0] about it */
+    bool one_sided;
+    enum side side;
+    int line; /* roll: of the ground, or -1 for the x axis of end[1] */
     bool has_friction;
     struct formula mu_s, mu_k;
 };
@@ -224,13 +259,21 @@ struct line {
     double along;
 };
 
+/* An equation of first order, z' = rate. */
+struct state {
+    struct formula rate;
+    double initial;
+};
+
 struct scene {
     uint64_t seed;
     bool us;
     struct vec2 gravity;
     int parameter_count;
     double parameter[most_parameters];
-    int body_count, coupling_count, line_count;
+    int body_count, coupling_count, line_count, table_count, state_count;
+    struct table table[most_tables];
+    struct state state[most_states];
     struct body body[most_bodies];
     struct coupling coupling[most_couplings];
     struct line line[most_lines];
@@ -250,6 +293,9 @@ const struct piece *round_piece(const struct body *body);
 
 /* Radius and centre of the circle at end k of a gear, belt, rack, roll or pulley. */
 double circle_of(const struct scene *scene, const struct coupling *coupling, int k, struct vec2 *centre);
+
+/* tables.c: the function, its slope and its second derivative. */
+void value_by_table(const struct table *table, double u, double f[3]);
 
 struct formula constant_formula(enum dimension dimension, double value);
 bool formula_is_constant(const struct formula *formula);

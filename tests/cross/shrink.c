@@ -32,6 +32,7 @@ typedef void visit_formula(void *context, struct formula *formula);
 
 static void each_formula(struct scene *scene, visit_formula *visit, void *context)
 {
+    for (int i = 0; i < scene->state_count; i++) visit(context, &scene->state[i].rate);
     for (int b = 0; b < scene->body_count; b++) {
         struct body *body = &scene->body[b];
         visit(context, &body->drive);
@@ -63,7 +64,8 @@ static void forget_body(void *context, struct formula *formula)
     for (int k = 0; k < formula->count; k++)
         for (int i = formula->summand[k].count - 1; i >= 0; i--) {
             struct variable *variable = &formula->summand[k].variable[i];
-            if (variable->kind != var_time && variable->body == gone)
+            bool of_body = variable->kind != var_time && variable->kind != var_state;
+            if (of_body && variable->body == gone)
                 drop_variable(&formula->summand[k], i);
             else if (variable->body > gone)
                 variable->body--;

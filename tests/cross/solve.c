@@ -92,6 +92,7 @@ static void set_directions(struct absolute *absolute)
         const struct row *row = &absolute->row[j];
         if (row->kind != row_along) continue;
         const struct body *body = &absolute->scene->body[row->owner];
+        if (body->motion == track) continue; /* at its point, along the curve: as J says */
         struct place e = direction_of(absolute, body->on, body->along);
         double *D = absolute->D[j], *own = &D[3 * row->owner];
         own[2] = 0;

@@ -42,9 +42,13 @@ static void add_friction(struct absolute *absolute, enum grip_kind kind, int b, 
 static void add_slide(struct absolute *absolute, int b)
 {
     const struct body *body = &absolute->scene->body[b];
-    add_row(absolute, row_angle, b, body->along);
+    bool curved = body->motion == track;
+    if (curved && !body->keeps_direction)
+        add_row(absolute, row_tangent, b, 0);
+    else
+        add_row(absolute, row_angle, b, curved ? 0 : body->along);
     int across = absolute->row_count, i, press;
-    add_row(absolute, row_across, b, 0);
+    add_row(absolute, curved ? row_track : row_across, b, 0);
     if (body->driven) add_row(absolute, row_along, b, 0)->drive = &body->drive;
     const struct load *surface = load_of(body, normal, &i);
     if (!surface) return;
@@ -62,7 +66,8 @@ static void add_joint(struct absolute *absolute, int b)
     const struct body *body = &absolute->scene->body[b];
     int i;
     switch (body->motion) {
-    case slide: add_slide(absolute, b); break;
+    case slide:
+    case track: add_slide(absolute, b); break;
     case pivot:
     case weld:
         add_row(absolute, row_pin_x, b, 0);
@@ -201,6 +206,12 @@ static void add_coupling(struct absolute *absolute, int c)
         }
         break;
     case roll: add_roll(absolute, c); break;
+    case slot:
+        add_row(absolute, row_slot, c, 0);
+        if (!coupling->one_sided) break;
+        add_grip(absolute, grip_contact, c, absolute->row_count - 1, absolute->row_count - 1)->press =
+            coupling->side == left_side ? 1 : -1;
+        break;
     case spring_of_two:
     case damper_of_two: break;
     }
@@ -220,6 +231,7 @@ void absolute_start(struct absolute *absolute, const struct scene *scene)
             v[k] = scene->body[b].v[i];
         }
     }
+    for (int i = 0; i < scene->state_count; i++) absolute->z[i] = scene->state[i].initial;
     absolute_place(absolute, 0, q, v);
     absolute_seed(absolute, seed_motion);
     for (int b = 0; b < scene->body_count; b++) add_joint(absolute, b);

@@ -85,7 +85,7 @@ static void move_variable(const struct replacing *r, struct summand *s, const st
 static void replace(const struct replacing *r, struct summand *s, int i)
 {
     struct variable *v = &s->variable[i];
-    bool length = v->kind != var_time && !is_angle(r->scene, v);
+    bool length = v->kind != var_time && v->kind != var_state && !is_angle(r->scene, v);
     switch (r->variant) {
     case variant_mirrored:
         if (is_angle(r->scene, v) || (is_of_pair(r->scene, v) && is_second(v))) v->coefficient *= -1;
@@ -112,6 +112,7 @@ static void replace_all(const struct replacing *r, struct formula *formula)
 
 static void replace_in_scene(const struct replacing *r, struct scene *scene)
 {
+    for (int i = 0; i < scene->state_count; i++) replace_all(r, &scene->state[i].rate);
     for (int b = 0; b < scene->body_count; b++) {
         replace_all(r, &scene->body[b].drive);
         for (int i = 0; i < scene->body[b].load_count; i++) {
@@ -139,12 +140,20 @@ static void add_constant(struct formula *formula, double value)
 
 /* ---- mirrored: y, angles and moments change their sign, and left is right */
 
+/* In the x axis of the frame that it is given in. */
+static void mirror_path(struct path *path)
+{
+    path->along *= -1;
+    *(path->form == path_wave ? &path->a : &path->b) *= -1;
+}
+
 static void mirror_load(struct load *load)
 {
     load->to.y *= -1;
     load->at.where.y *= -1;
     load->side = load->side == left_side ? right_side : left_side;
-    if (load->kind == applied) scale_formula(&load->second, -1);
+    load->end.where.y *= load->kind == distributed ? -1 : 1;
+    if (load->kind == applied || load->kind == distributed) scale_formula(&load->second, -1);
     scale_formula(&load->offset[1], -1);
     scale_formula(&load->wind[1], -1);
     if (load->kind == moment_applied) scale_formula(&load->value, -1);
@@ -155,6 +164,7 @@ static void mirror_load(struct load *load)
 static void mirror_body(struct body *body)
 {
     body->along *= -1;
+    mirror_path(&body->path);
     body->at.where.y *= -1;
     body->point.where.y *= -1;
     for (int i = 0; i < body->piece_count; i++) {
@@ -179,8 +189,13 @@ static void mirror(struct scene *scene)
         scene->line[i].along *= -1;
     }
     for (int b = 0; b < scene->body_count; b++) mirror_body(&scene->body[b]);
-    for (int c = 0; c < scene->coupling_count; c++)
-        for (int k = 0; k < scene->coupling[c].count; k++) scene->coupling[c].end[k].at.where.y *= -1;
+    for (int c = 0; c < scene->coupling_count; c++) {
+        struct coupling *coupling = &scene->coupling[c];
+        for (int k = 0; k < coupling->count; k++) coupling->end[k].at.where.y *= -1;
+        if (coupling->kind != slot) continue;
+        mirror_path(&coupling->path);
+        coupling->side = coupling->side == left_side ? right_side : left_side;
+    }
 }
 
 /* ---- turned: what is said in the world, in order of what moves on what */
@@ -211,7 +226,9 @@ static void turn_load(struct load *load, enum motion motion, double world, doubl
     double angle = load->follows ? own : world;
     turn_pair(&load->offset[0], &load->offset[1], world);
     turn_pair(&load->wind[0], &load->wind[1], world);
-    if (load->kind != applied || load->form == along_slide || load->form == toward_point) return;
+    if (load->kind == distributed) load->end.where = turned(load->end.where, own);
+    bool directed = load->kind == applied || load->kind == distributed;
+    if (!directed || load->form == along_slide || load->form == toward_point) return;
     if (load->form == along_angle)
         add_constant(&load->second, angle);
     else
@@ -222,6 +239,7 @@ static void turn_body(struct body *body, double world, double base, double own)
 {
     int angle = body->motion == pivot ? 0 : 2;
     if (body->motion == slide || body->motion == weld) body->along += base;
+    body->path.along += base;
     body->at.where = turned(body->at.where, base);
     body->point.where = turned(body->point.where, own);
     if (body->motion == particle || body->motion == planar) {
@@ -257,7 +275,8 @@ static void turn(struct replacing *r, struct scene *scene, double *base, double 
             int on = scene->body[b].on;
             if (known[b] || (on >= 0 && !known[on])) continue;
             base[b] = on < 0 ? r->angle : own[on];
-            own[b] = scene->body[b].motion == particle ? base[b] : 0;
+            bool keeps = scene->body[b].motion == track && scene->body[b].keeps_direction;
+            own[b] = scene->body[b].motion == particle || keeps ? base[b] : 0;
             known[b] = true;
         }
     replace_in_scene(r, scene);
@@ -267,6 +286,10 @@ static void turn(struct replacing *r, struct scene *scene, double *base, double 
         scene->line[i].along += r->angle;
     }
     for (int b = 0; b < scene->body_count; b++) turn_body(&scene->body[b], r->angle, base[b], own[b]);
+    for (int c = 0; c < scene->coupling_count; c++) {
+        int on = scene->coupling[c].end[1].body;
+        scene->coupling[c].path.along += on < 0 ? r->angle : own[on];
+    }
     for (int c = 0; c < scene->coupling_count; c++)
         for (int k = 0; k < scene->coupling[c].count; k++)
             if (scene->coupling[c].end[k].body < 0)
@@ -299,7 +322,7 @@ static void move(struct scene *scene, struct vec2 d)
         struct body *body = &scene->body[b];
         for (int i = 0; i < body->load_count; i++) add(&body->load[i].to, d);
         if (body->on >= 0) continue;
-        if (body->motion == slide || body->motion == pivot) {
+        if (body->motion == slide || body->motion == pivot || body->motion == track) {
             body->at.point = at_pair;
             add(&body->at.where, d);
         } else {
@@ -326,11 +349,26 @@ static void scale_by_dimension(struct formula *formula, double l, double f)
     scale_formula(formula, factor[formula->dimension]);
 }
 
+static void convert_path(struct path *path, double l)
+{
+    path->a *= l;
+    if (path->form == path_oval) {
+        path->b *= l;
+        return;
+    }
+    path->wave /= l;
+    path->from *= l;
+    path->to *= l;
+}
+
 static void convert_load(struct load *load, double l, double f)
 {
     bool moment = load->kind >= moment_applied;
     scale_pair(&load->to, l);
     scale_pair(&load->at.where, l);
+    scale_pair(&load->end.where, l);
+    load->per_length[0] *= f / l;
+    load->per_length[1] *= f / l / (load->curved ? l * l : 1);
     load->stiffness *= moment ? f * l : f / l;
     load->coefficient *= moment ? f * l : f / l;
     load->quadratic *= f / (l * l);
@@ -349,6 +387,7 @@ static void convert_body(struct body *body, double l, double f)
 {
     scale_pair(&body->at.where, l);
     scale_pair(&body->point.where, l);
+    convert_path(&body->path, l);
     for (int i = 0; i < body->piece_count; i++) {
         struct piece *piece = &body->piece[i];
         piece->mass *= f / l;
@@ -380,6 +419,7 @@ static void convert(struct scene *scene, double l, double f)
         coupling->radius[0] *= l;
         coupling->radius[1] *= l;
         coupling->tension *= f;
+        convert_path(&coupling->path, l);
         for (int k = 0; k < coupling->count; k++) scale_pair(&coupling->end[k].at.where, l);
     }
 }

@@ -39,6 +39,7 @@ void vary_order(const struct scene *scene, struct random *random, struct scene *
             if (body->load[i].target >= 0) body->load[i].target = place[body->load[i].target];
         }
     }
+    for (int i = 0; i < scene->state_count; i++) renumber(&other->state[i].rate, place);
     for (int c = 0; c < scene->coupling_count; c++) {
         struct coupling *coupling = &other->coupling[scene->coupling_count - 1 - c];
         *coupling = scene->coupling[c];

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "writer.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -51,7 +52,8 @@ static enum dimension variable_dimension(const struct scene *scene, const struct
     const enum motion motion = scene->body[variable->body].motion;
     bool angle = motion == pivot || variable->index == 2;
     switch (variable->kind) {
-    case var_time: return dim_number;
+    case var_time:
+    case var_state: return dim_number;
     case var_coordinate: return angle ? dim_angle : dim_length;
     case var_rate: return angle ? dim_angular_speed : dim_speed;
     case var_place_x:
@@ -67,7 +69,7 @@ static enum dimension variable_dimension(const struct scene *scene, const struct
 static const char *coordinate_name(enum motion motion, int index, bool rate)
 {
     static const char *const names[] = {"x", "y", "theta"}, *const rates[] = {"vx", "vy", "omega"};
-    if (motion == slide) return rate ? "v" : "x";
+    if (motion == slide || motion == track) return rate ? "v" : motion == slide ? "x" : "s";
     if (motion == pivot) index = 2;
     return (rate ? rates : names)[index];
 }
@@ -84,6 +86,7 @@ static void say_variable(struct writer *w, int own, const struct variable *varia
         if (variable->body != own) say(w, "%s.", body->name);
         say(w, "%s", coordinate_name(body->motion, variable->index, rate));
         return;
+    case var_state: say(w, "states.z%d", variable->index); return;
     case var_angle: say(w, "%s.angle", body->name); return;
     case var_angle_rate: say(w, "%s.angle_dot", body->name); return;
     default: break;
@@ -133,6 +136,12 @@ static void say_function(struct writer *w, int own, const struct summand *summan
         [f_ramp] = {"max(0, ", ")"},
         [f_clamp] = {"clamp(", ", -1, 1)"},
     };
+    if (summand->function == f_table) {
+        say(w, "T%d(", summand->table);
+        say_argument(w, own, summand);
+        say(w, ")");
+        return;
+    }
     if (summand->function == f_branch) {
         say(w, "if(");
         say_argument(w, own, summand);
@@ -234,9 +243,35 @@ static void say_shape(struct writer *w, const struct piece *piece)
     if (piece->angle != 0 && piece->shape != given_inertia) key_number(w, "angle", piece->angle);
 }
 
+/* A line as such, a wave that is not turned as y of x; everything else by p. */
+static void say_path(struct writer *w, const struct path *path)
+{
+    const char *m = w->scene->us ? "ft" : "m", *per = w->scene->us ? "1/ft" : "1/m";
+    double c = cos(path->along), s = sin(path->along);
+    if (path->form == path_line) {
+        key_number(w, "along", path->along);
+        return;
+    }
+    bool oval = path->form == path_oval, plain = path->along == 0 && !oval;
+    if (plain) {
+        say(w, ", y: \"%.17g[%s]*sin(%.17g[%s]*x + (%.17g))\"", path->a, m, path->wave, per, path->b);
+    } else if (oval) {
+        say(w, ", x: \"%.17g[%s]*cos(p) - (%.17g[%s])*sin(p)\"", c * path->a, m, s * path->b, m);
+        say(w, ", y: \"%.17g[%s]*cos(p) + %.17g[%s]*sin(p)\"", s * path->a, m, c * path->b, m);
+    } else {
+        for (int i = 0; i < 2; i++)
+            say(w, ", %s: \"%.17g*p + %.17g[%s]*sin(%.17g[%s]*p + (%.17g))\"", i == 0 ? "x" : "y",
+                i == 0 ? c : s, (i == 0 ? -s : c) * path->a, m, path->wave, per, path->b);
+    }
+    if (oval)
+        say(w, ", from: %.17g, to: %.17g", path->from, path->to);
+    else
+        say(w, ", from: %.17g %s, to: %.17g %s", path->from, m, path->to, m);
+}
+
 static void say_motion(struct writer *w, int b)
 {
-    static const char *const names[] = {"slide", "pivot", "particle", "planar", "weld"};
+    static const char *const names[] = {"slide", "pivot", "particle", "planar", "weld", "track"};
     const struct scene *scene = w->scene;
     const struct body *body = &scene->body[b];
     say(w, "    motion: {%s: {", names[body->motion]);
@@ -247,15 +282,18 @@ static void say_motion(struct writer *w, int b)
         say_number(w, body->along);
         comma = ", ";
     }
-    if (body->motion == slide || body->motion == weld || body->motion == pivot) {
+    if (body->motion != particle && body->motion != planar) {
         say(w, "%s%s: ", comma, body->motion == slide ? "through" : "at");
         say_spot(w, body->on, &body->at);
     }
-    if ((body->motion == weld || body->motion == pivot) && body->point.point != at_origin) {
+    if (body->motion == track) say_path(w, &body->path);
+    if (body->motion == track && body->keeps_direction) say(w, ", turn: false");
+    if ((body->motion == weld || body->motion == pivot || body->motion == track) &&
+        body->point.point != at_origin) {
         say(w, ", point: ");
         say_spot(w, b, &body->point);
     }
-    if (body->driven) key_formula(w, body->motion == slide ? "x" : "theta", b, &body->drive);
+    if (body->driven) key_formula(w, coordinate_name(body->motion, 0, false), b, &body->drive);
     say(w, "}}\n");
 }
 
@@ -309,7 +347,7 @@ static void say_end(struct writer *w, int c, int k)
     const struct end *end = &w->scene->coupling[c].end[k];
     if (end->body < 0)
         say(w, "ground.Q%d_%d", c, k);
-    else if (end->at.point == at_G)
+    else if (end->at.point == at_G || end->at.point == at_origin)
         say(w, "%s", w->scene->body[end->body].name);
     else
         say(w, "%s.P%d", w->scene->body[end->body].name, end->at.point);
@@ -352,10 +390,19 @@ static void say_rope(struct writer *w, int c)
     if (coupling->reels) key_formula(w, "length", -1, &coupling->reel);
 }
 
+static void say_slot(struct writer *w, const struct coupling *coupling)
+{
+    say_path(w, &coupling->path);
+    if (coupling->path.form == path_oval) say(w, ", closed: true");
+    if (coupling->one_sided || coupling->radius[0] > 0)
+        say(w, ", side: %s", coupling->side == left_side ? "left" : "right");
+    if (coupling->radius[0] > 0) key_number(w, "radius", coupling->radius[0]);
+}
+
 static void say_coupling(struct writer *w, int c)
 {
-    static const char *const kinds[] = {"spring", "damper", "pin",  "rod", "rope",
-                                        "gear",   "rack",   "roll", "belt"};
+    static const char *const kinds[] = {"spring", "damper", "pin",  "rod",  "rope",
+                                        "gear",   "rack",   "roll", "belt", "slot"};
     const struct coupling *coupling = &w->scene->coupling[c];
     say(w, "  - %s: {name: %s", kinds[coupling->kind], coupling->name);
     if (coupling->kind == roll) {
@@ -381,10 +428,42 @@ static void say_coupling(struct writer *w, int c)
         say(w, ", radii: [%s, %s]", number(coupling->radius[0], one), number(coupling->radius[1], two));
     }
     if (coupling->kind == rope) say_rope(w, c);
+    if (coupling->kind == slot) say_slot(w, coupling);
     if (coupling->inside) say(w, ", inside: true");
     if (coupling->crossed) say(w, ", crossed: true");
     if (coupling->tension > 0) key_number(w, "tension", coupling->tension);
     say(w, "}\n");
+}
+
+static void say_tables(struct writer *w)
+{
+    static const char *const interpolations[] = {"linear", "step", "cubic", "akima", "steffen"};
+    static const char *const beyond[] = {"hold", "zero", "repeat"};
+    const struct scene *scene = w->scene;
+    if (scene->table_count > 0) say(w, "tables:\n");
+    for (int i = 0; i < scene->table_count; i++) {
+        const struct table *table = &scene->table[i];
+        say(w, "  T%d: {interpolation: %s, beyond: %s, points: [", i, interpolations[table->interpolation],
+            beyond[table->beyond]);
+        for (int k = 0; k < table->count; k++) {
+            if (k > 0) say(w, ", ");
+            say_pair(w, (struct vec2){table->x[k], table->y[k]});
+        }
+        say(w, "]}\n");
+    }
+}
+
+static void say_states(struct writer *w)
+{
+    const struct scene *scene = w->scene;
+    if (scene->state_count > 0) say(w, "states:\n");
+    for (int i = 0; i < scene->state_count; i++) {
+        say(w, "  z%d: {rate: \"(", i);
+        say_summands(w, -1, &scene->state[i].rate);
+        say(w, ")/1[s]\", initial: ");
+        say_number(w, scene->state[i].initial);
+        say(w, ", unit: 1}\n");
+    }
 }
 
 static void say_ground(struct writer *w)
@@ -418,6 +497,8 @@ size_t scene_write(const struct scene *scene, double until, char text[text_room]
         scene->us ? "US" : "SI");
     say_pair(w, scene->gravity);
     say(w, "\n");
+    say_tables(w);
+    say_states(w);
     if (scene->parameter_count > 0) say(w, "parameters:\n");
     for (int i = 0; i < scene->parameter_count; i++) {
         say(w, "  p%d: ", i);

@@ -60,6 +60,23 @@ static void say_at(struct writer *w, int b, const struct load *load)
     if (load->placed) say(w, "}");
 }
 
+static void say_distributed(struct writer *w, int b, const struct load *load)
+{
+    bool us = w->scene->us;
+    say(w, ", from: ");
+    say_spot(w, b, &load->at);
+    say(w, ", to: ");
+    say_spot(w, b, &load->end);
+    if (load->curved)
+        say(w, ", value: \"%.17g[%s] + %.17g[%s]*s^2\"", load->per_length[0], us ? "lbf/ft" : "N/m",
+            load->per_length[1], us ? "lbf/ft^3" : "N/m^3");
+    else
+        say(w, ", value: [%.17g, %.17g]", load->per_length[0], load->per_length[1]);
+    key_formula(w, "factor", b, &load->value);
+    if (load->form != along_slide) key_formula(w, "angle", b, &load->second);
+    if (load->follows && load->form != along_slide) say(w, ", frame: body");
+}
+
 static void say_friction(struct writer *w, int b, const struct load *load)
 {
     key_formula(w, "static", b, &load->value);
@@ -81,9 +98,9 @@ static void say_link(struct writer *w, int b, const struct load *load)
 
 static void say_load(struct writer *w, int b, const struct load *load)
 {
-    static const char *const kinds[] = {"gravity", "normal",   "friction",  "applied", "spring",
-                                        "damper",  "drag",     "potential", "applied", "spring",
-                                        "damper",  "friction", "potential"};
+    static const char *const kinds[] = {"gravity", "normal", "friction",  "applied",     "spring",
+                                        "damper",  "drag",   "potential", "distributed", "applied",
+                                        "spring",  "damper", "friction",  "potential"};
     say(w, "      - %s: {name: %s", kinds[load->kind], load->name);
     switch (load->kind) {
     case gravity: break;
@@ -107,6 +124,7 @@ static void say_load(struct writer *w, int b, const struct load *load)
         break;
     case potential:
     case moment_potential: key_formula(w, "V", b, &load->value); break;
+    case distributed: say_distributed(w, b, load); break;
     case moment_applied: key_formula(w, "value", b, &load->value); break;
     case moment_spring:
         key_number(w, "stiffness", load->stiffness);
