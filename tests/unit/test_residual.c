@@ -36,19 +36,25 @@ static double speed_after_a_second(const struct rotor *rotor)
     return sum * h / 6;
 }
 
-static struct trial rotor_trial(const struct rotor *rotor)
+/* With `ones` the pulse is multiplied by a table that is 1 everywhere: its points are found in the argument. */
+static struct trial rotor_trial(const struct rotor *rotor, bool ones)
 {
     static const char scene[] =
         "fbd: 1\n"
+        "%s"
         "bodies:\n"
         "  rotor: {inertia: 1, mass: 1, points: {P: [1, 0]}, motion: {pivot: {at: [0, 0]}},\n"
         "    initial: {theta: \"%.17g[rad]\", omega: %.17g}, moments: [applied: {name: drive, value: "
         "%.17g}]}\n"
         "  block: {mass: 1, motion: {slide: {along: 0 deg}},\n"
-        "    forces: [applied: {name: push, value: \"%.17g*exp(-(%.17g*rotor.P.vy/1[m/s])^2)\"}]}\n"
+        "    forces: [applied: {name: push, value: \"%.17g*exp(-(%.17g*rotor.P.vy/1[m/s])^2)%s\"}]}\n"
         "simulate: {until: 1}\n";
-    char text[1024];
-    snprintf(text, sizeof text, scene, rotor->theta, rotor->omega, rotor->alpha, rotor->force, rotor->sharp);
+    static const char table[] =
+        "tables: {ones: {points: [[-30, 1], [-8, 1], [-1, 1]], interpolation: cubic}}\n";
+    char text[1024], factor[80] = "";
+    if (ones) snprintf(factor, sizeof factor, "*ones(-(%.17g*rotor.P.vy/1[m/s])^2)", rotor->sharp);
+    snprintf(text, sizeof text, scene, ones ? table : "", rotor->theta, rotor->omega, rotor->alpha,
+             rotor->force, rotor->sharp, factor);
     return trial_parse(text);
 }
 
@@ -60,14 +66,14 @@ static double drawn(uint64_t *seed, double from, double to)
 
 /* Where the motion is wrong the energy says so, or does not; where it is right it never does. Returns how many runs are
  * wrong, and how many of these are told. */
-static int draw(struct checks *checks, double least, double most, int count, int *told)
+static int draw(struct checks *checks, double least, double most, int count, bool ones, int *told)
 {
     uint64_t seed = 20261124;
     int wrong = 0;
     for (int i = 0; i < count; i++) {
         struct rotor rotor = {drawn(&seed, -3, 3), drawn(&seed, 1, 20), drawn(&seed, 50, 100),
                               drawn(&seed, least, most), drawn(&seed, 1, 10)};
-        struct trial trial = rotor_trial(&rotor);
+        struct trial trial = rotor_trial(&rotor, ones);
         trial_run(&trial, NULL);
         double residual = fbd_result_energy(trial.result).residual;
         bool is_told = fabs(residual) > fbd_result_residual_explained(trial.result);
@@ -86,7 +92,7 @@ static void the_energy_tells_of_pulses(void **unused)
 {
     (void)unused;
     struct checks checks = {0};
-    int told = 0, wrong = draw(&checks, 0.1, 0.6, 30, &told);
+    int told = 0, wrong = draw(&checks, 0.1, 0.6, 30, false, &told);
     check_that(&checks, "some go over pulses, and some of these are told", wrong > 0 && told > 0);
     checks_end(&checks);
 }
@@ -95,7 +101,16 @@ static void a_smooth_run_is_not_accused(void **unused)
 {
     (void)unused;
     struct checks checks = {0};
-    int told = 0, wrong = draw(&checks, 1e-4, 3e-3, 20, &told);
+    int told = 0, wrong = draw(&checks, 1e-4, 3e-3, 20, false, &told);
+    check_that(&checks, "all are right", wrong == 0);
+    checks_end(&checks);
+}
+
+static void beside_a_table_of_ones_no_pulse_is_lost(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    int told = 0, wrong = draw(&checks, 0.1, 100, 10, true, &told);
     check_that(&checks, "all are right", wrong == 0);
     checks_end(&checks);
 }
@@ -105,6 +120,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_energy_tells_of_pulses),
         cmocka_unit_test(a_smooth_run_is_not_accused),
+        cmocka_unit_test(beside_a_table_of_ones_no_pulse_is_lost),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
