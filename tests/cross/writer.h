@@ -26,6 +26,11 @@ void key_number(struct writer *w, const char *key, double value);
 /* A point of a body, or of the ground (-1). */
 void say_spot(struct writer *w, int body, const struct spot *spot);
 
+/* The curve of a track or slot; tables and states of the scene (write_functions.c). */
+void say_path(struct writer *w, const struct path *path);
+void say_tables(struct writer *w);
+void say_states(struct writer *w);
+
 /* Its forces, or its moments (write_loads.c). */
 void say_loads(struct writer *w, int b, bool moments);
 
