@@ -61,7 +61,7 @@ double tree_driven(struct fbd_state *state, const int *slip, int pair)
     enum { decades = 15 };
     const double soonest = 1e-12, next = 10; /* [s]; ratio */
     size_t n = (size_t)state->model->plan.n, pairs = state->model->plan.friction_count;
-    if (!model_is_driven(state->model)) return 0;
+    if (!model_has_speeds_given(state->model)) return 0;
     double v = pair_of(state, pair)->kind == mode_friction ? velocity_along(state, pair, 0) : 0;
     struct fbd_state *then = v == 0 ? state_new(state->model) : NULL;
     if (v == 0 && !then) state->holds.found = holds_no_memory;

@@ -245,7 +245,7 @@ static bool decide(struct fbd_state *state, const struct decided *decided, int *
     return false;
 }
 
-/* Does friction hold what drives move, whatever the forces are? No friction is enough for that. */
+/* Does friction hold what drives or surfaces move, whatever the forces are? No friction is enough for that. */
 static bool holds_what_is_driven(struct fbd_state *state, const struct decided *decided, int *forced)
 {
     struct gathered all;
@@ -253,7 +253,7 @@ static bool holds_what_is_driven(struct fbd_state *state, const struct decided *
     bool may = false, moves = false;
     for (int pair = 0; pair < (int)state->model->plan.friction_count; pair++)
         may |= state->slip[pair] == stick && hold_in_question(state, decided, forced, pair);
-    if (!may || !model_is_driven(state->model)) return false;
+    if (!may || !model_has_speeds_given(state->model)) return false;
     state_evaluate_unshared(state);
     if (!rest_is_open(state->model, &at)) return false;
     bool gathered = gathered_find(&all, state, decided, forced);

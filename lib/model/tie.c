@@ -59,6 +59,14 @@ static struct tie *add_tie(struct fbd_model *model, int index, int from, int to)
     return tie;
 }
 
+bool model_has_speeds_given(const struct fbd_model *model)
+{
+    if (model_is_driven(model)) return true;
+    for (size_t i = 0; i < model->plan.friction_count && model->tree && model->tree->tie_count > 0; i++)
+        if (model->plan.frictions[i].surface_speed.expr) return true;
+    return false;
+}
+
 bool model_is_driven(const struct fbd_model *model)
 {
     for (size_t i = 0; i < model->plan.friction_count; i++) {

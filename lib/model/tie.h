@@ -66,6 +66,10 @@ struct tie_end tie_end_of(const struct fbd_model *model, int index, int k);
 /* Does anything move by a law of the time: a joint, or the length of a rope? */
 bool model_is_driven(const struct fbd_model *model);
 
+/* The same, or is there a surface whose speed varies, under what couplings may hold? It turns round whatever the forces
+ * are, as drives do. */
+bool model_has_speeds_given(const struct fbd_model *model);
+
 /* Does it have a surface with a normal row and, behind it, one along the surface? */
 static inline bool tie_has_surface(const struct tie *tie)
 {

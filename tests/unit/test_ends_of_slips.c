@@ -204,8 +204,26 @@ static void events_beside_the_ends_of_slips_change_nothing(void **unused)
     assert_int_equal(wrong, 0);
 }
 
+/* What a rod holds has no way to go along with a surface that turns round: its friction turns with that. */
+static void what_couplings_hold_rubs_on_both_ways(void **unused)
+{
+    (void)unused;
+    static const char bodies[] = "ground: {points: {Q: [-1, 0]}}\n"
+                                 "bodies:\n  b: {mass: 1, motion: slide, forces: [gravity, normal, friction: "
+                                 "{static: 0.4, kinetic: 0.3, "
+                                 "surface_speed: \"0.3[m/s]*cos(1[rad/s]*t)\"}]}\n"
+                                 "couplings:\n  - rod: {name: link, between: [b, ground.Q], length: 1}\n";
+    struct course course = run(bodies, "", "b.x", "b.v");
+    assert_true(course.ended);
+    assert_int_equal(course.count, 1);
+    assert_int_equal(course.kind[0], FBD_EVENT_REVERSAL);
+    assert_true(fabs(course.t[0] - acos(0)) < 1e-12);
+    assert_true(fabs(course.x) < 1e-15 && fabs(course.v) < 1e-15);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(events_beside_the_ends_of_slips_change_nothing)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(events_beside_the_ends_of_slips_change_nothing),
+                                       cmocka_unit_test(what_couplings_hold_rubs_on_both_ways)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
