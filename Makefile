@@ -87,10 +87,11 @@ events: $(BUILD)/.tests
 	FBD_EVENT_SCENES=10000 $(BUILD)/tests/unit/test_events
 	FBD_EVENT_SCENES=4000 $(BUILD)/tests/unit/test_joined_events
 
-# A million random impacts, each held against its law.
+# A million random impacts at one point, each held against its law, and a million at one to three; some two minutes.
 impacts: $(BUILD)/.tests
-	ninja -C $(BUILD) tests/unit/test_impact
+	ninja -C $(BUILD) tests/unit/test_impact tests/unit/test_impacts
 	FBD_IMPACTS=1000000 $(BUILD)/tests/unit/test_impact
+	FBD_IMPACTS=1000000 $(BUILD)/tests/unit/test_impacts
 
 # The tables of docs/error-bars.md; takes some ten minutes.
 error-bars: $(BUILD)/.tests

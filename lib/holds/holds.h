@@ -96,9 +96,9 @@ enum holds_found holds_decide(struct hold_problem *problem);
 /* Are the forces and accelerations that are there those of the modes, within limits? O(count). */
 bool holds_agree(const struct hold_problem *problem);
 
-/* Of forces that are not determined, those of the least size, where they are within their limits; accelerations and modes
- * are as they were. False when memory is out. */
-bool holds_share(struct hold_problem *problem);
+/* Of forces that are not determined, those of the least size, where they are within their limits; modes are as they
+ * were, but that what slips by rounding keeps still. holds_lost where no forces do what the modes say. */
+enum holds_found holds_share(struct hold_problem *problem);
 
 /* The number of solutions with different accelerations, by trying all modes; the first is left in the
  * problem. -1 when there are too many modes (over `most`), -2 when memory is out. */

@@ -80,11 +80,29 @@ static double fastest_speed(const struct impacts *impacts)
     return most;
 }
 
+/* Of distances and angles alike, as holds have it. */
+static double weighted_speed(const struct impacts *impacts)
+{
+    double most = 0;
+    for (int i = 0, n = 2 * impacts->count; i < n; i++) {
+        double own = impacts->W[i * n + i];
+        if (own > 0) most = fmax(most, fabs(impacts->v[i]) / sqrt(own));
+    }
+    return most;
+}
+
+/* A law that makes energy may do so at each turn: then there is no end that means anything. */
+static bool grows(const struct impacts *impacts, double before)
+{
+    const double far = 1e3;
+    return impact_by_velocity(impacts->law) && !(weighted_speed(impacts) <= far * before);
+}
+
 static enum impacts_end propagate(struct impacts *impacts)
 {
     enum { most_rounds = 10000 };
     const double rounding = 1e-13; /* of the speeds before: what closes no faster rests */
-    double least = rounding * fastest_speed(impacts);
+    double least = rounding * fastest_speed(impacts), before = weighted_speed(impacts);
     for (int round = 0; round < most_rounds; round++) {
         int i = fastest(impacts, least);
         if (i < 0) {
@@ -93,6 +111,7 @@ static enum impacts_end propagate(struct impacts *impacts)
             return impacts_done;
         }
         strike(impacts, i);
+        if (grows(impacts, before)) return impacts_unsolvable;
     }
     return impacts_endless;
 }
@@ -135,29 +154,12 @@ static void together_free(struct together *together)
     free(together->compressed);
 }
 
-/* Impulses far beyond what could stop the points come from laws that contradict each other: three points of
- * one body cannot all bounce as `newton` wants it. What they press out of each other is rounding. */
-static bool is_wild(const struct together *together)
-{
-    const double far = 1e6;
-    const struct impacts *impacts = together->impacts;
-    double most = 0, stops = 0;
-    int n = 2 * impacts->count;
-    for (int i = 0; i < n; i++) {
-        double W = impacts->W[i * n + i];
-        most = fmax(most, fabs(together->problem.holds[i].force));
-        if (W > 0) stops = fmax(stops, fabs(together->problem.holds[i].free) / W);
-    }
-    return !(most <= far * stops);
-}
-
 static enum impacts_end decide(struct together *together)
 {
     enum holds_found found = holds_decide(&together->problem);
+    if (found == holds_decided || found == holds_several) found = holds_share(&together->problem);
     if (found == holds_no_memory) return impacts_no_memory;
-    if (found <= holds_several && !holds_share(&together->problem)) return impacts_no_memory;
-    if (is_wild(together)) return impacts_unsolvable;
-    return found == holds_decided || found == holds_several ? impacts_done : impacts_unsolvable;
+    return found == holds_decided ? impacts_done : impacts_unsolvable;
 }
 
 /* What closes no more, or does not slip, has that velocity exactly. */
@@ -290,15 +292,18 @@ static void finish(struct impacts *impacts, const double *P, const double *v)
     }
 }
 
-static enum impacts_end all_together(struct impacts *impacts)
+/* `before`: the largest speed that there was, by which rounding is told. */
+static enum impacts_end all_together(struct impacts *impacts, double before)
 {
     struct together first, second = {0};
     bool made_room = together_new(&first, impacts, false);
+    first.problem.beside_c = before;
     enum impacts_end end = made_room ? compress(&first) : impacts_no_memory;
     bool restores = end == impacts_done && has_restitution(impacts);
     if (restores) {
         end = together_new(&second, impacts, true) ? impacts_done : impacts_no_memory;
         if (end == impacts_done) {
+            second.problem.beside_c = before;
             memcpy(second.compressed, first.compressed, 4 * (size_t)impacts->count * sizeof(double));
             end = restore_by_law(&second);
         }
@@ -327,6 +332,7 @@ static bool feel_each_other(const void *context, int i, int j)
  * by one that is plastic. */
 static enum impacts_end propagate_to_the_end(struct impacts *impacts)
 {
+    double before = weighted_speed(impacts);
     enum impacts_end end = propagate(impacts);
     bool loses = true;
     for (int i = 0; i < impacts->count; i++) loses &= impacts->points[i].e < 1;
@@ -337,37 +343,74 @@ static enum impacts_end propagate_to_the_end(struct impacts *impacts)
     for (int i = 0; i < impacts->count; i++) points[i] = (struct impacts_point){impacts->points[i].mu, 0};
     rest.points = points;
     rest.law = impact_stronge;
-    end = all_together(&rest);
+    end = all_together(&rest, before);
     impacts->work = rest.work;
     free(points);
     return end == impacts_unsolvable ? impacts_endless : end;
 }
 
-static enum impacts_end solve_whole(struct impacts *impacts)
+/* Do the impulses do what is said of them? Their work is P (v before + v after) / 2, and is the change of kinetic
+ * energy only as far as v after is what they make of v before. Impulses far larger than what would stop each point by
+ * itself leave nothing of that in double precision, and come from laws that contradict each other - three points of
+ * one body cannot all bounce as `newton` wants it - or from points that press against each other along one line. */
+static bool do_what_they_say(const struct impacts *impacts, const double *before)
+{
+    const double rounding = 1e-9;
+    int n = 2 * impacts->count;
+    double wrong = 0, energy = 0;
+    for (int i = 0; i < n; i++) {
+        double made = before[i], own = impacts->W[i * n + i];
+        for (int j = 0; j < n; j++) made += impacts->W[i * n + j] * impacts->P[j];
+        wrong += fabs(impacts->P[i] * (impacts->v[i] - made));
+        if (own > 0) energy = fmax(energy, before[i] * before[i] / own);
+    }
+    return wrong <= rounding * energy;
+}
+
+static void take_back(struct impacts *impacts, const double *before)
+{
+    size_t n = 2 * (size_t)impacts->count;
+    memcpy(impacts->v, before, n * sizeof *before);
+    memset(impacts->P, 0, n * sizeof *impacts->P);
+    impacts->work = 0;
+}
+
+static enum impacts_end solve_by(struct impacts *impacts, const double *before, bool propagates)
+{
+    enum impacts_end end =
+        propagates ? propagate_to_the_end(impacts) : all_together(impacts, weighted_speed(impacts));
+    return end == impacts_done && !do_what_they_say(impacts, before) ? impacts_lost : end;
+}
+
+/* `before` has the velocities, too. */
+static enum impacts_end solve_whole(struct impacts *impacts, const double *before)
 {
     if (impacts->count == 1) {
         strike(impacts, 0);
         return impacts_done;
     }
-    enum impacts_end end = impacts->propagate ? impacts_unsolvable : all_together(impacts);
-    /* Points that press on each other nearly along one line may be lost in rounding: one after the other
-     * their impacts are those of the same laws. */
-    bool lost = end == impacts_unsolvable && !impact_by_velocity(impacts->law);
-    return impacts->propagate || lost ? propagate_to_the_end(impacts) : end;
+    enum impacts_end end = solve_by(impacts, before, impacts->propagate);
+    /* Of points that press on each other nearly along one line impacts one after the other are those of the same
+     * laws, and may be found where all together are not. */
+    bool has_found = end == impacts_done || end == impacts_no_memory;
+    if (has_found || impacts->propagate || impact_by_velocity(impacts->law)) return end;
+    take_back(impacts, before);
+    end = solve_by(impacts, before, true);
+    return end == impacts_done || end == impacts_no_memory ? end : impacts_lost;
 }
 
 /* Points `member` of all; a part in which nothing closes is left as it is. */
 static enum impacts_end solve_part(struct impacts *all, const int *member, int count, double *room)
 {
     int n = 2 * count, of = 2 * all->count;
-    double *W = room, *v = W + (size_t)n * (size_t)n, *P = v + n;
+    double *W = room, *v = W + (size_t)n * (size_t)n, *P = v + n, *before = P + n;
     struct impacts_point *points = calloc((size_t)count + 1, sizeof *points);
     bool closes = false;
     if (!points) return impacts_no_memory;
     for (int i = 0; i < n; i++) {
         int row = 2 * member[i / 2] + i % 2;
         for (int j = 0; j < n; j++) W[i * n + j] = all->W[row * of + 2 * member[j / 2] + j % 2];
-        v[i] = all->v[row];
+        before[i] = v[i] = all->v[row];
         P[i] = 0;
         points[i / 2] = all->points[member[i / 2]];
         closes |= i % 2 == 0 && v[i] < 0;
@@ -379,7 +422,7 @@ static enum impacts_end solve_part(struct impacts *all, const int *member, int c
     part.v = v;
     part.P = P;
     part.work = 0;
-    enum impacts_end end = closes ? solve_whole(&part) : impacts_done;
+    enum impacts_end end = closes ? solve_whole(&part, before) : impacts_done;
     for (int i = 0; i < n; i++) {
         all->v[2 * member[i / 2] + i % 2] = v[i];
         all->P[2 * member[i / 2] + i % 2] = P[i];
@@ -393,7 +436,7 @@ enum impacts_end impacts_solve(struct impacts *impacts)
 {
     size_t count = (size_t)impacts->count, n = 2 * count;
     int *part = calloc(2 * count + 1, sizeof *part), *member = part ? part + count : NULL;
-    double *room = calloc(n * n + 2 * n + 1, sizeof *room);
+    double *room = calloc(n * n + 3 * n + 1, sizeof *room);
     enum impacts_end end = part && room ? impacts_done : impacts_no_memory;
     memset(impacts->P, 0, n * sizeof *impacts->P);
     impacts->work = 0;

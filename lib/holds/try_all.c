@@ -1,23 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * All modes one after the other: in each of them the forces are those of a linear system. And of what that system leaves
- * open in the modes that are found, the least.
+ * All modes one after the other: in each of them the forces are those of a linear system.
  */
-#include "holds/holds.h"
+#include "holds/trial.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "numeric/lu.h"
-
-struct trial {
-    struct hold_problem *problem;
-    int *side; /* of the guides: the sign of N */
-    double *A, *f, *first;
-    size_t *pivot;
-    int solutions;
-};
 
 static size_t choices(const struct hold *hold)
 {
@@ -87,9 +78,7 @@ static double different_modes(const struct hold_problem *problem)
     return all;
 }
 
-/* The system of the modes: A f = -free of what keeps, f = 0 of what is open, f + mode mu P = 0 of what slips; with rows
- * of comparable sizes. A touch of give tells redundant holds apart. */
-static void set_system(struct trial *trial, double give)
+void trial_set_system(struct trial *trial, double give)
 {
     struct hold_problem *problem = trial->problem;
     size_t n = problem->count;
@@ -112,10 +101,11 @@ static void set_system(struct trial *trial, double give)
         if (most == 0) row[i] = most = 1; /* nothing moves it */
         for (size_t j = 0; j < n; j++) row[j] /= most;
         trial->f[i] /= most;
+        trial->row[i] = most;
     }
 }
 
-static void take_forces(struct hold_problem *problem, const double *f)
+void trial_take_forces(struct hold_problem *problem, const double *f)
 {
     size_t n = problem->count;
     for (size_t i = 0; i < n; i++) {
@@ -136,10 +126,10 @@ static const double touch = 1e-10;
 static bool find_forces(struct trial *trial)
 {
     size_t n = trial->problem->count;
-    set_system(trial, touch);
+    trial_set_system(trial, touch);
     if (!lu_decompose(n, trial->A, trial->pivot)) return false;
     lu_solve(n, trial->A, trial->pivot, trial->f);
-    take_forces(trial->problem, trial->f);
+    trial_take_forces(trial->problem, trial->f);
     return true;
 }
 
@@ -177,20 +167,21 @@ static void keep_first(struct trial *trial, size_t *number, size_t own)
     for (size_t i = 0; i < trial->problem->count; i++) trial->first[i] = trial->problem->holds[i].c;
 }
 
-static bool trial_new(struct trial *trial, struct hold_problem *problem)
+bool trial_new(struct trial *trial, struct hold_problem *problem)
 {
     size_t n = problem->count;
     *trial = (struct trial){.problem = problem};
     trial->side = calloc(problem->guide_count + 1, sizeof *trial->side);
-    trial->A = calloc(n * n + 2 * n + 1, sizeof *trial->A);
+    trial->A = calloc(n * n + 3 * n + 1, sizeof *trial->A);
     trial->pivot = calloc(n + 1, sizeof *trial->pivot);
     if (!trial->side || !trial->A || !trial->pivot) return false;
     trial->f = trial->A + n * n;
     trial->first = trial->f + n;
+    trial->row = trial->first + n;
     return true;
 }
 
-static void trial_free(struct trial *trial)
+void trial_free(struct trial *trial)
 {
     free(trial->side);
     free(trial->A);
@@ -218,87 +209,4 @@ int holds_try_all(struct hold_problem *problem, size_t most)
     }
     trial_free(&trial);
     return made ? trial.solutions : -2;
-}
-
-/* f += what the system with some give makes of right - M f. Returns the largest of these rests. */
-static double correct(struct trial *trial, const double *M, const double *right, double *f)
-{
-    size_t n = trial->problem->count;
-    double most = 0;
-    for (size_t i = 0; i < n; i++) {
-        trial->f[i] = right[i];
-        for (size_t j = 0; j < n; j++) trial->f[i] -= M[i * n + j] * f[j];
-        most = fmax(most, fabs(trial->f[i]));
-    }
-    lu_solve(n, trial->A, trial->pivot, trial->f);
-    for (size_t i = 0; i < n; i++) f[i] += trial->f[i];
-    return most;
-}
-
-/* Friction that nothing asks for has rounding, which counts for nothing beside what else there is. */
-static void drop_nothing(const struct hold_problem *problem, double *f)
-{
-    const double rounding = 1e-11;
-    double most = 0;
-    for (size_t i = 0; i < problem->count; i++) most = fmax(most, fabs(f[i]));
-    for (size_t i = 0; i < problem->count; i++)
-        if (problem->holds[i].kind == hold_friction && fabs(f[i]) <= rounding * most) f[i] = 0;
-}
-
-/* What slips by no more than rounding may as well keep still. Returns whether there is any. */
-static bool keep_still(struct hold_problem *problem)
-{
-    const double still = 1e-9;
-    bool any = false;
-    for (size_t i = 0; i < problem->count; i++) {
-        struct hold *hold = &problem->holds[i];
-        if (hold->kind != hold_friction || hold->slip != 0 || hold->mode == hold_keeps) continue;
-        if (holds_is_on_open(problem, hold) || !holds_is_still(problem, i, still)) continue;
-        hold->mode = hold_keeps;
-        any = true;
-    }
-    return any;
-}
-
-/* The least forces of the modes that there are; false where they do not agree, and all is as it was. */
-static bool share(struct hold_problem *problem, struct trial *trial, double *M)
-{
-    enum { most_corrections = 20 };
-    const double give = 1e-5, rounding = 1e-15; /* what is not determined has rounding/give */
-    size_t n = problem->count;
-    double *right = M + n * n, *f = right + n, *before = f + n, size = 0, rest = HUGE_VAL;
-    for (size_t g = 0; g < problem->guide_count; g++) trial->side[g] = problem->guides[g].N < 0 ? -1 : 1;
-    for (size_t i = 0; i < n; i++) {
-        before[i] = problem->holds[i].force;
-        f[i] = 0;
-    }
-    set_system(trial, 0);
-    memcpy(M, trial->A, n * n * sizeof *M);
-    memcpy(right, trial->f, n * sizeof *right);
-    for (size_t i = 0; i < n; i++) size = fmax(size, fabs(right[i]));
-    set_system(trial, give);
-    if (!lu_decompose(n, trial->A, trial->pivot)) return false;
-    for (int k = 0; k < most_corrections && rest > rounding * size; k++) rest = correct(trial, M, right, f);
-    drop_nothing(problem, f);
-    take_forces(problem, f);
-    if (rest <= 100 * rounding * size && holds_agree(problem)) return true;
-    take_forces(problem, before);
-    return false;
-}
-
-bool holds_share(struct hold_problem *problem)
-{
-    struct trial trial;
-    size_t n = problem->count;
-    double *M = calloc(n * n + 3 * n + 1, sizeof *M);
-    int *modes = calloc(n + 1, sizeof *modes);
-    bool made = trial_new(&trial, problem) && M && modes, shared = false;
-    for (size_t i = 0; made && i < n; i++) modes[i] = problem->holds[i].mode;
-    if (made && keep_still(problem)) shared = share(problem, &trial, M);
-    for (size_t i = 0; made && !shared && i < n; i++) problem->holds[i].mode = modes[i];
-    if (made && !shared) share(problem, &trial, M);
-    trial_free(&trial);
-    free(M);
-    free(modes);
-    return made;
 }

@@ -217,14 +217,16 @@ void contacts_apply_impulses(struct run *run, int count)
 
 static void fail_impact(struct run *run, enum impacts_end end)
 {
-    if (end == impacts_no_memory) {
+    static const char *const what[] = {
+        [impacts_endless] = "go on among each other without end: try `simulate: {impacts: simultaneous}`",
+        [impacts_unsolvable] = "have no solution by their law: with `law: stronge` they have one",
+        [impacts_lost] = "press against each other so nearly along one line that rounding takes what their "
+                         "impulses do: turn one of the surfaces, or move one of the points",
+    };
+    if (end == impacts_no_memory)
         run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
-        return;
-    }
-    run_fail(run, FBD_FAILED, "at t = %.9g impacts at several points %s", run_time(run),
-             end == impacts_endless
-                 ? "go on among each other without end: try `simulate: {impacts: simultaneous}`"
-                 : "have no solution by their law: with `law: stronge` they have one");
+    else
+        run_fail(run, FBD_FAILED, "at t = %.9g impacts at several points %s", run_time(run), what[end]);
 }
 
 bool contacts_solve_impact(struct run *run, int count)

@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Of what the modes leave open, the least forces. Modes are found within tolerances that forget how large forces may be
+ * at holds that are nearly redundant, as two points of a body a hair apart: there a mode may "hold" with forces of 1e6
+ * and leave 1e-3 of what it should stop. So forces are solved for once more, M f = right by rows of comparable sizes,
+ * until what is left of that is rounding; modes in which nothing does so are no solution.
+ *
+ *   1. M with some give, corrected until nothing is left (Tikhonov, iterated): least forces where holds are
+ *      redundant or are not, O(n^2) beyond one factorisation;
+ *   2. where some are nearly redundant, so that this takes too long: singular values, the largest first, until
+ *      nothing is left (truncated at what the equations need, not at a threshold);
+ *   3. where the least forces are not within their limits: those that were found, corrected by 2.
+ */
+#include "holds/trial.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "numeric/lu.h"
+#include "numeric/svd.h"
+
+/* M f = right, f and what is left, right - M f. */
+struct sharing {
+    struct trial *trial;
+    size_t n;
+    double *M, *right, *f, *rest, *before;
+    double
+        *zero; /* what counts as nothing left: rounding of `right`, and of what there was before (beside_c) */
+};
+
+/* What the equations leave; are they satisfied to rounding? That of n products, the largest of which are far larger than
+ * their sum where holds are nearly redundant. */
+static bool is_satisfied(struct sharing *sharing)
+{
+    size_t n = sharing->n;
+    bool satisfied = true;
+    for (size_t i = 0; i < n; i++) {
+        double products = 0;
+        sharing->rest[i] = sharing->right[i];
+        for (size_t j = 0; j < n; j++) {
+            double product = sharing->M[i * n + j] * sharing->f[j];
+            sharing->rest[i] -= product;
+            products += fabs(product);
+        }
+        satisfied &= fabs(sharing->rest[i]) <= sharing->zero[i] + 4 * DBL_EPSILON * products;
+    }
+    return satisfied;
+}
+
+/* Friction that nothing asks for has rounding, which counts for nothing beside what else there is. */
+static void drop_nothing(struct sharing *sharing)
+{
+    const double rounding = 1e-11;
+    const struct hold_problem *problem = sharing->trial->problem;
+    double most = 0, *f = sharing->f;
+    for (size_t i = 0; i < sharing->n; i++) most = fmax(most, fabs(f[i]));
+    for (size_t i = 0; i < sharing->n; i++)
+        if (problem->holds[i].kind == hold_friction && fabs(f[i]) <= rounding * most) f[i] = 0;
+}
+
+static bool agrees(struct sharing *sharing)
+{
+    drop_nothing(sharing);
+    trial_take_forces(sharing->trial->problem, sharing->f);
+    return holds_agree(sharing->trial->problem);
+}
+
+static bool correct_with_give(struct sharing *sharing)
+{
+    enum { most_corrections = 20 };
+    const double give = 1e-5; /* what is not determined has rounding/give */
+    struct trial *trial = sharing->trial;
+    trial_set_system(trial, give);
+    if (!lu_decompose(sharing->n, trial->A, trial->pivot)) return false;
+    for (int k = 0; k < most_corrections; k++) {
+        if (is_satisfied(sharing)) return true;
+        lu_solve(sharing->n, trial->A, trial->pivot, sharing->rest);
+        for (size_t i = 0; i < sharing->n; i++) sharing->f[i] += sharing->rest[i];
+    }
+    return is_satisfied(sharing);
+}
+
+/* f += the part of M^+ rest that the largest `count` singular values have; M's columns are divided by weights. */
+static void add_part(struct sharing *sharing, const struct svd *svd, size_t k)
+{
+    size_t n = sharing->n;
+    const double *U = svd->U + k * n;
+    double share = 0;
+    for (size_t i = 0; i < n; i++) share += U[i] * sharing->rest[i];
+    share /= svd->S[k] * svd->S[k];
+    for (size_t j = 0; j < n; j++) {
+        double weight = holds_weight(sharing->trial->problem, j);
+        sharing->f[j] += share * svd->V[k * n + j] * (weight > 0 ? weight : 1);
+    }
+}
+
+/* In forces that do comparable things, f = weight g. Once more from the start, for the rounding of small ones. */
+static bool correct_by_singular_values(struct sharing *sharing, bool *made)
+{
+    enum { rounds = 3 };
+    size_t n = sharing->n;
+    struct svd svd = {0};
+    double *scaled = calloc(n * n + 1, sizeof *scaled);
+    for (size_t j = 0; scaled && j < n; j++) {
+        double weight = holds_weight(sharing->trial->problem, j);
+        for (size_t i = 0; i < n; i++) scaled[i * n + j] = sharing->M[i * n + j] * (weight > 0 ? weight : 1);
+    }
+    *made = scaled && svd_decompose(&svd, n, n, scaled);
+    bool satisfied = *made && is_satisfied(sharing);
+    for (int round = 0; *made && !satisfied && round < rounds; round++)
+        for (size_t k = 0; !satisfied && k < n && svd.S[k] > (double)n * DBL_EPSILON * svd.S[0]; k++) {
+            add_part(sharing, &svd, k);
+            satisfied = is_satisfied(sharing);
+        }
+    svd_free(&svd);
+    free(scaled);
+    return satisfied;
+}
+
+static void set_equations(struct sharing *sharing)
+{
+    const double rounding = 1e-13;
+    struct trial *trial = sharing->trial;
+    const struct hold_problem *problem = trial->problem;
+    size_t n = sharing->n;
+    for (size_t g = 0; g < problem->guide_count; g++) trial->side[g] = problem->guides[g].N < 0 ? -1 : 1;
+    trial_set_system(trial, 0);
+    memcpy(sharing->M, trial->A, n * n * sizeof *sharing->M);
+    memcpy(sharing->right, trial->f, n * sizeof *sharing->right);
+    double size = 0;
+    for (size_t i = 0; i < n; i++) size = fmax(size, fabs(sharing->right[i]));
+    for (size_t i = 0; i < n; i++) {
+        double weight = holds_weight(problem, i), own = trial->row[i] * weight;
+        sharing->zero[i] = rounding * fmax(size, own > 0 ? problem->beside_c / own : 0);
+    }
+}
+
+/* Forces of the modes that there are; holds_lost where none satisfies them, and all is as it was. */
+static enum holds_found share(struct sharing *sharing)
+{
+    size_t n = sharing->n, bytes = n * sizeof *sharing->f;
+    bool made = true;
+    set_equations(sharing);
+    memset(sharing->f, 0, bytes);
+    bool solved = correct_with_give(sharing);
+    if (!solved) {
+        memset(sharing->f, 0, bytes);
+        solved = correct_by_singular_values(sharing, &made);
+    }
+    if (solved && agrees(sharing)) return holds_decided;
+    memcpy(sharing->f, sharing->before, bytes);
+    if (solved && correct_by_singular_values(sharing, &made) && agrees(sharing)) return holds_decided;
+    trial_take_forces(sharing->trial->problem, sharing->before);
+    return made ? holds_lost : holds_no_memory;
+}
+
+/* What is open and yet closes, by more than rounding, is held after all: that it did so little has been within the
+ * tolerance of the search. Returns whether there is any. */
+static bool hold_what_closes(struct hold_problem *problem)
+{
+    const double rounding = 1e-12;
+    size_t n = problem->count;
+    double size = problem->beside_c;
+    bool any = false;
+    for (size_t i = 0; i < n; i++) size = fmax(size, holds_weight(problem, i) * fabs(problem->holds[i].free));
+    for (size_t i = 0; i < n; i++) {
+        struct hold *hold = &problem->holds[i];
+        if (hold->kind != hold_one_sided || hold->mode == hold_keeps) continue;
+        double products = 0;
+        for (size_t j = 0; j < n; j++) products += fabs(problem->A[i * n + j] * problem->holds[j].force);
+        double weight = holds_weight(problem, i),
+               zero = rounding * size + 8 * DBL_EPSILON * weight * products;
+        if (!(weight * hold->c < -zero)) continue;
+        hold->mode = hold_keeps;
+        any = true;
+    }
+    return any;
+}
+
+/* What slips by no more than rounding may as well keep still. Returns whether there is any. */
+static bool keep_still(struct hold_problem *problem)
+{
+    const double still = 1e-9;
+    bool any = false;
+    for (size_t i = 0; i < problem->count; i++) {
+        struct hold *hold = &problem->holds[i];
+        if (hold->kind != hold_friction || hold->slip != 0 || hold->mode == hold_keeps) continue;
+        if (holds_is_on_open(problem, hold) || !holds_is_still(problem, i, still)) continue;
+        hold->mode = hold_keeps;
+        any = true;
+    }
+    return any;
+}
+
+static bool sharing_new(struct sharing *sharing, struct trial *trial)
+{
+    size_t n = trial->problem->count;
+    *sharing = (struct sharing){.trial = trial, .n = n, .M = calloc(n * n + 5 * n + 1, sizeof(double))};
+    if (!sharing->M) return false;
+    sharing->right = sharing->M + n * n;
+    sharing->f = sharing->right + n;
+    sharing->rest = sharing->f + n;
+    sharing->before = sharing->rest + n;
+    sharing->zero = sharing->before + n;
+    for (size_t i = 0; i < n; i++) sharing->before[i] = trial->problem->holds[i].force;
+    return true;
+}
+
+enum holds_found holds_share(struct hold_problem *problem)
+{
+    struct trial trial;
+    struct sharing sharing = {0};
+    int *modes = calloc(problem->count + 1, sizeof *modes);
+    bool made = trial_new(&trial, problem) && modes && sharing_new(&sharing, &trial);
+    enum holds_found found = made ? holds_lost : holds_no_memory;
+    for (size_t i = 0; made && i < problem->count; i++) modes[i] = problem->holds[i].mode;
+    if (made && keep_still(problem)) found = share(&sharing);
+    for (size_t i = 0; found == holds_lost && i < problem->count; i++) problem->holds[i].mode = modes[i];
+    if (found == holds_lost) found = share(&sharing);
+    while (found == holds_decided && hold_what_closes(problem)) found = share(&sharing);
+    trial_free(&trial);
+    free(sharing.M);
+    free(modes);
+    return found;
+}
