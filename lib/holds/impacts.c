@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "holds/impacts.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -355,13 +356,17 @@ static enum impacts_end propagate_to_the_end(struct impacts *impacts)
  * one body cannot all bounce as `newton` wants it - or from points that press against each other along one line. */
 static bool do_what_they_say(const struct impacts *impacts, const double *before)
 {
-    const double rounding = 1e-9;
+    const double rounding = 1e-9, of_products = 4 * DBL_EPSILON; /* in W, too */
     int n = 2 * impacts->count;
     double wrong = 0, energy = 0;
     for (int i = 0; i < n; i++) {
-        double made = before[i], own = impacts->W[i * n + i];
-        for (int j = 0; j < n; j++) made += impacts->W[i * n + j] * impacts->P[j];
-        wrong += fabs(impacts->P[i] * (impacts->v[i] - made));
+        double made = before[i], products = 0, own = impacts->W[i * n + i];
+        for (int j = 0; j < n; j++) {
+            double product = impacts->W[i * n + j] * impacts->P[j];
+            made += product;
+            products += fabs(product);
+        }
+        wrong += fabs(impacts->P[i]) * (fabs(impacts->v[i] - made) + of_products * products);
         if (own > 0) energy = fmax(energy, before[i] * before[i] / own);
     }
     return wrong <= rounding * energy;

@@ -100,6 +100,58 @@ static double leaving_speed(const struct run *run, int meeting, int count)
     return most;
 }
 
+/* ---- ropes that are let go by what strikes a surface, and throw it up again when they get taut */
+
+/* The largest speed with which ropes are let go by the last impact. */
+static double slackening_speed(const struct run *run, int count)
+{
+    const struct contacts_work *work = &run->contacts;
+    double most = 0;
+    for (int i = 0; i < count; i++)
+        if (work->strikers[i].rope) most = fmax(most, work->v[(ptrdiff_t)2 * i]);
+    return most;
+}
+
+static void note_return(struct bounces *bounces, double t)
+{
+    enum { most = sizeof bounces->returned / sizeof bounces->returned[0] };
+    for (int k = most - 1; k > 0; k--) bounces->returned[k] = bounces->returned[k - 1];
+    bounces->returned[0] = t;
+    if (bounces->returns < most) bounces->returns++;
+}
+
+/* The end of a geometric series that has come to t[2], t[1], t[0]; HUGE_VAL where it has none. */
+static double end_of_three(const double t[3])
+{
+    double last = t[0] - t[1], ratio = last / (t[1] - t[2]);
+    return ratio > 0 && ratio < 1 ? t[0] + ratio * last / (1 - ratio) : HUGE_VAL;
+}
+
+/* When returns that follow each other ever faster come to their end. The last intervals are short against the rounding
+ * of places over speeds, the first ones not yet geometric where accelerations change on the way: so it is the end that
+ * three returns and those one before agree on best. */
+static double end_of_returns(const struct bounces *bounces)
+{
+    double best = HUGE_VAL, apart = HUGE_VAL;
+    for (int k = 0; k + 4 <= bounces->returns; k++) {
+        double end = end_of_three(bounces->returned + k), before = end_of_three(bounces->returned + k + 1);
+        if (!(fabs(end - before) < apart) || end < bounces->returned[0]) continue;
+        apart = fabs(end - before);
+        best = end;
+    }
+    return best;
+}
+
+/* The end of such a series, once ropes are let go by no more than nobody sees; they are kept then. */
+static double end_of_tugs(struct run *run, const struct bounces *bounces, double unseen, int count)
+{
+    double leaving = slackening_speed(run, count), end = end_of_returns(bounces);
+    if (leaving == 0 || leaving * (bounces->returned[0] - bounces->returned[1]) > unseen) return HUGE_VAL;
+    for (int i = 0; i < count && end < HUGE_VAL; i++)
+        run->contacts.strikers[i].stays = run->contacts.strikers[i].rope;
+    return end;
+}
+
 /* Does any contact open by the impact of striker i, by more than rounding? */
 static bool any_leaves(const struct run *run, int i, int count)
 {
@@ -125,8 +177,10 @@ static double end_of_series(struct run *run, int i, int count)
     double v = work->v[(ptrdiff_t)2 * i], leaving = leaving_speed(run, index, count),
            unseen = low_share * meeting_near(run->model, run->state->tree, index);
     bool same = bounces->feature == feature && bounces->count > 0;
+    if (bounces->is_closed) note_return(bounces, run->state->t);
     remember(bounces, run->state->t, feature);
-    if (!any_leaves(run, i, count)) return HUGE_VAL;
+    bounces->is_closed = !any_leaves(run, i, count);
+    if (bounces->is_closed) return end_of_tugs(run, bounces, unseen, count);
     double interval = bounces->t[0] - bounces->t[1], a = -acceleration_of(run, striker->tie, feature), left;
     bool low = a > 0 && leaving * leaving <= 2 * a * unseen;
     bounces->slow = a > 0 ? sqrt(2 * a * unseen) : 0;
@@ -138,7 +192,8 @@ static double end_of_series(struct run *run, int i, int count)
         left = sum_of_rocking(bounces);
         if (low) left = fmin(left, v > 0 ? sum_of_bounces(run, index, v, a) : 2 * leaving / a);
     }
-    return run->state->t + left;
+    double tugs = end_of_tugs(run, bounces, unseen, count);
+    return tugs < HUGE_VAL ? tugs : run->state->t + left;
 }
 
 /* Close the meeting for good, as its bounces do in the end; its event comes with that end. */
@@ -173,6 +228,7 @@ static int last_at_rest(const struct run *run)
 /* Friction -mu p sign(v_t) of what slips; what sticks does so by another row. */
 static double rubbing(const struct contacts_work *work, int i)
 {
+    if (work->strikers[i].rope) return 0;
     double v_t = work->v[(ptrdiff_t)2 * i + 1];
     return v_t > 0 ? -work->points[i].mu : v_t < 0 ? work->points[i].mu : 0;
 }
@@ -180,11 +236,12 @@ static double rubbing(const struct contacts_work *work, int i)
 static bool leaves_for_the_last_time(const struct run *run, int i)
 {
     const struct contacts_work *work = &run->contacts;
-    if (work->strikers[i].rope || !(work->v[(ptrdiff_t)2 * i] > 0)) return false;
+    if (!(work->v[(ptrdiff_t)2 * i] > 0)) return false;
+    if (work->strikers[i].rope) return work->strikers[i].stays;
     return work->bounces[tree_of(run)->ties[work->strikers[i].tie].meeting].rests_from < HUGE_VAL;
 }
 
-/* The speeds at which surfaces are left are taken away by impulses that rub as the weight would have done that
+/* The speeds at which surfaces are left, and ropes let go, are taken away by impulses that rub as the weight would have done that
  * took them away: at rest from now on, surfaces press m a T in the time T of the series, and so they do in it but
  * for m v. */
 static void take_leaving_speeds(struct run *run, int count)
@@ -205,8 +262,9 @@ static void take_leaving_speeds(struct run *run, int count)
         lu_solve(size, A, pivot, P);
         for (size_t i = 0; i < size; i++) {
             const double *answer = work->answers + 2 * which[i] * n;
-            double f = rubbing(work, (int)which[i]);
-            for (size_t k = 0; k < n; k++) run->state->y[n + k] += P[i] * (answer[k] + f * answer[n + k]);
+            double f = rubbing(work, (int)which[i]), sign = work->strikers[which[i]].rope ? -1 : 1;
+            for (size_t k = 0; k < n; k++)
+                run->state->y[n + k] += P[i] * (sign * answer[k] + f * answer[n + k]);
         }
     }
     if (!which || (size > 0 && !A)) run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
@@ -320,6 +378,9 @@ void run_note_rests(struct run *run)
         const struct tie *tie = &tree->ties[tree->meetings[i].first_tie];
         struct run_event *event = run_note(run, FBD_EVENT_REST, tie->end[0].body, tie->load, -1);
         if (event) event->limit = bounces->count;
-        *bounces = (struct bounces){.feature = -1, .rests_from = HUGE_VAL};
+        bounces->count = 0;
+        bounces->feature = -1;
+        bounces->rests_from = HUGE_VAL;
+        bounces->is_closed = true;
     }
 }

@@ -234,7 +234,7 @@ void contacts_open_or_close(struct run *run, int count, bool struck)
         const struct tie *tie = &tree_of(run)->ties[striker->tie];
         bool leaves = struck ? parts(run, i) : striker->v_n > 0;
         if (striker->rope) {
-            if (leaves) let_slack(run, tie->pair);
+            if (leaves && !striker->stays) let_slack(run, tie->pair);
             continue;
         }
         if (leaves) {

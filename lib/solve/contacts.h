@@ -9,7 +9,9 @@
  * A body that bounces with e < 1 does so infinitely often in finite time. When its bounces are lower than the
  * tolerance sees, the rest of the series is summed up: the intervals form a geometric series, and with
  * constant acceleration exactly that. The body then rests on its surface, and the event has the time at which
- * the series ends, which is when an infinitely patient observer would see it come to rest.
+ * the series ends, which is when an infinitely patient observer would see it come to rest. So does what
+ * strikes a surface without bouncing and is thrown up again by a rope that gets taut, as in Atwood's machine on the
+ * floor: in the end the surface and the rope hold it together.
  */
 #ifndef FBD_SOLVE_CONTACTS_H
 #define FBD_SOLVE_CONTACTS_H
@@ -27,6 +29,10 @@ struct bounces {
     int feature;       /* of the last one */
     double slow;       /* a speed that is lost within what counts as the same place */
     double rests_from; /* end of a series that is summed up; HUGE_VAL without one */
+    /* What comes back from having been closed, as ropes throw it up: when, the latest first. */
+    bool is_closed;
+    int returns;
+    double returned[12];
 };
 
 /* One row that takes part in an impact. */
@@ -35,6 +41,7 @@ struct striker {
     bool rope;
     double v_n, v_t; /* before */
     double reel;     /* of a rope: how fast it grows by itself */
+    bool stays;      /* a rope that an impact lets go, for so little that it is kept taut (bounces.c) */
 };
 
 /* The work of its impulses P on the bodies, with the speeds v after. */

@@ -290,6 +290,41 @@ static void statics_says_where_a_block_tips(void **unused)
     checks_end(&checks);
 }
 
+/* Atwood's machine, 2 kg beside 1 kg: the heavy one strikes the floor with v, the light one flies on and comes back after
+ * 2 v/g, the rope snaps taut and throws both up with v/3, and after 2 (v/3)/(g/3) the floor is struck with v/3. So it
+ * goes on, without end in a finite time; with e < 1/2 the heavy one bounces to rest before the rope is taut. */
+static void a_rope_and_a_floor_strike_in_turn_until_both_hold(void **unused)
+{
+    const double h = 1, v = sqrt(2 * h * g / 3), end = 3 * v / g + (2 * v / g + 2 * v / g) * 3 / 2;
+    struct checks checks = {0};
+    (void)unused;
+    for (int bounces = 0; bounces < 2; bounces++) {
+        char text[900];
+        snprintf(
+            text, sizeof text,
+            "fbd: 1\n"
+            "ground: {points: {P: [0, 2]}, lines: {floor: {along: 0 deg}}}\n"
+            "bodies:\n"
+            "  heavy: {mass: 2, motion: {slide: {along: 90 deg}}, initial: {x: 1}, forces: [gravity]}\n"
+            "  light: {mass: 1, motion: {slide: {along: 90 deg}}, initial: {x: 0.2}, forces: [gravity]}\n"
+            "couplings: [{rope: {name: cable, through: [heavy.G, ground.P, light.G]}}]\n"
+            "contacts: [{name: floor, between: [heavy.G, ground.floor], restitution: %s}]\n"
+            "simulate: {until: 4 s}\n",
+            bounces ? "0.3" : "0");
+        struct trial trial = trial_parse(text);
+        trial_run(&trial, NULL);
+        fbd_energy energy = fbd_result_energy(trial.result);
+        double last = 0;
+        for (int k = 0; trial_event(&trial, FBD_EVENT_REST, NULL, k) < HUGE_VAL; k++)
+            last = trial_event(&trial, FBD_EVENT_REST, NULL, k);
+        check_that(&checks, "done", trial.outcome == FBD_DONE);
+        check_close(&checks, "both hold", last, end, 1e-9);
+        check_close(&checks, "what is left", energy.kinetic + energy.potential, g * 1.2, 1e-9);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -301,6 +336,7 @@ int main(void)
         cmocka_unit_test(flat_boxes_rest_when_their_series_ends),
         cmocka_unit_test(several_motions_are_an_event),
         cmocka_unit_test(statics_says_where_a_block_tips),
+        cmocka_unit_test(a_rope_and_a_floor_strike_in_turn_until_both_hold),
         cmocka_unit_test(a_rod_jams_with_its_moment_of_momentum),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
