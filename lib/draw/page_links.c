@@ -66,16 +66,16 @@ static void write_end(struct text *text, const struct fbd_model *model, const st
 {
     const struct constraint *source = &model->scene->constraints[tie->constraint];
     bool wound = (k == 0 && tie->wound[0] != 0) || (k + 1 == tie->end_count && tie->wound[1] != 0);
-    bool belt = tie->kind == constraint_belt || (tie->kind == constraint_capstan && k == 1);
-    int side = tie->kind == constraint_capstan ? (k == 1 ? state->side[0] : 0)
-               : k == 0                        ? state->side[0]
-               : k + 1 == tie->end_count       ? state->side[1]
-                                               : 0;
+    bool round = tie->law->strands && tie->end[k].radius > 0; /* a disc that its strands go round */
+    int side = tie->law->strands && !round        ? 0
+               : k == 0                           ? state->side[0]
+               : round || k + 1 == tie->end_count ? state->side[1]
+                                                  : 0;
     json_comma(text, (size_t)k);
     text_printf(text, "{\"body\":%d,", tie->end[k].body);
     json_vector_member(text, "point", end_point(model, source, tie->place + k));
     json_number_member(text, "radius", tie->end[k].radius);
-    text_printf(text, "\"side\":%d,\"wound\":%d}", side, wound || belt);
+    text_printf(text, "\"side\":%d,\"wound\":%d}", side, wound || round);
 }
 
 /* The first of the two columns of its force, which says whether a rope pulls; -1 when no body has it. */
@@ -96,14 +96,14 @@ static void write_slot(struct text *text, const struct fbd_model *model, const s
     enum { segments = 240 };
     const struct constraint *source = &model->scene->constraints[tie->constraint];
     struct vec from = end_point(model, source, 1), e = vec_unit(source->along);
-    if (!tie->curve && !(isfinite(tie->from) && isfinite(tie->to))) return;
-    double first = tie->curve ? tie->curve->start : tie->from;
-    double length = tie->curve ? tie->curve->length : tie->to - tie->from;
-    int count = tie->curve ? segments : 1;
+    if (!source->curve && !(isfinite(source->from) && isfinite(source->to))) return;
+    double first = source->curve ? source->curve->start : source->from;
+    double length = source->curve ? source->curve->length : source->to - source->from;
+    int count = source->curve ? segments : 1;
     text_add(text, "\"points\":[");
     for (int i = 0; i <= count; i++) {
         double s = first + length * i / count;
-        struct vec r = tie->curve ? curve_at(tie->curve, NULL, s).r : vec_scale(s, e);
+        struct vec r = source->curve ? curve_at(source->curve, NULL, s).r : vec_scale(s, e);
         json_comma(text, (size_t)i);
         json_vector(text, vec_add(from, r));
     }
@@ -113,11 +113,9 @@ static void write_slot(struct text *text, const struct fbd_model *model, const s
 static void write_tie(struct text *text, const struct record *record, const struct tie *tie,
                       const struct tie_state *state)
 {
-    static const char *const kinds[] = {"pin",  "rod",     "gear", "rope", "roll",
-                                        "rack", "contact", "belt", "rope", "slot"};
     const struct fbd_model *model = record->model;
     text_add(text, "\n{");
-    json_text_member(text, "kind", kinds[tie->kind]);
+    json_text_member(text, "kind", tie->law->drawing);
     json_text_member(text, "name", tie->name);
     text_add(text, "\"ends\":[");
     for (int k = 0; k < tie->end_count; k++) write_end(text, model, tie, state, k);
@@ -172,7 +170,7 @@ void page_ties_write(struct text *text, const fbd_result *result, const struct r
     size_t written = 0;
     text_add(text, "\"ties\":[");
     for (int i = 0; i < count; i++) {
-        if (tree->ties[i].kind == constraint_contact) continue; /* its shapes and its forces are drawn */
+        if (tree->ties[i].meeting >= 0) continue; /* its shapes and its forces are drawn */
         json_comma(text, written++);
         write_tie(text, record, &tree->ties[i], &result->start->tree->ties[i]);
     }

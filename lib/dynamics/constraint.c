@@ -5,8 +5,10 @@
 
 /* ---- kinds */
 
-static void pin(const struct view *view, const struct tie *tie, struct row *rows)
+static void pin(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                struct row *rows)
 {
+    (void)state;
     struct jet_vec A = point_of(view, &tie->end[0]), B = point_of(view, &tie->end[1]), d = jet_vec_sub(A, B);
     struct jet_vec unit[2] = {{jet_constant(1), jet_constant(0)}, {jet_constant(0), jet_constant(1)}};
     for (int k = 0; k < 2; k++) {
@@ -51,76 +53,110 @@ static struct at_line at_line_of(const struct tie *tie, const struct tie_state *
     return (struct at_line){0, tie->end[0], tie->end[1], tie->e, state->side[0]};
 }
 
+static void roll(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                 struct row *rows)
+{
+    struct at_line at = at_line_of(tie, state);
+    row_line(view, tie, &at, state->zero, &rows[0], &rows[1]);
+}
+
+static void rack(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                 struct row *row)
+{
+    struct at_line at = at_line_of(tie, state);
+    row_line(view, tie, &at, state->zero, NULL, row);
+}
+
+/* On which side of its line the circle is. */
+static void side_start(const struct view *view, const struct tie *tie, struct tie_state *state,
+                       struct row *rows)
+{
+    struct jet_vec d = jet_vec_sub(point_of(view, &tie->end[0]), point_of(view, &tie->end[1]));
+    struct jet_vec e = turning(view, tie->end[1].link, tie->e);
+    if (vec_cross(jet_value(e), jet_value(d)) < 0) state->side[0] = -1;
+    zero_start(view, tie, state, rows);
+}
+
 /* ---- all of them */
 
-static void evaluate(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                     struct row *rows)
-{
-    switch (tie->kind) {
-    case constraint_pin: pin(view, tie, rows); break;
-    case constraint_rod: rod(view, tie, state, rows); break;
-    case constraint_gear: gear(view, tie, state, rows); break;
-    case constraint_rope: rope_row(view, tie, state, rows); break;
-    case constraint_roll:
-    case constraint_rack: {
-        struct at_line at = at_line_of(tie, state);
-        bool rolls = tie->kind == constraint_roll;
-        row_line(view, tie, &at, state->zero, rolls ? &rows[0] : NULL, rolls ? &rows[1] : &rows[0]);
-        break;
-    }
-    case constraint_capstan: capstan_rows(view, tie, state, rows); break;
-    case constraint_belt: belt_rows(view, tie, state, rows); break;
-    case constraint_contact: contact_rows(view, tie, state, rows); break;
-    case constraint_slot: slot_row(view, tie, state, rows); break;
-    }
-}
+const struct constraint_form constraint_forms[constraint_kinds] = {
+    [constraint_pin] = {.rows = pin},
+    [constraint_rod] = {.rows = rod, .start = zero_start},
+    [constraint_gear] = {.rows = gear, .start = zero_start},
+    [constraint_rack] = {.rows = rack, .start = side_start},
+    [constraint_roll] = {.rows = roll, .start = side_start},
+    [constraint_slot] = {.rows = slot_row, .start = slot_start, .follow = slot_follow, .room = slot_room},
+    [constraint_belt] = {.rows = belt_rows,
+                         .start = belt_start,
+                         .follow = way_follow,
+                         .piece = belt_piece,
+                         .tensions = belt_tensions,
+                         .share = {0.5, -0.5}},
+    [constraint_capstan] = {.rows = capstan_rows,
+                            .start = capstan_start,
+                            .follow = way_follow,
+                            .piece = capstan_piece,
+                            .wrap = capstan_wrap,
+                            .tensions = capstan_tensions,
+                            .share = {-0.5, -0.5}},
+    [constraint_rope] = {.rows = rope_row,
+                         .start = rope_start,
+                         .follow = way_follow,
+                         .room = rope_room,
+                         .piece = rope_end_piece},
+    [constraint_contact] = {.rows = contact_rows},
+};
 
 void constraints_evaluate(const struct fbd_model *model, const struct instant *at,
                           const struct direction *along)
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
-    struct view view = {tree, work, along != NULL, at, along};
-    for (int i = 0; i < tree->tie_count; i++)
-        evaluate(&view, &tree->ties[i], &work->ties[i], &work->rows[tree->ties[i].first_row]);
+    struct view view = {model, tree, work, along != NULL, at, along};
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        constraint_forms[tie->kind].rows(&view, tie, &work->ties[i], &work->rows[tie->first_row]);
+    }
 }
 
-/* ---- the start */
+struct room tie_room(const struct fbd_model *model, const struct tree_work *work, int index, int end)
+{
+    const struct tie *tie = &model->tree->ties[index];
+    const struct constraint_form *form = &constraint_forms[tie->kind];
+    struct view view = view_of(model, work);
+    if (!form->room) return (struct room){HUGE_VAL, 0, HUGE_VAL};
+    return form->room(&view, tie, &work->ties[index], end);
+}
+
+void zero_start(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *rows)
+{
+    constraint_forms[tie->kind].rows(view, tie, state, rows);
+    state->zero =
+        tie->length_given ? tie->length + state->laid[0] + state->laid[1] : rows[tie->row_count - 1].g.x;
+}
 
 void constraints_start(const struct fbd_model *model, const struct instant *at)
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
-    struct view view = {model->tree, work, false, at, NULL};
+    struct view view = {model, tree, work, false, at, NULL};
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
-        struct tie_state *state = &work->ties[i];
-        struct row *rows = &work->rows[tie->first_row];
-        *state = (struct tie_state){.side = {1, 1}, .feature = no_feature};
-        if (tie->kind == constraint_roll || tie->kind == constraint_rack) {
-            struct jet_vec d = jet_vec_sub(point_of(&view, &tie->end[0]), point_of(&view, &tie->end[1]));
-            struct jet_vec e = turning(&view, tie->end[1].link, tie->e);
-            if (vec_cross(jet_value(e), jet_value(d)) < 0) state->side[0] = -1;
-        }
-        if (tie->kind == constraint_rope) rope_start(model, &view, tie, state);
-        if (tie->kind == constraint_capstan) capstan_start(model, &view, tie, state);
-        if (tie->kind == constraint_belt) belt_start(&view, tie, state);
-        if (tie->kind == constraint_slot) slot_start(&view, tie, state);
-        if (tie->kind == constraint_pin || tie->kind == constraint_contact || tie->kind == constraint_slot)
-            continue;
-        evaluate(&view, tie, state, rows);
-        if (tie->kind == constraint_belt) {
-            for (int k = 0; k < tie->row_count; k++) state->laid[k] = rows[k].g.x;
-            continue;
-        }
-        if (tie->kind == constraint_capstan) state->laid[0] = rows[0].g.x;
-        if (tie->kind == constraint_capstan && tie->length_given)
-            state->laid[0] = -(tie->length + tie->end[1].radius * capstan_starts_round(tie, state)) / 2;
-        state->zero = tie->length_given && tie->kind != constraint_capstan
-                          ? tie->length + state->laid[0] + state->laid[1]
-                          : rows[tie->row_count - 1].g.x;
+        const struct constraint_form *form = &constraint_forms[tie->kind];
+        work->ties[i] = (struct tie_state){.side = {1, 1}, .feature = no_feature};
+        if (form->start) form->start(&view, tie, &work->ties[i], &work->rows[tie->first_row]);
     }
     for (int i = 0; i < tree->tie_count; i++) rope_start_wrap(tree, work, i);
+}
+
+void constraints_follow(const struct fbd_model *model, struct tree_work *work)
+{
+    struct view view = view_of(model, work);
+    for (int i = 0; i < model->tree->tie_count; i++) {
+        const struct tie *tie = &model->tree->ties[i];
+        const struct constraint_form *form = &constraint_forms[tie->kind];
+        if (form->follow) form->follow(&view, tie, &work->ties[i]);
+    }
 }
 
 /* ---- bodies that roll or rub */
@@ -128,7 +164,7 @@ void constraints_start(const struct fbd_model *model, const struct instant *at)
 void tie_set_feature(const struct fbd_model *model, struct tree_work *work, int index, int feature)
 {
     const struct tie *tie = &model->tree->ties[index];
-    struct view view = {model->tree, work, false, NULL, NULL};
+    struct view view = view_of(model, work);
     work->ties[index].feature = feature;
     work->ties[index].zero = 0;
     contact_rows(&view, tie, &work->ties[index], &work->rows[tie->first_row]);
@@ -159,7 +195,7 @@ struct slip_rate tie_slip(const struct fbd_model *model, const struct instant *a
 {
     const struct tie *tie = &model->tree->ties[index];
     const struct tie_state *state = &at->tree->ties[index];
-    struct view view = {model->tree, at->tree, varied, NULL, NULL};
+    struct view view = {model, model->tree, at->tree, varied, NULL, NULL};
     struct at_line where = at_line_of(tie, state);
     struct row along;
     row_line(&view, tie, &where, state->zero, NULL, &along);

@@ -111,19 +111,18 @@ struct one_sided one_sided_at(const struct fbd_model *model, const struct instan
  * pulley beside it, or two pulleys between which it crosses and which overlap; -1 without one. */
 int rope_blocked_at(const struct fbd_model *model, const struct tree_work *work, int index);
 
-/* What is left of a rope on the disc at its first (end 0) or last place that it is wound on; HUGE_VAL for any amount.
- * After constraints_evaluate(). `rate`: how fast it grows. */
-double rope_wound(const struct fbd_model *model, const struct tree_work *work, int index, int end,
-                  double *rate);
+/* What is left before a coupling comes to its end 0 or 1, and how fast that grows: of a rope on the disc there that it is
+ * wound on, of a slot for its point. `size`: what its rounding is measured against, HUGE_VAL where there is no end. After
+ * constraints_evaluate(). */
+struct room {
+    double left, rate, size;
+};
+struct room tie_room(const struct fbd_model *model, const struct tree_work *work, int index, int end);
 
 /* The straight piece of a rope after place k, as a share of the discs there (without one, of what the rope is long), and
  * how fast it grows [m/s]. */
 double rope_piece(const struct fbd_model *model, const struct tree_work *work, int index, int k,
                   double *rate);
-
-/* How far the point of a slot is before its end (0: `from`, 1: `to`), and how fast that grows. */
-double slot_left(const struct fbd_model *model, const struct tree_work *work, int index, int end,
-                 double *rate);
 
 /* The tensions of the strands of a belt, as its rows have them. */
 void belt_tensions(const struct fbd_model *model, const struct tree_work *work, int index, double tension[2]);

@@ -131,7 +131,7 @@ int rope_blocked_at(const struct fbd_model *model, const struct tree_work *work,
 {
     const struct tie *tie = &model->tree->ties[index];
     const struct tie_state *state = &work->ties[index];
-    struct view view = {model->tree, work, false, NULL, NULL};
+    struct view view = view_of(model, work);
     int last = tie->end_count - 1;
     bool rubs = tie->kind == constraint_capstan;
     for (int k = 0; k < last; k++) {
@@ -152,42 +152,41 @@ bool rope_goes_on(const struct tree *tree, int index)
     return tie->end[tie->end_count - 1].radius > 0 && tie[1].constraint == tie->constraint;
 }
 
-static struct piece strand_of(const struct view *view, const struct tie *tie, int strand);
-static struct piece reach_of(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                             int strand);
-
-static double turned_now(const struct fbd_model *model, const struct tree_work *work, int index, int end)
+static double turned_now(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                         int end)
 {
-    struct view view = {model->tree, work, false, NULL, NULL};
-    const struct tie_state *state = &work->ties[index];
-    const struct tie *tie = &model->tree->ties[index];
-    struct piece piece = tie->kind == constraint_belt      ? strand_of(&view, tie, end)
-                         : tie->kind == constraint_capstan ? reach_of(&view, tie, state, end)
-                                                           : piece_at(&view, tie, state, end);
-    return turned_at(state, end, piece.u).x;
+    return turned_at(state, end, constraint_forms[tie->kind].piece(view, tie, state, end)).x;
+}
+
+struct jet_vec rope_end_piece(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                              int end)
+{
+    return piece_at(view, tie, state, end).u;
+}
+
+/* The directions of its first and last piece. */
+static void directions_start(const struct view *view, const struct tie *tie, struct tie_state *state)
+{
+    for (int end = 0; end < 2; end++) {
+        struct jet_vec u = constraint_forms[tie->kind].piece(view, tie, state, end);
+        state->psi[end] = atan2(u.y.x, u.x.x);
+    }
 }
 
 double rope_wrap(const struct fbd_model *model, const struct tree_work *work, int index)
 {
+    struct view view = view_of(model, work);
+    const struct tie *tie = &model->tree->ties[index];
     const struct tie_state *before = &work->ties[index], *after = before + 1;
-    double in = before->psi[1] + turned_now(model, work, index, 1);
-    double out = after->psi[0] + turned_now(model, work, index + 1, 0);
+    double in = before->psi[1] + turned_now(&view, tie, before, 1);
+    double out = after->psi[0] + turned_now(&view, tie + 1, after, 0);
     return before->side[1] * (out - in);
 }
 
-void constraints_follow(const struct fbd_model *model, struct tree_work *work)
+void way_follow(const struct view *view, const struct tie *tie, struct tie_state *state)
 {
-    const struct tree *tree = model->tree;
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        struct tie_state *state = &work->ties[i];
-        if (tie->kind == constraint_slot)
-            slot_follow(&(struct view){tree, work, false, NULL, NULL}, tie, state);
-        if (tie->kind != constraint_rope && tie->kind != constraint_belt && tie->kind != constraint_capstan)
-            continue;
-        for (int end = 0; end < 2; end++)
-            if (state->side[end] != 0) state->turned[end] = turned_now(model, work, i, end);
-    }
+    for (int end = 0; end < 2; end++)
+        if (state->side[end] != 0) state->turned[end] = turned_now(view, tie, state, end);
 }
 
 /* ---- belts
@@ -196,7 +195,7 @@ void constraints_follow(const struct fbd_model *model, struct tree_work *work)
 
 static struct piece strand_of(const struct view *view, const struct tie *tie, int strand)
 {
-    double sR[2] = {tie->end[0].radius, (tie->crossed ? -1 : 1) * tie->end[1].radius};
+    double sR[2] = {tie->end[0].radius, (tie->source->crossed ? -1 : 1) * tie->end[1].radius};
     int from = strand, to = 1 - strand;
     return piece_between(point_of(view, &tie->end[from]), sR[from], point_of(view, &tie->end[to]), sR[to]);
 }
@@ -205,7 +204,7 @@ static struct piece strand_of(const struct view *view, const struct tie *tie, in
 static struct jet strand_way(const struct view *view, const struct tie *tie, const struct tie_state *state,
                              int strand, const struct piece *piece)
 {
-    double sR[2] = {tie->end[0].radius, (tie->crossed ? -1 : 1) * tie->end[1].radius};
+    double sR[2] = {tie->end[0].radius, (tie->source->crossed ? -1 : 1) * tie->end[1].radius};
     int from = strand, to = 1 - strand;
     struct jet turned = turned_at(state, strand, piece->u);
     struct jet leaves = jet_sub(turned, angle_of(view, tie->end[from].link));
@@ -231,27 +230,33 @@ void belt_rows(const struct view *view, const struct tie *tie, const struct tie_
     }
 }
 
-void belt_start(const struct view *view, const struct tie *tie, struct tie_state *state)
+struct jet_vec belt_piece(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                          int strand)
 {
-    state->side[1] = tie->crossed ? -1 : 1;
-    for (int k = 0; k < 2; k++) {
-        struct jet_vec u = strand_of(view, tie, k).u;
-        state->psi[k] = atan2(u.y.x, u.x.x);
-    }
+    (void)state;
+    return strand_of(view, tie, strand).u;
+}
+
+void belt_start(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *rows)
+{
+    state->side[1] = tie->source->crossed ? -1 : 1;
+    directions_start(view, tie, state);
+    belt_rows(view, tie, state, rows);
+    for (int k = 0; k < tie->row_count; k++) state->laid[k] = rows[k].g.x;
 }
 
 void belt_tensions(const struct fbd_model *model, const struct tree_work *work, int index, double tension[2])
 {
     const struct tie *tie = &model->tree->ties[index];
     const struct row *rows = &work->rows[tie->first_row];
-    double both = tie->preload - (tie->row_count > 1 ? rows[1].lambda : 0);
+    double both = tie->source->tension - (tie->row_count > 1 ? rows[1].lambda : 0);
     tension[0] = both - rows[0].lambda / 2;
     tension[1] = both + rows[0].lambda / 2;
 }
 
 /* ---- ropes that rub on the drum that they go round */
 
-static int side_at(const struct fbd_model *model, const struct view *view, const struct tie *tie, int k);
+static int side_at(const struct view *view, const struct tie *tie, int k);
 
 static struct piece reach_of(const struct view *view, const struct tie *tie, const struct tie_state *state,
                              int strand)
@@ -284,23 +289,23 @@ void capstan_rows(const struct view *view, const struct tie *tie, const struct t
     }
 }
 
-void capstan_start(const struct fbd_model *model, const struct view *view, const struct tie *tie,
-                   struct tie_state *state)
+struct jet_vec capstan_piece(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                             int strand)
 {
-    const double turn = 6.283185307179586;
-    state->side[0] = state->side[1] = side_at(model, view, tie, 1);
-    for (int k = 0; k < 2; k++) {
-        struct jet_vec u = reach_of(view, tie, state, k).u;
-        state->psi[k] = atan2(u.y.x, u.x.x);
-    }
-    double wrap = state->side[0] * (state->psi[1] - state->psi[0]);
-    state->psi[1] -= state->side[0] * turn * floor(wrap / turn + 0.25);
+    return reach_of(view, tie, state, strand).u;
 }
 
-double capstan_starts_round(const struct tie *tie, const struct tie_state *state)
+void capstan_start(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *rows)
 {
-    (void)tie;
-    return state->side[0] * (state->psi[0] - state->psi[1]);
+    const double turn = 6.283185307179586;
+    state->side[0] = state->side[1] = side_at(view, tie, 1);
+    directions_start(view, tie, state);
+    double wrap = state->side[0] * (state->psi[1] - state->psi[0]);
+    state->psi[1] -= state->side[0] * turn * floor(wrap / turn + 0.25);
+    capstan_rows(view, tie, state, rows);
+    double round = state->side[0] * (state->psi[0] - state->psi[1]);
+    state->laid[0] = tie->length_given ? -(tie->length + tie->end[1].radius * round) / 2 : rows[0].g.x;
+    state->zero = rows[1].g.x;
 }
 
 double capstan_wrap(const struct fbd_model *model, const struct instant *at, int index, bool varied,
@@ -308,12 +313,12 @@ double capstan_wrap(const struct fbd_model *model, const struct instant *at, int
 {
     const struct tie *tie = &model->tree->ties[index];
     const struct tie_state *state = &at->tree->ties[index];
-    struct view view = {model->tree, at->tree, varied, at, NULL};
+    struct view view = {model, model->tree, at->tree, varied, at, NULL};
     struct jet in = turned_at(state, 0, reach_of(&view, tie, state, 0).u);
     struct jet out = turned_at(state, 1, reach_of(&view, tie, state, 1).u);
     const double turn = 6.283185307179586;
     if (variation) *variation = state->side[0] * (out.d - in.d);
-    return turn * tie->turns + state->side[0] * (state->psi[1] + out.x - state->psi[0] - in.x);
+    return turn * tie->source->turns + state->side[0] * (state->psi[1] + out.x - state->psi[0] - in.x);
 }
 
 void capstan_tensions(const struct fbd_model *model, const struct tree_work *work, int index,
@@ -326,24 +331,21 @@ void capstan_tensions(const struct fbd_model *model, const struct tree_work *wor
 
 /* ---- what is wound on a disc */
 
-double rope_wound(const struct fbd_model *model, const struct tree_work *work, int index, int end,
-                  double *rate)
+struct room rope_room(const struct view *view, const struct tie *tie, const struct tie_state *state, int end)
 {
-    const struct tie *tie = &model->tree->ties[index];
-    const struct tie_state *state = &work->ties[index];
-    struct view view = {model->tree, work, false, NULL, NULL};
+    double spare = tie->wound[end] != 0 ? tie->spare[end] : HUGE_VAL;
+    if (!isfinite(spare)) return (struct room){HUGE_VAL, 0, HUGE_VAL};
     double share = state->side[end] * tie->end[end == 0 ? 0 : tie->end_count - 1].radius;
-    struct jet angle = laid(&view, tie, state, end, piece_at(&view, tie, state, end).u);
+    struct jet angle = laid(view, tie, state, end, piece_at(view, tie, state, end).u);
     struct jet way = jet_scale(end == 0 ? share : -share, angle);
-    *rate = way.x1;
-    return tie->spare[end] + way.x - state->laid[end];
+    return (struct room){spare + way.x - state->laid[end], way.x1, spare};
 }
 
 double rope_piece(const struct fbd_model *model, const struct tree_work *work, int index, int k, double *rate)
 {
     const struct tie *tie = &model->tree->ties[index];
     const struct tie_state *state = &work->ties[index];
-    struct view view = {model->tree, work, false, NULL, NULL};
+    struct view view = view_of(model, work);
     bool rubs = tie->kind == constraint_capstan;
     double R = rubs ? tie->end[1].radius : fmax(fabs(rim(tie, state, k, 0)), fabs(rim(tie, state, k, 1)));
     struct jet t = (rubs ? reach_of(&view, tie, state, k) : piece_of(&view, tie, state, k)).t;
@@ -354,7 +356,7 @@ double rope_piece(const struct fbd_model *model, const struct tree_work *work, i
 double rope_reel_rate(const struct fbd_state *state, int index)
 {
     const struct instant at = state_instant(state);
-    struct view view = {state->model->tree, state->tree, false, &at, NULL};
+    struct view view = {state->model, state->model->tree, state->tree, false, &at, NULL};
     return reeled(&view, &state->model->tree->ties[index]).x1;
 }
 
@@ -382,35 +384,34 @@ static int side_of_wound(const struct view *view, const struct tie *tie, int end
 }
 
 /* Which way a rope runs round the pulley at place k of its way: as it turns there. */
-static int side_at(const struct fbd_model *model, const struct view *view, const struct tie *tie, int k)
+static int side_at(const struct view *view, const struct tie *tie, int k)
 {
-    const struct constraint *source = &model->scene->constraints[tie->constraint];
     struct vec place[3];
     for (int i = 0; i < 3; i++) {
-        struct tie_end end = tie_end_of(model, tie->constraint, k - 1 + i);
+        struct tie_end end = tie_end_of(view->model, tie->constraint, k - 1 + i);
         place[i] = jet_value(point_of(view, &end));
     }
-    if (source->radius[k] == 0) return 0;
+    if (tie->source->radius[k] == 0) return 0;
     return vec_cross(vec_sub(place[1], place[0]), vec_sub(place[2], place[1])) > 0 ? 1 : -1;
 }
 
-void rope_start(const struct fbd_model *model, const struct view *view, const struct tie *tie,
-                struct tie_state *state)
+void rope_start(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *row)
 {
     for (int end = 0; end < 2; end++) {
         int k = end == 0 ? 0 : tie->end_count - 1;
         bool pulley = tie->end[k].radius > 0;
         state->side[end] = tie->wound[end] != 0 ? side_of_wound(view, tie, end)
-                           : pulley             ? side_at(model, view, tie, tie->place + k)
+                           : pulley             ? side_at(view, tie, tie->place + k)
                                                 : 0;
     }
+    directions_start(view, tie, state);
     for (int end = 0; end < 2; end++) {
-        struct jet_vec u = piece_at(view, tie, state, end).u;
-        state->psi[end] = atan2(u.y.x, u.x.x);
         if (tie->wound[end] == 0) continue;
         double share = state->side[end] * tie->end[end == 0 ? 0 : tie->end_count - 1].radius;
+        struct jet_vec u = rope_end_piece(view, tie, state, end);
         state->laid[end] = (end == 0 ? share : -share) * laid(view, tie, state, end, u).x;
     }
+    zero_start(view, tie, state, row);
 }
 
 /* At the start a rope goes round its pulley by three quarters of a turn at most, and may be off it by less

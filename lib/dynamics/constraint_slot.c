@@ -22,8 +22,9 @@ struct foot {
 
 static struct foot foot_at(const struct tie *tie, double s, bool varied)
 {
-    if (!tie->curve) return (struct foot){.at = {.r = {s, 0}, .e = {1, 0}}};
-    return (struct foot){curve_at(tie->curve, NULL, s), varied ? curve_slope_rate(tie->curve, NULL, s) : 0};
+    if (!tie->source->curve) return (struct foot){.at = {.r = {s, 0}, .e = {1, 0}}};
+    return (struct foot){curve_at(tie->source->curve, NULL, s),
+                         varied ? curve_slope_rate(tie->source->curve, NULL, s) : 0};
 }
 
 /* The curve along s: r' = e, e' = kappa n, n' = -kappa e. */
@@ -70,9 +71,9 @@ static bool foot_near(const struct tie *tie, struct vec u, double *s)
 static double foot_of(const struct tie *tie, struct vec u, double guess)
 {
     double s = guess;
-    if (!tie->curve) return u.x;
+    if (!tie->source->curve) return u.x;
     if (foot_near(tie, u, &s)) return s;
-    s = curve_near(tie->curve, u);
+    s = curve_near(tie->source->curve, u);
     double rough = s;
     return foot_near(tie, u, &s) ? s : rough;
 }
@@ -101,7 +102,7 @@ static struct jet length_of(const struct tie *tie, const struct slot_view *slot,
     struct vec d = vec_sub(jet_value(slot->u), foot->at.r);
     double slope = 1 - foot->at.bend * vec_dot(vec_perp(foot->at.e), d);
     struct jet s = jet_constant(at);
-    if (!tie->curve) return slot->u.x;
+    if (!tie->source->curve) return slot->u.x;
     for (int i = 0; i < orders; i++) {
         struct jet_vec off = jet_vec_sub(slot->u, place_along(foot, s));
         struct jet f = jet_dot(tangent_along(foot, s), off);
@@ -114,7 +115,7 @@ static struct jet length_of(const struct tie *tie, const struct slot_view *slot,
 void slot_row(const struct view *view, const struct tie *tie, const struct tie_state *state, struct row *row)
 {
     struct slot_view slot = look(view, tie);
-    double at = foot_of(tie, jet_value(slot.u), state->foot), sigma = tie->presses < 0 ? -1 : 1;
+    double at = foot_of(tie, jet_value(slot.u), state->foot), sigma = tie->source->presses < 0 ? -1 : 1;
     struct foot foot = foot_at(tie, at, view->varied);
     struct jet s = length_of(tie, &slot, &foot, at);
     struct jet_vec n = jet_vec_times(jet_constant(sigma), jet_perp(tangent_along(&foot, s)));
@@ -129,10 +130,11 @@ void slot_row(const struct view *view, const struct tie *tie, const struct tie_s
 
 /* ---- what it keeps */
 
-void slot_start(const struct view *view, const struct tie *tie, struct tie_state *state)
+void slot_start(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *row)
 {
+    (void)row;
     struct vec u = jet_value(look(view, tie).u);
-    if (tie->curve) state->foot = foot_of(tie, u, curve_near(tie->curve, u));
+    if (tie->source->curve) state->foot = foot_of(tie, u, curve_near(tie->source->curve, u));
 }
 
 void slot_follow(const struct view *view, const struct tie *tie, struct tie_state *state)
@@ -142,20 +144,20 @@ void slot_follow(const struct view *view, const struct tie *tie, struct tie_stat
 
 void slots_follow(const struct fbd_model *model, struct tree_work *work)
 {
-    const struct view view = {model->tree, work, false, NULL, NULL};
+    const struct view view = {model, model->tree, work, false, NULL, NULL};
     for (int i = 0; i < model->tree->tie_count; i++)
-        if (model->tree->ties[i].curve) slot_follow(&view, &model->tree->ties[i], &work->ties[i]);
+        if (model->tree->ties[i].source->curve) slot_follow(&view, &model->tree->ties[i], &work->ties[i]);
 }
 
-double slot_left(const struct fbd_model *model, const struct tree_work *work, int index, int end,
-                 double *rate)
+/* A slot without a size of its own has one as far as it goes. */
+struct room slot_room(const struct view *view, const struct tie *tie, const struct tie_state *state, int end)
 {
-    const struct tie *tie = &model->tree->ties[index];
-    struct view view = {model->tree, work, false, NULL, NULL};
-    struct slot_view slot = look(&view, tie);
-    double at = foot_of(tie, jet_value(slot.u), work->ties[index].foot);
+    double from = tie->source->from, to = tie->source->to;
+    if (!isfinite(end == 0 ? from : to)) return (struct room){HUGE_VAL, 0, HUGE_VAL};
+    struct slot_view slot = look(view, tie);
+    double at = foot_of(tie, jet_value(slot.u), state->foot);
     struct foot foot = foot_at(tie, at, false);
     struct jet s = length_of(tie, &slot, &foot, at);
-    *rate = end == 0 ? s.x1 : -s.x1;
-    return end == 0 ? s.x - tie->from : tie->to - s.x;
+    double size = fmax(isfinite(from) ? fabs(from) : 0, isfinite(to) ? fabs(to) : 0);
+    return end == 0 ? (struct room){s.x - from, s.x1, size} : (struct room){to - s.x, -s.x1, size};
 }

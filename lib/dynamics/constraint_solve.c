@@ -104,7 +104,7 @@ static double row_answer(const struct tree_work *work, const struct tree *tree, 
 /* Does it slip on its surface, and rub? */
 static bool is_rubbing(const struct tie *tie, const struct instant *at)
 {
-    return tie_has_surface(tie) && tie->pair >= 0 && slip_side(at->slip[tie->pair]) != 0 &&
+    return tie->law->surface && tie->pair >= 0 && slip_side(at->slip[tie->pair]) != 0 &&
            (tie->surface < 0 || at->slip[tie->surface] == stick);
 }
 

@@ -10,12 +10,19 @@
 /* ---- points, angles and directions of links as jets */
 
 struct view {
+    const struct fbd_model *model;
     const struct tree *tree;
     const struct tree_work *work;
     bool varied;
     const struct instant *at;      /* of what goes with the time, */
     const struct direction *along; /* and its variation, or NULL */
 };
+
+/* Links where they are, alone. */
+static inline struct view view_of(const struct fbd_model *model, const struct tree_work *work)
+{
+    return (struct view){model, model->tree, work, false, NULL, NULL};
+}
 
 static const struct tree_variation still = {0};
 
@@ -107,31 +114,71 @@ struct at_line {
 void row_line(const struct view *view, const struct tie *tie, const struct at_line *at, double zero,
               struct row *normal, struct row *along);
 
-/* The row of a rope, what it keeps of the start, and (when all ties have that) how it lies on its pulley
- * (constraint_rope.c). */
-void rope_row(const struct view *view, const struct tie *tie, const struct tie_state *state, struct row *row);
-void rope_start(const struct fbd_model *model, const struct view *view, const struct tie *tie,
-                struct tie_state *state);
-void rope_start_wrap(const struct tree *tree, struct tree_work *work, int index);
+/* ---- kinds */
 
-/* Of a rope that rubs on its drum: half of what it could be longer, and half the difference of its strands. */
+/* What there is of a kind of constraint beside its law (scene/constraint.h); what is not there is NULL. */
+struct constraint_form {
+    /* Its rows where the links are, each with the ports of its multiplier. */
+    void (*rows)(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                 struct row *rows);
+
+    /* What it keeps of the start; `rows` has room for its own. */
+    void (*start)(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *rows);
+
+    /* And of the way since. */
+    void (*follow)(const struct view *view, const struct tie *tie, struct tie_state *state);
+
+    /* Has it ends to which it can come? */
+    struct room (*room)(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                        int end);
+
+    /* A way round discs: the direction of its first (end 0) and of its last piece. */
+    struct jet_vec (*piece)(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                            int end);
+
+    /* The angle on which it rubs: its coefficient of friction is tanh(mu angle / 2), see constraint.h. */
+    double (*wrap)(const struct fbd_model *model, const struct instant *at, int index, bool varied,
+                   double *variation);
+
+    /* Of two strands: their tensions, and what the first row has of their forces. */
+    void (*tensions)(const struct fbd_model *model, const struct tree_work *work, int index,
+                     double tension[2]);
+    double share[2];
+};
+
+extern const struct constraint_form constraint_forms[constraint_kinds];
+
+/* The zero of its last row is where that is at the start, or the length that is given. */
+void zero_start(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *rows);
+
+/* constraint_rope.c */
+void rope_row(const struct view *view, const struct tie *tie, const struct tie_state *state, struct row *row);
+void rope_start(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *row);
+void rope_start_wrap(const struct tree *tree, struct tree_work *work, int index); /* when all have started */
+struct jet_vec rope_end_piece(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                              int end);
+struct room rope_room(const struct view *view, const struct tie *tie, const struct tie_state *state, int end);
+void way_follow(const struct view *view, const struct tie *tie, struct tie_state *state);
+
 void capstan_rows(const struct view *view, const struct tie *tie, const struct tie_state *state,
                   struct row *rows);
-void capstan_start(const struct fbd_model *model, const struct view *view, const struct tie *tie,
-                   struct tie_state *state);
-double capstan_starts_round(const struct tie *tie, const struct tie_state *state);
+void capstan_start(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *rows);
+struct jet_vec capstan_piece(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                             int strand);
 
-/* A slot, and what it keeps: how far along it its point is (constraint_slot.c). */
-void slot_row(const struct view *view, const struct tie *tie, const struct tie_state *state, struct row *row);
-void slot_start(const struct view *view, const struct tie *tie, struct tie_state *state);
-void slot_follow(const struct view *view, const struct tie *tie, struct tie_state *state);
-
-/* Of a belt: half the difference of its strands, and their sum. `laid` has their values at the start. */
 void belt_rows(const struct view *view, const struct tie *tie, const struct tie_state *state,
                struct row *rows);
-void belt_start(const struct view *view, const struct tie *tie, struct tie_state *state);
+void belt_start(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *rows);
+struct jet_vec belt_piece(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                          int strand);
 
-/* The rows of a contact at its feature (constraint_contact.c). */
+/* constraint_slot.c */
+void slot_row(const struct view *view, const struct tie *tie, const struct tie_state *state, struct row *row);
+void slot_start(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *row);
+void slot_follow(const struct view *view, const struct tie *tie, struct tie_state *state);
+struct room slot_room(const struct view *view, const struct tie *tie, const struct tie_state *state, int end);
+
+/* constraint_contact.c: at its feature */
 void contact_rows(const struct view *view, const struct tie *tie, const struct tie_state *state,
                   struct row *rows);
 

@@ -3,7 +3,7 @@
 
 #include <float.h>
 
-#include "dynamics/constraint.h"
+#include "dynamics/constraint_view.h"
 
 double friction_surface_speed(const struct friction *friction, const struct instant *at, double *acceleration)
 {
@@ -26,9 +26,9 @@ double friction_coefficient(const struct fbd_model *model, int pair, const struc
     double d_mu = 0, d_wrap, value = along ? formula_along(mu, at, along, &d_mu) : formula_value(mu, at);
     int tie = model->plan.frictions[pair].tie;
     if (variation) *variation = d_mu;
-    if (tie < 0 || model->tree->ties[tie].kind != constraint_capstan) return value;
-    double wrap = fmax(0, capstan_wrap(model, at, tie, along != NULL, &d_wrap)),
-           share = tanh(value * wrap / 2);
+    const struct constraint_form *form = tie < 0 ? NULL : &constraint_forms[model->tree->ties[tie].kind];
+    if (!form || !form->wrap) return value;
+    double wrap = fmax(0, form->wrap(model, at, tie, along != NULL, &d_wrap)), share = tanh(value * wrap / 2);
     if (variation) *variation = (1 - share * share) * (d_mu * wrap + value * d_wrap) / 2;
     return share;
 }

@@ -32,8 +32,7 @@ static void let_go(const struct fbd_model *model, int *modes)
 {
     for (size_t i = 0; i < model->plan.friction_count; i++) {
         const struct friction *friction = &model->plan.frictions[i];
-        bool rolls = friction->tie >= 0 && (model->tree->ties[friction->tie].kind == constraint_roll ||
-                                            model->tree->ties[friction->tie].kind == constraint_capstan);
+        bool rolls = friction->tie >= 0 && model->tree->ties[friction->tie].meeting < 0;
         bool one_sided = friction->kind == mode_rope || friction->kind == mode_contact;
         if (one_sided || (friction->kind == mode_friction && !rolls)) modes[i] = slip_plus;
     }

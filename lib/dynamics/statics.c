@@ -149,7 +149,7 @@ static void drop_preloads(const struct tree *tree, double *slots)
 {
     for (int i = 0; i < tree->tie_count; i++) {
         if (tree->ties[i].kind != constraint_belt) continue;
-        for (int k = 0; k < 2; k++) slots[tree->ties[i].slack_slot[k]] += tree->ties[i].preload;
+        for (int k = 0; k < 2; k++) slots[tree->ties[i].slack_slot[k]] += tree->ties[i].source->tension;
     }
 }
 

@@ -142,7 +142,7 @@ void tree_accelerations_along(const struct fbd_model *model, const struct instan
             slots_along[tie->slack_slot[0]] = both + half;
             slots_along[tie->slack_slot[1]] = both - half;
         }
-        if (!tie_has_surface(tie) && !tie_presses(tie)) continue;
+        if (!tie_presses(tie)) continue;
         slots_along[tie->normal_slot] = -work->z[tie->first_row];
         if (tie->pair >= 0)
             slots_along[model->plan.frictions[tie->pair].hold_slot] = -work->z[tie->first_row + 1];

@@ -6,7 +6,7 @@
  * of a pivot a force at its axis; of a slide a force across it and the couple that keeps it from turning; of
  * a weld, what the body needs beyond all else that acts on it.
  */
-#include "dynamics/constraint.h"
+#include "dynamics/constraint_view.h"
 #include "dynamics/diagram.h"
 #include "dynamics/mass.h"
 
@@ -96,44 +96,27 @@ static struct arrow row_arrow(const struct instant *at, const struct row *row, i
 
 enum { most_of_an_end = 2 };
 
-/* The strands of a belt at its end k: a row has its ports at both ends of strand 0, then of strand 1. */
+/* The strands at end k: a row has its ports at both ends of strand 0, then of strand 1. Those that rub take together
+ * what friction takes. */
 static size_t fill_strands(const struct fbd_model *model, int index, int k, const struct instant *at,
                            struct arrow *arrows)
 {
     const struct tie *tie = &model->tree->ties[index];
+    const struct constraint_form *form = &constraint_forms[tie->kind];
     const struct row *row = &at->tree->rows[tie->first_row];
-    double tension[2];
-    belt_tensions(model, at->tree, index, tension);
-    for (int strand = 0; strand < 2; strand++) {
-        const struct port *port = &row->ports[2 * strand + (k == strand ? 0 : 1)];
-        double share = strand == 0 ? 0.5 : -0.5; /* which the row has of its force */
-        arrows[strand] = (struct arrow){.name = tie->end[k].name[strand],
-                                        .load = -1,
-                                        .point = vec_add(at->tree->links[port->link].p, port->arm),
-                                        .force = vec_scale(-tension[strand] / share, port->force)};
-    }
-    return 2;
-}
-
-/* The strands of a rope that rubs on its drum, which is end 1: a row has its ports at both ends of strand 0, then of
- * strand 1. Together they take what friction takes. */
-static size_t fill_rubbing(const struct fbd_model *model, int index, int k, const struct instant *at,
-                           struct arrow *arrows)
-{
-    const struct tie *tie = &model->tree->ties[index];
-    const struct row *row = &at->tree->rows[tie->first_row];
+    const char *const *names = tie->end[k].name;
     double tension[2];
     size_t count = 0;
-    capstan_tensions(model, at->tree, index, tension);
-    for (int strand = 0; strand < 2; strand++) {
-        if (k != strand && k != strand + 1) continue;
-        const struct port *port = &row->ports[2 * strand + (k - strand)];
-        const double share = -0.5;
-        arrows[count] = (struct arrow){.name = tie->end[k].name[k == 1 ? strand : 0],
-                                       .load = tie->load,
-                                       .point = vec_add(at->tree->links[port->link].p, port->arm),
-                                       .force = vec_scale(-tension[strand] / share, port->force)};
-        count++;
+    form->tensions(model, at->tree, index, tension);
+    for (int i = 0; i < row->port_count; i++) {
+        const struct port *port = &row->ports[i];
+        int strand = i / 2;
+        if (port->end != k) continue;
+        arrows[count++] =
+            (struct arrow){.name = names[1] ? names[strand] : names[0],
+                           .load = tie->law->surface ? tie->load : -1,
+                           .point = vec_add(at->tree->links[port->link].p, port->arm),
+                           .force = vec_scale(-tension[strand] / form->share[strand], port->force)};
     }
     return count;
 }
@@ -146,7 +129,7 @@ static size_t fill_end(const struct tie *tie, int k, const struct instant *at, s
     if (tie->reels) arrows[0].load = tie->load; /* any other rope does no work in all */
     if (tie->row_count == 1) return 1;
     arrows[1] = row_arrow(at, &rows[1], k, tie->end[k].name[1]);
-    if (tie->kind == constraint_pin) {
+    if (!tie->law->end_names[1]) {
         arrows[0].force = vec_add(arrows[0].force, arrows[1].force);
         return 1;
     }
@@ -158,8 +141,7 @@ static size_t fill_tie(const struct fbd_model *model, int index, int k, const st
                        struct arrow *arrows)
 {
     const struct tie *tie = &model->tree->ties[index];
-    if (tie->kind == constraint_belt) return fill_strands(model, index, k, at, arrows);
-    if (tie->kind == constraint_capstan) return fill_rubbing(model, index, k, at, arrows);
+    if (tie->law->strands) return fill_strands(model, index, k, at, arrows);
     return fill_end(tie, k, at, arrows);
 }
 

@@ -273,7 +273,7 @@ static bool answers_wrongly(const struct fbd_state *state)
     const struct instant at = state_instant(state);
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
-        if (!tie_has_surface(tie) || tree_rubbing_share(state->model, &at, tie->first_row) == 0) continue;
+        if (!tie->law->surface || tree_rubbing_share(state->model, &at, tie->first_row) == 0) continue;
         if (state->tree->diagonal[tie->first_row] < 0) return true;
     }
     return false;

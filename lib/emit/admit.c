@@ -138,24 +138,6 @@ static void lacks(fbd_errors *errors, struct pos at, const char *missing, const 
              "`--emit-c` cannot write `%s`: %s", name, missing);
 }
 
-static const char *missing_of(enum constraint_kind kind)
-{
-    switch (kind) {
-    case constraint_pin: return "a pin closes a loop, whose forces are found together with the accelerations";
-    case constraint_rod: return "a rod closes a loop, whose force is found together with the accelerations";
-    case constraint_gear: return "a gear is a constraint beside the joints";
-    case constraint_rack: return "a rack is a constraint beside the joints";
-    case constraint_rope: return "a rope is a constraint beside the joints, and goes slack";
-    case constraint_belt: return "a belt is a constraint beside the joints";
-    case constraint_capstan:
-        return "a rope that rubs on a drum is a constraint beside the joints, and sticks";
-    case constraint_roll: return "rolling is a constraint beside the joints";
-    case constraint_slot: return "a slot is a constraint beside the joints";
-    case constraint_contact: return "contacts and stops need impacts";
-    }
-    return "a constraint of a kind that is not known here";
-}
-
 static void check_masses(const struct fbd_model *model, fbd_errors *errors)
 {
     for (size_t b = 0; b < model->body_count; b++)
@@ -209,7 +191,7 @@ bool emit_admits(const struct fbd_model *model, fbd_errors *errors)
     diag_in_file(errors, scene->file);
     check_file(model, errors);
     for (size_t c = 0; c < scene->constraint_count; c++)
-        lacks(errors, scene->constraints[c].at, missing_of(scene->constraints[c].kind),
+        lacks(errors, scene->constraints[c].at, constraint_laws[scene->constraints[c].kind].not_as_c,
               scene->constraints[c].name);
     for (size_t b = 0; b < scene->body_count; b++)
         if (scene->bodies[b].assemble)

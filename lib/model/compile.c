@@ -189,17 +189,11 @@ static bool set_named_ties(struct builder *builder)
         if (!constraint_has_load(constraint)) continue;
         struct load *source = ARENA_ARRAY(&model->arena, 1, struct load);
         if (!source) return false;
-        bool rope = constraint->kind == constraint_rope;
-        bool contact = constraint->kind == constraint_contact, belt = constraint->kind == constraint_belt;
-        bool capstan = constraint->kind == constraint_capstan, slot = constraint->kind == constraint_slot;
-        source->kind = rope                    ? load_rope
-                       : contact || slot       ? load_contact
-                       : belt                  ? load_belt
-                       : constraint->mu_s.expr ? load_friction
-                                               : load_normal;
-        source->name = rope || contact || belt || capstan || slot
-                           ? constraint->name
-                           : arena_printf(&model->arena, "%s.friction", constraint->name);
+        const struct constraint_law *law = &constraint_laws[constraint->kind];
+        bool rubs = law->load_kind == load_normal && constraint->mu_s.expr;
+        source->kind = rubs ? load_friction : law->load_kind;
+        source->name = law->load_name ? arena_printf(&model->arena, "%s%s", constraint->name, law->load_name)
+                                      : constraint->name;
         source->at = constraint->at;
         source->reels = constraint->reel.expr != NULL;
         set_load(builder, &model->loads[next++], source, constraint_first_body(constraint));

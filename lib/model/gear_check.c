@@ -100,12 +100,12 @@ static void check_gear(struct builder *builder, const struct tie *tie)
  * d. A spring of the length d has that force for ever. */
 static void preload(struct tree *tree, const struct tie *tie, double apart)
 {
-    double rho = tie->end[0].radius + (tie->crossed ? 1 : -1) * tie->end[1].radius;
+    double rho = tie->end[0].radius + (tie->source->crossed ? 1 : -1) * tie->end[1].radius;
     double along = sqrt(fmax(0, apart * apart - rho * rho)) / apart;
     tree->springs[tree->spring_count++] =
         (struct tree_spring){.link = {tie->end[0].link, tie->end[1].link},
                              .point = {tie->end[0].point, tie->end[1].point},
-                             .stiffness = 2 * tie->preload * along / apart};
+                             .stiffness = 2 * tie->source->tension * along / apart};
 }
 
 static void check_belt(struct builder *builder, const struct tie *tie)
@@ -114,18 +114,18 @@ static void check_belt(struct builder *builder, const struct tie *tie)
     double size = tie->end[0].radius + tie->end[1].radius,
            apart = axes_apart(model->tree, tie, digits * size);
     struct pos at = model->scene->constraints[tie->constraint].at;
-    if (apart >= 0 && tie->preload == 0)
+    if (apart >= 0 && tie->source->tension == 0)
         diag_add(builder->errors, FBD_ERROR, "missing-key", at,
                  "give it a `tension`, that of both strands at rest",
                  "the axes of `%s` and `%s` keep their distance, so that no motion tells the tension of the "
                  "belt `%s`",
                  model->bodies[tie->end[0].body].name, model->bodies[tie->end[1].body].name, tie->name);
-    if (apart < 0 && tie->preload > 0)
+    if (apart < 0 && tie->source->tension > 0)
         diag_add(builder->errors, FBD_ERROR, "conflicting-keys", at,
                  "leave `tension` out: it follows from what pulls the axes apart",
                  "the axes of `%s` and `%s` move against each other, and the belt `%s` keeps its length",
                  model->bodies[tie->end[0].body].name, model->bodies[tie->end[1].body].name, tie->name);
-    if (apart > 0 && tie->preload > 0) preload(model->tree, tie, apart);
+    if (apart > 0 && tie->source->tension > 0) preload(model->tree, tie, apart);
 }
 
 void belts_check(struct builder *builder)

@@ -31,24 +31,17 @@ static struct tie *add_tie(struct fbd_model *model, int index, int from, int to)
 {
     struct tree *tree = model->tree;
     const struct constraint *source = &model->scene->constraints[index];
+    const struct constraint_law *law = &constraint_laws[source->kind];
     struct tie *tie = &tree->ties[tree->tie_count++];
-    bool double_row = source->kind == constraint_pin || source->kind == constraint_roll ||
-                      source->kind == constraint_contact || source->kind == constraint_capstan ||
-                      (source->kind == constraint_belt && source->tension == 0);
     *tie = (struct tie){.kind = source->kind,
+                        .law = law,
                         .constraint = index,
+                        .source = source,
                         .name = source->name,
                         .first_row = tree->row_count,
-                        .row_count = double_row ? 2 : 1,
+                        .row_count = law->rows - (source->tension > 0),
                         .length_given = source->length_given,
                         .length = source->length,
-                        .preload = source->tension,
-                        .crossed = source->crossed,
-                        .turns = source->turns,
-                        .curve = source->curve,
-                        .from = source->from,
-                        .to = source->to,
-                        .presses = source->presses,
                         .place = from,
                         .pair = -1,
                         .surface = -1,
@@ -106,8 +99,9 @@ static void add_rope(struct fbd_model *model, int index)
     }
 }
 
-static void set_line(const struct fbd_model *model, const struct constraint *source, struct tie *tie)
+static void set_line(const struct fbd_model *model, struct tie *tie)
 {
+    const struct constraint *source = tie->source;
     struct vec e = vec_unit(source->along);
     tie->turn = source->along;
     tie->e = e;
@@ -138,40 +132,26 @@ static void name_end(struct fbd_model *model, struct tie *tie, int k)
 {
     struct arena *arena = &model->arena;
     struct tie_end *end = &tie->end[k];
+    const char *const *parts = tie->law->end_names;
     if (end->body == ground_body) return;
-    bool belt = tie->kind == constraint_belt;
     if (tie->kind == constraint_capstan) {
         name_strands(model, tie, k);
         return;
     }
-    model->bodies[end->body].arrow_count += tie_has_surface(tie) || belt ? 2 : 1;
+    model->bodies[end->body].arrow_count += parts[1] ? 2 : 1;
     end->name[0] = tie->name;
-    if (tie_has_surface(tie)) {
-        end->name[0] = arena_printf(arena, "%s.normal", tie->name);
-        end->name[1] = arena_printf(arena, "%s.friction", tie->name);
-    } else if (belt) {
-        end->name[0] = arena_printf(arena, "%s.right", tie->name);
-        end->name[1] = arena_printf(arena, "%s.left", tie->name);
-    } else if (tie->kind == constraint_rope && end->radius > 0 && tie->wound[k > 0] == 0) {
-        int neighbour = tie->end[k == 0 ? 1 : k - 1].body;
-        end->name[0] = arena_printf(arena, "%s.%s", tie->name,
-                                    neighbour == ground_body ? "ground" : model->bodies[neighbour].name);
-    }
+    for (int part = 0; parts[1] && part < 2; part++)
+        end->name[part] = arena_printf(arena, "%s%s", tie->name, parts[part]);
+    if (tie->kind == constraint_rope && end->radius > 0 && tie->wound[k > 0] == 0)
+        end->name[0] =
+            arena_printf(arena, "%s.%s", tie->name, body_name(model, tie->end[k == 0 ? 1 : k - 1].body));
 }
 
 static void name_rows(struct arena *arena, struct tie *tie)
 {
-    tie->row_name[0] = tie->row_name[1] = tie->name;
-    if (tie->kind == constraint_pin) {
-        tie->row_name[0] = arena_printf(arena, "%s in x", tie->name);
-        tie->row_name[1] = arena_printf(arena, "%s in y", tie->name);
-    } else if (tie->kind == constraint_belt) {
-        tie->row_name[1] = arena_printf(arena, "length of %s", tie->name);
-    } else if (tie->kind == constraint_capstan) {
-        tie->row_name[1] = arena_printf(arena, "%s.friction", tie->name);
-    } else if (tie_has_surface(tie)) {
-        tie->row_name[0] = arena_printf(arena, "%s.normal", tie->name);
-        tie->row_name[1] = arena_printf(arena, "%s.friction", tie->name);
+    for (int k = 0; k < tie->row_count; k++) {
+        const char *before = tie->law->row_names[k].before, *behind = tie->law->row_names[k].behind;
+        tie->row_name[k] = before ? arena_printf(arena, "%s%s%s", before, tie->name, behind) : tie->name;
     }
 }
 
@@ -179,6 +159,13 @@ const char *tie_row_name(const struct tree *tree, int row)
 {
     const struct tie *tie = &tree->ties[tree->tie_of_row[row]];
     return tie->row_name[row - tie->first_row];
+}
+
+const char *tie_force_name(const struct tree *tree, int row)
+{
+    const struct tie *tie = &tree->ties[tree->tie_of_row[row]];
+    bool parts = tie->law->surface && tie->end[0].name[1];
+    return parts ? tie->end[0].name[row - tie->first_row] : tie_row_name(tree, row);
 }
 
 bool ties_build(struct fbd_model *model)
@@ -203,7 +190,7 @@ bool ties_build(struct fbd_model *model)
         } else if (source->kind == constraint_rope)
             add_rope(model, (int)c);
         else
-            set_line(model, source, add_tie(model, (int)c, 0, source->end_count - 1));
+            set_line(model, add_tie(model, (int)c, 0, source->end_count - 1));
     }
     for (int i = 0; i < tree->tie_count; i++) {
         name_rows(&model->arena, &tree->ties[i]);

@@ -23,7 +23,9 @@ struct tie_end {
 
 struct tie {
     enum constraint_kind kind;
-    int constraint; /* index into scene.constraints */
+    const struct constraint_law *law;
+    int constraint;                  /* index into scene.constraints, */
+    const struct constraint *source; /* and that */
     const char *name;
     const char *row_name[2]; /* "knuckle in x", "tread.normal" */
     int first_row, row_count;
@@ -38,15 +40,9 @@ struct tie {
     double spare[2];     /* and how much there is of it at the start, or HUGE_VAL */
     bool reels;          /* rope: its length goes with the time, from `length` at t = 0 */
     struct formula reel; /* so */
-    double preload;      /* belt: `tension` of the file */
-    bool crossed;
-    double turns;              /* capstan: beside what is seen */
-    const struct curve *curve; /* slot: NULL for a line */
-    double from, to;           /* slot: its ends, by length; infinite where it has none */
-    int presses;               /* slot: the side to which it only presses, or 0 */
-    int slack_slot[2];         /* belt: where minus the tensions of its strands go */
-    int normal_slot;           /* roll, slot that only presses: where minus its normal force goes */
-    int load;                  /* roll, rope: its entry in the model's loads */
+    int slack_slot[2];   /* belt: where minus the tensions of its strands go */
+    int normal_slot;     /* roll, slot that only presses: where minus its normal force goes */
+    int load;            /* roll, rope: its entry in the model's loads */
     int pair;    /* roll, contact: its dry friction; rope: its mode; index into plan.frictions, or -1 */
     int surface; /* roll, contact: the mode of its normal force, closed (`stick`) or open; index into
                         plan.frictions, else -1 */
@@ -60,6 +56,10 @@ struct tree;
 /* The name of row `row` of the tree. */
 const char *tie_row_name(const struct tree *tree, int row);
 
+/* The name of its force: what is along a surface and across it is called as in the diagram of its first body, where
+ * names differ. */
+const char *tie_force_name(const struct tree *tree, int row);
+
 /* Place `k` of constraint `index` of the scene. */
 struct tie_end tie_end_of(const struct fbd_model *model, int index, int k);
 
@@ -70,16 +70,10 @@ bool model_is_driven(const struct fbd_model *model);
  * are, as drives do. */
 bool model_has_speeds_given(const struct fbd_model *model);
 
-/* Does it have a surface with a normal row and, behind it, one along the surface? */
-static inline bool tie_has_surface(const struct tie *tie)
-{
-    return tie->kind == constraint_roll || tie->kind == constraint_contact || tie->kind == constraint_capstan;
-}
-
-/* Is it a slot that only presses? */
+/* Does its first row press, so that it cannot pull? */
 static inline bool tie_presses(const struct tie *tie)
 {
-    return tie->kind == constraint_slot && tie->presses != 0;
+    return tie->law->surface || tie->source->presses != 0;
 }
 
 /* Add a tie of contact `index` of the scene for one feature of the meeting. */

@@ -376,15 +376,13 @@ static void find_held(const struct fbd_model *model, bool *twisted)
 {
     for (size_t c = 0; c < model->scene->constraint_count; c++) {
         const struct constraint *constraint = &model->scene->constraints[c];
-        bool lines = constraint->kind == constraint_roll || constraint->kind == constraint_rack ||
-                     constraint->kind == constraint_slot;
         for (int k = 0; k < constraint->end_count; k++) {
             const struct point *point = &constraint->point[k];
             int b = constraint->body[k];
             if (b == ground_body) continue;
             bool wound = (k == 0 && constraint->wound[0] != 0) ||
                          (k + 1 == constraint->end_count && constraint->wound[1] != 0);
-            if ((lines && k == 1) || wound ||
+            if ((constraint_laws[constraint->kind].line && k == 1) || wound ||
                 (point->kind == point_fixed && is_off_center(&model->bodies[b], point->where)))
                 twisted[b] = true;
         }

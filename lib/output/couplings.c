@@ -76,34 +76,19 @@ static void write_redundant(struct text *text, struct fbd_state *state)
     if (count > most_named) text_printf(text, " and %zu more", count - most_named);
 }
 
-static const struct {
-    enum constraint_kind kind;
-    const char *words;
-} kinds[] = {
-    {constraint_pin, "pin: two points are one"},
-    {constraint_rod, "rod: two points keep their distance"},
-    {constraint_gear, "gear: two circles roll on each other"},
-    {constraint_rack, "rack: a circle and a line move along together"},
-    {constraint_roll, "roll: a circle on a line"},
-    {constraint_slot, "slot: a point stays on a line or curve of another body"},
-    {constraint_belt, "belt: two discs turn together; its length, where the axes move"},
-    {constraint_capstan, "rope that rubs: its way keeps its length, and it sticks to its drum or slips"},
-    {constraint_rope, "rope: its way keeps its length while it is taut"},
-};
-
-static void write_kind(struct text *text, const struct fbd_model *model, size_t k)
+static void write_kind(struct text *text, const struct fbd_model *model, size_t kind)
 {
     enum { most_named = 8 };
     const struct tree *tree = model->tree;
     size_t named = 0, rows = 0;
     int last = -1;
     for (int i = 0; i < tree->tie_count; i++)
-        if (tree->ties[i].kind == kinds[k].kind) rows += (size_t)tree->ties[i].row_count;
-    if (rows == 0) return;
-    text_printf(text, "  %s (%zu row%s)\n      ", kinds[k].words, rows, rows == 1 ? "" : "s");
+        if (tree->ties[i].kind == kind) rows += (size_t)tree->ties[i].row_count;
+    if (rows == 0 || !constraint_laws[kind].words) return;
+    text_printf(text, "  %s (%zu row%s)\n      ", constraint_laws[kind].words, rows, rows == 1 ? "" : "s");
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
-        if (tie->kind != kinds[k].kind || tie->constraint == last) continue; /* the pieces of a rope */
+        if (tie->kind != kind || tie->constraint == last) continue; /* the pieces of a rope */
         last = tie->constraint;
         if (named++ < most_named) text_printf(text, "%s%s", named > 1 ? ", " : "", tie->name);
     }
@@ -131,7 +116,7 @@ void couplings_explain(struct text *text, struct fbd_state *state)
     text_printf(text, "\nCouplings (%zu)\n", couplings);
     write_springs(text, model);
     if (row_count(model) == 0) return;
-    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) write_kind(text, model, k);
+    for (size_t k = 0; k < constraint_kinds; k++) write_kind(text, model, k);
     size_t redundant = fbd_redundant(state, NULL, 0), rows = rows_at_work(state);
     text_printf(text, "  as it starts: %d coordinates less %zu independent rows leave %td to move\n",
                 model->plan.n, rows - redundant, model->plan.n - (ptrdiff_t)(rows - redundant));

@@ -24,36 +24,17 @@ struct naming {
 
 /* ---- which force it is */
 
-/* What a tie of that kind gives along its row `part`. */
-static const char *letter_of_tie(const struct tie *tie, int part)
-{
-    switch (tie->kind) {
-    case constraint_pin: return "R";
-    case constraint_rod: return "S";
-    case constraint_rope:
-    case constraint_belt:
-    case constraint_capstan: return "T";
-    case constraint_gear:
-    case constraint_rack: return "F";
-    case constraint_roll:
-    case constraint_contact: return part == 0 ? "N" : "f";
-    case constraint_slot: return "N";
-    }
-    return "R";
-}
-
 static bool key_of_tie(const struct fbd_model *model, int b, const char *name, struct force_key *key)
 {
     for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
         const struct tie *tie = &model->tree->ties[i];
-        bool strands = tie->kind == constraint_belt || tie->kind == constraint_capstan;
         for (int k = 0; k < tie->end_count; k++)
             for (int part = 0; part < 2; part++) {
                 const char *own = tie->end[k].name[part];
                 if (tie->end[k].body != b || !own || strcmp(own, name) != 0) continue;
                 /* a drum between two strands tells them by their parts, their far ends are one each */
-                int strand = !strands ? 0 : tie->kind == constraint_belt || k == 1 ? part : k / 2;
-                *key = (struct force_key){letter_of_tie(tie, part), of_tie, 2 * i + strand};
+                int strand = !tie->law->strands ? 0 : tie->end[k].name[1] ? part : k / 2;
+                *key = (struct force_key){tie->law->letters[part], of_tie, 2 * i + strand};
                 return true;
             }
     }

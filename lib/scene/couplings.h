@@ -20,6 +20,12 @@ bool body_turns(const struct body *body);
 /* The circle at end k: its centre, and its radius if that is not given (0). The body turns. */
 bool coupling_circle_set(struct reader *reader, struct constraint *constraint, int k, double radius);
 
+/* Two points; two bodies that turn, with their circles; and the rest of the kinds (read_couplings.c). */
+bool points_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
+bool wheels_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
+bool rack_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
+bool roll_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
+
 /* A point on a line or curve (read_slot.c). */
 bool slot_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
 

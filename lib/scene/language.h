@@ -226,16 +226,6 @@ struct place_keys {
 
 enum { frame_world, frame_body };
 
-struct coupling_keys {
-    const char *name;
-    const struct node *between, *through, *radii, *body, *on, *center, *wound, *around;
-    const struct node *x, *y, *from, *to; /* slot */
-    double stiffness, free_length, coefficient, length, radius, tension, along;
-    bool inside, crossed, closed;
-    struct value mu_s, mu_k, restitution, reel;
-    int law, side; /* enum impact_law, enum contact_side */
-};
-
 /* What `around` says. */
 struct around_keys {
     const struct node *on;

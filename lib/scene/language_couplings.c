@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/couplings.h"
 #include "scene/language.h"
 
 #define COUPLING(member) offsetof(struct coupling_keys, member)
@@ -214,3 +215,67 @@ static const struct kind kinds[] = {
 const struct kind *const contact_kind = &kinds[sizeof kinds / sizeof *kinds - 1];
 
 const struct kinds coupling_kinds = {"coupling", FIELDS(kinds)};
+
+/* clang-format off */
+const struct constraint_law constraint_laws[constraint_kinds] = {
+    [constraint_pin] = {
+        .read = points_read, .drawing = "pin", .letters = {"R", "R"},
+        .words = "pin: two points are one",
+        .not_as_c = "a pin closes a loop, whose forces are found together with the accelerations",
+        .rows = 2, .row_names = {{"", " in x"}, {"", " in y"}}},
+    [constraint_rod] = {
+        .read = points_read, .drawing = "rod", .letters = {"S"},
+        .words = "rod: two points keep their distance",
+        .not_as_c = "a rod closes a loop, whose force is found together with the accelerations",
+        .rows = 1, .length = true},
+    [constraint_gear] = {
+        .read = wheels_read, .drawing = "gear", .letters = {"F"},
+        .words = "gear: two circles roll on each other",
+        .not_as_c = "a gear is a constraint beside the joints",
+        .rows = 1},
+    [constraint_rack] = {
+        .read = rack_read, .drawing = "rack", .letters = {"F"},
+        .words = "rack: a circle and a line move along together",
+        .not_as_c = "a rack is a constraint beside the joints",
+        .rows = 1, .line = true},
+    [constraint_roll] = {
+        .read = roll_read, .drawing = "roll", .letters = {"N", "f"},
+        .words = "roll: a circle on a line",
+        .not_as_c = "rolling is a constraint beside the joints",
+        .rows = 2, .row_names = {{"", ".normal"}, {"", ".friction"}}, .end_names = {".normal", ".friction"},
+        .surface = true, .line = true,
+        .load = always_load, .load_kind = load_normal, .load_name = ".friction"},
+    [constraint_slot] = {
+        .read = slot_read, .drawing = "slot", .letters = {"N"},
+        .words = "slot: a point stays on a line or curve of another body",
+        .not_as_c = "a slot is a constraint beside the joints",
+        .rows = 1, .line = true,
+        .load = load_if_it_presses, .load_kind = load_contact},
+    [constraint_belt] = {
+        .read = wheels_read, .drawing = "belt", .letters = {"T", "T"},
+        .words = "belt: two discs turn together; its length, where the axes move",
+        .not_as_c = "a belt is a constraint beside the joints",
+        .rows = 2, .row_names = {{NULL, NULL}, {"length of ", ""}}, .end_names = {".right", ".left"},
+        .strands = true, .way = true,
+        .load = always_load, .load_kind = load_belt},
+    [constraint_capstan] = {
+        .read = rope_read, .drawing = "rope", .letters = {"T", "T"},
+        .words = "rope that rubs: its way keeps its length, and it sticks to its drum or slips",
+        .not_as_c = "a rope that rubs on a drum is a constraint beside the joints, and sticks",
+        .rows = 2, .row_names = {{NULL, NULL}, {"", ".friction"}},
+        .surface = true, .strands = true, .way = true,
+        .load = always_load, .load_kind = load_normal},
+    [constraint_rope] = {
+        .read = rope_read, .drawing = "rope", .letters = {"T"},
+        .words = "rope: its way keeps its length while it is taut",
+        .not_as_c = "a rope is a constraint beside the joints, and goes slack",
+        .rows = 1, .way = true, .length = true,
+        .load = always_load, .load_kind = load_rope},
+    [constraint_contact] = {
+        .read = contact_read, .drawing = "contact", .letters = {"N", "f"},
+        .not_as_c = "contacts and stops need impacts",
+        .rows = 2, .row_names = {{"", ".normal"}, {"", ".friction"}}, .end_names = {".normal", ".friction"},
+        .surface = true,
+        .load = always_load, .load_kind = load_contact},
+};
+/* clang-format on */

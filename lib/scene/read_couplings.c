@@ -138,9 +138,12 @@ static bool needs_body(struct reader *reader, const struct constraint *constrain
     return false;
 }
 
-/* Two bodies that turn, with their circles. */
-static bool read_wheels(struct reader *reader, const struct coupling_keys *keys,
-                        struct constraint *constraint)
+bool points_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
+{
+    return coupling_ends_read(reader, keys->between, "between", 2, 2, constraint);
+}
+
+bool wheels_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
 {
     double radii[2] = {0, 0};
     if (!coupling_ends_read(reader, keys->between, "between", 2, 2, constraint)) return false;
@@ -158,7 +161,7 @@ static bool read_wheels(struct reader *reader, const struct coupling_keys *keys,
     return true;
 }
 
-static bool read_rack(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
+bool rack_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
 {
     if (!coupling_ends_read(reader, keys->between, "between", 2, 2, constraint)) return false;
     if (!strchr(keys->between->items[1]->text, '.')) /* a body alone: its x axis, not its centre of mass */
@@ -202,7 +205,7 @@ static void set_rim(struct reader *reader, const struct constraint *constraint)
 }
 
 /* `on`: a line of the ground, or a body, whose x axis through its origin is the line. */
-static bool read_roll(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
+bool roll_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
 {
     const struct node *on = keys->on;
     if (!body_name_read(reader, keys->body, "body", &constraint->body[0])) return false;
@@ -233,19 +236,7 @@ static bool read_constraint(struct reader *reader, const struct chosen *chosen,
     constraint->at = chosen->at;
     constraint->length = keys->length;
     constraint->length_given = keys->length > 0;
-    switch (constraint->kind) {
-    case constraint_pin:
-    case constraint_rod: return coupling_ends_read(reader, keys->between, "between", 2, 2, constraint);
-    case constraint_gear:
-    case constraint_belt: return read_wheels(reader, keys, constraint);
-    case constraint_capstan:
-    case constraint_rope: return rope_read(reader, keys, constraint);
-    case constraint_rack: return read_rack(reader, keys, constraint);
-    case constraint_roll: return read_roll(reader, keys, constraint);
-    case constraint_slot: return slot_read(reader, keys, constraint);
-    case constraint_contact: return contact_read(reader, keys, constraint);
-    }
-    return false;
+    return constraint_laws[constraint->kind].read(reader, keys, constraint);
 }
 
 /* ---- the list */

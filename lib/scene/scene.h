@@ -13,6 +13,7 @@
 #ifndef FBD_SCENE_SCENE_H
 #define FBD_SCENE_SCENE_H
 
+#include "scene/constraint.h"
 #include "scene/law.h"
 #include "scene/loads.h"
 
@@ -32,89 +33,6 @@ struct coupling {
     int body[2];      /* ground_body for the ground; not both */
     struct point point[2];
 };
-
-/* What holds points or angles of bodies together: its force is whatever that takes. */
-enum constraint_kind {
-    constraint_pin,     /* two points are one */
-    constraint_rod,     /* two points keep their distance */
-    constraint_gear,    /* two circles roll on each other without slip: radii, below zero for a ring inside */
-    constraint_rope,    /* the way through all points, over discs and ground points, has one length */
-    constraint_roll,    /* a circle on a line of the ground or of a body */
-    constraint_rack,    /* a circle and a line move along together */
-    constraint_contact, /* two bodies, or a body and the ground, that meet and part */
-    constraint_belt,    /* a belt round two discs */
-    constraint_capstan, /* a rope that rubs on a disc which it goes round */
-    constraint_slot,    /* a point on a line or curve of a body */
-};
-
-/* A convex polygon of the ground, corners counter-clockwise. */
-struct polygon {
-    size_t count;
-    struct vec *corners;
-};
-
-/* How a contact meets its surface. */
-struct contact_law {
-    struct value restitution;      /* of the approach speed; expr NULL for 0 */
-    int law;                       /* enum impact_law (holds/impact.h) */
-    const struct polygon *polygon; /* its surface where that is a polygon of the ground, else NULL */
-    bool line;                     /* its surface is a line of the ground */
-    int side; /* of that line where the body stays: +1 to the left of its direction, -1 to the right, 0 as at
-                 the start */
-    double e; /* of a stop, which has no expression */
-    int stop; /* no shapes: +1, body 0 cannot move on body 1 to below `limit`, -1 to beyond; else 0 */
-    double limit;
-};
-
-enum { most_constraint_ends = 8 };
-
-/* Of the two ways round a disc the one on which the point of tangency is farther to that side. */
-enum wound_side { wound_left = 1, wound_right, wound_top, wound_bottom };
-
-struct constraint {
-    enum constraint_kind kind;
-    const char *name;
-    struct pos at;
-    int end_count;
-    int body[most_constraint_ends]; /* ground_body for the ground */
-    struct point point[most_constraint_ends];
-    double radius[most_constraint_ends]; /* gear, roll, rack; rope: of the disc at this place, else 0 */
-    int side[most_constraint_ends];      /* rope: +1 when it goes counter-clockwise round the disc */
-    int wound[2];    /* rope: where it leaves the disc at its first and last place that it is wound on, enum
-                          wound_side; 0 without one */
-    double spare[2]; /* and how much of it is wound there at the start; HUGE_VAL: enough */
-    bool crossed;    /* belt */
-    double turns;    /* capstan: whole turns round the disc, beside what is seen */
-    const struct curve *curve; /* slot: in the frame of end 1 at its point; NULL for the line along `along` */
-    double from, to;           /* slot: where that line ends, by its length; infinite where it does not */
-    int presses; /* slot: the side to which it only presses, +1 to the left of growing length; 0: it holds both */
-    double tension;    /* belt: of both strands while it drives nothing; 0: as its length says */
-    struct value reel; /* rope: its length where it varies with the time; else expr NULL */
-    bool length_given;
-    double length;              /* rod, rope */
-    double along;               /* roll, rack: direction of the line in the frame of end 1 */
-    struct value mu_s, mu_k;    /* roll: expr NULL for rolling without slip, whatever it takes; contact: expr
-                                   NULL for none */
-    struct contact_law contact; /* point_absent: the whole body */
-};
-
-/* Is its force known by name, as a load of the model: for events and its work? */
-static inline bool constraint_has_load(const struct constraint *constraint)
-{
-    return constraint->kind == constraint_roll || constraint->kind == constraint_rope ||
-           constraint->kind == constraint_contact || constraint->kind == constraint_belt ||
-           constraint->kind == constraint_capstan ||
-           (constraint->kind == constraint_slot && constraint->presses != 0);
-}
-
-/* The first of its bodies that is not the ground: a rope may begin with points of the ground, one of its
- * places moves. */
-static inline int constraint_first_body(const struct constraint *constraint)
-{
-    int end = 0;
-    while (constraint->body[end] < 0) end++;
-    return constraint->body[end];
-}
 
 /* A derivation by the user: an equation that must hold. */
 struct hand {

@@ -92,11 +92,10 @@ static void find_size(const struct fbd_state *state, const struct tie *tie, stru
 static double length_of(const struct fbd_state *state, const struct tie *tie, int j, const struct size *size)
 {
     const struct row *row = &state->tree->rows[j];
-    bool has_length = tie->kind == constraint_rod || tie->kind == constraint_rope;
     double length = size->extent;
     for (int k = 0; k < row->port_count; k++)
         if (row->ports[k].link > 0) length = fmax(length, vec_norm(row->ports[k].arm));
-    if (has_length) length = fmax(length, fabs(state->tree->ties[tie - state->model->tree->ties].zero));
+    if (tie->law->length) length = fmax(length, fabs(state->tree->ties[tie - state->model->tree->ties].zero));
     return length > 0 ? length : size->place;
 }
 
@@ -184,19 +183,15 @@ static bool unclear_side(const struct fbd_state *state, int index, struct pos *a
 }
 
 /* The point of a slot is beyond an end of it. */
-static bool beyond_slot(const struct fbd_state *state, int index, struct pos *at, struct text *lack)
+static bool beyond_end(const struct fbd_state *state, int index, struct pos *at, struct text *lack)
 {
     const double digits = 1e-6;
-    const struct fbd_model *model = state->model;
-    const struct tie *tie = &model->tree->ties[index];
-    double rate;
+    const struct tie *tie = &state->model->tree->ties[index];
     for (int end = 0; end < 2; end++) {
-        double limit = end == 0 ? tie->from : tie->to;
-        if (!isfinite(limit)) continue;
-        double left = slot_left(model, state->tree, index, end, &rate);
-        if (left >= -digits * fabs(limit)) continue;
-        if (at) *at = model->scene->constraints[tie->constraint].at;
-        text_printf(lack, "the point of `%s` is beyond the end of its slot, by %.6g", tie->name, -left);
+        struct room room = tie_room(state->model, state->tree, index, end);
+        if (room.left >= -digits * room.size) continue;
+        if (at) *at = tie->source->at;
+        text_printf(lack, "the point of `%s` is beyond the end of its slot, by %.6g", tie->name, -room.left);
         return true;
     }
     return false;
@@ -210,10 +205,8 @@ bool fit_blocked(struct fbd_state *state, struct pos *at, struct text *lack)
     state_misfit(state); /* puts the links in their places */
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
-        bool rope =
-            tie->kind == constraint_rope || tie->kind == constraint_belt || tie->kind == constraint_capstan;
-        if (tie->kind == constraint_slot && beyond_slot(state, i, at, lack)) return true;
-        if (!rope) continue;
+        if (beyond_end(state, i, at, lack)) return true;
+        if (!tie->law->way) continue;
         if (unclear_side(state, i, at, lack)) return true;
         int k = rope_blocked_at(model, state->tree, i);
         if (k < 0) continue;

@@ -440,7 +440,7 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     run_apply_touched(run, true);
     run_check_contacts(run, moving);
     run_check_pulleys(run);
-    run_check_drums(run);
+    run_check_ends(run);
     run->restart = true;
     run->interval[1] = run->interval[0];
     run->interval[0] = moment_since(run_end(run), run->event);

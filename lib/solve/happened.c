@@ -23,8 +23,7 @@ void run_note_friction(struct run *run, fbd_event_kind kind, int pair)
 static void note_one_sided(struct run *run, int pair, int before, int after)
 {
     const struct friction *friction = &run->model->plan.frictions[pair];
-    bool rope = friction->kind == mode_rope ||
-                (friction->tie >= 0 && run->model->tree->ties[friction->tie].kind == constraint_capstan);
+    bool rope = run->model->tree->ties[friction->tie].law->way;
     if (before == stick && after != stick)
         run_note(run, rope ? FBD_EVENT_ROPE_SLACK : FBD_EVENT_LIFT_OFF, friction->body, friction->load, -1);
     bool snapped = run->snap_pair == pair;

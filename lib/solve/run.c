@@ -338,8 +338,7 @@ fbd_outcome run_advance(struct run *run)
         return run->outcome;
     }
     run_watch_pulleys(run, &t);
-    run_watch_drums(run, &t);
-    run_watch_slots(run, &t);
+    run_watch_ends(run, &t);
     accept(run, t);
     check_crawl(run);
     if (run->outcome != FBD_GOING) return run->outcome;

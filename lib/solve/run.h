@@ -212,16 +212,13 @@ void run_watch_pulleys(struct run *run, struct moment *t);
  * is free. */
 void run_check_pulleys(struct run *run);
 
-/* Where a taut rope has been unwound from a disc within the step that ends at *t, or has come to an end of its way, cut
- * the step there and end the run (drum.c). */
-void run_watch_drums(struct run *run, struct moment *t);
-
-/* The same where the point of a slot has come to an end of it (slot.c). */
-void run_watch_slots(struct run *run, struct moment *t);
+/* Where a coupling has come to an end within the step that ends at *t (a rope is unwound, a point is at the end of its
+ * slot), cut the step there and end the run (ends.c). */
+void run_watch_ends(struct run *run, struct moment *t);
 
 /* Where a rope has got taut that is longer than what was wound allows, end the run. After events: `during` is
  * free. */
-void run_check_drums(struct run *run);
+void run_check_ends(struct run *run);
 
 /* Slack ropes that are taut but for rounding become so, and take part in the impact of another: two that
  * strike each other taut in turn, a plastic impact each, come to that within a few events, and there they are

@@ -73,11 +73,8 @@ static const char *limit_name(struct fbd_statics *statics, const struct rest_lim
         const struct tie *tie = &model->tree->ties[i];
         if (tie->kind == constraint_belt && tie->load == load)
             return tie->end[0].name[plan->contacts[limit->index].slot == tie->slack_slot[1]];
-        if (tie_presses(tie) && tie->load == load) return tie->name;
-        if (tie->kind == constraint_capstan && tie->load == load)
-            return tie->row_name[limit->kind != limit_normal];
-        if (tie->kind == constraint_roll && tie->load == load)
-            return tie->end[0].name[limit->kind == limit_normal ? 0 : 1];
+        if (tie_presses(tie) && tie->load == load)
+            return tie_force_name(model->tree, tie->first_row + (limit->kind != limit_normal));
     }
     return arena_printf(&statics->arena, "%s.%s", model->bodies[model->loads[load].body].name, name);
 }

@@ -53,7 +53,7 @@ static inline bool rest_turns(const struct model_body *body)
 static inline double rest_tension(const struct fbd_statics *statics, int tie)
 {
     const struct tie *of = &statics->model->tree->ties[tie];
-    if (of->kind != constraint_rod && of->kind != constraint_rope) return NAN;
+    if (!of->law->length) return NAN;
     return -statics->state->tree->rows[of->first_row].lambda;
 }
 

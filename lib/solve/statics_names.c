@@ -77,12 +77,8 @@ static void name_tie(struct fbd_statics *statics, const struct rest_system *syst
     int row = system->rows[j];
     const struct tie *tie = &tree->ties[tree->tie_of_row[row]];
     bool one = varies(system, rest_entry_of_row(system, j));
-    if (tie->kind == constraint_contact) { /* a shape has several features */
-        if (one) add_name(statics, "", tie->end[0].name[row - tie->first_row], "");
-        return;
-    }
     if (tie->kind != constraint_pin) {
-        if (one) add_name(statics, "", tie_row_name(tree, row), "");
+        if (one) add_name(statics, "", tie_force_name(tree, row), "");
         return;
     }
     if (row > tie->first_row) return; /* with the first */

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * A rope that is wound on a disc comes to an end in two ways: it is unwound, or its free end has come to the
- * disc, where it would turn ever faster. A rope that is hauled in has come to the end of its way. None of
- * these can be passed with the same equations, so that each ends the run by name.
+ * Couplings come to an end: a rope that is wound on a disc is unwound, or its free end has come to the disc, where it
+ * would turn ever faster; one that is hauled in has come to the end of its way; the point of a slot has come to where
+ * the slot ends. None of these can be passed with the same equations, so that each ends the run by name.
  *
- * What is wound may have gone to nothing and be back within a step: so a step is looked at in parts, and where
- * the rate turns within a part its least is found.
+ * What is left may have gone to nothing and be back within a step: so a step is looked at in parts, and where the rate
+ * turns within a part its least is found.
  */
 #include <math.h>
 #include <string.h>
@@ -14,14 +14,14 @@
 #include "dynamics/project.h"
 #include "solve/run.h"
 
-struct drum {
+struct end {
     struct run *run;
     int tie, end;
 };
 
-static const struct tie *tie_of(const struct drum *drum)
+static const struct tie *tie_of(const struct end *end)
 {
-    return &drum->run->model->tree->ties[drum->tie];
+    return &end->run->model->tree->ties[end->tie];
 }
 
 static void look(struct run *run, double t, const double *y)
@@ -32,53 +32,58 @@ static void look(struct run *run, double t, const double *y)
     state_misfit(state); /* puts the links in their places */
 }
 
-/* What is left on the disc within the last step; NAN where that is not known. */
-static double left_at(const struct drum *drum, double t, double *rate)
+/* What is left before the end, where the links have been looked at. */
+static struct room room_of(const struct end *end)
 {
-    struct run *run = drum->run;
-    if (switcher_partial(run->stepper, moment_at(t), run->y, run->f) != 0) return NAN;
+    return tie_room(end->run->model, end->run->during->tree, end->tie, end->end);
+}
+
+/* The same within the last step; NAN where that is not known. */
+static struct room room_at(const struct end *end, double t)
+{
+    struct run *run = end->run;
+    if (switcher_partial(run->stepper, moment_at(t), run->y, run->f) != 0) return (struct room){NAN, NAN, 0};
     look(run, t, run->y);
-    return rope_wound(run->model, run->during->tree, drum->tie, drum->end, rate);
+    return room_of(end);
 }
 
 /* Used up by more than rounding. */
-static bool is_used_up(const struct drum *drum, double left)
+static bool is_used_up(struct room room)
 {
     const double rounding = 1e-12;
-    return left < -rounding * tie_of(drum)->spare[drum->end];
+    return room.left < -rounding * room.size;
 }
 
 /* A time in a stretch at which it is used up, where it may be at its least; NAN where it is not. */
-static double used_up_within(const struct drum *drum, double from, double to)
+static double used_up_within(const struct end *end, double from, double to)
 {
-    double before = 0, after = 0, rate;
-    double left = left_at(drum, from, &before);
-    if (is_used_up(drum, left)) return from;
-    left = left_at(drum, to, &after);
-    if (is_used_up(drum, left)) return to;
-    while (before < 0 && after > 0) {
+    struct room before = room_at(end, from), after = room_at(end, to);
+    if (is_used_up(before)) return from;
+    if (is_used_up(after)) return to;
+    while (before.rate < 0 && after.rate > 0) {
         double middle = from + (to - from) / 2;
         if (!(middle > from && middle < to)) break;
-        if (is_used_up(drum, left_at(drum, middle, &rate))) return middle;
-        *(rate < 0 ? &from : &to) = middle;
+        struct room room = room_at(end, middle);
+        if (is_used_up(room)) return middle;
+        *(room.rate < 0 ? &from : &to) = middle;
     }
     return NAN;
 }
 
 /* The time at which nothing is left: between one at which there is something, and one at which it is used up. */
-static double empty_time(const struct drum *drum, double some, double none)
+static double empty_time(const struct end *end, double some, double none)
 {
-    double rate;
     for (;;) {
         double middle = some + (none - some) / 2;
         if (!(middle > some && middle < none)) return some;
-        *(is_used_up(drum, left_at(drum, middle, &rate)) ? &none : &some) = middle;
+        *(is_used_up(room_at(end, middle)) ? &none : &some) = middle;
     }
 }
 
+/* What has no mode always is. */
 static bool is_taut(const struct fbd_state *state, const struct tie *tie)
 {
-    return state->slip[tie->pair] == stick;
+    return tie->pair < 0 || state->slip[tie->pair] == stick;
 }
 
 static const char *name_of(const struct run *run, const struct tie *tie, int k)
@@ -86,30 +91,36 @@ static const char *name_of(const struct run *run, const struct tie *tie, int k)
     return tie->end[k].body < 0 ? "the ground" : run->model->bodies[tie->end[k].body].name;
 }
 
-static const char *disc_of(const struct drum *drum)
+static void fail_at_end(const struct end *end, double t, bool gets_taut)
 {
-    const struct tie *tie = tie_of(drum);
-    return name_of(drum->run, tie, drum->end == 0 ? 0 : tie->end_count - 1);
+    struct run *run = end->run;
+    const struct tie *tie = tie_of(end);
+    if (tie->kind == constraint_slot)
+        run_fail(
+            run, FBD_BROKEN,
+            "at t = %.9g the point in the slot `%s` comes to the end of it. Make it longer, or end the run "
+            "before, by an event",
+            t, tie->name);
+    else
+        run_fail(
+            run, FBD_BROKEN,
+            "at t = %.9g the rope `%s` %s all unwound from `%s`. End the run before, by an event, or wind "
+            "more on it (`length` of `wound`)",
+            t, tie->name, gets_taut ? "gets taut where it is" : "is",
+            name_of(run, tie, end->end == 0 ? 0 : tie->end_count - 1));
 }
 
-static void watch_end(const struct drum *drum, struct moment *t)
+static void watch_end(const struct end *end, struct moment *t)
 {
     enum { parts = 8 };
-    struct run *run = drum->run;
+    struct run *run = end->run;
     double from = run->from, length = (t->t - from) / parts, used = NAN;
+    if (!isfinite(room_of(end).size)) return;
     for (int k = 0; k < parts && isnan(used); k++)
-        used = used_up_within(drum, from + k * length, k + 1 == parts ? t->t : from + (k + 1) * length);
-    if (isnan(used)) {
-        switcher_partial(run->stepper, *t, run->y, run->f);
-        return;
-    }
-    *t = moment_at(used > from ? empty_time(drum, from, used) : from);
+        used = used_up_within(end, from + k * length, k + 1 == parts ? t->t : from + (k + 1) * length);
+    if (!isnan(used)) *t = moment_at(used > from ? empty_time(end, from, used) : from);
     switcher_partial(run->stepper, *t, run->y, run->f);
-    run_fail(
-        run, FBD_BROKEN,
-        "at t = %.9g the rope `%s` is all unwound from `%s`. End the run before, by an event, or wind more "
-        "on it (`length` of `wound`)",
-        t->t, tie_of(drum)->name, disc_of(drum));
+    if (!isnan(used)) fail_at_end(end, t->t, false);
 }
 
 static double piece_at(struct run *run, int index, int k, double t, double *rate)
@@ -168,40 +179,34 @@ static void watch_wrap(struct run *run, int index, struct moment t)
              t.t, tie->name);
 }
 
-void run_watch_drums(struct run *run, struct moment *t)
+static void watch_tie(struct run *run, int i, struct moment *t)
 {
-    const struct tree *tree = run->model->tree;
-    for (int i = 0; tree && i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        if (tie->kind == constraint_capstan && run->during->slip[tie->surface] == stick) {
-            watch_wrap(run, i, *t);
-            for (int k = 0; k < 2; k++) watch_piece(run, i, k, t);
-        }
-        bool winds = tie->wound[0] != 0 || tie->wound[1] != 0;
-        if (tie->kind != constraint_rope || !(winds || tie->reels) || !is_taut(run->during, tie)) continue;
-        for (int end = 0; end < 2; end++)
-            if (tie->wound[end] != 0 && isfinite(tie->spare[end])) watch_end(&(struct drum){run, i, end}, t);
-        for (int k = 0; k + 1 < tie->end_count; k++) watch_piece(run, i, k, t);
-    }
+    const struct tie *tie = &run->model->tree->ties[i];
+    const struct fbd_state *state = run->during;
+    bool rubs = tie->kind == constraint_capstan && state->slip[tie->surface] == stick;
+    bool winds = tie->wound[0] != 0 || tie->wound[1] != 0;
+    bool hauls = tie->kind == constraint_rope && (winds || tie->reels) && is_taut(state, tie);
+    for (int end = 0; end < 2 && is_taut(state, tie); end++) watch_end(&(struct end){run, i, end}, t);
+    if (rubs) watch_wrap(run, i, *t);
+    for (int k = 0; (rubs || hauls) && k + 1 < tie->end_count; k++) watch_piece(run, i, k, t);
 }
 
-void run_check_drums(struct run *run)
+void run_watch_ends(struct run *run, struct moment *t)
 {
     const struct tree *tree = run->model->tree;
-    double rate;
+    for (int i = 0; tree && i < tree->tie_count && run->outcome == FBD_GOING; i++) watch_tie(run, i, t);
+}
+
+void run_check_ends(struct run *run)
+{
+    const struct tree *tree = run->model->tree;
     for (int i = 0; tree && i < tree->tie_count && run->outcome == FBD_GOING; i++) {
-        const struct tie *tie = &tree->ties[i];
-        if (tie->kind != constraint_rope || !is_taut(run->state, tie)) continue;
-        for (int end = 0; end < 2; end++) {
-            struct drum drum = {run, i, end};
-            if (tie->wound[end] == 0 || !isfinite(tie->spare[end])) continue;
+        if (tree->ties[i].kind != constraint_rope || !is_taut(run->state, &tree->ties[i])) continue;
+        for (int k = 0; k < 2; k++) {
+            struct end end = {run, i, k};
+            if (!isfinite(room_of(&end).size)) continue;
             look(run, run->state->t, run->state->y);
-            if (!is_used_up(&drum, rope_wound(run->model, run->during->tree, i, end, &rate))) continue;
-            run_fail(
-                run, FBD_BROKEN,
-                "at t = %.9g the rope `%s` gets taut where it is all unwound from `%s`. End the run before, "
-                "by an event, or wind more on it (`length` of `wound`)",
-                run_time(run), tie->name, disc_of(&drum));
+            if (is_used_up(room_of(&end))) fail_at_end(&end, run_time(run), true);
         }
     }
 }
