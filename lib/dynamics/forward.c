@@ -6,6 +6,7 @@
 #include "dynamics/absolute.h"
 #include "dynamics/own.h"
 #include "dynamics/sliding.h"
+#include "dynamics/state.h"
 #include "dynamics/tree.h"
 
 /* ---- planar bodies whose frame's origin O is not their centre of mass
@@ -205,9 +206,9 @@ void state_jacobian(const struct fbd_model *model, const struct instant *at, dou
                     double *dfdt)
 {
     const struct plan *plan = &model->plan;
-    size_t n = (size_t)plan->n, size = plan_size(plan), slot_count = (size_t)plan->slots;
-    double *slots = scratch, *slots_along = slots + slot_count, *dy = slots_along + slot_count,
-           *column = dy + size;
+    size_t n = (size_t)plan->n, size = plan_size(plan);
+    struct scratch of = scratch_of(plan, scratch);
+    double *slots = of.slots, *slots_along = of.slots_along, *dy = of.dy, *column = of.column;
     memset(dfdy, 0, size * size * sizeof *dfdy);
     memset(dy, 0, size * sizeof *dy);
     for (size_t j = 0; j < size; j++) {

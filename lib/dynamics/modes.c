@@ -77,16 +77,12 @@ static void lean(const struct fbd_state *state, double *dy)
     }
 }
 
-/* The direction in which the state goes on: (1, v, a, z'). Stored behind the slots in the scratch. */
+/* The direction in which the state goes on: (1, v, a, z'). Kept in the scratch. */
 static struct direction flow_of(struct fbd_state *state)
 {
     const struct plan *plan = &state->model->plan;
-    size_t n = (size_t)plan->n;
-    double *dy = state->scratch + 2 * (size_t)plan->slots;
-    memcpy(dy, state->y + n, n * sizeof *dy);
-    memcpy(dy + n, state->a, plan_rates(plan) * sizeof *dy);
-    if (plan->kink_count > 0) lean(state, dy);
-    struct direction flow = {1, dy};
+    struct direction flow = state_flow(state, state_scratch(state).dy);
+    if (plan->kink_count > 0) lean(state, state_scratch(state).dy);
     if (!state->extended) return flow;
     struct instant at = state_instant(state), extended = instant_extend(state->model, &at);
     return direction_extend(state->model, &extended, &flow);
@@ -121,45 +117,79 @@ static bool settle_branches(struct fbd_state *state, const struct decided *decid
     return memcmp(state->branch_before, state->branch, size) == 0;
 }
 
+/* ---- what each kind of mode decides by itself */
+
+struct settling {
+    struct fbd_state *state;
+    const struct decided *decided; /* or NULL */
+    const struct direction *flow;
+    const double *slots, *slots_along; /* the forces without friction, and how they go on */
+};
+
+enum { together = loose }; /* that is for what rests to decide together: tree_settle_holds */
+
+/* Taut or slack, closed or open. What closes is closed until its force ends. */
+static int decide_one_sided(const struct settling *settling, int pair)
+{
+    const struct fbd_state *state = settling->state;
+    struct instant at = state_instant(state);
+    struct one_sided now = one_sided_at(state->model, &at, pair);
+    bool closed = state->slip[pair] == stick;
+    bool near = fabs(now.excess) <= 1e3 * now.near && !now.parts;
+    if (now.touches || (settling->decided && closed)) return together;
+    if (closed && near) return stick;
+    return now.rate > 0 && now.excess > -now.rounding ? stick : slip_plus;
+}
+
+/* Moving, it slips to where it moves; at rest it sticks as long as friction can hold it (friction_decide). */
+static int decide_friction(const struct settling *settling, int pair)
+{
+    const struct fbd_model *model = settling->state->model;
+    struct instant at = state_instant(settling->state);
+    double v = settling_velocity(settling->state, settling->decided, pair);
+    if (v != 0) return v > 0 ? slip_plus : slip_minus;
+    if (model->plan.frictions[pair].jointed) return together;
+    struct friction_values now = friction_at(model, pair, &at, settling->slots);
+    struct friction_values rate =
+        friction_along(model, pair, &at, settling->slots, settling->flow, settling->slots_along);
+    return friction_decide(&now, &rate);
+}
+
+/* NULL: the time does (a drive), or impacts and what rests (a contact). */
+static int (*const decide[mode_kinds])(const struct settling *settling, int pair) = {
+    [mode_friction] = decide_friction, [mode_rope] = decide_one_sided, [mode_surface] = decide_one_sided};
+
+/* A guide presses on the side that keeps the body on its line; false when that has changed and matters. */
+static bool settle_pull(const struct settling *settling, int pair)
+{
+    struct fbd_state *state = settling->state;
+    const struct friction *friction = &state->model->plan.frictions[pair];
+    bool decided = settling->decided && settling->decided->pulls[pair];
+    if (!friction->two_sided || friction->jointed || decided) return true;
+    int pull = settling->slots[friction->normal_slot] > 0 ? -1 : 1;
+    bool same = pull == state->pull[pair] || state->slip[pair] == stick;
+    state->pull[pair] = pull;
+    return same;
+}
+
 static bool settle_slips(struct fbd_state *state, const struct decided *decided, const struct direction *flow)
 {
     const struct fbd_model *model = state->model;
     const struct plan *plan = &model->plan;
-    double *slots = state->scratch, *slots_along = slots + plan->slots;
+    struct scratch scratch = state_scratch(state);
+    struct settling settling = {state, decided, flow, scratch.slots, scratch.slots_along};
     struct instant at = state_instant(state);
     bool same = true;
     if (at.sliding) sliding_solve_along(model, &at, flow);
-    force_balance(model, &at, slots);
-    force_balance_along(model, &at, flow, slots, slots_along);
+    force_balance(model, &at, scratch.slots);
+    force_balance_along(model, &at, flow, scratch.slots, scratch.slots_along);
     for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        const struct friction *friction = &plan->frictions[pair];
-        if (friction->two_sided && !friction->jointed && !(decided && decided->pulls[pair])) {
-            int pull = slots[friction->normal_slot] > 0 ? -1 : 1;
-            same = same && (pull == state->pull[pair] || state->slip[pair] == stick);
-            state->pull[pair] = pull;
-        }
-        if (friction->kind == mode_drive || (decided && decided->slips[pair])) continue;
-        if (friction->kind == mode_contact) continue; /* closed by impacts; with the others that rest */
-        if (mode_is_one_sided(friction)) {
-            struct one_sided now = one_sided_at(model, &at, pair);
-            bool closed = state->slip[pair] == stick;
-            if (now.touches || (decided && closed)) continue; /* with the others that rest */
-            enum slip next = now.rate > 0 && now.excess > -now.rounding ? stick : slip_plus;
-            bool near = fabs(now.excess) <= 1e3 * now.near && !now.parts;
-            if (closed && near) next = stick; /* closed until its force ends */
-            same = same && state->slip[pair] == (int)next;
-            state->slip[pair] = next;
-            continue;
-        }
-        double v = settling_velocity(state, decided, pair);
-        enum slip next = v > 0 ? slip_plus : slip_minus;
-        if (v == 0 && friction->jointed) continue; /* all of them together */
-        if (v == 0) {
-            struct friction_values now = friction_at(model, pair, &at, slots);
-            struct friction_values rate = friction_along(model, pair, &at, slots, flow, slots_along);
-            next = friction_decide(&now, &rate);
-        }
-        same = same && state->slip[pair] == (int)next;
+        enum mode_kind kind = plan->frictions[pair].kind;
+        same = settle_pull(&settling, pair) && same;
+        if (!decide[kind] || (decided && decided->slips[pair])) continue;
+        int next = decide[kind](&settling, pair);
+        if (next == together) continue;
+        same = same && state->slip[pair] == next;
         state->slip[pair] = next;
     }
     if (model->tree && plan->friction_count > 0) same = tree_settle_holds(state, decided) && same;

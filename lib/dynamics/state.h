@@ -10,6 +10,8 @@
 #include "dynamics/sliding.h"
 #include "holds/holds.h"
 
+#include <string.h>
+
 /* Why holds could not be decided, or that they could be in several ways: `pair` is a friction whose normal
  * force answers to it, 1 N of it with `answer` N more of what presses; -1 when that is not it. */
 struct holds_trouble {
@@ -32,11 +34,39 @@ struct fbd_state {
     int *branch_before;                           /* scratch for settling: plan.branches */
     int *slip_before, *slip_forced, *slip_barely; /* and plan.friction_count each */
     int *slip_driven;        /* and: the side on which drives alone make it slip, 0 where forces do */
-    double *scratch;         /* 2 plan.slots + 3 n + 2 own */
+    double *scratch;         /* see struct scratch */
     double *extended;        /* scratch of absolute.h */
     struct sliding *sliding; /* NULL when no switch can be slid on */
     struct tree_work *tree;  /* of the jointed bodies, by state_evaluate; NULL when there are none */
 };
+
+/* What the scratch of a state is for, whoever uses it: nothing in it outlives a call. */
+struct scratch {
+    double *slots, *slots_along; /* plan.slots each: sums of terms, and their variation */
+    double *dy;                  /* plan_size: a direction */
+    double *column;              /* plan_rates: how rates of change vary along it */
+};
+
+static inline struct scratch scratch_of(const struct plan *plan, double *memory)
+{
+    double *slots_along = memory + plan->slots, *dy = slots_along + plan->slots;
+    return (struct scratch){memory, slots_along, dy, dy + plan_size(plan)};
+}
+
+static inline struct scratch state_scratch(const struct fbd_state *state)
+{
+    return scratch_of(&state->model->plan, state->scratch);
+}
+
+/* The direction in which an evaluated state goes on, (1, v, a, z'), written to dy. */
+static inline struct direction state_flow(const struct fbd_state *state, double *dy)
+{
+    const struct plan *plan = &state->model->plan;
+    size_t n = (size_t)plan->n;
+    memcpy(dy, state->y + n, n * sizeof *dy);
+    memcpy(dy + n, state->a, plan_rates(plan) * sizeof *dy);
+    return (struct direction){1, dy};
+}
 
 /* A state at the scene's initial values, t = 0, modes not yet settled. NULL when memory is out. */
 struct fbd_state *state_new(const struct fbd_model *model);

@@ -154,8 +154,7 @@ static int next_mode(const struct fbd_state *state, const double *slots, const d
         return now.force < -nothing || *by_rate ? slip_plus : stick;
     }
     if (state->slip[pair] != stick) return turns_back(state, pair) ? stick : state->slip[pair];
-    double *dy = state->scratch + 2 * (size_t)model->plan.slots;
-    struct direction flow = {1, dy};
+    struct direction flow = {1, state_scratch(state).dy};
     struct friction_values now = friction_at(model, pair, &at, slots);
     struct friction_values rate = friction_along(model, pair, &at, slots, &flow, slots_along);
     double excess = fabs(now.hold) - now.limit;
@@ -186,15 +185,14 @@ static bool pulls(struct fbd_state *state, const double *slots, const struct dec
 /* `at_limit`: it differs by rates alone, or by next to nothing; what has to give is in `forced`, and does. */
 static enum agreement look(struct fbd_state *state, const struct decided *decided, int *forced, bool solved)
 {
-    double *slots = state->scratch, *slots_along = slots + state->model->plan.slots;
+    double *slots = state_scratch(state).slots, *slots_along = state_scratch(state).slots_along;
     enum agreement found = agrees;
-    tree_evaluate(state, slots, slots_along);
+    struct direction flow = tree_evaluate(state);
     struct instant at = state_instant(state);
     if (!solved && rest_is_open(state->model, &at) && tree_choose_sides(state, slots))
-        tree_evaluate(state, slots, slots_along);
+        flow = tree_evaluate(state);
     struct arena arena = {0};
     struct rest_margin margin = {0};
-    struct direction flow = {1, slots_along + state->model->plan.slots};
     bool shared = tree_find_margin(state, &at, true, &flow, slots, slots_along, &arena, &margin);
     if (shared && margin.value < 0) /* that a slide has lost its surface is for others to say */
         shared = tree_find_margin(state, &at, false, &flow, slots, slots_along, &arena, &margin);

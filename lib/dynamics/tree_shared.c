@@ -5,19 +5,17 @@
 
 #include "dynamics/own.h"
 
-void tree_evaluate(struct fbd_state *state, double *slots, double *slots_along)
+struct direction tree_evaluate(struct fbd_state *state)
 {
     const struct fbd_model *model = state->model;
-    size_t n = (size_t)model->plan.n;
-    double *dy = state->scratch + 2 * (size_t)model->plan.slots;
+    struct scratch scratch = state_scratch(state);
     struct instant at = state_instant(state);
-    accelerations(model, &at, slots, state->a);
-    if (model->plan.own > 0) own_rates(model, &at, state->a + n);
-    memcpy(dy, state->y + n, n * sizeof *dy);
-    memcpy(dy + n, state->a, plan_rates(&model->plan) * sizeof *dy);
-    struct direction flow = {1, dy};
-    force_balance(model, &at, slots);
-    force_balance_along(model, &at, &flow, slots, slots_along);
+    accelerations(model, &at, scratch.slots, state->a);
+    if (model->plan.own > 0) own_rates(model, &at, state->a + model->plan.n);
+    struct direction flow = state_flow(state, scratch.dy);
+    force_balance(model, &at, scratch.slots);
+    force_balance_along(model, &at, &flow, scratch.slots, scratch.slots_along);
+    return flow;
 }
 
 bool tree_choose_sides(struct fbd_state *state, const double *slots)
@@ -67,12 +65,12 @@ bool tree_give_shared(struct fbd_state *state, int pair, bool *decided)
 {
     struct arena arena = {0};
     struct rest_margin margin;
-    double *slots = state->scratch, *slots_along = slots + state->model->plan.slots;
-    tree_evaluate(state, slots, slots_along);
-    struct direction flow = {1, slots_along + state->model->plan.slots};
+    struct scratch scratch = state_scratch(state);
+    struct direction flow = tree_evaluate(state);
     struct instant at = state_instant(state);
     bool gives =
-        tree_find_margin(state, &at, true, &flow, slots, slots_along, &arena, &margin) && margin.of[pair];
+        tree_find_margin(state, &at, true, &flow, scratch.slots, scratch.slots_along, &arena, &margin) &&
+        margin.of[pair];
     if (gives) give(state, &margin, state->slip_forced);
     for (size_t i = 0; gives && i < state->model->plan.friction_count; i++)
         decided[i] |= margin.gives[i] != 0;

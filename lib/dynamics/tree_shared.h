@@ -11,9 +11,8 @@
 /* Do the modes agree with the forces? `at_limit`: not by rates, or by next to nothing. */
 enum agreement { agrees, differs, at_limit };
 
-/* Forces, slots[plan.slots], and their rates of change in the present modes; slots_along is followed by the
- * 2 n rates of change of the state, as in state->scratch. */
-void tree_evaluate(struct fbd_state *state, double *slots, double *slots_along);
+/* Forces and their rates of change in the present modes, in the scratch of the state, and how that goes on. */
+struct direction tree_evaluate(struct fbd_state *state);
 
 /* What sticks on a guide that presses on either side: on which, by the least reactions. True when that has
  * changed. */

@@ -91,7 +91,8 @@ enum mode_kind {
     mode_rope,     /* one-sided: taut or slack; see tie.h */
     mode_surface,  /* one-sided: what rolls presses on its line or has left it */
     mode_contact,  /* one-sided: shapes touch or are apart; see contact.h */
-    mode_drive     /* always sticks, and `position` says where */
+    mode_drive,    /* always sticks, and `position` says where */
+    mode_kinds
 };
 
 /* One hold with a mode: dry friction, and what stands in the same list. */

@@ -141,14 +141,11 @@ static void take_driven(const struct run *run, double *dy)
 static void changes(struct run *run, const struct instant *at, bool by_time, double *along)
 {
     const struct plan *plan = &run->model->plan;
-    size_t n = (size_t)plan->n;
-    double *slots = run->state->scratch, *slots_along = slots + plan->slots, *dy = run->sample;
-    memcpy(dy, run->state->y + n, n * sizeof *dy);
-    memcpy(dy + n, run->state->a, plan_rates(plan) * sizeof *dy);
-    if (by_time) take_driven(run, dy);
-    struct direction flow = {1, dy};
-    accelerations_along(run->model, at, &flow, slots, slots_along, along);
-    if (plan->own > 0) own_rates_along(run->model, at, &flow, along + n);
+    struct scratch scratch = state_scratch(run->state);
+    struct direction flow = state_flow(run->state, run->sample);
+    if (by_time) take_driven(run, run->sample);
+    accelerations_along(run->model, at, &flow, scratch.slots, scratch.slots_along, along);
+    if (plan->own > 0) own_rates_along(run->model, at, &flow, along + plan->n);
 }
 
 /* What a coordinate and its rate become in a short time, and the arm that makes a length of an angle: of a body

@@ -228,7 +228,8 @@ static void set_flow(struct view *view, bool forces)
 {
     struct fbd_state *state = view->state;
     const struct plan *plan = &state->model->plan;
-    double *slots = state->scratch, *slots_along = slots + plan->slots, *dy = slots_along + plan->slots;
+    struct scratch scratch = state_scratch(state);
+    double *slots = scratch.slots, *slots_along = scratch.slots_along, *dy = scratch.dy;
     state_rates(state->model, &view->at, slots, dy);
     if (plan->own > 0) own_rates(state->model, &view->at, dy + plan_own_place(plan));
     view->flow = (struct direction){1, dy};
