@@ -20,6 +20,14 @@
  * and near a singular position everything stays smooth, so that motion passes it. (The augmented Lagrangian
  * method of Bayo and Ledesma, Nonlinear Dynamics 9, 1996, does the same.)
  *
+ * Signs: a unit multiplier means the forces grad g on the links, so that lambda > 0 drives g up; what is one-sided has
+ * lambda > 0 while a surface pushes (g the gap) and lambda < 0 while a rope pulls (g the length over its own). The unknown
+ * of a slide that slips is the force f along +q, with f + slip mu_k pull N = 0. Points, arms and forces of the ports are in
+ * the world, arms from the O of their link.
+ *
+ * Checked by Newton's and Euler's equations of each body with the forces so found, and by differences of the rates, in
+ * random trees with loops (tests/unit/test_tree.c), and of rows that say nothing new (test_couplings.c).
+ *
  * D is not the diagonal of S, which vanishes with the slope of a row: then nothing would be damped just where
  * it has to be. It is what the rows of a tie could have there in other positions (set_scales).
  */

@@ -1,4 +1,24 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * From forces to accelerations, and their variations.
+ *
+ * A body by itself has one inertia for each coordinate, its plan's: q'' = Q / m on a slide, Q / I_O about a pivot, Q / m
+ * and Q / I_G in the plane, with Q the sum of the terms in its slot, positive along +q. Where its frame is not at its
+ * centre of mass its three equations are coupled, see below. Dry friction comes last, since it goes with the normal force,
+ * the sum N = -Q_n of the terms across the slide (positive to the side to which the surface pushes):
+ *
+ *     slips    Q -= slip mu_k |N|, slip = +1 or -1 as it moves: against the motion
+ *     sticks   q'' = s', the acceleration of the surface; what holds it is H = m s' - Q (friction.h)
+ *
+ * On a straight line by itself N has no part of the friction. Between jointed bodies it has, so that both come from one
+ * solution: tree_accelerations.
+ *
+ * Along a direction (dt, dq, dv, dz) all of this is linear and is varied term by term; a column of the Jacobian is the
+ * variation along one component.
+ *
+ * Checked by the forces of the diagrams, which are computed by other formulas: m a_G and I_G alpha of each body, and by
+ * differences of the rates (tests/unit/test_dynamics.c).
+ */
 #include "dynamics/forward.h"
 
 #include <string.h>

@@ -1,4 +1,22 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What the modes become. With v the velocity against the surface, H the force that would hold, c = mu |N| its limit, g the
+ * excess of a rope over its length or of a body into its surface (g <= 0), and F the force of what is closed:
+ *
+ *     kind               moves                            at rest, or just closed
+ *     friction           slips to the side of v           sticks while |H| <= c; at |H| = c to rounding while
+ *                                                         d|H|/dt <= dc/dt; else slips against H
+ *     rope, surface      closes where g = 0 and g' > 0    closed while F >= 0; at F = 0 while F' >= 0
+ *     contact            closes by an impact              likewise
+ *     drive              as the time says                 always
+ *
+ * N, F and H go with what other pairs do: of bodies by themselves on straight lines they do not, and each pair decides by
+ * itself, here. What rests between jointed bodies is decided together, as one complementarity problem (tree_holds.c).
+ * Rates are those along the motion, d/dt = (1, v, a, z'), and need the modes in turn: so all is repeated until it agrees.
+ *
+ * Checked by all modes tried one after the other (tests/unit/test_holds.c), by random pairs whose stops are known
+ * (test_slip.c), and by starts at the limit (tests/hard/test_at_the_limit.c, test_coupled_friction.c).
+ */
 #include "dynamics/modes.h"
 
 #include <float.h>

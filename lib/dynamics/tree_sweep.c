@@ -1,4 +1,35 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The sweeps: what a joint passes on, and how it gives way (Featherstone, Rigid Body Dynamics Algorithms, section 7.3).
+ *
+ * All is counted from the bias (tree_bias.c), about the reference point O of each link, with components in the world. A
+ * link with all that hangs on it accelerates with A = (alpha, a) when its joint gives it the wrench
+ *
+ *     F = I A + p,   p = what keeps it on the bias - what is applied
+ *
+ * F is what the joint does to the link; the parent feels -F. The joint gives way along S, A = A' + S q'' with A' the
+ * acceleration that the parent has there, and F has along it the generalized force of the joint, S . F = g. With
+ *
+ *     U = I S,   D = 1 / (S . U),   u = g - S . p
+ *
+ * this gives q'' and, as a function of A' alone, what the parent has to provide for:
+ *
+ *     q'' = D (u - U . A')
+ *     F = I' A' + p',   I' = I - D U U^T,   p' = p + D u U
+ *
+ * inward, from the last link to the first, I' and p' are shifted by d to the O of the parent and added to its own; outward
+ * q'' and A follow from A'. A joint that sticks has no S: I' = I, p' = p, A = A'. Joint by joint, S = (alpha; a):
+ *
+ *     pivot   (1; 0)         U = (J; h). What is left of the moment is g: the first row and column of I' are zero
+ *     slide   (0; e)         U = (h . e; M e) = (Uh; U)
+ *     track   (kappa; e)     U = (kappa J + h . e; kappa h + M e), kappa 0 where the body does not turn along
+ *     free    a, and alpha when planar, in two steps: a = M^-1 (gf - p_f - h alpha) leaves of the moment
+ *             J_G alpha + p_m + h . M^-1 (gf - p_f) with J_G = J - h . M^-1 h, which is g when it turns by itself; the
+ *             parent of a particle feels J_G, of a planar body nothing but g and gf
+ *
+ * Checked against Kane's equations with a mass matrix of their own, Newton's and Euler's for each body
+ * (tests/unit/test_tree.c), and inverse dynamics of long chains (test_chain.c).
+ */
 #include <math.h>
 
 #include "dynamics/tree.h"

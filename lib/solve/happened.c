@@ -20,58 +20,69 @@ void run_note_friction(struct run *run, fbd_event_kind kind, int pair)
     event->limit = values.limit;
 }
 
-static void note_one_sided(struct run *run, int pair, int before, int after)
+/* What a mode was and is. */
+struct change {
+    int pair, before, after;
+    bool stopped; /* its velocity has come to zero */
+};
+
+static void note_one_sided(struct run *run, const struct change *change)
 {
-    const struct friction *friction = &run->model->plan.frictions[pair];
+    const struct friction *friction = &run->model->plan.frictions[change->pair];
     bool rope = run->model->tree->ties[friction->tie].law->way;
-    if (before == stick && after != stick)
+    if (change->before == stick && change->after != stick)
         run_note(run, rope ? FBD_EVENT_ROPE_SLACK : FBD_EVENT_LIFT_OFF, friction->body, friction->load, -1);
-    bool snapped = run->snap_pair == pair;
+    bool snapped = run->snap_pair == change->pair;
     if (snapped) run->snap_pair = -1;
-    if (!snapped && (before == stick || after != stick)) return;
+    if (!snapped && (change->before == stick || change->after != stick)) return;
     struct run_event *event =
         run_note(run, rope ? FBD_EVENT_ROPE_TAUT : FBD_EVENT_LANDING, friction->body, friction->load, -1);
     if (event) event->force = snapped ? -run->snap_work : 0;
 }
 
 /* Friction of a contact that has just closed or opened has no event of its own. */
-static bool rubbed_throughout(const struct run *run, int pair)
+static bool rubbed_throughout(const struct run *run, const struct friction *friction)
 {
-    int tie = run->model->plan.frictions[pair].tie;
-    if (tie < 0 || run->model->tree->ties[tie].kind != constraint_contact) return true;
-    int surface = run->model->tree->ties[tie].surface;
-    return run->during->slip[surface] == stick && run->state->slip[surface] == stick;
+    const struct tie *tie = friction->tie < 0 ? NULL : &run->model->tree->ties[friction->tie];
+    if (!tie || tie->meeting < 0) return true;
+    return run->during->slip[tie->surface] == stick && run->state->slip[tie->surface] == stick;
 }
+
+static void note_rubbing(struct run *run, const struct change *change)
+{
+    const struct friction *friction = &run->model->plan.frictions[change->pair];
+    int pair = change->pair, before = change->before, after = change->after;
+    if (!rubbed_throughout(run, friction)) return;
+    if (before == stick && after != stick) {
+        passages_note_stick(run, pair);
+        run_note_friction(run, FBD_EVENT_BREAKAWAY, pair);
+    }
+    if (before != stick && after == stick) {
+        if (friction->tie >= 0) tie_rezero(run->model, run->state->tree, friction->tie);
+        if (run->passages.now)
+            run->passages.sticks[pair] = true; /* at the end of the series */
+        else
+            run_note_friction(run, FBD_EVENT_STICK, pair);
+    }
+    if (change->stopped && after != stick && after != before)
+        run_note_friction(run, FBD_EVENT_REVERSAL, pair);
+}
+
+/* By kind; a drive has no events, and those of a contact are noted by run_release_contacts. */
+static void (*const note[mode_kinds])(struct run *run, const struct change *change) = {
+    [mode_friction] = note_rubbing, [mode_rope] = note_one_sided, [mode_surface] = note_one_sided};
 
 /* What each pair has done is read off its modes before and after, whichever event was the cause. */
 static void note_frictions(struct run *run, const bool *moving)
 {
     const struct watcher_set *set = &run->watchers.moving;
     for (int pair = 0; pair < (int)run->model->plan.friction_count; pair++) {
-        int before = run->during->slip[pair], after = run->state->slip[pair];
-        bool stopped = false;
+        struct change change = {pair, run->during->slip[pair], run->state->slip[pair], false};
         for (size_t i = 0; moving && i < set->count; i++)
-            stopped |=
+            change.stopped |=
                 moving[i] && set->watchers[i].kind == watch_slip_stop && set->watchers[i].index == pair;
-        if (run->model->plan.frictions[pair].kind == mode_contact) continue; /* run_release_contacts */
-        if (!rubbed_throughout(run, pair)) continue;
-        if (mode_is_one_sided(&run->model->plan.frictions[pair])) {
-            note_one_sided(run, pair, before, after);
-            continue;
-        }
-        if (before == stick && after != stick) {
-            passages_note_stick(run, pair);
-            run_note_friction(run, FBD_EVENT_BREAKAWAY, pair);
-        }
-        if (before != stick && after == stick) {
-            int tie = run->model->plan.frictions[pair].tie;
-            if (tie >= 0) tie_rezero(run->model, run->state->tree, tie);
-            if (run->passages.now)
-                run->passages.sticks[pair] = true; /* at the end of the series */
-            else
-                run_note_friction(run, FBD_EVENT_STICK, pair);
-        }
-        if (stopped && after != stick && after != before) run_note_friction(run, FBD_EVENT_REVERSAL, pair);
+        enum mode_kind kind = run->model->plan.frictions[pair].kind;
+        if (note[kind]) note[kind](run, &change);
     }
 }
 

@@ -303,7 +303,16 @@ static void set_linear_step(struct run *run)
     if (resolved > 0) run->h = fmin(run->h, resolved);
 }
 
-/* From where the step goes, in which modes. False when the run has ended. */
+/* ---- the stages of a turn: each goes on from the one before, and is the last where it ends the run */
+
+struct turn {
+    struct moment t;     /* the end of the step so far */
+    struct moment limit; /* which it does not pass */
+    bool timed;          /* because events of time alone happen there */
+    bool moving;         /* other events happen at its end */
+};
+
+/* From where the step goes, in which modes; after events the stepper starts anew. */
 static bool begin_step(struct run *run)
 {
     run->from = run->state->t;
@@ -314,53 +323,89 @@ static bool begin_step(struct run *run)
     return restart(run);
 }
 
-fbd_outcome run_advance(struct run *run)
+/* How long the step may be: to the next event of time alone, and not into a pole. */
+static bool limit_step(struct run *run, struct turn *turn)
 {
-    if (run->outcome != FBD_GOING) return run->outcome;
-    if (!begin_step(run)) return run->outcome;
     if (run->crawl == 0) run->not_finite = switcher_counts(run->stepper).rejected[rejected_not_finite];
     if (run->kind == structure_linear) set_linear_step(run);
     if (run->kind == structure_constant) run->h = run->options.until - run->from;
     run_part_before(run);
-    if (run->options.step == 0 && !heed_poles(run)) return run->outcome;
-    bool timed;
-    struct moment limit = next_time(run, &timed), t = run_start(run);
-    run_part_from(run, limit);
+    if (run->options.step == 0 && !heed_poles(run)) return false;
+    turn->limit = next_time(run, &turn->timed);
+    turn->t = run_start(run);
+    run_part_from(run, turn->limit);
+    return true;
+}
+
+/* One accepted step, to y and its slopes. */
+static bool make_step(struct run *run, struct turn *turn)
+{
     enum stepper_status status =
-        switcher_step(run->stepper, &run->system, &t, run->y, run->f, &run->h, limit);
-    if (status != stepper_ok) {
-        run_fail_step(run, status);
-        return run->outcome;
-    }
-    int moving = run_find_event(run, &t);
-    if (moving < 0) {
+        switcher_step(run->stepper, &run->system, &turn->t, run->y, run->f, &run->h, turn->limit);
+    if (status != stepper_ok) run_fail_step(run, status);
+    return status == stepper_ok;
+}
+
+/* The first event within it, to which it is cut; likewise where a coupling comes to an end. */
+static bool find_events(struct run *run, struct turn *turn)
+{
+    int found = run_find_event(run, &turn->t);
+    if (found < 0) {
         run_fail_step(run, stepper_bad_function);
-        return run->outcome;
+        return false;
     }
-    run_watch_pulleys(run, &t);
-    run_watch_ends(run, &t);
-    accept(run, t);
+    turn->moving = found > 0;
+    run_watch_pulleys(run, &turn->t);
+    run_watch_ends(run, &turn->t);
+    turn->timed = turn->timed && moment_equal(turn->t, turn->limit);
+    return true;
+}
+
+/* The state is that at its end, back on the couplings. */
+static bool accept_step(struct run *run, const struct turn *turn)
+{
+    accept(run, turn->t);
     check_crawl(run);
-    if (run->outcome != FBD_GOING) return run->outcome;
-    if (run->projected) counted_system_rhs(&run->system, t.t, run->y, run->f);
-    timed = timed && moment_equal(t, limit);
-    bool at_end = t.t >= run->options.until;
-    if (moving || timed) run_check_jam(run, false);
-    if (run->outcome != FBD_GOING) return run->outcome;
-    if (moving || timed)
-        run_apply(run, timed ? run->timed.crossed : NULL, moving ? run->moving.crossed : NULL);
-    else {
+    if (run->outcome != FBD_GOING) return false;
+    if (run->projected) counted_system_rhs(&run->system, turn->t.t, run->y, run->f);
+    return true;
+}
+
+/* What happens there: events, and what they settle; without any the forces are found anew. */
+static bool apply_events(struct run *run, const struct turn *turn)
+{
+    bool happens = turn->moving || turn->timed;
+    if (happens) run_check_jam(run, false);
+    if (run->outcome != FBD_GOING) return false;
+    if (happens) {
+        run_apply(run, turn->timed ? run->timed.crossed : NULL, turn->moving ? run->moving.crossed : NULL);
+    } else {
         /* Who shows forces shares them out: run_look, run_check_balance. */
         state_evaluate_unshared(run->state);
         run_check_jam(run, true);
         run_renew_noise(run);
     }
+    return true;
+}
+
+/* What is noted of the step, and what is watched from now on. */
+static void end_step(struct run *run, const struct turn *turn)
+{
+    bool at_end = turn->t.t >= run->options.until;
     run_note_rests(run);
     passages_note(run);
     if (at_end) run_apply_touched(run, false);
-    if (moving || timed || at_end) run_check_balance(run);
+    if (turn->moving || turn->timed || at_end) run_check_balance(run);
     if (run->outcome == FBD_GOING && at_end) run->outcome = FBD_DONE;
     if (run->outcome == FBD_GOING) watchers_arm(&run->watchers, run->state, run->state->t - run->from);
     if (run->projected || run->model->plan.watch_count > 0) scan_forget(&run->moving);
+}
+
+fbd_outcome run_advance(struct run *run)
+{
+    struct turn turn;
+    if (run->outcome == FBD_GOING && begin_step(run) && limit_step(run, &turn) && make_step(run, &turn) &&
+        find_events(run, &turn) && accept_step(run, &turn) && apply_events(run, &turn))
+        end_step(run, &turn);
     return run->outcome;
 }

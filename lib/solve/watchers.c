@@ -47,25 +47,43 @@ static bool always_the_same(const struct plan *plan, const struct friction *fric
            (friction->normal_slot < 0 || plan->slot_constant[friction->normal_slot]);
 }
 
-static void add_frictions(struct watchers *watchers, const struct plan *plan)
+/* ---- what is watched of each kind of mode */
+
+static void add_rubbing(struct watchers *watchers, const struct plan *plan, int pair)
 {
-    for (size_t i = 0; i < plan->friction_count; i++) {
-        const struct friction *friction = &plan->frictions[i];
-        if (friction->kind == mode_drive) continue;
-        if (friction->kind == mode_contact) {
-            add(&watchers->moving, (struct watcher){watch_lift, (int)i, 0, 0});
-            continue;
-        }
-        if (mode_is_one_sided(friction)) {
-            add(&watchers->moving, (struct watcher){watch_one_sided, (int)i, 0, 0});
-            continue;
-        }
-        add(&watchers->moving, (struct watcher){watch_slip_stop, (int)i, 0, 0});
-        if (!always_the_same(plan, friction))
-            for (int end = 0; end < 2; end++)
-                add(&watchers->moving, (struct watcher){watch_stick_limit, (int)i, 0, end});
-        if (friction->two_sided && !plan->slot_constant[friction->normal_slot])
-            add(&watchers->moving, (struct watcher){watch_normal_turns, (int)i, 0, 0});
+    const struct friction *friction = &plan->frictions[pair];
+    add(&watchers->moving, (struct watcher){watch_slip_stop, pair, 0, 0});
+    if (!always_the_same(plan, friction))
+        for (int end = 0; end < 2; end++)
+            add(&watchers->moving, (struct watcher){watch_stick_limit, pair, 0, end});
+    if (friction->two_sided && !plan->slot_constant[friction->normal_slot])
+        add(&watchers->moving, (struct watcher){watch_normal_turns, pair, 0, 0});
+}
+
+static void add_one_sided(struct watchers *watchers, const struct plan *plan, int pair)
+{
+    (void)plan;
+    add(&watchers->moving, (struct watcher){watch_one_sided, pair, 0, 0});
+}
+
+static void add_lift(struct watchers *watchers, const struct plan *plan, int pair)
+{
+    (void)plan;
+    add(&watchers->moving, (struct watcher){watch_lift, pair, 0, 0});
+}
+
+/* A drive never gives. */
+static void (*const add_mode[mode_kinds])(struct watchers *watchers, const struct plan *plan,
+                                          int pair) = {[mode_friction] = add_rubbing,
+                                                       [mode_rope] = add_one_sided,
+                                                       [mode_surface] = add_one_sided,
+                                                       [mode_contact] = add_lift};
+
+static void add_modes(struct watchers *watchers, const struct plan *plan)
+{
+    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
+        enum mode_kind kind = plan->frictions[pair].kind;
+        if (add_mode[kind]) add_mode[kind](watchers, plan, pair);
     }
 }
 
@@ -87,7 +105,7 @@ static void add_all(struct watchers *watchers, const struct fbd_model *model)
     const struct plan *plan = &model->plan;
     add_kinks(watchers, plan);
     add_shares(watchers, plan);
-    add_frictions(watchers, plan);
+    add_modes(watchers, plan);
     add_contacts(watchers, model->tree);
     for (size_t i = 0; i < plan->contact_count; i++)
         if (plan->contacts[i].pair < 0 && !plan->slot_constant[plan->contacts[i].slot])
