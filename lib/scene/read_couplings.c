@@ -256,10 +256,10 @@ static bool read_coupling(struct reader *reader, const struct node *node, bool c
     bool fine = fields_read(reader, chosen.kind->group, chosen.node, chosen.at, &scope, &keys);
     *name = (struct coupling_name){keys.name, chosen.kind, chosen.at, {ground_body, ground_body}};
     if (chosen.kind->value >= coupling_constraint) {
+        /* `slip` is that of the constraint that comes next: it counts when all that names it has been read. */
+        if (!fine || !share_friction(reader, chosen.node, &scope, &keys)) return false;
         struct constraint *constraint = &scene->constraints[scene->constraint_count++];
-        if (!fine || !share_friction(reader, chosen.node, &scope, &keys) ||
-            !read_constraint(reader, &chosen, &keys, constraint))
-            return false;
+        if (!read_constraint(reader, &chosen, &keys, constraint)) return false;
         name->body[0] = constraint->body[0];
         name->body[1] = constraint->body[constraint->end_count - 1];
         return true;
