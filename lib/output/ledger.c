@@ -5,6 +5,7 @@
 
 #include "dynamics/energy.h"
 #include "dynamics/mass.h"
+#include "model/tree.h"
 
 static double kinetic(const struct fbd_model *model, const struct instant *at)
 {
@@ -152,17 +153,30 @@ void ledger_note(struct ledger *ledger, const struct group *group)
     ledger->liveliest = fmax(ledger->liveliest, sum);
 }
 
+/* How far couplings reach: by that much they know where a body is, wherever that may be. */
+static double reach_of_couplings(const struct tree *tree)
+{
+    double reach = 0;
+    for (int i = 0; tree && i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        reach = fmax(reach, fabs(tie->length));
+        for (int end = 0; end < tie->end_count; end++)
+            reach = fmax(reach, vec_norm(tie->end[end].point) + tie->end[end].radius);
+    }
+    return reach;
+}
+
 /* What a rounding of all places at a state does: every force times the distance of its point, and every couple. */
 static double places(struct ledger *ledger, struct fbd_state *state)
 {
     const struct fbd_model *model = ledger->model;
     struct instant at = state_instant(state);
-    double sum = 0;
+    double sum = 0, reach = reach_of_couplings(model->tree);
     for (size_t b = 0; b < model->body_count; b++) {
         size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, ledger->arrows);
         for (size_t i = 0; i < count; i++) {
             const struct arrow *arrow = &ledger->arrows[i];
-            sum += vec_norm(arrow->force) * vec_norm(arrow->point) + fabs(arrow->couple);
+            sum += vec_norm(arrow->force) * fmax(vec_norm(arrow->point), reach) + fabs(arrow->couple);
         }
     }
     return sum;

@@ -110,6 +110,12 @@ static bool read_line_side(struct reader *reader, const struct node *list, int s
     return false;
 }
 
+/* A limit of zero holds nothing: what has it is smooth, as where no friction is listed. */
+static bool is_none(const struct value *mu)
+{
+    return mu->expr && expr_is_constant(mu->expr) && expr_value(mu->expr) == 0;
+}
+
 bool contact_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
 {
     const struct node *list = keys->between;
@@ -123,6 +129,8 @@ bool contact_read(struct reader *reader, const struct coupling_keys *keys, struc
     constraint->contact.restitution = keys->restitution;
     constraint->mu_s = keys->mu_s.expr ? keys->mu_s : keys->mu_k;
     constraint->mu_k = keys->mu_k.expr ? keys->mu_k : keys->mu_s;
+    if (is_none(&constraint->mu_s) && is_none(&constraint->mu_k))
+        constraint->mu_s = constraint->mu_k = (struct value){0};
     if (!check_restitution(reader, &keys->restitution) || !read_sides(reader, list, constraint)) return false;
     if (!read_line_side(reader, list, keys->side, constraint)) return false;
     if (constraint->body[0] == constraint->body[1]) {
@@ -186,7 +194,9 @@ static void add_stop(struct reader *reader, size_t b, int end, double limit, str
                                 .contact = {.stop = end == 0 ? 1 : -1, .limit = limit}};
     stop->contact.e = reader->drafts[b].motion_keys.restitution;
     *name = (struct coupling_name){arena_printf(reader->arena, end == 0 ? "%s_min" : "%s_max", body->name),
-                                   contact_kind, at, {ground_body, ground_body}};
+                                   contact_kind,
+                                   at,
+                                   {ground_body, ground_body}};
 }
 
 bool stops_read(struct reader *reader, struct coupling_name *names)

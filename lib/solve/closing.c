@@ -157,11 +157,19 @@ static bool overlong_rope(struct run *run, double most)
         int tie = plan->frictions[i].tie;
         double excess = one_sided_at(run->model, &at, (int)i).excess;
         if (excess <= most) continue;
-        run_fail(
-            run, FBD_FAILED,
-            "at t = %.9g the rope `%s` is longer than it is by %.3g: the instant at which it became taut "
-            "was missed. Try a smaller tolerance or step",
-            run_time(run), run->model->tree->ties[tie].name, excess);
+        const char *name = run->model->tree->ties[tie].name;
+        if (isnan(excess))
+            run_fail(run, FBD_FAILED,
+                     "at t = %.9g the rope `%s`, which is slack, has no way: what it goes to is within a "
+                     "circle that "
+                     "it runs over. End the run before, by an event",
+                     run_time(run), name);
+        else
+            run_fail(
+                run, FBD_FAILED,
+                "at t = %.9g the rope `%s` is longer than it is by %.3g: the instant at which it became taut "
+                "was missed. Try a smaller tolerance or step",
+                run_time(run), name, excess);
         return true;
     }
     return false;

@@ -44,6 +44,11 @@ static void a_block_slides_or_tips(void **unused)
     check_close(&checks, "tips", trial_event(&trial, FBD_EVENT_LIFT_OFF, NULL, 0), tips, 1e-9);
     check_that(&checks, "before it slides", !(trial_event(&trial, FBD_EVENT_BREAKAWAY, NULL, 0) < tips));
     trial_close(&trial);
+    trial = run_model("contact/push_slide_or_tip.yaml", SET("mu=0"));
+    check_that(&checks, "done without friction", trial.outcome == FBD_DONE);
+    check_close(&checks, "slides from the start", trial_get(&trial, "block.x"), rate * 27 / 6 / 5,
+                1e-9); /* F t^2/6 m */
+    trial_close(&trial);
     checks_end(&checks);
 }
 
