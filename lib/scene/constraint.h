@@ -26,18 +26,19 @@ struct coupling_keys {
 };
 
 /* What holds points or angles of bodies together: its force is whatever that takes. */
-enum constraint_kind {                 /* in the order in which --explain has them */
-                       constraint_pin, /* two points are one */
-                       constraint_rod, /* two points keep their distance */
-                       constraint_gear, /* two circles roll on each other without slip: radii, below zero for a ring inside */
-                       constraint_rack,    /* a circle and a line move along together */
-                       constraint_roll,    /* a circle on a line of the ground or of a body */
-                       constraint_slot,    /* a point on a line or curve of a body */
-                       constraint_belt,    /* a belt round two discs */
-                       constraint_capstan, /* a rope that rubs on a disc which it goes round */
-                       constraint_rope, /* the way through all points, over discs and ground points, has one length */
-                       constraint_contact, /* two bodies, or a body and the ground, that meet and part */
-                       constraint_kinds
+enum constraint_kind {
+    /* in the order in which --explain has them */
+    constraint_pin,     /* two points are one */
+    constraint_rod,     /* two points keep their distance */
+    constraint_gear,    /* two circles roll on each other without slip: radii, below zero for a ring inside */
+    constraint_rack,    /* a circle and a line move along together */
+    constraint_roll,    /* a circle on a line of the ground or of a body */
+    constraint_slot,    /* a point on a line or curve of a body */
+    constraint_belt,    /* a belt round two discs */
+    constraint_capstan, /* a rope that rubs on a disc which it goes round */
+    constraint_rope,    /* the way through all points, over discs and ground points, has one length */
+    constraint_contact, /* two bodies, or a body and the ground, that meet and part */
+    constraint_kinds
 };
 
 /* A convex polygon of the ground, corners counter-clockwise. */
