@@ -67,10 +67,9 @@ static void write_end(struct text *text, const struct fbd_model *model, const st
     const struct constraint *source = &model->scene->constraints[tie->constraint];
     bool wound = (k == 0 && tie->wound[0] != 0) || (k + 1 == tie->end_count && tie->wound[1] != 0);
     bool round = tie->law->strands && tie->end[k].radius > 0; /* a disc that its strands go round */
-    int side = tie->law->strands && !round        ? 0
-               : k == 0                           ? state->side[0]
-               : round || k + 1 == tie->end_count ? state->side[1]
-                                                  : 0;
+    int which = k == 0 ? 0 : round || k + 1 == tie->end_count ? 1 : -1;
+    if (tie->law->strands && !round) which = -1;
+    int side = which < 0 ? 0 : state->side[which];
     json_comma(text, (size_t)k);
     text_printf(text, "{\"body\":%d,", tie->end[k].body);
     json_vector_member(text, "point", end_point(model, source, tie->place + k));

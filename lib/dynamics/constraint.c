@@ -85,7 +85,7 @@ const struct constraint_form constraint_forms[constraint_kinds] = {
     [constraint_gear] = {.rows = gear, .start = zero_start},
     [constraint_rack] = {.rows = rack, .start = side_start},
     [constraint_roll] = {.rows = roll, .start = side_start},
-    [constraint_slot] = {.rows = slot_row, .start = slot_start, .follow = slot_follow, .room = slot_room},
+    [constraint_slot] = {.rows = slot_row, .start = slot_start, .follow = slot_follow, .left = slot_room},
     [constraint_belt] = {.rows = belt_rows,
                          .start = belt_start,
                          .follow = way_follow,
@@ -102,7 +102,7 @@ const struct constraint_form constraint_forms[constraint_kinds] = {
     [constraint_rope] = {.rows = rope_row,
                          .start = rope_start,
                          .follow = way_follow,
-                         .room = rope_room,
+                         .left = rope_room,
                          .piece = rope_end_piece},
     [constraint_contact] = {.rows = contact_rows},
 };
@@ -124,8 +124,10 @@ struct room tie_room(const struct fbd_model *model, const struct tree_work *work
     const struct tie *tie = &model->tree->ties[index];
     const struct constraint_form *form = &constraint_forms[tie->kind];
     struct view view = view_of(model, work);
-    if (!form->room) return (struct room){HUGE_VAL, 0, HUGE_VAL};
-    return form->room(&view, tie, &work->ties[index], end);
+    if (!form->left) return (struct room){HUGE_VAL, 0, HUGE_VAL};
+    /* By value: nothing of it points here. */
+    /* cppcheck-suppress returnDanglingLifetime */
+    return form->left(&view, tie, &work->ties[index], end);
 }
 
 void zero_start(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *rows)

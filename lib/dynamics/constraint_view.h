@@ -129,7 +129,7 @@ struct constraint_form {
     void (*follow)(const struct view *view, const struct tie *tie, struct tie_state *state);
 
     /* Has it ends to which it can come? */
-    struct room (*room)(const struct view *view, const struct tie *tie, const struct tie_state *state,
+    struct room (*left)(const struct view *view, const struct tie *tie, const struct tie_state *state,
                         int end);
 
     /* A way round discs: the direction of its first (end 0) and of its last piece. */

@@ -171,9 +171,8 @@ static bool is_stray(const char *line)
 static bool choose(struct fbd_grade *grade, const struct page *page, struct pos fault, struct entry *chosen)
 {
     struct entry tried[3];
-    int count = 0;
-    if (find_entry(page, fault.line, &tried[0]) && ++count && find_entry(page, tried[0].from - 1, &tried[1]))
-        count++;
+    int count = find_entry(page, fault.line, &tried[0]);
+    if (count > 0) count += find_entry(page, tried[0].from - 1, &tried[1]);
     const char *line = line_of(page, fault.line);
     if (count > 0 && line && is_stray(line))
         tried[count++] = (struct entry){fault.line, fault.line + 1, tried[0].key};
@@ -226,5 +225,6 @@ void answer_mend(struct fbd_grade *grade, char *text, size_t length)
     enum { most = 20 }; /* each reads the text three times */
     struct page page;
     if (!open_page(&grade->arena, text, length, &page)) return;
-    for (int k = 0; k < most && mend_one(grade, &page); k++) continue;
+    int left = most;
+    while (left > 0 && mend_one(grade, &page)) left--;
 }

@@ -146,7 +146,8 @@ struct load {
     /* applied force: where it acts, from `point` along the axes of the world, which do not turn with the body
      * (expr NULL: at `point` itself), and the moment about `point` that follows. */
     struct value offset_x, offset_y, couple;
-    bool conservative;    /* applied force or moment: its work is counted as potential energy, where it has one */
+    bool
+        conservative; /* applied force or moment: its work is counted as potential energy, where it has one */
     const char *toward;   /* where it points to, as the file says; `angle` follows from that. NULL: nowhere */
     struct spread spread; /* of a distributed load, whose resultant this is; length 0: of no such load */
     bool reaction;        /* what the body that it points to feels in return: `NAME.force` of body NAME */

@@ -21,8 +21,7 @@ bool body_name_read(struct reader *reader, const struct node *node, const char *
         return true;
     }
     size_t count = 0, there = reader->bodies ? reader->bodies->count : 0; /* a file may have none */
-    for (; count < there && count < most_listed; count++)
-        names[count] = reader->bodies->pairs[count].key;
+    for (; count < there && count < most_listed; count++) names[count] = reader->bodies->pairs[count].key;
     diag_add(reader->errors, FBD_ERROR, "unknown-body", node->at,
              diag_nearest(reader->errors, node->text, names, count), "`%s`: there is no body %s", what,
              value_found(reader, node));

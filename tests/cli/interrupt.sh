@@ -52,7 +52,7 @@ if terminal:
     if child == 0:
         os.environ["TERM"] = "xterm"
         os.execvp(command[0], command)
-    while b"\r" not in printed:
+    while b" left" not in printed:  # the whole line: what a terminal has not shown at ^C is lost
         printed += os.read(master, 4096)
     os.write(master, b"\x03")
     try:
