@@ -275,6 +275,15 @@ static bool read_coupling(struct reader *reader, const struct node *node, bool c
     return fine;
 }
 
+static bool read_list(struct reader *reader, const struct node *list, bool contact,
+                      struct coupling_name *names)
+{
+    bool fine = true;
+    for (size_t i = 0; list && i < list->count; i++)
+        if (!read_coupling(reader, list->items[i], contact, &names[i])) fine = false;
+    return fine;
+}
+
 bool couplings_read(struct reader *reader, const struct node *couplings, const struct node *contacts)
 {
     struct scene *scene = reader->scene;
@@ -285,11 +294,8 @@ bool couplings_read(struct reader *reader, const struct node *couplings, const s
     scene->constraints = ARENA_ARRAY(reader->arena, count, struct constraint);
     struct coupling_name *names = ARENA_ARRAY(reader->arena, count, struct coupling_name);
     if (!scene->couplings || !scene->constraints || !names) return false;
-    bool fine = true;
-    for (size_t i = 0; i < count - stops; i++) {
-        const struct node *node = i < first ? couplings->items[i] : contacts->items[i - first];
-        if (!read_coupling(reader, node, i >= first, &names[i])) fine = false;
-    }
+    bool fine = read_list(reader, couplings, false, names);
+    if (!read_list(reader, contacts, true, names + first)) fine = false;
     if (!stops_read(reader, names + count - stops)) fine = false;
     if (!fine || !couplings_name(reader, names, count)) return false;
     for (size_t i = 0; i < count; i++) {
