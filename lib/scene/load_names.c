@@ -74,11 +74,11 @@ static bool check_given(struct reader *reader, int index, const struct given_nam
 static const char *law_name(const struct load *load, size_t *row)
 {
     const struct kinds *const all[] = {&force_kinds, &moment_kinds};
-    const char *name = NULL;
-    for (int k = 0; k < 2 && !name; k++)
-        for (size_t i = 0; i < all[k]->count && !name; i++)
+    const char *name = ""; /* every load has a law that is in one of them */
+    for (int k = 0; k < 2 && !*name; k++)
+        for (size_t i = 0; i < all[k]->count && !*name; i++)
             if (all[k]->kinds[i].law == load->law) name = all[k]->kinds[i].name;
-    for (*row = 0; name && *row < force_kinds.count; (*row)++)
+    for (*row = 0; *row < force_kinds.count; (*row)++)
         if (strcmp(force_kinds.kinds[*row].name, name) == 0) break;
     return name;
 }

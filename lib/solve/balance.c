@@ -6,7 +6,6 @@
  * rounding of the arm, a difference of two places in the world, times the force.
  */
 #include "solve/balance.h"
-#include "dynamics/mass.h"
 
 #include <assert.h>
 #include <float.h>
