@@ -101,8 +101,10 @@ static bool note_arrow(const struct fbd_model *model, const struct model_body *b
     return not_finite_note(found, arrow->power, at, "the power of `%s` on `%s`", name, on);
 }
 
-/* What is given, or with `reactions` what follows. */
-static bool note_arrows(const struct fbd_state *state, struct arrow *arrows, bool reactions,
+/* What is given, what follows, or either. */
+enum which_arrows { given_arrows, reaction_arrows, all_arrows };
+
+static bool note_arrows(const struct fbd_state *state, struct arrow *arrows, enum which_arrows which,
                         struct not_finite *found)
 {
     const struct fbd_model *model = state->model;
@@ -113,28 +115,11 @@ static bool note_arrows(const struct fbd_state *state, struct arrow *arrows, boo
         struct vec G = point_motion(body, &pose, body->inertia.G).p;
         size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, arrows);
         for (size_t i = 0; i < count; i++)
-            if (arrow_is_reaction(model, &arrows[i]) == reactions &&
+            if ((which == all_arrows || arrow_is_reaction(model, &arrows[i]) == (which == reaction_arrows)) &&
                 note_arrow(model, body, &arrows[i], G, found))
                 return true;
     }
     return false;
-}
-
-/* Are all arrows finite, given ones and reactions? Mostly they are, and no order is asked for. */
-static bool arrows_finite(const struct fbd_state *state, struct arrow *arrows)
-{
-    const struct fbd_model *model = state->model;
-    struct instant at = state_instant(state);
-    struct not_finite unused;
-    for (size_t b = 0; b < model->body_count; b++) {
-        const struct model_body *body = &model->bodies[b];
-        struct pose pose = body_pose(body, &at);
-        struct vec G = point_motion(body, &pose, body->inertia.G).p;
-        size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, arrows);
-        for (size_t i = 0; i < count; i++)
-            if (note_arrow(model, body, &arrows[i], G, &unused)) return false;
-    }
-    return true;
 }
 
 static bool note_energies(const struct fbd_state *state, struct not_finite *found)
@@ -182,10 +167,12 @@ enum finite finite_check(const struct fbd_state *state, struct not_finite *found
 {
     struct arrow *arrows = calloc(diagram_most_arrows(state->model), sizeof *arrows);
     if (!arrows) return finite_no_memory;
-    bool fine = arrows_finite(state, arrows);
+    struct not_finite unused; /* mostly all are finite, and no order is asked for */
+    bool fine = !note_arrows(state, arrows, all_arrows, &unused);
     bool odd = note_coordinates(state, found) || note_own(state, found) ||
-               (!fine && note_arrows(state, arrows, false, found)) || note_accelerations(state, found) ||
-               (!fine && note_arrows(state, arrows, true, found)) || note_limits(state, found) ||
+               (!fine && note_arrows(state, arrows, given_arrows, found)) ||
+               note_accelerations(state, found) ||
+               (!fine && note_arrows(state, arrows, reaction_arrows, found)) || note_limits(state, found) ||
                note_energies(state, found);
     free(arrows);
     return odd ? finite_not : finite_all;

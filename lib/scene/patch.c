@@ -280,6 +280,9 @@ static bool find_words(struct patch *patch, const struct reading *beside)
 
 /* ---- making and freeing */
 
+/* Sites are compared with each other, and words with sites: beyond some hundred that takes longer than to read. */
+enum { most_sites = 500 };
+
 static bool make(struct patch *patch, const struct document *document, const struct override *overrides,
                  const char *const *beside)
 {
@@ -288,7 +291,8 @@ static bool make(struct patch *patch, const struct document *document, const str
     bool fine = read_with(&patch->reading, document, patch->own, patch->count);
     for (size_t i = 0; i < patch->count; i++)
         if (beside[i]) patch->own[i].value = beside[i];
-    fine = fine && read_with(&second, document, patch->own, patch->count) && find_words(patch, &second);
+    fine = fine && patch->reading.record.count <= most_sites &&
+           read_with(&second, document, patch->own, patch->count) && find_words(patch, &second);
     close_reading(&second);
     return fine;
 }

@@ -241,9 +241,9 @@ static bool leaves_for_the_last_time(const struct run *run, int i)
     return work->bounces[tree_of(run)->ties[work->strikers[i].tie].meeting].rests_from < HUGE_VAL;
 }
 
-/* The speeds at which surfaces are left, and ropes let go, are taken away by impulses that rub as the weight would have done that
- * took them away: at rest from now on, surfaces press m a T in the time T of the series, and so they do in it but
- * for m v. */
+/* The speeds at which surfaces are left, and ropes let go, are taken away by impulses that rub as the weight would have
+ * done that took them away: at rest from now on, surfaces press m a T in the time T of the series, and so they do in it
+ * but for m v. */
 static void take_leaving_speeds(struct run *run, int count)
 {
     struct contacts_work *work = &run->contacts;
