@@ -37,10 +37,10 @@ static double choose(enum absolute_kind kind, struct motion_of_point at, double 
 
 static double relative_speed(const struct fbd_model *model, int pair, const struct instant *at)
 {
-    const struct friction *friction = &model->plan.frictions[pair];
-    if (friction->tie >= 0) return at->slip[pair] * tie_slip(model, at, friction->tie, false).value;
-    double v = at->y[model->plan.n + friction->coordinate];
-    return at->slip[pair] * (v - formula_value(&friction->surface_speed, at));
+    const struct mode *mode = &model->plan.modes[pair];
+    if (mode->tie >= 0) return at->slip[pair] * tie_slip(model, at, mode->tie, false).value;
+    double v = at->y[model->plan.n + mode->coordinate];
+    return at->slip[pair] * (v - formula_value(&mode->surface_speed, at));
 }
 
 static double slip_at(const struct fbd_model *model, const struct model_absolute *slip,
@@ -55,12 +55,12 @@ static double slip_along(const struct fbd_model *model, const struct model_absol
                          const struct instant *at, const struct direction *along)
 {
     if (slip->pair < 0 || at->slip[slip->pair] == stick) return 0;
-    const struct friction *friction = &model->plan.frictions[slip->pair];
+    const struct mode *mode = &model->plan.modes[slip->pair];
     int sign = at->slip[slip->pair];
     if (slip->even && relative_speed(model, slip->pair, at) < 0) sign = -sign;
-    if (friction->tie >= 0) return sign * tie_slip(model, at, friction->tie, true).variation;
-    double d_speed, dv = along->dy[model->plan.n + friction->coordinate];
-    formula_along(&friction->surface_speed, at, along, &d_speed);
+    if (mode->tie >= 0) return sign * tie_slip(model, at, mode->tie, true).variation;
+    double d_speed, dv = along->dy[model->plan.n + mode->coordinate];
+    formula_along(&mode->surface_speed, at, along, &d_speed);
     return sign * (dv - d_speed);
 }
 

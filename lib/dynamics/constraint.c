@@ -232,7 +232,7 @@ static double fastest(const struct tree *tree, struct tree_work *work, double ar
 
 struct one_sided one_sided_at(const struct fbd_model *model, const struct instant *at, int pair)
 {
-    const struct friction *hold = &model->plan.frictions[pair];
+    const struct mode *hold = &model->plan.modes[pair];
     const struct tie *tie = &model->tree->ties[hold->tie];
     const struct row *row = &at->tree->rows[tie->first_row];
     bool rope = hold->kind == mode_rope;

@@ -143,7 +143,7 @@ static void potential_arrow(const struct model_body *body, const struct model_lo
 static void drive_arrow(const struct fbd_model *model, const struct model_body *body,
                         const struct joint *joint, const double *slots, struct arrow *arrow)
 {
-    double drive = -slots[model->plan.frictions[body->drive_pair].hold_slot];
+    double drive = -slots[model->plan.modes[body->drive_pair].hold_slot];
     if (body->kind == motion_pivot)
         arrow->couple = drive;
     else

@@ -148,16 +148,15 @@ static bool note_limits(const struct fbd_state *state, struct not_finite *found)
 {
     const struct fbd_model *model = state->model;
     const struct instant at = state_instant(state);
-    for (size_t i = 0; i < model->plan.friction_count; i++) {
-        const struct friction *friction = &model->plan.frictions[i];
-        if (friction->kind != mode_friction) continue;
+    for (size_t i = 0; i < model->plan.mode_count; i++) {
+        const struct mode *mode = &model->plan.modes[i];
+        if (!mode_is_friction(mode)) continue;
         const struct friction_values values = friction_at(model, (int)i, &at, state->slots);
-        const struct load *source = model->loads[friction->load].source;
+        const struct load *source = model->loads[mode->load].source;
         const double limits[] = {values.limit_static, values.limit_kinetic};
         for (int k = 0; k < 2; k++)
             if (not_finite_note(found, limits[k], source->at, "the %s limit of `%s` on `%s`",
-                                k == 0 ? "static" : "kinetic", source->name,
-                                model->bodies[friction->body].name))
+                                k == 0 ? "static" : "kinetic", source->name, model->bodies[mode->body].name))
                 return true;
     }
     return false;

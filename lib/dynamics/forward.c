@@ -108,15 +108,15 @@ static void take_tree_variations(const struct tree *tree, const struct tree_work
 static void add_kinetic_friction(const struct fbd_model *model, int pair, const struct instant *at,
                                  double *slots)
 {
-    const struct friction *friction = &model->plan.frictions[pair];
-    double press = friction->normal_slot < 0 ? 1 : fmax(0, -at->pull[pair] * slots[friction->normal_slot]);
-    slots[friction->coordinate] -= at->slip[pair] * formula_value(&friction->mu_k, at) * press;
+    const struct mode *mode = &model->plan.modes[pair];
+    double press = mode->normal_slot < 0 ? 1 : fmax(0, -at->pull[pair] * slots[mode->normal_slot]);
+    slots[mode->coordinate] -= at->slip[pair] * formula_value(&mode->mu_k, at) * press;
 }
 
 /* Does the pair stick, and is it a coordinate that it holds? (A rolling body is held by a row.) */
 static bool holds_coordinate(const struct plan *plan, const struct instant *at, int pair)
 {
-    return at->slip[pair] == stick && plan->frictions[pair].tie < 0;
+    return at->slip[pair] == stick && plan->modes[pair].tie < 0;
 }
 
 void body_accelerations(const struct fbd_model *model, int b, const struct instant *at, double *slots,
@@ -132,7 +132,7 @@ void body_accelerations(const struct fbd_model *model, int b, const struct insta
     if (slips) add_kinetic_friction(model, terms->friction, at, slots);
     for (int i = body->first; i < body->first + body->count; i++) a[i] = plan->inverse_inertia[i] * slots[i];
     if (terms->offset >= 0) offset_accelerations(&plan->offsets[terms->offset], at, plan->n, turn, slots, a);
-    if (rubs && !slips) friction_surface_speed(&plan->frictions[terms->friction], at, &a[body->first]);
+    if (rubs && !slips) friction_surface_speed(&plan->modes[terms->friction], at, &a[body->first]);
 }
 
 void accelerations_at_shares(const struct fbd_model *model, const struct instant *given, double *slots,
@@ -148,10 +148,10 @@ void accelerations_at_shares(const struct fbd_model *model, const struct instant
     memset(slots, 0, (size_t)model->plan.slots * sizeof *slots);
     for (int k = 0; k < tree->acting_count; k++) body_accelerations(model, tree->acting[k], at, slots, a);
     tree_accelerations(model, at, slots, a);
-    for (int pair = 0; pair < (int)model->plan.friction_count; pair++) {
-        const struct friction *friction = &model->plan.frictions[pair];
-        if (friction->jointed && holds_coordinate(&model->plan, at, pair))
-            friction_surface_speed(friction, at, &a[friction->coordinate]);
+    for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
+        const struct mode *mode = &model->plan.modes[pair];
+        if (mode->kind != mode_single && holds_coordinate(&model->plan, at, pair))
+            friction_surface_speed(mode, at, &a[mode->coordinate]);
     }
 }
 
@@ -171,20 +171,20 @@ void accelerations_along_at_shares(const struct fbd_model *model, const struct i
     const struct direction extended_along = direction_extend(model, at, direction), *along = &extended_along;
     force_balance(model, at, slots);
     force_balance_along(model, at, along, slots, slots_along);
-    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        if (at->slip[pair] == stick || plan->frictions[pair].jointed) continue;
+    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
+        if (at->slip[pair] == stick || plan->modes[pair].kind != mode_single) continue;
         struct friction_values rate = friction_along(model, pair, at, slots, along, slots_along);
-        slots_along[plan->frictions[pair].coordinate] += rate.force;
+        slots_along[plan->modes[pair].coordinate] += rate.force;
     }
     for (int i = 0; i < plan->n; i++) a_along[i] = plan->inverse_inertia[i] * slots_along[i];
     for (size_t i = 0; i < plan->offset_count; i++)
         offset_variations(&plan->offsets[i], at, plan->n, along, slots, slots_along, a_along);
     if (model->tree) take_tree_variations(model->tree, at->tree, a_along);
-    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
+    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
         if (!holds_coordinate(plan, at, pair)) continue;
-        const struct friction *friction = &plan->frictions[pair];
-        double jerk = friction_surface_jerk(friction, at);
-        a_along[friction->coordinate] = jerk * along->dt;
+        const struct mode *mode = &plan->modes[pair];
+        double jerk = friction_surface_jerk(mode, at);
+        a_along[mode->coordinate] = jerk * along->dt;
     }
 }
 
@@ -206,7 +206,7 @@ void body_rates(const struct fbd_model *model, int b, const struct instant *at, 
     body_accelerations(model, b, at, slots, dydt + plan->n);
     double acceleration;
     if (body->friction >= 0 && at->slip[body->friction] == stick)
-        dydt[body->first] = friction_surface_speed(&plan->frictions[body->friction], at, &acceleration);
+        dydt[body->first] = friction_surface_speed(&plan->modes[body->friction], at, &acceleration);
 }
 
 void state_rates(const struct fbd_model *model, const struct instant *at, double *slots, double *dydt)
@@ -216,10 +216,10 @@ void state_rates(const struct fbd_model *model, const struct instant *at, double
     memcpy(dydt, at->y + n, n * sizeof *dydt);
     accelerations(model, at, slots, dydt + n);
     double acceleration;
-    for (int pair = 0; pair < (int)plan->friction_count; pair++)
+    for (int pair = 0; pair < (int)plan->mode_count; pair++)
         if (holds_coordinate(plan, at, pair))
-            dydt[plan->frictions[pair].coordinate] =
-                friction_surface_speed(&plan->frictions[pair], at, &acceleration);
+            dydt[plan->modes[pair].coordinate] =
+                friction_surface_speed(&plan->modes[pair], at, &acceleration);
 }
 
 void state_jacobian(const struct fbd_model *model, const struct instant *at, double *scratch, double *dfdy,
@@ -244,10 +244,10 @@ void state_jacobian(const struct fbd_model *model, const struct instant *at, dou
     memset(dfdt, 0, n * sizeof *dfdt);
     accelerations_along(model, at, &in_time, slots, slots_along, dfdt + n);
     if (plan->own > 0) own_rates_along(model, at, &in_time, dfdt + 2 * n);
-    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
+    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
         if (!holds_coordinate(plan, at, pair)) continue;
-        size_t i = (size_t)plan->frictions[pair].coordinate;
+        size_t i = (size_t)plan->modes[pair].coordinate;
         dfdy[i * size + n + i] = 0;
-        friction_surface_speed(&plan->frictions[pair], at, &dfdt[i]);
+        friction_surface_speed(&plan->modes[pair], at, &dfdt[i]);
     }
 }

@@ -5,26 +5,26 @@
 
 #include "dynamics/constraint_view.h"
 
-double friction_surface_speed(const struct friction *friction, const struct instant *at, double *acceleration)
+double friction_surface_speed(const struct mode *mode, const struct instant *at, double *acceleration)
 {
     *acceleration = 0;
-    if (friction->kind == mode_drive) {
+    if (mode->kind == mode_drive) {
         double speed, same;
-        if (!friction->position.expr) return 0;
-        expr_eval_second(friction->position.expr, at->t, at->y, 0, 0,
-                         formula_branches(&friction->position, at), &speed, &same, acceleration);
+        if (!mode->position.expr) return 0;
+        expr_eval_second(mode->position.expr, at->t, at->y, 0, 0, formula_branches(&mode->position, at),
+                         &speed, &same, acceleration);
         return speed;
     }
-    if (!friction->surface_speed.expr) return friction->surface_speed.constant;
-    return expr_eval_slot(friction->surface_speed.expr, at->t, at->y, 0,
-                          formula_branches(&friction->surface_speed, at), acceleration);
+    if (!mode->surface_speed.expr) return mode->surface_speed.constant;
+    return expr_eval_slot(mode->surface_speed.expr, at->t, at->y, 0,
+                          formula_branches(&mode->surface_speed, at), acceleration);
 }
 
 double friction_coefficient(const struct fbd_model *model, int pair, const struct formula *mu,
                             const struct instant *at, const struct direction *along, double *variation)
 {
     double d_mu = 0, d_wrap, value = along ? formula_along(mu, at, along, &d_mu) : formula_value(mu, at);
-    int tie = model->plan.frictions[pair].tie;
+    int tie = model->plan.modes[pair].tie;
     if (variation) *variation = d_mu;
     const struct constraint_form *form = tie < 0 ? NULL : &constraint_forms[model->tree->ties[tie].kind];
     if (!form || !form->wrap) return value;
@@ -42,33 +42,32 @@ double formula_third(const struct formula *formula, const struct instant *at)
     return (high - low) / (2 * h);
 }
 
-double friction_surface_jerk(const struct friction *friction, const struct instant *at)
+double friction_surface_jerk(const struct mode *mode, const struct instant *at)
 {
     double d_a, d_b, jerk = 0;
-    if (friction->kind == mode_drive && friction->position.expr)
-        return formula_third(&friction->position, at);
-    if (friction->surface_speed.expr)
-        expr_eval_second(friction->surface_speed.expr, at->t, at->y, 0, 0,
-                         formula_branches(&friction->surface_speed, at), &d_a, &d_b, &jerk);
+    if (mode->kind == mode_drive && mode->position.expr) return formula_third(&mode->position, at);
+    if (mode->surface_speed.expr)
+        expr_eval_second(mode->surface_speed.expr, at->t, at->y, 0, 0,
+                         formula_branches(&mode->surface_speed, at), &d_a, &d_b, &jerk);
     return jerk;
 }
 
 struct friction_values friction_at(const struct fbd_model *model, int pair, const struct instant *at,
                                    const double *slots)
 {
-    const struct friction *friction = &model->plan.frictions[pair];
+    const struct mode *mode = &model->plan.modes[pair];
     struct friction_values values = {0};
-    if (mode_is_one_sided(friction)) return values;
+    if (mode_is_one_sided(mode)) return values;
     double press = 1; /* a bearing states its limits as moments */
-    if (friction->normal_slot >= 0) {
-        values.N = -slots[friction->normal_slot];
+    if (mode->normal_slot >= 0) {
+        values.N = -slots[mode->normal_slot];
         press = fmax(0, at->pull[pair] * values.N); /* a surface that would have to pull is not there */
     }
-    values.limit_static = friction_coefficient(model, pair, &friction->mu_s, at, NULL, NULL) * press;
-    values.limit_kinetic = friction_coefficient(model, pair, &friction->mu_k, at, NULL, NULL) * press;
+    values.limit_static = friction_coefficient(model, pair, &mode->mu_s, at, NULL, NULL) * press;
+    values.limit_kinetic = friction_coefficient(model, pair, &mode->mu_k, at, NULL, NULL) * press;
     double acceleration;
-    friction_surface_speed(friction, at, &acceleration);
-    values.hold = friction->inertia * acceleration - slots[friction->hold_slot];
+    friction_surface_speed(mode, at, &acceleration);
+    values.hold = mode->inertia * acceleration - slots[mode->hold_slot];
     values.limit = fmax(values.limit_static, values.limit_kinetic);
     values.force = at->slip[pair] == stick ? values.hold : -at->slip[pair] * values.limit_kinetic;
     return values;
@@ -78,21 +77,21 @@ struct friction_values friction_along(const struct fbd_model *model, int pair, c
                                       const double *slots, const struct direction *along,
                                       const double *slots_along)
 {
-    const struct friction *friction = &model->plan.frictions[pair];
+    const struct mode *mode = &model->plan.modes[pair];
     struct friction_values rate = {0};
-    if (mode_is_one_sided(friction)) return rate;
+    if (mode_is_one_sided(mode)) return rate;
     double press = 1, d_press = 0, d_mu;
-    if (friction->normal_slot >= 0) {
-        rate.N = -slots_along[friction->normal_slot];
-        press = fmax(0, -at->pull[pair] * slots[friction->normal_slot]);
+    if (mode->normal_slot >= 0) {
+        rate.N = -slots_along[mode->normal_slot];
+        press = fmax(0, -at->pull[pair] * slots[mode->normal_slot]);
         d_press = at->pull[pair] * rate.N;
     }
-    double mu = friction_coefficient(model, pair, &friction->mu_s, at, along, &d_mu);
+    double mu = friction_coefficient(model, pair, &mode->mu_s, at, along, &d_mu);
     rate.limit_static = d_mu * press + mu * d_press;
-    mu = friction_coefficient(model, pair, &friction->mu_k, at, along, &d_mu);
+    mu = friction_coefficient(model, pair, &mode->mu_k, at, along, &d_mu);
     rate.limit_kinetic = d_mu * press + mu * d_press;
-    double jerk = friction_surface_jerk(friction, at);
-    rate.hold = friction->inertia * jerk * along->dt - slots_along[friction->hold_slot];
+    double jerk = friction_surface_jerk(mode, at);
+    rate.hold = mode->inertia * jerk * along->dt - slots_along[mode->hold_slot];
     rate.force = at->slip[pair] == stick ? rate.hold : -at->slip[pair] * rate.limit_kinetic;
     return rate;
 }

@@ -27,8 +27,7 @@ struct friction_values {
     double force;         /* the friction force (moment) along +x in the present mode */
 };
 
-double friction_surface_speed(const struct friction *friction, const struct instant *at,
-                              double *acceleration);
+double friction_surface_speed(const struct mode *mode, const struct instant *at, double *acceleration);
 
 /* A coefficient of friction at an instant, and its variation along a direction that the links follow. Of a rope round a
  * drum it is tanh(mu beta / 2), of the sum of its tensions. */
@@ -40,7 +39,7 @@ double friction_coefficient(const struct fbd_model *model, int pair, const struc
 double formula_third(const struct formula *formula, const struct instant *at);
 
 /* The rate of change of that acceleration with time. */
-double friction_surface_jerk(const struct friction *friction, const struct instant *at);
+double friction_surface_jerk(const struct mode *mode, const struct instant *at);
 
 struct friction_values friction_at(const struct fbd_model *model, int pair, const struct instant *at,
                                    const double *slots);

@@ -30,11 +30,11 @@ static void factor_tree(struct fbd_state *state)
 /* What holds on one side only holds nothing. */
 static void let_go(const struct fbd_model *model, int *modes)
 {
-    for (size_t i = 0; i < model->plan.friction_count; i++) {
-        const struct friction *friction = &model->plan.frictions[i];
-        bool rolls = friction->tie >= 0 && model->tree->ties[friction->tie].meeting < 0;
-        bool one_sided = friction->kind == mode_rope || friction->kind == mode_contact;
-        if (one_sided || (friction->kind == mode_friction && !rolls)) modes[i] = slip_plus;
+    for (size_t i = 0; i < model->plan.mode_count; i++) {
+        const struct mode *mode = &model->plan.modes[i];
+        bool rolls = mode->tie >= 0 && model->tree->ties[mode->tie].meeting < 0;
+        bool one_sided = mode->kind == mode_rope || mode->kind == mode_contact;
+        if (one_sided || (mode_is_friction(mode) && !rolls)) modes[i] = slip_plus;
     }
 }
 
@@ -60,7 +60,7 @@ void impulse_answers(struct fbd_state *state, const int *rows, int count, int *m
     const double exact = 1e-13; /* slopes that are left alone; see project.c */
     struct instant at = state_instant(state);
     factor_tree(state);
-    memcpy(modes, state->slip, model->plan.friction_count * sizeof *modes);
+    memcpy(modes, state->slip, model->plan.mode_count * sizeof *modes);
     let_go(model, modes);
     at.slip = modes;
     work->projecting = true;

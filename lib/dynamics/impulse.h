@@ -14,7 +14,7 @@
 
 /* For `count` rows, the state's rows being evaluated: W[count x count], the velocity of row i by a unit
  * impulse along row j, and answers[count x n], the velocities of the coordinates by each. `modes` has room
- * for plan.friction_count numbers. */
+ * for plan.mode_count numbers. */
 void impulse_answers(struct fbd_state *state, const int *rows, int count, int *modes, double *W,
                      double *answers);
 

@@ -27,11 +27,11 @@ static inline int slip_side(int slip)
 struct instant {
     double t;
     const double *y;
-    const int *branch; /* plan.branches: of the switches in formulas; NULL for plain values */
-    const int *slip;   /* plan.friction_count: enum slip */
-    const int *pull;   /* plan.friction_count: sign of the normal force of a two-sided guide, +1 otherwise */
-    struct tree_work *tree;  /* scratch and results of the jointed bodies; NULL when there are none */
-    double *extended;        /* scratch of absolute.h; NULL when no expression names a place in the world */
+    const int *branch;      /* plan.branches: of the switches in formulas; NULL for plain values */
+    const int *slip;        /* plan.mode_count: enum slip */
+    const int *pull;        /* plan.mode_count: sign of the normal force of a two-sided guide, +1 otherwise */
+    struct tree_work *tree; /* scratch and results of the jointed bodies; NULL when there are none */
+    double *extended;       /* scratch of absolute.h; NULL when no expression names a place in the world */
     struct sliding *sliding; /* switches that the motion slides on; NULL when there are none */
 };
 

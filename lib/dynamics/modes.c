@@ -27,17 +27,17 @@
 
 double slip_velocity(const struct fbd_model *model, int pair, const struct instant *at)
 {
-    const struct friction *friction = &model->plan.frictions[pair];
-    if (friction->tie >= 0) return tie_slip_velocity(model, at, friction->tie);
-    double v = at->y[model->plan.n + friction->coordinate], acceleration;
-    double s = friction_surface_speed(friction, at, &acceleration);
+    const struct mode *mode = &model->plan.modes[pair];
+    if (mode->tie >= 0) return tie_slip_velocity(model, at, mode->tie);
+    double v = at->y[model->plan.n + mode->coordinate], acceleration;
+    double s = friction_surface_speed(mode, at, &acceleration);
     return fabs(v - s) <= 4 * DBL_EPSILON * fabs(s) ? 0 : v - s;
 }
 
 double settling_velocity(const struct fbd_state *state, const struct decided *decided, int pair)
 {
     struct instant at = state_instant(state);
-    if (decided && state->slip[pair] == stick && state->model->plan.frictions[pair].jointed) return 0;
+    if (decided && state->slip[pair] == stick && state->model->plan.modes[pair].kind != mode_single) return 0;
     return slip_velocity(state->model, pair, &at);
 }
 
@@ -46,15 +46,15 @@ void modes_drive(struct fbd_state *state)
     const struct plan *plan = &state->model->plan;
     struct instant at = state_instant(state);
     double acceleration;
-    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        const struct friction *friction = &plan->frictions[pair];
-        if (friction->kind != mode_drive) continue;
+    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
+        const struct mode *mode = &plan->modes[pair];
+        if (mode->kind != mode_drive) continue;
         /* Of the time alone: the rates of the state do not matter. */
-        if (!formula_is_constant(&friction->position))
-            expr_resolve(friction->position.expr, state_moment(state), state->y, 1, state->y, NULL,
-                         state->branch + friction->position.branch);
-        state->y[friction->coordinate] = formula_value(&friction->position, &at);
-        state->y[plan->n + friction->coordinate] = friction_surface_speed(friction, &at, &acceleration);
+        if (!formula_is_constant(&mode->position))
+            expr_resolve(mode->position.expr, state_moment(state), state->y, 1, state->y, NULL,
+                         state->branch + mode->position.branch);
+        state->y[mode->coordinate] = formula_value(&mode->position, &at);
+        state->y[plan->n + mode->coordinate] = friction_surface_speed(mode, &at, &acceleration);
     }
 }
 
@@ -63,12 +63,11 @@ void modes_hold(struct fbd_state *state)
     const struct plan *plan = &state->model->plan;
     struct instant at = state_instant(state);
     double acceleration;
-    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        const struct friction *friction = &plan->frictions[pair];
-        if (friction->kind == mode_drive)
-            state->y[friction->coordinate] = formula_value(&friction->position, &at);
-        if (state->slip[pair] == stick && friction->tie < 0)
-            state->y[plan->n + friction->coordinate] = friction_surface_speed(friction, &at, &acceleration);
+    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
+        const struct mode *mode = &plan->modes[pair];
+        if (mode->kind == mode_drive) state->y[mode->coordinate] = formula_value(&mode->position, &at);
+        if (state->slip[pair] == stick && mode->tie < 0)
+            state->y[plan->n + mode->coordinate] = friction_surface_speed(mode, &at, &acceleration);
     }
     if (state_sliding(state)) sliding_project(state);
 }
@@ -81,15 +80,16 @@ static void lean(const struct fbd_state *state, double *dy)
     const struct fbd_model *model = state->model;
     const struct plan *plan = &model->plan;
     struct instant at = state_instant(state);
-    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        const struct friction *friction = &plan->frictions[pair];
-        bool begins = friction->kind == mode_friction && friction->tie < 0 && state->slip[pair] != stick &&
+    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
+        const struct mode *mode = &plan->modes[pair];
+        bool begins = mode_is_joint_friction(mode) && state->slip[pair] != stick &&
                       slip_velocity(model, pair, &at) == 0;
         if (!begins) continue;
-        double *slots = state->scratch, surface, *a = &dy[plan->n + friction->coordinate];
-        friction_surface_speed(friction, &at, &surface);
+        double *slots = state->scratch, surface, *a = &dy[plan->n + mode->coordinate];
+        friction_surface_speed(mode, &at, &surface);
         force_balance(model, &at, slots);
-        double limit = friction->jointed ? 0 : friction_at(model, pair, &at, slots).limit / friction->inertia;
+        double limit =
+            mode->kind == mode_joint ? 0 : friction_at(model, pair, &at, slots).limit / mode->inertia;
         double least = little * fmax(fmax(fabs(*a), fabs(surface)), limit);
         if (fabs(*a - surface) <= least) *a = surface + slip_side(state->slip[pair]) * least;
     }
@@ -159,14 +159,20 @@ static int decide_one_sided(const struct settling *settling, int pair)
     return now.rate > 0 && now.excess > -now.rounding ? stick : slip_plus;
 }
 
-/* Moving, it slips to where it moves; at rest it sticks as long as friction can hold it (friction_decide). */
+/* Moving, friction slips to where it moves. */
 static int decide_friction(const struct settling *settling, int pair)
+{
+    double v = settling_velocity(settling->state, settling->decided, pair);
+    return v > 0 ? slip_plus : v < 0 ? slip_minus : together;
+}
+
+/* At rest what is single sticks as long as friction can hold it (friction_decide). */
+static int decide_single(const struct settling *settling, int pair)
 {
     const struct fbd_model *model = settling->state->model;
     struct instant at = state_instant(settling->state);
-    double v = settling_velocity(settling->state, settling->decided, pair);
-    if (v != 0) return v > 0 ? slip_plus : slip_minus;
-    if (model->plan.frictions[pair].jointed) return together;
+    int moving = decide_friction(settling, pair);
+    if (moving != together) return moving;
     struct friction_values now = friction_at(model, pair, &at, settling->slots);
     struct friction_values rate =
         friction_along(model, pair, &at, settling->slots, settling->flow, settling->slots_along);
@@ -174,17 +180,21 @@ static int decide_friction(const struct settling *settling, int pair)
 }
 
 /* NULL: the time does (a drive), or impacts and what rests (a contact). */
-static int (*const decide[mode_kinds])(const struct settling *settling, int pair) = {
-    [mode_friction] = decide_friction, [mode_rope] = decide_one_sided, [mode_surface] = decide_one_sided};
+static int (*const decide[mode_kinds])(const struct settling *settling,
+                                       int pair) = {[mode_single] = decide_single,
+                                                    [mode_joint] = decide_friction,
+                                                    [mode_tangent] = decide_friction,
+                                                    [mode_rope] = decide_one_sided,
+                                                    [mode_surface] = decide_one_sided};
 
 /* A guide presses on the side that keeps the body on its line; false when that has changed and matters. */
 static bool settle_pull(const struct settling *settling, int pair)
 {
     struct fbd_state *state = settling->state;
-    const struct friction *friction = &state->model->plan.frictions[pair];
+    const struct mode *mode = &state->model->plan.modes[pair];
     bool decided = settling->decided && settling->decided->pulls[pair];
-    if (!friction->two_sided || friction->jointed || decided) return true;
-    int pull = settling->slots[friction->normal_slot] > 0 ? -1 : 1;
+    if (!mode->two_sided || mode->kind != mode_single || decided) return true;
+    int pull = settling->slots[mode->normal_slot] > 0 ? -1 : 1;
     bool same = pull == state->pull[pair] || state->slip[pair] == stick;
     state->pull[pair] = pull;
     return same;
@@ -201,8 +211,8 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
     if (at.sliding) sliding_solve_along(model, &at, flow);
     force_balance(model, &at, scratch.slots);
     force_balance_along(model, &at, flow, scratch.slots, scratch.slots_along);
-    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        enum mode_kind kind = plan->frictions[pair].kind;
+    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
+        enum mode_kind kind = plan->modes[pair].kind;
         same = settle_pull(&settling, pair) && same;
         if (!decide[kind] || (decided && decided->slips[pair])) continue;
         int next = decide[kind](&settling, pair);
@@ -210,7 +220,7 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
         same = same && state->slip[pair] == next;
         state->slip[pair] = next;
     }
-    if (model->tree && plan->friction_count > 0) same = tree_settle_holds(state, decided) && same;
+    if (model->tree && plan->mode_count > 0) same = tree_settle_holds(state, decided) && same;
     return same;
 }
 
@@ -224,10 +234,10 @@ static bool settle(struct fbd_state *state, const struct decided *decided)
     state->holds = (struct holds_trouble){.found = holds_decided, .pair = -1, .contradicts = -1};
     for (int pass = 0; pass < most_passes; pass++) {
         state_evaluate(state);
-        if (plan->kink_count + plan->friction_count == 0) return state->holds.found < holds_none;
+        if (plan->kink_count + plan->mode_count == 0) return state->holds.found < holds_none;
         struct direction flow = flow_of(state);
         bool same = settle_branches(state, decided, &flow);
-        if (plan->friction_count > 0) same = settle_slips(state, decided, &flow) && same;
+        if (plan->mode_count > 0) same = settle_slips(state, decided, &flow) && same;
         if (state->holds.found >= holds_none) return false;
         if (same && !first) {
             modes_hold(state);

@@ -12,7 +12,7 @@
 
 #include "dynamics/state.h"
 
-/* What an event has decided already and must stay: flags for plan.branches, and for plan.friction_count
+/* What an event has decided already and must stay: flags for plan.branches, and for plan.mode_count
  * pairs. */
 struct decided {
     bool *branches;

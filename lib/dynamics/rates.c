@@ -229,20 +229,20 @@ static bool stands_by_itself(const struct plan *plan, const struct model_body *b
     if (terms->at_points || terms->offset >= 0 || terms->potentials.count > 0) return false;
     if (terms->sine.count > 1 || (terms->sine.count == 1 && body->kind != motion_pivot)) return false;
     if (terms->friction < 0) return true;
-    const struct friction *friction = &plan->frictions[terms->friction];
-    if (state->slip[terms->friction] == stick) return formula_is_constant(&friction->surface_speed);
-    return formula_is_constant(&friction->mu_k) &&
-           (friction->normal_slot < 0 || plan->slot_constant[friction->normal_slot]);
+    const struct mode *mode = &plan->modes[terms->friction];
+    if (state->slip[terms->friction] == stick) return formula_is_constant(&mode->surface_speed);
+    return formula_is_constant(&mode->mu_k) &&
+           (mode->normal_slot < 0 || plan->slot_constant[mode->normal_slot]);
 }
 
 /* Kinetic friction of a pair that slips with constant normal force, as in forward.c. */
 static double constant_friction(const struct plan *plan, const struct body_terms *terms,
                                 const struct fbd_state *state)
 {
-    const struct friction *friction = &plan->frictions[terms->friction];
+    const struct mode *mode = &plan->modes[terms->friction];
     double across = terms->across.count > 0 ? plan->affine[terms->across.first].c0 : 0, press = 1;
-    if (friction->normal_slot >= 0) press = fmax(0, -state->pull[terms->friction] * across);
-    return state->slip[terms->friction] * friction->mu_k.constant * press;
+    if (mode->normal_slot >= 0) press = fmax(0, -state->pull[terms->friction] * across);
+    return state->slip[terms->friction] * mode->mu_k.constant * press;
 }
 
 static void take_terms(const struct plan *plan, const struct body_terms *terms, struct row *row)
@@ -302,7 +302,7 @@ static struct row row_of(const struct rates *rates, int b, int coordinate)
                       .inverse = plan->inverse_inertia[coordinate]};
     if (terms->friction >= 0 && state->slip[terms->friction] == stick) {
         row.function = held_row;
-        row.rate = plan->frictions[terms->friction].surface_speed.constant;
+        row.rate = plan->modes[terms->friction].surface_speed.constant;
         return row;
     }
     take_terms(plan, terms, &row);

@@ -14,7 +14,7 @@
 
 size_t rest_limits(const struct rest_system *system)
 {
-    return system->state->model->plan.contact_count + system->state->model->plan.friction_count;
+    return system->state->model->plan.contact_count + system->state->model->plan.mode_count;
 }
 
 /* Of friction both sides are limits, of others one; unused ones are empty: 0 >= 0. `slots` and `lambda` may
@@ -27,22 +27,22 @@ static void limit_values(const struct rest_system *system, const double *slots, 
     double *next = values;
     for (size_t i = 0; i < plan->contact_count; i++)
         *next++ = -slots[(size_t)plan->contacts[i].slot * stride];
-    for (size_t i = 0; i < plan->friction_count; i++, next += 2) {
-        const struct friction *friction = &plan->frictions[i];
+    for (size_t i = 0; i < plan->mode_count; i++, next += 2) {
+        const struct mode *mode = &plan->modes[i];
         next[0] = next[1] = 0;
-        if (!rest_has_limit(friction) || at.slip[i] != stick) continue;
-        if (friction->kind == mode_rope) {
-            int row = system->state->model->tree->ties[friction->tie].first_row;
+        if (!rest_has_limit(mode) || at.slip[i] != stick) continue;
+        if (mode->kind == mode_rope) {
+            int row = system->state->model->tree->ties[mode->tie].first_row;
             next[0] = -(lambda ? lambda[row] : at.tree->rows[row].lambda);
             continue;
         }
         double acceleration = 0, press = loads;
-        friction_surface_speed(friction, &at, &acceleration);
-        double hold = -slots[(size_t)friction->hold_slot * stride];
-        if (loads) hold += friction->inertia * acceleration;
-        if (friction->normal_slot >= 0) press = -at.pull[i] * slots[(size_t)friction->normal_slot * stride];
-        double resting = friction_coefficient(system->state->model, (int)i, &friction->mu_s, &at, NULL, NULL);
-        double moving = friction_coefficient(system->state->model, (int)i, &friction->mu_k, &at, NULL, NULL);
+        friction_surface_speed(mode, &at, &acceleration);
+        double hold = -slots[(size_t)mode->hold_slot * stride];
+        if (loads) hold += mode->inertia * acceleration;
+        if (mode->normal_slot >= 0) press = -at.pull[i] * slots[(size_t)mode->normal_slot * stride];
+        double resting = friction_coefficient(system->state->model, (int)i, &mode->mu_s, &at, NULL, NULL);
+        double moving = friction_coefficient(system->state->model, (int)i, &mode->mu_k, &at, NULL, NULL);
         double limit = fmax(resting, moving) * press;
         next[0] = limit - hold;
         next[1] = limit + hold;
@@ -51,7 +51,7 @@ static void limit_values(const struct rest_system *system, const double *slots, 
 
 size_t rest_limit_values(const struct rest_system *system)
 {
-    return system->state->model->plan.contact_count + 2 * system->state->model->plan.friction_count;
+    return system->state->model->plan.contact_count + 2 * system->state->model->plan.mode_count;
 }
 
 /* Rounding, and the last digits of a coefficient in a file. */
@@ -68,12 +68,12 @@ struct rest_limit rest_limit_at(const struct rest_system *system, size_t index)
     if (index < plan->contact_count)
         return (struct rest_limit){limit_normal, (int)index, -slots[plan->contacts[index].slot], 0};
     int pair = (int)(index - plan->contact_count);
-    const struct friction *friction = &plan->frictions[pair];
-    struct rest_limit limit = {friction->kind == mode_rope ? limit_rope : limit_friction, pair, 0, 0};
-    if (!rest_has_limit(friction) || system->state->slip[pair] != stick) return limit;
+    const struct mode *mode = &plan->modes[pair];
+    struct rest_limit limit = {mode->kind == mode_rope ? limit_rope : limit_friction, pair, 0, 0};
+    if (!rest_has_limit(mode) || system->state->slip[pair] != stick) return limit;
     const struct instant at = system->at;
-    if (friction->kind == mode_rope) {
-        limit.needed = -system->state->tree->rows[model->tree->ties[friction->tie].first_row].lambda;
+    if (mode->kind == mode_rope) {
+        limit.needed = -system->state->tree->rows[model->tree->ties[mode->tie].first_row].lambda;
         return limit;
     }
     struct friction_values values = friction_at(model, pair, &at, slots);
@@ -127,8 +127,8 @@ static double unit_of_limit(const struct rest_system *system, size_t i)
 {
     const struct plan *plan = &system->state->model->plan;
     int pair = pair_of_limit(plan, i);
-    if (i < plan->contact_count || plan->frictions[pair].kind != mode_friction) return 1;
-    return plan->frictions[pair].normal_slot < 0 ? system->length : 1;
+    if (i < plan->contact_count || !mode_is_friction(&plan->modes[pair])) return 1;
+    return plan->modes[pair].normal_slot < 0 ? system->length : 1;
 }
 
 static double limit_along(const struct rest_system *system, const double *slots_along,
@@ -138,8 +138,8 @@ static double limit_along(const struct rest_system *system, const double *slots_
     const struct plan *plan = &model->plan;
     if (i < plan->contact_count) return -slots_along[plan->contacts[i].slot];
     int pair = pair_of_limit(plan, i);
-    const struct friction *friction = &plan->frictions[pair];
-    if (friction->kind == mode_rope) return -lambda_along[model->tree->ties[friction->tie].first_row];
+    const struct mode *mode = &plan->modes[pair];
+    if (mode->kind == mode_rope) return -lambda_along[model->tree->ties[mode->tie].first_row];
     struct friction_values now = friction_at(model, pair, &system->at, system->forces);
     struct friction_values rate = friction_along(model, pair, &system->at, system->forces, flow, slots_along);
     double limit = now.limit_kinetic > now.limit_static ? rate.limit_kinetic : rate.limit_static;
@@ -231,7 +231,7 @@ static double rate_of_margin(const struct rest_system *system, const struct prog
         if (u <= share) continue;
         rate += u / unit_of_limit(system, i) * limit_along(system, slots_along, lambda_along, i, flow);
         if (pair < 0) continue;
-        bool back = plan->frictions[pair].kind == mode_friction && (i - plan->contact_count) % 2 == 0;
+        bool back = mode_is_friction(&plan->modes[pair]) && (i - plan->contact_count) % 2 == 0;
         gives[pair] = back ? slip_minus : slip_plus;
     }
     return sum > 0 ? rate / sum : rate;
@@ -266,7 +266,7 @@ bool rest_find_margin(struct rest_system *system, bool guides, const double *slo
 {
     const struct plan *plan = &system->state->model->plan;
     struct arena *arena = system->arena;
-    size_t count = rest_limit_values(system), d = system->basis_count, pairs = plan->friction_count;
+    size_t count = rest_limit_values(system), d = system->basis_count, pairs = plan->mode_count;
     double *values = ARENA_ARRAY(arena, count + 1, double), *G = ARENA_ARRAY(arena, count * d + 1, double);
     int *gives = ARENA_ARRAY(arena, pairs + 1, int);
     *margin = (struct rest_margin){.size = system->force, .value = HUGE_VAL};

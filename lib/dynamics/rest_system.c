@@ -230,11 +230,11 @@ static bool choose_sides(struct rest_system *system, bool any)
 {
     const struct plan *plan = &system->state->model->plan;
     bool changed = false;
-    for (size_t pair = 0; pair < plan->friction_count; pair++) {
-        const struct friction *friction = &plan->frictions[pair];
+    for (size_t pair = 0; pair < plan->mode_count; pair++) {
+        const struct mode *mode = &plan->modes[pair];
         bool sticks = system->at.slip[pair] == stick;
-        if (!friction->two_sided || friction->normal_slot < 0 || (system->base.moves && !sticks)) continue;
-        int side = system->forces[friction->normal_slot] > 0 ? -1 : 1;
+        if (!mode->two_sided || mode->normal_slot < 0 || (system->base.moves && !sticks)) continue;
+        int side = system->forces[mode->normal_slot] > 0 ? -1 : 1;
         changed |= side != system->state->pull[pair] && (any || !sticks);
         system->state->pull[pair] = side;
     }

@@ -77,9 +77,9 @@ struct rest_limit {
 };
 
 /* Is what the mode limits an entry of its own? What a surface may do is that of its normal force. */
-static inline bool rest_has_limit(const struct friction *friction)
+static inline bool rest_has_limit(const struct mode *mode)
 {
-    return friction->kind == mode_friction || friction->kind == mode_rope;
+    return mode_is_friction(mode) || mode->kind == mode_rope;
 }
 
 /* The number of limits, and limit `index` in the state's present slots. */
@@ -128,8 +128,8 @@ void rest_restore(struct rest_system *system);
 struct rest_margin {
     double size;         /* of the forces: zero is measured against it */
     double value, rate;  /* HUGE_VAL where no limit takes part */
-    bool *of, *contacts; /* plan.friction_count, plan.contact_count: those that take part, in the arena */
-    int *gives;          /* plan.friction_count: the mode in which it gives, 0 for one that keeps */
+    bool *of, *contacts; /* plan.mode_count, plan.contact_count: those that take part, in the arena */
+    int *gives;          /* plan.mode_count: the mode in which it gives, 0 for one that keeps */
 };
 
 /* The rounding of a margin: a load that only just reaches its limits does not break away by that. */

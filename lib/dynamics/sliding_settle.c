@@ -207,12 +207,12 @@ static void take_sizes(struct question *q)
     const struct plan *plan = &state->model->plan;
     const struct instant at = state_instant(state);
     for (int i = 0; i < plan->n; i++) q->most = fmax(q->most, fabs(state->a[i]));
-    if (q->count == 0 || plan->friction_count == 0) return;
+    if (q->count == 0 || plan->mode_count == 0) return;
     force_balance(state->model, &at, state->scratch);
-    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        const struct friction *friction = &plan->frictions[pair];
-        if (friction->kind != mode_friction || friction->tie >= 0 || friction->jointed) continue;
-        double limit = friction_at(state->model, pair, &at, state->scratch).limit / friction->inertia;
+    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
+        const struct mode *mode = &plan->modes[pair];
+        if (mode->kind != mode_single) continue;
+        double limit = friction_at(state->model, pair, &at, state->scratch).limit / mode->inertia;
         if (isfinite(limit)) q->most = fmax(q->most, limit);
     }
 }
@@ -260,7 +260,7 @@ static void keep_modes(const struct fbd_state *state, bool back)
 {
     const struct plan *plan = &state->model->plan;
     struct sliding *s = state->sliding;
-    size_t branches = (size_t)plan->branches, pairs = plan->friction_count;
+    size_t branches = (size_t)plan->branches, pairs = plan->mode_count;
     int *parts[] = {state->branch, state->slip, state->pull}, *kept = s->kept;
     const size_t sizes[] = {branches, pairs, pairs};
     for (int k = 0; k < 3; k++) {

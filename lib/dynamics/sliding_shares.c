@@ -138,10 +138,9 @@ static void set_shares(struct sliding *s)
 
 bool sliding_is_held(const struct fbd_model *model, const struct instant *at, int coordinate)
 {
-    for (size_t pair = 0; pair < model->plan.friction_count; pair++) {
-        const struct friction *friction = &model->plan.frictions[pair];
-        if (friction->kind == mode_friction && friction->tie < 0 && friction->coordinate == coordinate &&
-            at->slip[pair] == stick)
+    for (size_t pair = 0; pair < model->plan.mode_count; pair++) {
+        const struct mode *mode = &model->plan.modes[pair];
+        if (mode_is_joint_friction(mode) && mode->coordinate == coordinate && at->slip[pair] == stick)
             return true;
     }
     return false;

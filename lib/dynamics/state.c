@@ -30,7 +30,7 @@ static struct fbd_state *allocate(const struct fbd_model *model)
     size_t rates = plan_rates(plan), extended = extended_size(model);
     size_t extra = model->absolute_count > 0 ? 2 * extended : 0;
     size_t doubles = extended + rates + (size_t)plan->slots + scratch_size(plan) + extra;
-    size_t ints = 2 * (size_t)plan->branches + 6 * plan->friction_count;
+    size_t ints = 2 * (size_t)plan->branches + 6 * plan->mode_count;
     size_t tree = model->tree ? sizeof(struct tree_work) + tree_work_size(model) : 0;
     size_t sliding = plan->slide_count > 0 ? sizeof(struct sliding) + sliding_size(model) : 0;
     struct fbd_state *state =
@@ -54,13 +54,13 @@ static struct fbd_state *allocate(const struct fbd_model *model)
     void *behind_doubles = state->scratch + scratch_size(plan) + extra; /* aligned for an int as well */
     state->branch = behind_doubles;
     state->slip = state->branch + plan->branches;
-    state->pull = state->slip + plan->friction_count;
-    state->branch_before = state->pull + plan->friction_count;
+    state->pull = state->slip + plan->mode_count;
+    state->branch_before = state->pull + plan->mode_count;
     state->slip_before = state->branch_before + plan->branches;
-    state->slip_forced = state->slip_before + plan->friction_count;
-    state->slip_driven = state->slip_forced + plan->friction_count;
-    state->slip_barely = state->slip_driven + plan->friction_count;
-    for (size_t i = 0; i < plan->friction_count; i++) state->pull[i] = 1;
+    state->slip_forced = state->slip_before + plan->mode_count;
+    state->slip_driven = state->slip_forced + plan->mode_count;
+    state->slip_barely = state->slip_driven + plan->mode_count;
+    for (size_t i = 0; i < plan->mode_count; i++) state->pull[i] = 1;
     return state;
 }
 
@@ -110,11 +110,11 @@ void state_copy(struct fbd_state *to, const struct fbd_state *from)
     memcpy(to->a, from->a, plan_rates(plan) * sizeof *to->a);
     memcpy(to->slots, from->slots, (size_t)plan->slots * sizeof *to->slots);
     memcpy(to->branch, from->branch, (size_t)plan->branches * sizeof *to->branch);
-    memcpy(to->slip, from->slip, plan->friction_count * sizeof *to->slip);
+    memcpy(to->slip, from->slip, plan->mode_count * sizeof *to->slip);
     if (to->sliding) sliding_copy(from->model, to->sliding, from->sliding);
     if (to->tree) memcpy(to->tree->ties, from->tree->ties, tie_bytes(from->model));
-    memcpy(to->pull, from->pull, plan->friction_count * sizeof *to->pull);
-    memcpy(to->slip_driven, from->slip_driven, plan->friction_count * sizeof *to->slip_driven);
+    memcpy(to->pull, from->pull, plan->mode_count * sizeof *to->pull);
+    memcpy(to->slip_driven, from->slip_driven, plan->mode_count * sizeof *to->slip_driven);
 }
 
 void state_still(struct fbd_state *state, double duration)

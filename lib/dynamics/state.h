@@ -32,7 +32,7 @@ struct fbd_state {
     double *slots; /* plan.slots: generalized forces, by state_evaluate */
     int *branch, *slip, *pull;                    /* modes, see instant.h */
     int *branch_before;                           /* scratch for settling: plan.branches */
-    int *slip_before, *slip_forced, *slip_barely; /* and plan.friction_count each */
+    int *slip_before, *slip_forced, *slip_barely; /* and plan.mode_count each */
     int *slip_driven;        /* and: the side on which drives alone make it slip, 0 where forces do */
     double *scratch;         /* see struct scratch */
     double *extended;        /* scratch of absolute.h */
@@ -46,6 +46,11 @@ struct scratch {
     double *dy;                  /* plan_size: a direction */
     double *column;              /* plan_rates: how rates of change vary along it */
 };
+
+static inline const struct mode *mode_of(const struct fbd_state *state, int pair)
+{
+    return &state->model->plan.modes[pair];
+}
 
 static inline struct scratch scratch_of(const struct plan *plan, double *memory)
 {

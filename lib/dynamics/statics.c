@@ -12,10 +12,10 @@
 /* ---- rest */
 
 /* -1 or +1 for a surface that moves under the body, 0 when it is at rest as well. */
-static enum slip slip_at_rest(const struct friction *friction, const struct instant *at)
+static enum slip slip_at_rest(const struct mode *mode, const struct instant *at)
 {
-    if (friction->tie >= 0 || friction->kind == mode_drive) return stick;
-    double acceleration, speed = friction_surface_speed(friction, at, &acceleration);
+    if (mode->tie >= 0 || mode->kind == mode_drive) return stick;
+    double acceleration, speed = friction_surface_speed(mode, at, &acceleration);
     return speed > 0 ? slip_minus : speed < 0 ? slip_plus : stick;
 }
 
@@ -43,10 +43,10 @@ bool rest_begin(struct fbd_state *state)
     if (state->holds.found == holds_no_memory) return false;
     memset(state->a, 0, (size_t)model->plan.n * sizeof *state->a);
     struct instant at = state_instant(state);
-    for (int pair = 0; pair < (int)model->plan.friction_count; pair++) {
-        const struct friction *friction = &model->plan.frictions[pair];
-        state->slip[pair] = mode_is_one_sided(friction) ? (int)one_sided_at_rest(state, pair)
-                                                        : (int)slip_at_rest(friction, &at);
+    for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
+        const struct mode *mode = &model->plan.modes[pair];
+        state->slip[pair] =
+            mode_is_one_sided(mode) ? (int)one_sided_at_rest(state, pair) : (int)slip_at_rest(mode, &at);
     }
     if (!model->tree) return true;
     for (int i = 0; i < model->tree->count; i++) {
@@ -61,9 +61,9 @@ bool rest_begin(struct fbd_state *state)
 int rest_holder(const struct fbd_model *model, const struct instant *at, int coordinate)
 {
     const struct plan *plan = &model->plan;
-    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        const struct friction *friction = &plan->frictions[pair];
-        bool holds = friction->tie < 0 && friction->coordinate == coordinate;
+    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
+        const struct mode *mode = &plan->modes[pair];
+        bool holds = mode->tie < 0 && mode->coordinate == coordinate;
         if (holds && at->slip[pair] == stick) return pair;
     }
     return -1;
@@ -121,12 +121,12 @@ static void add_slipping(const struct fbd_model *model, const struct instant *at
                          bool loads, double *Q)
 {
     const struct plan *plan = &model->plan;
-    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        const struct friction *friction = &plan->frictions[pair];
+    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
+        const struct mode *mode = &plan->modes[pair];
         int side = slip_side(at->slip[pair]);
-        if (friction->tie >= 0 || side == 0) continue;
-        double press = friction->normal_slot >= 0 ? -at->pull[pair] * slots[friction->normal_slot] : loads;
-        Q[friction->coordinate] -= side * formula_value(&friction->mu_k, at) * press;
+        if (mode->tie >= 0 || side == 0) continue;
+        double press = mode->normal_slot >= 0 ? -at->pull[pair] * slots[mode->normal_slot] : loads;
+        Q[mode->coordinate] -= side * formula_value(&mode->mu_k, at) * press;
     }
 }
 
@@ -135,12 +135,12 @@ static void add_slipping(const struct fbd_model *model, const struct instant *at
 static void stand_still(const struct fbd_model *model, const struct instant *at, double *slots)
 {
     const struct plan *plan = &model->plan;
-    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        const struct friction *friction = &plan->frictions[pair];
+    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
+        const struct mode *mode = &plan->modes[pair];
         double acceleration;
-        if (friction->jointed || at->slip[pair] != stick) continue;
-        friction_surface_speed(friction, at, &acceleration);
-        slots[friction->hold_slot] += friction->inertia * acceleration;
+        if (mode->kind != mode_single || at->slip[pair] != stick) continue;
+        friction_surface_speed(mode, at, &acceleration);
+        slots[mode->hold_slot] += mode->inertia * acceleration;
     }
 }
 

@@ -119,8 +119,7 @@ void tree_slots(const struct fbd_model *model, const struct instant *at, double 
         if (link->normal_slot >= 0)
             slots[link->normal_slot] = -vec_dot(tree_normal(tree, work, i), s->F.force);
         if (link->pair < 0) continue;
-        slots[model->plan.frictions[link->pair].hold_slot] =
-            slots[link->coordinate] - joint_share(link, s, s->F);
+        slots[model->plan.modes[link->pair].hold_slot] = slots[link->coordinate] - joint_share(link, s, s->F);
     }
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
@@ -128,7 +127,7 @@ void tree_slots(const struct fbd_model *model, const struct instant *at, double 
         if (!tie_presses(tie)) continue;
         slots[tie->normal_slot] = -work->rows[tie->first_row].lambda;
         if (tie->pair >= 0)
-            slots[model->plan.frictions[tie->pair].hold_slot] = -work->rows[tie->first_row + 1].lambda;
+            slots[model->plan.modes[tie->pair].hold_slot] = -work->rows[tie->first_row + 1].lambda;
     }
 }
 
@@ -150,7 +149,7 @@ static void lock(const struct fbd_model *model, const struct instant *at)
         const struct tree_link *link = &tree->links[tree->watched[k]];
         struct tree_state *s = &at->tree->links[tree->watched[k]];
         s->locked = link->pair >= 0 && at->slip[link->pair] == stick;
-        if (s->locked) friction_surface_speed(&model->plan.frictions[link->pair], at, &s->held);
+        if (s->locked) friction_surface_speed(&model->plan.modes[link->pair], at, &s->held);
     }
 }
 
@@ -174,7 +173,7 @@ static void set_joint_forces(const struct fbd_model *model, const struct instant
         const struct tree_link *link = &tree->links[tree->watched[k]];
         if (link->pair < 0 || link->kind != motion_pivot || at->slip[link->pair] == stick) continue;
         x[tree->watched[k]].g -=
-            slip_side(at->slip[link->pair]) * formula_value(&model->plan.frictions[link->pair].mu_k, at);
+            slip_side(at->slip[link->pair]) * formula_value(&model->plan.modes[link->pair].mu_k, at);
     }
 }
 

@@ -17,7 +17,7 @@ static void vary_held(const struct fbd_model *model, const struct instant *at, c
     for (int k = 0; k < tree->watched_count; k++) {
         int i = tree->watched[k], pair = tree->links[i].pair;
         if (!at->tree->links[i].locked) continue;
-        double jerk = friction_surface_jerk(&model->plan.frictions[pair], at);
+        double jerk = friction_surface_jerk(&model->plan.modes[pair], at);
         at->tree->variation[i].held = jerk * along->dt;
     }
 }
@@ -52,7 +52,7 @@ static void vary_joint_forces(const struct fbd_model *model, const struct instan
         const struct tree_link *link = &tree->links[tree->watched[k]];
         if (link->pair < 0 || link->kind != motion_pivot || at->slip[link->pair] == stick) continue;
         double d_mu;
-        formula_along(&model->plan.frictions[link->pair].mu_k, at, along, &d_mu);
+        formula_along(&model->plan.modes[link->pair].mu_k, at, along, &d_mu);
         work->x[tree->watched[k]].g -= at->slip[link->pair] * d_mu;
     }
 }
@@ -77,7 +77,7 @@ static double friction_along_base(const struct fbd_model *model, const struct in
     const struct tree *tree = model->tree;
     int pair = tree->links[i].pair;
     if (at->slip[pair] == stick) return 0;
-    double d_mu, mu = formula_along(&model->plan.frictions[pair].mu_k, at, along, &d_mu);
+    double d_mu, mu = formula_along(&model->plan.modes[pair].mu_k, at, along, &d_mu);
     double N = vec_dot(tree_normal(tree, at->tree, i), at->tree->links[i].F.force);
     double dN = normal_along(tree, at->tree, i) + normal_turned(tree, at->tree, i);
     return -at->slip[pair] * at->pull[pair] * (mu * dN + d_mu * N);
@@ -101,7 +101,7 @@ static void add_slots(const struct fbd_model *model, const struct instant *at, b
         struct wrench dF = inertia_wrench(&s->I, work->x[i].A, work->x[i].p);
         double d = joint_share(link, s, dF);
         if (first) d += joint_share_along(link, &work->variation[i], s->F);
-        slots_along[model->plan.frictions[link->pair].hold_slot] +=
+        slots_along[model->plan.modes[link->pair].hold_slot] +=
             (first ? slots_along[link->coordinate] : 0) - d;
     }
 }
@@ -145,6 +145,6 @@ void tree_accelerations_along(const struct fbd_model *model, const struct instan
         if (!tie_presses(tie)) continue;
         slots_along[tie->normal_slot] = -work->z[tie->first_row];
         if (tie->pair >= 0)
-            slots_along[model->plan.frictions[tie->pair].hold_slot] = -work->z[tie->first_row + 1];
+            slots_along[model->plan.modes[tie->pair].hold_slot] = -work->z[tie->first_row + 1];
     }
 }

@@ -13,14 +13,9 @@
 #include "dynamics/friction.h"
 #include "dynamics/project.h"
 
-static const struct friction *pair_of(const struct fbd_state *state, int pair)
-{
-    return &state->model->plan.frictions[pair];
-}
-
 double tree_hold_acceleration(const struct fbd_state *state, const struct instant *at, int pair)
 {
-    const struct friction *hold = pair_of(state, pair);
+    const struct mode *hold = mode_of(state, pair);
     double surface;
     if (hold->tie >= 0) return hold_sign(hold) * hold_row(state, hold)->g.x2;
     friction_surface_speed(hold, at, &surface);
@@ -47,12 +42,12 @@ double tree_unseen_speed(const struct fbd_state *state, double time)
 /* The velocity along a hold, 0 for what may well be rounding. */
 static double velocity_along(const struct fbd_state *state, int pair, double dt)
 {
-    const struct friction *hold = pair_of(state, pair);
+    const struct mode *hold = mode_of(state, pair);
     struct instant at = state_instant(state);
     bool angle = hold->tie < 0 && state->model->scene->coordinates[hold->coordinate].angle;
     double reach = reach_of(state), arm = angle && reach > 0 ? reach : 1;
-    double v = hold->kind == mode_friction ? slip_velocity(state->model, pair, &at)
-                                           : hold_sign(hold) * hold_row(state, hold)->g.x1;
+    double v = mode_is_friction(hold) ? slip_velocity(state->model, pair, &at)
+                                      : hold_sign(hold) * hold_row(state, hold)->g.x1;
     return fabs(v) * arm > tree_unseen_speed(state, dt) ? v : 0;
 }
 
@@ -60,9 +55,9 @@ double tree_driven(struct fbd_state *state, const int *slip, int pair)
 {
     enum { decades = 15 };
     const double soonest = 1e-12, next = 10; /* [s]; ratio */
-    size_t n = (size_t)state->model->plan.n, pairs = state->model->plan.friction_count;
+    size_t n = (size_t)state->model->plan.n, pairs = state->model->plan.mode_count;
     if (!model_has_speeds_given(state->model)) return 0;
-    double v = pair_of(state, pair)->kind == mode_friction ? velocity_along(state, pair, 0) : 0;
+    double v = mode_is_friction(mode_of(state, pair)) ? velocity_along(state, pair, 0) : 0;
     struct fbd_state *then = v == 0 ? state_new(state->model) : NULL;
     if (v == 0 && !then) state->holds.found = holds_no_memory;
     double dt = soonest;

@@ -10,14 +10,14 @@
 #include "dynamics/modes.h"
 
 /* The row along which a hold of a tie acts. */
-static inline const struct row *hold_row(const struct fbd_state *state, const struct friction *hold)
+static inline const struct row *hold_row(const struct fbd_state *state, const struct mode *hold)
 {
     int first = state->model->tree->ties[hold->tie].first_row;
-    return &state->tree->rows[first + (hold->kind == mode_friction)];
+    return &state->tree->rows[first + (hold->kind == mode_tangent)];
 }
 
 /* A rope pulls against its row. */
-static inline int hold_sign(const struct friction *hold)
+static inline int hold_sign(const struct mode *hold)
 {
     return hold->kind == mode_rope ? -1 : 1;
 }
@@ -31,7 +31,7 @@ double tree_hold_acceleration(const struct fbd_state *state, const struct instan
 double tree_unseen_speed(const struct fbd_state *state, double time);
 
 /* How drives move hold `pair`, along which no force moves anything, with the holds loose in the modes `slip`
- * (plan.friction_count): the velocity along it, else, by its sign alone, what that becomes as soon as it is
+ * (plan.mode_count): the velocity along it, else, by its sign alone, what that becomes as soon as it is
  * more than rounding; 0 where it stays at rest. Sets state->holds.found when memory is out. */
 double tree_driven(struct fbd_state *state, const int *slip, int pair);
 

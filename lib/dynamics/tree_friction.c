@@ -17,7 +17,7 @@ double tree_slip_share(const struct fbd_model *model, const struct instant *at, 
 {
     int pair = model->tree->links[i].pair;
     int side = slip_side(at->slip[pair]);
-    return side == 0 ? 0 : side * at->pull[pair] * formula_value(&model->plan.frictions[pair].mu_k, at);
+    return side == 0 ? 0 : side * at->pull[pair] * formula_value(&model->plan.modes[pair].mu_k, at);
 }
 
 struct vec tree_normal(const struct tree *tree, const struct tree_work *work, int i)

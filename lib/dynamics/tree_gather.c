@@ -14,26 +14,26 @@
 
 /* Is the surface that the friction is on, if it is on one, closed or to be decided? */
 static bool is_on_surface(const struct fbd_state *state, const struct decided *decided, const int *forced,
-                          const struct friction *friction)
+                          const struct mode *mode)
 {
-    if (friction->tie < 0) return true;
-    int surface = state->model->tree->ties[friction->tie].surface;
+    if (mode->tie < 0) return true;
+    int surface = state->model->tree->ties[mode->tie].surface;
     struct instant at = state_instant(state);
     if (surface >= 0 && (forced[surface] || (decided && decided->slips[surface])) &&
         state->slip[surface] != stick)
         return false;
-    if (surface >= 0 && pair_of(state, surface)->kind == mode_contact)
-        return state->tree->ties[friction->tie].feature != no_feature;
+    if (surface >= 0 && mode_of(state, surface)->kind == mode_contact)
+        return state->tree->ties[mode->tie].feature != no_feature;
     return surface < 0 || state->slip[surface] == stick || one_sided_at(state->model, &at, surface).touches;
 }
 
 bool hold_in_question(const struct fbd_state *state, const struct decided *decided, const int *forced,
                       int pair)
 {
-    const struct friction *hold = pair_of(state, pair);
+    const struct mode *hold = mode_of(state, pair);
     struct instant at = state_instant(state);
-    if (!hold->jointed || hold->kind == mode_drive) return false;
-    if (hold->kind == mode_friction) return is_on_surface(state, decided, forced, hold);
+    if (hold->kind == mode_single || hold->kind == mode_drive) return false;
+    if (mode_is_friction(hold)) return is_on_surface(state, decided, forced, hold);
     if (forced[pair] || (decided && decided->slips[pair])) return false;
     if (hold->kind == mode_contact) return state->tree->ties[hold->tie].feature != no_feature;
     struct one_sided now = one_sided_at(state->model, &at, pair);
@@ -53,7 +53,7 @@ int hold_slips_already(const struct fbd_state *state, const struct decided *deci
 
 static void apply_unit(struct fbd_state *state, int pair)
 {
-    const struct friction *hold = pair_of(state, pair);
+    const struct mode *hold = mode_of(state, pair);
     memset(state->tree->x, 0, (size_t)state->model->tree->count * sizeof *state->tree->x);
     if (hold->tie >= 0)
         row_apply(hold_row(state, hold), hold_sign(hold), state->tree->x);
@@ -68,7 +68,7 @@ static void add_answers(struct gathered *all, size_t k)
     const struct tree *tree = state->model->tree;
     size_t count = all->problem.count;
     for (size_t i = 0; i < count; i++) {
-        const struct friction *hold = pair_of(state, all->pair[i]);
+        const struct mode *hold = mode_of(state, all->pair[i]);
         all->problem.A[i * count + k] +=
             hold->tie < 0
                 ? state->tree->unit[hold->coordinate]
@@ -85,19 +85,19 @@ static const double immovable = 1e-12;
 static void hold_still(struct gathered *all, size_t k)
 {
     struct fbd_state *state = all->state;
-    const struct friction *hold = pair_of(state, all->pair[k]);
+    const struct mode *hold = mode_of(state, all->pair[k]);
     struct hold *still = &all->problem.holds[k];
     size_t count = all->problem.count;
     double surface, driven = tree_driven(state, all->trial, all->pair[k]);
     still->free = still->kind == hold_one_sided ? driven : 0;
     for (size_t i = 0; i < count; i++) all->problem.A[i * count + k] = all->problem.A[k * count + i] = 0;
     if (driven != 0) still->slip = driven > 0 ? 1 : -1;
-    if (driven != 0 && hold->kind == mode_friction)
+    if (driven != 0 && mode_is_friction(hold))
         all->forced[all->pair[k]] = state->slip_driven[all->pair[k]] = still->slip;
     if (hold->moving || driven != 0) return; /* below what stands still */
     still->slip = 0;
     if (all->forced[all->pair[k]] == 0) all->forced[all->pair[k]] = keeps_still;
-    if (hold->kind == mode_friction && hold->tie < 0)
+    if (mode_is_joint_friction(hold))
         state->y[state->model->plan.n + hold->coordinate] = friction_surface_speed(hold, &all->at, &surface);
 }
 
@@ -144,11 +144,11 @@ void gathered_free(struct gathered *all)
 static void set_press(struct gathered *all, size_t i, size_t *guides)
 {
     struct hold *hold = &all->problem.holds[i];
-    const struct friction *friction = pair_of(all->state, all->pair[i]);
+    const struct mode *mode = mode_of(all->state, all->pair[i]);
     hold->press = press_constant;
-    if (friction->normal_slot < 0) return;
-    if (friction->tie >= 0) {
-        int surface = all->state->model->tree->ties[friction->tie].surface;
+    if (mode->normal_slot < 0) return;
+    if (mode->tie >= 0) {
+        int surface = all->state->model->tree->ties[mode->tie].surface;
         hold->press = press_hold;
         hold->presses = all->hold[surface];
         if (hold->presses >= 0) return;
@@ -162,13 +162,13 @@ static void set_press(struct gathered *all, size_t i, size_t *guides)
     hold->press = press_guide;
     hold->presses = (int)*guides;
     all->link[*guides] = link_of(all->state, all->pair[i]);
-    all->problem.guides[(*guides)++].two_sided = friction->two_sided;
+    all->problem.guides[(*guides)++].two_sided = mode->two_sided;
 }
 
 bool gathered_find(struct gathered *all, struct fbd_state *state, const struct decided *decided, int *forced)
 {
     const struct plan *plan = &state->model->plan;
-    size_t pairs = plan->friction_count, count = 0, guides = 0;
+    size_t pairs = plan->mode_count, count = 0, guides = 0;
     struct instant at = state_instant(state);
     *all = (struct gathered){.state = state,
                              .at = at,
@@ -183,7 +183,7 @@ bool gathered_find(struct gathered *all, struct fbd_state *state, const struct d
     for (size_t p = 0; p < pairs; p++) {
         all->hold[p] = -1;
         if (!hold_in_question(state, decided, forced, (int)p)) continue;
-        const struct friction *hold = &plan->frictions[p];
+        const struct mode *hold = &plan->modes[p];
         guides += hold->tie < 0 && hold->normal_slot >= 0;
         all->hold[p] = (int)count;
         all->pair[count++] = (int)p;
@@ -192,12 +192,12 @@ bool gathered_find(struct gathered *all, struct fbd_state *state, const struct d
     if (!holds_new(&all->problem, count, guides)) return false;
     guides = 0;
     for (size_t i = 0; i < count; i++) {
-        const struct friction *friction = pair_of(state, all->pair[i]);
+        const struct mode *mode = mode_of(state, all->pair[i]);
         struct hold *hold = &all->problem.holds[i];
-        hold->kind = friction->kind == mode_friction ? hold_friction : hold_one_sided;
+        hold->kind = mode_is_friction(mode) ? hold_friction : hold_one_sided;
         if (hold->kind == hold_one_sided) continue;
-        hold->mu_s = friction_coefficient(state->model, all->pair[i], &friction->mu_s, &at, NULL, NULL);
-        hold->mu_k = friction_coefficient(state->model, all->pair[i], &friction->mu_k, &at, NULL, NULL);
+        hold->mu_s = friction_coefficient(state->model, all->pair[i], &mode->mu_s, &at, NULL, NULL);
+        hold->mu_k = friction_coefficient(state->model, all->pair[i], &mode->mu_k, &at, NULL, NULL);
         hold->slip = hold_slips_already(state, decided, forced, all->pair[i]);
         set_press(all, i, &guides);
     }

@@ -25,14 +25,9 @@ struct gathered {
     int *forced;
 };
 
-static inline const struct friction *pair_of(const struct fbd_state *state, int pair)
-{
-    return &state->model->plan.frictions[pair];
-}
-
 static inline int link_of(const struct fbd_state *state, int pair)
 {
-    return state->model->bodies[pair_of(state, pair)->body].place.link;
+    return state->model->bodies[mode_of(state, pair)->body].place.link;
 }
 
 /* `forced`: modes that rates have decided, 0 where they have not. */

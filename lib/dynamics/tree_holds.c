@@ -45,7 +45,7 @@ static struct holds_trouble trouble_of(const struct gathered *all, enum holds_fo
 /* The side on which a guide with two sides presses. */
 static void set_pull(struct fbd_state *state, int pair, double N)
 {
-    if (pair_of(state, pair)->two_sided) state->pull[pair] = N < 0 ? -1 : 1;
+    if (mode_of(state, pair)->two_sided) state->pull[pair] = N < 0 ? -1 : 1;
 }
 
 /* Where a corner touches two surfaces, what one of them holds by friction the other one presses: how much each of them
@@ -89,9 +89,9 @@ static enum holds_found solve(struct fbd_state *state, const struct decided *dec
 static double accelerated(const struct fbd_state *state, int pair)
 {
     const struct tree_state *link = &state->tree->links[link_of(state, pair)];
-    const struct friction *friction = pair_of(state, pair);
+    const struct mode *mode = mode_of(state, pair);
     struct instant at = state_instant(state);
-    double inertia = friction->normal_slot >= 0 ? link->mass : link->I_O;
+    double inertia = mode->normal_slot >= 0 ? link->mass : link->I_O;
     return inertia > 0 ? friction_at(state->model, pair, &at, state->scratch).limit / inertia : 0;
 }
 
@@ -99,13 +99,12 @@ static double accelerated(const struct fbd_state *state, int pair)
 static bool turns_back(const struct fbd_state *state, int pair)
 {
     const double rounding = 64 * DBL_EPSILON;
-    const struct friction *friction = pair_of(state, pair);
+    const struct mode *mode = mode_of(state, pair);
     struct instant at = state_instant(state);
     double surface;
-    if (friction->tie >= 0)
-        return state->slip[pair] * tie_slip_acceleration(state->model, &at, friction->tie) < 0;
-    friction_surface_speed(friction, &at, &surface);
-    double a = state->a[friction->coordinate];
+    if (mode->tie >= 0) return state->slip[pair] * tie_slip_acceleration(state->model, &at, mode->tie) < 0;
+    friction_surface_speed(mode, &at, &surface);
+    double a = state->a[mode->coordinate];
     double least = 8 * DBL_EPSILON * (fabs(a) + fabs(surface)) + rounding * accelerated(state, pair);
     return slip_side(state->slip[pair]) * (a - surface) < -least;
 }
@@ -121,15 +120,15 @@ static double largest_force(const struct fbd_state *state)
     return most;
 }
 
-static bool is_on_contact(const struct fbd_state *state, const struct friction *hold)
+static bool is_on_contact(const struct fbd_state *state, const struct mode *hold)
 {
     return hold->tie >= 0 && state->model->tree->ties[hold->tie].meeting >= 0;
 }
 
 /* Friction of what has just opened has nothing to hold or to slip on, whatever its mode. */
-static bool is_on_open_contact(const struct fbd_state *state, const struct friction *hold)
+static bool is_on_open_contact(const struct fbd_state *state, const struct mode *hold)
 {
-    return hold->kind == mode_friction && is_on_contact(state, hold) &&
+    return mode_is_friction(hold) && is_on_contact(state, hold) &&
            state->slip[state->model->tree->ties[hold->tie].surface] != stick;
 }
 
@@ -140,7 +139,7 @@ static int next_mode(const struct fbd_state *state, const double *slots, const d
 {
     const double rounding = 1e-12, slacks = 4;
     const struct fbd_model *model = state->model;
-    const struct friction *hold = pair_of(state, pair);
+    const struct mode *hold = mode_of(state, pair);
     struct instant at = state_instant(state);
     *by_rate = false;
     if (mode_is_one_sided(hold)) {
@@ -169,8 +168,8 @@ static int next_mode(const struct fbd_state *state, const double *slots, const d
 static bool pulls(struct fbd_state *state, const double *slots, const struct decided *decided, bool solved,
                   int pair)
 {
-    const struct friction *hold = pair_of(state, pair);
-    if (hold->kind != mode_friction || hold->tie >= 0 || hold->normal_slot < 0) return false;
+    const struct mode *hold = mode_of(state, pair);
+    if (!mode_is_joint_friction(hold) || hold->normal_slot < 0) return false;
     double N = -slots[hold->normal_slot];
     if (!hold->two_sided) return N < 0 && !solved;
     if (decided && decided->pulls[pair]) return false;
@@ -197,9 +196,9 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
     if (shared && margin.value < 0) /* that a slide has lost its surface is for others to say */
         shared = tree_find_margin(state, &at, false, &flow, slots, slots_along, &arena, &margin);
     int which = -1, next = 0;
-    for (int pair = 0; found != differs && pair < (int)state->model->plan.friction_count; pair++) {
+    for (int pair = 0; found != differs && pair < (int)state->model->plan.mode_count; pair++) {
         bool by_rate;
-        const struct friction *hold = pair_of(state, pair);
+        const struct mode *hold = mode_of(state, pair);
         if (!hold_in_question(state, decided, forced, pair)) continue;
         if (shared && margin.of[pair] && state->slip[pair] == stick) continue;
         if (pulls(state, slots, decided, solved, pair)) {
@@ -207,7 +206,7 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
             which = pair;
             continue;
         }
-        if (hold->kind == mode_friction && hold_slips_already(state, decided, forced, pair) != 0) continue;
+        if (mode_is_friction(hold) && hold_slips_already(state, decided, forced, pair) != 0) continue;
         if (is_on_open_contact(state, hold)) continue;
         int mode = next_mode(state, slots, slots_along, pair, &by_rate);
         if (mode == state->slip[pair]) continue;
@@ -226,7 +225,7 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
  * with what was solved. */
 static bool decide(struct fbd_state *state, const struct decided *decided, int *forced)
 {
-    int count = (int)state->model->plan.friction_count, *barely = state->slip_barely;
+    int count = (int)state->model->plan.mode_count, *barely = state->slip_barely;
     for (int round = 0; round <= count; round++) {
         memset(barely, 0, (size_t)count * sizeof *barely);
         if (solve(state, decided, forced, barely) >= holds_none) return false;
@@ -249,7 +248,7 @@ static bool holds_what_is_driven(struct fbd_state *state, const struct decided *
     struct gathered all;
     struct instant at = state_instant(state);
     bool may = false, moves = false;
-    for (int pair = 0; pair < (int)state->model->plan.friction_count; pair++)
+    for (int pair = 0; pair < (int)state->model->plan.mode_count; pair++)
         may |= state->slip[pair] == stick && hold_in_question(state, decided, forced, pair);
     if (!may || !model_has_speeds_given(state->model)) return false;
     state_evaluate_unshared(state);
@@ -258,7 +257,7 @@ static bool holds_what_is_driven(struct fbd_state *state, const struct decided *
     if (!gathered) state->holds.found = holds_no_memory;
     for (size_t i = 0; gathered && i < all.problem.count; i++)
         moves |= all.still[i] && all.problem.holds[i].slip != 0 && state->slip[all.pair[i]] == stick;
-    memset(forced, 0, state->model->plan.friction_count * sizeof *forced);
+    memset(forced, 0, state->model->plan.mode_count * sizeof *forced);
     gathered_free(&all);
     return moves;
 }
@@ -280,14 +279,14 @@ static bool answers_wrongly(const struct fbd_state *state)
 bool tree_settle_holds(struct fbd_state *state, const struct decided *decided)
 {
     int *before = state->slip_before;
-    size_t count = state->model->plan.friction_count, bytes = count * sizeof *before;
+    size_t count = state->model->plan.mode_count, bytes = count * sizeof *before;
     int *forced = state->slip_forced;
     memcpy(before, state->slip, bytes);
     memset(forced, 0, bytes);
     for (int pair = 0; pair < (int)count; pair++) {
         if (state->slip[pair] == stick || !hold_in_question(state, decided, forced, pair)) continue;
-        const struct friction *hold = pair_of(state, pair);
-        bool rests = hold->kind != mode_friction || hold_slips_already(state, decided, forced, pair) == 0;
+        const struct mode *hold = mode_of(state, pair);
+        bool rests = !mode_is_friction(hold) || hold_slips_already(state, decided, forced, pair) == 0;
         if (rests) state->slip[pair] = stick; /* tried first */
     }
     bool agreed = !holds_what_is_driven(state, decided, forced) &&

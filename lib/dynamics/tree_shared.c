@@ -48,7 +48,7 @@ bool tree_find_margin(struct fbd_state *state, const struct instant *at, bool gu
 /* All that is at its limit gives. */
 static void give(struct fbd_state *state, const struct rest_margin *margin, int *forced)
 {
-    for (size_t pair = 0; pair < state->model->plan.friction_count; pair++)
+    for (size_t pair = 0; pair < state->model->plan.mode_count; pair++)
         if (margin->gives[pair] != 0) forced[pair] = state->slip[pair] = margin->gives[pair];
 }
 
@@ -72,8 +72,7 @@ bool tree_give_shared(struct fbd_state *state, int pair, bool *decided)
         tree_find_margin(state, &at, true, &flow, scratch.slots, scratch.slots_along, &arena, &margin) &&
         margin.of[pair];
     if (gives) give(state, &margin, state->slip_forced);
-    for (size_t i = 0; gives && i < state->model->plan.friction_count; i++)
-        decided[i] |= margin.gives[i] != 0;
+    for (size_t i = 0; gives && i < state->model->plan.mode_count; i++) decided[i] |= margin.gives[i] != 0;
     arena_free(&arena);
     return gives;
 }

@@ -172,13 +172,13 @@ static void check_friction(const struct fbd_model *model, fbd_errors *errors)
 {
     enum { most_pairs = 6 };
     size_t rubbing = 0;
-    for (size_t i = 0; i < model->plan.friction_count; i++) {
-        const struct friction *friction = &model->plan.frictions[i];
-        const struct load *load = model->loads[friction->load].source;
-        rubbing += friction->kind == mode_friction;
-        if (friction->kind == mode_friction && friction->two_sided && friction->jointed)
+    for (size_t i = 0; i < model->plan.mode_count; i++) {
+        const struct mode *mode = &model->plan.modes[i];
+        const struct load *load = model->loads[mode->load].source;
+        rubbing += mode_is_friction(mode);
+        if (mode->kind == mode_joint && mode->two_sided)
             lacks(errors, load->at, "friction in a guide between bodies that move on each other", load->name);
-        if (friction->kind == mode_friction && rubbing == most_pairs + 1)
+        if (mode_is_friction(mode) && rubbing == most_pairs + 1)
             lacks(errors, load->at, "all modes of more than six dry frictions would be tried in turn",
                   load->name);
     }

@@ -38,8 +38,13 @@ const char *load_number(struct emitter *emitter, const struct model_load *load, 
 const char *load_formula(struct emitter *emitter, const struct model_load *load, const char *key,
                          const struct formula *formula, struct dim dim);
 
+static inline const struct mode *mode_of(const struct emitter *emitter, int pair)
+{
+    return &emitter->model->plan.modes[pair];
+}
+
 /* Where the file says how a body is driven. */
-struct emit_origin drive_origin(const struct emitter *emitter, const struct friction *friction);
+struct emit_origin drive_origin(const struct emitter *emitter, const struct mode *mode);
 
 /* A function of the program around its lines: what of its arguments they do not use is said so. */
 void emit_function(struct text *out, const char *head, const char *arguments, const struct text *lines);

@@ -11,14 +11,9 @@ static void close_text(struct emitter *emitter, struct text *lines)
     text_free(lines);
 }
 
-static const struct friction *pair_of(const struct emitter *emitter, int pair)
+struct emit_origin drive_origin(const struct emitter *emitter, const struct mode *mode)
 {
-    return &emitter->model->plan.frictions[pair];
-}
-
-struct emit_origin drive_origin(const struct emitter *emitter, const struct friction *friction)
-{
-    const struct model_body *body = &emitter->model->bodies[friction->body];
+    const struct model_body *body = &emitter->model->bodies[mode->body];
     bool slide = body->kind == motion_slide;
     return (struct emit_origin){body->source->motion.at, slide ? "x" : "theta", slide ? DIM_LENGTH : DIM_NONE,
                                 -1};
@@ -40,20 +35,19 @@ static void write_hold(struct emitter *emitter)
     const struct plan *plan = &emitter->model->plan;
     struct text lines = {0};
     text_add(&lines, "    complete(s, t, y);\n");
-    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        const struct friction *friction = pair_of(emitter, pair);
-        const char *q = emitter->coordinate[friction->coordinate], *v = emitter->rate[friction->coordinate];
-        if (friction->kind == mode_drive && friction->position.expr) {
-            const char *owner = emitter->load[friction->load];
-            const char *motion =
-                emit_slope(emitter, &friction->position, emit_join(emitter, owner, "position"), 0,
-                           drive_origin(emitter, friction));
+    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
+        const struct mode *mode = mode_of(emitter, pair);
+        const char *q = emitter->coordinate[mode->coordinate], *v = emitter->rate[mode->coordinate];
+        if (mode->kind == mode_drive && mode->position.expr) {
+            const char *owner = emitter->load[mode->load];
+            const char *motion = emit_slope(emitter, &mode->position, emit_join(emitter, owner, "position"),
+                                            0, drive_origin(emitter, mode));
             text_printf(&lines, "    y[%s] = %s.v;\n", q, motion);
         }
         text_printf(&lines, "    if (s->slip[%s] == 0) y[%s] = surface_speed(s, t, y, %s);\n",
                     emitter->pair[pair], v, emitter->pair[pair]);
     }
-    if (plan->friction_count > 0) text_add(&lines, "    complete(s, t, y);\n");
+    if (plan->mode_count > 0) text_add(&lines, "    complete(s, t, y);\n");
     emit_function(&emitter->rest, "/* What sticks goes with its surface, exactly. */\nstatic void hold",
                   "const struct scene *s, double t, double *y", &lines);
     close_text(emitter, &lines);
@@ -169,35 +163,35 @@ static void write_events(struct emitter *emitter)
 static void write_table(struct emitter *emitter, const char *name, const char *value(struct emitter *, int))
 {
     text_printf(&emitter->rest, "static const int %s[pairs] = {", name);
-    for (int pair = 0; pair < (int)emitter->model->plan.friction_count; pair++)
+    for (int pair = 0; pair < (int)emitter->model->plan.mode_count; pair++)
         text_printf(&emitter->rest, "%s, ", value(emitter, pair));
     text_add(&emitter->rest, "};\n");
 }
 
 static const char *pair_coordinate(struct emitter *emitter, int pair)
 {
-    return emitter->coordinate[pair_of(emitter, pair)->coordinate];
+    return emitter->coordinate[mode_of(emitter, pair)->coordinate];
 }
 
 static const char *pair_normal(struct emitter *emitter, int pair)
 {
-    int slot = pair_of(emitter, pair)->normal_slot;
+    int slot = mode_of(emitter, pair)->normal_slot;
     return slot < 0 ? "-1" : emitter->slot[slot];
 }
 
 static const char *pair_hold(struct emitter *emitter, int pair)
 {
-    return emitter->slot[pair_of(emitter, pair)->hold_slot];
+    return emitter->slot[mode_of(emitter, pair)->hold_slot];
 }
 
 static const char *pair_drive(struct emitter *emitter, int pair)
 {
-    return pair_of(emitter, pair)->kind == mode_drive ? "1" : "0";
+    return mode_of(emitter, pair)->kind == mode_drive ? "1" : "0";
 }
 
 static const char *pair_guide(struct emitter *emitter, int pair)
 {
-    return pair_of(emitter, pair)->two_sided ? "1" : "0";
+    return mode_of(emitter, pair)->two_sided ? "1" : "0";
 }
 
 static void write_pairs(struct emitter *emitter)
@@ -210,8 +204,8 @@ static void write_pairs(struct emitter *emitter)
     write_table(emitter, "is_drive", pair_drive);
     write_table(emitter, "is_guide", pair_guide);
     text_add(out, "static const char *const pair_name[pairs] = {");
-    for (size_t i = 0; i < plan->friction_count; i++) {
-        quote(out, emitter->model->bodies[plan->frictions[i].body].name);
+    for (size_t i = 0; i < plan->mode_count; i++) {
+        quote(out, emitter->model->bodies[plan->modes[i].body].name);
         text_add(out, ", ");
     }
     text_add(out, "};\n\n");
@@ -238,7 +232,7 @@ void emit_modes(struct emitter *emitter)
     write_complete(emitter);
     if (emit_watches(emitter) == 0) return;
     write_hold(emitter);
-    if (plan->friction_count > 0) write_pairs(emitter);
+    if (plan->mode_count > 0) write_pairs(emitter);
     if (plan->contact_count > 0) write_surfaces(emitter);
     if (plan->branches > 0) write_switches(emitter);
     if (plan->watch_count > 0) write_events(emitter);
@@ -247,5 +241,5 @@ void emit_modes(struct emitter *emitter)
 int emit_watches(const struct emitter *emitter)
 {
     const struct plan *plan = &emitter->model->plan;
-    return (int)(2 * plan->friction_count + plan->contact_count + plan->watch_count) + plan->branches;
+    return (int)(2 * plan->mode_count + plan->contact_count + plan->watch_count) + plan->branches;
 }

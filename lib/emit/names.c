@@ -157,10 +157,10 @@ static void find_used_places(struct emitter *emitter)
                                        &load->couple, &load->potential, &load->offset_x, &load->offset_y};
         for (size_t k = 0; k < sizeof all / sizeof *all; k++) use_places(emitter, all[k]);
     }
-    for (size_t i = 0; i < plan->friction_count; i++) {
-        use_places(emitter, &plan->frictions[i].mu_s);
-        use_places(emitter, &plan->frictions[i].mu_k);
-        use_places(emitter, &plan->frictions[i].surface_speed);
+    for (size_t i = 0; i < plan->mode_count; i++) {
+        use_places(emitter, &plan->modes[i].mu_s);
+        use_places(emitter, &plan->modes[i].mu_k);
+        use_places(emitter, &plan->modes[i].surface_speed);
     }
     for (size_t i = 0; i < plan->watch_count; i++) {
         use_places(emitter, &plan->watches[i].left);
@@ -178,10 +178,10 @@ static void name_slots(struct emitter *emitter)
         if (model->bodies[b].normal_slot >= 0)
             emitter->slot[model->bodies[b].normal_slot] =
                 emit_name(emitter, emit_join(emitter, model->bodies[b].name, "across"));
-    for (size_t i = 0; i < plan->friction_count; i++)
-        if (plan->frictions[i].hold_slot >= plan->n)
-            emitter->slot[plan->frictions[i].hold_slot] =
-                emit_name(emitter, emit_join(emitter, model->bodies[plan->frictions[i].body].name, "hold"));
+    for (size_t i = 0; i < plan->mode_count; i++)
+        if (plan->modes[i].hold_slot >= plan->n)
+            emitter->slot[plan->modes[i].hold_slot] =
+                emit_name(emitter, emit_join(emitter, model->bodies[plan->modes[i].body].name, "hold"));
 }
 
 static void name_branches(struct emitter *emitter)
@@ -206,7 +206,7 @@ bool emit_names(struct emitter *emitter)
     emitter->load = names_of(emitter, model->load_count);
     emitter->place = names_of(emitter, model->absolute_count);
     emitter->branch = names_of(emitter, (size_t)model->plan.branches);
-    emitter->pair = names_of(emitter, model->plan.friction_count);
+    emitter->pair = names_of(emitter, model->plan.mode_count);
     size_t parts = 0;
     for (size_t b = 0; b < model->body_count; b++) parts += model->bodies[b].source->part_count;
     emitter->rods = names_of(emitter, parts);
@@ -228,9 +228,9 @@ bool emit_names(struct emitter *emitter)
     find_used_places(emitter);
     for (size_t k = 0; k < model->absolute_count; k++)
         if (emitter->used[k]) emitter->place[k] = emit_name(emitter, place_name(emitter, k));
-    for (size_t i = 0; i < model->plan.friction_count; i++)
+    for (size_t i = 0; i < model->plan.mode_count; i++)
         emitter->pair[i] =
-            emit_name(emitter, emit_join(emitter, emitter->load[model->plan.frictions[i].load], "pair"));
+            emit_name(emitter, emit_join(emitter, emitter->load[model->plan.modes[i].load], "pair"));
     name_slots(emitter);
     name_branches(emitter);
     return !emitter->arena.failed;

@@ -133,10 +133,10 @@ static const char *angle_of(struct emitter *emitter, const struct model_absolute
 static const char *slip_of(struct emitter *emitter, const struct model_absolute *absolute)
 {
     if (absolute->pair < 0) return "0";
-    const struct friction *friction = &emitter->model->plan.frictions[absolute->pair];
+    const struct mode *mode = &emitter->model->plan.modes[absolute->pair];
     const char *slip = emit_printf(emitter, "s->slip[%s]", emitter->pair[absolute->pair]);
     const char *speed = emit_printf(emitter, "%s*(y[%s] - surface_speed(s, t, y, %s))", slip,
-                                    emitter->rate[friction->coordinate], emitter->pair[absolute->pair]);
+                                    emitter->rate[mode->coordinate], emitter->pair[absolute->pair]);
     if (absolute->even) speed = emit_printf(emitter, "fabs(%s)", speed);
     return emit_printf(emitter, "%s == 0 ? 0 : %s", slip, speed);
 }

@@ -60,7 +60,7 @@ static void write_enum(struct emitter *emitter, struct text *out)
     text_add(out, plan->slots > n ? "    slots\n};\n" : "    slots = coordinates\n};\n");
     text_add(out, "/* Modes: pairs that stick or slip, switches of expressions; what else is watched. "
                   "*/\nenum {\n    ");
-    for (size_t i = 0; i < plan->friction_count; i++) text_printf(out, "%s, ", emitter->pair[i]);
+    for (size_t i = 0; i < plan->mode_count; i++) text_printf(out, "%s, ", emitter->pair[i]);
     text_add(out, "pairs\n};\nenum {\n    ");
     for (int i = 0; i < plan->branches; i++) text_printf(out, "%s, ", emitter->branch[i]);
     text_printf(out, "branches\n};\nenum {\n    surfaces = %zu, events = %zu,\n", plan->contact_count,

@@ -7,11 +7,6 @@
 #include "emit/bodies.h"
 #include "emit/placed.h"
 
-static const struct friction *pair_of(const struct emitter *emitter, int pair)
-{
-    return &emitter->model->plan.frictions[pair];
-}
-
 static void close_text(struct emitter *emitter, struct text *lines)
 {
     emitter->arena.failed = emitter->arena.failed || lines->failed;
@@ -23,48 +18,47 @@ static void close_text(struct emitter *emitter, struct text *lines)
 static const char *law_of(struct emitter *emitter, int pair, const char *key, const struct formula *formula,
                           struct dim dim)
 {
-    const struct friction *friction = pair_of(emitter, pair);
-    const char *owner = emitter->load[friction->load];
+    const struct mode *mode = mode_of(emitter, pair);
+    const char *owner = emitter->load[mode->load];
     return emit_formula(emitter, formula, emit_join(emitter, owner, key),
-                        (struct emit_origin){emitter->model->loads[friction->load].source->at, key, dim,
-                                             friction->body});
+                        (struct emit_origin){emitter->model->loads[mode->load].source->at, key, dim,
+                                             mode->body});
 }
 
 static const char *speed_of(struct emitter *emitter, int pair, bool acceleration)
 {
-    const struct friction *friction = pair_of(emitter, pair);
-    const char *owner = emitter->load[friction->load];
-    const struct formula *speed = &friction->surface_speed;
-    bool bearing = friction->normal_slot < 0;
-    if (friction->kind == mode_drive) {
-        if (!friction->position.expr) return "0";
+    const struct mode *mode = mode_of(emitter, pair);
+    const char *owner = emitter->load[mode->load];
+    const struct formula *speed = &mode->surface_speed;
+    bool bearing = mode->normal_slot < 0;
+    if (mode->kind == mode_drive) {
+        if (!mode->position.expr) return "0";
         return emit_printf(emitter, acceleration ? "%s.dd" : "%s.d",
-                           emit_slope(emitter, &friction->position, emit_join(emitter, owner, "motion"), 0,
-                                      drive_origin(emitter, friction)));
+                           emit_slope(emitter, &mode->position, emit_join(emitter, owner, "motion"), 0,
+                                      drive_origin(emitter, mode)));
     }
     if (!acceleration)
-        return friction->moving
-                   ? law_of(emitter, pair, "surface_speed", speed, bearing ? DIM_RATE : DIM_VELOCITY)
-                   : "0";
+        return mode->moving ? law_of(emitter, pair, "surface_speed", speed, bearing ? DIM_RATE : DIM_VELOCITY)
+                            : "0";
     if (formula_is_constant(speed)) return "0";
     return emit_printf(emitter, "%s.d",
                        emit_slope(emitter, speed, emit_join(emitter, owner, "surface_acceleration"), 0,
-                                  (struct emit_origin){emitter->model->loads[friction->load].source->at,
-                                                       "surface_speed", DIM_VELOCITY, friction->body}));
+                                  (struct emit_origin){emitter->model->loads[mode->load].source->at,
+                                                       "surface_speed", DIM_VELOCITY, mode->body}));
 }
 
 static const char *static_law(struct emitter *emitter, int pair)
 {
-    struct dim dim = pair_of(emitter, pair)->normal_slot < 0 ? DIM_MOMENT : DIM_NONE;
-    if (pair_of(emitter, pair)->kind == mode_drive) return "HUGE_VAL";
-    return law_of(emitter, pair, "static", &pair_of(emitter, pair)->mu_s, dim);
+    struct dim dim = mode_of(emitter, pair)->normal_slot < 0 ? DIM_MOMENT : DIM_NONE;
+    if (mode_of(emitter, pair)->kind == mode_drive) return "HUGE_VAL";
+    return law_of(emitter, pair, "static", &mode_of(emitter, pair)->mu_s, dim);
 }
 
 static const char *kinetic_law(struct emitter *emitter, int pair)
 {
-    struct dim dim = pair_of(emitter, pair)->normal_slot < 0 ? DIM_MOMENT : DIM_NONE;
-    if (pair_of(emitter, pair)->kind == mode_drive) return "0";
-    return law_of(emitter, pair, "kinetic", &pair_of(emitter, pair)->mu_k, dim);
+    struct dim dim = mode_of(emitter, pair)->normal_slot < 0 ? DIM_MOMENT : DIM_NONE;
+    if (mode_of(emitter, pair)->kind == mode_drive) return "0";
+    return law_of(emitter, pair, "kinetic", &mode_of(emitter, pair)->mu_k, dim);
 }
 
 static const char *surface_speed(struct emitter *emitter, int pair)
@@ -81,7 +75,7 @@ static void write_law(struct emitter *emitter, const char *head, const char *val
 {
     struct text lines = {0};
     text_add(&lines, "    switch (pair) {\n");
-    for (int pair = 0; pair < (int)emitter->model->plan.friction_count; pair++)
+    for (int pair = 0; pair < (int)emitter->model->plan.mode_count; pair++)
         text_printf(&lines, "    case %s: return %s;\n", emitter->pair[pair], value(emitter, pair));
     text_add(&lines, "    default: return 0;\n    }\n");
     emit_function(&emitter->formulas, head, "const struct scene *s, double t, const double *y, int pair",
@@ -91,15 +85,15 @@ static void write_law(struct emitter *emitter, const char *head, const char *val
 
 static const char *inertia_of(struct emitter *emitter, int pair)
 {
-    const struct friction *friction = pair_of(emitter, pair);
-    if (friction->jointed) return "0";
-    return emit_printf(emitter, friction->normal_slot < 0 ? "c->%s.I_O" : "c->%s.mass",
-                       emitter->body[friction->body]);
+    const struct mode *mode = mode_of(emitter, pair);
+    if (mode->kind != mode_single) return "0";
+    return emit_printf(emitter, mode->normal_slot < 0 ? "c->%s.I_O" : "c->%s.mass",
+                       emitter->body[mode->body]);
 }
 
 static void write_laws(struct emitter *emitter)
 {
-    if (emitter->model->plan.friction_count == 0) return;
+    if (emitter->model->plan.mode_count == 0) return;
     write_law(
         emitter,
         "/* How fast the surface of a pair moves, and its acceleration. */\nstatic double surface_speed",
@@ -110,7 +104,7 @@ static void write_laws(struct emitter *emitter)
     write_law(emitter, "static double mu_kinetic", kinetic_law);
     struct text lines = {0};
     text_add(&lines, "    switch (pair) {\n");
-    for (int pair = 0; pair < (int)emitter->model->plan.friction_count; pair++)
+    for (int pair = 0; pair < (int)emitter->model->plan.mode_count; pair++)
         text_printf(&lines, "    case %s: return %s;\n", emitter->pair[pair], inertia_of(emitter, pair));
     text_add(&lines, "    default: return 0;\n    }\n");
     emit_function(&emitter->formulas,
@@ -147,7 +141,7 @@ static void rub_bearings(struct emitter *emitter, struct text *lines)
     const struct tree *tree = emitter->model->tree;
     for (int k = 0; k < tree->watched_count; k++) {
         const struct tree_link *link = &tree->links[tree->watched[k]];
-        if (link->pair < 0 || link->kind != motion_pivot || pair_of(emitter, link->pair)->kind == mode_drive)
+        if (link->pair < 0 || link->kind != motion_pivot || mode_of(emitter, link->pair)->kind == mode_drive)
             continue;
         const char *pair = emitter->pair[link->pair];
         text_printf(lines, "    l.%s.g -= s->slip[%s]*mu_kinetic(s, t, y, %s);\n",
@@ -221,7 +215,7 @@ static void write_slots(struct emitter *emitter, struct text *lines)
                               ? emit_printf(emitter, "l.%s.F.moment", name)
                               : emit_printf(emitter, "vec_dot(l.%s.e, l.%s.F.force)", name, name);
         text_printf(lines, "    f[%s] = f[%s] - %s;\n",
-                    emitter->slot[pair_of(emitter, link->pair)->hold_slot], slot, own);
+                    emitter->slot[mode_of(emitter, link->pair)->hold_slot], slot, own);
     }
 }
 
@@ -272,11 +266,11 @@ static void write_balance(struct emitter *emitter)
 
 static void write_rubbing(struct emitter *emitter, int pair, struct text *lines)
 {
-    const struct friction *friction = pair_of(emitter, pair);
-    const char *name = emitter->pair[pair], *slot = emitter->coordinate[friction->coordinate];
-    const char *press = friction->normal_slot < 0 ? ""
-                                                  : emit_printf(emitter, "*fmax(0, -s->pull[%s]*f[%s])", name,
-                                                                emitter->slot[friction->normal_slot]);
+    const struct mode *mode = mode_of(emitter, pair);
+    const char *name = emitter->pair[pair], *slot = emitter->coordinate[mode->coordinate];
+    const char *press = mode->normal_slot < 0 ? ""
+                                              : emit_printf(emitter, "*fmax(0, -s->pull[%s]*f[%s])", name,
+                                                            emitter->slot[mode->normal_slot]);
     text_printf(lines, "    if (s->slip[%s] != 0) f[%s] -= s->slip[%s]*mu_kinetic(s, t, y, %s)%s;\n", name,
                 slot, name, name, press);
 }
@@ -330,9 +324,9 @@ static void write_rates(struct emitter *emitter)
         text_add(&lines, "    const double *y = at;\n");
     text_add(&lines, "    for (int i = 0; i < coordinates; i++) rate[i] = y[coordinates + i];\n"
                      "    accelerations(s, t, y, f, rate + coordinates);\n");
-    for (int pair = 0; pair < (int)model->plan.friction_count; pair++)
+    for (int pair = 0; pair < (int)model->plan.mode_count; pair++)
         text_printf(&lines, "    if (s->slip[%s] == 0) rate[%s] = surface_speed(s, t, y, %s);\n",
-                    emitter->pair[pair], emitter->coordinate[pair_of(emitter, pair)->coordinate],
+                    emitter->pair[pair], emitter->coordinate[mode_of(emitter, pair)->coordinate],
                     emitter->pair[pair]);
     text_add(&lines, "    for (int i = 0; i < 2*coordinates; i++)\n"
                      "        if (!isfinite(rate[i])) return GSL_EDOM; /* GSL would take it for a number */\n"

@@ -97,8 +97,8 @@ static bool remembers(const struct plan *plan)
 
 bool fmi_has_derivatives(const struct fbd_model *model)
 {
-    for (size_t i = 0; i < model->plan.friction_count; i++)
-        if (model->plan.frictions[i].kind == mode_drive) return false;
+    for (size_t i = 0; i < model->plan.mode_count; i++)
+        if (model->plan.modes[i].kind == mode_drive) return false;
     return model->scene->output_point_count == 0 && model->plan.own == 0 && !remembers(&model->plan);
 }
 

@@ -33,16 +33,15 @@ static bool is_own_slip(const struct fbd_model *model, const struct model_body *
 
 /* What kinetic friction changes with: where its law goes with the slip, also with what the surface does. */
 static unsigned friction_depends(const struct fbd_model *model, const struct model_body *body,
-                                 const struct friction *friction)
+                                 const struct mode *mode)
 {
-    if (formula_is_constant(&friction->mu_k)) return 0;
+    if (formula_is_constant(&mode->mu_k)) return 0;
     const int *slots;
-    size_t count = expr_variables(friction->mu_k.expr, &slots);
-    unsigned on = expr_uses_time(friction->mu_k.expr) ? depends_time : 0;
+    size_t count = expr_variables(mode->mu_k.expr, &slots);
+    unsigned on = expr_uses_time(mode->mu_k.expr) ? depends_time : 0;
     for (size_t i = 0; i < count; i++)
-        on |= is_own_slip(model, body, slots[i])
-                  ? depends_rate | formula_depends(body, &friction->surface_speed)
-                  : slot_depends(body, slots[i]);
+        on |= is_own_slip(model, body, slots[i]) ? depends_rate | formula_depends(body, &mode->surface_speed)
+                                                 : slot_depends(body, slots[i]);
     return on;
 }
 
@@ -147,7 +146,7 @@ static unsigned formula_terms_depend(const struct fbd_model *model, const struct
         on |= formula_depends(body, &plan->formulas[i].value);
     for (int i = terms->potentials.first; i < terms->potentials.first + terms->potentials.count; i++)
         on |= formula_depends(body, &plan->potentials[i].V);
-    if (terms->friction >= 0) on |= friction_depends(model, body, &plan->frictions[terms->friction]);
+    if (terms->friction >= 0) on |= friction_depends(model, body, &plan->modes[terms->friction]);
     return on;
 }
 

@@ -32,11 +32,11 @@ struct model_body {
     struct vec pin;  /* pivot: the point of the body that sits on the axis, in the body frame */
     struct vec e, n; /* slide: direction of +x; direction that the surface pushes to */
     int normal_slot; /* slide whose normal force is needed: slot of the forces along n, else -1 */
-    int friction;    /* index into plan.frictions, or -1 */
+    int friction;    /* index into plan.modes, or -1 */
     struct placement place;      /* of a jointed body in the tree */
     int parent;                  /* jointed: the body that it moves on, or -1 for the ground */
     int child, sibling;          /* jointed: the first body that moves on it, the next one beside it; or -1 */
-    int drive, drive_pair;       /* prescribed: its entry in the loads, and in plan.frictions; else -1 */
+    int drive, drive_pair;       /* prescribed: its entry in the loads, and in plan.modes; else -1 */
     const char *drive_on_parent; /* name of the drive on the body that it moves on */
     int arrow_count;             /* the most arrows that its diagram can have */
     const char *reaction; /* name of the force of its joint: "pin", "guide", "weld"; NULL without one */
@@ -63,7 +63,7 @@ struct model_absolute {
     struct vec point;
     enum absolute_kind kind;
     int coordinate; /* absolute_acceleration */
-    int pair;       /* absolute_slip: index into plan.frictions, or -1 when that has been left out */
+    int pair;       /* absolute_slip: index into plan.modes, or -1 when that has been left out */
     bool even;      /* absolute_slip: stays a magnitude beyond the end of a mode, see slips.c */
 };
 

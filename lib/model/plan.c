@@ -265,26 +265,26 @@ static void add_friction(struct builder *builder, struct model_body *body, int i
                  body->name);
         return;
     }
-    struct friction friction = {.body = b,
-                                .load = index,
-                                .coordinate = body->first,
-                                .normal_slot = source->kind == load_friction ? body->normal_slot : -1,
-                                .mu_s = builder_formula(builder, &source->mu_s, b, index),
-                                .mu_k = builder_formula(builder, &source->mu_k, b, index),
-                                .surface_speed = builder_formula(builder, &source->surface_speed, b, index),
-                                .moving = source->surface_speed.expr != NULL,
-                                .inertia = jointed   ? 0
-                                           : bearing ? body->I_O
-                                                     : body->inertia.mass,
-                                .hold_slot = jointed ? plan->slots++ : body->first,
-                                .tie = -1,
-                                .jointed = jointed};
+    struct mode mode = {.kind = jointed ? mode_joint : mode_single,
+                        .body = b,
+                        .load = index,
+                        .coordinate = body->first,
+                        .normal_slot = source->kind == load_friction ? body->normal_slot : -1,
+                        .mu_s = builder_formula(builder, &source->mu_s, b, index),
+                        .mu_k = builder_formula(builder, &source->mu_k, b, index),
+                        .surface_speed = builder_formula(builder, &source->surface_speed, b, index),
+                        .moving = source->surface_speed.expr != NULL,
+                        .inertia = jointed   ? 0
+                                   : bearing ? body->I_O
+                                             : body->inertia.mass,
+                        .hold_slot = jointed ? plan->slots++ : body->first,
+                        .tie = -1};
     for (int i = 0; i < body->load_count; i++) {
         const struct load *other = builder->model->loads[body->first_load + i].source;
-        if (other->kind == load_normal && other->two_sided) friction.two_sided = true;
+        if (other->kind == load_normal && other->two_sided) mode.two_sided = true;
     }
-    body->friction = (int)plan->friction_count;
-    plan->frictions[plan->friction_count++] = friction;
+    body->friction = (int)plan->mode_count;
+    plan->modes[plan->mode_count++] = mode;
 }
 
 /* What acts on a body that moves by itself. */
@@ -378,8 +378,7 @@ static bool allocate(struct builder *builder)
     plan->links = ARENA_ARRAY(arena, loads, struct link_term);
     plan->drags = ARENA_ARRAY(arena, loads, struct drag_term);
     plan->forces = ARENA_ARRAY(arena, 2 * loads, struct force_term);
-    plan->frictions =
-        ARENA_ARRAY(arena, loads + 8 * model->scene->constraint_count + 2 * ties, struct friction);
+    plan->modes = ARENA_ARRAY(arena, loads + 8 * model->scene->constraint_count + 2 * ties, struct mode);
     plan->contacts =
         ARENA_ARRAY(arena, model->body_count + model->scene->constraint_count + 2 * ties, struct contact);
     plan->offsets = ARENA_ARRAY(arena, model->body_count, struct offset_body);
@@ -435,8 +434,7 @@ static void mark_body_slots(struct fbd_model *model, int b)
 {
     const struct model_body *body = &model->bodies[b];
     for (int k = 0; k < body->count; k++) model->plan.slot_constant[body->first + k] = false;
-    if (body->friction >= 0)
-        model->plan.slot_constant[model->plan.frictions[body->friction].hold_slot] = false;
+    if (body->friction >= 0) model->plan.slot_constant[model->plan.modes[body->friction].hold_slot] = false;
     if (body->normal_slot >= 0) model->plan.slot_constant[body->normal_slot] = false;
 }
 

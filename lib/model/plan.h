@@ -87,32 +87,44 @@ struct force_term {
 
 /* What a mode is the mode of. What is one-sided is closed (`stick`) or open (`slip_plus`). */
 enum mode_kind {
-    mode_friction, /* a body on its slide, what rolls, or a bearing */
-    mode_rope,     /* one-sided: taut or slack; see tie.h */
-    mode_surface,  /* one-sided: what rolls presses on its line or has left it */
-    mode_contact,  /* one-sided: shapes touch or are apart; see contact.h */
-    mode_drive,    /* always sticks, and `position` says where */
+    mode_single,  /* dry friction along the coordinate of a body that nothing joins: decided by itself */
+    mode_joint,   /* dry friction along a coordinate between links: decided with all that rests there */
+    mode_tangent, /* dry friction along the tangent of a tie: what rolls, touches or is wound */
+    mode_rope,    /* one-sided: taut or slack; see tie.h */
+    mode_surface, /* one-sided: what rolls presses on its line or has left it */
+    mode_contact, /* one-sided: shapes touch or are apart; see contact.h */
+    mode_drive,   /* always sticks, and `position` says where */
     mode_kinds
 };
 
-/* One hold with a mode: dry friction, and what stands in the same list. */
-struct friction {
+/* One hold with a mode. */
+struct mode {
     enum mode_kind kind;
     int body, load, coordinate;
     int normal_slot; /* -1 for a bearing, whose limits are moments */
     bool two_sided;  /* a guide: friction goes with |N| */
     struct formula mu_s, mu_k, surface_speed;
     bool moving;             /* the surface moves */
-    double inertia;          /* m or I_O; 0 when jointed */
+    double inertia;          /* of what is single: m or I_O */
     int hold_slot;           /* the force needed to hold is inertia times acceleration minus this slot */
-    int tie;                 /* of a rolling body: index into tree.ties; else -1, and `coordinate` slips */
+    int tie;                 /* index into tree.ties; -1 for what acts along `coordinate` */
     struct formula position; /* of a drive */
-    bool jointed;            /* between jointed bodies: the tree finds N and what holds */
 };
 
-static inline bool mode_is_one_sided(const struct friction *friction)
+static inline bool mode_is_friction(const struct mode *mode)
 {
-    return friction->kind == mode_rope || friction->kind == mode_surface || friction->kind == mode_contact;
+    return mode->kind <= mode_tangent;
+}
+
+/* Along a coordinate, on a slide or in a bearing. */
+static inline bool mode_is_joint_friction(const struct mode *mode)
+{
+    return mode->kind <= mode_joint;
+}
+
+static inline bool mode_is_one_sided(const struct mode *mode)
+{
+    return mode->kind == mode_rope || mode->kind == mode_surface || mode->kind == mode_contact;
 }
 
 /* A normal force that must not become a pull: `pair` is the mode that opens then, or -1 where the body has
@@ -174,7 +186,7 @@ struct range {
 struct body_terms {
     struct range affine, sine, square, formulas, potentials, links, drags, forces;
     struct range across; /* the affine term of its normal slot: constants */
-    int friction;        /* index into frictions, or -1 */
+    int friction;        /* index into modes, or -1 */
     int offset;          /* index into offsets, or -1 */
     bool at_points;      /* it has links, drags or forces: its pose is needed */
     bool turns;          /* cosine and sine of its angle are both needed */
@@ -201,8 +213,8 @@ struct plan {
     struct force_term *forces;
     struct body_terms *bodies; /* by body */
 
-    size_t friction_count, contact_count, kink_count, pole_count, offset_count, watch_count;
-    struct friction *frictions;
+    size_t mode_count, contact_count, kink_count, pole_count, offset_count, watch_count;
+    struct mode *modes;
     struct contact *contacts;
     struct kink *kinks;
     struct pole *poles;

@@ -10,9 +10,9 @@ static int add_mode(struct builder *builder, const struct tie *tie, enum mode_ki
 {
     struct plan *plan = &builder->model->plan;
     int tie_index = (int)(tie - builder->model->tree->ties);
-    plan->frictions[plan->friction_count] = (struct friction){
-        .kind = kind, .body = body, .load = tie->load, .normal_slot = -1, .tie = tie_index, .jointed = true};
-    return (int)plan->friction_count++;
+    plan->modes[plan->mode_count] =
+        (struct mode){.kind = kind, .body = body, .load = tie->load, .normal_slot = -1, .tie = tie_index};
+    return (int)plan->mode_count++;
 }
 
 /* Dry friction along the surface of a tie. */
@@ -20,12 +20,12 @@ static void add_rubbing(struct builder *builder, struct tie *tie)
 {
     struct plan *plan = &builder->model->plan;
     int body = constraint_first_body(tie->source);
-    tie->pair = add_mode(builder, tie, mode_friction, body);
-    struct friction *friction = &plan->frictions[tie->pair];
-    friction->normal_slot = tie->normal_slot;
-    friction->hold_slot = plan->slots++;
-    friction->mu_s = builder_formula(builder, &tie->source->mu_s, body, tie->load);
-    friction->mu_k = builder_formula(builder, &tie->source->mu_k, body, tie->load);
+    tie->pair = add_mode(builder, tie, mode_tangent, body);
+    struct mode *mode = &plan->modes[tie->pair];
+    mode->normal_slot = tie->normal_slot;
+    mode->hold_slot = plan->slots++;
+    mode->mu_s = builder_formula(builder, &tie->source->mu_s, body, tie->load);
+    mode->mu_k = builder_formula(builder, &tie->source->mu_k, body, tie->load);
 }
 
 /* A surface is pressed on or left, and rubs while it is closed, where it has coefficients. */
@@ -77,18 +77,16 @@ static void plan_drive(struct builder *builder, struct model_body *body)
     struct plan *plan = &builder->model->plan;
     int b = (int)(body - builder->model->bodies);
     if (body->drive < 0) return;
-    body->drive_pair = (int)plan->friction_count;
-    plan->frictions[plan->friction_count++] =
-        (struct friction){.kind = mode_drive,
-                          .body = b,
-                          .load = body->drive,
-                          .coordinate = body->first,
-                          .normal_slot = -1,
-                          .hold_slot = plan->slots++,
-                          .tie = -1,
-                          .position =
-                              builder_formula(builder, &body->source->motion.prescribed, b, body->drive),
-                          .jointed = true};
+    body->drive_pair = (int)plan->mode_count;
+    plan->modes[plan->mode_count++] =
+        (struct mode){.kind = mode_drive,
+                      .body = b,
+                      .load = body->drive,
+                      .coordinate = body->first,
+                      .normal_slot = -1,
+                      .hold_slot = plan->slots++,
+                      .tie = -1,
+                      .position = builder_formula(builder, &body->source->motion.prescribed, b, body->drive)};
 }
 
 /* What opens, closes, sticks or must not pull, by kind. */

@@ -19,8 +19,8 @@ static bool is_force(const struct fbd_model *model, const struct kink *kink)
         if (load->fy.branch == branch && load->fy.expr) return true;
         if (load->couple.branch == branch && load->couple.expr) return true;
     }
-    for (size_t i = 0; i < model->plan.friction_count; i++) {
-        const struct formula *mu = &model->plan.frictions[i].mu_k;
+    for (size_t i = 0; i < model->plan.mode_count; i++) {
+        const struct formula *mu = &model->plan.modes[i].mu_k;
         if (mu->expr && mu->branch == branch) return true;
     }
     return false;

@@ -56,7 +56,7 @@ bool slips_find(struct fbd_model *model)
         if (absolute->kind != absolute_slip) continue;
         absolute->pair = pair_of(model, &scene->absolutes[k]);
         if (absolute->pair < 0) continue;
-        const struct formula *law = &model->plan.frictions[absolute->pair].mu_k;
+        const struct formula *law = &model->plan.modes[absolute->pair].mu_k;
         absolute->even = ends_at_rest(law, y, plan_size(&model->plan) + hand_slots + k);
     }
     free(y);

@@ -55,15 +55,15 @@ static struct tie *add_tie(struct fbd_model *model, int index, int from, int to)
 bool model_has_speeds_given(const struct fbd_model *model)
 {
     if (model_is_driven(model)) return true;
-    for (size_t i = 0; i < model->plan.friction_count && model->tree && model->tree->tie_count > 0; i++)
-        if (model->plan.frictions[i].surface_speed.expr) return true;
+    for (size_t i = 0; i < model->plan.mode_count && model->tree && model->tree->tie_count > 0; i++)
+        if (model->plan.modes[i].surface_speed.expr) return true;
     return false;
 }
 
 bool model_is_driven(const struct fbd_model *model)
 {
-    for (size_t i = 0; i < model->plan.friction_count; i++) {
-        const struct friction *hold = &model->plan.frictions[i];
+    for (size_t i = 0; i < model->plan.mode_count; i++) {
+        const struct mode *hold = &model->plan.modes[i];
         if (hold->kind == mode_drive || (hold->kind == mode_rope && model->tree->ties[hold->tie].reels))
             return true;
     }

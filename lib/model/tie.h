@@ -43,10 +43,10 @@ struct tie {
     int slack_slot[2];   /* belt: where minus the tensions of its strands go */
     int normal_slot;     /* roll, slot that only presses: where minus its normal force goes */
     int load;            /* roll, rope: its entry in the model's loads */
-    int pair;    /* roll, contact: its dry friction; rope: its mode; index into plan.frictions, or -1 */
-    int surface; /* roll, contact: the mode of its normal force, closed (`stick`) or open; index into
-                        plan.frictions, else -1 */
-    int meeting; /* contact: index into tree.meetings, else -1 */
+    int pair;            /* roll, contact: its dry friction; rope: its mode; index into plan.modes, or -1 */
+    int surface;         /* roll, contact: the mode of its normal force, closed (`stick`) or open; index into
+                        plan.modes, else -1 */
+    int meeting;         /* contact: index into tree.meetings, else -1 */
     int root[most_constraint_ends], root_count; /* first links of the trees that it joins */
 };
 

@@ -466,12 +466,12 @@ bool tree_finish(struct fbd_model *model)
     const struct plan *plan = &model->plan;
     for (int i = 1; i < tree->count; i++)
         tree->links[i].normal_slot = model->bodies[tree->links[i].body].normal_slot;
-    for (int p = 0; p < (int)plan->friction_count; p++) {
-        const struct friction *friction = &plan->frictions[p];
-        if (!friction->jointed || friction->tie >= 0) continue;
-        int link = model->bodies[friction->body].place.link;
+    for (int p = 0; p < (int)plan->mode_count; p++) {
+        const struct mode *mode = &plan->modes[p];
+        if (mode->kind == mode_single || mode->tie >= 0) continue;
+        int link = model->bodies[mode->body].place.link;
         tree->links[link].pair = p;
-        if (friction->normal_slot >= 0) tree->pairs[tree->pair_count++] = link;
+        if (mode->normal_slot >= 0) tree->pairs[tree->pair_count++] = link;
     }
     for (int i = 1; i < tree->count; i++)
         if (tree->links[i].normal_slot >= 0 || tree->links[i].pair >= 0)

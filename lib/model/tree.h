@@ -50,7 +50,7 @@ struct tree_link {
     struct vec moment;   /* mass times the vector from O to its centre of mass */
     struct vec force;    /* constant forces in the world, all of them */
     double sine, cosine; /* their moment about O: sine sin(angle) + cosine cos(angle) */
-    int pair;            /* its dry friction: index into plan.frictions, or -1 */
+    int pair;            /* its dry friction: index into plan.modes, or -1 */
     int normal_slot;     /* where minus its normal force goes, or -1 */
     int root;            /* the first link of its tree */
     int end;             /* links from its own number up to this one (not included) move with it */

@@ -44,12 +44,12 @@ static void write_terms(struct text *text, const struct plan *plan, const struct
     write_list(text, plan->drag_count, "drag in the plane");
     write_list(text, plan->force_count, "formula whose direction changes");
     write_list(text, (size_t)plan->own, "state with an equation of its own");
-    write_list(text, plan->friction_count, "dry friction, as modes stick and slip");
+    write_list(text, plan->mode_count, "dry friction, as modes stick and slip");
     if (tree) write_tree(text, tree);
     write_list(text, plan->offset_count, "body whose frame is not at its centre of mass");
     if (!tree && plan->affine_count + plan->sine_count + plan->square_count + plan->formula_count +
                          plan->potential_count + plan->link_count + plan->drag_count + plan->force_count +
-                         plan->friction_count + plan->offset_count + (size_t)plan->own ==
+                         plan->mode_count + plan->offset_count + (size_t)plan->own ==
                      0)
         text_add(text, "  none\n");
 }
@@ -120,9 +120,9 @@ static void write_events(struct text *text, const struct plan *plan)
     size_t switches = 0, contacts = watched_contacts(plan);
     for (size_t i = 0; i < plan->kink_count; i++) switches += plan->kinks[i].count;
     text_add(text, "\nEvent functions\n");
-    if (plan->friction_count + contacts + switches + plan->watch_count == 0)
+    if (plan->mode_count + contacts + switches + plan->watch_count == 0)
         text_add(text, "  none: nothing interrupts the steps\n");
-    write_list(text, plan->friction_count, "friction: stopping, sticking, breaking away");
+    write_list(text, plan->mode_count, "friction: stopping, sticking, breaking away");
     write_list(text, contacts, "normal force that must not become a pull");
     write_list(text, switches, "switch in an expression (abs, step, if, ...)");
     write_list(text, plan->watch_count, "event of the file");

@@ -46,8 +46,8 @@ static void extend(const struct fbd_state *state, int b, const struct arrow *arr
         if (arrows[i].load >= 0 && model->loads[arrows[i].load].source->kind == load_normal)
             extra[hand_N] = vec_dot(arrows[i].force, surface_normal(model, body, &at));
     if (body->friction >= 0) {
-        extra[hand_mu_s] = formula_value(&model->plan.frictions[body->friction].mu_s, &at);
-        extra[hand_mu_k] = formula_value(&model->plan.frictions[body->friction].mu_k, &at);
+        extra[hand_mu_s] = formula_value(&model->plan.modes[body->friction].mu_s, &at);
+        extra[hand_mu_k] = formula_value(&model->plan.modes[body->friction].mu_k, &at);
     }
 }
 

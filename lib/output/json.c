@@ -188,7 +188,7 @@ static void write_friction(struct text *text, struct fbd_state *state, int body,
     const struct tie *tie = rolling_friction(model, body, arrow->name);
     int own = model->bodies[body].friction, pair = tie ? tie->pair : own;
     if (tie && pair < 0) text_add(text, ", \"mode\": \"stick\""); /* it never slips */
-    if (pair < 0 || (!tie && arrow->load != model->plan.frictions[own].load)) return;
+    if (pair < 0 || (!tie && arrow->load != model->plan.modes[own].load)) return;
     struct instant at = state_instant(state);
     state_balance_of(state, body, state->scratch);
     struct friction_values values = friction_at(model, pair, &at, state->scratch);

@@ -68,8 +68,8 @@ static bool draw_closed(gsl_rng *rng, struct fbd_state *state, const double *sta
         state->y[i] += between(rng, -1, 1) * (model->scene->coordinates[i].angle ? 0.3 : 0.1);
     modes_drive(state);
     /* Round bodies slip as often as they roll. */
-    for (size_t k = 0; k < model->plan.friction_count; k++)
-        if (model->plan.frictions[k].tie >= 0 && model->plan.frictions[k].kind == mode_friction)
+    for (size_t k = 0; k < model->plan.mode_count; k++)
+        if (model->plan.modes[k].kind == mode_tangent)
             state->slip[k] = between(rng, 0, 1) < 0.5 ? stick : slip_plus;
     return state_project(state, false);
 }

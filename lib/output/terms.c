@@ -31,7 +31,7 @@ static void normal_remark(const struct fbd_state *state, const struct model_body
 static void slip_remark(const struct fbd_state *state, int pair, char *remark)
 {
     const struct fbd_model *model = state->model;
-    bool bearing = model->plan.frictions[pair].normal_slot < 0;
+    bool bearing = model->plan.modes[pair].normal_slot < 0;
     const char *law = bearing ? "M_k" : "mu_k N", *sign = state->slip[pair] > 0 ? "-" : "+";
     const double *places = state->y + plan_size(&model->plan) + hand_slots;
     for (size_t k = 0; k < model->absolute_count; k++) {
@@ -48,7 +48,7 @@ static void friction_remark(struct fbd_state *state, int b, char *remark)
     struct instant at = state_instant(state);
     state_balance_of(state, b, state->scratch);
     struct friction_values now = friction_at(state->model, body->friction, &at, state->scratch);
-    bool bearing = state->model->plan.frictions[body->friction].normal_slot < 0;
+    bool bearing = state->model->plan.modes[body->friction].normal_slot < 0;
     bool kinetic = now.limit_kinetic > now.limit_static; /* warned of by the reader */
     if (state->slip[body->friction] == stick)
         format_into(remark, term_remark_size, "sticks: whatever holds, up to %s_%c%s = %.9g",

@@ -289,7 +289,7 @@ static bool stops_at_once(const struct run *run, int index, double slow)
     const struct tie *tie = &tree_of(run)->ties[index];
     const struct instant at = state_instant(run->state);
     if (run->state->tree->ties[index].feature == no_feature) return false;
-    double mu = formula_value(&run->model->plan.frictions[tie->pair].mu_k, &at);
+    double mu = formula_value(&run->model->plan.modes[tie->pair].mu_k, &at);
     double v_t = run->state->tree->rows[tie->first_row + 1].g.x1;
     return v_t * v_t <= fmin(mu, 1) * slow * slow;
 }

@@ -152,9 +152,9 @@ static bool overlong_rope(struct run *run, double most)
 {
     const struct plan *plan = &run->model->plan;
     struct instant at = state_instant(run->state);
-    for (size_t i = 0; i < plan->friction_count; i++) {
-        if (plan->frictions[i].kind != mode_rope || run->state->slip[i] == stick) continue;
-        int tie = plan->frictions[i].tie;
+    for (size_t i = 0; i < plan->mode_count; i++) {
+        if (plan->modes[i].kind != mode_rope || run->state->slip[i] == stick) continue;
+        int tie = plan->modes[i].tie;
         double excess = one_sided_at(run->model, &at, (int)i).excess;
         if (excess <= most) continue;
         const char *name = run->model->tree->ties[tie].name;

@@ -50,7 +50,7 @@ bool contacts_work_init(struct contacts_work *work, const struct fbd_model *mode
     if (most == 0) return true;
     work->strikers = calloc(most, sizeof *work->strikers);
     work->points = calloc(most, sizeof *work->points);
-    work->rows = calloc(rows + model->plan.friction_count, sizeof *work->rows);
+    work->rows = calloc(rows + model->plan.mode_count, sizeof *work->rows);
     work->W = calloc(rows * rows + rows * n + 4 * rows + 2 * n + 1, sizeof *work->W);
     if (!meetings_init(work, model)) return false;
     if (!work->strikers || !work->points || !work->rows || !work->W) return false;
@@ -256,12 +256,11 @@ static void unstick(struct run *run)
 {
     const struct fbd_model *model = run->model;
     struct instant at = state_instant(run->state);
-    for (int pair = 0; pair < (int)model->plan.friction_count; pair++) {
-        const struct friction *friction = &model->plan.frictions[pair];
-        if (friction->kind != mode_friction || friction->tie >= 0 || run->state->slip[pair] != stick)
-            continue;
+    for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
+        const struct mode *mode = &model->plan.modes[pair];
+        if (!mode_is_joint_friction(mode) || run->state->slip[pair] != stick) continue;
         double v = slip_velocity(model, pair, &at),
-               before = run->anchor[3 * model->plan.n + friction->coordinate];
+               before = run->anchor[3 * model->plan.n + mode->coordinate];
         if (fabs(v) <= 1e-14 * before) continue;
         run->state->slip[pair] = v > 0 ? slip_plus : slip_minus;
     }

@@ -42,7 +42,7 @@ static bool set_point(struct run *run, int i)
     struct instant at = state_instant(run->state);
     work->points[i] = (struct impacts_point){0, 0};
     if (striker->rope) return true;
-    if (tie->pair >= 0) work->points[i].mu = formula_value(&run->model->plan.frictions[tie->pair].mu_k, &at);
+    if (tie->pair >= 0) work->points[i].mu = formula_value(&run->model->plan.modes[tie->pair].mu_k, &at);
     if (work->plastic) return true;
     work->points[i].e = contacts_restitution(run, tie->meeting, fmax(0, -striker->v_n));
     return work->points[i].e >= 0;
@@ -114,10 +114,10 @@ static double carried_work(const struct run *run, const struct row *row, int dri
 }
 
 /* The impulses of strikers on what drive `friction` moves. */
-static double drive_work(const struct run *run, const struct friction *friction, int count)
+static double drive_work(const struct run *run, const struct mode *mode, int count)
 {
     const struct contacts_work *work = &run->contacts;
-    int driven = run->model->bodies[friction->body].place.link;
+    int driven = run->model->bodies[mode->body].place.link;
     double sum = 0;
     for (int i = 0; i < 2 * count; i++) {
         double P = impulse_of(work, i);
@@ -140,19 +140,18 @@ static double taken_by(const struct contacts_work *work, int count)
 static void note_drives(struct run *run, int count, double change)
 {
     const struct plan *plan = &run->model->plan;
-    const struct friction *only = NULL;
+    const struct mode *only = NULL;
     int moving = 0;
-    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        const struct friction *friction = &plan->frictions[pair];
-        if (friction->kind != mode_drive || run->state->y[plan->n + friction->coordinate] == 0) continue;
+    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
+        const struct mode *mode = &plan->modes[pair];
+        if (mode->kind != mode_drive || run->state->y[plan->n + mode->coordinate] == 0) continue;
         moving++;
-        only = friction;
+        only = mode;
     }
     if (moving == 1) run->impact_work[only->load] += change - taken_by(&run->contacts, count);
-    for (int pair = 0; moving > 1 && pair < (int)plan->friction_count; pair++) {
-        const struct friction *friction = &plan->frictions[pair];
-        if (friction->kind == mode_drive)
-            run->impact_work[friction->load] += drive_work(run, friction, count);
+    for (int pair = 0; moving > 1 && pair < (int)plan->mode_count; pair++) {
+        const struct mode *mode = &plan->modes[pair];
+        if (mode->kind == mode_drive) run->impact_work[mode->load] += drive_work(run, mode, count);
     }
 }
 

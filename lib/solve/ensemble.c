@@ -58,14 +58,14 @@ static bool make_group(struct ensemble *ensemble, struct group *group)
 static bool allocate_maps(struct ensemble *ensemble)
 {
     const struct fbd_model *whole = ensemble->model;
-    size_t entries = (size_t)whole->plan.branches + whole->plan.friction_count + whole->load_count;
+    size_t entries = (size_t)whole->plan.branches + whole->plan.mode_count + whole->load_count;
     int *next = ensemble->maps = calloc(entries + ensemble->count + 1, sizeof(int));
     if (!next) return false;
     for (size_t p = 0; p < ensemble->count; p++) {
         struct group *group = &ensemble->groups[p];
         group->branch = next;
         group->pairs = next += group->model->plan.branches;
-        group->loads = next += group->model->plan.friction_count;
+        group->loads = next += group->model->plan.mode_count;
         next += group->model->load_count;
     }
     ensemble->counts = next;
@@ -103,8 +103,8 @@ static bool make_maps(struct ensemble *ensemble)
     int *counts = ensemble->counts;
     map_branches(ensemble);
     memset(counts, 0, ensemble->count * sizeof *counts);
-    for (size_t i = 0; i < whole->plan.friction_count; i++) {
-        int p = group_of_body[whole->plan.frictions[i].body];
+    for (size_t i = 0; i < whole->plan.mode_count; i++) {
+        int p = group_of_body[whole->plan.modes[i].body];
         ensemble->groups[p].pairs[counts[p]++] = (int)i;
     }
     memset(counts, 0, ensemble->count * sizeof *counts);
@@ -333,13 +333,12 @@ static void scatter_modes(const struct group *group, const struct fbd_state *par
     bool whole = !group->selection;
     for (int i = 0; i < plan->branches; i++) state->branch[whole ? i : group->branch[i]] = part->branch[i];
     scatter_slides(group, part, state);
-    for (size_t i = 0; i < plan->friction_count; i++) {
+    for (size_t i = 0; i < plan->mode_count; i++) {
         size_t pair = whole ? i : (size_t)group->pairs[i];
         state->slip[pair] = part->slip[i];
         state->pull[pair] = part->pull[i];
-        if (plan->frictions[i].kind == mode_contact) /* at which feature it is */
-            state->tree->ties[state->model->plan.frictions[pair].tie] =
-                part->tree->ties[plan->frictions[i].tie];
+        if (plan->modes[i].kind == mode_contact) /* at which feature it is */
+            state->tree->ties[state->model->plan.modes[pair].tie] = part->tree->ties[plan->modes[i].tie];
     }
 }
 

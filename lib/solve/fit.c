@@ -128,8 +128,8 @@ static void find_misses(struct fbd_state *state, struct miss *position, struct m
 static void pull_taut(struct fbd_state *state)
 {
     const struct plan *plan = &state->model->plan;
-    for (size_t i = 0; i < plan->friction_count; i++) {
-        const struct friction *hold = &plan->frictions[i];
+    for (size_t i = 0; i < plan->mode_count; i++) {
+        const struct mode *hold = &plan->modes[i];
         if (!mode_is_one_sided(hold)) continue;
         double g = state->tree->rows[state->model->tree->ties[hold->tie].first_row].g.x;
         if (hold->kind == mode_surface || g > 0) state->slip[i] = stick;

@@ -74,23 +74,22 @@ static void drop_rounding(struct run *run)
 
 static void stop_slipping(struct run *run, int pair)
 {
-    const struct friction *friction = &run->model->plan.frictions[pair];
+    const struct mode *mode = &run->model->plan.modes[pair];
     struct instant at = state_instant(run->state);
     double acceleration;
-    if (friction->tie >= 0) {
+    if (mode->tie >= 0) {
         run->state->slip[pair] = stick;
         state_project_velocity(run->state, false);
         drop_rounding(run);
         return;
     }
-    run->state->y[run->model->plan.n + friction->coordinate] =
-        friction_surface_speed(friction, &at, &acceleration);
+    run->state->y[run->model->plan.n + mode->coordinate] = friction_surface_speed(mode, &at, &acceleration);
 }
 
 /* The impulses in the strands of a rope that jerks round a drum are not followed. */
 static bool refuse_jerk(struct run *run, int pair)
 {
-    int tie = run->model->plan.frictions[pair].tie;
+    int tie = run->model->plan.modes[pair].tie;
     if (tie < 0 || run->model->tree->ties[tie].kind != constraint_capstan) return false;
     run_fail(
         run, FBD_BROKEN,
@@ -111,14 +110,14 @@ static void one_sided_event(struct run *run, int pair)
     }
     if (refuse_jerk(run, pair)) return;
     double before = jointed_kinetic_energy(run->state);
-    bool rope = run->model->plan.frictions[pair].kind == mode_rope;
+    bool rope = run->model->plan.modes[pair].kind == mode_rope;
     run->state->slip[pair] = stick;
     if (rope) run_strike_taut(run);
     state_project_velocity(run->state, false); /* of a rope, rounding only */
     drop_rounding(run);
     run->snap_pair = pair;
     run->snap_work = jointed_kinetic_energy(run->state) - before;
-    if (!rope) run->impact_work[run->model->plan.frictions[pair].load] += run->snap_work;
+    if (!rope) run->impact_work[run->model->plan.modes[pair].load] += run->snap_work;
 }
 
 /* Is the way in which the event is passed now one that is asked for? */
@@ -287,7 +286,7 @@ static void fail_chatter(struct run *run, int load, bool state, const char *name
 static void refuse_sliding(struct run *run, const bool *moving)
 {
     const struct watcher_set *set = &run->watchers.moving;
-    size_t modes = run->model->plan.friction_count * sizeof *run->state->slip;
+    size_t modes = run->model->plan.mode_count * sizeof *run->state->slip;
     if (!moving || run->outcome != FBD_GOING) return;
     if (memcmp(run->state->slip, run->during->slip, modes) != 0)
         return; /* other forces now: they will tell */
@@ -394,8 +393,8 @@ static void note_several(struct run *run)
 {
     const struct holds_trouble *holds = &run->state->holds;
     if (holds->found != holds_several || holds->pair < 0) return;
-    const struct friction *friction = &run->model->plan.frictions[holds->pair];
-    struct run_event *event = run_note(run, FBD_EVENT_SEVERAL, friction->body, friction->load, -1);
+    const struct mode *mode = &run->model->plan.modes[holds->pair];
+    struct run_event *event = run_note(run, FBD_EVENT_SEVERAL, mode->body, mode->load, -1);
     if (event) event->force = holds->answer;
 }
 
@@ -420,7 +419,7 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     const struct watcher_set *sets[] = {&run->watchers.timed, &run->watchers.moving};
     const bool *crossed[] = {timed, moving};
     bool crossing = false;
-    memset(run->decided.branches, 0, ((size_t)plan->branches + 2 * plan->friction_count) * sizeof(bool));
+    memset(run->decided.branches, 0, ((size_t)plan->branches + 2 * plan->mode_count) * sizeof(bool));
     for (int s = 0; s < 2; s++)
         for (size_t i = 0; crossed[s] && i < sets[s]->count; i++)
             crossing |= crossed[s][i] && sets[s]->watchers[i].kind == watch_kink;

@@ -9,8 +9,8 @@
 
 void run_note_friction(struct run *run, fbd_event_kind kind, int pair)
 {
-    const struct friction *friction = &run->model->plan.frictions[pair];
-    struct run_event *event = run_note(run, kind, friction->body, friction->load, -1);
+    const struct mode *mode = &run->model->plan.modes[pair];
+    struct run_event *event = run_note(run, kind, mode->body, mode->load, -1);
     if (!event) return;
     struct instant at = state_instant(run->state);
     double *slots = run->during->scratch;
@@ -28,37 +28,37 @@ struct change {
 
 static void note_one_sided(struct run *run, const struct change *change)
 {
-    const struct friction *friction = &run->model->plan.frictions[change->pair];
-    bool rope = run->model->tree->ties[friction->tie].law->way;
+    const struct mode *mode = &run->model->plan.modes[change->pair];
+    bool rope = run->model->tree->ties[mode->tie].law->way;
     if (change->before == stick && change->after != stick)
-        run_note(run, rope ? FBD_EVENT_ROPE_SLACK : FBD_EVENT_LIFT_OFF, friction->body, friction->load, -1);
+        run_note(run, rope ? FBD_EVENT_ROPE_SLACK : FBD_EVENT_LIFT_OFF, mode->body, mode->load, -1);
     bool snapped = run->snap_pair == change->pair;
     if (snapped) run->snap_pair = -1;
     if (!snapped && (change->before == stick || change->after != stick)) return;
     struct run_event *event =
-        run_note(run, rope ? FBD_EVENT_ROPE_TAUT : FBD_EVENT_LANDING, friction->body, friction->load, -1);
+        run_note(run, rope ? FBD_EVENT_ROPE_TAUT : FBD_EVENT_LANDING, mode->body, mode->load, -1);
     if (event) event->force = snapped ? -run->snap_work : 0;
 }
 
 /* Friction of a contact that has just closed or opened has no event of its own. */
-static bool rubbed_throughout(const struct run *run, const struct friction *friction)
+static bool rubbed_throughout(const struct run *run, const struct mode *mode)
 {
-    const struct tie *tie = friction->tie < 0 ? NULL : &run->model->tree->ties[friction->tie];
+    const struct tie *tie = mode->tie < 0 ? NULL : &run->model->tree->ties[mode->tie];
     if (!tie || tie->meeting < 0) return true;
     return run->during->slip[tie->surface] == stick && run->state->slip[tie->surface] == stick;
 }
 
 static void note_rubbing(struct run *run, const struct change *change)
 {
-    const struct friction *friction = &run->model->plan.frictions[change->pair];
+    const struct mode *mode = &run->model->plan.modes[change->pair];
     int pair = change->pair, before = change->before, after = change->after;
-    if (!rubbed_throughout(run, friction)) return;
+    if (!rubbed_throughout(run, mode)) return;
     if (before == stick && after != stick) {
         passages_note_stick(run, pair);
         run_note_friction(run, FBD_EVENT_BREAKAWAY, pair);
     }
     if (before != stick && after == stick) {
-        if (friction->tie >= 0) tie_rezero(run->model, run->state->tree, friction->tie);
+        if (mode->tie >= 0) tie_rezero(run->model, run->state->tree, mode->tie);
         if (run->passages.now)
             run->passages.sticks[pair] = true; /* at the end of the series */
         else
@@ -69,19 +69,23 @@ static void note_rubbing(struct run *run, const struct change *change)
 }
 
 /* By kind; a drive has no events, and those of a contact are noted by run_release_contacts. */
-static void (*const note[mode_kinds])(struct run *run, const struct change *change) = {
-    [mode_friction] = note_rubbing, [mode_rope] = note_one_sided, [mode_surface] = note_one_sided};
+static void (*const note[mode_kinds])(struct run *run,
+                                      const struct change *change) = {[mode_single] = note_rubbing,
+                                                                      [mode_joint] = note_rubbing,
+                                                                      [mode_tangent] = note_rubbing,
+                                                                      [mode_rope] = note_one_sided,
+                                                                      [mode_surface] = note_one_sided};
 
 /* What each pair has done is read off its modes before and after, whichever event was the cause. */
 static void note_frictions(struct run *run, const bool *moving)
 {
     const struct watcher_set *set = &run->watchers.moving;
-    for (int pair = 0; pair < (int)run->model->plan.friction_count; pair++) {
+    for (int pair = 0; pair < (int)run->model->plan.mode_count; pair++) {
         struct change change = {pair, run->during->slip[pair], run->state->slip[pair], false};
         for (size_t i = 0; moving && i < set->count; i++)
             change.stopped |=
                 moving[i] && set->watchers[i].kind == watch_slip_stop && set->watchers[i].index == pair;
-        enum mode_kind kind = run->model->plan.frictions[pair].kind;
+        enum mode_kind kind = run->model->plan.modes[pair].kind;
         if (note[kind]) note[kind](run, &change);
     }
 }

@@ -83,15 +83,15 @@ static bool refuse_sticking(const struct fbd_state *state, fbd_errors *errors)
     const struct fbd_model *model = state->model;
     const struct plan *plan = &model->plan;
     struct instant at = state_instant(state);
-    for (size_t i = 0; i < plan->friction_count; i++) {
-        const struct friction *friction = &plan->frictions[i];
+    for (size_t i = 0; i < plan->mode_count; i++) {
+        const struct mode *mode = &plan->modes[i];
         double acceleration;
-        if (friction->kind != mode_friction || friction->tie >= 0) continue;
-        if (friction_surface_speed(friction, &at, &acceleration) != 0) continue;
-        diag_add(errors, FBD_ERROR, "sticks", model->loads[friction->load].source->at,
+        if (!mode_is_joint_friction(mode)) continue;
+        if (friction_surface_speed(mode, &at, &acceleration) != 0) continue;
+        diag_add(errors, FBD_ERROR, "sticks", model->loads[mode->load].source->at,
                  "leave the friction out to see the motion about the balance of the other forces",
                  "`%s` has dry friction: at rest it sticks, and a body that sticks has no linear motion",
-                 model->bodies[friction->body].name);
+                 model->bodies[mode->body].name);
         return true;
     }
     return false;
@@ -116,24 +116,24 @@ static bool refuse_limits(struct fbd_state *state, fbd_errors *errors)
     const double nothing = 1e-9;
     const struct fbd_model *model = state->model;
     const struct plan *plan = &model->plan;
-    if (!is_tied(model) || plan->friction_count == 0) return false;
-    int *before = calloc(plan->friction_count, sizeof *before), at_limit = -1;
+    if (!is_tied(model) || plan->mode_count == 0) return false;
+    int *before = calloc(plan->mode_count, sizeof *before), at_limit = -1;
     if (!before) {
         diag_out_of_memory(errors);
         return true;
     }
-    memcpy(before, state->slip, plan->friction_count * sizeof *before);
+    memcpy(before, state->slip, plan->mode_count * sizeof *before);
     bool settled = modes_settle(state, NULL);
     double size = size_of_forces(state);
-    for (int i = 0; i < (int)plan->friction_count; i++) {
-        const struct friction *hold = &plan->frictions[i];
+    for (int i = 0; i < (int)plan->mode_count; i++) {
+        const struct mode *hold = &plan->modes[i];
         bool held = mode_is_one_sided(hold) && state->slip[i] == stick;
         bool presses = !held || fabs(hold_row(state, hold)->lambda) > nothing * size;
         if (before[i] != state->slip[i] || !presses || !settled) at_limit = i;
     }
     free(before);
     if (at_limit < 0) return false;
-    const struct friction *hold = &plan->frictions[at_limit];
+    const struct mode *hold = &plan->modes[at_limit];
     struct pos at = hold->tie >= 0 ? model->scene->constraints[model->tree->ties[hold->tie].constraint].at
                                    : model->bodies[hold->body].source->at;
     diag_add(
@@ -438,7 +438,7 @@ static fbd_linearization *linearize(fbd_state *state, fbd_errors *errors)
     const struct fbd_model *model = state->model;
     diag_in_file(errors, model->scene->file);
     size_t n = (size_t)model->plan.n;
-    if (model->plan.friction_count > 0 || is_tied(model)) /* modes of rest */
+    if (model->plan.mode_count > 0 || is_tied(model)) /* modes of rest */
         memset(state->y + n, 0, n * sizeof *state->y);
     bool settled = modes_settle(state, NULL);
     if (!start_question(state, settled, errors) || refuse_driven(state, errors) ||

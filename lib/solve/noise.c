@@ -127,9 +127,9 @@ static void take_driven(const struct run *run, double *dy)
     const struct plan *plan = &run->model->plan;
     size_t n = (size_t)plan->n;
     memset(dy, 0, plan_size(plan) * sizeof *dy);
-    for (size_t pair = 0; pair < plan->friction_count; pair++) {
-        if (plan->frictions[pair].kind != mode_drive) continue;
-        size_t i = (size_t)plan->frictions[pair].coordinate;
+    for (size_t pair = 0; pair < plan->mode_count; pair++) {
+        if (plan->modes[pair].kind != mode_drive) continue;
+        size_t i = (size_t)plan->modes[pair].coordinate;
         dy[i] = run->state->y[n + i];
         dy[n + i] = run->state->a[i];
     }

@@ -62,11 +62,11 @@ static bool knows_body(const struct fbd_state *state, int body)
         outlook_slide(state, &plan->formulas[i].value, &slides);
         if (slides > 1 || (slides == 1 && plan->formulas[i].slot >= plan->n)) return false;
     }
-    for (size_t pair = 0; pair < plan->friction_count; pair++) {
-        const struct friction *friction = &plan->frictions[pair];
-        if (friction->body != body) continue;
-        if (friction->kind != mode_friction || friction->tie >= 0 || friction->jointed) return false;
-        if (friction->surface_speed.expr || has_slides(state, &friction->mu_k)) return false;
+    for (size_t pair = 0; pair < plan->mode_count; pair++) {
+        const struct mode *mode = &plan->modes[pair];
+        if (mode->body != body) continue;
+        if (mode->kind != mode_single) return false;
+        if (mode->surface_speed.expr || has_slides(state, &mode->mu_k)) return false;
     }
     return true;
 }
@@ -102,12 +102,11 @@ static struct enclosure friction_of(const struct outlook *o, int coordinate)
 {
     const struct plan *plan = &o->state->model->plan;
     struct enclosure sum = enclosure_point(0);
-    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        const struct friction *friction = &plan->frictions[pair];
+    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
+        const struct mode *mode = &plan->modes[pair];
         int side = slip_side(o->state->slip[pair]);
-        if (friction->coordinate != coordinate || friction->kind != mode_friction || side == 0) continue;
-        struct enclosure rubs =
-            enclosure_multiply(outlook_formula(o, &friction->mu_k), outlook_press(o, pair));
+        if (mode->coordinate != coordinate || !mode_is_friction(mode) || side == 0) continue;
+        struct enclosure rubs = enclosure_multiply(outlook_formula(o, &mode->mu_k), outlook_press(o, pair));
         sum = enclosure_subtract(sum, enclosure_scale(side, rubs));
     }
     return sum;

@@ -17,7 +17,7 @@ bool passages_init(struct run *run)
     if (plan->slide_count == 0) return true;
     passages->list = calloc((size_t)plan->branches, sizeof *passages->list);
     for (int i = 0; passages->list && i < plan->branches; i++) passages->list[i].left.t = -HUGE_VAL;
-    passages->sticks = calloc(plan->friction_count + 1, sizeof *passages->sticks);
+    passages->sticks = calloc(plan->mode_count + 1, sizeof *passages->sticks);
     return passages->list && passages->sticks;
 }
 
@@ -122,7 +122,7 @@ void passages_note(struct run *run)
     struct passages *passages = &run->passages;
     if (passages->end > run->state->t) return;
     passages->end = HUGE_VAL;
-    for (int pair = 0; pair < (int)plan->friction_count; pair++) passages_note_stick(run, pair);
+    for (int pair = 0; pair < (int)plan->mode_count; pair++) passages_note_stick(run, pair);
     for (size_t k = 0; k < plan->kink_count; k++) {
         const struct kink *kink = &plan->kinks[k];
         bool slides = false;

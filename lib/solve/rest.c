@@ -83,19 +83,18 @@ bool equilibrium_refuse_reels(const struct fbd_model *model, fbd_errors *errors)
 static bool refuse(const struct fbd_state *state, fbd_errors *errors)
 {
     const struct fbd_model *model = state->model;
-    for (size_t pair = 0; pair < model->plan.friction_count; pair++) {
-        const struct friction *friction = &model->plan.frictions[pair];
-        if (friction->tie >= 0) continue;
-        diag_add(errors, FBD_ERROR, friction->kind == mode_drive ? "not-independent" : "sticks",
-                 friction->kind == mode_drive ? model->bodies[friction->body].source->motion.at
-                                              : model->loads[friction->load].source->at,
-                 friction->kind == mode_drive
-                     ? "give it a place, --at, or a motion without `theta` or `x`"
-                     : "leave the friction out to find the balance of the other forces",
-                 friction->kind == mode_drive
+    for (size_t pair = 0; pair < model->plan.mode_count; pair++) {
+        const struct mode *mode = &model->plan.modes[pair];
+        if (mode->tie >= 0) continue;
+        diag_add(errors, FBD_ERROR, mode->kind == mode_drive ? "not-independent" : "sticks",
+                 mode->kind == mode_drive ? model->bodies[mode->body].source->motion.at
+                                          : model->loads[mode->load].source->at,
+                 mode->kind == mode_drive ? "give it a place, --at, or a motion without `theta` or `x`"
+                                          : "leave the friction out to find the balance of the other forces",
+                 mode->kind == mode_drive
                      ? "the motion of `%s` is prescribed: it is never at rest"
                      : "`%s` has dry friction: it rests in a range of places, not in one",
-                 model->bodies[friction->body].name);
+                 model->bodies[mode->body].name);
         return true;
     }
     return equilibrium_refuse_reels(model, errors);

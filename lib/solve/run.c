@@ -54,7 +54,7 @@ static bool make_stepper(struct run *run)
 
 static bool make_decided(struct decided *decided, const struct plan *plan)
 {
-    size_t branches = (size_t)plan->branches, pairs = plan->friction_count;
+    size_t branches = (size_t)plan->branches, pairs = plan->mode_count;
     decided->branches = calloc(branches + 2 * pairs + 1, sizeof(bool));
     if (!decided->branches) return false;
     decided->slips = decided->branches + branches;

@@ -25,13 +25,13 @@ static int sample_timed(void *context, double t, double *values, double *rate)
  */
 static bool leads(const struct run *run, size_t pair)
 {
-    const struct friction *friction = &run->model->plan.frictions[pair];
-    return friction->surface_speed.expr && friction->tie < 0 && run->during->slip[pair] == stick;
+    const struct mode *mode = &run->model->plan.modes[pair];
+    return mode->surface_speed.expr && mode->tie < 0 && run->during->slip[pair] == stick;
 }
 
 static bool any_leads(const struct run *run)
 {
-    for (size_t i = 0; i < run->model->plan.friction_count; i++)
+    for (size_t i = 0; i < run->model->plan.mode_count; i++)
         if (leads(run, i)) return true;
     return false;
 }
@@ -44,10 +44,10 @@ static int sample_state(struct run *run, double t, double *y)
     if (switcher_dense(run->stepper, moment_at(t), y) != GSL_SUCCESS) return -1;
     struct instant at = state_instant_at(during, t, y);
     double acceleration;
-    for (size_t i = 0; i < plan->friction_count; i++)
+    for (size_t i = 0; i < plan->mode_count; i++)
         if (leads(run, i))
-            y[plan->n + plan->frictions[i].coordinate] =
-                friction_surface_speed(&plan->frictions[i], &at, &acceleration);
+            y[plan->n + plan->modes[i].coordinate] =
+                friction_surface_speed(&plan->modes[i], &at, &acceleration);
     return 0;
 }
 
@@ -150,7 +150,7 @@ static double follow_course(void *context, double from, double to, bool coarse)
 /* Formulas of forces and frictions in turn; NULL after the last. */
 static const struct formula *paced_formula(const struct fbd_model *model, size_t index)
 {
-    size_t loads = model->load_count, frictions = model->plan.friction_count;
+    size_t loads = model->load_count, frictions = model->plan.mode_count;
     enum { each = 6 };
     if (index < each * loads) {
         const struct model_load *load = &model->loads[index / each];
@@ -160,9 +160,8 @@ static const struct formula *paced_formula(const struct fbd_model *model, size_t
     }
     index -= each * loads;
     if (index >= 4 * frictions) return NULL;
-    const struct friction *friction = &model->plan.frictions[index / 4];
-    const struct formula *all[] = {&friction->mu_s, &friction->mu_k, &friction->surface_speed,
-                                   &friction->position};
+    const struct mode *mode = &model->plan.modes[index / 4];
+    const struct formula *all[] = {&mode->mu_s, &mode->mu_k, &mode->surface_speed, &mode->position};
     return all[index % 4];
 }
 

@@ -79,7 +79,7 @@ const char *unsettled_advice(const struct fbd_model *model, int load)
 /* A roll without limits has a friction that no normal force goes with: it could hold itself down. */
 static void contradiction_words(const struct fbd_model *model, int pair, const char *when, struct text *text)
 {
-    const struct friction *hold = &model->plan.frictions[pair];
+    const struct mode *hold = &model->plan.modes[pair];
     bool couples = hold->kind == mode_surface || hold->kind == mode_rope;
     const char *name = couples ? model->scene->constraints[model->tree->ties[hold->tie].constraint].name
                        : hold->load >= 0 ? model->loads[hold->load].source->name
@@ -106,12 +106,12 @@ void unsettled_words(const struct fbd_state *state, const char *when, struct tex
             text, "%s no forces within the limits of what holds agree with the motion: there is no solution",
             when);
         if (holds->pair < 0) return;
-        const struct friction *friction = &model->plan.frictions[holds->pair];
+        const struct mode *mode = &model->plan.modes[holds->pair];
         text_printf(
             text,
             ", as in Painleve's paradox. On `%s` each newton more of the normal force brings `%s` with it "
             "that takes ",
-            model->bodies[friction->body].name, model->loads[friction->load].source->name);
+            model->bodies[mode->body].name, model->loads[mode->load].source->name);
         text_number(text, holds->answer, 4);
         text_add(
             text,

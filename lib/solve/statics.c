@@ -55,7 +55,7 @@ static const struct tie *touching_tie(const struct fbd_model *model, const struc
 {
     const struct plan *plan = &model->plan;
     int pair = limit->kind == limit_normal ? plan->contacts[limit->index].pair : limit->index;
-    int tie = pair >= 0 ? plan->frictions[pair].tie : -1;
+    int tie = pair >= 0 ? plan->modes[pair].tie : -1;
     return tie >= 0 && model->tree->ties[tie].kind == constraint_contact ? &model->tree->ties[tie] : NULL;
 }
 
@@ -63,11 +63,11 @@ static const char *limit_name(struct fbd_statics *statics, const struct rest_lim
 {
     const struct fbd_model *model = statics->model;
     const struct plan *plan = &model->plan;
-    if (limit->kind == limit_rope) return model->tree->ties[plan->frictions[limit->index].tie].name;
+    if (limit->kind == limit_rope) return model->tree->ties[plan->modes[limit->index].tie].name;
     const struct tie *touching = touching_tie(model, limit);
     if (touching) return touching->end[0].name[limit->kind == limit_normal ? 0 : 1];
     int load =
-        limit->kind == limit_normal ? plan->contacts[limit->index].load : plan->frictions[limit->index].load;
+        limit->kind == limit_normal ? plan->contacts[limit->index].load : plan->modes[limit->index].load;
     const char *name = model->loads[load].source->name;
     for (int i = 0; model->tree && i < model->tree->tie_count; i++) { /* of a rolling body */
         const struct tie *tie = &model->tree->ties[i];
@@ -101,7 +101,7 @@ static const char *name_limit(struct fbd_statics *statics, const struct rest_lim
 static const char *limit_unit(const struct fbd_model *model, const struct rest_limit *limit)
 {
     bool si = model->scene->units == unit_si;
-    bool moment = limit->kind == limit_friction && model->plan.frictions[limit->index].normal_slot < 0;
+    bool moment = limit->kind == limit_friction && model->plan.modes[limit->index].normal_slot < 0;
     return moment ? (si ? "N*m" : "lbf*ft") : (si ? "N" : "lbf");
 }
 
@@ -113,8 +113,7 @@ static bool find_limits(struct fbd_statics *statics, const struct rest_system *s
     for (size_t i = 0; statics->limits && i < count; i++) {
         struct rest_limit limit = rest_limit_at(system, i);
         if (limit.kind != limit_normal && statics->state->slip[limit.index] != stick) continue;
-        if (limit.kind != limit_normal && !rest_has_limit(&statics->model->plan.frictions[limit.index]))
-            continue;
+        if (limit.kind != limit_normal && !rest_has_limit(&statics->model->plan.modes[limit.index])) continue;
         double slack = 2e-9 * system->force;
         bool holds =
             limit.kind == limit_friction ? limit.needed <= limit.may + slack : limit.needed >= -slack;

@@ -46,7 +46,7 @@ static const char *holder_name(const struct fbd_statics *statics, const struct m
 {
     struct instant at = state_instant(statics->state);
     int pair = rest_holder(statics->model, &at, body->first);
-    return pair < 0 ? NULL : statics->model->loads[statics->model->plan.frictions[pair].load].source->name;
+    return pair < 0 ? NULL : statics->model->loads[statics->model->plan.modes[pair].load].source->name;
 }
 
 static void name_joint(struct fbd_statics *statics, const struct rest_system *system, int i)

@@ -40,23 +40,23 @@ static void add_shares(struct watchers *watchers, const struct plan *plan)
     }
 }
 
-static bool always_the_same(const struct plan *plan, const struct friction *friction)
+static bool always_the_same(const struct plan *plan, const struct mode *mode)
 {
-    return friction->tie < 0 && plan->slot_constant[friction->coordinate] && !friction->surface_speed.expr &&
-           !friction->mu_s.expr && !friction->mu_k.expr &&
-           (friction->normal_slot < 0 || plan->slot_constant[friction->normal_slot]);
+    return mode->tie < 0 && plan->slot_constant[mode->coordinate] && !mode->surface_speed.expr &&
+           !mode->mu_s.expr && !mode->mu_k.expr &&
+           (mode->normal_slot < 0 || plan->slot_constant[mode->normal_slot]);
 }
 
 /* ---- what is watched of each kind of mode */
 
 static void add_rubbing(struct watchers *watchers, const struct plan *plan, int pair)
 {
-    const struct friction *friction = &plan->frictions[pair];
+    const struct mode *mode = &plan->modes[pair];
     add(&watchers->moving, (struct watcher){watch_slip_stop, pair, 0, 0});
-    if (!always_the_same(plan, friction))
+    if (!always_the_same(plan, mode))
         for (int end = 0; end < 2; end++)
             add(&watchers->moving, (struct watcher){watch_stick_limit, pair, 0, end});
-    if (friction->two_sided && !plan->slot_constant[friction->normal_slot])
+    if (mode->two_sided && !plan->slot_constant[mode->normal_slot])
         add(&watchers->moving, (struct watcher){watch_normal_turns, pair, 0, 0});
 }
 
@@ -73,16 +73,14 @@ static void add_lift(struct watchers *watchers, const struct plan *plan, int pai
 }
 
 /* A drive never gives. */
-static void (*const add_mode[mode_kinds])(struct watchers *watchers, const struct plan *plan,
-                                          int pair) = {[mode_friction] = add_rubbing,
-                                                       [mode_rope] = add_one_sided,
-                                                       [mode_surface] = add_one_sided,
-                                                       [mode_contact] = add_lift};
+static void (*const add_mode[mode_kinds])(struct watchers *watchers, const struct plan *plan, int pair) = {
+    [mode_single] = add_rubbing, [mode_joint] = add_rubbing,     [mode_tangent] = add_rubbing,
+    [mode_rope] = add_one_sided, [mode_surface] = add_one_sided, [mode_contact] = add_lift};
 
 static void add_modes(struct watchers *watchers, const struct plan *plan)
 {
-    for (int pair = 0; pair < (int)plan->friction_count; pair++) {
-        enum mode_kind kind = plan->frictions[pair].kind;
+    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
+        enum mode_kind kind = plan->modes[pair].kind;
         if (add_mode[kind]) add_mode[kind](watchers, plan, pair);
     }
 }
@@ -157,7 +155,7 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
     watchers->armed = ARENA_ARRAY(memory, plan->watch_count + 1, int);
     watchers->fired = ARENA_ARRAY(memory, plan->watch_count + 1, double);
     watchers->most = ARENA_ARRAY(memory, 2 * plan->watch_count + 1, double);
-    watchers->fast = ARENA_ARRAY(memory, 2 * plan->friction_count + 1, double);
+    watchers->fast = ARENA_ARRAY(memory, 2 * plan->mode_count + 1, double);
     if (memory->failed) {
         watchers_free(watchers);
         return false;
@@ -165,7 +163,7 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
     for (size_t i = 0; i < plan->watch_count; i++) watchers->fired[i] = (double)NAN;
     watchers->width = tolerances * (multistep ? together : 1) * tolerance;
     watchers->band = watchers->most + plan->watch_count;
-    watchers->quiet = watchers->fast + plan->friction_count;
+    watchers->quiet = watchers->fast + plan->mode_count;
     add_all(watchers, model);
     if (group_watchers(memory, model, &watchers->timed) && group_watchers(memory, model, &watchers->moving))
         return true;

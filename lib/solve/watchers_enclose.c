@@ -106,17 +106,17 @@ struct enclosure outlook_slot(const struct outlook *o, int body, int slot)
 static struct enclosure slip_stop(const struct outlook *o, int pair)
 {
     const struct fbd_model *model = o->state->model;
-    const struct friction *friction = &model->plan.frictions[pair];
-    struct enclosure speed = outlook_formula(o, &friction->surface_speed);
-    struct enclosure slip = enclosure_subtract(o->y[model->plan.n + friction->coordinate], speed);
+    const struct mode *mode = &model->plan.modes[pair];
+    struct enclosure speed = outlook_formula(o, &mode->surface_speed);
+    struct enclosure slip = enclosure_subtract(o->y[model->plan.n + mode->coordinate], speed);
     return outlook_centred(o, enclosure_scale(o->state->slip[pair], slip));
 }
 
 struct enclosure outlook_press(const struct outlook *o, int pair)
 {
-    const struct friction *friction = &o->state->model->plan.frictions[pair];
-    if (friction->normal_slot < 0) return enclosure_point(1);
-    struct enclosure sum = outlook_slot(o, friction->body, friction->normal_slot);
+    const struct mode *mode = &o->state->model->plan.modes[pair];
+    if (mode->normal_slot < 0) return enclosure_point(1);
+    struct enclosure sum = outlook_slot(o, mode->body, mode->normal_slot);
     return enclosure_scale(-o->state->pull[pair], sum);
 }
 
@@ -132,12 +132,12 @@ static struct enclosure larger_of(struct enclosure f, struct enclosure g)
 
 static struct enclosure stick_limit(const struct outlook *o, int pair, int end)
 {
-    const struct friction *friction = &o->state->model->plan.frictions[pair];
+    const struct mode *mode = &o->state->model->plan.modes[pair];
     struct enclosure press = larger_of(outlook_press(o, pair), enclosure_point(0));
-    struct enclosure at_rest = enclosure_multiply(outlook_formula(o, &friction->mu_s), press);
-    struct enclosure moving = enclosure_multiply(outlook_formula(o, &friction->mu_k), press);
+    struct enclosure at_rest = enclosure_multiply(outlook_formula(o, &mode->mu_s), press);
+    struct enclosure moving = enclosure_multiply(outlook_formula(o, &mode->mu_k), press);
     struct enclosure limit = larger_of(outlook_centred(o, at_rest), outlook_centred(o, moving));
-    struct enclosure push = outlook_slot(o, friction->body, friction->hold_slot);
+    struct enclosure push = outlook_slot(o, mode->body, mode->hold_slot);
     struct enclosure f = enclosure_add(limit, enclosure_scale(end == 0 ? 1 : -1, push));
     /* The room for rounding that friction_rounding gives. */
     double rounding = 8 * DBL_EPSILON * (interval_size(push.value) + interval_size(limit.value));
@@ -156,11 +156,11 @@ bool watchers_can_enclose(const struct fbd_model *model, const struct watcher *w
     if (watcher->kind == watch_lift || watcher->kind == watch_gap || watcher->kind == watch_edge)
         return false;
     if (watcher->kind == watch_contact) return outlook_knows(model, plan->contacts[watcher->index].body);
-    const struct friction *friction = &plan->frictions[watcher->index];
-    if (friction->tie >= 0) return false;
+    const struct mode *mode = &plan->modes[watcher->index];
+    if (mode->tie >= 0) return false;
     if (watcher->kind == watch_slip_stop) return true;
-    bool known = watcher->kind != watch_stick_limit || !friction->surface_speed.expr; /* its second rate */
-    return known && !friction->jointed && outlook_knows(model, friction->body);
+    bool known = watcher->kind != watch_stick_limit || !mode->surface_speed.expr; /* its second rate */
+    return known && mode->kind == mode_single && outlook_knows(model, mode->body);
 }
 
 static void enclose_kink(const struct watchers *watchers, const struct watcher_set *set,
@@ -279,15 +279,15 @@ static void mark_body(const struct plan *plan, int body, bool *used)
 
 static void mark_friction(const struct plan *plan, const struct watcher *watcher, bool *used)
 {
-    const struct friction *friction = &plan->frictions[watcher->index];
+    const struct mode *mode = &plan->modes[watcher->index];
     if (watcher->kind == watch_slip_stop) {
-        used[plan->n + friction->coordinate] = true;
-        mark_formula(&friction->surface_speed, used);
+        used[plan->n + mode->coordinate] = true;
+        mark_formula(&mode->surface_speed, used);
         return;
     }
-    mark_formula(&friction->mu_s, used);
-    mark_formula(&friction->mu_k, used);
-    mark_body(plan, friction->body, used);
+    mark_formula(&mode->mu_s, used);
+    mark_formula(&mode->mu_k, used);
+    mark_body(plan, mode->body, used);
 }
 
 /* What the switch of a slide watches, and the forces on the bodies whose coordinates these are. */

@@ -25,8 +25,8 @@ static double next_number(unsigned *count)
 /* Does friction hold a coordinate? What rolls has none of its own. */
 static bool is_held_by(const struct fbd_state *state, size_t pair)
 {
-    const struct friction *friction = &state->model->plan.frictions[pair];
-    return friction->kind == mode_friction && friction->tie < 0 && state->slip[pair] == stick;
+    const struct mode *mode = &state->model->plan.modes[pair];
+    return mode_is_joint_friction(mode) && state->slip[pair] == stick;
 }
 
 /* Another number, however large this one is. */
@@ -43,10 +43,10 @@ static double move_away(const struct fbd_state *state, unsigned *count, double *
     double t = other_than(state->t, count), acceleration;
     for (size_t i = 0; i < plan_size(plan); i++) y[i] = other_than(state->y[i], count);
     struct instant at = state_instant_at(state, t, y);
-    for (size_t pair = 0; pair < plan->friction_count; pair++) {
-        const struct friction *friction = &plan->frictions[pair];
+    for (size_t pair = 0; pair < plan->mode_count; pair++) {
+        const struct mode *mode = &plan->modes[pair];
         if (is_held_by(state, pair))
-            y[n + (size_t)friction->coordinate] = friction_surface_speed(friction, &at, &acceleration);
+            y[n + (size_t)mode->coordinate] = friction_surface_speed(mode, &at, &acceleration);
     }
     return t;
 }
@@ -81,7 +81,7 @@ static bool can_be_asked(const struct fbd_model *model, const struct kink *kink)
 static bool any_sticks(const struct fbd_state *state)
 {
     const struct plan *plan = &state->model->plan;
-    for (size_t pair = 0; pair < plan->friction_count; pair++)
+    for (size_t pair = 0; pair < plan->mode_count; pair++)
         if (is_held_by(state, pair)) return true;
     return false;
 }

@@ -54,22 +54,22 @@ static double user_value(const struct watch *watch, const struct view *view, dou
 static double one_sided_value(const struct watcher *watcher, const struct view *view, double *rate)
 {
     const struct fbd_model *model = view->state->model;
-    int tie = model->plan.frictions[watcher->index].tie;
+    int tie = model->plan.modes[watcher->index].tie;
     struct one_sided now = one_sided_at(model, &view->at, watcher->index);
     if (view->at.slip[watcher->index] != stick) {
         *rate = -now.rate;
         return now.rounding - now.excess;
     }
     double lambda_rate = view->state->tree->z[model->tree->ties[tie].first_row];
-    *rate = model->plan.frictions[watcher->index].kind == mode_rope ? -lambda_rate : lambda_rate;
+    *rate = model->plan.modes[watcher->index].kind == mode_rope ? -lambda_rate : lambda_rate;
     return now.force + now.slack;
 }
 
 /* What rolls or touches has left its surface: nothing rubs. */
-static bool is_off_its_surface(const struct view *view, const struct friction *friction)
+static bool is_off_its_surface(const struct view *view, const struct mode *mode)
 {
-    if (friction->tie < 0) return false;
-    int surface = view->state->model->tree->ties[friction->tie].surface;
+    if (mode->tie < 0) return false;
+    int surface = view->state->model->tree->ties[mode->tie].surface;
     return surface >= 0 && view->at.slip[surface] != stick;
 }
 
@@ -77,13 +77,13 @@ static bool is_off_its_surface(const struct view *view, const struct friction *f
 static double lift_value(const struct watcher *watcher, const struct view *view, double *rate)
 {
     const struct fbd_model *model = view->state->model;
-    const struct friction *friction = &model->plan.frictions[watcher->index];
+    const struct mode *mode = &model->plan.modes[watcher->index];
     *rate = 0;
     if (view->at.slip[watcher->index] != stick) return HUGE_VAL;
-    int slot = model->tree->ties[friction->tie].normal_slot;
+    int slot = model->tree->ties[mode->tie].normal_slot;
     assert(view->slots && view->slots_along);
     *rate = -view->slots_along[slot];
-    return contact_slack(model, friction->tie) - view->slots[slot];
+    return contact_slack(model, mode->tie) - view->slots[slot];
 }
 
 /* Just after it has opened a gap is rounding, and rounding closes nothing. */
@@ -116,19 +116,18 @@ static double friction_value(const struct watchers *watchers, const struct watch
                              struct view *view, double *rate)
 {
     const struct fbd_model *model = view->state->model;
-    const struct friction *friction = &model->plan.frictions[watcher->index];
+    const struct mode *mode = &model->plan.modes[watcher->index];
     int slip = view->at.slip[watcher->index];
     *rate = 0;
-    if (is_off_its_surface(view, friction)) return HUGE_VAL;
+    if (is_off_its_surface(view, mode)) return HUGE_VAL;
     if (watcher->kind == watch_slip_stop) {
         if (slip == stick) return HUGE_VAL;
-        if (friction->tie >= 0) {
-            *rate = slip * tie_slip_acceleration(model, &view->at, friction->tie);
-            return slip * tie_slip_velocity(model, &view->at, friction->tie) +
-                   watchers->quiet[watcher->index];
+        if (mode->tie >= 0) {
+            *rate = slip * tie_slip_acceleration(model, &view->at, mode->tie);
+            return slip * tie_slip_velocity(model, &view->at, mode->tie) + watchers->quiet[watcher->index];
         }
-        double acceleration, speed = friction_surface_speed(friction, &view->at, &acceleration);
-        int index = model->plan.n + friction->coordinate;
+        double acceleration, speed = friction_surface_speed(mode, &view->at, &acceleration);
+        int index = model->plan.n + mode->coordinate;
         *rate = slip * (view->flow.dy[index] - acceleration);
         return slip * (view->at.y[index] - speed) + watchers->quiet[watcher->index];
     }
@@ -137,7 +136,7 @@ static double friction_value(const struct watchers *watchers, const struct watch
     const struct friction_values *now = &view->now, *d = &view->along;
     if (watcher->kind == watch_normal_turns) {
         *rate = view->at.pull[watcher->index] * d->N;
-        double slack = friction->jointed ? press_slack(model, view->at.tree, friction->body) : 0;
+        double slack = mode->kind != mode_single ? press_slack(model, view->at.tree, mode->body) : 0;
         return view->at.pull[watcher->index] * now->N + slack;
     }
     int side = watcher->end == 0 ? 1 : -1;
@@ -145,8 +144,7 @@ static double friction_value(const struct watchers *watchers, const struct watch
     *rate = (kinetic ? d->limit_kinetic : d->limit_static) - side * d->hold;
     /* A force that only just touches its limit does not break away by a rounding. */
     double slack = friction_rounding(now);
-    if (friction->tie >= 0 && model->tree->ties[friction->tie].meeting >= 0)
-        slack += contact_slack(model, friction->tie);
+    if (mode->tie >= 0 && model->tree->ties[mode->tie].meeting >= 0) slack += contact_slack(model, mode->tie);
     return now->limit - side * now->hold + slack;
 }
 
@@ -330,7 +328,7 @@ void watchers_evaluate_timed(const struct watchers *watchers, struct fbd_state *
 static void calm_driven(struct watchers *watchers, const struct fbd_state *state, double step)
 {
     const double near = 10;
-    for (size_t i = 0; i < state->model->plan.friction_count; i++) {
+    for (size_t i = 0; i < state->model->plan.mode_count; i++) {
         watchers->quiet[i] = 0;
         if (state->slip_driven[i] == 0) continue;
         struct instant at = state_instant(state);

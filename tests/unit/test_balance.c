@@ -60,8 +60,8 @@ static void release(struct subject *subject)
 static int slipping(const struct subject *subject)
 {
     int count = 0;
-    for (size_t i = 0; i < subject->model->plan.friction_count; i++)
-        if (subject->model->plan.frictions[i].normal_slot >= 0) count += subject->state->slip[i] != stick;
+    for (size_t i = 0; i < subject->model->plan.mode_count; i++)
+        if (subject->model->plan.modes[i].normal_slot >= 0) count += subject->state->slip[i] != stick;
     return count;
 }
 

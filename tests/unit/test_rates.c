@@ -51,9 +51,9 @@ static void check_scene(const struct named_scene *scene, struct random_numbers *
     assert_true(rows && general && size <= most_size);
     for (int point = 0; point < points; point++) {
         for (size_t i = 0; i < size; i++) y[i] = random_between(numbers, -2, 2);
-        for (size_t i = 0; i < model->plan.friction_count; i++) {
+        for (size_t i = 0; i < model->plan.mode_count; i++) {
             state->slip[i] = (int)(random_bits(numbers) % 3) - 1;
-            if (model->plan.frictions[i].two_sided) state->pull[i] = random_bits(numbers) % 2 ? 1 : -1;
+            if (model->plan.modes[i].two_sided) state->pull[i] = random_bits(numbers) % 2 ? 1 : -1;
         }
         rates_bind(rows);
         double t = random_between(numbers, 0, 3);

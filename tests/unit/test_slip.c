@@ -98,7 +98,7 @@ static void set_random(struct fbd_state *state, struct random_numbers *numbers)
 {
     size_t size = 2 * (size_t)state->model->plan.n;
     for (size_t i = 0; i < size; i++) state->y[i] = random_between(numbers, -1, 1);
-    for (size_t i = 0; i < state->model->plan.friction_count; i++)
+    for (size_t i = 0; i < state->model->plan.mode_count; i++)
         state->slip[i] = random_bits(numbers) % 2 ? slip_plus : slip_minus;
     state->t = random_between(numbers, 0, 1);
 }
@@ -164,7 +164,7 @@ static void at_rest_the_slip_is_zero(void **unused)
                  "      friction: %s, applied: \"2[N/s]*t\"]\nsimulate: {until: 3 s}\n",
                  laws[i]);
         struct trial trial = trial_parse(text);
-        check_that(&checks, "the static coefficient is a number", !trial.model->plan.frictions[0].mu_s.expr);
+        check_that(&checks, "the static coefficient is a number", !trial.model->plan.modes[0].mu_s.expr);
         trial_run(&trial, NULL);
         check_close(&checks, "breakaway", trial_event(&trial, FBD_EVENT_BREAKAWAY, NULL, 0), 0.5 * g / 2,
                     1e-12);
