@@ -242,7 +242,8 @@ bool fbd_simulation_blame(const fbd_simulation *simulation, fbd_errors *list)
     if (!refused) return false;
     fbd_errors *errors = diag_begin(&call, list);
     diag_in_file(errors, ensemble->model->scene->file);
-    diag_add(errors, FBD_ERROR, refused->refusal, refused->refusal_at, NULL, "%s", refused->reason);
+    diag_add(errors, FBD_ERROR, refused->end.refusal, refused->end.refusal_at, NULL, "%s",
+             refused->end.reason);
     diag_end(&call);
     return true;
 }

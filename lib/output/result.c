@@ -62,7 +62,7 @@ static void add_stats(fbd_stats *stats, const struct run *run)
     stats->steps += counts.accepted;
     stats->rhs += run->system.rhs;
     stats->jacobians += run->system.jacobians;
-    stats->event_samples += (unsigned long)(run->timed.samples + run->moving.samples);
+    stats->event_samples += (unsigned long)(run->search.timed.samples + run->search.moving.samples);
     for (int kind = 0; kind < rejection_kinds; kind++) stats->rejected += counts.rejected[kind];
     stats->linear += run->kind == structure_linear;
     stats->constant += run->kind == structure_constant;

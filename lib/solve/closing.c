@@ -21,7 +21,7 @@ static bool has_ties(const struct run *run)
 static double tolerances_apart(const struct run *run, const double *from, const double *to)
 {
     size_t n = (size_t)run->model->plan.n;
-    const double *most = run->anchor + plan_size(&run->model->plan);
+    const double *most = run->recent.anchor + plan_size(&run->model->plan);
     double apart = 0;
     for (size_t i = 0; i < 2 * n; i++) {
         double moved = fabs(to[i] - from[i]);
@@ -34,7 +34,7 @@ static double tolerances_apart(const struct run *run, const double *from, const 
 static double close_at(struct run *run, double t, double *y)
 {
     struct instant at = state_instant(run->during);
-    double *before = run->sample;
+    double *before = run->work.sample;
     memcpy(before, y, plan_size(&run->model->plan) * sizeof *y);
     at.t = t;
     return_to_constraints(run->model, &at, y);
@@ -50,7 +50,7 @@ void run_close_within(struct run *run, double t, double *y)
     /* The curve through a step that passes a singular position may be off by more than the step's end is: no
      * error estimate covers what it is made of. Steps that end at t have one. */
     size_t size = plan_size(&run->model->plan);
-    double *other = run->aside, *f = other + size;
+    double *other = run->work.aside, *f = other + size;
     int code = switcher_walk(run->stepper, moment_at(t), other, f);
     if (code == GSL_ENOMEM) run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
     if (code == GSL_SUCCESS && close_at(run, t, other) < moved) memcpy(y, other, size * sizeof *y);
@@ -68,7 +68,7 @@ static struct rounding rounding_of_step(struct run *run)
 {
     const double share = 1e-12;
     const struct tree *tree = run->model->tree;
-    double mass = 0, most = 0, time = run->state->t - run->from;
+    double mass = 0, most = 0, time = run->state->t - run->step.from;
     state_evaluate_unshared(run->state);
     for (int i = 1; i < tree->count; i++) {
         mass += tree->links[i].mass;
@@ -98,7 +98,7 @@ static bool is_moved_by_rounding(struct run *run)
     double reach = run->drift.reach, speed = run->drift.speed;
     const double least[] = {rounding.way + roundings * reach, rounding.speed + roundings * speed};
     for (size_t i = 0; i < 2 * n; i++) {
-        double moved = fabs(run->y[i] - run->state->y[i]) * (coordinates[i % n].angle ? reach : 1);
+        double moved = fabs(run->work.y[i] - run->state->y[i]) * (coordinates[i % n].angle ? reach : 1);
         if (!(moved <= least[i / n])) return false;
     }
     return true;
@@ -110,7 +110,7 @@ bool run_has_gone_astray(struct run *run)
 {
     const double far = 10;
     if (!run->projected || !run->options.method->multistep) return false;
-    return tolerances_apart(run, run->y, run->state->y) > far && !is_moved_by_rounding(run);
+    return tolerances_apart(run, run->work.y, run->state->y) > far && !is_moved_by_rounding(run);
 }
 
 /* Note how large the mechanism is and how fast, with the points that couplings take; returns its present
@@ -196,7 +196,7 @@ static struct misfit bring_back(struct run *run, struct misfit *misfit)
 static bool is_rounding(struct run *run, const struct misfit *misfit)
 {
     if (!(misfit->position <= rounding_of_step(run).way)) return false;
-    run->h = fmin(run->h, (run->state->t - run->from) / 2);
+    run->step.h = fmin(run->step.h, (run->state->t - run->step.from) / 2);
     return true;
 }
 
@@ -206,7 +206,7 @@ static bool is_rounding(struct run *run, const struct misfit *misfit)
 static bool ends_reach(struct run *run)
 {
     struct fbd_state *later = run->during;
-    double after = fmax(10 * (run->state->t - run->from), 1e-3 * run->first_step);
+    double after = fmax(10 * (run->state->t - run->step.from), 1e-3 * run->step.first);
     if (!model_is_driven(run->model)) return false;
     for (int looks = 0; looks < 3; looks++) {
         state_copy(later, run->state);
@@ -275,7 +275,7 @@ void run_close_step(struct run *run)
 void run_check_balance(struct run *run)
 {
     struct text lack = {0};
-    if (run->outcome == FBD_GOING && balance_lack(run->state, run->arrows, &lack))
+    if (run->end.outcome == FBD_GOING && balance_lack(run->state, run->work.arrows, &lack))
         run_fail(run, FBD_FAILED, "%s", lack.failed ? "" : lack.data);
     text_free(&lack);
 }

@@ -100,8 +100,8 @@ static bool go_beyond(struct ensemble *own, double t, struct fbd_state *state)
 /* Events of a run up to and including the time t. */
 static size_t events_until(const struct run *run, double t)
 {
-    size_t count = run->event_count;
-    while (count > 0 && run->events[count - 1].t > t) count--;
+    size_t count = run->log.count;
+    while (count > 0 && run->log.events[count - 1].t > t) count--;
     return count;
 }
 
@@ -111,8 +111,8 @@ static void carry_over(const struct companion *companion, const struct ensemble 
     bool carried = false;
     for (size_t p = 0; p < main->count; p++) {
         const struct run *run = main->groups[p].run, *own = companion->ensemble->groups[p].run;
-        bool event = run->state->t == t && run->event_count > 0 && run->events[run->event_count - 1].t == t;
-        if (!event || events_until(own, t) >= run->event_count) continue;
+        bool event = run->state->t == t && run->log.count > 0 && run->log.events[run->log.count - 1].t == t;
+        if (!event || events_until(own, t) >= run->log.count) continue;
         ensemble_pass_on(main, p, state);
         carried = true;
     }
@@ -139,7 +139,7 @@ static void note_sizes(struct companion *companion, const struct ensemble *main,
     for (size_t p = 0; p < main->count; p++) {
         const struct group *group = &main->groups[p];
         size_t own = plan_size(&group->model->plan);
-        const double *most = group->run->anchor + own;
+        const double *most = group->run->recent.anchor + own;
         for (size_t i = 0; i < own; i++) {
             double *scale = &companion->scale[group_component(companion->model, group, i)];
             *scale = fmax(*scale, most[i]);
@@ -157,8 +157,8 @@ static long stride(const struct companion *companion, const struct ensemble *mai
     double every = sample_interval(companion), shortest = HUGE_VAL;
     for (size_t p = 0; p < main->count; p++) {
         const struct run *run = main->groups[p].run;
-        bool looked_into = run->state->t > run->from && !structure_is_exact(run->kind);
-        if (looked_into) shortest = fmin(shortest, run->state->t - run->from);
+        bool looked_into = run->state->t > run->step.from && !structure_is_exact(run->kind);
+        if (looked_into) shortest = fmin(shortest, run->state->t - run->step.from);
     }
     double longest = main->options.until / every;
     return (long)fmax(1, ceil(fmin(shortest / (most * every), longest)));

@@ -260,7 +260,7 @@ static void unstick(struct run *run)
         const struct mode *mode = &model->plan.modes[pair];
         if (!mode_is_joint_friction(mode) || run->state->slip[pair] != stick) continue;
         double v = slip_velocity(model, pair, &at),
-               before = run->anchor[3 * model->plan.n + mode->coordinate];
+               before = run->recent.anchor[3 * model->plan.n + mode->coordinate];
         if (fabs(v) <= 1e-14 * before) continue;
         run->state->slip[pair] = v > 0 ? slip_plus : slip_minus;
     }
@@ -306,7 +306,7 @@ void run_contacts(struct run *run)
 {
     enum { most_rounds = 8 };
     if (!has_meetings(run->model)) return;
-    for (int round = 0; round < most_rounds && run->outcome == FBD_GOING; round++)
+    for (int round = 0; round < most_rounds && run->end.outcome == FBD_GOING; round++)
         if (!look_at_contacts(run)) break;
 }
 

@@ -104,7 +104,7 @@ bool contacts_lift_others(struct run *run);
  * over the end of a side. */
 void contacts_note_depths(struct run *run);
 
-/* Which meetings the step from run->from to the state run->y at `end` has to look at: those whose shapes
+/* Which meetings the step from run->step.from to the state run->work.y at `end` has to look at: those whose shapes
  * could come near in it. In panels of how many radians the shapes turn. */
 void run_wake_contacts(struct run *run, double end);
 double run_contact_radians(const struct run *run, double span);

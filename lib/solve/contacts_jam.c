@@ -192,7 +192,7 @@ void run_note_sign(struct run *run)
 void run_check_jam(struct run *run, bool evaluated)
 {
     const struct fbd_model *model = run->model;
-    if (!has_meetings(run) || run->outcome != FBD_GOING) return;
+    if (!has_meetings(run) || run->end.outcome != FBD_GOING) return;
     if (!evaluated) state_evaluate_unshared(run->state);
     int worst = has_turned(run->state) != run->contacts.turned ? pressed_most(run) : -1;
     if (worst < 0) return;

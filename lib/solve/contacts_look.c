@@ -58,14 +58,14 @@ void run_wake_contacts(struct run *run, double end)
     struct contacts_work *work = &run->contacts;
     struct fbd_state *trial = work->trial;
     if (!has_meetings(run->model)) return;
-    double span = end - run->from;
+    double span = end - run->step.from;
     state_copy(trial, run->during);
     impulse_look(trial);
     for (int i = 0; i < tree_of(run)->meeting_count; i++) {
         struct distance at = meeting_distance(run->model, trial->tree, i);
         work->asleep[i] = at.apart > speeds * span * at.speed;
     }
-    memcpy(trial->y, run->y, plan_size(&run->model->plan) * sizeof *trial->y);
+    memcpy(trial->y, run->work.y, plan_size(&run->model->plan) * sizeof *trial->y);
     trial->t = end;
     impulse_look(trial);
     for (int i = 0; i < tree_of(run)->meeting_count; i++) {
@@ -106,7 +106,7 @@ void contacts_note_depths(struct run *run)
 void run_check_overlap(struct run *run)
 {
     double depth;
-    if (!has_meetings(run->model) || run->outcome != FBD_GOING) return;
+    if (!has_meetings(run->model) || run->end.outcome != FBD_GOING) return;
     int meeting = contacts_overlap(run->state, &depth);
     if (meeting < 0) return;
     run_fail(run, FBD_FAILED,

@@ -66,7 +66,7 @@ static void check_drive(struct run *run, const struct kink *kink, bool rope)
     const int *before = run->during->branch + kink->formula.branch,
               *after = run->state->branch + kink->formula.branch;
     if (memcmp(before, after, kink->count * sizeof *before) == 0) return;
-    const double *y = run->state->y, *most = run->anchor + plan_size(&model->plan);
+    const double *y = run->state->y, *most = run->recent.anchor + plan_size(&model->plan);
     const struct model_body *body = &model->bodies[kink->body];
     double v[2], x[2] = {expr_eval_slot(law, run->state->t, y, 0, before, &v[0]),
                          expr_eval_slot(law, run->state->t, y, 0, after, &v[1])};

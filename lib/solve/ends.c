@@ -42,8 +42,9 @@ static struct room room_of(const struct end *end)
 static struct room room_at(const struct end *end, double t)
 {
     struct run *run = end->run;
-    if (switcher_partial(run->stepper, moment_at(t), run->y, run->f) != 0) return (struct room){NAN, NAN, 0};
-    look(run, t, run->y);
+    if (switcher_partial(run->stepper, moment_at(t), run->work.y, run->work.f) != 0)
+        return (struct room){NAN, NAN, 0};
+    look(run, t, run->work.y);
     return room_of(end);
 }
 
@@ -114,26 +115,26 @@ static void watch_end(const struct end *end, struct moment *t)
 {
     enum { parts = 8 };
     struct run *run = end->run;
-    double from = run->from, length = (t->t - from) / parts, used = NAN;
+    double from = run->step.from, length = (t->t - from) / parts, used = NAN;
     if (!isfinite(room_of(end).size)) return;
     for (int k = 0; k < parts && isnan(used); k++)
         used = used_up_within(end, from + k * length, k + 1 == parts ? t->t : from + (k + 1) * length);
     if (!isnan(used)) *t = moment_at(used > from ? empty_time(end, from, used) : from);
-    switcher_partial(run->stepper, *t, run->y, run->f);
+    switcher_partial(run->stepper, *t, run->work.y, run->work.f);
     if (!isnan(used)) fail_at_end(end, t->t, false);
 }
 
 static double piece_at(struct run *run, int index, int k, double t, double *rate)
 {
-    if (switcher_partial(run->stepper, moment_at(t), run->y, run->f) != 0) return NAN;
-    look(run, t, run->y);
+    if (switcher_partial(run->stepper, moment_at(t), run->work.y, run->work.f) != 0) return NAN;
+    look(run, t, run->work.y);
     return rope_piece(run->model, run->during->tree, index, k, rate);
 }
 
 /* Where a piece is at its shortest within the last step: it may go through nothing and grow again, beyond the rim. */
 static double shortest_at(struct run *run, int index, int k, double little, double to)
 {
-    double from = run->from, before = 0, after = 0, rate;
+    double from = run->step.from, before = 0, after = 0, rate;
     piece_at(run, index, k, from, &before);
     piece_at(run, index, k, to, &after);
     while (before < 0 && after > 0) {
@@ -154,7 +155,7 @@ static void watch_piece(struct run *run, int index, int k, struct moment *t)
     const double little = tie->reels ? 1e-3 : 1e-6;
     double rate, when = shortest_at(run, index, k, little, t->t), left = piece_at(run, index, k, when, &rate);
     if (left > little) { /* a number that is none has gone beyond */
-        switcher_partial(run->stepper, *t, run->y, run->f);
+        switcher_partial(run->stepper, *t, run->work.y, run->work.f);
         return;
     }
     *t = moment_at(when);
@@ -169,7 +170,7 @@ static void watch_piece(struct run *run, int index, int k, struct moment *t)
 static void watch_wrap(struct run *run, int index, struct moment t)
 {
     const struct tie *tie = &run->model->tree->ties[index];
-    look(run, t.t, run->y);
+    look(run, t.t, run->work.y);
     const struct instant at = state_instant(run->during);
     if (capstan_wrap(run->model, &at, index, false, NULL) >= 0) return;
     run_fail(run, FBD_BROKEN,
@@ -194,13 +195,13 @@ static void watch_tie(struct run *run, int i, struct moment *t)
 void run_watch_ends(struct run *run, struct moment *t)
 {
     const struct tree *tree = run->model->tree;
-    for (int i = 0; tree && i < tree->tie_count && run->outcome == FBD_GOING; i++) watch_tie(run, i, t);
+    for (int i = 0; tree && i < tree->tie_count && run->end.outcome == FBD_GOING; i++) watch_tie(run, i, t);
 }
 
 void run_check_ends(struct run *run)
 {
     const struct tree *tree = run->model->tree;
-    for (int i = 0; tree && i < tree->tie_count && run->outcome == FBD_GOING; i++) {
+    for (int i = 0; tree && i < tree->tie_count && run->end.outcome == FBD_GOING; i++) {
         if (tree->ties[i].kind != constraint_rope || !is_taut(run->state, &tree->ties[i])) continue;
         for (int k = 0; k < 2; k++) {
             struct end end = {run, i, k};

@@ -42,7 +42,7 @@ bool ensemble_make_run(struct ensemble *ensemble, struct group *group)
 {
     group->run = ensemble->options.start ? run_from_start(ensemble, group)
                                          : run_new(group->model, &ensemble->options, NULL);
-    return group->run && group->run->outcome != FBD_OUT_OF_MEMORY;
+    return group->run && group->run->end.outcome != FBD_OUT_OF_MEMORY;
 }
 
 static bool make_group(struct ensemble *ensemble, struct group *group)
@@ -159,8 +159,8 @@ struct ensemble *ensemble_new(const struct fbd_model *model, const struct run_op
     for (size_t p = 0; p < ensemble->count; p++) {
         const struct run *run = ensemble->groups[p].run;
         ensemble->due[p] = p;
-        if (run->refusal && !ensemble->refused) ensemble->refused = run;
-        if (run->outcome != FBD_GOING) ensemble_fail(ensemble, run->outcome, run->reason);
+        if (run->end.refusal && !ensemble->refused) ensemble->refused = run;
+        if (run->end.outcome != FBD_GOING) ensemble_fail(ensemble, run->end.outcome, run->end.reason);
     }
     ensemble_release(ensemble, ensemble->count);
     return ensemble;
@@ -243,9 +243,9 @@ void ensemble_release(struct ensemble *ensemble, size_t count)
     for (size_t i = 0; i < count; i++) {
         struct group *group = &ensemble->groups[ensemble->due[i]];
         const struct run *run = group->run;
-        for (; group->released < run->event_count && run->events[group->released].t <= ensemble->t;
+        for (; group->released < run->log.count && run->log.events[group->released].t <= ensemble->t;
              group->released++) {
-            struct run_event event = run->events[group->released];
+            struct run_event event = run->log.events[group->released];
             event.body = group_body(group, event.body);
             event.load = group_load(group, event.load);
             if (event.watch >= 0 && group->selection) event.watch = group->selection->events[event.watch];
@@ -275,7 +275,7 @@ static bool look_at_end(struct run *run, struct fbd_state *state)
 static bool look_run(struct run *run, double t, struct fbd_state *state)
 {
     if (t == run->state->t) return look_at_end(run, state);
-    return t >= run->from && t < run->state->t && run_look(run, moment_at(t), state);
+    return t >= run->step.from && t < run->state->t && run_look(run, moment_at(t), state);
 }
 
 /* The double next to the end of a step is the end, whose rest it has not. */
@@ -288,7 +288,7 @@ struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, s
 {
     struct group *group = &ensemble->groups[index];
     struct run *run = group->run;
-    bool at_end = moment_equal(t, run_end(run)), within = t.t >= run->from && t.t <= run->state->t;
+    bool at_end = moment_equal(t, run_end(run)), within = t.t >= run->step.from && t.t <= run->state->t;
     bool seen = at_end ? look_at_end(run, group->probe) : within && run_look(run, t, group->probe);
     return seen ? group->probe : NULL;
 }
@@ -351,7 +351,7 @@ static void scatter(const struct fbd_model *whole, const struct group *group, st
 
 static bool run_covers(const struct run *run, double t)
 {
-    return t == run->state->t || (t >= run->from && t < run->state->t);
+    return t == run->state->t || (t >= run->step.from && t < run->state->t);
 }
 
 static bool coordinates_of(struct run *run, double t, double *y)
@@ -385,7 +385,7 @@ void ensemble_pass_on(const struct ensemble *ensemble, size_t index, struct fbd_
     const struct group *group = &ensemble->groups[index];
     const struct run *run = group->run;
     for (size_t i = 0; i < plan_size(&group->model->plan); i++)
-        state->y[group_component(ensemble->model, group, i)] += run->state->y[i] - run->y[i];
+        state->y[group_component(ensemble->model, group, i)] += run->state->y[i] - run->work.y[i];
     scatter_modes(group, run->state, state);
 }
 

@@ -36,7 +36,7 @@ struct group {
     struct run *run;
     struct fbd_state *probe;
     bool quiet;          /* no event can happen in it */
-    size_t released;     /* of run->events: taken over by the ensemble */
+    size_t released;     /* of run->log.events: taken over by the ensemble */
     int *branch, *pairs; /* of its branches and friction pairs in the whole plan; NULL when it is the whole */
     int *loads;          /* of its loads in the whole model; NULL when it is the whole */
 };

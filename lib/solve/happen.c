@@ -22,17 +22,17 @@
 
 struct run_event *run_note(struct run *run, fbd_event_kind kind, int body, int load, int watch)
 {
-    if (run->event_count == run->event_room) {
-        size_t room = run->event_room ? 2 * run->event_room : 16;
-        struct run_event *events = realloc(run->events, room * sizeof *events);
+    if (run->log.count == run->log.room) {
+        size_t room = run->log.room ? 2 * run->log.room : 16;
+        struct run_event *events = realloc(run->log.events, room * sizeof *events);
         if (!events) {
             run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
             return NULL;
         }
-        run->events = events;
-        run->event_room = room;
+        run->log.events = events;
+        run->log.room = room;
     }
-    struct run_event *event = &run->events[run->event_count++];
+    struct run_event *event = &run->log.events[run->log.count++];
     *event = (struct run_event){
         .t = run_time(run), .kind = kind, .body = body, .load = load, .watch = watch, .own = -1};
     return event;
@@ -67,7 +67,7 @@ static void drop_rounding(struct run *run)
 {
     const double rounding = 1e-14;
     size_t n = (size_t)run->model->plan.n;
-    const double *most = run->anchor + plan_size(&run->model->plan);
+    const double *most = run->recent.anchor + plan_size(&run->model->plan);
     for (size_t i = n; i < 2 * n; i++)
         if (fabs(run->state->y[i]) <= rounding * most[i]) run->state->y[i] = 0;
 }
@@ -115,9 +115,9 @@ static void one_sided_event(struct run *run, int pair)
     if (rope) run_strike_taut(run);
     state_project_velocity(run->state, false); /* of a rope, rounding only */
     drop_rounding(run);
-    run->snap_pair = pair;
-    run->snap_work = jointed_kinetic_energy(run->state) - before;
-    if (!rope) run->impact_work[run->model->plan.modes[pair].load] += run->snap_work;
+    run->snap.pair = pair;
+    run->snap.work = jointed_kinetic_energy(run->state) - before;
+    if (!rope) run->impact_work[run->model->plan.modes[pair].load] += run->snap.work;
 }
 
 /* Is the way in which the event is passed now one that is asked for? */
@@ -143,7 +143,7 @@ static void user_event(struct run *run, int watch, bool touched)
     run->watchers.fired[watch] = run->state->t;
     if (!counts) return;
     run_note(run, FBD_EVENT_USER, -1, -1, watch);
-    if (source->stop && run->outcome == FBD_GOING) run->outcome = FBD_STOPPED;
+    if (source->stop && run->end.outcome == FBD_GOING) run->end.outcome = FBD_STOPPED;
 }
 
 /* Is one of the user events that have crossed the end of the run? */
@@ -152,7 +152,7 @@ static bool stops(const struct run *run)
     const struct watcher_set *set = &run->watchers.moving;
     for (size_t i = 0; i < set->count; i++) {
         int index = set->watchers[i].index;
-        if (!run->moving.crossed[i] || set->watchers[i].kind != watch_user) continue;
+        if (!run->search.moving.crossed[i] || set->watchers[i].kind != watch_user) continue;
         if (run->model->plan.watches[index].source->stop && counts_now(run, index)) return true;
     }
     return false;
@@ -163,7 +163,7 @@ bool run_tell(struct run *run, double t)
     const struct watcher_set *set = &run->watchers.moving;
     if (stops(run)) return false;
     for (size_t i = 0; i < set->count; i++) {
-        if (!run->moving.crossed[i] || set->watchers[i].kind != watch_user) continue;
+        if (!run->search.moving.crossed[i] || set->watchers[i].kind != watch_user) continue;
         int watch = set->watchers[i].index;
         struct run_event *event =
             counts_now(run, watch) ? run_note(run, FBD_EVENT_USER, -1, -1, watch) : NULL;
@@ -220,7 +220,7 @@ static bool is_just_lost(struct run *run, const bool *moving, int contact, doubl
 {
     const struct watcher_set *set = &run->watchers.moving;
     const double instant = 64 * DBL_EPSILON * fabs(run->state->t);
-    double *values = run->values, *rates = values + set->count;
+    double *values = run->work.values, *rates = values + set->count;
     for (size_t i = 0; moving && i < set->count; i++) {
         if (!moving[i] || set->watchers[i].kind != watch_contact || set->watchers[i].index != contact)
             continue;
@@ -287,10 +287,10 @@ static void refuse_sliding(struct run *run, const bool *moving)
 {
     const struct watcher_set *set = &run->watchers.moving;
     size_t modes = run->model->plan.mode_count * sizeof *run->state->slip;
-    if (!moving || run->outcome != FBD_GOING) return;
+    if (!moving || run->end.outcome != FBD_GOING) return;
     if (memcmp(run->state->slip, run->during->slip, modes) != 0)
         return; /* other forces now: they will tell */
-    double *values = run->values, *rate = values + set->count;
+    double *values = run->work.values, *rate = values + set->count;
     watchers_evaluate(&run->watchers, set, run->state, state_moment(run->state), run->state->y, values, rate);
     for (size_t i = 0; i < set->count; i++) {
         const struct watcher *watcher = &set->watchers[i];
@@ -317,7 +317,7 @@ static void refuse_sliding(struct run *run, const bool *moving)
 void run_fail_chatter(struct run *run)
 {
     static const struct run_event nothing = {.load = -1, .watch = -1, .own = -1};
-    const struct run_event *event = run->event_count > 0 ? &run->events[run->event_count - 1] : &nothing;
+    const struct run_event *event = run->log.count > 0 ? &run->log.events[run->log.count - 1] : &nothing;
     const char *name = event->load >= 0    ? run->model->loads[event->load].source->name
                        : event->watch >= 0 ? run->model->plan.watches[event->watch].source->name
                        : event->own >= 0   ? run->model->scene->own[event->own].name
@@ -328,7 +328,7 @@ void run_fail_chatter(struct run *run)
 double run_instant(const struct run *run)
 {
     const double instant = 1e-12, steps = 1e6;
-    return instant * fmax(fabs(run->state->t), fmin(run->options.until, steps * run->longest));
+    return instant * fmax(fabs(run->state->t), fmin(run->options.until, steps * run->step.longest));
 }
 
 /* Events that crowd at one instant never let time pass: a sliding mode that no friction entry declares, or an
@@ -338,12 +338,12 @@ static void count_crowd(struct run *run)
 {
     enum { most_at_once = 200 };
     const double instant = 1e-12;
-    run->longest = fmax(run->longest, run->state->t - run->from);
-    bool crowded = run->state->t - run->last_event <= run_instant(run) ||
-                   fabs(run->state->t) <= instant * run->first_step;
-    run->crowd = crowded ? run->crowd + 1 : 0;
-    run->last_event = run->state->t;
-    if (run->crowd < most_at_once || run->outcome != FBD_GOING) return;
+    run->step.longest = fmax(run->step.longest, run->state->t - run->step.from);
+    bool crowded = run->state->t - run->recent.time <= run_instant(run) ||
+                   fabs(run->state->t) <= instant * run->step.first;
+    run->recent.crowd = crowded ? run->recent.crowd + 1 : 0;
+    run->recent.time = run->state->t;
+    if (run->recent.crowd < most_at_once || run->end.outcome != FBD_GOING) return;
     run_fail_chatter(run);
 }
 
@@ -355,7 +355,7 @@ static void count_around(struct run *run)
     enum { most_around = 100000 };
     const double place = 1e-6, speed = 1e-3;
     size_t n = (size_t)run->model->plan.n, size = plan_size(&run->model->plan);
-    double *anchor = run->anchor;
+    double *anchor = run->recent.anchor;
     const double *most = anchor + size;
     bool away = false;
     for (size_t i = 0; i < size; i++) {
@@ -364,8 +364,8 @@ static void count_around(struct run *run)
         away |= rate ? fabs(y) > speed * most[i] : fabs(y - anchor[i]) > place * most[i];
     }
     if (away) memcpy(anchor, run->state->y, size * sizeof *anchor);
-    run->around = away ? 0 : run->around + 1;
-    if (run->around > most_around && run->outcome == FBD_GOING) run_fail_chatter(run);
+    run->recent.around = away ? 0 : run->recent.around + 1;
+    if (run->recent.around > most_around && run->end.outcome == FBD_GOING) run_fail_chatter(run);
 }
 
 static void fail_unsettled(struct run *run)
@@ -408,7 +408,7 @@ static bool settle(struct run *run)
             return true;
         }
         bool no_forces = run->state->holds.found == holds_none || run->state->holds.found == holds_lost;
-        bool jams = no_forces && run->outcome == FBD_GOING && jam < most_jams;
+        bool jams = no_forces && run->end.outcome == FBD_GOING && jam < most_jams;
         if (!jams || !run_jam(run)) return false;
     }
 }
@@ -423,14 +423,14 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     for (int s = 0; s < 2; s++)
         for (size_t i = 0; crossed[s] && i < sets[s]->count; i++)
             crossing |= crossed[s][i] && sets[s]->watchers[i].kind == watch_kink;
-    size_t first = run->event_count;
+    size_t first = run->log.count;
     for (int s = 0; s < 2; s++)
         for (size_t i = 0; crossed[s] && i < sets[s]->count; i++)
             if (crossed[s][i]) happen(run, &sets[s]->watchers[i], crossing);
     passages_end(run);
     if (run->contacts.due) run_contacts(run);
     run->contacts.due = false;
-    if (!settle(run) && run->outcome == FBD_GOING) fail_unsettled(run);
+    if (!settle(run) && run->end.outcome == FBD_GOING) fail_unsettled(run);
     run_check_drives(run);
     run_check_counts(run);
     run_note_happened(run, first, moving);
@@ -440,10 +440,10 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     run_check_contacts(run, moving);
     run_check_pulleys(run);
     run_check_ends(run);
-    run->restart = true;
-    run->interval[1] = run->interval[0];
-    run->interval[0] = moment_since(run_end(run), run->event);
-    run->event = run_end(run);
-    if (run->outcome == FBD_GOING) count_crowd(run);
+    run->step.restart = true;
+    run->recent.interval[1] = run->recent.interval[0];
+    run->recent.interval[0] = moment_since(run_end(run), run->recent.moment);
+    run->recent.moment = run_end(run);
+    if (run->end.outcome == FBD_GOING) count_crowd(run);
     if (moving) count_around(run);
 }

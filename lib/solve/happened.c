@@ -32,12 +32,12 @@ static void note_one_sided(struct run *run, const struct change *change)
     bool rope = run->model->tree->ties[mode->tie].law->way;
     if (change->before == stick && change->after != stick)
         run_note(run, rope ? FBD_EVENT_ROPE_SLACK : FBD_EVENT_LIFT_OFF, mode->body, mode->load, -1);
-    bool snapped = run->snap_pair == change->pair;
-    if (snapped) run->snap_pair = -1;
+    bool snapped = run->snap.pair == change->pair;
+    if (snapped) run->snap.pair = -1;
     if (!snapped && (change->before == stick || change->after != stick)) return;
     struct run_event *event =
         run_note(run, rope ? FBD_EVENT_ROPE_TAUT : FBD_EVENT_LANDING, mode->body, mode->load, -1);
-    if (event) event->force = snapped ? -run->snap_work : 0;
+    if (event) event->force = snapped ? -run->snap.work : 0;
 }
 
 /* Friction of a contact that has just closed or opened has no event of its own. */
@@ -96,14 +96,14 @@ static void note_frictions(struct run *run, const bool *moving)
 static void drop_touched(struct run *run, size_t first)
 {
     size_t kept = first;
-    for (size_t i = first; i < run->event_count; i++) {
-        const struct run_event *event = &run->events[i];
+    for (size_t i = first; i < run->log.count; i++) {
+        const struct run_event *event = &run->log.events[i];
         bool same = event->kind == FBD_EVENT_SWITCH &&
                     run->state->branch[event->branch] == run->during->branch[event->branch];
         bool slid_on = same && run->state->sliding && run->state->sliding->slide_at[event->branch] > 0;
-        if (!same || slid_on) run->events[kept++] = *event;
+        if (!same || slid_on) run->log.events[kept++] = *event;
     }
-    run->event_count = kept;
+    run->log.count = kept;
 }
 
 /* The event of a slide, with the value that the force takes. */
@@ -142,9 +142,9 @@ static void note_slides(struct run *run, size_t first)
                 continue;
             }
             struct run_event *event = NULL;
-            for (size_t i = first; after && i < run->event_count; i++)
-                if (run->events[i].kind == FBD_EVENT_SWITCH && run->events[i].load == kink->load)
-                    event = &run->events[i];
+            for (size_t i = first; after && i < run->log.count; i++)
+                if (run->log.events[i].kind == FBD_EVENT_SWITCH && run->log.events[i].load == kink->load)
+                    event = &run->log.events[i];
             fbd_event_kind kind = after ? FBD_EVENT_SLIDING : FBD_EVENT_SLIDING_ENDS;
             if (event)
                 set_slide(run, kink, kind, event);

@@ -11,7 +11,7 @@
 static void measure_turns(struct run *run, const struct instant *at)
 {
     const struct tree *tree = run->model->tree;
-    double *own = run->turned, *sides = own + tree->count;
+    double *own = run->grain.turned, *sides = own + tree->count;
     /* Where couplings bring states back, directions have the rounding of a radian, turned or not: places are
      * known to that share of the arms that lead to them. */
     own[0] = tree->row_count > 0 ? 1 : 0;
@@ -46,7 +46,7 @@ static void measure_turns(struct run *run, const struct instant *at)
 
 static void add_cancelled(struct run *run, int body, double force, double arm)
 {
-    double *cancelled = &run->cancelled[2 * (size_t)body];
+    double *cancelled = &run->grain.cancelled[2 * (size_t)body];
     cancelled[0] += force;
     cancelled[1] += force * arm;
 }
@@ -74,7 +74,7 @@ static void cancel_in_tree(struct run *run, const struct instant *at)
 static void measure_cancelled(struct run *run, const struct instant *at)
 {
     const struct plan *plan = &run->model->plan;
-    memset(run->cancelled, 0, 2 * run->model->body_count * sizeof *run->cancelled);
+    memset(run->grain.cancelled, 0, 2 * run->model->body_count * sizeof *run->grain.cancelled);
     for (size_t i = 0; i < plan->link_count; i++) {
         const struct link_term *link = &plan->links[i];
         double far = vec_norm(link->anchor) + fabs(link->free_length);
@@ -107,18 +107,18 @@ static bool turns(const struct model_body *body, int k)
 static void add_gross_forces(struct run *run, int b, const struct instant *at, double *gross)
 {
     const struct model_body *body = &run->model->bodies[b];
-    size_t count = diagram_fill(run->model, b, at, run->state->a, run->state->slots, run->arrows);
+    size_t count = diagram_fill(run->model, b, at, run->state->a, run->state->slots, run->work.arrows);
     int link = body->place.link;
     const struct tree *tree = run->model->tree;
-    double angle = tree && link > 0 ? run->turned[tree->count + link] : 0;
+    double angle = tree && link > 0 ? run->grain.turned[tree->count + link] : 0;
     for (size_t i = 0; i < count; i++) {
         if (link > 0)
-            add_jointed(body, &at->tree->links[link], angle, &run->arrows[i], gross);
+            add_jointed(body, &at->tree->links[link], angle, &run->work.arrows[i], gross);
         else
-            for (int k = 0; k < body->count; k++) gross[k] += fabs(run->arrows[i].share[k]);
+            for (int k = 0; k < body->count; k++) gross[k] += fabs(run->work.arrows[i].share[k]);
     }
     const double share = 1.0 / 64;
-    for (int k = 0; k < body->count; k++) gross[k] += share * run->cancelled[2 * b + turns(body, k)];
+    for (int k = 0; k < body->count; k++) gross[k] += share * run->grain.cancelled[2 * b + turns(body, k)];
 }
 
 /* What moves with the time and not by the integration: coordinates that are prescribed. */
@@ -142,8 +142,8 @@ static void changes(struct run *run, const struct instant *at, bool by_time, dou
 {
     const struct plan *plan = &run->model->plan;
     struct scratch scratch = state_scratch(run->state);
-    struct direction flow = state_flow(run->state, run->sample);
-    if (by_time) take_driven(run, run->sample);
+    struct direction flow = state_flow(run->state, run->work.sample);
+    if (by_time) take_driven(run, run->work.sample);
     accelerations_along(run->model, at, &flow, scratch.slots, scratch.slots_along, along);
     if (plan->own > 0) own_rates_along(run->model, at, &flow, along + plan->n);
 }
@@ -157,7 +157,7 @@ struct motion_size {
 static struct motion_size motion_size(const struct run *run, const struct model_body *body, int k, double tau)
 {
     int i = body->first + k;
-    double v = fabs(run->state->y[i + run->model->plan.n]), jerk = fabs(run->along[i]);
+    double v = fabs(run->state->y[i + run->model->plan.n]), jerk = fabs(run->grain.along[i]);
     double a = fmax(fabs(run->state->a[i]), isfinite(jerk) ? tau * jerk : 0); /* drives start without one */
     double arm = turns(body, k) ? 1 / sqrt(run->model->plan.inverse_inertia[i] * body->inertia.mass) : 1;
     return (struct motion_size){v * tau + a * tau * tau, fmax(v, a * tau), arm};
@@ -178,7 +178,8 @@ static struct motion_size largest_motion(const struct run *run, double tau)
             double v = fabs(run->state->y[n + body->first + k]);
             if (!isfinite(one.arm)) continue;
             if (moves) one.place = v * tau, one.rate = v;
-            if (!moves && !(one.rate > tau * run->noise[body->first + k])) continue; /* it rests */
+            if (!moves && !(one.rate > tau * run->grain.accelerations[body->first + k]))
+                continue; /* it rests */
             all.place = fmax(all.place, one.place * one.arm);
             all.rate = fmax(all.rate, one.rate * one.arm);
         }
@@ -232,7 +233,7 @@ static void set_own_floor(struct run *run, int i, double lasts)
     const double share = 1e-3;
     const struct plan *plan = &run->model->plan;
     size_t state = 2 * (size_t)plan->n + (size_t)i, rate = (size_t)plan->n + (size_t)i;
-    double tau = share * lasts, change = fabs(run->along[rate]);
+    double tau = share * lasts, change = fabs(run->grain.along[rate]);
     if (run->state->y[state] != 0) return;
     switcher_set_floor(run->stepper, state,
                        tau * fabs(run->state->a[rate]) + (isfinite(change) ? tau * tau * change : 0));
@@ -255,7 +256,7 @@ static void set_noise(struct run *run)
     const struct plan *plan = &run->model->plan;
     struct instant here = state_instant(run->state);
     const struct instant *at = &here;
-    changes(run, at, true, run->along);
+    changes(run, at, true, run->grain.along);
     if (run->model->tree) measure_turns(run, at);
     measure_cancelled(run, at);
     for (size_t b = 0; b < run->model->body_count; b++) {
@@ -265,11 +266,11 @@ static void set_noise(struct run *run)
         add_gross_forces(run, (int)b, at, gross);
         for (int k = 0; k < body->count; k++) {
             int i = body->first + k;
-            double of_time = fabs(at->t * run->along[i]),
+            double of_time = fabs(at->t * run->grain.along[i]),
                    of_sum = roundings * gross[k] * plan->inverse_inertia[i];
             double noise = DBL_EPSILON * (of_sum + of_time);
-            run->noise[i] = isfinite(noise) ? noise : 0;
-            switcher_set_noise(run->stepper, (size_t)i, run->noise[i]);
+            run->grain.accelerations[i] = isfinite(noise) ? noise : 0;
+            switcher_set_noise(run->stepper, (size_t)i, run->grain.accelerations[i]);
         }
     }
 }
@@ -278,13 +279,13 @@ void run_set_noise(struct run *run)
 {
     const struct plan *plan = &run->model->plan;
     set_noise(run);
-    run->since_noise = 0;
+    run->grain.since = 0;
     bool coordinates = any_is_small(run), own = false;
     for (int i = 2 * plan->n; i < (int)plan_size(plan); i++) own |= run->state->y[i] == 0;
     if (!coordinates && !own) return;
     double lasts = run_time_to_switch(run);
     struct instant at = state_instant(run->state);
-    changes(run, &at, false, run->along);
+    changes(run, &at, false, run->grain.along);
     if (coordinates) set_floors(run, lasts);
     for (int i = 0; i < plan->own; i++) set_own_floor(run, i, lasts);
 }
@@ -292,8 +293,8 @@ void run_set_noise(struct run *run)
 void run_renew_noise(struct run *run)
 {
     const unsigned long steps = 64; /* costs a hundredth of them */
-    bool due = run->model->tree && ++run->since_noise >= steps;
-    if (!due && !switcher_noise_counts(run->stepper, run->h)) return;
+    bool due = run->model->tree && ++run->grain.since >= steps;
+    if (!due && !switcher_noise_counts(run->stepper, run->step.h)) return;
     set_noise(run);
-    run->since_noise = 0;
+    run->grain.since = 0;
 }

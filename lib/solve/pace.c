@@ -57,7 +57,7 @@ static void fail_within(struct ensemble *ensemble, const struct run *run)
         ensemble->own_reason, sizeof ensemble->own_reason,
         "between t = %.9g and t = %.9g the motion cannot be told: the step is a rounding of the time, or "
         "a force has no value there",
-        run->from, run->state->t);
+        run->step.from, run->state->t);
     ensemble_fail(ensemble, FBD_FAILED, ensemble->own_reason);
 }
 
@@ -66,22 +66,22 @@ static void step(struct ensemble *ensemble, size_t p)
 {
     struct run *run = ensemble->groups[p].run;
     ensemble->stepping = true;
-    size_t events = run->event_count;
+    size_t events = run->log.count;
     run_advance(run);
-    for (; events < run->event_count && run->events[events].t < run->state->t; events++)
-        if (run->events[events].t > run->from)
-            ensemble->next_told = fmin(ensemble->next_told, run->events[events].t);
+    for (; events < run->log.count && run->log.events[events].t < run->state->t; events++)
+        if (run->log.events[events].t > run->step.from)
+            ensemble->next_told = fmin(ensemble->next_told, run->log.events[events].t);
     const struct observer *observer = &ensemble->observer;
     if (observer->step && moment_since(run_end(run), run_start(run)) > 0 &&
         !observer->step(observer->context, ensemble, p))
         fail_within(ensemble, run);
     ensemble->stepping = false;
-    if (run->outcome == FBD_OUT_OF_MEMORY) ensemble_fail(ensemble, run->outcome, run->reason);
+    if (run->end.outcome == FBD_OUT_OF_MEMORY) ensemble_fail(ensemble, run->end.outcome, run->end.reason);
 }
 
 static bool ended_early(const struct run *run)
 {
-    return run->outcome != FBD_GOING && run->outcome != FBD_DONE;
+    return run->end.outcome != FBD_GOING && run->end.outcome != FBD_DONE;
 }
 
 static void step_top(struct ensemble *ensemble)
@@ -99,7 +99,8 @@ static void arrive(struct ensemble *ensemble, double t, size_t count)
     ensemble_release(ensemble, count);
     for (size_t i = 0; i < count; i++) {
         const struct run *run = ensemble->groups[ensemble->due[i]].run;
-        if (ended_early(run) && run->state->t <= t) ensemble_fail(ensemble, run->outcome, run->reason);
+        if (ended_early(run) && run->state->t <= t)
+            ensemble_fail(ensemble, run->end.outcome, run->end.reason);
     }
     if (ensemble->outcome == FBD_GOING && t >= ensemble->options.until) ensemble->outcome = FBD_DONE;
 }
@@ -125,9 +126,9 @@ static size_t list_due(struct ensemble *ensemble, size_t i, double t, size_t cou
 static double told_within(const struct group *group)
 {
     const struct run *run = group->run;
-    if (group->released == run->event_count) return HUGE_VAL;
-    double t = run->events[group->released].t;
-    return t > run->from && t < run->state->t ? t : HUGE_VAL;
+    if (group->released == run->log.count) return HUGE_VAL;
+    double t = run->log.events[group->released].t;
+    return t > run->step.from && t < run->state->t ? t : HUGE_VAL;
 }
 
 static void find_next_told(struct ensemble *ensemble)
@@ -149,7 +150,7 @@ fbd_outcome ensemble_advance(struct ensemble *ensemble)
     start(ensemble, false);
     ensemble->from = ensemble->t;
     while (end_of(ensemble, ensemble->queue[0]) <= ensemble->from) {
-        if (ensemble->groups[ensemble->queue[0]].run->outcome != FBD_GOING) break;
+        if (ensemble->groups[ensemble->queue[0]].run->end.outcome != FBD_GOING) break;
         step_top(ensemble);
     }
     double t = end_of(ensemble, ensemble->queue[0]);
@@ -171,7 +172,7 @@ fbd_outcome ensemble_advance(struct ensemble *ensemble)
 static double stop_of(const struct ensemble *ensemble, size_t p, bool pause)
 {
     const struct group *group = &ensemble->groups[p];
-    bool untold = pause && group->released < group->run->event_count;
+    bool untold = pause && group->released < group->run->log.count;
     double within = untold ? told_within(group) : HUGE_VAL;
     return within < HUGE_VAL || !(untold || ended_early(group->run)) ? within : group->run->state->t;
 }
@@ -201,7 +202,7 @@ static double go_quiet(struct ensemble *ensemble, double target)
         const struct group *group = &ensemble->groups[p];
         if (!group->quiet) continue;
         bool alone = ensemble->count == 1; /* several are carried on to one time, if they can be */
-        while (group->run->outcome == FBD_GOING && end_of(ensemble, p) < target && !ensemble->cut)
+        while (group->run->end.outcome == FBD_GOING && end_of(ensemble, p) < target && !ensemble->cut)
             step(ensemble, p);
         if (ended_early(group->run) || alone || ensemble->cut) target = fmin(target, end_of(ensemble, p));
     }
@@ -218,7 +219,7 @@ static void rewind_group(struct ensemble *ensemble, size_t p, double t)
         return;
     }
     if (ensemble->observer.restart) ensemble->observer.restart(ensemble->observer.context, ensemble, p);
-    while (group->run->outcome == FBD_GOING && end_of(ensemble, p) < t) step(ensemble, p);
+    while (group->run->end.outcome == FBD_GOING && end_of(ensemble, p) < t) step(ensemble, p);
 }
 
 static void end_cut(struct ensemble *ensemble)
@@ -246,8 +247,8 @@ static double calm_until(const struct group *group)
 {
     const struct run *run = group->run;
     if (ended_early(run)) return -HUGE_VAL;
-    return group->released < run->event_count ? fmin(run->state->t, run->events[group->released].t)
-                                              : run->state->t;
+    return group->released < run->log.count ? fmin(run->state->t, run->log.events[group->released].t)
+                                            : run->state->t;
 }
 
 /* A thousand rows of a hundred thousand groups that made one step each are no reason to look at all of them a
@@ -274,7 +275,7 @@ static void go(struct ensemble *ensemble, double target, double near, bool pause
     double t = ensemble->queued < ensemble->count ? go_quiet(ensemble, queued) : queued;
     if (ensemble->outcome != FBD_GOING) return; /* memory is out */
     for (size_t p = 0; p < ensemble->count; p++) {
-        if (ensemble->groups[p].run->from > t) rewind_group(ensemble, p, t);
+        if (ensemble->groups[p].run->step.from > t) rewind_group(ensemble, p, t);
         if (ensemble->outcome != FBD_GOING) return;
     }
     ensemble->from = t;

@@ -48,8 +48,8 @@ static double size_of(struct run *run, const struct kink *kink, int part)
     struct fbd_state *state = run->state;
     const struct instant at = state_instant(state);
     size_t n = (size_t)run->model->plan.n;
-    const double *most = run->anchor + plan_size(&run->model->plan);
-    double size = 0, *dy = run->sample; /* scratch */
+    const double *most = run->recent.anchor + plan_size(&run->model->plan);
+    double size = 0, *dy = run->work.sample; /* scratch */
     memset(dy, 0, plan_size(&run->model->plan) * sizeof *dy);
     for (size_t i = 0; i < n; i++) {
         dy[n + i] = 1;

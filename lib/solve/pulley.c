@@ -36,18 +36,18 @@ static bool is_taut(const struct fbd_state *state, const struct tie *tie)
 /* Cut the step back to where the rope is just still on its pulley: halved as long as numbers can tell. */
 static bool cut_step(struct run *run, int tie, struct moment *t)
 {
-    double on = run->from, off = t->t;
+    double on = run->step.from, off = t->t;
     for (;;) {
         double middle = on + (off - on) / 2;
         if (!(middle > on && middle < off)) break;
-        if (switcher_partial(run->stepper, moment_at(middle), run->y, run->f) != 0) return false;
-        if (is_off(wrap_at(run, tie, run->y)))
+        if (switcher_partial(run->stepper, moment_at(middle), run->work.y, run->work.f) != 0) return false;
+        if (is_off(wrap_at(run, tie, run->work.y)))
             off = middle;
         else
             on = middle;
     }
-    *t = moment_at(on > run->from ? on : off);
-    return switcher_partial(run->stepper, *t, run->y, run->f) == 0;
+    *t = moment_at(on > run->step.from ? on : off);
+    return switcher_partial(run->stepper, *t, run->work.y, run->work.f) == 0;
 }
 
 static const char *pulley_of(const struct run *run, int tie)
@@ -62,7 +62,7 @@ void run_watch_pulleys(struct run *run, struct moment *t)
     for (int i = 0; tree && i + 1 < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
         if (!rope_goes_on(tree, i) || !is_taut(run->during, tie) || !is_taut(run->during, tie + 1)) continue;
-        if (!is_off(wrap_at(run, i, run->y)) || !cut_step(run, i, t)) continue;
+        if (!is_off(wrap_at(run, i, run->work.y)) || !cut_step(run, i, t)) continue;
         run_fail(
             run, FBD_BROKEN,
             "at t = %.9g the rope `%s` comes off its pulley `%s`: its two sides are one straight line there. "
@@ -74,7 +74,7 @@ void run_watch_pulleys(struct run *run, struct moment *t)
 void run_check_pulleys(struct run *run)
 {
     const struct tree *tree = run->model->tree;
-    for (int i = 0; tree && i + 1 < tree->tie_count && run->outcome == FBD_GOING; i++) {
+    for (int i = 0; tree && i + 1 < tree->tie_count && run->end.outcome == FBD_GOING; i++) {
         const struct tie *tie = &tree->ties[i];
         if (!rope_goes_on(tree, i) || !is_taut(run->state, tie) || !is_taut(run->state, tie + 1)) continue;
         if (!is_off(wrap_at(run, i, run->state->y))) continue;

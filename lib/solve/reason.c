@@ -12,19 +12,20 @@
 
 void run_fail(struct run *run, fbd_outcome outcome, const char *format, ...)
 {
-    if (run->outcome != FBD_GOING && run->outcome != FBD_STOPPED) return; /* the first reason is the cause */
-    run->outcome = outcome;
+    if (run->end.outcome != FBD_GOING && run->end.outcome != FBD_STOPPED)
+        return; /* the first reason is the cause */
+    run->end.outcome = outcome;
     va_list args;
     va_start(args, format);
     /* NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): it is, a line above */
-    format_list(run->reason, sizeof run->reason, format, args);
+    format_list(run->end.reason, sizeof run->end.reason, format, args);
     va_end(args);
 }
 
 double run_time(const struct run *run)
 {
     const double nothing = 1e-20;
-    return fabs(run->state->t) < nothing * run->first_step ? 0 : run->state->t;
+    return fabs(run->state->t) < nothing * run->step.first ? 0 : run->state->t;
 }
 
 const char *run_kink_name(const struct run *run, const struct kink *kink)
@@ -47,11 +48,11 @@ static size_t fastest(const struct run *run)
     size_t n = (size_t)run->model->plan.n, worst = 0;
     double most = -1;
     for (size_t i = 0; i < n; i++) {
-        double v = fabs(run->y[n + i]), a = fabs(run->f[n + i]), rate = v > 0 ? a / v : 0;
+        double v = fabs(run->work.y[n + i]), a = fabs(run->work.f[n + i]), rate = v > 0 ? a / v : 0;
         if (rate > most) most = rate, worst = i;
     }
     for (size_t i = 2 * n; i < plan_size(&run->model->plan); i++) {
-        double z = fabs(run->y[i]), rate = z > 0 ? fabs(run->f[i]) / z : 0;
+        double z = fabs(run->work.y[i]), rate = z > 0 ? fabs(run->work.f[i]) / z : 0;
         if (rate > most) most = rate, worst = i;
     }
     return worst;
@@ -142,8 +143,8 @@ void run_fail_step(struct run *run, enum stepper_status status)
     const struct stepper_counts counts = switcher_counts(run->stepper);
     /* The last attempts before a step size underflow may have failed by their error alone, on the brink of
      * the same place. */
-    bool not_finite =
-        run->system.last_code == system_not_finite || counts.rejected[rejected_not_finite] > run->not_finite;
+    bool not_finite = run->system.last_code == system_not_finite ||
+                      counts.rejected[rejected_not_finite] > run->step.not_finite;
     if (status == stepper_misuse) {
         run_fail(run, FBD_FAILED, "the method `%s` cannot be used here", run->options.method->name);
     } else if (not_finite) {

@@ -70,30 +70,31 @@ static bool make_run(struct run *run, const struct state_start *begin)
     run->during = state_new(run->model);
     size_t links = run->model->tree ? (size_t)run->model->tree->count : 0;
     size_t sizes = n + 2 * links + 2 * run->model->body_count;
-    run->y = calloc(5 * size + plan_rates(plan) + sizes + 1, sizeof *run->y);
-    if (!run->state || !run->during || !run->y || !run_make_scans(run)) return false;
+    run->work.y = calloc(5 * size + plan_rates(plan) + sizes + 1, sizeof *run->work.y);
+    if (!run->state || !run->during || !run->work.y || !run_make_scans(run)) return false;
     if (run->state->tree) run->state->tree->accuracy = run->during->tree->accuracy = run->options.tolerance;
     if (!poles_init(&run->poles, run->model)) return false;
     if (!mechanisms_init(&run->mechanisms, run->model)) return false;
-    run->f = run->y + size;
-    run->sample = run->f + size;
-    run->aside = run->sample + size;
-    run->along = run->aside + 2 * size;
-    run->noise = run->along + plan_rates(plan);
-    run->turned = run->noise + n;
-    run->cancelled = run->turned + 2 * links;
-    size_t functions = 2 * run->moving.count, timed = 3 * run->timed.count;
-    run->values = calloc((functions > timed ? functions : timed) + 1, sizeof *run->values);
-    run->kept = calloc(2 * size + 1, sizeof *run->kept);
-    run->crossed = calloc(run->moving.count + 1, sizeof *run->crossed);
-    run->anchor = calloc(2 * size + 1, sizeof *run->anchor);
-    run->arrows = calloc(diagram_most_arrows(run->model), sizeof *run->arrows);
+    run->work.f = run->work.y + size;
+    run->work.sample = run->work.f + size;
+    run->work.aside = run->work.sample + size;
+    run->grain.along = run->work.aside + 2 * size;
+    run->grain.accelerations = run->grain.along + plan_rates(plan);
+    run->grain.turned = run->grain.accelerations + n;
+    run->grain.cancelled = run->grain.turned + 2 * links;
+    size_t functions = 2 * run->search.moving.count, timed = 3 * run->search.timed.count;
+    run->work.values = calloc((functions > timed ? functions : timed) + 1, sizeof *run->work.values);
+    run->work.kept = calloc(2 * size + 1, sizeof *run->work.kept);
+    run->work.crossed = calloc(run->search.moving.count + 1, sizeof *run->work.crossed);
+    run->recent.anchor = calloc(2 * size + 1, sizeof *run->recent.anchor);
+    run->work.arrows = calloc(diagram_most_arrows(run->model), sizeof *run->work.arrows);
     if (!contacts_work_init(&run->contacts, run->model) || !passages_init(run)) return false;
     run->watchers.asleep = run->contacts.asleep;
     run->watchers.deep = run->contacts.deep;
     run->impact_work = calloc(run->model->load_count + 1, sizeof *run->impact_work);
-    run->snap_pair = -1;
-    if (!run->values || !run->kept || !run->crossed || !run->anchor || !run->arrows || !run->impact_work)
+    run->snap.pair = -1;
+    if (!run->work.values || !run->work.kept || !run->work.crossed || !run->recent.anchor ||
+        !run->work.arrows || !run->impact_work)
         return false;
     run->rates = rates_new(run->during, rates_by_rows);
     if (!run->rates) return false;
@@ -109,8 +110,8 @@ static void refuse(struct run *run, struct lack *lack)
     if (!lack->id || lack->text.failed) {
         run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
     } else {
-        run->refusal = lack->id;
-        run->refusal_at = lack->at;
+        run->end.refusal = lack->id;
+        run->end.refusal_at = lack->at;
         if (strcmp(lack->id, "leaves-surface") == 0) run_check_contacts(run, NULL); /* an event, too */
         run_fail(run, FBD_FAILED, "%s", lack->text.data);
     }
@@ -120,9 +121,9 @@ static void refuse(struct run *run, struct lack *lack)
 static void start(struct run *run)
 {
     struct lack lack;
-    run->restart = true;
-    run->from = run->state->t;
-    run->event = run_end(run);
+    run->step.restart = true;
+    run->step.from = run->state->t;
+    run->recent.moment = run_end(run);
     if (!run_start_contacts(run, &lack)) {
         refuse(run, &lack);
         return;
@@ -134,7 +135,7 @@ static void start(struct run *run)
     run_release_contacts(run);
     run_check_counts(run);
     watchers_arm(&run->watchers, run->state, 0);
-    if (!(run->options.until > run->state->t)) run->outcome = FBD_DONE;
+    if (!(run->options.until > run->state->t)) run->end.outcome = FBD_DONE;
 }
 
 struct run *run_new(const struct fbd_model *model, const struct run_options *options,
@@ -144,7 +145,7 @@ struct run *run_new(const struct fbd_model *model, const struct run_options *opt
     if (!run) return NULL;
     run->model = model;
     run->options = *options;
-    run->last_event = -HUGE_VAL;
+    run->recent.time = -HUGE_VAL;
     if (!make_run(run, begin)) {
         run_free(run);
         return NULL;
@@ -158,8 +159,8 @@ void run_free(struct run *run)
     if (!run) return;
     switcher_free(run->stepper);
     linear_pace_free(&run->pace);
-    scan_free(&run->timed);
-    scan_free(&run->moving);
+    scan_free(&run->search.timed);
+    scan_free(&run->search.moving);
     watchers_free(&run->watchers);
     course_free(&run->course);
     poles_free(&run->poles);
@@ -169,13 +170,13 @@ void run_free(struct run *run)
     state_free(run->during);
     rates_free(run->rates);
     free(run->decided.branches);
-    free(run->events);
-    free(run->y);
-    free(run->values);
-    free(run->kept);
-    free(run->crossed);
-    free(run->anchor);
-    free(run->arrows);
+    free(run->log.events);
+    free(run->work.y);
+    free(run->work.values);
+    free(run->work.kept);
+    free(run->work.crossed);
+    free(run->recent.anchor);
+    free(run->work.arrows);
     free(run->impact_work);
     passages_free(&run->passages);
     free(run);
@@ -186,27 +187,27 @@ void run_free(struct run *run)
 /* Start the stepper at the present state. */
 static bool restart(struct run *run)
 {
-    memcpy(run->y, run->state->y, plan_size(&run->model->plan) * sizeof *run->y);
-    scan_forget(&run->timed);
-    scan_forget(&run->moving);
+    memcpy(run->work.y, run->state->y, plan_size(&run->model->plan) * sizeof *run->work.y);
+    scan_forget(&run->search.timed);
+    scan_forget(&run->search.moving);
     if (!structure_is_exact(run->kind)) run_set_noise(run);
     mechanisms_join(&run->mechanisms, run->state);
     bind_rates(run);
     watchers_follow(&run->watchers, run->during);
-    int status = switcher_reset(run->stepper, &run->system, run_end(run), run->y, run->f,
-                                moment_at(run->options.until), &run->h);
+    int status = switcher_reset(run->stepper, &run->system, run_end(run), run->work.y, run->work.f,
+                                moment_at(run->options.until), &run->step.h);
     if (status != GSL_SUCCESS) {
         run_fail_step(run, stepper_bad_function);
         return false;
     }
-    if (run->first_step == 0) run->first_step = run->h;
-    if (run->kind == structure_constant) run->h = run->options.until - run->state->t;
+    if (run->step.first == 0) run->step.first = run->step.h;
+    if (run->kind == structure_constant) run->step.h = run->options.until - run->state->t;
     if (run->kind == structure_linear) {
-        linear_pace_start(&run->pace, &run->system, run->state->t, run->y);
+        linear_pace_start(&run->pace, &run->system, run->state->t, run->work.y);
         const struct linear_modes *modes = run->pace.now;
         if (modes && isfinite(modes->rho)) switcher_set_linear(run->stepper, modes->A, modes->rho);
     }
-    run->restart = false;
+    run->step.restart = false;
     return true;
 }
 
@@ -215,11 +216,11 @@ static struct moment next_time(struct run *run, bool *found)
 {
     const double stretch = 1.02; /* the stepper may lengthen a step by 1 % to end at its limit */
     double rest = fmin(run_next_rest(run), run->passages.end), until = fmin(run->options.until, rest);
-    double reach = fmin(until, run->state->t + stretch * run->h);
-    int status = scan_interval(&run->timed, run->state->t, reach);
+    double reach = fmin(until, run->state->t + stretch * run->step.h);
+    int status = scan_interval(&run->search.timed, run->state->t, reach);
     *found = status == 1;
     /* Where functions of time change too fast for so long a step, it goes to where they have been seen. */
-    if (status == 2 && run->timed.clear > run->state->t) return moment_at(run->timed.clear);
+    if (status == 2 && run->search.timed.clear > run->state->t) return moment_at(run->search.timed.clear);
     struct moment end = moment_at(until);
     if (moment_since(end, run_end(run)) <= 0) end.t = nextafter(end.t, HUGE_VAL); /* rests in no time */
     return *found ? moment_earlier(run_pin_timed(run), end) : end;
@@ -230,18 +231,19 @@ static bool is_beyond_numbers(struct run *run, double t)
 {
     size_t n = (size_t)run->model->plan.n, size = plan_size(&run->model->plan);
     for (size_t i = 0; i < size; i++) {
-        if (isfinite(run->y[i])) continue;
+        if (isfinite(run->work.y[i])) continue;
         if (i >= 2 * n) {
             run_fail(run, FBD_FAILED,
                      "the state `%s` is not finite at t = %.9g: %s. The last good state is that at t = %.9g",
-                     run->model->scene->own[i - 2 * n].name, t, not_finite_reason(run->y[i]), run->state->t);
+                     run->model->scene->own[i - 2 * n].name, t, not_finite_reason(run->work.y[i]),
+                     run->state->t);
             return true;
         }
         const struct coordinate *c = &run->model->scene->coordinates[i % n];
         run_fail(run, FBD_FAILED,
                  "`%s.%s` is not finite at t = %.9g: %s. The last good state is that at t = %.9g",
                  run->model->bodies[c->body].name, i < n ? c->name : c->rate_name, t,
-                 not_finite_reason(run->y[i]), run->state->t);
+                 not_finite_reason(run->work.y[i]), run->state->t);
         return true;
     }
     return false;
@@ -250,16 +252,16 @@ static bool is_beyond_numbers(struct run *run, double t)
 static void accept(struct run *run, struct moment t)
 {
     size_t size = plan_size(&run->model->plan);
-    double *most = run->anchor + size;
+    double *most = run->recent.anchor + size;
     if (is_beyond_numbers(run, t.t)) return;
     for (size_t i = 0; i < size; i++) most[i] = fmax(most[i], fabs(run->state->y[i]));
     state_set_moment(run->state, t);
-    memcpy(run->state->y, run->y, size * sizeof *run->y);
+    memcpy(run->state->y, run->work.y, size * sizeof *run->work.y);
     modes_hold(run->state);
     run_close_step(run);
     run_check_overlap(run);
-    run->restart |= run_has_gone_astray(run);
-    memcpy(run->y, run->state->y, size * sizeof *run->y);
+    run->step.restart |= run_has_gone_astray(run);
+    memcpy(run->work.y, run->state->y, size * sizeof *run->work.y);
 }
 
 /* On the brink of a place that cannot be passed, a method without a fine sense of error goes on by roundings
@@ -268,15 +270,15 @@ static bool crawls(struct run *run)
 {
     enum { most_steps = 100 };
     bool tiny = moment_since(run_end(run), run_start(run)) <= 8 * DBL_EPSILON * fabs(run->state->t);
-    run->crawl = tiny ? run->crawl + 1 : 0;
-    return run->crawl > most_steps;
+    run->step.crawl = tiny ? run->step.crawl + 1 : 0;
+    return run->step.crawl > most_steps;
 }
 
 /* A run that crawls fails: of events that crowd, where there were any. */
 static void check_crawl(struct run *run)
 {
     if (!crawls(run)) return;
-    if (run->crowd > 0)
+    if (run->recent.crowd > 0)
         run_fail_chatter(run);
     else
         run_fail_step(run, stepper_underflow);
@@ -287,7 +289,7 @@ static bool heed_poles(struct run *run)
 {
     const struct pole *nearest;
     double longest = poles_longest_step(&run->poles, run->state, &nearest);
-    run->h = fmin(run->h, longest);
+    run->step.h = fmin(run->step.h, longest);
     bool reached = nearest && longest <= 4 * DBL_EPSILON * fabs(run->state->t);
     if (reached) run_fail_pole(run, nearest);
     return !reached;
@@ -296,11 +298,11 @@ static bool heed_poles(struct run *run)
 /* An exact method has no error to choose its steps by; they are to show events. */
 static void set_linear_step(struct run *run)
 {
-    double resolved = run->moving.resolved;
+    double resolved = run->search.moving.resolved;
     const double other = 0.8;
-    double longest = (run->options.apart ? other : 1) * linear_pace_step(&run->pace, run->from);
-    run->h = fmin(longest, run->options.until - run->from);
-    if (resolved > 0) run->h = fmin(run->h, resolved);
+    double longest = (run->options.apart ? other : 1) * linear_pace_step(&run->pace, run->step.from);
+    run->step.h = fmin(longest, run->options.until - run->step.from);
+    if (resolved > 0) run->step.h = fmin(run->step.h, resolved);
 }
 
 /* ---- the stages of a turn: each goes on from the one before, and is the last where it ends the run */
@@ -315,10 +317,10 @@ struct turn {
 /* From where the step goes, in which modes; after events the stepper starts anew. */
 static bool begin_step(struct run *run)
 {
-    run->from = run->state->t;
-    run->from_rest = run->state->rest;
+    run->step.from = run->state->t;
+    run->step.from_rest = run->state->rest;
     state_copy(run->during, run->state);
-    if (!run->restart) return true;
+    if (!run->step.restart) return true;
     run_note_sign(run);
     return restart(run);
 }
@@ -326,9 +328,10 @@ static bool begin_step(struct run *run)
 /* How long the step may be: to the next event of time alone, and not into a pole. */
 static bool limit_step(struct run *run, struct turn *turn)
 {
-    if (run->crawl == 0) run->not_finite = switcher_counts(run->stepper).rejected[rejected_not_finite];
+    if (run->step.crawl == 0)
+        run->step.not_finite = switcher_counts(run->stepper).rejected[rejected_not_finite];
     if (run->kind == structure_linear) set_linear_step(run);
-    if (run->kind == structure_constant) run->h = run->options.until - run->from;
+    if (run->kind == structure_constant) run->step.h = run->options.until - run->step.from;
     run_part_before(run);
     if (run->options.step == 0 && !heed_poles(run)) return false;
     turn->limit = next_time(run, &turn->timed);
@@ -340,8 +343,8 @@ static bool limit_step(struct run *run, struct turn *turn)
 /* One accepted step, to y and its slopes. */
 static bool make_step(struct run *run, struct turn *turn)
 {
-    enum stepper_status status =
-        switcher_step(run->stepper, &run->system, &turn->t, run->y, run->f, &run->h, turn->limit);
+    enum stepper_status status = switcher_step(run->stepper, &run->system, &turn->t, run->work.y, run->work.f,
+                                               &run->step.h, turn->limit);
     if (status != stepper_ok) run_fail_step(run, status);
     return status == stepper_ok;
 }
@@ -366,8 +369,8 @@ static bool accept_step(struct run *run, const struct turn *turn)
 {
     accept(run, turn->t);
     check_crawl(run);
-    if (run->outcome != FBD_GOING) return false;
-    if (run->projected) counted_system_rhs(&run->system, turn->t.t, run->y, run->f);
+    if (run->end.outcome != FBD_GOING) return false;
+    if (run->projected) counted_system_rhs(&run->system, turn->t.t, run->work.y, run->work.f);
     return true;
 }
 
@@ -376,9 +379,10 @@ static bool apply_events(struct run *run, const struct turn *turn)
 {
     bool happens = turn->moving || turn->timed;
     if (happens) run_check_jam(run, false);
-    if (run->outcome != FBD_GOING) return false;
+    if (run->end.outcome != FBD_GOING) return false;
     if (happens) {
-        run_apply(run, turn->timed ? run->timed.crossed : NULL, turn->moving ? run->moving.crossed : NULL);
+        run_apply(run, turn->timed ? run->search.timed.crossed : NULL,
+                  turn->moving ? run->search.moving.crossed : NULL);
     } else {
         /* Who shows forces shares them out: run_look, run_check_balance. */
         state_evaluate_unshared(run->state);
@@ -396,16 +400,17 @@ static void end_step(struct run *run, const struct turn *turn)
     passages_note(run);
     if (at_end) run_apply_touched(run, false);
     if (turn->moving || turn->timed || at_end) run_check_balance(run);
-    if (run->outcome == FBD_GOING && at_end) run->outcome = FBD_DONE;
-    if (run->outcome == FBD_GOING) watchers_arm(&run->watchers, run->state, run->state->t - run->from);
-    if (run->projected || run->model->plan.watch_count > 0) scan_forget(&run->moving);
+    if (run->end.outcome == FBD_GOING && at_end) run->end.outcome = FBD_DONE;
+    if (run->end.outcome == FBD_GOING)
+        watchers_arm(&run->watchers, run->state, run->state->t - run->step.from);
+    if (run->projected || run->model->plan.watch_count > 0) scan_forget(&run->search.moving);
 }
 
 fbd_outcome run_advance(struct run *run)
 {
     struct turn turn;
-    if (run->outcome == FBD_GOING && begin_step(run) && limit_step(run, &turn) && make_step(run, &turn) &&
+    if (run->end.outcome == FBD_GOING && begin_step(run) && limit_step(run, &turn) && make_step(run, &turn) &&
         find_events(run, &turn) && accept_step(run, &turn) && apply_events(run, &turn))
         end_step(run, &turn);
-    return run->outcome;
+    return run->end.outcome;
 }

@@ -72,68 +72,109 @@ struct drift {
 
 enum { reason_size = 400 };
 
+/* The last step, and what the next one is to be. */
+struct stride {
+    double from, from_rest;   /* where it began; it ends at state->t and its rest */
+    double h;                 /* step size proposed */
+    double first;             /* the first one that was */
+    double longest;           /* to an event so far */
+    bool restart;             /* the stepper has to start anew */
+    int crawl;                /* steps in a row of a few roundings of the time */
+    unsigned long not_finite; /* rejections for that reason before the last step */
+};
+
+/* How it stands or has ended. */
+struct ending {
+    fbd_outcome outcome;
+    char reason[reason_size];
+    const char *refusal; /* the id of what its start lacks (start.h), and the place; else NULL */
+    struct pos refusal_at;
+};
+
+/* A rope that has just got taut. */
+struct snap {
+    int pair;    /* or -1 */
+    double work; /* what that has taken (below zero) */
+};
+
+/* What events are looked for with, beside the watchers. */
+struct event_search {
+    struct scan timed, moving;
+    struct stretch enclosed;     /* that the course has been enclosed over */
+    bool paced, paced_by_motion; /* sampled functions may change as fast as formulas do, of the motion too */
+    bool follows_places;         /* the course has places in the world */
+};
+
+/* What is known of the rounding of accelerations: see noise.c. */
+struct grain {
+    double *accelerations; /* n: what they are known to */
+    double *along;  /* plan_rates: how accelerations and the rates of states change along the motion, when the
+                              rest of this was set */
+    double *turned; /* twice the links of the tree */
+    double *cancelled;   /* for each body a force and its moment */
+    unsigned long since; /* steps */
+};
+
+/* Scratch of the loop: plan_size numbers each, where nothing else is said. */
+struct run_work {
+    double *y, *f; /* the end of the last step, before its events */
+    double *sample;
+    double *aside;        /* 2 plan_size: a sample made in another way */
+    double *values;       /* event functions of a set, their rates, the roundings of timed ones */
+    double *kept;         /* 2 plan_size: y and f while user events are looked for */
+    bool *crossed;        /* of the moving event functions: likewise */
+    struct arrow *arrows; /* of one body */
+};
+
+struct event_log {
+    struct run_event *events;
+    size_t count, room;
+};
+
+/* Events that crowd at one instant, and those that happen around one state again and again. */
+struct recent {
+    double time;          /* of the last one */
+    int crowd;            /* how many at that instant */
+    struct moment moment; /* the start, or when events happened last */
+    double interval[2];   /* between the last three of these; 0 where there are none */
+    double *
+        anchor; /* 2 plan_size: the state around which events have happened lately; the largest |y_i| before the
+                       last step */
+    int around; /* how many */
+};
+
 struct run {
     const struct fbd_model *model;
     struct run_options options;
     enum structure kind;      /* in use: general unless options.structure and options.automatic */
     struct fbd_state *state;  /* at the end of the last step, modes for what follows */
     struct fbd_state *during; /* modes of the last step; its scratch serves samples within it */
-    double from, from_rest;   /* start of the last step; it ends at state->t and its rest */
-    double h;                 /* step size proposed */
-    double first_step;        /* the first one that was */
-    double longest;           /* step to an event so far */
-    bool restart;             /* the stepper has to start anew */
-    int snap_pair;            /* the rope that has just snapped taut, or -1 */
-    double snap_work;         /* what that has taken (below zero) */
-    double *impact_work;      /* per load: the same, summed up */
-    struct drift drift;       /* from the constraints */
-    double liveliest;         /* the most kinetic energy of jointed bodies so far */
-    bool projected;
-    int crawl;                /* steps in a row of a few roundings of the time */
-    unsigned long not_finite; /* rejections for that reason before the last step */
-    fbd_outcome outcome;
-    char reason[reason_size];
-    const char *refusal; /* the id of what its start lacks (start.h), and the place; else NULL */
-    struct pos refusal_at;
+    struct stride step;
+    struct ending end;
 
-    struct watchers watchers;
-    struct scan timed, moving;
-    struct stretch enclosed;     /* that the course has been enclosed over */
-    bool paced, paced_by_motion; /* sampled functions may change as fast as formulas do, of the motion too */
-    bool follows_places;         /* the course has places in the world */
-    struct course course;        /* of what moving functions with enclosures read */
-    struct poles poles;
-    struct mechanisms mechanisms;
+    struct counted_system system;
+    struct rates *rates; /* in the modes of `during` */
     struct switcher *stepper;
     struct linear_pace pace; /* of a linear system */
-    struct counted_system system;
-    struct rates *rates;       /* in the modes of `during` */
-    double *y, *f, *sample;    /* plan_size each; y: the end of the last step, before its events */
-    double *aside;             /* 2 plan_size: a sample made in another way */
-    double *along;             /* plan_rates: how accelerations and the rates of states change along the
-                                  motion, when the noise was set */
-    double *noise;             /* n: what accelerations are known to */
-    double *turned;            /* twice the links of the tree: see noise.c */
-    double *cancelled;         /* for each body a force and its moment: see noise.c */
-    unsigned long since_noise; /* steps */
-    double *values;            /* event functions of a set, their rates, the roundings of timed ones */
-    double *kept;              /* 2 plan_size: y and f while user events are looked for */
-    bool *crossed;             /* moving: likewise */
+    struct grain grain;
+    struct drift drift; /* from the constraints */
+    bool projected;
+
+    struct watchers watchers;
+    struct event_search search;
+    struct course course; /* of what moving functions with enclosures read */
+    struct poles poles;
+    struct mechanisms mechanisms;
+    struct passages passages;
+
     struct decided decided;
     struct contacts_work contacts;
-    struct passages passages;
-    struct arrow *arrows; /* of one body */
-
-    struct run_event *events;
-    size_t event_count, event_room;
-    double last_event; /* time of the last one; events that crowd at one instant are counted */
-    int crowd;
-    struct moment event; /* the start, or when events happened last */
-    double interval[2];  /* between the last three of these; 0 where there are none */
-    double *
-        anchor; /* 2 plan_size: the state around which events have happened lately; the largest |y_i| before the
-                       last step */
-    int around; /* how many */
+    struct snap snap;
+    double *impact_work; /* per load: what impacts have done in all */
+    double liveliest;    /* the most kinetic energy of jointed bodies so far */
+    struct event_log log;
+    struct recent recent;
+    struct run_work work;
 };
 
 /* A run at the start of the model, modes settled, events of t = 0 applied. NULL when memory is out. */
@@ -154,7 +195,7 @@ bool run_coordinates(struct run *run, struct moment t, double *y);
 /* The ends of the last step. */
 static inline struct moment run_start(const struct run *run)
 {
-    return (struct moment){run->from, run->from_rest};
+    return (struct moment){run->step.from, run->step.from_rest};
 }
 
 static inline struct moment run_end(const struct run *run)
@@ -173,7 +214,7 @@ int run_panels(const struct run *run);
 bool run_make_scans(struct run *run);
 
 /* The moment of the timed events that the scan has found, those that happen at it flagged in
- * run->timed.crossed. (run_moment.c) */
+ * run->search.timed.crossed. (run_moment.c) */
 struct moment run_pin_timed(struct run *run);
 
 /* How long it is to the next event of time alone, or to the end of the run. */
@@ -225,7 +266,7 @@ void run_check_ends(struct run *run);
  * one impact. Links and rows are those of the state. */
 void run_take_in_ropes(struct run *run);
 
-/* Has the step that ends at run->y been brought back so far that its method has to start anew? */
+/* Has the step that ends at run->work.y been brought back so far that its method has to start anew? */
 bool run_has_gone_astray(struct run *run);
 
 /* Bring y[2n] at a time within the last step back to the couplings. */

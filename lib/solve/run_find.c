@@ -13,7 +13,7 @@
  * has passed. */
 static double time_left(const struct run *run, size_t i)
 {
-    double value = run->values[i], rate = run->values[run->moving.count + i];
+    double value = run->work.values[i], rate = run->work.values[run->search.moving.count + i];
     return rate < 0 && value < HUGE_VAL ? -value / rate : HUGE_VAL;
 }
 
@@ -31,16 +31,18 @@ static double instant_at(double t)
 static bool polish(struct run *run, double step_end, double *t, double *move)
 {
     enum { most_steps = 4 };
-    const struct scan *scan = &run->moving;
+    const struct scan *scan = &run->search.moving;
     for (int step = 0;; step++) {
-        if (switcher_partial(run->stepper, moment_at(*t), run->y, run->f) != GSL_SUCCESS) return false;
-        watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, moment_at(*t), run->y,
-                          run->values, run->values + scan->count);
+        if (switcher_partial(run->stepper, moment_at(*t), run->work.y, run->work.f) != GSL_SUCCESS)
+            return false;
+        watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, moment_at(*t), run->work.y,
+                          run->work.values, run->work.values + scan->count);
         *move = HUGE_VAL;
         for (size_t i = 0; i < scan->count; i++)
             if (scan->crossed[i]) *move = fmin(*move, time_left(run, i));
         double next = *t + *move;
-        bool there = !(next > run->from && next < step_end) || fabs(*move) <= 4 * DBL_EPSILON * fabs(next);
+        bool there =
+            !(next > run->step.from && next < step_end) || fabs(*move) <= 4 * DBL_EPSILON * fabs(next);
         if (there || step == most_steps) break;
         *t = next;
     }
@@ -54,9 +56,9 @@ static bool polish(struct run *run, double step_end, double *t, double *move)
  * stays above it; the state and rate at t, which are those of the motion and not of the interpolant, tell. */
 static bool goes_down(const struct run *run, double t, double end)
 {
-    for (size_t i = 0; i < run->moving.count; i++) {
-        double value = run->values[i], rate = run->values[run->moving.count + i];
-        if (!run->moving.crossed[i] || rate > 0) continue;
+    for (size_t i = 0; i < run->search.moving.count; i++) {
+        double value = run->work.values[i], rate = run->work.values[run->search.moving.count + i];
+        if (!run->search.moving.crossed[i] || rate > 0) continue;
         if (value <= 0 || t + time_left(run, i) <= end) return true;
     }
     return false;
@@ -66,52 +68,53 @@ static bool goes_down(const struct run *run, double t, double end)
  * On return y and f are those at t again. */
 static bool is_down_at_end(struct run *run, double t, double end)
 {
-    double *values = run->values, *rates = values + run->moving.count;
+    double *values = run->work.values, *rates = values + run->search.moving.count;
     bool down = false;
-    if (switcher_partial(run->stepper, moment_at(end), run->y, run->f) != GSL_SUCCESS) return true;
-    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, moment_at(end), run->y, values,
+    if (switcher_partial(run->stepper, moment_at(end), run->work.y, run->work.f) != GSL_SUCCESS) return true;
+    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, moment_at(end), run->work.y, values,
                       rates);
-    for (size_t i = 0; i < run->moving.count; i++) down |= run->moving.crossed[i] && values[i] < 0;
-    return switcher_partial(run->stepper, moment_at(t), run->y, run->f) == GSL_SUCCESS && down;
+    for (size_t i = 0; i < run->search.moving.count; i++)
+        down |= run->search.moving.crossed[i] && values[i] < 0;
+    return switcher_partial(run->stepper, moment_at(t), run->work.y, run->work.f) == GSL_SUCCESS && down;
 }
 
 /* Of functions with kinks, as the gap of the lowest of several corners, one may have gone down before the first that
  * was found: it is below zero by then. The first of all becomes *t. False when that fails. */
 static bool look_before(struct run *run, double start, double *t, double *move)
 {
-    struct scan *scan = &run->moving;
+    struct scan *scan = &run->search.moving;
     bool down = false;
     for (size_t i = 0; i < scan->count; i++)
-        down |= run->values[i] < 0 && !(scan->crossed[i] && fabs(time_left(run, i)) <= instant_at(*t));
+        down |= run->work.values[i] < 0 && !(scan->crossed[i] && fabs(time_left(run, i)) <= instant_at(*t));
     if (!down) return true;
-    memcpy(run->crossed, scan->crossed, scan->count * sizeof *run->crossed);
+    memcpy(run->work.crossed, scan->crossed, scan->count * sizeof *run->work.crossed);
     double when = *t, others = *move;
     bool sooner = scan_interval(scan, start, *t) == 1 && scan->t < *t;
     if (sooner) *t = scan->t;
     if (sooner && !polish(run, when, t, move)) return false;
     if (sooner && *t < when) return true;
-    memcpy(scan->crossed, run->crossed, scan->count * sizeof *run->crossed);
+    memcpy(scan->crossed, run->work.crossed, scan->count * sizeof *run->work.crossed);
     *t = when;
     *move = others;
-    return switcher_partial(run->stepper, moment_at(when), run->y, run->f) == GSL_SUCCESS;
+    return switcher_partial(run->stepper, moment_at(when), run->work.y, run->work.f) == GSL_SUCCESS;
 }
 
 /* Cut the step to t, where nothing happens. 0, or -1 when that fails. */
 static int cut_step(struct run *run, struct moment t)
 {
-    return switcher_partial(run->stepper, t, run->y, run->f) == GSL_SUCCESS ? 0 : -1;
+    return switcher_partial(run->stepper, t, run->work.y, run->work.f) == GSL_SUCCESS ? 0 : -1;
 }
 
 /* The longest share of a step that is believed when it has passed a pole: where that was is not asked. */
 static int stay_before_poles(struct run *run, struct moment *t)
 {
     const double share = 0.25;
-    double h = moment_since(*t, run_start(run)), cut = run->from + share * h;
-    if (run->options.step > 0 || !(cut > run->from)) return 0;
-    if (!poles_passed(&run->poles, run->during, h, t->t, run->y, run->f)) return 0;
+    double h = moment_since(*t, run_start(run)), cut = run->step.from + share * h;
+    if (run->options.step > 0 || !(cut > run->step.from)) return 0;
+    if (!poles_passed(&run->poles, run->during, h, t->t, run->work.y, run->work.f)) return 0;
     *t = moment_at(cut);
-    run->h = share * h;
-    run->restart = true;
+    run->step.h = share * h;
+    run->step.restart = true;
     return cut_step(run, *t);
 }
 
@@ -124,20 +127,21 @@ static int find_change(struct run *run, struct moment *t)
 {
     enum { most_dips = 8 };
     const double least_share = 1e-3;
-    double start = run->from, end = t->t;
-    run->moving.aside = false;
+    double start = run->step.from, end = t->t;
+    run->search.moving.aside = false;
     for (int dip = 0; dip < most_dips && start < end; dip++) {
-        run->moving.resumed = dip > 0;
-        int found = scan_interval(&run->moving, start, end);
-        if (run->moving.resolved < HUGE_VAL) run->h = fmin(run->h, run->moving.resolved);
+        run->search.moving.resumed = dip > 0;
+        int found = scan_interval(&run->search.moving, start, end);
+        if (run->search.moving.resolved < HUGE_VAL)
+            run->step.h = fmin(run->step.h, run->search.moving.resolved);
         if (found <= 0) return found;
         if (found == 2) {
-            if (run->moving.clear - run->from < least_share * (end - run->from)) return 0;
-            *t = moment_at(run->moving.clear);
-            run->restart = true;
+            if (run->search.moving.clear - run->step.from < least_share * (end - run->step.from)) return 0;
+            *t = moment_at(run->search.moving.clear);
+            run->step.restart = true;
             return cut_step(run, *t);
         }
-        double when = run->moving.t, move;
+        double when = run->search.moving.t, move;
         if (when >= end) return 1;
         if (!polish(run, end, &when, &move) || !look_before(run, start, &when, &move)) return -1;
         if (goes_down(run, when, end) || is_down_at_end(run, when, end)) {
@@ -145,11 +149,11 @@ static int find_change(struct run *run, struct moment *t)
             return 1;
         }
         if (cut_step(run, *t) < 0) return -1;
-        start = fmax(when, run->moving.t);
+        start = fmax(when, run->search.moving.t);
     }
-    if (!(start < end) || start - run->from <= instant_at(start)) return 0;
+    if (!(start < end) || start - run->step.from <= instant_at(start)) return 0;
     *t = moment_at(start); /* nothing has happened up to here; beyond nobody has looked */
-    run->restart = true;
+    run->step.restart = true;
     return cut_step(run, *t);
 }
 
@@ -159,13 +163,13 @@ static int find_change(struct run *run, struct moment *t)
 static int find_told(struct run *run, struct moment *t)
 {
     enum { most_dips = 8 };
-    double start = run->from, end = t->t;
-    run->moving.aside = true;
+    double start = run->step.from, end = t->t;
+    run->search.moving.aside = true;
     for (int dip = 0; dip < most_dips && start < end;) {
-        run->moving.resumed = dip > 0;
-        int found = scan_interval(&run->moving, start, end);
+        run->search.moving.resumed = dip > 0;
+        int found = scan_interval(&run->search.moving, start, end);
         if (found != 1) return found < 0 ? -1 : 0;
-        double when = run->moving.t, move = 0;
+        double when = run->search.moving.t, move = 0;
         if (when < end && !polish(run, end, &when, &move)) return -1;
         bool passed = when >= end || goes_down(run, when, end) || is_down_at_end(run, when, end);
         if (passed && !run_tell(run, when)) {
@@ -173,7 +177,7 @@ static int find_told(struct run *run, struct moment *t)
             return 1;
         }
         dip += !(passed && when > start);
-        start = passed ? when : fmax(when, run->moving.t);
+        start = passed ? when : fmax(when, run->search.moving.t);
     }
     return 0;
 }
@@ -181,18 +185,20 @@ static int find_told(struct run *run, struct moment *t)
 int run_find_event(struct run *run, struct moment *t)
 {
     if (stay_before_poles(run, t) < 0) return -1;
-    size_t size = plan_size(&run->model->plan), bytes = size * sizeof *run->y;
+    size_t size = plan_size(&run->model->plan), bytes = size * sizeof *run->work.y;
     course_start(&run->course);
     run_wake_contacts(run, t->t);
     int change = find_change(run, t);
     if (change < 0 || run->model->plan.watch_count == 0) return change;
-    memcpy(run->kept, run->y, bytes);
-    memcpy(run->kept + size, run->f, bytes);
-    memcpy(run->crossed, run->moving.crossed, run->moving.count * sizeof *run->crossed);
+    memcpy(run->work.kept, run->work.y, bytes);
+    memcpy(run->work.kept + size, run->work.f, bytes);
+    memcpy(run->work.crossed, run->search.moving.crossed,
+           run->search.moving.count * sizeof *run->work.crossed);
     int told = find_told(run, t);
     if (told != 0) return told;
-    memcpy(run->y, run->kept, bytes);
-    memcpy(run->f, run->kept + size, bytes);
-    memcpy(run->moving.crossed, run->crossed, run->moving.count * sizeof *run->crossed);
+    memcpy(run->work.y, run->work.kept, bytes);
+    memcpy(run->work.f, run->work.kept + size, bytes);
+    memcpy(run->search.moving.crossed, run->work.crossed,
+           run->search.moving.count * sizeof *run->work.crossed);
     return change;
 }

@@ -11,7 +11,7 @@ int run_panels(const struct run *run)
 {
     enum { most = 100, nystrom = 2, general = 1 }; /* a step of the Nystrom method is that much longer */
     if (run->kind != structure_linear) return run->kind == structure_velocity_free ? nystrom : general;
-    double rate = linear_pace_rate(&run->pace, run->from), span = run->state->t - run->from;
+    double rate = linear_pace_rate(&run->pace, run->step.from), span = run->state->t - run->step.from;
     return (int)fmin(fmax(1, ceil(2 * span * rate)), most);
 }
 

@@ -33,8 +33,8 @@ static struct moment at_once(struct moment start)
 struct moment run_pin_timed(struct run *run)
 {
     enum { steps = 3 };
-    const struct scan *scan = &run->timed;
-    double *values = run->values, *rates = values + scan->count, *roundings = rates + scan->count;
+    const struct scan *scan = &run->search.timed;
+    double *values = run->work.values, *rates = values + scan->count, *roundings = rates + scan->count;
     struct moment start = run_end(run), t = moment_at(scan->t);
     for (int step = 0; step < steps; step++) {
         double move = HUGE_VAL;
@@ -57,7 +57,7 @@ struct moment run_pin_timed(struct run *run)
 double run_time_to_switch(struct run *run)
 {
     struct moment end = moment_at(run->options.until);
-    bool found = scan_interval(&run->timed, run->state->t, end.t) == 1;
+    bool found = scan_interval(&run->search.timed, run->state->t, end.t) == 1;
     return moment_since(found ? run_pin_timed(run) : end, run_end(run));
 }
 
@@ -68,7 +68,7 @@ struct moment run_pin_moving(struct run *run, double t, double move, struct mome
     bool is_near = fabs(move) <= near * DBL_EPSILON * fabs(t);
     if (!is_near || !(moment_since(there, run_start(run)) > 0 && moment_since(end, there) > 0))
         return moment_at(t);
-    for (size_t i = 0; i < plan_size(&run->model->plan); i++) run->y[i] += move * run->f[i];
+    for (size_t i = 0; i < plan_size(&run->model->plan); i++) run->work.y[i] += move * run->work.f[i];
     return before_end(there, run->options.until);
 }
 
@@ -85,13 +85,14 @@ static const double share = 0.6; /* of the way; the stepper makes the rest of it
 void run_part_before(struct run *run)
 {
     if (!run->options.apart || run->options.step > 0) return;
-    double since = moment_since(run_start(run), run->event),
-           interval = fmax(run->interval[0], run->interval[1]);
-    if (interval > 0) run->h = fmin(run->h, share * interval + since);
+    double since = moment_since(run_start(run), run->recent.moment),
+           interval = fmax(run->recent.interval[0], run->recent.interval[1]);
+    if (interval > 0) run->step.h = fmin(run->step.h, share * interval + since);
 }
 
 void run_part_from(struct run *run, struct moment limit)
 {
-    if (!run->options.apart || run->options.step > 0 || !moment_equal(run_start(run), run->event)) return;
-    run->h = fmin(run->h, share * moment_since(limit, run_start(run)));
+    if (!run->options.apart || run->options.step > 0 || !moment_equal(run_start(run), run->recent.moment))
+        return;
+    run->step.h = fmin(run->step.h, share * moment_since(limit, run_start(run)));
 }

@@ -54,9 +54,9 @@ static int sample_state(struct run *run, double t, double *y)
 static int sample_moving(void *context, double t, double *values, double *rate)
 {
     struct run *run = context;
-    if (sample_state(run, t, run->sample)) return -1;
-    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, moment_at(t), run->sample, values,
-                      rate);
+    if (sample_state(run, t, run->work.sample)) return -1;
+    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, moment_at(t), run->work.sample,
+                      values, rate);
     return 0;
 }
 
@@ -69,9 +69,9 @@ static void enclose_timed(void *context, size_t group, const struct stretch *str
 static void enclose_moving(void *context, size_t group, const struct stretch *stretch, struct enclosure *out)
 {
     struct run *run = context;
-    if (stretch->from != run->enclosed.from || stretch->to != run->enclosed.to) {
+    if (stretch->from != run->search.enclosed.from || stretch->to != run->search.enclosed.to) {
         course_enclose(&run->course, stretch);
-        run->enclosed = *stretch;
+        run->search.enclosed = *stretch;
     }
     watchers_enclose(&run->watchers, &run->watchers.moving, group, run->during, stretch, run->course.now,
                      out);
@@ -83,7 +83,7 @@ static int sample_course(void *context, double t, double *y)
     struct run *run = context;
     const struct fbd_state *during = run->during;
     if (sample_state(run, t, y)) return -1;
-    if (!run->follows_places) return 0;
+    if (!run->search.follows_places) return 0;
     struct instant at = state_instant_at(during, t, y);
     at = instant_extend(run->model, &at);
     memcpy(y, at.y, extended_size(run->model) * sizeof *y);
@@ -105,8 +105,9 @@ static double measure(const struct run *run, double *speed)
     double fastest = 0;
     size_t n = (size_t)run->model->plan.n;
     for (size_t i = 0; i < n; i++)
-        fastest = fmax(fastest, fabs(run->f[n + i]) * (run->model->scene->coordinates[i].angle ? reach : 1));
-    *speed += fastest * run->h;
+        fastest =
+            fmax(fastest, fabs(run->work.f[n + i]) * (run->model->scene->coordinates[i].angle ? reach : 1));
+    *speed += fastest * run->step.h;
     return reach;
 }
 
@@ -133,11 +134,11 @@ static double follow_course(void *context, double from, double to, bool coarse)
     struct run *run = context;
     double negligible;
     int degree = switcher_degree(run->stepper, &negligible);
-    if (run->follows_places || any_leads(run)) { /* functions of the motion, and no polynomials */
+    if (run->search.follows_places || any_leads(run)) { /* functions of the motion, and no polynomials */
         negligible = fmax(negligible, 1e-13);
         degree = course_most_degree;
     }
-    run->enclosed.from = NAN;
+    run->search.enclosed.from = NAN;
     set_noise(run);
     coarse = coarse && degree > simple && run->options.step == 0;
     int status = coarse ? course_set_coarse(&run->course, from, to, sample_course, run)
@@ -222,7 +223,7 @@ static double end_of_turn(struct run *run, const struct formula *formula, double
     int in_vain = 0;
     for (int halving = 0; halving < most_halvings; halving++) {
         struct stretch stretch = stretch_between(from, to);
-        if (run->paced_by_motion) {
+        if (run->search.paced_by_motion) {
             course_enclose(&run->course, &stretch);
             hold_noise(run);
         }
@@ -253,8 +254,8 @@ static double end_of_panel(void *context, double from, double to)
     struct run *run = context;
     double turned = run_contact_radians(run, to - from);
     if (turned > most) to = from + (to - from) * (most / turned);
-    if (!run->paced) return to;
-    double followed = run->paced_by_motion ? follow_course(run, from, to, false) : to;
+    if (!run->search.paced) return to;
+    double followed = run->search.paced_by_motion ? follow_course(run, from, to, false) : to;
     if (followed < to) to = followed; /* NAN: there is no motion to ask */
     const struct formula *formula;
     for (size_t k = 0; (formula = paced_formula(run->model, k)); k++)
@@ -275,8 +276,8 @@ static void mark_paced(struct run *run, bool *used)
         const int *slots;
         size_t count = expr_variables(formula->expr, &slots);
         for (size_t i = 0; i < count; i++) used[slots[i] - 1] = true;
-        run->paced = true;
-        run->paced_by_motion |= count > 0;
+        run->search.paced = true;
+        run->search.paced_by_motion |= count > 0;
     }
 }
 
@@ -287,7 +288,7 @@ static bool make_course(struct run *run)
     if (!used) return false;
     watchers_mark_used(run->model, &run->watchers.moving, used);
     mark_paced(run, used);
-    for (size_t i = plan_size(&run->model->plan); i < size; i++) run->follows_places |= used[i];
+    for (size_t i = plan_size(&run->model->plan); i < size; i++) run->search.follows_places |= used[i];
     bool made = course_init(&run->course, size, used);
     free(used);
     return made;
@@ -296,10 +297,10 @@ static bool make_course(struct run *run)
 static bool use_enclosures(struct run *run)
 {
     const struct watcher_set *timed = &run->watchers.timed, *moving = &run->watchers.moving;
-    run->timed.horizon = run->options.until;
-    run->moving.panel = end_of_panel;
-    return scan_use_enclosures(&run->timed, timed->groups, timed->group_count, enclose_timed, NULL) &&
-           scan_use_enclosures(&run->moving, moving->groups, moving->group_count, enclose_moving,
+    run->search.timed.horizon = run->options.until;
+    run->search.moving.panel = end_of_panel;
+    return scan_use_enclosures(&run->search.timed, timed->groups, timed->group_count, enclose_timed, NULL) &&
+           scan_use_enclosures(&run->search.moving, moving->groups, moving->group_count, enclose_moving,
                                follow_course) &&
            make_course(run);
 }
@@ -310,8 +311,8 @@ bool run_make_scans(struct run *run)
     bool multistep = run->options.method->multistep;
     if (!watchers_init(&run->watchers, run->model, tolerance, multistep)) return false;
     const struct watcher_set *timed = &run->watchers.timed, *moving = &run->watchers.moving;
-    if (!scan_init(&run->timed, timed->count, sample_timed, run)) return false;
-    if (!scan_init(&run->moving, moving->count, sample_moving, run)) return false;
+    if (!scan_init(&run->search.timed, timed->count, sample_timed, run)) return false;
+    if (!scan_init(&run->search.moving, moving->count, sample_moving, run)) return false;
     if (!use_enclosures(run)) return false;
     return true;
 }

@@ -168,11 +168,11 @@ static void put_outcome(const struct ensemble *run, struct text *text)
 {
     char reason[600];
     const char *file = run->model->scene->file ? run->model->scene->file : "model";
-    if (run->refused && run->refused->refusal_at.line > 0)
-        snprintf(reason, sizeof reason, "%s:%d:%d: %s [%s]", file, run->refused->refusal_at.line,
-                 run->refused->refusal_at.column, run->reason, run->refused->refusal);
+    if (run->refused && run->refused->end.refusal_at.line > 0)
+        snprintf(reason, sizeof reason, "%s:%d:%d: %s [%s]", file, run->refused->end.refusal_at.line,
+                 run->refused->end.refusal_at.column, run->reason, run->refused->end.refusal);
     else if (run->refused)
-        snprintf(reason, sizeof reason, "%s: %s [%s]", file, run->reason, run->refused->refusal);
+        snprintf(reason, sizeof reason, "%s: %s [%s]", file, run->reason, run->refused->end.refusal);
     else
         snprintf(reason, sizeof reason, "%s", run->reason);
     put_end(text, status_of(run->outcome), reason);
