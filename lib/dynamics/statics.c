@@ -147,10 +147,9 @@ static void stand_still(const struct fbd_model *model, const struct instant *at,
 /* The tension that a belt has anyway is a load. */
 static void drop_preloads(const struct tree *tree, double *slots)
 {
-    for (int i = 0; i < tree->tie_count; i++) {
-        if (tree->ties[i].kind != constraint_belt) continue;
-        for (int k = 0; k < 2; k++) slots[tree->ties[i].slack_slot[k]] += tree->ties[i].source->tension;
-    }
+    for (int i = 0; i < tree->tie_count; i++)
+        for (int k = 0; k < tree->ties[i].strands; k++)
+            slots[tree->ties[i].slack_slot[k]] += tree->ties[i].source->tension;
 }
 
 void rest_forces(const struct fbd_model *model, const struct instant *given, const double *lambda, bool loads,

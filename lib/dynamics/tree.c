@@ -123,7 +123,7 @@ void tree_slots(const struct fbd_model *model, const struct instant *at, double 
     }
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
-        if (tie->kind == constraint_belt) set_strands(model, work, i, slots);
+        if (tie->strands > 0) set_strands(model, work, i, slots);
         if (!tie_presses(tie)) continue;
         slots[tie->normal_slot] = -work->rows[tie->first_row].lambda;
         if (tie->pair >= 0)

@@ -136,7 +136,7 @@ void tree_accelerations_along(const struct fbd_model *model, const struct instan
     add_slots(model, at, false, slots_along);
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
-        if (tie->kind == constraint_belt) {
+        if (tie->strands > 0) {
             double both = tie->row_count > 1 ? work->z[tie->first_row + 1] : 0,
                    half = work->z[tie->first_row] / 2;
             slots_along[tie->slack_slot[0]] = both + half;

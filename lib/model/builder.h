@@ -48,12 +48,10 @@ void slides_find(struct fbd_model *model);
  */
 bool slips_find(struct fbd_model *model);
 
-/* Refuse gears on fixed axes whose pitch circles do not touch (gear_check.c). */
-void gears_check(struct builder *builder);
-
-/* Put the tension of belts between axes that keep their distance; refuse one that is not said there, or said where the
- * axes move (gear_check.c). */
-void belts_check(struct builder *builder);
+/* Refuse gears on fixed axes whose pitch circles do not touch, wheels that do not touch their racks, and belts whose
+ * tension nothing tells or two things do; put the tension of those between axes that keep their distance
+ * (gear_check.c). */
+void ties_check(struct builder *builder);
 
 /* Give the arrows of each diagram names that differ (arrow_names.c). False when memory is out. */
 bool arrows_name(struct fbd_model *model);

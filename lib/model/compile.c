@@ -352,10 +352,7 @@ static struct fbd_model *compile(struct scene *scene, bool labels, const struct 
         set_rates(&builder);
         set_watches(&builder);
         if (done) done = slips_find(model);
-        if (done) {
-            slides_find(model);
-            gears_check(&builder);
-        }
+        if (done) slides_find(model);
     }
     if (!done) diag_out_of_memory(errors);
     if (fbd_errors_failed_count(errors) > 0) {

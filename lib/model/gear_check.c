@@ -128,18 +128,12 @@ static void check_belt(struct builder *builder, const struct tie *tie)
     if (apart > 0 && tie->source->tension > 0) preload(model->tree, tie, apart);
 }
 
-void belts_check(struct builder *builder)
+static void (*const checks[constraint_kinds])(struct builder *builder, const struct tie *tie) = {
+    [constraint_gear] = check_gear, [constraint_rack] = check_rack, [constraint_belt] = check_belt};
+
+void ties_check(struct builder *builder)
 {
     const struct tree *tree = builder->model->tree;
     for (int i = 0; tree && i < tree->tie_count; i++)
-        if (tree->ties[i].kind == constraint_belt) check_belt(builder, &tree->ties[i]);
-}
-
-void gears_check(struct builder *builder)
-{
-    const struct tree *tree = builder->model->tree;
-    for (int i = 0; tree && i < tree->tie_count; i++) {
-        if (tree->ties[i].kind == constraint_gear) check_gear(builder, &tree->ties[i]);
-        if (tree->ties[i].kind == constraint_rack) check_rack(builder, &tree->ties[i]);
-    }
+        if (checks[tree->ties[i].kind]) checks[tree->ties[i].kind](builder, &tree->ties[i]);
 }

@@ -443,8 +443,7 @@ static void mark_strands(struct fbd_model *model)
     for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
         const struct tie *tie = &model->tree->ties[i];
         if (tie->source->presses != 0) model->plan.slot_constant[tie->normal_slot] = false;
-        if (tie->kind != constraint_belt) continue;
-        for (int k = 0; k < 2; k++) model->plan.slot_constant[tie->slack_slot[k]] = false;
+        for (int k = 0; k < tie->strands; k++) model->plan.slot_constant[tie->slack_slot[k]] = false;
     }
 }
 
@@ -462,7 +461,7 @@ bool plan_build(struct builder *builder)
     for (size_t b = 0; b < model->body_count; b++)
         if (model->bodies[b].place.link > 0) mark_body_slots(model, (int)b);
     mark_strands(model);
-    belts_check(builder);
+    ties_check(builder);
     if (model->tree && !tree_finish(model)) return false;
     body_terms_finish(builder);
     for (size_t i = 0; i < plan->link_count; i++) mark_body_slots(model, plan->links[i].body);

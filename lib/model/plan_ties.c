@@ -55,7 +55,8 @@ static void plan_rope(struct builder *builder, struct tie *tie)
 static void plan_belt(struct builder *builder, struct tie *tie)
 {
     struct plan *plan = &builder->model->plan;
-    for (int k = 0; k < 2; k++) {
+    tie->strands = 2;
+    for (int k = 0; k < tie->strands; k++) {
         tie->slack_slot[k] = plan->slots++;
         plan->contacts[plan->contact_count++] =
             (struct contact){tie->end[0].body, tie->load, tie->slack_slot[k], -1};

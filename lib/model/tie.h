@@ -40,7 +40,8 @@ struct tie {
     double spare[2];     /* and how much there is of it at the start, or HUGE_VAL */
     bool reels;          /* rope: its length goes with the time, from `length` at t = 0 */
     struct formula reel; /* so */
-    int slack_slot[2];   /* belt: where minus the tensions of its strands go */
+    int strands;         /* that must not push: 2 of a belt, else 0 */
+    int slack_slot[2];   /* where minus their tensions go */
     int normal_slot;     /* roll, slot that only presses: where minus its normal force goes */
     int load;            /* roll, rope: its entry in the model's loads */
     int pair;            /* roll, contact: its dry friction; rope: its mode; index into plan.modes, or -1 */

@@ -71,7 +71,7 @@ static const char *limit_name(struct fbd_statics *statics, const struct rest_lim
     const char *name = model->loads[load].source->name;
     for (int i = 0; model->tree && i < model->tree->tie_count; i++) { /* of a rolling body */
         const struct tie *tie = &model->tree->ties[i];
-        if (tie->kind == constraint_belt && tie->load == load)
+        if (tie->strands > 0 && tie->load == load)
             return tie->end[0].name[plan->contacts[limit->index].slot == tie->slack_slot[1]];
         if (tie_presses(tie) && tie->load == load)
             return tie_force_name(model->tree, tie->first_row + (limit->kind != limit_normal));
