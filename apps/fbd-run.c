@@ -64,7 +64,7 @@ static enum exit_code accurate(const fbd_result *result, const fbd_simulation *s
 
 /* ---- the state that --at asks for */
 
-static bool set_coordinate(fbd_state *state, const char *text, fbd_errors *errors)
+static bool set_coordinate(fbd_state *state, const char *text, bool degrees, fbd_errors *errors)
 {
     const char *equals = strchr(text, '=');
     char name[200];
@@ -72,7 +72,7 @@ static bool set_coordinate(fbd_state *state, const char *text, fbd_errors *error
     if (length >= sizeof name) return false;
     memcpy(name, text, length);
     name[length] = '\0';
-    return fbd_state_set_text(state, name, equals + 1, errors);
+    return (degrees ? fbd_state_set_text_degrees : fbd_state_set_text)(state, name, equals + 1, errors);
 }
 
 /* Run until `t` and take the state there. */
@@ -101,7 +101,7 @@ static enum exit_code place(const fbd_model *model, const struct options *option
 {
     for (size_t i = 0; i < options->at_count; i++) {
         if (strchr(options->at[i], '=')) {
-            if (!set_coordinate(state, options->at[i], errors)) return exit_usage;
+            if (!set_coordinate(state, options->at[i], options->degrees, errors)) return exit_usage;
             continue;
         }
         double t;
@@ -262,6 +262,7 @@ static enum exit_code carry_and_write(fbd_simulation *simulation, const struct o
     fbd_recording recording = {.every = options->every,
                                .ledger = options->ledger,
                                .components = options->drawing.components,
+                               .degrees = options->degrees,
                                .csv = options->csv ? whole_file_write : NULL,
                                .csv_context = &outputs->files[output_csv],
                                .motion_only = !options->json && !report,
@@ -276,7 +277,8 @@ static enum exit_code carry_and_write(fbd_simulation *simulation, const struct o
     enum exit_code code = result ? exit_done : refused ? exit_failed : no_memory();
     if (result && !outputs_write(outputs, options, result, errors)) code = exit_failed;
     bool closed = outputs_close(outputs, result && code == exit_done) && outputs_announce(options, code);
-    if (code == exit_done && report) code = print(fbd_result_report(result), exit_done);
+    if (code == exit_done && report)
+        code = print((options->full ? fbd_result_report_full : fbd_result_report)(result), exit_done);
     if (!closed) code = exit_failed;
     fbd_outcome outcome = result ? fbd_result_outcome(result) : FBD_FAILED;
     if (outcome != FBD_FAILED && outcome != FBD_INTERRUPTED && code == exit_done)

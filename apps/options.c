@@ -47,6 +47,8 @@ static const char help[] =
     "  --scale FORCE        10 mm stand for this force, in N or lbf\n"
     "  --worksheet          no arrows, and lines to write on\n"
     "  --solution           the worksheet with its arrows, symbols and values\n"
+    "  --full               all of the report, where it is short as there are many bodies\n"
+    "  --degrees            angles and their rates in degrees: in the report, CSV, JSON, and for --at\n"
     "  --quiet              no report\n"
     "  --watch              again whenever the file changes, or data that it reads; a page of --html reloads "
     "itself\n";
@@ -134,6 +136,8 @@ enum {
     option_live,
     option_fmu,
     option_fmu_version,
+    option_full,
+    option_degrees,
 };
 
 static const struct option long_options[] = {
@@ -182,6 +186,8 @@ static const struct option long_options[] = {
     {"live", no_argument, NULL, option_live},
     {"fmu", required_argument, NULL, option_fmu},
     {"fmu-version", required_argument, NULL, option_fmu_version},
+    {"full", no_argument, NULL, option_full},
+    {"degrees", no_argument, NULL, option_degrees},
     {"schema", no_argument, NULL, option_schema},
     COMMAND_LINE_END,
 };
@@ -284,6 +290,8 @@ static bool take_option(const struct command_line *unused, int option, void *con
     case option_ledger: options->ledger = true; return true;
     case option_error_bars: options->run.error_bars = true; return true;
     case option_quiet: options->quiet = true; return true;
+    case option_full: options->full = true; return true;
+    case option_degrees: options->degrees = true; return true;
     case option_watch: options->watch = true; return true;
     case option_settle: options->settle = true; return true;
     case option_at:
@@ -380,7 +388,8 @@ static bool grading_agrees(const struct options *options)
         options->run.no_structure || isfinite(options->run.until) || options->run.error_bars ||
         options->settle || options->fmu_version || options->svg || options->html || options->plot ||
         options->plot_of || options->gnuplot || options->ledger || options->every > 0 || options->latex ||
-        shapes_drawing(&options->drawing, false) || options->without_count)
+        shapes_drawing(&options->drawing, false) || options->without_count || options->full ||
+        options->degrees)
         return usage("with --grade go --student, --details, --csv, --json and --quiet only; with --handout "
                      "--student only",
                      "");
@@ -454,6 +463,12 @@ static bool options_agree(const struct options *options)
     if (!options->csv && options->ledger) return usage("--ledger goes with --csv", "");
     if (!options->csv && !options->html && options->every > 0)
         return usage("--every goes with --csv or --html", "");
+    if (options->full && (stands_still || options->quiet || options_use_stdout(options)))
+        return usage(
+            "--full is of the report, which --quiet, data to standard output and what is no run leave out",
+            "");
+    if (options->degrees && stands_still && !options->at_count)
+        return usage("--degrees goes with a run, and with --at", "");
     if (stands_still && options->run.error_bars) return usage("--error-bars belongs to a run", "");
     if (options->emit_c && (options->run.method || options->run.accuracy > 0 || options->run.step > 0 ||
                             options->run.no_structure || options->quiet))

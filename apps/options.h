@@ -31,7 +31,7 @@ struct options {
     size_t at_count;
     fbd_options run;
     double every;
-    bool ledger, quiet, settle, latex;
+    bool ledger, quiet, settle, latex, full, degrees;
     const char *csv, *json, *svg, *html;
     const char *plot, *gnuplot, *plot_of;
     const char *emit_c; /* where the program goes, of action_emit_c */

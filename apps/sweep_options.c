@@ -38,6 +38,7 @@ static const char help[] =
     "                         energy.kinetic .potential .work .residual, block.friction.work\n"
     "                         steps, rhs                what the run has cost\n"
     "                         final, times, energy      groups of these\n"
+    "  --degrees            angles and their rates in degrees; what varies stays as it is given\n"
     "  --csv FILE           where the table goes (default: standard output); FILE.part until it is whole\n"
     "  --resume             go on with FILE.part\n"
     "  --quiet              no progress, no summary\n"
@@ -62,6 +63,7 @@ enum {
     option_csv,
     option_resume,
     option_quiet,
+    option_degrees,
 };
 
 static const struct option long_options[] = {
@@ -79,6 +81,7 @@ static const struct option long_options[] = {
     {"csv", required_argument, NULL, option_csv},
     {"resume", no_argument, NULL, option_resume},
     {"quiet", no_argument, NULL, option_quiet},
+    {"degrees", no_argument, NULL, option_degrees},
     COMMAND_LINE_END,
 };
 
@@ -122,6 +125,7 @@ static bool take_option(const struct command_line *line, int option, void *conte
     case option_csv: options->csv = optarg; return true;
     case option_resume: options->resume = true; return true;
     case option_quiet: options->quiet = true; return true;
+    case option_degrees: plan->degrees = true; return true;
     default: return command_line_usage(line, "unknown option, or an option without its value", "");
     }
 }

@@ -225,6 +225,10 @@ FBD_API bool fbd_state_set(fbd_state *state, const char *name, double value);
  * False with a note in `errors`. */
 FBD_API bool fbd_state_set_text(fbd_state *state, const char *name, const char *text, fbd_errors *errors);
 
+/* The same, where a plain number is one of degrees, of the rate of an angle of degrees in a second. */
+FBD_API bool fbd_state_set_text_degrees(fbd_state *state, const char *name, const char *text,
+                                        fbd_errors *errors);
+
 /* Make a state one that a motion can start at: bodies with `assemble` find their place, and the others fit
  * their couplings to six digits. False with a note in `errors` of what a run would be refused for at its
  * start: `does-not-fit` (which coupling is off, and the nearest state that fits), `not-finite` (which force,
@@ -471,6 +475,9 @@ typedef struct fbd_recording {
     bool components; /* where forces are shown: also their components, and moments about the centre of mass */
     unsigned
         rows; /* of `keep`: at least so many at regular times; 0 for 2000, which play smoothly at any zoom */
+    bool
+        degrees; /* CSV, table, report and JSON show angles and their rates in degrees: of coordinates, of what
+                     `assemble` has decided, and their errors. Equations hold in radians, as do pages and plots */
 } fbd_recording;
 
 /* A column of the rows of a run: "t", "block.x", with error bars "block.x ±" beside it; and its unit. */
@@ -536,8 +543,10 @@ FBD_API size_t fbd_result_force_errors(fbd_result *result, size_t body, fbd_arro
  * that nothing can be said of because the run failed or was interrupted. */
 FBD_API bool fbd_result_accurate(const fbd_result *result);
 
-/* The same as text, to be freed with fbd_free; NULL when memory is out. */
+/* The same as text, to be freed with fbd_free; NULL when memory is out. Of a scene of more than twelve bodies the report
+ * is short: totals, events by their kinds, some of the states, the largest forces; fbd_result_report_full has all. */
 FBD_API char *fbd_result_report(fbd_result *result);
+FBD_API char *fbd_result_report_full(fbd_result *result);
 FBD_API char *fbd_result_json(fbd_result *result);
 
 /* Plots of a run as a script for gnuplot that carries its data. `columns`: names of the CSV's columns with
@@ -723,6 +732,7 @@ typedef struct fbd_sweep_plan {
     const char *const *outputs;
     size_t output_count;
     const fbd_options *run; /* NULL for the file's; without error bars and accuracy: a row is one run */
+    bool degrees; /* what is noted of angles and their rates is in degrees; what varies is as given */
 } fbd_sweep_plan;
 
 /* Read a model file ("-" is standard input) or a text, for a sweep. NULL with notes in `errors`: those of a

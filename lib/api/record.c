@@ -235,6 +235,7 @@ fbd_result *record(fbd_simulation *simulation, const fbd_recording *recording)
     if (!result) return NULL;
     double begin = processor_seconds();
     result->simulation = simulation;
+    result->degrees = recording && recording->degrees;
     simulation->seconds = 0;
     bool done = record_into(result, recording);
     simulation->runs++;

@@ -8,6 +8,7 @@
 #include "base/call.h"
 #include "dynamics/modes.h"
 #include "dynamics/project.h"
+#include "output/shown.h"
 #include "solve/start.h"
 
 fbd_state *fbd_state_new(const fbd_model *model)
@@ -58,7 +59,7 @@ static struct symbol no_name(void *context, const char *name, struct pos at)
     return (struct symbol){.kind = symbol_unknown};
 }
 
-static bool set_text(fbd_state *state, const char *name, const char *text, fbd_errors *errors)
+static bool set_text(fbd_state *state, const char *name, const char *text, bool degrees, fbd_errors *errors)
 {
     const fbd_model *model = state->model;
     int n = model->plan.n, index = model_find_component(model, name, true);
@@ -71,31 +72,42 @@ static bool set_text(fbd_state *state, const char *name, const char *text, fbd_e
     }
     struct scope scope = {.lookup = no_name, .units = model->scene->units};
     struct expr_want want = {.constant = true, .what = name};
+    const struct shown shown = shown_component(model, (size_t)index, degrees);
     if (index < 2 * n) {
         const struct coordinate *c = &model->scene->coordinates[index % n];
         want.dim = index < n ? c->dim : c->rate_dim;
-        want.angle = c->angle && index < n;
+        want.angle = c->angle && index < n && !degrees;
     } else {
         want.dim = model->scene->own[index - 2 * n].dim;
     }
     struct arena arena = {0};
     const struct expr *expr = expr_compile(&arena, text, (struct pos){0, 0}, &scope, &want, errors);
     if (expr) {
-        state->y[index] = expr_value(expr);
+        state->y[index] = expr_value(expr) * (expr_is_bare(expr) ? shown.size : 1);
         state->settled = false;
     }
     arena_free(&arena);
     return expr != NULL;
 }
 
-bool fbd_state_set_text(fbd_state *state, const char *name, const char *text, fbd_errors *list)
+static bool set_named(fbd_state *state, const char *name, const char *text, bool degrees, fbd_errors *list)
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    bool set = state && name && text ? set_text(state, name, text, errors)
+    bool set = state && name && text ? set_text(state, name, text, degrees, errors)
                                      : call_refuse(errors, "there is no state, name or text") != NULL;
     diag_end(&call);
     return set;
+}
+
+bool fbd_state_set_text(fbd_state *state, const char *name, const char *text, fbd_errors *errors)
+{
+    return set_named(state, name, text, false, errors);
+}
+
+bool fbd_state_set_text_degrees(fbd_state *state, const char *name, const char *text, fbd_errors *errors)
+{
+    return set_named(state, name, text, true, errors);
 }
 
 static bool close_state(fbd_state *state, fbd_errors *errors)

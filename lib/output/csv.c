@@ -6,6 +6,7 @@
 
 #include "output/finite_result.h"
 #include "output/force_columns.h"
+#include "output/shown.h"
 #include "output/world.h"
 
 enum { default_rows = 500 };
@@ -56,18 +57,22 @@ static void ledger_headers(struct csv *csv, const struct fbd_state *start)
     for (int k = 0; k < 4; k++) header(csv, "energy", energies[k], "", energy_unit(csv->model));
 }
 
+static void component_header(struct csv *csv, int i)
+{
+    const struct shown shown = shown_component(csv->model, (size_t)i, csv->recording->degrees);
+    header(csv, shown.name, "", "", shown.unit);
+}
+
 static void headers(struct csv *csv, const struct fbd_state *start)
 {
     const struct fbd_model *model = csv->model;
     head(csv, "t", "s");
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
-        const struct label *labels = model->labels + body->first;
-        for (int k = 0; k < body->count; k++) header(csv, labels[k].name, "", "", labels[k].unit);
-        for (int k = 0; k < body->count; k++) header(csv, labels[k].rate_name, "", "", labels[k].rate_unit);
+        for (int k = 0; k < body->count; k++) component_header(csv, body->first + k);
+        for (int k = 0; k < body->count; k++) component_header(csv, body->first_rate + k);
     }
-    for (int i = 0; i < model->plan.own; i++)
-        header(csv, model->own_labels[i].name, "", "", model->own_labels[i].unit);
+    for (int i = 0; i < model->plan.own; i++) component_header(csv, 2 * model->plan.n + i);
     for (size_t i = 0; i < model->scene->output_point_count; i++)
         for (int part = 0; part < world_parts; part++)
             header(csv, model->scene->output_points[i].name, world_part_name((enum world_part)part), "",
@@ -164,8 +169,9 @@ static bool put_row(struct csv *csv)
 
 static void component(struct csv *csv, const struct fbd_state *state, int i)
 {
-    number(csv, state->y[i]);
-    if (csv->bars) error(csv, bars_component(csv->bars, state, (size_t)i));
+    const double size = shown_component(csv->model, (size_t)i, csv->recording->degrees).size;
+    number(csv, state->y[i] / size);
+    if (csv->bars) error(csv, bars_component(csv->bars, state, (size_t)i) / size);
 }
 
 /* A row with a number that is not finite is not written: it ends the run. */

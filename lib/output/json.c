@@ -9,6 +9,7 @@
 #include "output/couplings.h"
 #include "output/equations.h"
 #include "output/result.h"
+#include "output/shown.h"
 #include "output/world.h"
 
 static void member(struct text *text, const char *name, double value, bool last)
@@ -45,8 +46,16 @@ static void write_own(struct text *text, const struct fbd_model *model, const do
     text_add(text, "}");
 }
 
-static void write_final(struct text *text, const struct fbd_model *model, const struct fbd_state *state)
+/* A number of y as it is shown. */
+static void component(struct text *text, const fbd_result *result, const struct fbd_state *state, int i,
+                      const char *name, bool last)
 {
+    member(text, name, state->y[i] / shown_component(state->model, (size_t)i, result->degrees).size, last);
+}
+
+static void write_final(struct text *text, const fbd_result *result, const struct fbd_state *state)
+{
+    const struct fbd_model *model = state->model;
     text_add(text, "  \"final\": {");
     member(text, "t", state->t, true);
     for (size_t b = 0; b < model->body_count; b++) {
@@ -55,10 +64,11 @@ static void write_final(struct text *text, const struct fbd_model *model, const 
         text_json_key(text, body->name);
         text_add(text, "{");
         for (int k = 0; k < body->count; k++)
-            member(text, model->scene->coordinates[body->first + k].name, state->y[body->first + k], false);
+            component(text, result, state, body->first + k, model->scene->coordinates[body->first + k].name,
+                      false);
         for (int k = 0; k < body->count; k++)
-            member(text, model->scene->coordinates[body->first + k].rate_name, state->y[body->first_rate + k],
-                   k + 1 == body->count);
+            component(text, result, state, body->first_rate + k,
+                      model->scene->coordinates[body->first + k].rate_name, k + 1 == body->count);
         text_add(text, "}");
     }
     write_own(text, model, state->y + plan_own_place(&model->plan), ",\n    ");
@@ -98,8 +108,9 @@ static void write_own_errors(struct text *text, struct bars *bars, const struct 
 }
 
 /* As `final`, without the time. */
-static void write_final_errors(struct text *text, const fbd_simulation *simulation)
+static void write_final_errors(struct text *text, const fbd_result *result)
 {
+    const fbd_simulation *simulation = result->simulation;
     const struct fbd_model *model = simulation->ensemble->model;
     const struct fbd_state *state = ensemble_state(simulation->ensemble);
     if (!simulation->bars) return;
@@ -111,11 +122,12 @@ static void write_final_errors(struct text *text, const fbd_simulation *simulati
         text_add(text, "{");
         for (int k = 0; k < 2 * body->count; k++) {
             bool rate = k >= body->count;
-            int i = k % body->count;
+            int i = k % body->count, place = (rate ? body->first_rate : body->first) + i;
             const struct coordinate *c = &model->scene->coordinates[body->first + i];
-            int component = (rate ? body->first_rate : body->first) + i;
             member(text, rate ? c->rate_name : c->name,
-                   bars_component(simulation->bars, state, (size_t)component), k + 1 == 2 * body->count);
+                   bars_component(simulation->bars, state, (size_t)place) /
+                       shown_component(model, (size_t)place, result->degrees).size,
+                   k + 1 == 2 * body->count);
         }
         text_add(text, "}");
     }
@@ -368,14 +380,15 @@ char *fbd_result_json(fbd_result *result)
     struct text text = {0};
     text_add(&text, "{\n  \"title\": ");
     text_json_string(&text, model->scene->title);
-    text_printf(&text, ",\n  \"units\": \"%s\",\n  \"outcome\": \"%s\",\n  \"reason\": ",
-                model->scene->units == unit_si ? "SI" : "US", outcome_name(run->outcome));
+    text_printf(&text, ",\n  \"units\": \"%s\",\n%s  \"outcome\": \"%s\",\n  \"reason\": ",
+                model->scene->units == unit_si ? "SI" : "US",
+                result->degrees ? "  \"angles\": \"deg\",\n" : "", outcome_name(run->outcome));
     text_json_string(&text, run->reason);
     text_add(&text, ",\n");
     state_ready(end);
-    write_final(&text, model, end);
+    write_final(&text, result, end);
     write_points(&text, model, end);
-    write_final_errors(&text, simulation);
+    write_final_errors(&text, result);
     write_events(&text, simulation);
     write_forces(&text, result, end);
     write_balances(&text, result, end);

@@ -9,16 +9,10 @@
 #include "dynamics/mass.h"
 #include "output/couplings.h"
 #include "output/equations.h"
-#include "output/result.h"
+#include "output/report.h"
+#include "output/shown.h"
 
-enum { digits = 9, most_events = 40 };
-
-/* What writes a run: columns are further apart with error bars. */
-struct page {
-    struct text *text;
-    fbd_result *result;
-    struct bars *bars; /* NULL without */
-};
+enum { digits = report_digits, most_events = 40 };
 
 static size_t column(const struct page *page, size_t plain, size_t with_bars)
 {
@@ -37,7 +31,7 @@ static void plus_minus(const struct page *page, double error)
 
 /* ---- events; switches of expressions are counted, not listed, when there are many */
 
-static void write_event(const struct page *page, size_t index)
+void report_event(const struct page *page, size_t index)
 {
     struct text *text = page->text;
     const fbd_simulation *simulation = page->result->simulation;
@@ -71,7 +65,7 @@ static void write_events(const struct page *page)
     for (size_t i = 0; i < count; i++) {
         if (run->events[i].kind == FBD_EVENT_SWITCH && !with_switches) continue;
         if (shown < most_events || i + 1 == count) {
-            write_event(page, i);
+            report_event(page, i);
             shown++;
         } else {
             hidden++;
@@ -110,43 +104,56 @@ static void write_mass(const struct page *page, const struct model_body *body, c
     text_printf(page->text, " %s", state->model->scene->units == unit_si ? "kg" : "slug");
 }
 
-static void write_final(const struct page *page)
+/* An entry of y as `name = value unit`. */
+static void write_component(const struct page *page, const struct fbd_state *state, size_t component,
+                            const char *name)
+{
+    const struct shown shown = shown_component(state->model, component, page->result->degrees);
+    struct text *text = page->text;
+    text_printf(text, "%s = ", name);
+    text_number(text, state->y[component] / shown.size, digits);
+    if (page->bars) plus_minus(page, bars_component(page->bars, state, component) / shown.size);
+    text_printf(text, "%s%s", unit_word(shown.unit)[0] ? " " : "", unit_word(shown.unit));
+}
+
+void report_body_state(const struct page *page, struct fbd_state *state, size_t b)
 {
     struct text *text = page->text;
-    struct fbd_state *state = fbd_result_state(page->result);
     const struct fbd_model *model = state->model;
-    text_add(text, "\nFinal state at t = ");
-    text_number(text, state->t, digits);
-    text_add(text, " s\n");
-    for (size_t b = 0; b < model->body_count; b++) {
-        const struct model_body *body = &model->bodies[b];
-        text_printf(text, "  %s", body->name);
-        for (int k = 0; k < 2 * body->count; k++) {
-            int i = body->first + k % body->count;
-            bool rate = k >= body->count;
-            const struct coordinate *c = &model->scene->coordinates[i];
-            const struct label *label = &model->labels[i];
-            int component = rate ? i + model->plan.n : i;
-            text_pad(text, 16 + column(page, 26, 38) * (size_t)k);
-            text_printf(text, " %s = ", rate ? c->rate_name : c->name);
-            text_number(text, state->y[component], digits);
-            if (page->bars) plus_minus(page, bars_component(page->bars, state, (size_t)component));
-            text_printf(text, " %s", rate ? label->rate_unit : label->unit);
-        }
-        if (body->varies) write_mass(page, body, state);
-        if (body->friction >= 0) write_friction(text, state, (int)b);
-        text_add(text, "\n");
+    const struct model_body *body = &model->bodies[b];
+    text_printf(text, "  %s", body->name);
+    for (int k = 0; k < 2 * body->count; k++) {
+        const int i = body->first + k % body->count;
+        const bool rate = k >= body->count;
+        const struct coordinate *c = &model->scene->coordinates[i];
+        text_pad(text, 16 + column(page, 26, 38) * (size_t)k);
+        text_add(text, " ");
+        write_component(page, state, (size_t)(rate ? i + model->plan.n : i), rate ? c->rate_name : c->name);
     }
-    for (int i = 0; i < model->plan.own; i++) {
-        const struct own_label *label = &model->own_labels[i];
-        size_t component = plan_own_place(&model->plan) + (size_t)i;
-        text_printf(text, "  %s", label->name);
-        text_pad(text, 16);
-        text_add(text, " = ");
-        text_number(text, state->y[component], digits);
-        if (page->bars) plus_minus(page, bars_component(page->bars, state, component));
-        text_printf(text, "%s%s\n", unit_word(label->unit)[0] ? " " : "", unit_word(label->unit));
+    if (body->varies) write_mass(page, body, state);
+    if (body->friction >= 0) write_friction(text, state, (int)b);
+    text_add(text, "\n");
+}
+
+void report_own_states(const struct page *page, const struct fbd_state *state)
+{
+    const struct plan *plan = &state->model->plan;
+    for (size_t i = 0; i < (size_t)plan->own; i++) {
+        text_printf(page->text, "  %s", state->model->own_labels[i].name);
+        text_pad(page->text, 16);
+        write_component(page, state, plan_own_place(plan) + i, "");
+        text_add(page->text, "\n");
     }
+}
+
+static void write_final(const struct page *page)
+{
+    struct fbd_state *state = fbd_result_state(page->result);
+    text_add(page->text, "\nFinal state at t = ");
+    text_number(page->text, state->t, digits);
+    text_add(page->text, " s\n");
+    for (size_t b = 0; b < state->model->body_count; b++) report_body_state(page, state, b);
+    report_own_states(page, state);
 }
 
 /* A number and its error, `other` being the companion's. */
@@ -262,7 +269,7 @@ static void write_potentials(const struct page *page)
     if (before[0] == ',') text_add(page->text, "\n");
 }
 
-static void write_energy(const struct page *page)
+void report_energy(const struct page *page)
 {
     fbd_energy energy = fbd_result_energy(page->result), error = fbd_result_energy_error(page->result);
     text_add(page->text, "\nEnergy                start             end\n");
@@ -332,14 +339,12 @@ static void write_accuracy(const struct page *page, const fbd_stats *stats)
                 stats->runs, stats->runs == 1 ? "" : "s", 1e3 * stats->seconds_spent);
 }
 
-/* With which values it ran. */
-static void write_parameters(const struct page *page)
+void report_parameters(const struct page *page, size_t most)
 {
-    enum { most_parameters = 40 };
     const struct scene *scene = page->result->ledger.model->scene;
     struct text *text = page->text;
     if (scene->parameter_count > 0) text_add(text, "\nParameters\n");
-    for (size_t i = 0; i < scene->parameter_count && i < most_parameters; i++) {
+    for (size_t i = 0; i < scene->parameter_count && i < most; i++) {
         const struct parameter *parameter = &scene->parameters[i];
         text_printf(text, "  %s", parameter->name);
         text_pad(text, 16);
@@ -348,11 +353,10 @@ static void write_parameters(const struct page *page)
         text_printf(text, "%s%s%s\n", unit_word(parameter->unit)[0] ? " " : "", unit_word(parameter->unit),
                     parameter->input ? ", an input" : "");
     }
-    if (scene->parameter_count > most_parameters)
-        text_printf(text, "  and %zu more\n", scene->parameter_count - most_parameters);
+    if (scene->parameter_count > most) text_printf(text, "  and %zu more\n", scene->parameter_count - most);
 }
 
-static void write_cost(const struct page *page)
+void report_cost(const struct page *page)
 {
     struct text *text = page->text;
     fbd_stats stats = fbd_simulation_stats(page->result->simulation);
@@ -367,8 +371,10 @@ static void write_cost(const struct page *page)
 }
 
 /* What `assemble: true` has decided. */
-static void write_assembled(struct text *text, const struct fbd_model *model, const struct fbd_state *start)
+static void write_assembled(const struct page *page, const struct fbd_model *model,
+                            const struct fbd_state *start)
 {
+    struct text *text = page->text;
     if (!model->assembles) return;
     text_add(text, "Assembled at the start\n");
     for (size_t b = 0; b < model->body_count; b++) {
@@ -377,45 +383,66 @@ static void write_assembled(struct text *text, const struct fbd_model *model, co
             int i = body->first + k % body->count;
             bool rate = k >= body->count;
             const struct coordinate *c = &model->scene->coordinates[i];
-            const struct label *label = &model->labels[i];
-            text_add(text, "  ");
-            text_printf(text, "%s = ", rate ? label->rate_name : label->name);
-            text_number(text, start->y[rate ? i + model->plan.n : i], digits);
-            text_printf(text, " %s", rate ? label->rate_unit : label->unit);
-            text_add(text, ", looked for near ");
-            text_number(text, rate ? c->initial_rate : c->initial, digits);
+            size_t component = (size_t)(rate ? i + model->plan.n : i);
+            const struct shown shown = shown_component(model, component, page->result->degrees);
+            text_printf(text, "  %s = ", shown.name);
+            text_number(text, start->y[component] / shown.size, digits);
+            text_printf(text, " %s, looked for near ", shown.unit);
+            text_number(text, (rate ? c->initial_rate : c->initial) / shown.size, digits);
             text_add(text, "\n");
         }
     }
     text_add(text, "\n");
 }
 
-char *fbd_result_report(fbd_result *result)
+/* All there is to say. */
+static void write_full(const struct page *page)
+{
+    enum { most_parameters = 40 };
+    fbd_result *result = page->result;
+    const struct ensemble *run = result->simulation->ensemble;
+    write_assembled(page, run->model, result->start);
+    equations_write(page->text, result->start, false);
+    state_ready(fbd_result_state(result));
+    write_events(page);
+    report_early_end(page);
+    write_final(page);
+    write_forces(page);
+    report_energy(page);
+    couplings_report(page->text, result);
+    report_parameters(page, most_parameters);
+    report_cost(page);
+}
+
+void report_early_end(const struct page *page)
+{
+    const char *reason = page->result->simulation->ensemble->reason;
+    if (reason[0]) text_printf(page->text, "\nThe run ended early: %s.\n", reason);
+}
+
+static char *report(fbd_result *result, bool full)
 {
     if (!result) return NULL;
-    fbd_simulation *simulation = result->simulation;
-    struct ensemble *run = simulation->ensemble;
-    struct fbd_state *end = ensemble_state(run);
-    const struct fbd_model *model = run->model;
+    const struct ensemble *run = result->simulation->ensemble;
     struct text text = {0};
-    text_heading(&text, model->scene->title);
-    if (run->refused) { /* nothing has moved, and its equations may have no numbers */
+    const struct page page = {&text, result, result->simulation->bars};
+    text_heading(&text, run->model->scene->title);
+    if (run->refused) /* nothing has moved, and its equations may have no numbers */
         text_printf(&text, "The run did not start: %s.\n", run->reason);
-        if (text.failed) text_free(&text);
-        return text.data;
-    }
-    write_assembled(&text, model, result->start);
-    equations_write(&text, result->start, false);
-    state_ready(end);
-    const struct page page = {&text, result, simulation->bars};
-    write_events(&page);
-    if (run->reason[0]) text_printf(&text, "\nThe run ended early: %s.\n", run->reason);
-    write_final(&page);
-    write_forces(&page);
-    write_energy(&page);
-    couplings_report(&text, result);
-    write_parameters(&page);
-    write_cost(&page);
+    else if (full || run->model->body_count <= report_few_bodies)
+        write_full(&page);
+    else
+        report_short(&page);
     if (text.failed) text_free(&text);
     return text.data;
+}
+
+char *fbd_result_report(fbd_result *result)
+{
+    return report(result, false);
+}
+
+char *fbd_result_report_full(fbd_result *result)
+{
+    return report(result, true);
 }

@@ -33,6 +33,7 @@ struct fbd_result {
     struct fbd_state *start; /* the state at the start */
     struct record *record;   /* for the page and for plots (draw/record.h), NULL without */
     struct numbers numbers;  /* the rows as numbers; empty without */
+    bool degrees;            /* angles are shown in degrees */
 };
 
 /* What happened, in a few words: "friction +4.81 N holds, limit 8.496 N". Writes at most `size` bytes. */

@@ -2,6 +2,7 @@
 #include "study/columns.h"
 
 #include "output/result.h"
+#include "output/shown.h"
 #include "solve/switcher.h"
 
 #include <math.h>
@@ -15,6 +16,7 @@ struct list {
     struct arena *arena;
     const struct fbd_model *model;
     fbd_errors *errors;
+    bool degrees;
 };
 
 static bool add(struct list *list, struct column column)
@@ -40,24 +42,13 @@ static const char *title(struct list *list, const char *name, const char *unit)
 
 /* ---- coordinates and rates */
 
-static const char *name_in_y(const struct fbd_model *model, int index)
-{
-    int n = model->plan.n;
-    if (index >= 2 * n) return model->own_labels[index - 2 * n].name;
-    return index < n ? model->labels[index].name : model->labels[index - n].rate_name;
-}
-
-static const char *unit_in_y(const struct fbd_model *model, int index)
-{
-    int n = model->plan.n;
-    if (index >= 2 * n) return model->own_labels[index - 2 * n].unit;
-    return index < n ? model->labels[index].unit : model->labels[index - n].rate_unit;
-}
-
 static bool add_final(struct list *list, int index)
 {
-    const char *name = name_in_y(list->model, index), *unit = unit_in_y(list->model, index);
-    return add(list, (struct column){.title = title(list, name, unit), .kind = column_final, .index = index});
+    const struct shown shown = shown_component(list->model, (size_t)index, list->degrees);
+    return add(list, (struct column){.title = title(list, shown.name, shown.unit),
+                                     .kind = column_final,
+                                     .index = index,
+                                     .size = shown.size});
 }
 
 static bool add_world(struct list *list, const char *name, const struct world_quantity *point)
@@ -72,17 +63,21 @@ static bool add_extreme(struct list *list, int sign, int index, const char *name
 {
     struct columns *columns = list->columns;
     const struct fbd_model *model = list->model;
+    struct shown shown = {name, "", 1};
+    if (index < 0)
+        shown.unit = world_part_unit(model, point->part);
+    else
+        shown = shown_component(model, (size_t)index, list->degrees);
     struct extreme *larger = ARENA_ARRAY(list->arena, columns->extreme_count + 1, struct extreme);
     if (!larger) return false;
     if (columns->extreme_count) memcpy(larger, columns->extremes, columns->extreme_count * sizeof *larger);
     larger[columns->extreme_count] = (struct extreme){.index = index, .point = *point, .sign = sign};
     columns->extremes = larger;
     const char *text =
-        arena_printf(list->arena, "%s(%s) [%s]", sign > 0 ? "max" : "min",
-                     index < 0 ? name : name_in_y(model, index),
-                     index < 0 ? world_part_unit(model, point->part) : unit_in_y(model, index));
+        arena_printf(list->arena, "%s(%s) [%s]", sign > 0 ? "max" : "min", shown.name, shown.unit);
     return add(list, (struct column){.title = text,
                                      .kind = column_extreme,
+                                     .size = shown.size,
                                      .index = (int)columns->extreme_count++});
 }
 
@@ -249,9 +244,9 @@ static bool add_list(struct list *list, const char *text)
 }
 
 bool columns_read(struct columns *columns, struct arena *arena, const struct fbd_model *model,
-                  const char *const *texts, size_t count, fbd_errors *errors)
+                  const char *const *texts, size_t count, bool degrees, fbd_errors *errors)
 {
-    struct list list = {columns, arena, model, errors};
+    struct list list = {columns, arena, model, errors, degrees};
     bool fine = true;
     *columns = (struct columns){0};
     errors->file = "--output";
@@ -313,14 +308,14 @@ static void put(const struct column *column, const struct observed *o, struct te
     struct ensemble *run = o->run;
     switch (column->kind) {
     case column_t: put_number(text, run->t); return;
-    case column_final: put_number(text, ensemble_state(run)->y[column->index]); return;
+    case column_final: put_number(text, ensemble_state(run)->y[column->index] / column->size); return;
     case column_world: {
         double values[world_parts];
         world_values(ensemble_state(run), column->point.body, column->point.point, values);
         put_number(text, values[column->point.part]);
         return;
     }
-    case column_extreme: put_number(text, o->extremes[column->index].value); return;
+    case column_extreme: put_number(text, o->extremes[column->index].value / column->size); return;
     case column_time:
     case column_count: put_event(column, run, text); return;
     case column_energy: {

@@ -37,6 +37,7 @@ struct column {
         column_rhs,
     } kind;
     int index;
+    double size; /* final, extreme: of the unit that it is shown in */
     struct world_quantity point;
     /* time, count: of which events; -1 for any */
     int event, body, watch;
@@ -50,10 +51,10 @@ struct columns {
     bool ledger; /* energies or works are wanted */
 };
 
-/* Read lists of names, separated by commas; without any, `final` and `times`. False with notes in `errors`
- * (id `unknown-output`). Memory comes from `arena`. */
+/* Read lists of names, separated by commas; without any, `final` and `times`; angles in degrees if that is asked for.
+ * False with notes in `errors` (id `unknown-output`). Memory comes from `arena`. */
 bool columns_read(struct columns *columns, struct arena *arena, const struct fbd_model *model,
-                  const char *const *texts, size_t count, fbd_errors *errors);
+                  const char *const *texts, size_t count, bool degrees, fbd_errors *errors);
 
 /* What was seen of a run. */
 struct observed {

@@ -170,6 +170,7 @@ static void set_key(struct fbd_sweep *sweep, const fbd_sweep_plan *plan)
     for (size_t i = 0; i < plan->vary_count; i++) text_printf(key, "vary %s\n", plan->vary[i]);
     text_printf(key, "%s, seed %lu\n", plan->zip ? "side by side" : "each with each", plan->seed);
     for (size_t i = 0; i < plan->output_count; i++) text_printf(key, "output %s\n", plan->outputs[i]);
+    if (plan->degrees) text_add(key, "angles in degrees\n");
     text_printf(key, "method %s, tolerance ", plan->run->method ? plan->run->method : "of the file");
     text_number(key, plan->run->tolerance, 17);
     text_add(key, ", step ");
@@ -247,7 +248,8 @@ static bool build(struct fbd_sweep *sweep, const char *name, const fbd_sweep_pla
     if (!options_choose(sweep->base, &sweep->options, &chosen, errors)) return false;
     if (refuse_errors(&sweep->options, errors)) return false;
     warn_of_accuracy(sweep, errors);
-    if (!columns_read(&sweep->columns, &sweep->arena, sweep->base, plan->outputs, plan->output_count, errors))
+    if (!columns_read(&sweep->columns, &sweep->arena, sweep->base, plan->outputs, plan->output_count,
+                      plan->degrees, errors))
         return false;
     bool first = try_values(sweep, 0, errors);
     if (!first || (sweep->axes.runs > 1 && !try_values(sweep, sweep->axes.runs - 1, errors))) return false;

@@ -144,6 +144,8 @@ static void states(void **context)
     REFUSES(fbd_state_set_text, !fbd_state_set_text(NULL, "block.x", "1", errors));
     REFUSES(fbd_state_set_text, !fbd_state_set_text(state, NULL, "1", errors));
     REFUSES(fbd_state_set_text, !fbd_state_set_text(state, "block.x", NULL, errors));
+    REFUSES(fbd_state_set_text_degrees, !fbd_state_set_text_degrees(NULL, "block.x", "1", errors));
+    REFUSES(fbd_state_set_text_degrees, !fbd_state_set_text_degrees(state, "block.x", NULL, errors));
     REFUSES(fbd_state_close, !fbd_state_close(NULL, errors));
     ANSWERS(fbd_state_get, !fbd_state_get(NULL, "block.x", &value));
     ANSWERS(fbd_state_get, !fbd_state_get(state, NULL, &value));
@@ -273,6 +275,7 @@ static void results(void **context)
     ANSWERS(fbd_result_force_errors, fbd_result_force_errors(result, 0, NULL, 3) > 0);
     ANSWERS(fbd_result_accurate, !fbd_result_accurate(NULL));
     ANSWERS(fbd_result_report, !fbd_result_report(NULL));
+    ANSWERS(fbd_result_report_full, !fbd_result_report_full(NULL));
     ANSWERS(fbd_result_json, !fbd_result_json(NULL));
     REFUSES(fbd_result_gnuplot, !fbd_result_gnuplot(NULL, NULL, NULL, errors));
     ANSWERS(fbd_has_html, fbd_has_html() || true);

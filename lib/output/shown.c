@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "output/shown.h"
+
+struct shown shown_component(const struct fbd_model *model, size_t index, bool degrees)
+{
+    const double degree = 3.14159265358979323846 / 180;
+    const size_t n = (size_t)model->plan.n;
+    if (index >= 2 * n)
+        return (struct shown){model->own_labels[index - 2 * n].name, model->own_labels[index - 2 * n].unit,
+                              1};
+    const bool rate = index >= n;
+    const struct label *label = &model->labels[index % n];
+    struct shown shown = {rate ? label->rate_name : label->name, rate ? label->rate_unit : label->unit, 1};
+    if (!degrees || !model->scene->coordinates[index % n].angle) return shown;
+    shown.unit = rate ? "deg/s" : "deg";
+    shown.size = degree;
+    return shown;
+}
