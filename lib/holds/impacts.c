@@ -6,33 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "holds/holds.h"
 #include "holds/parts.h"
-
-/* ---- energy */
-
-/* v += W P for impulses that are added, and the work that they do. */
-static double add_impulses(const struct impacts *impacts, const double *P, double *v)
-{
-    int n = 2 * impacts->count;
-    double work = 0;
-    for (int i = 0; i < n; i++) {
-        double gain = 0;
-        for (int j = 0; j < n; j++) gain += impacts->W[i * n + j] * P[j];
-        work += P[i] * (v[i] + gain / 2);
-        v[i] += gain;
-    }
-    return work;
-}
-
-/* The work of normal impulses between two velocities, the way from one to the other being straight. */
-static double normal_work(const struct impacts *impacts, const double *P, const double *before,
-                          const double *after, int point)
-{
-    int row = 2 * point;
-    (void)impacts;
-    return P[row] * (before[row] + after[row]) / 2;
-}
+#include "holds/together.h"
 
 /* ---- one after the other */
 
@@ -117,205 +92,6 @@ static enum impacts_end propagate(struct impacts *impacts)
     return impacts_endless;
 }
 
-/* ---- all together */
-
-struct together {
-    const struct impacts *impacts;
-    struct hold_problem problem;
-    double *compressed; /* 2 count: velocities */
-    double *P;          /* 2 count: impulses of compression */
-    double *v, *more;   /* 2 count: velocities after restitution, its impulses */
-};
-
-static bool together_new(struct together *together, const struct impacts *impacts, bool guides)
-{
-    size_t count = (size_t)impacts->count, n = 2 * count;
-    *together = (struct together){.impacts = impacts};
-    if (!holds_new(&together->problem, n, guides ? count : 0)) return false;
-    together->compressed = calloc(4 * n + 1, sizeof(double));
-    if (!together->compressed) return false;
-    together->P = together->compressed + n;
-    together->v = together->P + n;
-    together->more = together->v + n;
-    memcpy(together->problem.A, impacts->W, n * n * sizeof(double));
-    for (size_t i = 0; i < count; i++) {
-        struct hold *along = &together->problem.holds[2 * i + 1];
-        along->kind = hold_friction;
-        along->mu_s = along->mu_k = impacts->points[i].mu;
-        along->press = guides ? press_guide : press_hold;
-        along->presses = (int)(guides ? i : 2 * i);
-        if (guides) together->problem.B[i * n + 2 * i] = 1;
-    }
-    return true;
-}
-
-static void together_free(struct together *together)
-{
-    holds_free(&together->problem);
-    free(together->compressed);
-}
-
-static enum impacts_end decide(struct together *together)
-{
-    enum holds_found found = holds_decide(&together->problem);
-    if (found == holds_decided || found == holds_several) found = holds_share(&together->problem);
-    if (found == holds_no_memory) return impacts_no_memory;
-    return found == holds_decided ? impacts_done : impacts_unsolvable;
-}
-
-/* What closes no more, or does not slip, has that velocity exactly. */
-static void take(const struct together *together, double *v)
-{
-    for (int i = 0; i < 2 * together->impacts->count; i++) {
-        const struct hold *hold = &together->problem.holds[i];
-        v[i] = hold->mode == hold_keeps ? 0 : hold->c;
-    }
-}
-
-/* Compression; with `newton` all of the impact. */
-static enum impacts_end compress(struct together *together)
-{
-    const struct impacts *impacts = together->impacts;
-    bool newton = impact_by_velocity(impacts->law);
-    for (int i = 0; i < 2 * impacts->count; i++) {
-        bool bounces = newton && i % 2 == 0 && impacts->v[i] < 0;
-        together->problem.holds[i].free = (bounces ? 1 + impacts->points[i / 2].e : 1) * impacts->v[i];
-    }
-    enum impacts_end end = decide(together);
-    if (end != impacts_done) return end;
-    take(together, together->compressed);
-    for (int i = 0; i < 2 * impacts->count; i++) {
-        bool bounces = newton && i % 2 == 0 && impacts->v[i] < 0;
-        if (bounces) together->compressed[i] -= impacts->points[i / 2].e * impacts->v[i];
-        together->P[i] = together->problem.holds[i].force;
-    }
-    return impacts_done;
-}
-
-/* Restitution with `share` of e: given normal impulses, the friction that they bring, and what then holds up
- * what would close. */
-static enum impacts_end restore(struct together *together, double share)
-{
-    const struct impacts *impacts = together->impacts;
-    int count = impacts->count, n = 2 * count;
-    double *given = together->more;
-    for (int i = 0; i < count; i++) {
-        int row = 2 * i;
-        given[row] = share * impacts->points[i].e * together->P[row];
-        given[row + 1] = 0;
-        together->problem.guides[i].free = given[row];
-    }
-    memcpy(together->v, together->compressed, (size_t)n * sizeof *together->v);
-    add_impulses(impacts, given, together->v);
-    for (int i = 0; i < n; i++) together->problem.holds[i].free = together->v[i];
-    enum impacts_end end = decide(together);
-    take(together, together->v);
-    for (int i = 0; i < n; i++) given[i] += together->problem.holds[i].force;
-    return end;
-}
-
-/* By how much restitution gives back more than it may: below zero when it is less. */
-static double excess(const struct together *together)
-{
-    const struct impacts *impacts = together->impacts;
-    double back = 0, due = 0;
-    for (int i = 0; i < impacts->count; i++) {
-        double e = impacts->points[i].e;
-        back += normal_work(impacts, together->more, together->compressed, together->v, i);
-        due -= e * e * normal_work(impacts, together->P, impacts->v, together->compressed, i);
-    }
-    return back - fmax(due, 0);
-}
-
-static double work_of(const struct impacts *impacts, const double *P, const double *before,
-                      const double *after)
-{
-    double work = 0;
-    for (int i = 0; i < 2 * impacts->count; i++) work += P[i] * (before[i] + after[i]) / 2;
-    return work;
-}
-
-static double made(const struct together *together)
-{
-    const struct impacts *impacts = together->impacts;
-    return work_of(impacts, together->P, impacts->v, together->compressed) +
-           work_of(impacts, together->more, together->compressed, together->v);
-}
-
-static double surplus(const struct together *together)
-{
-    double work = made(together);
-    return together->impacts->law == impact_stronge ? fmax(excess(together), work) : work;
-}
-
-/* The share of e at which nothing is given back too much: a zero of a function that grows with it. Without
- * friction it is 1. */
-static enum impacts_end restore_by_law(struct together *together)
-{
-    enum { halvings = 60 };
-    const double rounding = 1e-13;
-    const struct impacts *impacts = together->impacts;
-    double size = 0, low = 0, high = 1;
-    for (int row = 0; row < 2 * impacts->count; row += 2) size += fabs(together->P[row] * impacts->v[row]);
-    enum impacts_end end = restore(together, 1);
-    bool stronge = impacts->law == impact_stronge;
-    if (end != impacts_done || fabs(surplus(together)) <= rounding * size) return end;
-    if (surplus(together) < 0 && !stronge) return end;
-    for (int k = 0; k < 10 && surplus(together) < 0 && end == impacts_done; k++) {
-        low = high;
-        high *= 2;
-        end = restore(together, high);
-    }
-    for (int k = 0; k < halvings && end == impacts_done; k++) {
-        double middle = low + (high - low) / 2;
-        end = restore(together, middle);
-        if (surplus(together) > 0)
-            high = middle;
-        else
-            low = middle;
-    }
-    return end == impacts_done ? restore(together, low) : end;
-}
-
-static bool has_restitution(const struct impacts *impacts)
-{
-    for (int i = 0; i < impacts->count; i++)
-        if (impacts->points[i].e > 0) return !impact_by_velocity(impacts->law);
-    return false;
-}
-
-static void finish(struct impacts *impacts, const double *P, const double *v)
-{
-    impacts->work += work_of(impacts, P, impacts->v, v);
-    for (int i = 0; i < 2 * impacts->count; i++) {
-        impacts->P[i] += P[i];
-        impacts->v[i] = v[i];
-    }
-}
-
-/* `before`: the largest speed that there was, by which rounding is told. */
-static enum impacts_end all_together(struct impacts *impacts, double before)
-{
-    struct together first, second = {0};
-    bool made_room = together_new(&first, impacts, false);
-    first.problem.beside_c = before;
-    enum impacts_end end = made_room ? compress(&first) : impacts_no_memory;
-    bool restores = end == impacts_done && has_restitution(impacts);
-    if (restores) {
-        end = together_new(&second, impacts, true) ? impacts_done : impacts_no_memory;
-        if (end == impacts_done) {
-            second.problem.beside_c = before;
-            memcpy(second.compressed, first.compressed, 4 * (size_t)impacts->count * sizeof(double));
-            end = restore_by_law(&second);
-        }
-    }
-    if (end == impacts_done) finish(impacts, first.P, first.compressed);
-    if (end == impacts_done && restores) finish(impacts, second.more, second.v);
-    together_free(&second);
-    together_free(&first);
-    return end;
-}
-
 /* ---- parts that do not feel each other */
 
 static bool feel_each_other(const void *context, int i, int j)
@@ -344,7 +120,7 @@ static enum impacts_end propagate_to_the_end(struct impacts *impacts)
     for (int i = 0; i < impacts->count; i++) points[i] = (struct impacts_point){impacts->points[i].mu, 0};
     rest.points = points;
     rest.law = impact_stronge;
-    end = all_together(&rest, before);
+    end = impacts_together(&rest, before);
     impacts->work = rest.work;
     free(points);
     return end == impacts_unsolvable ? impacts_endless : end;
@@ -383,7 +159,7 @@ static void take_back(struct impacts *impacts, const double *before)
 static enum impacts_end solve_by(struct impacts *impacts, const double *before, bool propagates)
 {
     enum impacts_end end =
-        propagates ? propagate_to_the_end(impacts) : all_together(impacts, weighted_speed(impacts));
+        propagates ? propagate_to_the_end(impacts) : impacts_together(impacts, weighted_speed(impacts));
     return end == impacts_done && !do_what_they_say(impacts, before) ? impacts_lost : end;
 }
 

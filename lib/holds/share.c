@@ -26,8 +26,8 @@ struct sharing {
     struct trial *trial;
     size_t n;
     double *M, *right, *f, *rest, *before;
-    double
-        *zero; /* what counts as nothing left: rounding of `right`, and of what there was before (beside_c) */
+    double *zero;    /* what counts as nothing left: */
+    double rounding; /* of `right`, and of what there was before (beside_c) */
 };
 
 /* What the equations leave; are they satisfied to rounding? That of n products, the largest of which are far larger than
@@ -121,7 +121,6 @@ static bool correct_by_singular_values(struct sharing *sharing, bool *made)
 
 static void set_equations(struct sharing *sharing)
 {
-    const double rounding = 1e-13;
     struct trial *trial = sharing->trial;
     const struct hold_problem *problem = trial->problem;
     size_t n = sharing->n;
@@ -133,7 +132,7 @@ static void set_equations(struct sharing *sharing)
     for (size_t i = 0; i < n; i++) size = fmax(size, fabs(sharing->right[i]));
     for (size_t i = 0; i < n; i++) {
         double weight = holds_weight(problem, i), own = trial->row[i] * weight;
-        sharing->zero[i] = rounding * fmax(size, own > 0 ? problem->beside_c / own : 0);
+        sharing->zero[i] = sharing->rounding * fmax(size, own > 0 ? problem->beside_c / own : 0);
     }
 }
 
@@ -158,9 +157,8 @@ static enum holds_found share(struct sharing *sharing)
 
 /* What is open and yet closes, by more than rounding, is held after all: that it did so little has been within the
  * tolerance of the search. Returns whether there is any. */
-static bool hold_what_closes(struct hold_problem *problem)
+static bool hold_what_closes(struct hold_problem *problem, double rounding)
 {
-    const double rounding = 1e-12;
     size_t n = problem->count;
     double size = problem->beside_c;
     bool any = false;
@@ -208,18 +206,40 @@ static bool sharing_new(struct sharing *sharing, struct trial *trial)
     return true;
 }
 
+static void set_modes(struct hold_problem *problem, const int *modes)
+{
+    for (size_t i = 0; i < problem->count; i++) problem->holds[i].mode = modes[i];
+}
+
+/* Forces of the modes, or of those in which what slips by rounding keeps still. */
+static enum holds_found share_within(struct sharing *sharing, const int *modes)
+{
+    struct hold_problem *problem = sharing->trial->problem;
+    enum holds_found found = holds_lost;
+    set_modes(problem, modes);
+    if (keep_still(problem)) found = share(sharing);
+    if (found == holds_lost) set_modes(problem, modes);
+    if (found == holds_lost) found = share(sharing);
+    while (found == holds_decided && hold_what_closes(problem, 10 * sharing->rounding))
+        found = share(sharing);
+    return found;
+}
+
+/* The places of points are known to 1e-12 of the scene, and two of one face slip along directions that differ by as
+ * much: what is redundant contradicts itself by that, and no forces do better where many of them lie on each other. */
 enum holds_found holds_share(struct hold_problem *problem)
 {
+    static const double roundings[] = {1e-13, 1e-11};
     struct trial trial;
     struct sharing sharing = {0};
     int *modes = calloc(problem->count + 1, sizeof *modes);
     bool made = trial_new(&trial, problem) && modes && sharing_new(&sharing, &trial);
     enum holds_found found = made ? holds_lost : holds_no_memory;
     for (size_t i = 0; made && i < problem->count; i++) modes[i] = problem->holds[i].mode;
-    if (made && keep_still(problem)) found = share(&sharing);
-    for (size_t i = 0; found == holds_lost && i < problem->count; i++) problem->holds[i].mode = modes[i];
-    if (found == holds_lost) found = share(&sharing);
-    while (found == holds_decided && hold_what_closes(problem)) found = share(&sharing);
+    for (size_t k = 0; found == holds_lost && k < sizeof roundings / sizeof *roundings; k++) {
+        sharing.rounding = roundings[k];
+        found = share_within(&sharing, modes);
+    }
     trial_free(&trial);
     free(sharing.M);
     free(modes);

@@ -178,8 +178,10 @@ int contacts_find_strikers(struct run *run)
         const struct row *rows = &run->state->tree->rows[tie->first_row];
         striker->v_n = normal_rate(run, striker);
         work->speed = fmax(work->speed, speed_at(run, rows));
-        if (fabs(striker->v_n) <= no_speed(run, rows)) striker->v_n = 0;
         striker->v_t = touches ? rows[1].g.x1 : 0;
+        /* Rounding of redundant points contradicts itself, and next to a slow impact that is not little. */
+        if (fabs(striker->v_n) <= no_speed(run, rows)) striker->v_n = 0;
+        if (fabs(striker->v_t) <= no_speed(run, rows)) striker->v_t = 0;
     }
     return count;
 }

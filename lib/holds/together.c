@@ -1,0 +1,273 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "holds/together.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "holds/holds.h"
+
+/* v += W P for impulses that are added, and the work that they do. */
+static double add_impulses(const struct impacts *impacts, const double *P, double *v)
+{
+    int n = 2 * impacts->count;
+    double work = 0;
+    for (int i = 0; i < n; i++) {
+        double gain = 0;
+        for (int j = 0; j < n; j++) gain += impacts->W[i * n + j] * P[j];
+        work += P[i] * (v[i] + gain / 2);
+        v[i] += gain;
+    }
+    return work;
+}
+
+/* The work of normal impulses between two velocities, the way from one to the other being straight. */
+static double normal_work(const struct impacts *impacts, const double *P, const double *before,
+                          const double *after, int point)
+{
+    int row = 2 * point;
+    (void)impacts;
+    return P[row] * (before[row] + after[row]) / 2;
+}
+
+struct together {
+    const struct impacts *impacts;
+    struct hold_problem problem;
+    double *compressed; /* 2 count: velocities */
+    double *P;          /* 2 count: impulses of compression */
+    double *v, *more;   /* 2 count: velocities after restitution, its impulses */
+};
+
+static bool together_new(struct together *together, const struct impacts *impacts, bool guides)
+{
+    size_t count = (size_t)impacts->count, n = 2 * count;
+    *together = (struct together){.impacts = impacts};
+    if (!holds_new(&together->problem, n, guides ? count : 0)) return false;
+    together->compressed = calloc(4 * n + 1, sizeof(double));
+    if (!together->compressed) return false;
+    together->P = together->compressed + n;
+    together->v = together->P + n;
+    together->more = together->v + n;
+    memcpy(together->problem.A, impacts->W, n * n * sizeof(double));
+    for (size_t i = 0; i < count; i++) {
+        struct hold *along = &together->problem.holds[2 * i + 1];
+        along->kind = hold_friction;
+        along->mu_s = along->mu_k = impacts->points[i].mu;
+        along->press = guides ? press_guide : press_hold;
+        along->presses = (int)(guides ? i : 2 * i);
+        if (guides) together->problem.B[i * n + 2 * i] = 1;
+    }
+    return true;
+}
+
+static void together_free(struct together *together)
+{
+    holds_free(&together->problem);
+    free(together->compressed);
+}
+
+static enum impacts_end decide(struct together *together)
+{
+    enum holds_found found = holds_decide(&together->problem);
+    if (found == holds_decided || found == holds_several) found = holds_share(&together->problem);
+    if (found == holds_no_memory) return impacts_no_memory;
+    return found == holds_decided ? impacts_done : impacts_unsolvable;
+}
+
+/* What closes no more, or does not slip, has that velocity exactly. */
+static void take(const struct together *together, double *v)
+{
+    for (int i = 0; i < 2 * together->impacts->count; i++) {
+        const struct hold *hold = &together->problem.holds[i];
+        v[i] = hold->mode == hold_keeps ? 0 : hold->c;
+    }
+}
+
+/* Compression; with `newton` all of the impact. */
+static enum impacts_end compress(struct together *together)
+{
+    const struct impacts *impacts = together->impacts;
+    bool newton = impact_by_velocity(impacts->law);
+    for (int i = 0; i < 2 * impacts->count; i++) {
+        bool bounces = newton && i % 2 == 0 && impacts->v[i] < 0;
+        together->problem.holds[i].free = (bounces ? 1 + impacts->points[i / 2].e : 1) * impacts->v[i];
+    }
+    enum impacts_end end = decide(together);
+    if (end != impacts_done) return end;
+    take(together, together->compressed);
+    for (int i = 0; i < 2 * impacts->count; i++) {
+        bool bounces = newton && i % 2 == 0 && impacts->v[i] < 0;
+        if (bounces) together->compressed[i] -= impacts->points[i / 2].e * impacts->v[i];
+        together->P[i] = together->problem.holds[i].force;
+    }
+    return impacts_done;
+}
+
+/* Is it what rounding leaves of the largest, or an impulse that changes no speed by more than holds tell from none? Nothing bounces
+ * by it: what closes or opens by next to nothing would have to be told apart. */
+static bool is_no_impulse(const struct together *together, int row)
+{
+    const double rounding = 1e-9;
+    const struct hold_problem *problem = &together->problem;
+    double most = problem->beside_c * holds_weight(problem, (size_t)row);
+    for (int k = 0; k < 2 * together->impacts->count; k += 2) most = fmax(most, together->P[k]);
+    return together->P[row] <= rounding * most;
+}
+
+/* Restitution with `share` of e: given normal impulses, the friction that they bring, and what then holds up
+ * what would close. */
+static enum impacts_end restore(struct together *together, double share)
+{
+    const struct impacts *impacts = together->impacts;
+    int count = impacts->count, n = 2 * count;
+    double *given = together->more;
+    for (int i = 0; i < count; i++) {
+        int row = 2 * i;
+        given[row] = is_no_impulse(together, row) ? 0 : share * impacts->points[i].e * together->P[row];
+        given[row + 1] = 0;
+        together->problem.guides[i].free = given[row];
+    }
+    memcpy(together->v, together->compressed, (size_t)n * sizeof *together->v);
+    add_impulses(impacts, given, together->v);
+    for (int i = 0; i < n; i++) together->problem.holds[i].free = together->v[i];
+    enum impacts_end end = decide(together);
+    take(together, together->v);
+    for (int i = 0; i < n; i++) given[i] += together->problem.holds[i].force;
+    return end;
+}
+
+/* By how much restitution gives back more than it may: below zero when it is less. */
+static double excess(const struct together *together)
+{
+    const struct impacts *impacts = together->impacts;
+    double back = 0, due = 0;
+    for (int i = 0; i < impacts->count; i++) {
+        double e = impacts->points[i].e;
+        back += normal_work(impacts, together->more, together->compressed, together->v, i);
+        due -= e * e * normal_work(impacts, together->P, impacts->v, together->compressed, i);
+    }
+    return back - fmax(due, 0);
+}
+
+static double work_of(const struct impacts *impacts, const double *P, const double *before,
+                      const double *after)
+{
+    double work = 0;
+    for (int i = 0; i < 2 * impacts->count; i++) work += P[i] * (before[i] + after[i]) / 2;
+    return work;
+}
+
+static double made(const struct together *together)
+{
+    const struct impacts *impacts = together->impacts;
+    return work_of(impacts, together->P, impacts->v, together->compressed) +
+           work_of(impacts, together->more, together->compressed, together->v);
+}
+
+static double surplus(const struct together *together)
+{
+    double work = made(together);
+    return together->impacts->law == impact_stronge ? fmax(excess(together), work) : work;
+}
+
+/* Shares of e between which the surplus changes its sign, and what it is there. */
+struct between {
+    double low, high, at_low, at_high;
+};
+
+static enum impacts_end try_share(struct together *together, double share, double *at)
+{
+    enum impacts_end end = restore(together, share);
+    *at = surplus(together);
+    return end;
+}
+
+/* The zero of a surplus that is quadratic between changes of modes: by secants, where an end that stays once more counts
+ * half of what is there (Illinois), and halves where that does not get on. */
+static enum impacts_end close_in(struct together *together, struct between *between, double least)
+{
+    enum { most_rounds = 60, patience = 8 };
+    enum impacts_end end = impacts_done;
+    double count_low = 1, count_high = 1, last = 0;
+    for (int k = 1; k <= most_rounds && end == impacts_done; k++) {
+        double width = between->high - between->low, at;
+        if (between->at_low >= -least || width <= 4 * DBL_EPSILON * between->high) break;
+        double low = count_low * between->at_low, high = count_high * between->at_high;
+        double share = between->low + width * (k % patience == 0 ? 0.5 : low / (low - high));
+        end = try_share(together, share, &at);
+        bool stays = (at > 0) == (last > 0);
+        count_low = at > 0 && stays ? count_low / 2 : 1;
+        count_high = at <= 0 && stays ? count_high / 2 : 1;
+        last = at > 0 ? 1 : -1;
+        if (at > 0)
+            *between = (struct between){between->low, share, between->at_low, at};
+        else
+            *between = (struct between){share, between->high, at, between->at_high};
+    }
+    return end;
+}
+
+/* The share of e at which nothing is given back too much: a zero of a function that grows with it. Without
+ * friction it is 1, and 0 where only points that lasted have any e. */
+static enum impacts_end restore_by_law(struct together *together)
+{
+    enum { doublings = 10 };
+    const double rounding = 1e-13;
+    const struct impacts *impacts = together->impacts;
+    double size = 0;
+    for (int row = 0; row < 2 * impacts->count; row += 2) size += fabs(together->P[row] * impacts->v[row]);
+    struct between between = {0, 1, 0, 0};
+    bool stronge = impacts->law == impact_stronge;
+    enum impacts_end end = try_share(together, 1, &between.at_high);
+    if (end != impacts_done || fabs(between.at_high) <= rounding * size) return end;
+    if (between.at_high < 0 && !stronge) return end;
+    if (between.at_high > 0) end = try_share(together, 0, &between.at_low);
+    for (int k = 0; k < doublings && between.at_high < 0 && end == impacts_done; k++) {
+        between.low = between.high;
+        between.at_low = between.at_high;
+        between.high *= 2;
+        end = try_share(together, between.high, &between.at_high);
+    }
+    if (end != impacts_done || between.at_high <= 0) return end;
+    end = close_in(together, &between, rounding * size);
+    return end == impacts_done ? restore(together, between.low) : end;
+}
+
+static bool has_restitution(const struct impacts *impacts)
+{
+    for (int i = 0; i < impacts->count; i++)
+        if (impacts->points[i].e > 0) return !impact_by_velocity(impacts->law);
+    return false;
+}
+
+static void finish(struct impacts *impacts, const double *P, const double *v)
+{
+    impacts->work += work_of(impacts, P, impacts->v, v);
+    for (int i = 0; i < 2 * impacts->count; i++) {
+        impacts->P[i] += P[i];
+        impacts->v[i] = v[i];
+    }
+}
+
+enum impacts_end impacts_together(struct impacts *impacts, double before)
+{
+    struct together first, second = {0};
+    bool made_room = together_new(&first, impacts, false);
+    first.problem.beside_c = before;
+    enum impacts_end end = made_room ? compress(&first) : impacts_no_memory;
+    bool restores = end == impacts_done && has_restitution(impacts);
+    if (restores) {
+        end = together_new(&second, impacts, true) ? impacts_done : impacts_no_memory;
+        if (end == impacts_done) {
+            second.problem.beside_c = before;
+            memcpy(second.compressed, first.compressed, 4 * (size_t)impacts->count * sizeof(double));
+            end = restore_by_law(&second);
+        }
+    }
+    if (end == impacts_done) finish(impacts, first.P, first.compressed);
+    if (end == impacts_done && restores) finish(impacts, second.more, second.v);
+    together_free(&second);
+    together_free(&first);
+    return end;
+}
