@@ -58,8 +58,6 @@ static struct verdict judge_applied(const struct model_body *body, const struct 
                   formula_depends(body, &load->fx) | formula_depends(body, &load->fy);
     bool moment = load->source->kind == moment_applied, jointed = body->place.link > 0;
     bool one_coordinate = body->kind == motion_slide || body->kind == motion_pivot;
-    const char *work = load_law(load->source)->work;
-    if (work) return (struct verdict){potential_none, work};
     if (on & ~(unsigned)depends_place && !load->source->toward)
         return (struct verdict){potential_none, why_not(on)};
     if (on == 0 && !load->source->conservative && !load->source->toward)
@@ -98,25 +96,18 @@ static struct verdict judge_applied(const struct model_body *body, const struct 
 static struct verdict judge(const struct model_body *body, const struct model_load *load)
 {
     static const char linear_spring[] = "conservative: V = k (stretch)^2 / 2";
-    static const char dissipative[] = "not conservative: it depends on velocity";
+    const char *work = load_law(load->source)->work;
+    if (work) return (struct verdict){potential_none, work};
     switch (load->source->kind) {
     case load_gravity:
         if (body->varies)
             return (struct verdict){potential_none, "counted as work: the mass of the body varies"};
         return (struct verdict){potential_gravity, "conservative: V = m g h"};
-    case load_carried:
-        return (struct verdict){potential_none,
-                                "the kinetic energy that mass brings or takes at the speed of the body"};
-    case load_drive:
-        return (struct verdict){potential_none, "not conservative: whatever the prescribed motion takes"};
     case load_rope:
         if (load->source->reels)
             return (struct verdict){potential_none,
                                     "not conservative: whatever its length, a function of t, takes"};
         return (struct verdict){potential_none, "does no work, except when it snaps taut"};
-    case load_belt: return (struct verdict){potential_none, "does no work: it passes it on"};
-    case load_contact:
-        return (struct verdict){potential_none, "not conservative: impacts and friction take energy"};
     case load_normal: return (struct verdict){potential_workless, "does no work: it acts across the motion"};
     case load_spring:
         return (struct verdict){load->linked ? potential_link : potential_spring, linear_spring};
@@ -125,23 +116,15 @@ static struct verdict judge(const struct model_body *body, const struct model_lo
         if (load_has_wind(load->source))
             return (struct verdict){potential_none,
                                     "not conservative: it depends on velocity and on the wind"};
-        return (struct verdict){potential_none, dissipative};
-    case load_damper:
-    case moment_damper: return (struct verdict){potential_none, dissipative};
-    case load_friction:
-    case moment_friction:
-        return (struct verdict){potential_none,
-                                "not conservative: it opposes the motion, whichever way that goes"};
+        return (struct verdict){potential_none, "not conservative: it depends on velocity"};
     case load_potential:
     case moment_potential: {
         unsigned on = formula_depends(body, &load->potential);
         if (on & (depends_time | depends_other)) return (struct verdict){potential_none, why_not(on)};
         return (struct verdict){potential_given, "conservative: V is given"};
     }
-    case load_applied:
-    case moment_applied: break;
+    default: return judge_applied(body, load);
     }
-    return judge_applied(body, load);
 }
 
 /* V is counted from q = 0, or from the start where the force has no value at 0. `origin` is a state of zeros.

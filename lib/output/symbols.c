@@ -43,27 +43,8 @@ static bool key_of_tie(const struct fbd_model *model, int b, const char *name, s
 
 static const char *letter_of_load(const struct model_load *load)
 {
-    switch (load->source->kind) {
-    case load_gravity: return "m g";
-    case load_normal: return "N";
-    case load_friction:
-    case load_contact: return "f";
-    case load_rope:
-    case load_belt: return "T";
-    case load_applied:
-    case moment_applied: return load->source->name;
-    case load_spring:
-    case load_potential: return "F";
-    case load_damper:
-    case load_drag: return "D";
-    case load_carried:
-    case load_drive: return "F";
-    case moment_spring:
-    case moment_damper:
-    case moment_friction:
-    case moment_potential: return "M";
-    }
-    return "F";
+    const char *letter = load_law(load->source)->letter;
+    return letter ? letter : load->source->name;
 }
 
 /* The reaction of the body's own joint, or the opposite of that of a body that it carries ("rod.pin"). */

@@ -23,12 +23,13 @@ enum law_rate { rate_by_formulas, rate_always, rate_never };
 struct law {
     const char *effect;  /* in words, for --explain */
     const char *drawing; /* the class of its arrow */
+    const char *letter;  /* in symbols, as T; NULL: its name */
     enum law_place place;
     enum law_rate rate;
     bool follows;         /* from all the others: as what a surface gives, or a rope */
     bool written_as_c;    /* by --emit-c: it is refused there until somebody has looked */
     bool of_constraint;   /* not listed by itself: it stands for a coupling */
-    const char *work;     /* why it has no potential, whatever its formulas say; or NULL */
+    const char *work;     /* why it has no potential, whatever its keys and formulas say; or NULL */
     const char *singular; /* what is said of it where it is infinite, or NULL */
 
     /* What is more than one key at a time, and what follows from the keys; or NULL. */
