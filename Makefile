@@ -121,6 +121,12 @@ methods: $(BUILD)/.tests
 	ninja -C $(BUILD) tests/bench/bench_methods
 	$(BUILD)/tests/bench/bench_methods models/*/*.yaml
 
+# Whether ten times less tolerance is ever worse: every method on the gallery and on random scenes; takes some minutes.
+TIGHTER = 100
+tighter: $(BUILD)/.tests
+	ninja -C $(BUILD) tests/cross/tighter
+	$(BUILD)/tests/cross/tighter --all --scenes $(TIGHTER) models
+
 # The implicit methods beside GSL's own; takes some minutes.
 implicit: $(BUILD)/.tests
 	ninja -C $(BUILD) tests/bench/bench_implicit
@@ -234,5 +240,5 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run mutants test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars event-bars events late-times implicit methods impacts failures gallery python live live-check site check-format format lint install uninstall dist deb deb-check clean
+.PHONY: all run mutants test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars event-bars events late-times implicit tighter methods impacts failures gallery python live live-check site check-format format lint install uninstall dist deb deb-check clean
 .SECONDARY:

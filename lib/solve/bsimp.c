@@ -2,6 +2,7 @@
 #include "solve/bsimp.h"
 
 #include <gsl/gsl_errno.h>
+#include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -89,12 +90,15 @@ static int midpoint(struct bsimp *s, double t, double H, int count, const double
     return GSL_SUCCESS;
 }
 
-/* Row k of Aitken and Neville's scheme in h^2 begins with s->y; its last two differ by yerr. */
+/* Row k of Aitken and Neville's scheme in h^2 begins with s->y; its last two differ by yerr. In a step that is far too
+ * long for the scheme they may agree by accident, after rows that do not: so a share of how the row before ended counts
+ * as well, about as much as a row gains where steps are as long as they should be, (n_0 / n_k)^2 times some. */
 static void extrapolate(struct bsimp *s, int k, double *yerr)
 {
+    const double share = 0.02;
     size_t n = s->n;
     for (size_t i = 0; i < n; i++) {
-        double value = s->y[i], change = 0;
+        double value = s->y[i], change = 0, before_that = k > 1 ? share * fabs(yerr[i]) : 0;
         for (int j = 0; j < k; j++) {
             double *before = &s->table[(size_t)j * n + i];
             double ratio = (double)sequence[k] / sequence[k - 1 - j];
@@ -103,7 +107,7 @@ static void extrapolate(struct bsimp *s, int k, double *yerr)
             value += change;
         }
         s->table[(size_t)k * n + i] = value;
-        yerr[i] = change;
+        yerr[i] = k == rows - 1 ? fmax(fabs(change), before_that) : change;
     }
 }
 

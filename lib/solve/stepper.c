@@ -8,44 +8,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "solve/dense.h"
 #include "solve/dop853.h"
 #include "solve/first_step.h"
-#include "solve/history.h"
-#include "solve/inside.h"
 #include "solve/linear.h"
-#include "solve/nystrom.h"
-#include "solve/parabola.h"
 #include "solve/rodas5p.h"
+#include "solve/stepper_state.h"
 #include "solve/stiffness.h"
-#include "solve/walk.h"
 #include "solve/weights.h"
-
-struct stepper {
-    const struct method *method;
-    struct layout layout;
-    size_t n;
-    double h_max, h_fixed;
-    gsl_odeiv2_control *control;
-    gsl_odeiv2_step *step;
-    gsl_odeiv2_step *redo;    /* of the same type, for parts of steps: the other one keeps its dense output */
-    gsl_odeiv2_driver driver; /* GSL's steppers ask it for its control only */
-    struct dense *dense;      /* of explicit methods and msadams */
-    struct history *history;  /* of msbdf, else NULL */
-    struct inside *inside;    /* of implicit methods without an interpolant, else NULL */
-    struct walk *walk;        /* of one-step methods, else NULL */
-    struct stepper_counts counts;
-    double *jacobian; /* n n + 3 n, for the limit of stability; NULL where that is not looked after */
-    double stable_h;  /* the largest step within that limit, when last looked after */
-    int since;        /* accepted steps since */
-    double rate;      /* fastest rate that dop853 has seen lately */
-    bool stepped;     /* a last step stands in the following */
-    struct counted_system *system;
-    struct moment t0, t1;
-    double *y0, *f0, *y1, *f1;
-    double *yerr, *work; /* n and 3 n */
-    double memory[];
-};
 
 /* Not by gsl_odeiv2_step_alloc, which calls GSL's error handler when memory is out; the methods that are
  * GSL's own (method.c) still do. */
@@ -193,13 +162,6 @@ struct outcome {
     enum rejection why; /* if not */
     double factor;      /* for the next step size */
 };
-
-static bool all_finite(size_t n, const double *restrict y, const double *restrict f)
-{
-    double probe = 0;
-    for (size_t i = 0; i < n; i++) probe += 0 * (y[i] + f[i]);
-    return probe == 0;
-}
 
 static struct outcome judge_failure(const struct stepper *s, const struct counted_system *system)
 {
@@ -351,127 +313,6 @@ enum stepper_status stepper_step(struct stepper *s, struct counted_system *syste
         proposal = plan.asked * outcome.factor;
         memcpy(y, s->y0, s->n * sizeof *y);
     }
-}
-
-/* A step of size h by the same method from the start of the last one. */
-static int redo(struct stepper *s, double h, double *y, double *f)
-{
-    memcpy(y, s->y0, s->n * sizeof *y);
-    return gsl_odeiv2_step_apply(s->redo, s->t0.t, h, y, s->yerr, s->f0, f, &s->system->gsl);
-}
-
-static bool redo_share(void *context, double share, double *y)
-{
-    struct stepper *s = context;
-    return redo(s, share * moment_since(s->t1, s->t0), y, s->work) == GSL_SUCCESS;
-}
-
-static double excess(void *context, const double *error)
-{
-    const struct stepper *s = context;
-    return weights_ratio(s->control, moment_since(s->t1, s->t0), s->y1, error, s->f1);
-}
-
-/* What the method itself says of the inside. */
-static int own_dense(struct stepper *s, struct moment t, double *y)
-{
-    if (!s->method->implicit) return dense_eval(s->dense, t, y);
-    double share = moment_since(t, s->t0) / moment_since(s->t1, s->t0);
-    if (s->step->type == step_rodas5p) {
-        int code = rodas5p_dense_prepare(s->step);
-        if (code == GSL_SUCCESS) rodas5p_dense_eval(s->step, share, y);
-        return code;
-    }
-    const struct inside_source source = {s, redo_share, excess};
-    if (s->inside && inside_eval(s->inside, &source, share, y)) return GSL_SUCCESS;
-    if (!s->history) return redo(s, moment_since(t, s->t0), y, s->work);
-    history_eval(s->history, (int)gsl_odeiv2_step_order(s->step), t.t, y);
-    return GSL_SUCCESS;
-}
-
-/* Is there a last step, and t within? A double next to an end of it may lie a rest outside. */
-static bool find_within(const struct stepper *s, struct moment *t)
-{
-    if (!s->stepped || !(t->t >= s->t0.t && t->t <= s->t1.t)) return false;
-    *t = moment_since(*t, s->t0) <= 0 ? s->t0 : moment_since(s->t1, *t) <= 0 ? s->t1 : *t;
-    return true;
-}
-
-/* An implicit method may succeed in a step and fail in a part of it; then the ends alone have to do, as a
- * step that is accepted has an inside. */
-int stepper_dense(struct stepper *s, struct moment t, double *y)
-{
-    if (!find_within(s, &t)) return GSL_EINVAL;
-    if (moment_equal(t, s->t0) || moment_equal(t, s->t1)) return dense_eval(s->dense, t, y);
-    int last_code = s->system->last_code;
-    if (own_dense(s, t, y) != GSL_SUCCESS) dense_eval_plain(s->dense, t, y);
-    s->system->last_code = last_code; /* no reason for what may fail later */
-    return GSL_SUCCESS;
-}
-
-/* A step of the linear method is two radians of the fastest oscillation: the Bessel function J_14(1) of its
- * Chebyshev series is 7e-16. Implicit methods know their states as their equations are solved. */
-int stepper_degree(const struct stepper *s, double *negligible)
-{
-    const gsl_odeiv2_step_type *type = s->step->type;
-    *negligible = s->inside || s->history ? 1e-9 : 0;
-    if (type == step_parabola) return 2;
-    if (type == step_linear) {
-        const int most = 14;
-        int degree = linear_dense_degree(s->step);
-        if (degree >= 2 && degree <= most) return degree;
-        *negligible = 1e-13;
-        return most;
-    }
-    if (type == step_nystrom) return 12;
-    return 8;
-}
-
-int stepper_partial(struct stepper *s, struct moment t, double *y, double *f)
-{
-    if (!find_within(s, &t)) return GSL_EINVAL;
-    bool start = moment_equal(t, s->t0);
-    if (start || moment_equal(t, s->t1)) {
-        memcpy(y, start ? s->y0 : s->y1, s->n * sizeof *y);
-        memcpy(f, start ? s->f0 : s->f1, s->n * sizeof *f);
-        return GSL_SUCCESS;
-    }
-    if (s->redo && redo(s, moment_since(t, s->t0), y, f) == GSL_SUCCESS && all_finite(s->n, y, f))
-        return GSL_SUCCESS;
-    int code = stepper_dense(s, t, y);
-    return code == GSL_SUCCESS ? counted_system_rhs(s->system, t.t, y, f) : code;
-}
-
-static double walk_part(void *context, double from, double h, double *y, double *f)
-{
-    struct stepper *s = context;
-    double *y1 = s->work, *f1 = s->work + s->n;
-    memcpy(y1, y, s->n * sizeof *y);
-    gsl_odeiv2_step_reset(s->redo);
-    int code = gsl_odeiv2_step_apply(s->redo, s->t0.t + from, h, y1, s->yerr, f, f1, &s->system->gsl);
-    if (code != GSL_SUCCESS || !all_finite(s->n, y1, f1)) return INFINITY;
-    memcpy(y, y1, s->n * sizeof *y);
-    memcpy(f, f1, s->n * sizeof *f);
-    return weights_ratio(s->control, h, y, s->yerr, f);
-}
-
-int stepper_walk(struct stepper *s, struct moment t, double *y, double *f)
-{
-    if (!s->walk || !find_within(s, &t) || moment_equal(t, s->t0) || moment_equal(t, s->t1))
-        return GSL_EINVAL;
-    const struct walk_source source = {s, walk_part};
-    return walk_to(s->walk, &source, moment_since(s->t1, s->t0), s->y0, s->f0, moment_since(t, s->t0), y, f);
-}
-
-double stepper_attempt(struct stepper *s, struct counted_system *system, double t, const double *y,
-                       const double *f, double h)
-{
-    if (!s->redo) return INFINITY;
-    double *y1 = s->work, *f1 = s->work + s->n;
-    memcpy(y1, y, s->n * sizeof *y);
-    gsl_odeiv2_step_reset(s->redo);
-    int code = gsl_odeiv2_step_apply(s->redo, t, h, y1, s->yerr, f, f1, &system->gsl);
-    return code == GSL_SUCCESS ? weights_ratio(s->control, h, y1, s->yerr, f1) : INFINITY;
 }
 
 void stepper_set_linear(struct stepper *s, const double *A, double rho)

@@ -86,18 +86,33 @@ static int make(struct walk *walk, const struct walk_source *source, double whol
     return GSL_SUCCESS;
 }
 
+/* From a mark by so many parts to the time `to`. */
+static bool reach(struct walk *walk, const struct walk_source *source, size_t mark, int parts, double to,
+                  double *y, double *f)
+{
+    size_t n = walk->n;
+    double from = walk->times[mark], now = from;
+    memcpy(y, walk->marks + 2 * n * mark, n * sizeof *y);
+    memcpy(f, walk->marks + 2 * n * mark + n, n * sizeof *f);
+    for (int k = 1; k <= parts; k++) {
+        double next = k < parts ? from + (to - from) * k / parts : to;
+        if (next > now && !(source->part(source->context, now, next - now, y, f) <= 1)) return false;
+        now = next;
+    }
+    return true;
+}
+
 int walk_to(struct walk *walk, const struct walk_source *source, double whole, const double *y0,
             const double *f0, double to, double *y, double *f)
 {
-    size_t n = walk->n, last = 0;
+    enum { most_parts = 64 };
+    size_t last = 0;
     int code = walk->made ? GSL_SUCCESS : make(walk, source, whole, y0, f0);
     if (code != GSL_SUCCESS) return code;
     if (to > walk->times[walk->count - 1]) return GSL_EFAILED;
     while (last + 1 < walk->count && walk->times[last + 1] <= to) last++;
-    const double *mark = walk->marks + 2 * n * last;
-    memcpy(y, mark, n * sizeof *y);
-    memcpy(f, mark + n, n * sizeof *f);
-    double rest = to - walk->times[last];
-    return rest == 0 || source->part(source->context, walk->times[last], rest, y, f) <= 1 ? GSL_SUCCESS
-                                                                                          : GSL_EFAILED;
+    for (int parts = 1; parts <= most_parts;
+         parts *= 2) /* where a longer one was good a shorter one need not be */
+        if (reach(walk, source, last, parts, to, y, f)) return GSL_SUCCESS;
+    return GSL_EFAILED;
 }
