@@ -9,7 +9,7 @@
 
 #include "base/call.h"
 #include "draw/record.h"
-#include "output/finite_result.h"
+#include "record/finite_result.h"
 
 /* ---- a run of a simulation */
 

@@ -6,7 +6,7 @@
 #define FBD_API_RECORD_H
 
 #include "output/csv.h"
-#include "output/result.h"
+#include "record/result.h"
 
 /* Put a run of these options, at its start, into a simulation that has none; with a companion where
  * simulation->bars is set. False when memory is out; the simulation can still be ended. */

@@ -7,7 +7,8 @@
 
 #include "api/record.h"
 #include "base/call.h"
-#include "solve/options.h"
+#include "loop/options.h"
+#include "output/words.h"
 
 static void bad_accuracy(fbd_errors *errors, const char *hint, const char *message)
 {

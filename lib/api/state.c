@@ -9,7 +9,7 @@
 #include "dynamics/modes.h"
 #include "dynamics/project.h"
 #include "output/shown.h"
-#include "solve/start.h"
+#include "rest/start.h"
 
 fbd_state *fbd_state_new(const fbd_model *model)
 {

@@ -13,9 +13,10 @@
 #include "draw/panel.h"
 #include "dynamics/mass.h"
 #include "output/equations.h"
-#include "output/result.h"
 #include "output/symbols.h"
-#include "solve/start.h"
+#include "output/words.h"
+#include "record/result.h"
+#include "rest/start.h"
 
 /* A4 less what printers need; lengths in mm. */
 static const double page_width = 190, page_height = 270;

@@ -7,7 +7,7 @@
 
 #include "draw/panel.h"
 #include "dynamics/tree.h"
-#include "output/result.h"
+#include "record/result.h"
 
 static const double pi = 3.141592653589793, body_size = 54, surface_half = 34, free_half = 20,
                     hatch_step = 2.4;

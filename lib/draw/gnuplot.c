@@ -11,6 +11,7 @@
 #include "base/utf8.h"
 #include "draw/record.h"
 #include "dynamics/modes.h"
+#include "output/words.h"
 
 enum { digits = 10, most_events = 200, plot_width = 900, plot_height = 300 };
 

@@ -8,7 +8,7 @@
 
 #include "base/format.h"
 #include "draw/labelling.h"
-#include "solve/linearize.h"
+#include "rest/linearize.h"
 
 static const double width = 130, height = 110, left = 16, right = 8, top = 24, bottom = 16;
 static const double text_size = 3.4;

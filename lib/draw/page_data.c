@@ -23,6 +23,7 @@
 #include "draw/page_json.h"
 #include "model/outline.h"
 #include "output/formulas.h"
+#include "output/words.h"
 
 enum { most_bytes = 3600 * 1024, most_listed_events = 60000, bytes_of_event = 26, most_details = 2000 };
 

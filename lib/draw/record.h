@@ -13,7 +13,7 @@
 #ifndef FBD_DRAW_RECORD_H
 #define FBD_DRAW_RECORD_H
 
-#include "output/result.h"
+#include "record/result.h"
 
 enum record_kind {
     record_coordinate,

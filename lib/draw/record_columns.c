@@ -7,6 +7,7 @@
 #include "dynamics/tree.h"
 #include "output/equations.h"
 #include "output/force_columns.h"
+#include "output/words.h"
 
 /* ---- definitions */
 

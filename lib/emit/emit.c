@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "emit/emit.h"
 #include "base/call.h"
-#include "solve/options.h"
+#include "loop/options.h"
 
 char *fbd_emit_c(const fbd_model *model, const fbd_options *options, fbd_errors *list)
 {

@@ -10,9 +10,9 @@
 #include "base/file.h"
 #include "fmi/package.h"
 #include "fmi/zip.h"
+#include "loop/options.h"
 #include "model/model.h"
-#include "solve/options.h"
-#include "solve/start.h"
+#include "rest/start.h"
 
 /* ---- its name */
 

@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "base/format.h"
-#include "output/result.h"
-#include "solve/ensemble.h"
+#include "loop/ensemble.h"
+#include "record/result.h"
 
 const char *const log_category_names[log_categories] = {"logStatusError", "logStatusWarning", "logEvents"};
 

@@ -7,10 +7,10 @@
 
 #include "base/file.h"
 #include "base/format.h"
+#include "loop/ensemble.h"
 #include "model/model.h"
 #include "output/equations.h"
-#include "output/result.h"
-#include "solve/ensemble.h"
+#include "record/result.h"
 
 static bool fail(struct plant *plant, const char *reason)
 {

@@ -20,8 +20,8 @@
 #include "base/diag.h"
 #include "draw/page_json.h"
 #include "expr/unit.h"
+#include "integrate/method.h"
 #include "live/live.h"
-#include "solve/method.h"
 
 struct controls {
     const struct fbd_model *model;

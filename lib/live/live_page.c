@@ -12,7 +12,7 @@
 #include "draw/page.h"
 #include "draw/page_json.h"
 #include "live/live.h"
-#include "output/result.h"
+#include "record/result.h"
 
 /* What the page may have in all; what is not its numbers takes some 900 KB, and base 64 four bytes for three. */
 enum { most_page_bytes = 1500000, most_script_bytes = 260000 };

@@ -3,6 +3,7 @@
 
 #include "dynamics/tree_system.h"
 #include "output/equations.h"
+#include "output/words.h"
 
 /* ---- rows */
 

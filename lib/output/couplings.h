@@ -5,7 +5,7 @@
 #ifndef FBD_OUTPUT_COUPLINGS_H
 #define FBD_OUTPUT_COUPLINGS_H
 
-#include "output/result.h"
+#include "record/result.h"
 
 /* The section of --explain; `state` is settled. Nothing without couplings. */
 void couplings_explain(struct text *text, struct fbd_state *state);

@@ -4,10 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "output/finite_result.h"
 #include "output/force_columns.h"
 #include "output/shown.h"
+#include "output/words.h"
 #include "output/world.h"
+#include "record/finite_result.h"
 
 enum { default_rows = 500 };
 

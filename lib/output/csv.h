@@ -5,7 +5,7 @@
 #ifndef FBD_OUTPUT_CSV_H
 #define FBD_OUTPUT_CSV_H
 
-#include "output/result.h"
+#include "record/result.h"
 
 struct csv {
     const struct fbd_model *model;

@@ -19,7 +19,8 @@
 #include "dynamics/mass.h"
 #include "dynamics/modes.h"
 #include "dynamics/tree.h"
-#include "output/result.h"
+#include "output/words.h"
+#include "record/result.h"
 
 void state_ready(struct fbd_state *state)
 {
@@ -279,5 +280,28 @@ size_t fbd_diagram(fbd_state *state, size_t body, fbd_arrow *arrows, size_t room
     struct vec about = b->kind == motion_pivot ? pose.origin : point_motion(b, &pose, b->inertia.G).p;
     for (size_t i = 0; i < count && i < room; i++) arrows[i] = public_arrow(&own[i], about);
     free(own);
+    return count;
+}
+
+size_t fbd_result_force_errors(fbd_result *result, size_t body, fbd_arrow *arrows, size_t room)
+{
+    if (!result) return 0;
+    if (!arrows) room = 0;
+    struct bars *bars = result->simulation->bars;
+    if (!bars) return 0;
+    size_t count = fbd_diagram(fbd_result_state(result), body, arrows, room);
+    fbd_arrow *others = calloc(room + 1, sizeof *others);
+    if (!others) return 0;
+    fbd_diagram(bars->state, body, others, room);
+    for (size_t i = 0; i < count && i < room; i++) {
+        arrows[i].fx = bars_difference(bars, arrows[i].fx, others[i].fx);
+        arrows[i].fy = bars_difference(bars, arrows[i].fy, others[i].fy);
+        arrows[i].x = bars_difference(bars, arrows[i].x, others[i].x);
+        arrows[i].y = bars_difference(bars, arrows[i].y, others[i].y);
+        arrows[i].couple = bars_difference(bars, arrows[i].couple, others[i].couple);
+        arrows[i].moment = bars_difference(bars, arrows[i].moment, others[i].moment);
+        arrows[i].power = bars_difference(bars, arrows[i].power, others[i].power);
+    }
+    free(others);
     return count;
 }

@@ -9,9 +9,10 @@
 
 #include "base/call.h"
 #include "dynamics/modes.h"
+#include "integrate/method.h"
 #include "output/couplings.h"
 #include "output/explain_structure.h"
-#include "solve/method.h"
+#include "output/words.h"
 
 enum { most_names = 4, most_bodies = 20 };
 

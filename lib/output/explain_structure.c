@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-#include "solve/division.h"
-#include "solve/structure.h"
+#include "loop/division.h"
+#include "loop/structure.h"
 
 enum { most_listed = 12 };
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "output/force_columns.h"
 
-#include "output/result.h"
+#include "output/words.h"
+#include "record/result.h"
 
 static bool has_part(const struct fbd_model *model, int b, const struct arrow *arrow, enum force_part part)
 {

@@ -8,9 +8,10 @@
 #include "dynamics/mass.h"
 #include "output/couplings.h"
 #include "output/equations.h"
-#include "output/result.h"
 #include "output/shown.h"
+#include "output/words.h"
 #include "output/world.h"
+#include "record/result.h"
 
 static void member(struct text *text, const char *name, double value, bool last)
 {

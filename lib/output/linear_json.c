@@ -3,7 +3,7 @@
  * A linearisation as one JSON object (docs/output.md).
  */
 #include "base/text.h"
-#include "solve/linearize.h"
+#include "rest/linearize.h"
 
 static void write_equilibrium(struct text *text, const struct fbd_linearization *linear)
 {

@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "base/text.h"
-#include "solve/linearize.h"
+#include "rest/linearize.h"
 
 enum { digits = 9 };
 

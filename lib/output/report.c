@@ -11,6 +11,7 @@
 #include "output/equations.h"
 #include "output/report.h"
 #include "output/shown.h"
+#include "output/words.h"
 
 enum { digits = report_digits, most_events = 40 };
 

@@ -5,7 +5,7 @@
 #ifndef FBD_OUTPUT_REPORT_H
 #define FBD_OUTPUT_REPORT_H
 
-#include "output/result.h"
+#include "record/result.h"
 
 /* Scenes of more bodies have the short report: in full it would fill several screens. */
 enum { report_few_bodies = 12, report_digits = 9 };

@@ -8,6 +8,7 @@
 #include "output/couplings.h"
 #include "output/equations.h"
 #include "output/report.h"
+#include "output/words.h"
 
 enum { few_events = 12, few_states = 4, few_forces = 6, few_parameters = 12 };
 

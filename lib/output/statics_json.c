@@ -4,8 +4,8 @@
  */
 #include "dynamics/spatial.h"
 #include "output/equations.h"
-#include "output/result.h"
-#include "solve/statics.h"
+#include "record/result.h"
+#include "rest/statics.h"
 
 static struct vec mass_center_of(const struct fbd_statics *statics, const struct model_body *body)
 {

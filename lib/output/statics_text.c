@@ -5,8 +5,9 @@
 #include <string.h>
 
 #include "output/equations.h"
-#include "output/result.h"
-#include "solve/statics.h"
+#include "output/words.h"
+#include "record/result.h"
+#include "rest/statics.h"
 
 enum { digits = 9 };
 

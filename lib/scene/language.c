@@ -110,7 +110,7 @@ static const struct field line_fields[] = {
 
 const struct group line_group = {"a line", NULL, FIELDS(line_fields), NULL, 0, "a straight line"};
 
-/* lib/solve/method.c has what they do. */
+/* lib/integrate/method.c has what they do. */
 const struct choice method_choices[] = {
     {"auto", 0, "what the scene allows and asks for"},
     {"dop853", 1, "explicit Runge-Kutta of order 8"},

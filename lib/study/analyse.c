@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "solve/method.h"
+#include "integrate/method.h"
 #include "study/cost.h"
 
 /* Below the floor all errors are alike. */

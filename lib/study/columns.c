@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/columns.h"
 
-#include "output/result.h"
+#include "integrate/switcher.h"
 #include "output/shown.h"
-#include "solve/switcher.h"
+#include "output/words.h"
+#include "record/result.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -18,8 +18,8 @@
 #define FBD_STUDY_COLUMNS_H
 
 #include "base/text.h"
-#include "output/ledger.h"
 #include "output/world.h"
+#include "record/ledger.h"
 #include "study/extremes.h"
 
 struct column {

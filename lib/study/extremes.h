@@ -10,8 +10,8 @@
 #ifndef FBD_STUDY_EXTREMES_H
 #define FBD_STUDY_EXTREMES_H
 
+#include "loop/ensemble.h"
 #include "output/world.h"
-#include "solve/ensemble.h"
 
 struct extreme {
     int index; /* in y, or -1: */

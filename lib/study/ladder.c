@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/diag.h"
-#include "solve/method.h"
+#include "integrate/method.h"
 #include "study/cost.h"
 #include "study/stopwatch.h"
 

@@ -3,8 +3,8 @@
  * One run of a sweep, and its row.
  */
 #include "base/utf8.h"
-#include "output/finite_result.h"
-#include "solve/options.h"
+#include "loop/options.h"
+#include "record/finite_result.h"
 #include "study/sweep.h"
 
 #include <math.h>

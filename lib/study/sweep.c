@@ -3,9 +3,9 @@
 
 #include "base/call.h"
 #include "base/file.h"
+#include "loop/options.h"
 #include "scene/names.h"
 #include "scene/node.h"
-#include "solve/options.h"
 #include "study/hash.h"
 
 #include <inttypes.h>

@@ -13,8 +13,8 @@
 #include <string.h>
 
 #include "fbd.h"
+#include "loop/ensemble.h"
 #include "model/model.h"
-#include "solve/ensemble.h"
 #include "timing.h"
 
 static const struct {

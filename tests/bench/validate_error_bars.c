@@ -12,7 +12,7 @@
 #include <gsl/gsl_errno.h>
 
 #include "error_ratio.h"
-#include "solve/method.h"
+#include "integrate/method.h"
 
 static const double tolerances[] = {1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13};
 

@@ -8,7 +8,7 @@
 
 #include "hard.h"
 
-#include "solve/method.h"
+#include "integrate/method.h"
 
 /* ---- methods */
 

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "solve/stepper.h"
+#include "integrate/stepper.h"
 
 /* q'' = -omega^2 q - c v + g + force cos(2 t), and what may go wrong with it. */
 struct scene {

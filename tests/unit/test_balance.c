@@ -14,8 +14,8 @@
 #include "dynamics/modes.h"
 #include "model/model.h"
 #include "random_trees.h"
+#include "rest/balance.h"
 #include "scene_fixture.h"
-#include "solve/balance.h"
 
 #include <stdlib.h>
 

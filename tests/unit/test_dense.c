@@ -15,10 +15,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "solve/dense.h"
-#include "solve/dop853.h"
-#include "solve/history.h"
-#include "solve/method.h"
+#include "integrate/dense.h"
+#include "integrate/dop853.h"
+#include "integrate/history.h"
+#include "integrate/method.h"
 
 enum { size = 3 };
 

@@ -14,8 +14,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "solve/dop853.h"
-#include "solve/dop853_table.h"
+#include "integrate/dop853.h"
+#include "integrate/dop853_table.h"
 
 enum { size = 2 };
 

@@ -12,8 +12,8 @@
 #include <gsl/gsl_errno.h>
 #include <math.h>
 
-#include "solve/first_step.h"
-#include "solve/weights.h"
+#include "integrate/first_step.h"
+#include "integrate/weights.h"
 
 static const struct layout one_pair = {.pairs = 1};
 

@@ -14,8 +14,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "solve/linear.h"
-#include "solve/parabola.h"
+#include "integrate/linear.h"
+#include "integrate/parabola.h"
 
 /* x'' = -k (x - x0) - c x', two of them with different numbers side by side. */
 struct oscillators {

@@ -17,8 +17,8 @@
 #include <cmocka.h>
 
 #include "gallery.h"
+#include "integrate/method.h"
 #include "scenes.h"
-#include "solve/method.h"
 
 /* A method of order p needs about tolerance^(-1/(p + 1)) steps, times what its error constant says: the
  * limits are twice what was measured at the finer tolerance, so that a method which creeps is seen. The

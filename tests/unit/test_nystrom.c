@@ -14,8 +14,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "solve/nystrom.h"
-#include "solve/nystrom_table.h"
+#include "integrate/nystrom.h"
+#include "integrate/nystrom_table.h"
 
 /* A circle about a mass, with period 2 pi: x = cos t, y = sin t. */
 enum { size = 4 };

@@ -14,8 +14,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "solve/rodas5p.h"
-#include "solve/rodas5p_table.h"
+#include "integrate/rodas5p.h"
+#include "integrate/rodas5p_table.h"
 
 enum { size = 2 };
 

@@ -14,7 +14,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "solve/rodas5p_table.h"
+#include "integrate/rodas5p_table.h"
 
 enum { stages = rodas5p_stages };
 

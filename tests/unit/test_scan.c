@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "solve/scan.h"
+#include "events/scan.h"
 
 /* Functions under test: value and rate at t. */
 typedef double function(double t, double *rate);

@@ -14,7 +14,7 @@
 #include <gsl/gsl_errno.h>
 
 #include "fail_alloc.h"
-#include "solve/stepper.h"
+#include "integrate/stepper.h"
 
 static void a_stepper_is_made_whole_or_not_at_all(void **state)
 {

@@ -15,7 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "solve/linear.h"
+#include "integrate/linear.h"
 #include "stepper_scene.h"
 
 static void a_step_far_too_large_is_rejected_until_it_is_right(void **state)

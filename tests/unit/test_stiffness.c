@@ -12,9 +12,9 @@
 #include <gsl/gsl_errno.h>
 #include <math.h>
 
-#include "solve/dop853.h"
-#include "solve/rodas5p.h"
-#include "solve/stiffness.h"
+#include "integrate/dop853.h"
+#include "integrate/rodas5p.h"
+#include "integrate/stiffness.h"
 
 enum { explicit_order = 8, implicit_order = 5 };
 

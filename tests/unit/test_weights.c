@@ -13,7 +13,7 @@
 #include <gsl/gsl_errno.h>
 #include <math.h>
 
-#include "solve/weights.h"
+#include "integrate/weights.h"
 
 static const double tolerance = 1e-6;
 

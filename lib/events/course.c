@@ -1,0 +1,258 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * A piece is mapped to s in [-1, 1] and sampled at the extremes of the Chebyshev polynomial T_d, which gives
+ * the series sum c_j T_j(s) (L. N. Trefethen, Approximation Theory and Approximation Practice, SIAM 2013,
+ * chapters 3 and 4), rewritten in powers of s. Over a stretch around s0 of half width r the polynomial is
+ * shifted to s0 by Horner's scheme, p(s0 + r x) = sum b_k (r x)^k, and with |x| <= 1
+ *
+ *     |p - b_0 - b_1 r x| <= sum_{k>1} |b_k| r^k,   |p' - b_1| <= sum_{k>1} k |b_k| r^(k-1).
+ */
+#include "events/course.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { room = course_most_degree + 1, coarse_room = course_coarse_degree + 1 };
+
+static const double pi = 3.14159265358979323846;
+
+bool course_init(struct course *course, size_t size, const bool *used)
+{
+    *course = (struct course){.size = size};
+    for (size_t i = 0; i < size; i++) course->count += used[i];
+    size_t count = course->count;
+    course->component = calloc(count + 1, sizeof(int));
+    size_t grids =
+        count > 0 ? (size_t)coarse_room * (2 * coarse_room + 1) + (size_t)room * (2 * room + 1) : 0;
+    course->coefficients = calloc((size_t)2 * room * count + 5 * count + size + grids + 1, sizeof(double));
+    course->now = calloc(size + 1, sizeof *course->now);
+    if (!course->component || !course->coefficients || !course->now) {
+        course_free(course);
+        return false;
+    }
+    course->samples = course->coefficients + room * count;
+    course->doubt = course->samples + room * count;
+    course->scale = course->doubt + count;
+    course->floor = course->scale + count;
+    course->tail = course->floor + count;
+    course->noise = course->tail + count;
+    course->y = course->noise + count;
+    double *behind = course->y + size;
+    for (size_t i = 0; i < 2; i++) {
+        size_t own = i == 0 ? coarse_room : room;
+        course->grids[i] = (struct course_grid){0, behind, behind + own, behind + own * (own + 1)};
+        behind += own * (2 * own + 1);
+    }
+    for (size_t i = 0, k = 0; i < size; i++) {
+        course->now[i] = enclosure_everything();
+        if (used[i]) course->component[k++] = (int)i;
+    }
+    return true;
+}
+
+void course_free(struct course *course)
+{
+    free(course->component);
+    free(course->coefficients);
+    free(course->now);
+    *course = (struct course){0};
+}
+
+void course_start(struct course *course)
+{
+    memset(course->scale, 0, course->count * sizeof *course->scale);
+    course->length = HUGE_VAL;
+}
+
+/* cos(pi k / degree); by its symmetry, so that it is odd to the last bit. */
+static double cosine(int k, int degree)
+{
+    k %= 2 * degree;
+    if (k > degree) k = 2 * degree - k;
+    return 2 * k == degree ? 0 : 2 * k < degree ? cos(pi * k / degree) : -cos(pi * (degree - k) / degree);
+}
+
+/* Row j of the powers of T_0 .. T_d: T_{j+1} = 2 s T_j - T_{j-1}. */
+static void set_powers(int degree, double *power)
+{
+    size_t width = (size_t)degree + 1;
+    memset(power, 0, width * width * sizeof *power);
+    power[0] = power[width + 1] = 1;
+    for (size_t j = 1; j + 1 < width; j++, power += width)
+        for (size_t k = 0; k <= j + 1; k++)
+            power[2 * width + k] = (k > 0 ? 2 * power[width + k - 1] : 0) - power[k];
+}
+
+/* The coefficients of the Chebyshev series are c_j = (2/d) sum_k f_k cos(pi j k/d), where the first and last
+ * of both sums count half. */
+static void prepare(struct course *course, int degree)
+{
+    struct course_grid *grid = &course->grids[degree != course_coarse_degree];
+    course->degree = degree;
+    course->grid = grid;
+    if (grid->degree == degree) return;
+    grid->degree = degree;
+    set_powers(degree, grid->power);
+    for (int k = 0; k <= degree; k++) {
+        grid->node[k] = cosine(k, degree);
+        for (int j = 0; j <= degree; j++) {
+            double half = (k == 0 || k == degree ? 0.5 : 1) * (j == 0 || j == degree ? 0.5 : 1);
+            grid->series[j * (degree + 1) + k] = 2 * half * cosine(j * k, degree) / degree;
+        }
+    }
+}
+
+static int take_samples(struct course *course, course_sampler *sample, void *context)
+{
+    double radius = (course->to - course->from) / 2, middle = course->from + radius;
+    for (int k = 0; k <= course->degree; k++) {
+        double t = middle + radius * course->grid->node[k];
+        if (k == 0 || t > course->to) t = course->to;
+        if (k == course->degree || t < course->from) t = course->from;
+        int status = sample(context, t, course->y);
+        if (status) return status;
+        for (size_t i = 0; i < course->count; i++)
+            course->samples[i * room + (size_t)k] = course->y[course->component[i]];
+    }
+    return 0;
+}
+
+static bool all_equal(int degree, const double *sample)
+{
+    for (int k = 1; k <= degree; k++)
+        if (sample[k] != sample[0]) return false;
+    return true;
+}
+
+/* The polynomial of component i in powers of s; returns its size. Terms that are roundings of the samples are
+ * left to the doubt: in powers they would be 2^(d-1) times as large. */
+static double set_powers_of(struct course *course, size_t i, double *series)
+{
+    const double rounding = DBL_EPSILON;
+    int width = course->degree + 1;
+    double *c = course->coefficients + i * room, size = 0;
+    const double *sample = course->samples + i * room, *row = course->grid->series,
+                 *power = course->grid->power;
+    for (int k = 0; k < width; k++) size = fmax(size, fabs(sample[k]));
+    memset(c, 0, room * sizeof *c);
+    for (int j = 0; j < width; j++, row += width, power += width) {
+        series[j] = 0;
+        for (int k = 0; k < width; k++) series[j] += row[k] * sample[k];
+        if (j > 0 && fabs(series[j]) <= rounding * size) continue;
+        for (int k = j % 2; k <= j; k += 2) c[k] += series[j] * power[k];
+    }
+    return size;
+}
+
+static double last_terms(const struct course *course, const double *series)
+{
+    return fabs(series[course->degree]) + fabs(series[course->degree - 1]);
+}
+
+/* At rest, or moved by rounding alone. */
+static bool rests(struct course *course, size_t i)
+{
+    const double *sample = course->samples + i * room;
+    course->doubt[i] = course->noise[i];
+    course->coefficients[i * room] = sample[0];
+    return all_equal(course->degree, sample);
+}
+
+/* Is what the polynomial of component i leaves out too much? Its size is that of the last terms. Those of
+ * what is smooth fall by 2^(d-1) from a piece to its half; those that do not are noise. */
+static bool follow(struct course *course, size_t i, double negligible, bool halved)
+{
+    const double rounding = 32 * DBL_EPSILON, least_fall = 1.0 / 8;
+    if (rests(course, i)) return false;
+    double series[room] = {0}, size = set_powers_of(course, i, series);
+    double tail = negligible == 0 ? 0 : last_terms(course, series);
+    course->doubt[i] += rounding * size + tail;
+    course->scale[i] = fmax(course->scale[i], size);
+    double share = tail / course->scale[i], before = course->tail[i];
+    course->tail[i] = share;
+    if (halved && share > negligible && share > least_fall * before)
+        course->floor[i] = fmax(course->floor[i], 2 * before);
+    return share > negligible && share > course->floor[i];
+}
+
+int course_set(struct course *course, double from, double to, int degree, double negligible,
+               course_sampler *sample, void *context)
+{
+    enum { most_halvings = 20 };
+    course->from = from;
+    course->to = to - from > 2 * course->length ? from + 2 * course->length : to;
+    if (course->count == 0) return 0;
+    prepare(course, degree);
+    for (int halving = 0;; halving++) {
+        bool rough = false;
+        int status = take_samples(course, sample, context);
+        if (status) return status;
+        for (size_t i = 0; i < course->count; i++) rough |= follow(course, i, negligible, halving > 0);
+        double half = from + (course->to - from) / 2;
+        if (!rough || halving == most_halvings || !(half > from && half < course->to)) break;
+        course->to = half;
+        course->length = half - from;
+    }
+    return 0;
+}
+
+/* What follows a step of any method closely enough is smooth on the scale of the step, so that terms fall
+ * from the third on; should two of them vanish by chance, T_2 tells. */
+int course_set_coarse(struct course *course, double from, double to, course_sampler *sample, void *context)
+{
+    const double rounding = 32 * DBL_EPSILON, safe = 2;
+    course->from = from;
+    course->to = to;
+    if (course->count == 0) return 0;
+    prepare(course, course_coarse_degree);
+    int status = take_samples(course, sample, context);
+    if (status) return status;
+    for (size_t i = 0; i < course->count; i++) {
+        if (rests(course, i)) continue;
+        double series[room] = {0}, size = set_powers_of(course, i, series);
+        double tail = fmax(last_terms(course, series), fabs(series[2]) / 16);
+        course->doubt[i] += rounding * size + safe * tail;
+    }
+    return 0;
+}
+
+/* b_k of the polynomial c about s0. */
+static void shift(int degree, const double *c, double s0, double *b)
+{
+    memcpy(b, c, (size_t)(degree + 1) * sizeof *b);
+    if (s0 == 0) return;
+    for (int k = 0; k < degree; k++)
+        for (int j = degree - 1; j >= k; j--) b[j] += s0 * b[j + 1];
+}
+
+static struct interval around(double centre, double radius)
+{
+    return interval_widen(centre - radius, centre + radius, 1);
+}
+
+void course_enclose(struct course *course, const struct stretch *stretch)
+{
+    double radius = (course->to - course->from) / 2, middle = course->from + radius, b[room];
+    if (!(radius > 0)) return;
+    double s0 = (stretch->middle - middle) / radius, r = stretch_radius(stretch) / radius;
+    for (size_t i = 0; i < course->count; i++) {
+        const double *c = course->coefficients + i * room;
+        double doubt = course->doubt[i], bend = 0, slope = 0, power = 1;
+        struct enclosure *now = &course->now[course->component[i]];
+        if (all_equal(course->degree, course->samples + i * room)) {
+            *now = enclosure_point(c[0]);
+            if (doubt > 0) now->value = now->middle = around(c[0], doubt);
+            continue;
+        }
+        shift(course->degree, c, s0, b);
+        for (int k = 2; k <= course->degree; k++) {
+            power *= r;
+            slope += k * fabs(b[k]) * power;
+            bend += fabs(b[k]) * power * r;
+        }
+        double steep = doubt * course->degree; /* as a difference over the spacing of samples */
+        now->value = around(b[0], fabs(b[1]) * r + bend + doubt);
+        now->rate = interval_scale(1 / radius, around(b[1], slope + steep));
+        now->middle = around(b[0], doubt);
+    }
+}

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Course: the state along a step as polynomials, for enclosures over any stretch of it.
+ *
+ * The dense output of a step is taken for the motion: an event is where the dense output has it, and how far
+ * that is from the solution is the business of the error control. For most methods each component is a
+ * polynomial of a known degree d, which d + 1 samples give to rounding. Where it is not (implicit methods
+ * that redo a step, linear systems, places in the world, which are functions of coordinates), the samples
+ * give a Chebyshev series, and its last two terms are the bound of what is left out: ASSUMED, not proved; the
+ * step is looked at in shorter pieces until they are small. A first look by a series of degree 4 over the
+ * whole of a step has wide bounds and costs little: it decides where nothing is near.
+ */
+#ifndef FBD_EVENTS_COURSE_H
+#define FBD_EVENTS_COURSE_H
+
+#include <stddef.h>
+
+#include "expr/interval.h"
+
+enum { course_most_degree = 16, course_coarse_degree = 4 };
+
+/* Fill y at t; non-zero stops. */
+typedef int course_sampler(void *context, double t, double *y);
+
+/* The samples of one degree d. */
+struct course_grid {
+    int degree;                    /* 0: not made */
+    double *node, *series, *power; /* d + 1 numbers; (d + 1) (d + 1): from samples to c, from c to powers */
+};
+
+struct course {
+    size_t size, count;          /* of y; components that are followed */
+    int *component;              /* count */
+    int degree;                  /* of this piece */
+    struct course_grid grids[2]; /* the coarse one, another one */
+    const struct course_grid *grid;
+    double from, to;       /* of the present piece */
+    double length;         /* of pieces that could be followed */
+    double *coefficients;  /* count x (most_degree + 1): powers of s in [-1, 1] over the piece */
+    double *doubt;         /* count: what values may be off by */
+    double *noise;         /* count: the least of that, set by the caller: what the motion itself is off by */
+    double *scale;         /* count: the largest size of each component since course_start */
+    double *floor;         /* count: the share of its size below which the terms of a component are noise */
+    double *tail;          /* count: the share of its last terms in the present piece */
+    double *samples;       /* (most_degree + 1) x count */
+    double *y;             /* size */
+    struct enclosure *now; /* size: result of course_enclose */
+};
+
+/* For vectors of `size` components, of which those flagged in `used` are followed. False when memory is out.
+ */
+bool course_init(struct course *course, size_t size, const bool *used);
+void course_free(struct course *course);
+
+/* Another step: what is small is measured against sizes within one step. */
+void course_start(struct course *course);
+
+/* Follow the motion from `from` on: as far as `to`, or to course->to before it. The motion is a polynomial of
+ * this degree if `negligible` is 0, else it is followed by one to about that share of its size. Non-zero is
+ * from the sampler. */
+int course_set(struct course *course, double from, double to, int degree, double negligible,
+               course_sampler *sample, void *context);
+
+/* Follow it as far as `to` by a series of degree 4. */
+int course_set_coarse(struct course *course, double from, double to, course_sampler *sample, void *context);
+
+/* The components over a stretch of the present piece, in course->now. */
+void course_enclose(struct course *course, const struct stretch *stretch);
+
+#endif

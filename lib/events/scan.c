@@ -1,0 +1,475 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "events/scan.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+/* A function that needs more samples of one interval is too fast for it, or noise. */
+enum { most_samples = 4096, spare_points = 3 };
+
+struct scan_point {
+    double t;
+    double *values, *rates;
+};
+
+static int take_counted(void *context, double t, double *values, double *rates)
+{
+    struct scan *scan = context;
+    scan->samples++;
+    return scan->sample(scan->context, t, values, rates);
+}
+
+bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *context)
+{
+    *scan = (struct scan){.count = count, .sample = sample, .context = context};
+    if (count == 0) return true; /* nothing is looked for */
+    scan->points = calloc(spare_points, sizeof *scan->points);
+    scan->memory = calloc((size_t)2 * spare_points * count + 1, sizeof *scan->memory);
+    scan->crossed = calloc(3 * count + 1, sizeof *scan->crossed);
+    scan->lone = calloc(count + 1, sizeof *scan->lone);
+    if (!scan->points || !scan->memory || !scan->crossed || !scan->lone) {
+        scan_free(scan);
+        return false;
+    }
+    scan->sampled = scan->crossed + count;
+    scan->chosen = scan->sampled + count;
+    for (size_t i = 0; i < count; i++) {
+        scan->sampled[i] = true;
+        scan->lone[i] = (struct proof_group){.first = i, .count = 1};
+    }
+    double *next = scan->memory;
+    for (int i = 0; i < spare_points; i++, next += 2 * count)
+        scan->points[i] = (struct scan_point){0, next, next + count};
+    scan->prover.now = calloc(2, sizeof *scan->prover.now);
+    scan->prover.waiting = calloc(1, sizeof *scan->prover.waiting);
+    if (scan->prover.now && scan->prover.waiting && series_init(&scan->series, count)) {
+        scan->prover.end = scan->prover.now + 1;
+        return true;
+    }
+    scan_free(scan);
+    return false;
+}
+
+void scan_free(struct scan *scan)
+{
+    series_free(&scan->series);
+    free(scan->prover.now);
+    free(scan->prover.waiting);
+    free(scan->points);
+    free(scan->memory);
+    free(scan->crossed);
+    free(scan->lone);
+    *scan = (struct scan){0};
+}
+
+bool scan_use_enclosures(struct scan *scan, struct proof_group *groups, size_t count, proof_enclose *enclose,
+                         scan_follower *follow)
+{
+    if (scan->count == 0) return true;
+    size_t most = 1;
+    for (size_t g = 0; g < count; g++)
+        if (groups[g].count > most) most = groups[g].count;
+    free(scan->prover.now);
+    free(scan->prover.waiting);
+    scan->prover.now = calloc(2 * most, sizeof *scan->prover.now);
+    scan->prover.waiting = calloc(most, sizeof *scan->prover.waiting);
+    if (!scan->prover.now || !scan->prover.waiting) return false;
+    scan->prover.end = scan->prover.now + most;
+    scan->enclose = enclose;
+    scan->groups = groups;
+    scan->group_count = count;
+    scan->follow = follow;
+    return true;
+}
+
+/* ---- the cubic through values and rates at both ends, on s in [0, 1]: c0 + c1 s + c2 s^2 + c3 s^3 */
+
+struct cubic {
+    double c0, c1, c2, c3;
+};
+
+static struct cubic cubic_between(const struct scan_point *a, const struct scan_point *b, size_t i)
+{
+    double h = b->t - a->t, d = b->values[i] - a->values[i], ra = h * a->rates[i], rb = h * b->rates[i];
+    return (struct cubic){a->values[i], ra, 3 * d - 2 * ra - rb, ra + rb - 2 * d};
+}
+
+static double cubic_at(const struct cubic *c, double s)
+{
+    return c->c0 + s * (c->c1 + s * (c->c2 + s * c->c3));
+}
+
+/* A zero of a cubic that changes sign from + to - over [0, 1]: Newton kept inside a shrinking bracket. */
+static double cubic_zero(const struct cubic *c)
+{
+    enum { most_steps = 8 }; /* where more are needed the cubic is rounding */
+    double low = 0, high = 1, s = c->c0 / (c->c0 - cubic_at(c, 1));
+    for (int i = 0; i < most_steps && high - low > DBL_EPSILON; i++) {
+        if (!(s > low && s < high)) s = (low + high) / 2;
+        double value = cubic_at(c, s), slope = c->c1 + s * (2 * c->c2 + s * 3 * c->c3);
+        if (value >= 0)
+            low = s;
+        else
+            high = s;
+        double next = slope != 0 ? s - value / slope : -1;
+        if (fabs(next - s) <= DBL_EPSILON) return s;
+        s = next;
+    }
+    return s;
+}
+
+/* ---- looking */
+
+static int take_sample(struct scan *scan, struct scan_point *point, double t)
+{
+    point->t = t;
+    return take_counted(scan, t, point->values, point->rates);
+}
+
+static bool active(const struct scan_point *a, const struct scan_point *b, size_t i)
+{
+    return a->values[i] < HUGE_VAL && b->values[i] < HUGE_VAL;
+}
+
+static bool crosses(const struct scan_point *a, const struct scan_point *b, size_t i)
+{
+    return active(a, b, i) && a->values[i] >= 0 && b->values[i] < 0;
+}
+
+static bool any_crosses(const struct scan *scan, const struct scan_point *a, const struct scan_point *b)
+{
+    for (size_t i = 0; i < scan->count; i++)
+        if (scan->chosen[i] && crosses(a, b, i)) return true;
+    return false;
+}
+
+/* ---- the first zero between a (none negative that was not) and b (at least one negative) */
+
+/* The estimate of the first zero from the cubics of all functions that cross. */
+static double first_estimate(const struct scan *scan, const struct scan_point *a, const struct scan_point *b)
+{
+    double first = 1;
+    for (size_t i = 0; i < scan->count; i++) {
+        if (!scan->chosen[i] || !crosses(a, b, i)) continue;
+        struct cubic c = cubic_between(a, b, i);
+        double s = cubic_zero(&c);
+        if (s < first) first = s;
+    }
+    return a->t + first * (b->t - a->t);
+}
+
+static void exchange(struct scan_point *x, struct scan_point *y)
+{
+    struct scan_point spare = *x;
+    *x = *y;
+    *y = spare;
+}
+
+static double roundings(const struct scan_point *a, const struct scan_point *b)
+{
+    return 2 * DBL_EPSILON * fmax(fabs(a->t), fabs(b->t));
+}
+
+/* Shrink [a, b] until b is within two roundings of the zero, by its cubic at least. The cubics converge to
+ * the zero fast but from one side, so once an estimate stops moving the other side is fetched by steps that
+ * grow from a rounding; where four steps together gain less than an eighth, one is a bisection, so that
+ * nothing is slow. `m` is a spare point. */
+static int locate(struct scan *scan, struct scan_point *a, struct scan_point *b, struct scan_point *m)
+{
+    double reach = roundings(a, b),
+           before = b->t - a->t; /* b may be far away at first, its roundings large */
+    for (int step = 1; b->t - a->t > roundings(a, b); step++) {
+        double t = first_estimate(scan, a, b), width = b->t - a->t;
+        if (b->t - t <= roundings(a, b)) break;
+        bool slow = step % 4 == 0 && width > before / 8;
+        if (step % 4 == 0) before = width;
+        if (slow)
+            t = a->t + width / 2;
+        else if (t - a->t < reach)
+            t = a->t + fmin(reach, width / 2), reach *= 8;
+        else if (b->t - t < reach)
+            t = b->t - fmin(reach, width / 2), reach *= 8;
+        if (!(t > a->t && t < b->t)) break;
+        int status = take_sample(scan, m, t);
+        if (status) return status;
+        exchange(m, any_crosses(scan, a, m) ? b : a);
+    }
+    scan->t = b->t;
+    return 1;
+}
+
+void scan_forget(struct scan *scan)
+{
+    series_forget(&scan->series);
+    for (size_t g = 0; g < scan->group_count; g++) {
+        scan->groups[g].clear = NAN;
+        scan->groups[g].stuck = false;
+    }
+}
+
+/* ---- searching with bounds */
+
+/* The zero that a group has in its bracket, in scan->t. 0 when samples say that there is none: bounds and
+ * samples differ by roundings. */
+static int locate_in_group(struct scan *scan, struct proof_group *group)
+{
+    struct scan_point *a = &scan->points[0], *b = &scan->points[1];
+    int status = take_sample(scan, a, group->low);
+    if (!status) status = take_sample(scan, b, group->high);
+    if (status) return status;
+    for (size_t i = 0; i < scan->count; i++) {
+        scan->chosen[i] = i >= group->first && i < group->first + group->count;
+        if (scan->chosen[i] && a->values[i] < 0)
+            a->values[i] = 0; /* to rounding, or where the search began */
+    }
+    if (!any_crosses(scan, a, b)) return 0;
+    status = locate(scan, a, b, &scan->points[2]);
+    group->clear = group->low = scan->points[0].t;
+    group->high = scan->points[1].t;
+    scan->located = true;
+    return status;
+}
+
+/* The first zero of a group at or before *limit, which it becomes then: 1, else 0. Bounds that decide nothing
+ * leave the group open. */
+static int search_group(struct scan *scan, struct proof_group *groups, size_t g, double from, double *limit)
+{
+    enum { most_refuted = 8 };
+    struct proof_group *group = &groups[g];
+    bool ahead = groups == scan->groups && !scan->follow;
+    for (int refuted = 0; refuted < most_refuted; refuted++) {
+        double far = ahead ? fmax(*limit, scan->horizon) : *limit;
+        enum proof_result result = proof_search(&scan->prover, groups, g, from, *limit, far, scan->resumed);
+        group->open = result == proof_unfinished;
+        if (result != proof_found || group->low >= *limit) return 0;
+        int status = locate_in_group(scan, group);
+        if (status < 0) return status;
+        if (status == 1 && scan->t > *limit) return 0;
+        if (status == 1) {
+            *limit = scan->t;
+            scan->found_in = group;
+            return 1;
+        }
+        group->clear = group->low = group->high;
+        group->high = HUGE_VAL;
+    }
+    group->open = true;
+    return 0;
+}
+
+/* ---- by enclosures */
+
+static void leave_to_samples(struct scan *scan, const struct proof_group *group, bool sampled)
+{
+    for (size_t i = group->first; i < group->first + group->count; i++) scan->sampled[i] = sampled;
+}
+
+/* The functions of a group that has become stuck are as good as their enclosure at an instant there. */
+static void note_rounding(struct scan *scan, size_t g)
+{
+    const struct proof_group *group = &scan->groups[g];
+    const struct stretch instant = {group->clear, group->clear, group->clear};
+    scan->enclose(scan->context, g, &instant, scan->prover.now);
+    for (size_t i = 0; i < group->count; i++) {
+        double width = interval_width(scan->prover.now[i].middle);
+        scan->series.rounding[group->first + i] = width < HUGE_VAL ? width : 0;
+    }
+}
+
+/* Search all open groups. 1 found at *limit, 0 nothing, 2: the search ends at *limit without result. What
+ * does not come on at all is left to samples. */
+static int search_open(struct scan *scan, double from, double *limit, bool strict)
+{
+    const double least_share = 1e-3;
+    int found = 0;
+    scan->prover.enclose = scan->enclose;
+    scan->prover.context = scan->context;
+    scan->prover.strict = strict;
+    for (size_t g = 0; g < scan->group_count; g++) {
+        struct proof_group *group = &scan->groups[g];
+        if (!group->open) continue;
+        if (scan->follow) group->clear = NAN, group->width = 0;
+        int status = search_group(scan, scan->groups, g, from, limit);
+        if (status < 0) return status;
+        if (status > 0) found = status;
+        if (strict || !group->open) continue;
+        if (group->clear - from >= least_share * (*limit - from)) {
+            *limit = group->clear;
+            found = 2;
+            continue;
+        }
+        group->stuck = true;
+        leave_to_samples(scan, group, true);
+        note_rounding(scan, g);
+    }
+    return found;
+}
+
+static bool any_open(const struct scan *scan)
+{
+    bool any = false;
+    for (size_t g = 0; g < scan->group_count; g++) any |= scan->groups[g].open;
+    return any;
+}
+
+/* In pieces that the enclosures reach over; for groups that the coarse look has left open. */
+static int look_in_pieces(struct scan *scan, double from, double *limit)
+{
+    for (double begin = from; begin < *limit;) {
+        double end = scan->follow(scan->context, begin, *limit, false), piece = end;
+        if (isnan(end)) return -1;
+        int status = search_open(scan, begin, &piece, false);
+        if (status) {
+            *limit = piece;
+            return status;
+        }
+        for (size_t g = 0; g < scan->group_count; g++) {
+            struct proof_group *group = &scan->groups[g];
+            group->open = group->aside == scan->aside && group->proved && !group->stuck && group->again;
+        }
+        begin = end;
+    }
+    return 0;
+}
+
+/* A first look, by bounds that cost little and are wide, decides where functions are far from zero or pass it
+ * steeply. */
+static int look_by_enclosures(struct scan *scan, double from, double *limit)
+{
+    for (size_t g = 0; g < scan->group_count; g++) {
+        struct proof_group *group = &scan->groups[g];
+        bool turn = group->aside == scan->aside, proved = group->proved && !group->stuck;
+        group->open = turn && proved;
+        leave_to_samples(scan, group, turn && !proved);
+    }
+    if (!any_open(scan)) return 0;
+    if (!scan->follow) return search_open(scan, from, limit, false);
+    int found = 0;
+    double end = scan->follow(scan->context, from, *limit, true);
+    if (isnan(end)) return -1;
+    if (end >= *limit) found = search_open(scan, from, limit, true);
+    for (size_t g = 0; g < scan->group_count; g++) scan->groups[g].again = scan->groups[g].open;
+    if (found < 0 || !any_open(scan)) return found;
+    int closer = look_in_pieces(scan, from, limit);
+    return closer ? closer : found;
+}
+
+/* ---- by series */
+
+static void enclose_series(void *context, size_t i, const struct stretch *stretch, struct enclosure *out)
+{
+    const struct scan *scan = context;
+    *out = series_enclose(&scan->series, i, stretch);
+}
+
+/* Look at function i with the samples of the present level; closes it when they suffice. */
+static int search_series(struct scan *scan, size_t i, double end, double *limit, bool halved)
+{
+    struct proof_group *alone = &scan->lone[i];
+    enum series_state state = series_fit(&scan->series, i, halved);
+    alone->open = state != series_inactive && !series_is_positive(&scan->series, i);
+    if (!alone->open || state == series_unresolved) return 0;
+    alone->clear = NAN;
+    alone->width = 0;
+    scan->prover.strict = state == series_rough;
+    double to = fmin(end, *limit);
+    int status = search_group(scan, scan->lone, i, scan->series.from, &to);
+    if (status == 1) *limit = to;
+    return status;
+}
+
+/* 0 done, 2 some function is not resolved; *found becomes true with a zero, at *limit. */
+static int look_at_panel(struct scan *scan, double from, double to, double *limit, bool halved, bool *found)
+{
+    bool open = true;
+    series_open(&scan->series, from, to);
+    for (size_t i = 0; i < scan->count; i++) scan->lone[i].open = scan->sampled[i];
+    for (int level = 0; level < series_levels && open; level++) {
+        int status = series_refine(&scan->series, take_counted, scan);
+        if (status) return status;
+        open = false;
+        for (size_t i = 0; i < scan->count; i++) {
+            if (!scan->lone[i].open) continue;
+            status = search_series(scan, i, to, limit, halved);
+            if (status < 0) return status;
+            *found |= status == 1;
+            open |= scan->lone[i].open;
+        }
+    }
+    return open ? 2 : 0;
+}
+
+static bool any_sampled(const struct scan *scan)
+{
+    bool any = false;
+    for (size_t i = 0; i < scan->count; i++) any |= scan->sampled[i];
+    return any;
+}
+
+/* Panel by panel. A panel whose functions are not resolved is halved; one that cannot be halved any more is
+ * passed over: there the functions are rounding. */
+static int look_by_series(struct scan *scan, double from, double *limit)
+{
+    double length = *limit - from;
+    bool halved = false, found = false;
+    if (!any_sampled(scan)) return 0;
+    scan->prover.enclose = enclose_series;
+    scan->prover.context = scan;
+    series_start(&scan->series);
+    long most = scan->samples + most_samples;
+    for (double begin = from; begin < *limit;) {
+        double end = *limit - begin > 1.5 * length ? begin + length : *limit;
+        if (scan->panel) end = scan->panel(scan->context, begin, end);
+        scan->clear = begin;
+        if (scan->samples >= most) return 2;
+        int status = look_at_panel(scan, begin, end, limit, halved, &found);
+        if (status < 0) return status;
+        double half = begin + (end - begin) / 2;
+        halved = status == 2 && half - begin > 64 * DBL_EPSILON * fabs(end);
+        length = halved ? half - begin : 2 * (end - begin);
+        if (halved) scan->resolved = fmin(scan->resolved, 16 * length);
+        if (!halved) begin = end;
+    }
+    return found;
+}
+
+/* ---- both */
+
+/* What has been found, and what becomes negative at the same instant. */
+static int mark_crossed(struct scan *scan, double t)
+{
+    /* The end of the bracket that was located last, or another one. */
+    bool known = scan->located && scan->points[1].t == t;
+    struct scan_point *point = &scan->points[known ? 1 : 2];
+    int status = known ? 0 : take_sample(scan, point, t);
+    if (status) return status;
+    scan->t = t;
+    /* Those that are searched in the other turn may have been negative for long. */
+    bool ahead = scan->groups && !scan->follow;
+    const struct proof_group *group = scan->groups;
+    for (size_t i = 0; i < scan->count; i++) {
+        size_t first = scan->found_in->first;
+        while (group && i >= group->first + group->count) group++;
+        bool found = i >= first && i < first + scan->found_in->count;
+        bool falls = ahead ? point->rates[i] < 0 : known && crosses(&scan->points[0], point, i);
+        falls = falls && (!group || group->aside == scan->aside);
+        scan->crossed[i] = point->values[i] < 0 && (found || falls);
+    }
+    return 1;
+}
+
+int scan_interval(struct scan *scan, double from, double to)
+{
+    scan->resolved = HUGE_VAL;
+    scan->clear = from;
+    scan->located = false;
+    if (scan->count == 0) return 0;
+    double limit = to;
+    int enclosed = look_by_enclosures(scan, from, &limit);
+    if (enclosed < 0) return enclosed;
+    int sampled = look_by_series(scan, from, &limit);
+    if (sampled < 0 || sampled == 2) return sampled;
+    scan->clear = limit;
+    return sampled == 1 || enclosed == 1 ? mark_crossed(scan, limit) : enclosed;
+}

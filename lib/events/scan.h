@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Scan: the first instant in an interval at which one of several smooth functions becomes negative.
+ *
+ * Functions that come with enclosures are searched with proof (proof.h): none of their zeros is missed or
+ * invented, however many oscillations an interval has. That is the rule: see watchers_can_enclose. Those
+ * along a motion are looked at by wide bounds first, which cost little; what these leave open is searched by
+ * close ones.
+ *
+ * The others, and those whose enclosures are too wide to tell anything (a difference of two things that are
+ * the same), are sampled, with their rates, and followed by Chebyshev series (series.h) whose zeros are found
+ * likewise: three samples tell of a function that is far from zero, 17 and more of one that is near it.
+ * `panel` says over how long a stretch a series may be believed.
+ */
+#ifndef FBD_EVENTS_SCAN_H
+#define FBD_EVENTS_SCAN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "events/proof.h"
+#include "events/series.h"
+
+/* Fill values[count] and rates[count] at t; +HUGE_VAL for a function that is not active. Non-zero stops the
+ * scan and is returned. */
+typedef series_sampler scan_sampler;
+
+/* Enclosures are wanted from `from` on: the end up to which they are there, `to` at most; NAN where there are
+ * none. `coarse`: wide ones will do, at once over as much as there are. */
+typedef double scan_follower(void *context, double from, double to, bool coarse);
+
+/* The end of the first panel of an interval for series, above `from`. */
+typedef double scan_paneller(void *context, double from, double to);
+
+struct scan {
+    size_t count;
+    scan_sampler *sample;
+    void *context;
+    bool *crossed; /* count: result, which functions became negative at `t` */
+    double t;      /* result: the first instant at which one is negative, within two roundings of its zero */
+    double resolved; /* result: the next interval should not be longer, or much work is in vain; HUGE_VAL when
+                        the functions are smooth over all of this one */
+    double clear;    /* result: no function becomes negative up to here (meant for a return of 2) */
+    long samples;    /* counted */
+    struct scan_point *points; /* two ends of a bracket and a spare one */
+    double *memory;
+
+    /* Set by the caller after scan_init, or left NULL for functions without enclosures. */
+    struct proof_group *groups;
+    size_t group_count;
+    proof_enclose *enclose;
+    scan_follower *follow; /* NULL: enclosures are there for all times, and searches may run ahead */
+    double horizon;        /* how far ahead at most */
+    bool resumed;          /* see proof_search */
+    bool aside;            /* this turn: only groups that are searched aside, else only the others */
+    scan_paneller *panel;  /* NULL: any length will do */
+
+    struct prover prover;
+    struct series series;
+    struct proof_group *lone; /* count: each function by itself, for its series */
+    const struct proof_group *found_in;
+    bool located;           /* points[1] is the end of the bracket that was located last */
+    bool *sampled, *chosen; /* count: searched by samples; located at present */
+};
+
+/* With these enclosures; `groups` are in the order of the functions and cover all of them. False when memory
+ * is out. */
+bool scan_use_enclosures(struct scan *scan, struct proof_group *groups, size_t count, proof_enclose *enclose,
+                         scan_follower *follow);
+
+/* False when memory is out. */
+bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *context);
+void scan_free(struct scan *scan);
+
+/* Look at (from, to]. 1: found, see `t` and `crossed`; 0: nothing; 2: given up after too many samples, see
+ * `clear`; negative: what the sampler returned.
+ * Functions that start at or below zero are looked at once they have been seen positive, except those that
+ * are still negative at the end. */
+int scan_interval(struct scan *scan, double from, double to);
+
+/* The functions are others now: an interval that begins where the last one ended is sampled there again. */
+void scan_forget(struct scan *scan);
+
+#endif

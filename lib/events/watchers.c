@@ -1,0 +1,213 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "events/outlook.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "dynamics/absolute.h"
+#include "dynamics/modes.h"
+#include "dynamics/tree.h"
+
+/* ---- which functions a plan needs */
+
+static void add(struct watcher_set *set, struct watcher watcher)
+{
+    if (set->watchers) set->watchers[set->count] = watcher;
+    set->count++;
+}
+
+static void add_kinks(struct watchers *watchers, const struct plan *plan)
+{
+    for (size_t i = 0; i < plan->kink_count; i++) {
+        const struct kink *kink = &plan->kinks[i];
+        for (size_t part = 0; part < kink->count; part++) {
+            bool timed = expr_switch_is_time(kink->formula.expr, part);
+            for (int end = 0; end < 2; end++)
+                add(timed ? &watchers->timed : &watchers->moving,
+                    (struct watcher){watch_kink, (int)i, (int)part, end});
+        }
+    }
+}
+
+/* Whether the motion slides on a switch is not known ahead. */
+static void add_shares(struct watchers *watchers, const struct plan *plan)
+{
+    for (size_t i = 0; i < plan->kink_count; i++) {
+        const struct kink *kink = &plan->kinks[i];
+        for (size_t part = 0; kink->slides && part < kink->count; part++)
+            for (int end = 0; end < 2; end++)
+                add(&watchers->moving, (struct watcher){watch_share, (int)i, (int)part, end});
+    }
+}
+
+static bool always_the_same(const struct plan *plan, const struct mode *mode)
+{
+    return mode->tie < 0 && plan->slot_constant[mode->coordinate] && !mode->surface_speed.expr &&
+           !mode->mu_s.expr && !mode->mu_k.expr &&
+           (mode->normal_slot < 0 || plan->slot_constant[mode->normal_slot]);
+}
+
+/* ---- what is watched of each kind of mode */
+
+static void add_rubbing(struct watchers *watchers, const struct plan *plan, int pair)
+{
+    const struct mode *mode = &plan->modes[pair];
+    add(&watchers->moving, (struct watcher){watch_slip_stop, pair, 0, 0});
+    if (!always_the_same(plan, mode))
+        for (int end = 0; end < 2; end++)
+            add(&watchers->moving, (struct watcher){watch_stick_limit, pair, 0, end});
+    if (mode->two_sided && !plan->slot_constant[mode->normal_slot])
+        add(&watchers->moving, (struct watcher){watch_normal_turns, pair, 0, 0});
+}
+
+static void add_one_sided(struct watchers *watchers, const struct plan *plan, int pair)
+{
+    (void)plan;
+    add(&watchers->moving, (struct watcher){watch_one_sided, pair, 0, 0});
+}
+
+static void add_lift(struct watchers *watchers, const struct plan *plan, int pair)
+{
+    (void)plan;
+    add(&watchers->moving, (struct watcher){watch_lift, pair, 0, 0});
+}
+
+/* A drive never gives. */
+static void (*const add_mode[mode_kinds])(struct watchers *watchers, const struct plan *plan, int pair) = {
+    [mode_single] = add_rubbing, [mode_joint] = add_rubbing,     [mode_tangent] = add_rubbing,
+    [mode_rope] = add_one_sided, [mode_surface] = add_one_sided, [mode_contact] = add_lift};
+
+static void add_modes(struct watchers *watchers, const struct plan *plan)
+{
+    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
+        enum mode_kind kind = plan->modes[pair].kind;
+        if (add_mode[kind]) add_mode[kind](watchers, plan, pair);
+    }
+}
+
+static void add_contacts(struct watchers *watchers, const struct tree *tree)
+{
+    for (int i = 0; tree && i < tree->meeting_count; i++) {
+        const struct meeting *meeting = &tree->meetings[i];
+        for (int probe = 0; probe < meeting->probes; probe++)
+            add(&watchers->moving, (struct watcher){watch_gap, i, probe, 0});
+        if (meeting->shape[0].kind != contact_corners && meeting->shape[1].kind != contact_corners) continue;
+        if (meeting->shape[1].kind == contact_line) continue;
+        for (int k = 0; k < 2 * meeting->tie_count; k++)
+            add(&watchers->moving, (struct watcher){watch_edge, meeting->first_tie + k / 2, 0, k % 2});
+    }
+}
+
+static void add_all(struct watchers *watchers, const struct fbd_model *model)
+{
+    const struct plan *plan = &model->plan;
+    add_kinks(watchers, plan);
+    add_shares(watchers, plan);
+    add_modes(watchers, plan);
+    add_contacts(watchers, model->tree);
+    for (size_t i = 0; i < plan->contact_count; i++)
+        if (plan->contacts[i].pair < 0 && !plan->slot_constant[plan->contacts[i].slot])
+            add(&watchers->moving, (struct watcher){watch_contact, (int)i, 0, 0});
+    for (size_t i = 0; i < plan->watch_count; i++)
+        add(&watchers->moving, (struct watcher){watch_user, (int)i, 0, 0});
+}
+
+/* Neighbours of the same kind and index. */
+static bool group_watchers(struct arena *memory, const struct fbd_model *model, struct watcher_set *set)
+{
+    set->groups = ARENA_ARRAY(memory, set->count + 1, struct proof_group);
+    if (!set->groups) return false;
+    struct proof_group *group = set->groups - 1;
+    for (size_t i = 0; i < set->count; i++) {
+        const struct watcher *watcher = &set->watchers[i];
+        bool same = i > 0 && watcher->kind == watcher[-1].kind && watcher->index == watcher[-1].index;
+        if (!same)
+            *++group = (struct proof_group){.first = i,
+                                            .proved = watchers_can_enclose(model, watcher),
+                                            .aside = watcher->kind == watch_user,
+                                            .clear = (double)NAN};
+        group->count++;
+    }
+    set->group_count = (size_t)(group + 1 - set->groups);
+    return true;
+}
+
+bool watchers_init(struct watchers *watchers, const struct fbd_model *model, double tolerance, bool multistep)
+{
+    /* The errors of a multistep method hang together over many steps: towards a terminal speed msadams was
+     * seen to be off by 160 tolerances inside of its steps, where one-step methods are by 5. */
+    const double tolerances = 10, together = 30;
+    const struct plan *plan = &model->plan;
+    size_t margins = 0;
+    for (size_t i = 0; i < plan->kink_count; i++)
+        if (plan->kinks[i].count > margins) margins = plan->kinks[i].count;
+    *watchers = (struct watchers){0};
+    add_all(watchers, model); /* once to count, once to fill */
+    size_t timed = watchers->timed.count, moving = watchers->moving.count;
+    struct arena *memory = &watchers->memory;
+    watchers->timed = (struct watcher_set){.watchers = ARENA_ARRAY(memory, timed + 1, struct watcher)};
+    watchers->moving = (struct watcher_set){.watchers = ARENA_ARRAY(memory, moving + 1, struct watcher)};
+    watchers->scratch = ARENA_ARRAY(memory, 6 * margins + 1, double);
+    watchers->held = ARENA_ARRAY(memory, (size_t)plan->branches + 1, bool);
+    watchers->zeros = ARENA_ARRAY(memory, (size_t)plan->branches + 1, int);
+    watchers->place = ARENA_ARRAY(memory, 2 * extended_size(model) + 1, double);
+    watchers->margins = ARENA_ARRAY(memory, 2 * margins + 1, struct enclosure);
+    watchers->armed = ARENA_ARRAY(memory, plan->watch_count + 1, int);
+    watchers->fired = ARENA_ARRAY(memory, plan->watch_count + 1, double);
+    watchers->most = ARENA_ARRAY(memory, 2 * plan->watch_count + 1, double);
+    watchers->fast = ARENA_ARRAY(memory, 2 * plan->mode_count + 1, double);
+    if (memory->failed) {
+        watchers_free(watchers);
+        return false;
+    }
+    for (size_t i = 0; i < plan->watch_count; i++) watchers->fired[i] = (double)NAN;
+    watchers->width = tolerances * (multistep ? together : 1) * tolerance;
+    watchers->band = watchers->most + plan->watch_count;
+    watchers->quiet = watchers->fast + plan->mode_count;
+    add_all(watchers, model);
+    if (group_watchers(memory, model, &watchers->timed) && group_watchers(memory, model, &watchers->moving))
+        return true;
+    watchers_free(watchers);
+    return false;
+}
+
+void watchers_free(struct watchers *watchers)
+{
+    arena_free(&watchers->memory);
+    *watchers = (struct watchers){0};
+}
+
+/* ---- sizes, and what is enclosed */
+
+double watchers_contact_slack(const struct fbd_model *model, const struct tree_work *tree,
+                              const struct contact *contact)
+{
+    return press_slack(model, tree, contact->body);
+}
+
+/* `known`: nothing is slid on, or the shares of what is have enclosures. */
+static bool is_enclosed(const struct fbd_state *state, const struct watcher *watcher, bool known)
+{
+    switch (watcher->kind) {
+    case watch_share: {
+        const struct kink *kink = &state->model->plan.kinks[watcher->index];
+        for (size_t part = 0; !known && part < kink->count; part++)
+            if (state->sliding->slide_at[(size_t)kink->formula.branch + part] > 0) return false;
+        return true;
+    }
+    case watch_contact:
+    case watch_stick_limit:
+    case watch_normal_turns: return known && watchers_can_enclose(state->model, watcher);
+    default: return watchers_can_enclose(state->model, watcher);
+    }
+}
+
+void watchers_follow(struct watchers *watchers, const struct fbd_state *state)
+{
+    struct watcher_set *set = &watchers->moving;
+    watchers_hold(watchers, state);
+    if (!state->sliding) return;
+    bool known = !state_sliding(state) || outlook_knows_shares(state);
+    for (size_t g = 0; g < set->group_count; g++)
+        set->groups[g].proved = is_enclosed(state, &set->watchers[set->groups[g].first], known);
+}

@@ -1,0 +1,331 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Enclosures of event functions over a stretch of the motion, each as watchers.c has it at an instant.
+ *
+ * They are there for what is made of expressions: switches, user events, the speed of a pair on its surface,
+ * and the forces of a body by itself as far as they are sums of expressions, affine terms and weights.
+ */
+#include <float.h>
+
+#include "dynamics/absolute.h"
+#include "events/outlook.h"
+
+struct enclosure outlook_formula(const struct outlook *o, const struct formula *formula)
+{
+    if (!formula->expr) return enclosure_point(formula->constant);
+    int slides;
+    const struct slide *slide = outlook_slide(o->state, formula, &slides);
+    if (slides > 1) return enclosure_everything();
+    if (slide) {
+        struct enclosure high = outlook_branch(o, formula, slide, 1),
+                         low = outlook_branch(o, formula, slide, -1);
+        struct enclosure share = enclosure_scale(slide->sign, o->shares[slide->unit]);
+        return enclosure_add(enclosure_scale(0.5, enclosure_add(high, low)),
+                             enclosure_multiply(share, enclosure_subtract(high, low)));
+    }
+    const int *branch = formula->branch < 0 || !o->state->branch ? NULL : o->state->branch + formula->branch;
+    return expr_enclose(formula->expr, o->stretch, o->y, branch);
+}
+
+struct enclosure outlook_centred(const struct outlook *o, struct enclosure f)
+{
+    enclosure_centre(&f, stretch_radius(o->stretch));
+    return f;
+}
+
+/* ---- sums of forces */
+
+bool outlook_knows(const struct fbd_model *model, int body)
+{
+    const struct body_terms *terms = &model->plan.bodies[body];
+    return model->bodies[body].place.link == 0 && !terms->at_points && terms->potentials.count == 0 &&
+           terms->links.count + terms->drags.count + terms->forces.count == 0 && terms->offset < 0;
+}
+
+static struct enclosure enclose_sine(const struct outlook *o, const struct sine_term *term)
+{
+    const struct enclosure *q = &o->y[term->coordinate];
+    struct interval sine = interval_sin(q->value), cosine = interval_cos(q->value);
+    struct interval slope = interval_subtract(interval_scale(term->s, cosine), interval_scale(term->c, sine));
+    return (struct enclosure){interval_add(interval_scale(term->s, sine), interval_scale(term->c, cosine)),
+                              interval_multiply(slope, q->rate),
+                              interval_add(interval_scale(term->s, interval_sin(q->middle)),
+                                           interval_scale(term->c, interval_cos(q->middle)))};
+}
+
+static double signed_square(double v)
+{
+    return fabs(v) * v;
+}
+
+/* -k |v| v, which falls with the slope -2 k |v|. */
+static struct enclosure enclose_square(const struct outlook *o, const struct square_term *term)
+{
+    const struct enclosure *v = &o->y[o->state->model->plan.n + term->coordinate];
+    struct interval size = interval_hypot(v->value, interval_point(0));
+    struct enclosure f = {interval_rising(signed_square, v->value, -HUGE_VAL, HUGE_VAL),
+                          interval_multiply(interval_scale(2, size), v->rate),
+                          interval_rising(signed_square, v->middle, -HUGE_VAL, HUGE_VAL)};
+    return enclosure_scale(-term->k, f);
+}
+
+static struct enclosure enclose_affine(const struct outlook *o, const struct affine_term *term)
+{
+    const struct enclosure *q = &o->y[term->coordinate],
+                           *v = &o->y[o->state->model->plan.n + term->coordinate];
+    struct enclosure f = enclosure_point(term->c0);
+    if (term->kq != 0) f = enclosure_subtract(f, enclosure_scale(term->kq, *q));
+    if (term->kv != 0) f = enclosure_subtract(f, enclosure_scale(term->kv, *v));
+    return f;
+}
+
+struct enclosure outlook_slot(const struct outlook *o, int body, int slot)
+{
+    const struct plan *plan = &o->state->model->plan;
+    const struct body_terms *terms = &plan->bodies[body];
+    struct enclosure sum = enclosure_point(0);
+    for (int i = terms->affine.first; i < terms->affine.first + terms->affine.count; i++)
+        if (plan->affine[i].slot == slot) sum = enclosure_add(sum, enclose_affine(o, &plan->affine[i]));
+    for (int i = terms->across.first; i < terms->across.first + terms->across.count; i++)
+        if (plan->affine[i].slot == slot) sum = enclosure_add(sum, enclosure_point(plan->affine[i].c0));
+    for (int i = terms->sine.first; i < terms->sine.first + terms->sine.count; i++)
+        if (plan->sine[i].slot == slot) sum = enclosure_add(sum, enclose_sine(o, &plan->sine[i]));
+    for (int i = terms->square.first; i < terms->square.first + terms->square.count; i++)
+        if (plan->square[i].slot == slot) sum = enclosure_add(sum, enclose_square(o, &plan->square[i]));
+    for (int i = terms->formulas.first; i < terms->formulas.first + terms->formulas.count; i++) {
+        const struct formula_term *term = &plan->formulas[i];
+        if (term->slot != slot) continue;
+        struct enclosure value = outlook_formula(o, &term->value);
+        sum = enclosure_add(sum, enclosure_scale(term->scale, value));
+    }
+    return outlook_centred(o, sum);
+}
+
+/* ---- friction */
+
+static struct enclosure slip_stop(const struct outlook *o, int pair)
+{
+    const struct fbd_model *model = o->state->model;
+    const struct mode *mode = &model->plan.modes[pair];
+    struct enclosure speed = outlook_formula(o, &mode->surface_speed);
+    struct enclosure slip = enclosure_subtract(o->y[model->plan.n + mode->coordinate], speed);
+    return outlook_centred(o, enclosure_scale(o->state->slip[pair], slip));
+}
+
+struct enclosure outlook_press(const struct outlook *o, int pair)
+{
+    const struct mode *mode = &o->state->model->plan.modes[pair];
+    if (mode->normal_slot < 0) return enclosure_point(1);
+    struct enclosure sum = outlook_slot(o, mode->body, mode->normal_slot);
+    return enclosure_scale(-o->state->pull[pair], sum);
+}
+
+/* max(f, g): the rate is one of both, or lies between. */
+static struct enclosure larger_of(struct enclosure f, struct enclosure g)
+{
+    if (f.value.low >= g.value.high) return f;
+    if (g.value.low >= f.value.high) return g;
+    return (struct enclosure){{fmax(f.value.low, g.value.low), fmax(f.value.high, g.value.high)},
+                              interval_hull(f.rate, g.rate),
+                              {fmax(f.middle.low, g.middle.low), fmax(f.middle.high, g.middle.high)}};
+}
+
+static struct enclosure stick_limit(const struct outlook *o, int pair, int end)
+{
+    const struct mode *mode = &o->state->model->plan.modes[pair];
+    struct enclosure press = larger_of(outlook_press(o, pair), enclosure_point(0));
+    struct enclosure at_rest = enclosure_multiply(outlook_formula(o, &mode->mu_s), press);
+    struct enclosure moving = enclosure_multiply(outlook_formula(o, &mode->mu_k), press);
+    struct enclosure limit = larger_of(outlook_centred(o, at_rest), outlook_centred(o, moving));
+    struct enclosure push = outlook_slot(o, mode->body, mode->hold_slot);
+    struct enclosure f = enclosure_add(limit, enclosure_scale(end == 0 ? 1 : -1, push));
+    /* The room for rounding that friction_rounding gives. */
+    double rounding = 8 * DBL_EPSILON * (interval_size(push.value) + interval_size(limit.value));
+    f.value.high += rounding;
+    f.middle.high += rounding;
+    return outlook_centred(o, f);
+}
+
+/* ---- by kind */
+
+bool watchers_can_enclose(const struct fbd_model *model, const struct watcher *watcher)
+{
+    const struct plan *plan = &model->plan;
+    if (watcher->kind == watch_kink || watcher->kind == watch_user || watcher->kind == watch_share)
+        return true;
+    if (watcher->kind == watch_lift || watcher->kind == watch_gap || watcher->kind == watch_edge)
+        return false;
+    if (watcher->kind == watch_contact) return outlook_knows(model, plan->contacts[watcher->index].body);
+    const struct mode *mode = &plan->modes[watcher->index];
+    if (mode->tie >= 0) return false;
+    if (watcher->kind == watch_slip_stop) return true;
+    bool known = watcher->kind != watch_stick_limit || !mode->surface_speed.expr; /* its second rate */
+    return known && mode->kind == mode_single && outlook_knows(model, mode->body);
+}
+
+static void enclose_kink(const struct watchers *watchers, const struct watcher_set *set,
+                         const struct proof_group *group, const struct outlook *o, struct enclosure *out)
+{
+    const struct watcher *first = &set->watchers[group->first];
+    const struct kink *kink = &o->state->model->plan.kinks[first->index];
+    const int *branch = o->state->branch + kink->formula.branch;
+    expr_enclose_margins(kink->formula.expr, o->stretch, o->y, branch, watchers->margins);
+    for (size_t i = 0; i < group->count; i++) {
+        bool slid_on =
+            state_sliding(o->state) && o->state->sliding->slide_at[kink->formula.branch + first[i].part] > 0;
+        bool held = watchers->held[kink->formula.branch + first[i].part];
+        out[i] =
+            slid_on || held ? enclosure_point(HUGE_VAL) : watchers->margins[2 * first[i].part + first[i].end];
+    }
+}
+
+static struct enclosure enclose_user(const struct watchers *watchers, int index, const struct outlook *o)
+{
+    const struct watch *watch = &o->state->model->plan.watches[index];
+    int armed = watchers->armed[index];
+    if (armed == 0) return enclosure_point(HUGE_VAL);
+    struct enclosure difference =
+        enclosure_subtract(outlook_formula(o, &watch->left), outlook_formula(o, &watch->right));
+    struct enclosure band = enclosure_point(watchers->band[index]);
+    return outlook_centred(o, enclosure_add(enclosure_scale(armed, difference), band));
+}
+
+/* s of the upper branch, or what is left to 1. */
+static struct enclosure enclose_share(const struct outlook *o, const struct watcher *watcher)
+{
+    const struct fbd_state *state = o->state;
+    int branch = state->model->plan.kinks[watcher->index].formula.branch + watcher->part;
+    int index = state_sliding(state) ? state->sliding->slide_at[branch] : 0;
+    if (index == 0) return enclosure_point(HUGE_VAL);
+    const struct slide *slide = &state->sliding->slides[index - 1];
+    struct enclosure share =
+        enclosure_scale(watcher->end == 0 ? slide->sign : -slide->sign, o->shares[slide->unit]);
+    return enclosure_add(enclosure_point(0.5 + slide->slack), share);
+}
+
+static struct enclosure enclose_one(const struct watchers *watchers, const struct watcher *watcher,
+                                    const struct outlook *o)
+{
+    const struct fbd_model *model = o->state->model;
+    int index = watcher->index;
+    switch (watcher->kind) {
+    case watch_user: return enclose_user(watchers, index, o);
+    case watch_contact: {
+        const struct contact *contact = &model->plan.contacts[index];
+        struct enclosure slack = enclosure_point(watchers_contact_slack(model, NULL, contact));
+        return outlook_centred(o, enclosure_subtract(slack, outlook_slot(o, contact->body, contact->slot)));
+    }
+    case watch_normal_turns: return outlook_press(o, index);
+    case watch_slip_stop:
+        return o->state->slip[index] == stick ? enclosure_point(HUGE_VAL) : slip_stop(o, index);
+    case watch_stick_limit:
+        return o->state->slip[index] != stick ? enclosure_point(HUGE_VAL)
+                                              : stick_limit(o, index, watcher->end);
+    case watch_share: return enclose_share(o, watcher);
+    case watch_lift:
+    case watch_gap:
+    case watch_edge:
+    case watch_kink:
+    case watch_one_sided: break;
+    }
+    return enclosure_everything();
+}
+
+/* Are forces, and with them shares, in functions of this kind? */
+static bool asks_shares(enum watcher_kind kind)
+{
+    return kind == watch_share || kind == watch_contact || kind == watch_stick_limit ||
+           kind == watch_normal_turns;
+}
+
+void watchers_enclose(const struct watchers *watchers, const struct watcher_set *set, size_t group,
+                      const struct fbd_state *state, const struct stretch *stretch, const struct enclosure *y,
+                      struct enclosure *out)
+{
+    const struct proof_group *those = &set->groups[group];
+    struct outlook outlook = {.state = state, .stretch = stretch, .y = y};
+    if (asks_shares(set->watchers[those->first].kind) && state_sliding(state)) outlook_find_shares(&outlook);
+    if (set->watchers[those->first].kind == watch_kink) {
+        enclose_kink(watchers, set, those, &outlook, out);
+        return;
+    }
+    for (size_t i = 0; i < those->count; i++)
+        out[i] = enclose_one(watchers, &set->watchers[those->first + i], &outlook);
+}
+
+/* ---- what they read */
+
+static void mark_formula(const struct formula *formula, bool *used)
+{
+    const int *slots;
+    size_t count = formula->expr ? expr_variables(formula->expr, &slots) : 0;
+    for (size_t k = 0; k < count; k++) used[slots[k] - 1] = true;
+}
+
+static void mark_body(const struct plan *plan, int body, bool *used)
+{
+    const struct body_terms *terms = &plan->bodies[body];
+    for (int i = terms->affine.first; i < terms->affine.first + terms->affine.count; i++) {
+        used[plan->affine[i].coordinate] |= plan->affine[i].kq != 0;
+        used[plan->n + plan->affine[i].coordinate] |= plan->affine[i].kv != 0;
+    }
+    for (int i = terms->sine.first; i < terms->sine.first + terms->sine.count; i++)
+        used[plan->sine[i].coordinate] = true;
+    for (int i = terms->square.first; i < terms->square.first + terms->square.count; i++)
+        used[plan->n + plan->square[i].coordinate] = true;
+    for (int i = terms->formulas.first; i < terms->formulas.first + terms->formulas.count; i++)
+        mark_formula(&plan->formulas[i].value, used);
+}
+
+static void mark_friction(const struct plan *plan, const struct watcher *watcher, bool *used)
+{
+    const struct mode *mode = &plan->modes[watcher->index];
+    if (watcher->kind == watch_slip_stop) {
+        used[plan->n + mode->coordinate] = true;
+        mark_formula(&mode->surface_speed, used);
+        return;
+    }
+    mark_formula(&mode->mu_s, used);
+    mark_formula(&mode->mu_k, used);
+    mark_body(plan, mode->body, used);
+}
+
+/* What the switch of a slide watches, and the forces on the bodies whose coordinates these are. */
+static void mark_share(const struct fbd_model *model, const struct formula *formula, bool *used)
+{
+    const int *slots;
+    size_t count = expr_variables(formula->expr, &slots);
+    int n = model->plan.n;
+    mark_formula(formula, used);
+    for (size_t k = 0; k < count; k++) {
+        if (slots[k] > 2 * n) continue;
+        int coordinate = (slots[k] - 1) % n;
+        used[n + coordinate] = true;
+        mark_body(&model->plan, model->scene->coordinates[coordinate].body, used);
+    }
+}
+
+void watchers_mark_used(const struct fbd_model *model, const struct watcher_set *set, bool *used)
+{
+    const struct plan *plan = &model->plan;
+    for (size_t i = 0; i < set->count; i++) {
+        const struct watcher *watcher = &set->watchers[i];
+        if (!watchers_can_enclose(model, watcher)) continue;
+        switch (watcher->kind) {
+        case watch_kink: mark_formula(&plan->kinks[watcher->index].formula, used); break;
+        case watch_user:
+            mark_formula(&plan->watches[watcher->index].left, used);
+            mark_formula(&plan->watches[watcher->index].right, used);
+            break;
+        case watch_contact: mark_body(plan, plan->contacts[watcher->index].body, used); break;
+        case watch_slip_stop:
+        case watch_stick_limit:
+        case watch_normal_turns: mark_friction(plan, watcher, used); break;
+        case watch_lift:
+        case watch_gap:
+        case watch_edge:
+        case watch_one_sided: break;
+        case watch_share: mark_share(model, &plan->kinks[watcher->index].formula, used); break;
+        }
+    }
+}

@@ -1,0 +1,368 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The values of watchers and their rates along the motion.
+ */
+#include <assert.h>
+#include <string.h>
+
+#include "dynamics/absolute.h"
+#include "dynamics/constraint.h"
+#include "dynamics/contact.h"
+#include "dynamics/friction.h"
+#include "dynamics/modes.h"
+#include "dynamics/own.h"
+#include "dynamics/rest_system.h"
+#include "dynamics/tree_driven.h"
+#include "events/watchers.h"
+
+/* ---- their values */
+
+/* Where and along what a set is evaluated. */
+struct view {
+    struct fbd_state *state;
+    struct instant at;
+    double rest; /* of the time */
+    struct direction flow;
+    const double *slots, *slots_along; /* without friction */
+    int friction;                      /* the pair that `now` and `along` belong to, -1 for none */
+    struct friction_values now, along;
+    struct arena arena;
+    bool shared, told; /* holds share a load; a watcher has its margin already */
+    struct rest_margin margin;
+};
+
+static void look_at_friction(struct view *view, int pair)
+{
+    const struct fbd_model *model = view->state->model;
+    if (view->friction == pair) return;
+    view->friction = pair;
+    view->now = friction_at(model, pair, &view->at, view->slots);
+    view->along = friction_along(model, pair, &view->at, view->slots, &view->flow, view->slots_along);
+}
+
+static double user_value(const struct watch *watch, const struct view *view, double *rate)
+{
+    double left_rate, right_rate;
+    double left = formula_along(&watch->left, &view->at, &view->flow, &left_rate);
+    double right = formula_along(&watch->right, &view->at, &view->flow, &right_rate);
+    *rate = left_rate - right_rate;
+    return left - right;
+}
+
+/* Closed: the force. Open: what is left to where it closes; just after it has opened that is rounding, and
+ * rounding closes nothing. */
+static double one_sided_value(const struct watcher *watcher, const struct view *view, double *rate)
+{
+    const struct fbd_model *model = view->state->model;
+    int tie = model->plan.modes[watcher->index].tie;
+    struct one_sided now = one_sided_at(model, &view->at, watcher->index);
+    if (view->at.slip[watcher->index] != stick) {
+        *rate = -now.rate;
+        return now.rounding - now.excess;
+    }
+    double lambda_rate = view->state->tree->z[model->tree->ties[tie].first_row];
+    *rate = model->plan.modes[watcher->index].kind == mode_rope ? -lambda_rate : lambda_rate;
+    return now.force + now.slack;
+}
+
+/* What rolls or touches has left its surface: nothing rubs. */
+static bool is_off_its_surface(const struct view *view, const struct mode *mode)
+{
+    if (mode->tie < 0) return false;
+    int surface = view->state->model->tree->ties[mode->tie].surface;
+    return surface >= 0 && view->at.slip[surface] != stick;
+}
+
+/* While it is closed its normal force. */
+static double lift_value(const struct watcher *watcher, const struct view *view, double *rate)
+{
+    const struct fbd_model *model = view->state->model;
+    const struct mode *mode = &model->plan.modes[watcher->index];
+    *rate = 0;
+    if (view->at.slip[watcher->index] != stick) return HUGE_VAL;
+    int slot = model->tree->ties[mode->tie].normal_slot;
+    assert(view->slots && view->slots_along);
+    *rate = -view->slots_along[slot];
+    return contact_slack(model, mode->tie) - view->slots[slot];
+}
+
+/* Just after it has opened a gap is rounding, and rounding closes nothing. */
+static double gap_value(const struct watchers *watchers, const struct watcher *watcher,
+                        const struct view *view, double *rate)
+{
+    const struct fbd_model *model = view->state->model;
+    *rate = 0;
+    if (watchers->asleep && watchers->asleep[watcher->index]) return HUGE_VAL;
+    struct gap gap = meeting_probe(model, &view->at, watcher->index, watcher->part);
+    *rate = gap.rate;
+    double deep = watchers->deep ? watchers->deep[watcher->index] : 0;
+    return gap.x + deep + meeting_rounding(model, view->state->tree, watcher->index);
+}
+
+/* What still touches at an end, within `near`, is not at its end yet. */
+static double edge_value(const struct watcher *watcher, const struct view *view, double *rate)
+{
+    const struct fbd_model *model = view->state->model;
+    int meeting = model->tree->ties[watcher->index].meeting;
+    struct gap gap = {HUGE_VAL, 0, no_feature};
+    if (tie_is_closed(model, &view->at, watcher->index))
+        gap = feature_end(model, view->state->tree, meeting, view->state->tree->ties[watcher->index].feature,
+                          watcher->end);
+    *rate = gap.rate;
+    return gap.x < HUGE_VAL ? gap.x + 2 * meeting_near(model, view->state->tree, meeting) : HUGE_VAL;
+}
+
+static double friction_value(const struct watchers *watchers, const struct watcher *watcher,
+                             struct view *view, double *rate)
+{
+    const struct fbd_model *model = view->state->model;
+    const struct mode *mode = &model->plan.modes[watcher->index];
+    int slip = view->at.slip[watcher->index];
+    *rate = 0;
+    if (is_off_its_surface(view, mode)) return HUGE_VAL;
+    if (watcher->kind == watch_slip_stop) {
+        if (slip == stick) return HUGE_VAL;
+        if (mode->tie >= 0) {
+            *rate = slip * tie_slip_acceleration(model, &view->at, mode->tie);
+            return slip * tie_slip_velocity(model, &view->at, mode->tie) + watchers->quiet[watcher->index];
+        }
+        double acceleration, speed = friction_surface_speed(mode, &view->at, &acceleration);
+        int index = model->plan.n + mode->coordinate;
+        *rate = slip * (view->flow.dy[index] - acceleration);
+        return slip * (view->at.y[index] - speed) + watchers->quiet[watcher->index];
+    }
+    if (watcher->kind == watch_stick_limit && slip != stick) return HUGE_VAL;
+    look_at_friction(view, watcher->index);
+    const struct friction_values *now = &view->now, *d = &view->along;
+    if (watcher->kind == watch_normal_turns) {
+        *rate = view->at.pull[watcher->index] * d->N;
+        double slack = mode->kind != mode_single ? press_slack(model, view->at.tree, mode->body) : 0;
+        return view->at.pull[watcher->index] * now->N + slack;
+    }
+    int side = watcher->end == 0 ? 1 : -1;
+    bool kinetic = now->limit_kinetic > now->limit_static; /* as in friction_decide */
+    *rate = (kinetic ? d->limit_kinetic : d->limit_static) - side * d->hold;
+    /* A force that only just touches its limit does not break away by a rounding. */
+    double slack = friction_rounding(now);
+    if (mode->tie >= 0 && model->tree->ties[mode->tie].meeting >= 0) slack += contact_slack(model, mode->tie);
+    return now->limit - side * now->hold + slack;
+}
+
+/* Does the watcher watch a share of a load that several holds bear? One of them watches for all. */
+static bool watches_share(const struct watcher *watcher, const struct view *view)
+{
+    if (!view->shared) return false;
+    assert(view->margin.contacts && view->margin.of); /* of a load that is shared */
+    if (watcher->kind == watch_contact) return view->margin.contacts[watcher->index];
+    bool limit = watcher->kind == watch_stick_limit || watcher->kind == watch_normal_turns ||
+                 watcher->kind == watch_lift || watcher->kind == watch_one_sided;
+    return limit && view->at.slip[watcher->index] == stick && view->margin.of[watcher->index];
+}
+
+static double shared_value(struct view *view, const struct watcher *watcher, double *rate)
+{
+    bool told =
+        view->told || watcher->kind == watch_normal_turns; /* where it turns nothing holds by friction */
+    view->told |= !told;
+    *rate = told ? 0 : view->margin.rate;
+    return told ? HUGE_VAL : view->margin.value + rest_margin_slack(&view->margin);
+}
+
+/* The slide on the switch of a watcher; NULL when there is none. */
+static const struct slide *slide_of(const struct fbd_state *state, const struct watcher *watcher)
+{
+    if (!state_sliding(state)) return NULL;
+    int branch = state->model->plan.kinks[watcher->index].formula.branch + watcher->part;
+    int slide = state->sliding->slide_at[branch];
+    return slide > 0 ? &state->sliding->slides[slide - 1] : NULL;
+}
+
+static double share_value(const struct fbd_state *state, const struct watcher *watcher, double *rate)
+{
+    const struct slide *slide = slide_of(state, watcher);
+    *rate = 0;
+    if (!slide) return HUGE_VAL;
+    *rate = watcher->end == 0 ? slide->along : -slide->along;
+    return (watcher->end == 0 ? slide->share : 1 - slide->share) + slide->slack;
+}
+
+static void kink_margins(const struct watchers *watchers, const struct kink *kink, const struct view *view)
+{
+    double *margins = watchers->scratch, *rates = margins + 2 * kink->count;
+    struct moment t = {view->at.t, view->rest};
+    expr_margins(kink->formula.expr, t, view->at.y, view->flow.dt, view->flow.dy,
+                 formula_branches(&kink->formula, &view->at), margins, rates, rates + 2 * kink->count);
+}
+
+/* Does the function ask for more than the state and its rates of change, in the present modes? */
+static bool asks_forces(const struct watcher *watcher, const struct fbd_state *state)
+{
+    switch (watcher->kind) {
+    case watch_kink:
+    case watch_user:
+    case watch_share:
+    case watch_slip_stop:
+    case watch_gap:
+    case watch_edge: return false;
+    case watch_lift:
+    case watch_stick_limit: return state->slip[watcher->index] == stick;
+    case watch_contact:
+    case watch_one_sided:
+    case watch_normal_turns: break;
+    }
+    return true;
+}
+
+static bool any_asks_forces(const struct watcher_set *set, const struct fbd_state *state)
+{
+    for (size_t i = 0; i < set->count; i++)
+        if (asks_forces(&set->watchers[i], state)) return true;
+    return false;
+}
+
+/* The rates of change at (t, y) in the present modes; when asked for, also the forces without friction and
+ * how they vary. */
+static void set_flow(struct view *view, bool forces)
+{
+    struct fbd_state *state = view->state;
+    const struct plan *plan = &state->model->plan;
+    struct scratch scratch = state_scratch(state);
+    double *slots = scratch.slots, *slots_along = scratch.slots_along, *dy = scratch.dy;
+    state_rates(state->model, &view->at, slots, dy);
+    if (plan->own > 0) own_rates(state->model, &view->at, dy + plan_own_place(plan));
+    view->flow = (struct direction){1, dy};
+    if (state->model->absolute_count > 0) {
+        view->at = instant_extend(state->model, &view->at);
+        view->flow = direction_extend(state->model, &view->at, &view->flow);
+    }
+    if (view->at.sliding) sliding_solve_along(state->model, &view->at, &view->flow);
+    if (!forces) return;
+    force_balance(state->model, &view->at, slots);
+    force_balance_along(state->model, &view->at, &view->flow, slots, slots_along);
+    view->slots = slots;
+    view->slots_along = slots_along;
+    if (!state->tree) return;
+    view->shared = tree_find_margin(state, &view->at, true, &view->flow, slots, slots_along, &view->arena,
+                                    &view->margin);
+}
+
+void watchers_evaluate(const struct watchers *watchers, const struct watcher_set *set,
+                       struct fbd_state *state, struct moment t, const double *y, double *values,
+                       double *rates)
+{
+    const struct plan *plan = &state->model->plan;
+    struct view view = {.state = state,
+                        .at = state_instant_at(state, t.t, y),
+                        .rest = t.rest,
+                        .flow = {1, NULL},
+                        .friction = -1};
+    if (set != &watchers->timed) set_flow(&view, any_asks_forces(set, state));
+    int last_kink = -1;
+    for (size_t i = 0; i < set->count; i++) {
+        const struct watcher *watcher = &set->watchers[i];
+        assert(view.flow.dy || watcher->kind == watch_kink); /* a function of t alone needs no flow */
+        assert(view.slots || !asks_forces(watcher, state));
+        if (watches_share(watcher, &view)) {
+            values[i] = shared_value(&view, watcher, &rates[i]);
+            continue;
+        }
+        switch (watcher->kind) {
+        case watch_kink: {
+            const struct kink *kink = &plan->kinks[watcher->index];
+            if (watcher->index != last_kink) kink_margins(watchers, kink, &view);
+            last_kink = watcher->index;
+            size_t entry = 2 * (size_t)watcher->part + (size_t)watcher->end;
+            values[i] = watchers->scratch[entry];
+            rates[i] = watchers->scratch[2 * kink->count + entry];
+            bool held = watchers->held[kink->formula.branch + watcher->part];
+            if (!held && !slide_of(state, watcher)) break;
+            values[i] = HUGE_VAL;
+            rates[i] = 0;
+            break;
+        }
+        case watch_contact:
+            values[i] = watchers_contact_slack(state->model, view.at.tree, &plan->contacts[watcher->index]) -
+                        view.slots[plan->contacts[watcher->index].slot];
+            rates[i] = -view.slots_along[plan->contacts[watcher->index].slot];
+            break;
+        case watch_user: {
+            int armed = watchers->armed[watcher->index];
+            double value = user_value(&plan->watches[watcher->index], &view, &rates[i]);
+            values[i] = armed == 0 ? HUGE_VAL : armed * value + watchers->band[watcher->index];
+            rates[i] *= armed;
+            break;
+        }
+        case watch_one_sided: values[i] = one_sided_value(watcher, &view, &rates[i]); break;
+        case watch_share: values[i] = share_value(state, watcher, &rates[i]); break;
+        case watch_lift: values[i] = lift_value(watcher, &view, &rates[i]); break;
+        case watch_gap: values[i] = gap_value(watchers, watcher, &view, &rates[i]); break;
+        case watch_edge: values[i] = edge_value(watcher, &view, &rates[i]); break;
+        case watch_slip_stop:
+        case watch_stick_limit:
+        case watch_normal_turns: values[i] = friction_value(watchers, watcher, &view, &rates[i]); break;
+        }
+    }
+    arena_free(&view.arena);
+}
+
+void watchers_evaluate_timed(const struct watchers *watchers, struct fbd_state *state, struct moment t,
+                             double *values, double *rates, double *roundings)
+{
+    const struct watcher_set *set = &watchers->timed;
+    struct view view = {.state = state, .at = state_instant(state), .rest = t.rest, .flow = {1, NULL}};
+    view.at.t = t.t;
+    int last_kink = -1;
+    for (size_t i = 0; i < set->count; i++) {
+        const struct watcher *watcher = &set->watchers[i];
+        const struct kink *kink = &state->model->plan.kinks[watcher->index];
+        if (watcher->index != last_kink) kink_margins(watchers, kink, &view);
+        last_kink = watcher->index;
+        size_t entry = 2 * (size_t)watcher->part + (size_t)watcher->end;
+        values[i] = watchers->scratch[entry];
+        rates[i] = watchers->scratch[2 * kink->count + entry];
+        roundings[i] = watchers->scratch[4 * kink->count + entry];
+    }
+}
+
+/* What drives bring to rest smoothly and take on again has a speed of rounding for a while. */
+static void calm_driven(struct watchers *watchers, const struct fbd_state *state, double step)
+{
+    const double near = 10;
+    for (size_t i = 0; i < state->model->plan.mode_count; i++) {
+        watchers->quiet[i] = 0;
+        if (state->slip_driven[i] == 0) continue;
+        struct instant at = state_instant(state);
+        int side = slip_side(state->slip[i]);
+        double v = side * slip_velocity(state->model, (int)i, &at);
+        bool rests = v == 0 && !(side * tree_hold_acceleration(state, &at, (int)i) > 0);
+        watchers->fast[i] = fmax(watchers->fast[i], v);
+        double band =
+            rests ? HUGE_VAL : fmax(watchers->width * watchers->fast[i], tree_unseen_speed(state, step));
+        if (fabs(v) <= near * band) watchers->quiet[i] = band;
+    }
+}
+
+void watchers_arm(struct watchers *watchers, struct fbd_state *state, double step)
+{
+    const struct plan *plan = &state->model->plan;
+    if (state->tree) calm_driven(watchers, state, step);
+    if (plan->watch_count == 0) return;
+    struct view view = {.state = state, .at = state_instant(state)};
+    set_flow(&view, false);
+    for (size_t i = 0; i < plan->watch_count; i++) {
+        double rate, value = user_value(&plan->watches[i], &view, &rate), size = fabs(value);
+        if (size > watchers->most[i] && size < HUGE_VAL) watchers->most[i] = size;
+        double width = watchers->width * watchers->most[i];
+        watchers->band[i] = size <= width ? width : 0;
+        if (watchers->armed[i] != 0) continue;
+        double side = value != 0 ? value : rate;
+        watchers->armed[i] = side > 0 ? 1 : side < 0 ? -1 : 0;
+    }
+}
+
+/* It is at zero, thus in its band. */
+void watchers_turn(struct watchers *watchers, int watch)
+{
+    watchers->armed[watch] = -watchers->armed[watch];
+    watchers->band[watch] = watchers->width * watchers->most[watch];
+}

@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Dense output over one step of any method: the state at every t0 <= t <= t1.
+ *
+ * GSL's steppers offer none, so a polynomial is laid through what every step leaves behind: state and slope
+ * at both ends. For pairs (q, v) with q' = v that is q, v, a at both ends, which a quintic takes up; its
+ * derivative is the only quartic through the same data, and one order better than the cubic of (v, a).
+ * Further accelerations, evaluated on the polynomial made so far, raise the order one by one
+ * (bootstrapping: Enright, Jackson, Norsett, Thomsen, Interpolants for Runge-Kutta formulas, ACM TOMS 12
+ * (1986) 193). The points are chosen where the polynomial is better than elsewhere, which saves most of the
+ * evaluations; dense.c has the derivation.
+ *
+ *                                          error of q, v    of other components    evaluations
+ *     level 0: the ends only               h^6, h^5         h^4                    0
+ *     level 1: one acceleration inside     h^7, h^6         as level 2             1, with others 4
+ *     level 2: three accelerations inside  h^9, h^8         h^5; h^6 if they only  4
+ *                                                           follow q and v
+ *
+ * A method of order p gets the level whose v errs by h^p at most, like the method itself over many steps: 0
+ * up to order 4, 1 for order 5, 2 above. A system without pairs has cubic Hermite with errors h^4, h^5 and
+ * h^6 for 0, 2 and 4 evaluations. dop853 brings its own extension (error h^8, three evaluations).
+ *
+ * The evaluations are made when a point inside of the step is first asked for, never for the ends: a step
+ * that nobody looks into costs nothing. They do not act back on the stepper, so output does not change a
+ * trajectory.
+ *
+ * Limit: slopes and inner evaluations magnify an error in y along a stiff direction by h |lambda|, and no
+ * polynomial of these degrees follows a step of bsimp, which may be longer than a period. So implicit
+ * methods have other means: see stepper_dense. The v of levels 0 to 2 contains the difference of two q over
+ * h, and with it their errors over h: next to a step of low order and small size (the first ones of
+ * msadams) v may be ten times worse than at its ends. So where the difference says less than these errors, it
+ * is left out.
+ */
+#ifndef FBD_INTEGRATE_DENSE_H
+#define FBD_INTEGRATE_DENSE_H
+
+#include <gsl/gsl_odeiv2.h>
+
+#include "base/moment.h"
+#include "integrate/layout.h"
+
+struct dense;
+
+/* Dense output for states of this layout, not yet set. NULL when memory is out. */
+struct dense *dense_alloc(const struct layout *layout);
+void dense_free(struct dense *dense);
+
+/* Stand for the step from (t0, y0) with slopes f0 to (t1, y1) with slopes f1, t1 after t0, made by a method
+ * of order `order`. `step` is the stepper that made it, used if it has a dense output of its own (dop853 and
+ * the methods of structure.h), or NULL. Nothing is computed or copied: all arguments have to stay as they are
+ * until the next dense_set. */
+void dense_set(struct dense *dense, int order, struct moment t0, const double *y0, const double *f0,
+               struct moment t1, const double *y1, const double *f1, const gsl_odeiv2_system *sys,
+               gsl_odeiv2_step *step);
+
+/* For steps of a multistep method, whose errors of q and v are independent of each other: `errors`, to stay
+ * where they are, hold those of y1 from now on. */
+void dense_set_errors(struct dense *dense, const double *errors);
+
+/* y at time t; bit for bit y0 at t0 and y1 at t1. GSL_SUCCESS, or the code of a right-hand side that failed
+ * inside of the step; then y is not touched. */
+int dense_eval(struct dense *dense, struct moment t, double *y);
+
+/* The same at level 0, whatever the method: what is left when evaluations inside of the step fail. */
+void dense_eval_plain(struct dense *dense, struct moment t, double *y);
+
+#endif

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The explicit Runge-Kutta pair of Dormand and Prince of order 8(5,3) with dense output of order 7, as a
+ * step type for GSL's odeiv2.
+ *
+ * It may be used in any GSL program: gsl_odeiv2_step_alloc(step_dop853, dim), with evolve or driver and any
+ * control. A step costs 12 evaluations of the right-hand side when f(t, y) is given in dydt_in, the last of
+ * which is f(t + h, y1) = dydt_out. It needs neither Jacobian nor driver. No memory is taken after the
+ * allocation.
+ *
+ * Error estimate. Hairer combines two embedded formulas of order 5 and 3 with differences e5 = O(h^5) and
+ * e3 = O(h^3) (both divided by h) to
+ *     err = h |e5|^2 / sqrt(|e5|^2 + 0.01 |e3|^2) = O(h^8),
+ * which is large where the formula of order 5 happens to agree by accident. A GSL control takes a number
+ * for each component, so the same expression is delivered for each: yerr_i = h e5_i |e5_i| / sqrt(e5_i^2 +
+ * 0.01 e3_i^2). For one component it is Hairer's formula; for several the maximum of |yerr_i| / scale_i,
+ * which a control forms, is as dimension-free as his root mean square, and one component does not dilute
+ * the error of another. As the estimate is O(h^8) = O(h^order), the exponent of a step size law is 1/8.
+ *
+ * Rounding. What y1 = y0 + (...) loses is kept and added in the next step, and to the arguments of its stages
+ * (compensated summation: O. Moller, BIT 5 (1965) 37; E. Hairer, C. Lubich, G. Wanner, Geometric Numerical
+ * Integration, VIII.5). It belongs to a component
+ * as long as y comes back bit for bit, whether the step is tried again or goes on from its end; a reset
+ * forgets it. A pendulum from 1e-6 rad beside the upright to the same on the other side, where 1e-15 of the
+ * energy are 1e-4 s, is 3 to 4 times more accurate so at tolerances of 1e-14 and below; what is left is the
+ * rounding of the slopes. It costs one sum for each stage and component, some hundredths of the time of a
+ * pendulum's step.
+ *
+ * Failure. Where the right-hand side returns a code other than GSL_SUCCESS, the step returns that code;
+ * where y1 is not finite, GSL_FAILURE (GSL's own steppers would call it success). In both cases y is as it
+ * was on entry.
+ *
+ * Source: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd edition,
+ * Springer 1993, II.5 (pair), II.10 (error estimate), II.6 (dense output); J. R. Dormand, P. J. Prince, J.
+ * Comput. Appl. Math. 6 (1980) 19; coefficients in dop853_table.h.
+ */
+#ifndef FBD_INTEGRATE_DOP853_H
+#define FBD_INTEGRATE_DOP853_H
+
+#include <gsl/gsl_odeiv2.h>
+#include <stdbool.h>
+
+extern const gsl_odeiv2_step_type *const step_dop853;
+
+/* Make the dense output of the last step that `step` has made ready: three evaluations of the right-hand
+ * side (four if the step was made without dydt_out), the first time only. The step may have been rejected
+ * by a control since. GSL_SUCCESS, the code of a failed right-hand side, or GSL_EINVAL when `step` is of
+ * another type or has no step behind it. The result stays valid until the next step or reset. */
+int dop853_dense_prepare(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys);
+
+/* y(t0 + theta h), 0 <= theta <= 1, of the prepared step [t0, t0 + h]; error O(h^8), continuous with its
+ * first derivative from step to step. */
+void dop853_dense_eval(const gsl_odeiv2_step *step, double theta, double *y);
+
+/* Two states that the last step has evaluated for one time, its end y1 and the argument of stage 12, differ
+ * by dy, their slopes by df: so df = J dy with a mean J of the Jacobian, for nothing (HNW II, IV.2, uses it
+ * to detect stiffness). False, and nothing set, unless the last step was made with dydt_out, is of this type
+ * and has no dense output yet. The numbers last until the dense output is made or the next step. */
+bool dop853_differences(const gsl_odeiv2_step *step, const double **dy, const double **df);
+
+#endif

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The exact motion of a linear system with constant coefficients, as a step type for GSL's odeiv2.
+ *
+ * For y' = f(y) = A y + g the slope along the motion is e^(hA) f0, so with f0 = f(y0)
+ *
+ *     y(h) = y0 + Phi(h) f0,   Phi(h) = int_0^h e^(sA) ds = sum_k h^(k+1) A^k / (k+1)!
+ *
+ * whatever g is, and a state of equilibrium stays where it is to the last bit. Let rho be the bound of
+ * stiffness_rate for |A|: there is a weighted maximum norm with ||A|| <= rho. For h rho <= 2 the series with
+ * 26 terms errs by less than 2^26/27! = 7e-21 in that norm, is applied to f0 as it stands (as many terms as
+ * count in double precision), and its terms are dense output at the same time. For longer steps it is doubled
+ * (scaling and squaring):
+ *
+ *     Phi(2h) = Phi(h) + e^(hA) Phi(h),   e^(hA) = 1 + A Phi(h),
+ *
+ * and kept for the next step of the same size. The error estimate is zero. A step costs one evaluation, for
+ * the slope at its end; the first one after a reset also a Jacobian.
+ *
+ * How long steps should be is a matter of what is looked for in them: struct linear_pace.
+ *
+ * Source: N. J. Higham, Functions of Matrices, SIAM 2008, chapter 10 (scaling and squaring, Taylor), 10.7.4
+ * (phi functions); the norm is that of Collatz and Wielandt, see stiffness.c.
+ */
+#ifndef FBD_INTEGRATE_LINEAR_H
+#define FBD_INTEGRATE_LINEAR_H
+
+#include <gsl/gsl_eigen.h>
+#include <gsl/gsl_odeiv2.h>
+#include <stdbool.h>
+
+#include "integrate/system.h"
+
+extern const gsl_odeiv2_step_type *const step_linear;
+
+/* After a reset: the matrix is A (dim x dim, row by row), with rho the result of stiffness_rate for it, and
+ * need not be asked for. */
+void linear_set_matrix(gsl_odeiv2_step *step, const double *A, double rho);
+
+/* As dop853_dense_prepare and dop853_dense_eval; exact, without evaluations. */
+int linear_dense_prepare(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys);
+void linear_dense_eval(const gsl_odeiv2_step *step, double theta, double *y);
+
+/* The degree of the polynomial that the last step is, 0 where it is none. */
+int linear_dense_degree(const gsl_odeiv2_step *step);
+
+/* Dense algebra beyond this many pairs costs more than it saves. */
+enum { linear_most_pairs = 8 };
+
+/* Steps short enough that event functions and powers are followed by a few samples of each: two radians of
+ * the fastest oscillation that is still there. Right after a start that is anything up to rho; a mode with
+ * the eigenvalue l has died out after 40 / -Re l (e^-40 = 4e-18). A decaying motion is followed by steps that
+ * double. The sizes are powers of two over rho, so that Phi is used again. */
+struct linear_modes;
+
+struct linear_pace {
+    size_t dim;
+    double start;              /* time of the last start */
+    struct linear_modes *kept; /* linear_most_kept: of the matrices met last */
+    struct linear_modes *now;
+    size_t oldest;
+    double *jacobian, *copy, *work; /* dim dim, dim dim, 3 dim */
+    gsl_eigen_nonsymm_workspace *eigen;
+};
+
+/* A matrix with what is known of it. A scene goes to and fro between a few: sticks, slips, sticks ... */
+struct linear_modes {
+    double *A; /* dim dim */
+    double rho;
+    gsl_vector_complex *eigenvalues;
+};
+
+enum { linear_most_kept = 4 };
+
+/* For systems of this dimension. False when memory is out; to be freed in any case. */
+bool linear_pace_init(struct linear_pace *pace, size_t dim);
+void linear_pace_free(struct linear_pace *pace);
+
+/* At a start or after an event; pace->now is the matrix then, NULL when it cannot be had. */
+void linear_pace_start(struct linear_pace *pace, struct counted_system *system, double t, const double *y);
+
+/* The size of a step from t. */
+double linear_pace_step(const struct linear_pace *pace, double t);
+
+/* The largest |l| of the eigenvalues whose motion has not died out at t. */
+double linear_pace_rate(const struct linear_pace *pace, double t);
+
+#endif

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Table of the integration methods by name.
+ */
+#ifndef FBD_INTEGRATE_METHOD_H
+#define FBD_INTEGRATE_METHOD_H
+
+#include <gsl/gsl_odeiv2.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Beyond so many states the dense algebra of the stiff method costs more than it could save. */
+enum { method_most_stiff_states = 200 };
+
+struct method {
+    const char *name;
+    const char *description; /* one line without a full stop */
+    const gsl_odeiv2_step_type *const *type;
+    int order;          /* of the result; the highest one of a method of variable order */
+    int estimate_order; /* its error estimate is O(h^estimate_order); 0: order of the moment + 1 */
+    bool implicit;      /* needs the Jacobian */
+    bool multistep; /* remembers earlier steps: cannot redo part of a step, has to be reset after an event */
+    bool needs_driver; /* asks a driver for its control's error level */
+    double stable;     /* it is stable for h lambda in [-stable, 0]; 0: dop853, which finds
+                          out by itself, and implicit ones */
+    bool exact; /* no error: a part of a step is what its dense output says, and no first step is too long */
+};
+
+/* Method number `index` in the order of preference; NULL beyond the last one. Number 0 is the default. */
+const struct method *method_at(size_t index);
+
+/* The method called `name`, or NULL. */
+const struct method *method_find(const char *name);
+
+#endif

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The exact motion under constant accelerations, as a step type for GSL's odeiv2:
+ *
+ *     q(t + h) = q + h v + h^2 a / 2,   v(t + h) = v + h a,   a = a(t, y) at the start of the step.
+ *
+ * One step reaches to the next event, whatever the distance; it evaluates nothing, as a is given in dydt_in
+ * and is the same at the end. The error estimate is zero. As with nystrom.h, structure.h chooses this for
+ * systems y = (q, v) whose accelerations are constant between events, and nobody else does.
+ *
+ * Event functions along such a motion that are linear in q and v are quadratic or linear in t; the cubics of
+ * scan.h follow them exactly, so that their zeros are found at the first attempt.
+ */
+#ifndef FBD_INTEGRATE_PARABOLA_H
+#define FBD_INTEGRATE_PARABOLA_H
+
+#include <gsl/gsl_odeiv2.h>
+
+extern const gsl_odeiv2_step_type *const step_parabola;
+
+/* As dop853_dense_prepare and dop853_dense_eval; exact, without evaluations. */
+int parabola_dense_prepare(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys);
+void parabola_dense_eval(const gsl_odeiv2_step *step, double theta, double *y);
+
+#endif

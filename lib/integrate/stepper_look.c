@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The inside of the last step: its interpolant where the method has one, else the step made again in part.
+ */
+#include <gsl/gsl_errno.h>
+#include <string.h>
+
+#include "integrate/bsimp.h"
+#include "integrate/linear.h"
+#include "integrate/nystrom.h"
+#include "integrate/parabola.h"
+#include "integrate/rodas5p.h"
+#include "integrate/stepper_state.h"
+#include "integrate/weights.h"
+
+/* A step of size h by the same method from the start of the last one. */
+static int redo(struct stepper *s, double h, double *y, double *f)
+{
+    memcpy(y, s->y0, s->n * sizeof *y);
+    return gsl_odeiv2_step_apply(s->redo, s->t0.t, h, y, s->yerr, s->f0, f, &s->system->gsl);
+}
+
+/* A part of a step need not be what the whole was: the table of bsimp may agree at the end of a step that is far too
+ * long for it, and nowhere inside. So it is held to the error of a step of its own. Methods with the same few stages
+ * for every step err less in a shorter one, while their estimates see a stiff layer that is none of theirs. */
+static bool redo_well(struct stepper *s, double h, double *y, double *f)
+{
+    if (redo(s, h, y, f) != GSL_SUCCESS || !all_finite(s->n, y, f)) return false;
+    bool doubtful = *s->method->type == step_bsimp && s->h_fixed == 0;
+    return !doubtful || weights_ratio(s->control, h, y, s->yerr, f) <= 1;
+}
+
+static bool redo_share(void *context, double share, double *y)
+{
+    struct stepper *s = context;
+    return redo_well(s, share * moment_since(s->t1, s->t0), y, s->work);
+}
+
+static double walk_part(void *context, double from, double h, double *y, double *f)
+{
+    struct stepper *s = context;
+    double *y1 = s->work, *f1 = s->work + s->n;
+    memcpy(y1, y, s->n * sizeof *y);
+    gsl_odeiv2_step_reset(s->redo);
+    int code = gsl_odeiv2_step_apply(s->redo, s->t0.t + from, h, y1, s->yerr, f, f1, &s->system->gsl);
+    if (code != GSL_SUCCESS || !all_finite(s->n, y1, f1)) return INFINITY;
+    memcpy(y, y1, s->n * sizeof *y);
+    memcpy(f, f1, s->n * sizeof *f);
+    return weights_ratio(s->control, h, y, s->yerr, f);
+}
+
+static int walk_inside(struct stepper *s, struct moment t, double *y, double *f)
+{
+    const struct walk_source source = {s, walk_part};
+    return walk_to(s->walk, &source, moment_since(s->t1, s->t0), s->y0, s->f0, moment_since(t, s->t0), y, f);
+}
+
+static double excess(void *context, const double *error)
+{
+    const struct stepper *s = context;
+    return weights_ratio(s->control, moment_since(s->t1, s->t0), s->y1, error, s->f1);
+}
+
+/* What the method itself says of the inside. */
+static int own_dense(struct stepper *s, struct moment t, double *y)
+{
+    if (!s->method->implicit) return dense_eval(s->dense, t, y);
+    double share = moment_since(t, s->t0) / moment_since(s->t1, s->t0);
+    if (s->step->type == step_rodas5p) {
+        int code = rodas5p_dense_prepare(s->step);
+        if (code == GSL_SUCCESS) rodas5p_dense_eval(s->step, share, y);
+        return code;
+    }
+    const struct inside_source source = {s, redo_share, excess};
+    if (s->inside && inside_eval(s->inside, &source, share, y)) return GSL_SUCCESS;
+    if (!s->history)
+        return redo_well(s, moment_since(t, s->t0), y, s->work) ? GSL_SUCCESS
+                                                                : walk_inside(s, t, y, s->work + 2 * s->n);
+    history_eval(s->history, (int)gsl_odeiv2_step_order(s->step), t.t, y);
+    return GSL_SUCCESS;
+}
+
+/* Is there a last step, and t within? A double next to an end of it may lie a rest outside. */
+static bool find_within(const struct stepper *s, struct moment *t)
+{
+    if (!s->stepped || !(t->t >= s->t0.t && t->t <= s->t1.t)) return false;
+    *t = moment_since(*t, s->t0) <= 0 ? s->t0 : moment_since(s->t1, *t) <= 0 ? s->t1 : *t;
+    return true;
+}
+
+/* An implicit method may succeed in a step and fail in a part of it; then the ends alone have to do, as a
+ * step that is accepted has an inside. */
+int stepper_dense(struct stepper *s, struct moment t, double *y)
+{
+    if (!find_within(s, &t)) return GSL_EINVAL;
+    if (moment_equal(t, s->t0) || moment_equal(t, s->t1)) return dense_eval(s->dense, t, y);
+    int last_code = s->system->last_code;
+    if (own_dense(s, t, y) != GSL_SUCCESS) dense_eval_plain(s->dense, t, y);
+    s->system->last_code = last_code; /* no reason for what may fail later */
+    return GSL_SUCCESS;
+}
+
+/* A step of the linear method is two radians of the fastest oscillation: the Bessel function J_14(1) of its
+ * Chebyshev series is 7e-16. Implicit methods know their states as their equations are solved. */
+int stepper_degree(const struct stepper *s, double *negligible)
+{
+    const gsl_odeiv2_step_type *type = s->step->type;
+    *negligible = s->inside || s->history ? 1e-9 : 0;
+    if (type == step_parabola) return 2;
+    if (type == step_linear) {
+        const int most = 14;
+        int degree = linear_dense_degree(s->step);
+        if (degree >= 2 && degree <= most) return degree;
+        *negligible = 1e-13;
+        return most;
+    }
+    if (type == step_nystrom) return 12;
+    return 8;
+}
+
+int stepper_partial(struct stepper *s, struct moment t, double *y, double *f)
+{
+    if (!find_within(s, &t)) return GSL_EINVAL;
+    bool start = moment_equal(t, s->t0);
+    if (start || moment_equal(t, s->t1)) {
+        memcpy(y, start ? s->y0 : s->y1, s->n * sizeof *y);
+        memcpy(f, start ? s->f0 : s->f1, s->n * sizeof *f);
+        return GSL_SUCCESS;
+    }
+    if (s->redo && redo_well(s, moment_since(t, s->t0), y, f)) return GSL_SUCCESS;
+    int code = stepper_dense(s, t, y);
+    return code == GSL_SUCCESS ? counted_system_rhs(s->system, t.t, y, f) : code;
+}
+
+int stepper_walk(struct stepper *s, struct moment t, double *y, double *f)
+{
+    if (!s->walk || !find_within(s, &t) || moment_equal(t, s->t0) || moment_equal(t, s->t1))
+        return GSL_EINVAL;
+    return walk_inside(s, t, y, f);
+}
+
+double stepper_attempt(struct stepper *s, struct counted_system *system, double t, const double *y,
+                       const double *f, double h)
+{
+    if (!s->redo) return INFINITY;
+    double *y1 = s->work, *f1 = s->work + s->n;
+    memcpy(y1, y, s->n * sizeof *y);
+    gsl_odeiv2_step_reset(s->redo);
+    int code = gsl_odeiv2_step_apply(s->redo, t, h, y1, s->yerr, f, f1, &system->gsl);
+    return code == GSL_SUCCESS ? weights_ratio(s->control, h, y1, s->yerr, f1) : INFINITY;
+}

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What a stepper is made of, for the two files that it is written in: stepper.c makes steps, stepper_look.c looks into
+ * the last one.
+ */
+#ifndef FBD_INTEGRATE_STEPPER_STATE_H
+#define FBD_INTEGRATE_STEPPER_STATE_H
+
+#include "integrate/dense.h"
+#include "integrate/history.h"
+#include "integrate/inside.h"
+#include "integrate/stepper.h"
+#include "integrate/walk.h"
+
+struct stepper {
+    const struct method *method;
+    struct layout layout;
+    size_t n;
+    double h_max, h_fixed;
+    gsl_odeiv2_control *control;
+    gsl_odeiv2_step *step;
+    gsl_odeiv2_step *redo;    /* of the same type, for parts of steps: the other one keeps its dense output */
+    gsl_odeiv2_driver driver; /* GSL's steppers ask it for its control only */
+    struct dense *dense;      /* of explicit methods and msadams */
+    struct history *history;  /* of msbdf, else NULL */
+    struct inside *inside;    /* of implicit methods without an interpolant, else NULL */
+    struct walk *walk;        /* of one-step methods, else NULL */
+    struct stepper_counts counts;
+    double *jacobian; /* n n + 3 n, for the limit of stability; NULL where that is not looked after */
+    double stable_h;  /* the largest step within that limit, when last looked after */
+    int since;        /* accepted steps since */
+    double rate;      /* fastest rate that dop853 has seen lately */
+    bool stepped;     /* a last step stands in the following */
+    struct counted_system *system;
+    struct moment t0, t1;
+    double *y0, *f0, *y1, *f1;
+    double *yerr, *work; /* n and 3 n */
+    double memory[];
+};
+
+static inline bool all_finite(size_t n, const double *restrict y, const double *restrict f)
+{
+    double probe = 0;
+    for (size_t i = 0; i < n; i++) probe += 0 * (y[i] + f[i]);
+    return probe == 0;
+}
+
+#endif

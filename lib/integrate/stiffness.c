@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "integrate/stiffness.h"
+
+#include <math.h>
+
+enum { shortest_interval = 8, longest_interval = 64, steps_to_confirm = 3, votes_needed = 2 };
+
+/* A step of rodas5p takes 8 evaluations, a Jacobian and a decomposition, one of dop853 12 evaluations: in
+ * small systems up to twice the time. So the way to rodas5p asks for more than the way back. Their product is
+ * above 1, as otherwise a motion in between could be sent to and fro. */
+static const double gain_for_implicit = 1.8, gain_for_explicit = 1.2;
+
+/* Half the limit of stability, for the steps of the explicit method are longer. */
+static const double h_rate_for_explicit = 3;
+
+/* A step without error, that is within rounding, tells the explicit method nothing of longer ones; but where even the
+ * fastest rate does little within it they will come, and the implicit method is not needed. Next to a singular position
+ * of a mechanism both make short steps, and after it dop853 was asked with steps so short that they had no error,
+ * for ever. */
+static const double h_rate_without_error = 1;
+
+/* The shortest and the longest wait: an attempt at rodas5p costs as much as so many steps. */
+static int waits(const struct stiffness *s, int steps)
+{
+    return s->implicit ? steps : (int)(steps * s->dear);
+}
+
+static void wait_shortly(struct stiffness *s)
+{
+    s->votes = 0;
+    s->interval = waits(s, shortest_interval);
+}
+
+void stiffness_start(struct stiffness *s, size_t coordinates)
+{
+    *s = (struct stiffness){.dear = fmax(1, ((double)coordinates + 2) / 6)};
+    wait_shortly(s);
+    s->wait = s->interval;
+}
+
+void stiffness_forget(struct stiffness *s)
+{
+    wait_shortly(s);
+    if (s->wait > s->interval) s->wait = s->interval;
+}
+
+bool stiffness_due(struct stiffness *s)
+{
+    if (s->wait > 0) s->wait--;
+    return s->wait == 0;
+}
+
+double stiffness_stride(const struct stiffness *s)
+{
+    return s->implicit ? 1 / s->dear : s->dear;
+}
+
+/* A ratio of zero says nothing: a body at rest or in free flight is without error for every method. */
+static bool gains(double ratio, int estimate_order, double gain)
+{
+    return ratio > 0 && pow(ratio, -1.0 / estimate_order) > gain;
+}
+
+bool stiffness_decide(struct stiffness *s, double ratio, int estimate_order, double h_rate)
+{
+    bool better = gains(ratio, estimate_order, s->implicit ? gain_for_explicit : gain_for_implicit);
+    if (s->implicit && ratio == 0) better = h_rate < h_rate_without_error;
+    if (s->implicit && !(h_rate < h_rate_for_explicit)) better = false;
+    if (!better) {
+        s->votes = 0;
+        s->wait = s->interval;
+        if (s->interval < waits(s, longest_interval)) s->interval *= 2;
+        return false;
+    }
+    s->wait = steps_to_confirm;
+    if (++s->votes < votes_needed) return false;
+    s->implicit = !s->implicit;
+    wait_shortly(s);
+    s->wait = s->interval;
+    return true;
+}
+
+/* The largest |lambda| of J is at most that of |J|, and this is at most max_i (|J| x)_i / x_i for every x > 0
+ * (Collatz, Wielandt), which multiplying components by units does not change. The best x is approached by
+ * geometric means of x and |J| x; plain power iteration would go in circles for q' = v, v' = -k q. Every
+ * round takes the square root of the distance; the start may be wrong by many powers of ten. */
+double stiffness_rate(size_t n, const double *jacobian, double *work)
+{
+    enum { rounds = 12 };
+    double *x = work, *image = work + n, rate = 0;
+    for (size_t i = 0; i < n; i++) x[i] = 1;
+    for (int round = 0; round < rounds; round++) {
+        rate = 0;
+        for (size_t i = 0; i < n; i++) {
+            image[i] = 0;
+            for (size_t j = 0; j < n; j++) image[i] += fabs(jacobian[i * n + j]) * x[j];
+            if (!(image[i] <= rate * x[i])) rate = image[i] / x[i];
+        }
+        if (!(rate > 0 && rate < INFINITY)) return rate;
+        /* A component that nothing acts on would go to zero. */
+        for (size_t i = 0; i < n; i++) x[i] = sqrt(x[i] * fmax(image[i] / rate, 1e-20 * x[i]));
+    }
+    return rate;
+}

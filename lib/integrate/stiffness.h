@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The choice between an explicit and an implicit method while a run goes on, both ways.
+ *
+ * Now and then the other method attempts the step that has just been accepted, from the same state and of the
+ * same size. The ratio r of its error to the level (weights_ratio) tells by how much longer its step could
+ * be: gain = r^(-1/k) for an estimate that is O(h^k). Two answers in a row, the second a few steps after the
+ * first, make the switch. The attempt is thrown away, so the accepted steps stay what they were.
+ *
+ * Hairer's test (HNW II, IV.2) looks at h rho with the spectral radius rho as two stages of the explicit
+ * method show it: stiff where this stays at the limit of stability. It is free, but blind where the explicit
+ * method is slowed down otherwise: a stiff oscillator that follows a forcing keeps dop853 at h rho = 1.7 for
+ * a tolerance of 1e-10, 10 times shorter than rodas5p, while motions that dop853 is best for have h rho up
+ * to 1.4. The gain tells them apart. Measured with dop853, gain of rodas5p for tolerances
+ * of 1e-4 ... 1e-13: 2.3 ... 14 in stiff motion, 0.15 ... 0.8 in oscillations that have to be followed. The
+ * other way round, gain of dop853: 0.05 ... 0.4 in stiff forced motion, 1.7 ... 11 in oscillations.
+ *
+ * The way back to the explicit method asks for more: h times the fastest rate of the system has to be well
+ * within the limit of stability, about 6 for dop853 in all directions. One attempt does not show it, as the
+ * implicit method may have damped the fast components to 1e-100, and it takes steps until their growth is
+ * seen. Van der Pol's oscillator (mu = 1000) and a spring of 1e8 N/m with a strong damper were sent to dop853
+ * that way, and blew up.
+ *
+ * Longer steps are worth what they save. A step of rodas5p takes 8 evaluations, a Jacobian and a decomposition,
+ * one of dop853 takes 12 evaluations. Measured for a chain of n rods, the former takes 8 + 4 n evaluations' time
+ * (n from 1 to 64), for a row of four-bars two thirds of that: from n = 4 on it is dearer by (n + 2)/6 than what
+ * the thresholds allow for. The other method attempts a step longer by that much (on the way back: shorter), as
+ * the error of a short step may be rounding alone and then tells nothing of a longer one; and the waits between
+ * attempts grow alike.
+ *
+ * The functions are pure bookkeeping; making the attempt is up to the caller. Its cost is that of one in 64
+ * steps where nothing changes.
+ */
+#ifndef FBD_INTEGRATE_STIFFNESS_H
+#define FBD_INTEGRATE_STIFFNESS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+struct stiffness {
+    bool implicit; /* the method that is to be used now */
+    int interval;  /* accepted steps from the last attempt to the next one */
+    int wait;      /* ... and what is left of them */
+    int votes;     /* answers in a row for the other method */
+    double dear;   /* how much dearer a step of the implicit method is than in a small system, >= 1 */
+};
+
+/* Start with the explicit method, for a system of so many coordinates. */
+void stiffness_start(struct stiffness *stiffness, size_t coordinates);
+
+/* After a discontinuity of state or right-hand side: what was found before it does not count. The method
+ * stays, and so does the time of the next attempt, lest frequent events put it off for ever. */
+void stiffness_forget(struct stiffness *stiffness);
+
+/* Count an accepted step; true when the other method is to attempt it now. */
+bool stiffness_due(struct stiffness *stiffness);
+
+/* The size of the step that the other method attempts, for one of the step that has been made. */
+double stiffness_stride(const struct stiffness *stiffness);
+
+/* Take in the error ratio of that attempt (infinite or NaN when it failed) and the k of the method that made
+ * it; true when `implicit` has changed, so that the integration goes on with the other method. `h_rate` is
+ * the size of the attempt times stiffness_rate; it is looked at on the way back only. */
+bool stiffness_decide(struct stiffness *stiffness, double ratio, int estimate_order, double h_rate);
+
+/* A bound [1/s] for the rates |lambda| of an n by n Jacobian, row by row, which does not depend on the units
+ * of the components. For oscillators it is the circular frequency, with a damper at most twice the largest
+ * rate. `work` takes 2 n numbers. NaN or infinite if the Jacobian is. */
+double stiffness_rate(size_t n, const double *jacobian, double *work);
+
+#endif

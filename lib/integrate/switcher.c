@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "integrate/switcher.h"
+
+#include <float.h>
+#include <gsl/gsl_errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "integrate/stiffness.h"
+#include "integrate/weights.h"
+
+struct switcher {
+    struct stepper *steppers[2]; /* explicit, implicit or NULL */
+    const struct method *methods[2];
+    int now, made; /* the one that makes the next step; the one that has made the last */
+    struct stiffness stiffness;
+    size_t n;
+    double *rate_work; /* 2 n */
+    double *y0, *f0;   /* n each: the start of the last step */
+};
+
+static bool prepare_pair(struct switcher *s, const struct stepper_options *options,
+                         const struct method *stiff)
+{
+    struct stepper_options other = *options;
+    other.method = stiff;
+    s->methods[1] = stiff;
+    s->steppers[1] = stepper_alloc(&other);
+    s->rate_work = malloc(4 * s->n * sizeof(double));
+    if (!s->rate_work) return false;
+    s->y0 = s->rate_work + 2 * s->n;
+    s->f0 = s->y0 + s->n;
+    return s->steppers[1] != NULL;
+}
+
+struct switcher *switcher_alloc(const struct stepper_options *options, const struct method *stiff)
+{
+    struct switcher *s = calloc(1, sizeof *s);
+    if (!s) return NULL;
+    s->n = layout_size(&options->layout);
+    s->methods[0] = options->method;
+    s->steppers[0] = stepper_alloc(options);
+    stiffness_start(&s->stiffness, options->layout.pairs > 0 ? options->layout.pairs : s->n);
+    bool pair = stiff && options->h_fixed == 0;
+    if (!s->steppers[0] || (pair && !prepare_pair(s, options, stiff))) {
+        switcher_free(s);
+        return NULL;
+    }
+    return s;
+}
+
+void switcher_free(struct switcher *s)
+{
+    if (!s) return;
+    stepper_free(s->steppers[0]);
+    stepper_free(s->steppers[1]);
+    free(s->rate_work);
+    free(s);
+}
+
+int switcher_reset(struct switcher *s, struct counted_system *system, struct moment t, const double *y,
+                   double *f, struct moment t_limit, double *h)
+{
+    stiffness_forget(&s->stiffness);
+    if (s->steppers[1]) stepper_note(s->steppers[!s->now], y, f);
+    return stepper_reset(s->steppers[s->now], system, t, y, f, t_limit, h);
+}
+
+/* The fastest rate of the system at the start of the step that the implicit method has just made, for the way
+ * back to the explicit one; NAN if it cannot be had. */
+static double last_rate(struct switcher *s)
+{
+    const double *jacobian = stepper_jacobian(s->steppers[1]);
+    return jacobian ? stiffness_rate(s->n, jacobian, s->rate_work) : NAN;
+}
+
+/* Is the explicit method confined to steps for which the implicit one makes no error at all? Then this says that it
+ * could make longer ones. In free flight and at rest the steps of both grow as long as they may. */
+static bool is_confined(const struct switcher *s)
+{
+    const double freely = 4;
+    return s->now == 0 && stepper_get_counts(s->steppers[0])->growth < freely;
+}
+
+/* Let the other method try the step that has just been made, and go on with it if it is the better one from
+ * here. */
+static enum stepper_status consider(struct switcher *s, struct counted_system *system, struct moment t0,
+                                    struct moment t, const double *y, double *f, double *h,
+                                    struct moment t_limit)
+{
+    int other = !s->now;
+    double size = stiffness_stride(&s->stiffness) * moment_since(t, t0);
+    /* What lies beyond the limit may be another motion, and there is no room for a step that long. */
+    bool fits = moment_since(t_limit, t0) >= size;
+    double ratio = fits ? stepper_attempt(s->steppers[other], system, t0.t, s->y0, s->f0, size) : INFINITY;
+    if (ratio == 0 && is_confined(s)) ratio = DBL_MIN;
+    double h_rate = s->now == 1 ? size * last_rate(s) : 0;
+    if (!stiffness_decide(&s->stiffness, ratio, s->methods[other]->estimate_order, h_rate)) return stepper_ok;
+    /* The counters of the system, not of the step, take the evaluations; a reset that fails leaves things as
+     * they were. */
+    double first;
+    if (stepper_reset(s->steppers[other], system, t, y, f, t_limit, &first) != GSL_SUCCESS) {
+        s->stiffness.implicit = s->now == 1;
+        return stepper_ok;
+    }
+    s->now = other;
+    *h = fmax(first, size); /* it could have made this step at least */
+    return stepper_ok;
+}
+
+enum stepper_status switcher_step(struct switcher *s, struct counted_system *system, struct moment *t,
+                                  double *y, double *f, double *h, struct moment t_limit)
+{
+    struct moment t0 = *t;
+    if (s->steppers[1]) {
+        memcpy(s->y0, y, s->n * sizeof *y);
+        memcpy(s->f0, f, s->n * sizeof *f);
+    }
+    enum stepper_status status = stepper_step(s->steppers[s->now], system, t, y, f, h, t_limit);
+    s->made = s->now;
+    if (status != stepper_ok || !s->steppers[1]) return status;
+    stepper_note(s->steppers[!s->now], y, f);
+    if (moment_since(t_limit, *t) > 0 && stiffness_due(&s->stiffness))
+        return consider(s, system, t0, *t, y, f, h, t_limit);
+    return status;
+}
+
+int switcher_dense(struct switcher *s, struct moment t, double *y)
+{
+    return stepper_dense(s->steppers[s->made], t, y);
+}
+
+int switcher_degree(const struct switcher *s, double *negligible)
+{
+    return stepper_degree(s->steppers[s->made], negligible);
+}
+
+int switcher_partial(struct switcher *s, struct moment t, double *y, double *f)
+{
+    return stepper_partial(s->steppers[s->made], t, y, f);
+}
+
+int switcher_walk(struct switcher *s, struct moment t, double *y, double *f)
+{
+    return stepper_walk(s->steppers[s->made], t, y, f);
+}
+
+struct stepper_counts switcher_counts(const struct switcher *s)
+{
+    struct stepper_counts sum = *stepper_get_counts(s->steppers[0]);
+    if (!s->steppers[1]) return sum;
+    const struct stepper_counts *more = stepper_get_counts(s->steppers[1]);
+    sum.accepted += more->accepted;
+    for (int kind = 0; kind < rejection_kinds; kind++) sum.rejected[kind] += more->rejected[kind];
+    if (s->now == 1) sum.last = more->last;
+    return sum;
+}
+
+unsigned long switcher_stiff_steps(const struct switcher *s)
+{
+    return s->steppers[1] ? stepper_get_counts(s->steppers[1])->accepted : 0;
+}
+
+void switcher_set_linear(struct switcher *s, const double *A, double rho)
+{
+    stepper_set_linear(s->steppers[0], A, rho);
+}
+
+void switcher_set_noise(struct switcher *s, size_t pair, double noise)
+{
+    for (int k = 0; k < 2; k++)
+        if (s->steppers[k]) weights_set_noise(stepper_control(s->steppers[k]), pair, noise);
+}
+
+bool switcher_noise_counts(const struct switcher *s, double h)
+{
+    return weights_noise_counts(stepper_control(s->steppers[s->made]), h);
+}
+
+void switcher_set_floor(struct switcher *s, size_t component, double floor)
+{
+    if (!(floor > 0 && floor < INFINITY)) return;
+    for (int k = 0; k < 2; k++)
+        if (s->steppers[k]) weights_set_floor(stepper_control(s->steppers[k]), component, floor);
+}

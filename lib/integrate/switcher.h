@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * A stepper that follows stiffness: an explicit and an implicit method that take turns, or one method alone.
+ *
+ * The interface is that of stepper.h, whose words hold here. Which method makes a step depends on the
+ * trajectory only (stiffness.h), never on who looks at it.
+ */
+#ifndef FBD_INTEGRATE_SWITCHER_H
+#define FBD_INTEGRATE_SWITCHER_H
+
+#include "integrate/stepper.h"
+
+struct switcher;
+
+/* `options` for the method that starts; `stiff` takes over where the motion is stiff, NULL for never. */
+struct switcher *switcher_alloc(const struct stepper_options *options, const struct method *stiff);
+void switcher_free(struct switcher *switcher);
+
+int switcher_reset(struct switcher *switcher, struct counted_system *system, struct moment t, const double *y,
+                   double *f, struct moment t_limit, double *h);
+
+enum stepper_status switcher_step(struct switcher *switcher, struct counted_system *system, struct moment *t,
+                                  double *y, double *f, double *h, struct moment t_limit);
+
+/* Of the last step, whichever method made it. */
+int switcher_dense(struct switcher *switcher, struct moment t, double *y);
+int switcher_degree(const struct switcher *switcher, double *negligible);
+int switcher_partial(struct switcher *switcher, struct moment t, double *y, double *f);
+int switcher_walk(struct switcher *switcher, struct moment t, double *y, double *f);
+
+/* Counts of both methods together. */
+struct stepper_counts switcher_counts(const struct switcher *switcher);
+
+/* Steps that the stiff method has made. */
+unsigned long switcher_stiff_steps(const struct switcher *switcher);
+
+/* linear_set_matrix where that is the method. */
+void switcher_set_linear(struct switcher *switcher, const double *A, double rho);
+
+/* See weights_set_floor, where a floor that is not positive and finite changes nothing, and
+ * weights_set_noise; for both methods. */
+void switcher_set_floor(struct switcher *switcher, size_t component, double floor);
+void switcher_set_noise(struct switcher *switcher, size_t pair, double noise);
+
+/* weights_noise_counts for the method that makes the steps. */
+bool switcher_noise_counts(const struct switcher *switcher, double h);
+
+#endif

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * A gsl_odeiv2_system that counts its evaluations and lets no NaN or infinity pass.
+ *
+ * GSL's steppers and controls take a NaN for success (a comparison with NaN is never true), and a Newton
+ * iteration fed with one ends in a misleading message. So the wrapper turns a result that is not finite
+ * into the return code `system_not_finite`, which every stepper passes on, and remembers where it was.
+ */
+#ifndef FBD_INTEGRATE_SYSTEM_H
+#define FBD_INTEGRATE_SYSTEM_H
+
+#include <gsl/gsl_odeiv2.h>
+
+/* Beyond all codes of gsl_errno.h. */
+enum { system_not_finite = 1024 };
+
+struct counted_system {
+    gsl_odeiv2_system gsl;   /* what a stepper is given; its params point to this object, so do not copy it */
+    gsl_odeiv2_system inner; /* what is wrapped */
+    unsigned long rhs, jacobians;
+    int last_code;       /* of the last evaluation that failed; 0 when none did */
+    double last_time;    /* t of that evaluation */
+    size_t last_element; /* of the first element that was not finite, if that was the reason: index into dydt,
+                            or row times dimension plus column of the Jacobian */
+    double last_value;   /* what that element was */
+};
+
+/* Wrap `inner`; all counters zero. */
+void counted_system_init(struct counted_system *system, const gsl_odeiv2_system *inner);
+
+/* f(t, y), counted and checked like the evaluations of a stepper. */
+int counted_system_rhs(struct counted_system *system, double t, const double *y, double *dydt);
+
+#endif

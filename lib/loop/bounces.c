@@ -1,0 +1,386 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Bounces without end: when they are too low to be seen the series is summed up, and what bounces rests.
+ */
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dynamics/contact.h"
+#include "dynamics/energy.h"
+#include "dynamics/impulse.h"
+#include "dynamics/project.h"
+#include "dynamics/tree_system.h"
+#include "loop/contacts.h"
+#include "loop/run.h"
+#include "numeric/lu.h"
+
+static const struct tree *tree_of(const struct run *run)
+{
+    return run->model->tree;
+}
+
+/* Has the impact just now given the feature of a tie a speed away from its surface? */
+static bool leaves_with(const struct run *run, int tie)
+{
+    const struct contacts_work *work = &run->contacts;
+    const double *v = work->v;
+    for (int i = 0; i < work->struck; i++, v += 2)
+        if (work->strikers[i].tie == tie) return *v > 0;
+    return false;
+}
+
+/* The gap's acceleration where only the surfaces that stay closed act, and none of the same meeting: a box that falls
+ * flat bounces on all its corners; by a trial of the modes as they are. */
+static double acceleration_of(struct run *run, int tie, int feature)
+{
+    struct fbd_state *state = run->contacts.trial;
+    const struct tree *tree = tree_of(run);
+    const struct meeting *meeting = &tree->meetings[tree->ties[tie].meeting];
+    state_copy(state, run->state);
+    tie_set_feature(run->model, state->tree, tie, feature);
+    for (int k = 0; k < meeting->tie_count; k++)
+        if (leaves_with(run, meeting->first_tie + k) || meeting->first_tie + k == tie)
+            state->slip[tree->ties[meeting->first_tie + k].surface] = slip_plus;
+    state_evaluate(state);
+    return state->tree->rows[tree_of(run)->ties[tie].first_row].g.x2;
+}
+
+/* Is the restitution of a meeting the same at all speeds? */
+static bool has_constant_restitution(const struct run *run, int meeting)
+{
+    int index = tree_of(run)->meetings[meeting].constraint;
+    const struct expr *expr = run->model->scene->constraints[index].contact.restitution.expr;
+    return !expr || expr_is_constant(expr);
+}
+
+/* The sum of the intervals that are still to come after an impact from which the surface is left with v at
+ * the acceleration -a: 2 v / a, and so on with e v. */
+static double sum_of_bounces(struct run *run, int meeting, double v, double a)
+{
+    enum { most_terms = 1000000 };
+    double sum = 0;
+    for (int k = 0; k < most_terms; k++) {
+        double interval = 2 * v / a, e = contacts_restitution(run, meeting, v);
+        if (e < 0) return NAN;
+        if (has_constant_restitution(run, meeting)) return interval / (1 - e);
+        sum += interval;
+        if (interval <= DBL_EPSILON * sum) return sum;
+        v *= e;
+    }
+    return HUGE_VAL;
+}
+
+/* The sum of intervals of which the last four impacts show two, from corner to corner and back, and their
+ * ratio. */
+static double sum_of_rocking(const struct bounces *bounces)
+{
+    if (bounces->count < 4) return HUGE_VAL;
+    const double *t = bounces->t;
+    double last = t[0] - t[1], before = t[1] - t[2], first = t[2] - t[3];
+    double ratio = last / first;
+    return ratio > 0 && ratio < 1 ? ratio * (last + before) / (1 - ratio) : HUGE_VAL;
+}
+
+static void remember(struct bounces *bounces, double t, int feature)
+{
+    for (int k = 3; k > 0; k--) bounces->t[k] = bounces->t[k - 1];
+    bounces->t[0] = t;
+    bounces->feature = feature;
+    bounces->count++;
+}
+
+/* The largest speed with which a meeting's features open after an impact. */
+static double leaving_speed(const struct run *run, int meeting, int count)
+{
+    const double *v = run->contacts.v;
+    double most = 0;
+    for (int i = 0; i < count; i++, v += 2)
+        if (tree_of(run)->ties[run->contacts.strikers[i].tie].meeting == meeting) most = fmax(most, *v);
+    return most;
+}
+
+/* ---- ropes that are let go by what strikes a surface, and throw it up again when they get taut */
+
+/* The largest speed with which ropes are let go by the last impact. */
+static double slackening_speed(const struct run *run, int count)
+{
+    const struct contacts_work *work = &run->contacts;
+    double most = 0;
+    for (int i = 0; i < count; i++)
+        if (work->strikers[i].rope) most = fmax(most, work->v[(ptrdiff_t)2 * i]);
+    return most;
+}
+
+static void note_return(struct bounces *bounces, double t)
+{
+    enum { most = sizeof bounces->returned / sizeof bounces->returned[0] };
+    for (int k = most - 1; k > 0; k--) bounces->returned[k] = bounces->returned[k - 1];
+    bounces->returned[0] = t;
+    if (bounces->returns < most) bounces->returns++;
+}
+
+/* The end of a geometric series that has come to t[2], t[1], t[0]; HUGE_VAL where it has none. */
+static double end_of_three(const double t[3])
+{
+    double last = t[0] - t[1], ratio = last / (t[1] - t[2]);
+    return ratio > 0 && ratio < 1 ? t[0] + ratio * last / (1 - ratio) : HUGE_VAL;
+}
+
+/* When returns that follow each other ever faster come to their end. The last intervals are short against the rounding
+ * of places over speeds, the first ones not yet geometric where accelerations change on the way: so it is the end that
+ * three returns and those one before agree on best. */
+static double end_of_returns(const struct bounces *bounces)
+{
+    double best = HUGE_VAL, apart = HUGE_VAL;
+    for (int k = 0; k + 4 <= bounces->returns; k++) {
+        double end = end_of_three(bounces->returned + k), before = end_of_three(bounces->returned + k + 1);
+        if (!(fabs(end - before) < apart) || end < bounces->returned[0]) continue;
+        apart = fabs(end - before);
+        best = end;
+    }
+    return best;
+}
+
+/* The end of such a series, once ropes are let go by no more than nobody sees; they are kept then. */
+static double end_of_tugs(struct run *run, const struct bounces *bounces, double unseen, int count)
+{
+    double leaving = slackening_speed(run, count), end = end_of_returns(bounces);
+    if (leaving == 0 || leaving * (bounces->returned[0] - bounces->returned[1]) > unseen) return HUGE_VAL;
+    for (int i = 0; i < count && end < HUGE_VAL; i++)
+        run->contacts.strikers[i].stays = run->contacts.strikers[i].rope;
+    return end;
+}
+
+/* Does any contact open by the impact of striker i, by more than rounding? */
+static bool any_leaves(const struct run *run, int i, int count)
+{
+    const double rounding = 1e-9;
+    const struct contacts_work *work = &run->contacts;
+    const double *v = work->v;
+    for (int k = 0; k < count; k++, v += 2)
+        if (!work->strikers[k].rope && *v > -rounding * work->strikers[i].v_n) return true;
+    return false;
+}
+
+/* Bounces that nobody sees: 1e-9 of the scene, a thousand times what counts as touching. */
+static const double low_share = 1000;
+
+/* The impacts of striker i's meeting: do they end soon, in bounces that nobody sees? Then when. */
+static double end_of_series(struct run *run, int i, int count)
+{
+    const struct contacts_work *work = &run->contacts;
+    const struct striker *striker = &work->strikers[i];
+    int index = tree_of(run)->ties[striker->tie].meeting,
+        feature = run->state->tree->ties[striker->tie].feature;
+    struct bounces *bounces = &run->contacts.bounces[index];
+    double v = work->v[(ptrdiff_t)2 * i], leaving = leaving_speed(run, index, count),
+           unseen = low_share * meeting_near(run->model, run->state->tree, index);
+    bool same = bounces->feature == feature && bounces->count > 0;
+    if (bounces->is_closed) note_return(bounces, run->state->t);
+    remember(bounces, run->state->t, feature);
+    bounces->is_closed = !any_leaves(run, i, count);
+    if (bounces->is_closed) return end_of_tugs(run, bounces, unseen, count);
+    double interval = bounces->t[0] - bounces->t[1], a = -acceleration_of(run, striker->tie, feature), left;
+    bool low = a > 0 && leaving * leaving <= 2 * a * unseen;
+    bounces->slow = a > 0 ? sqrt(2 * a * unseen) : 0;
+    if (same && v > 0) {
+        if (!low) return HUGE_VAL;
+        left = sum_of_bounces(run, index, v, a);
+    } else {
+        if (!low && (bounces->count < 4 || leaving * interval > unseen)) return HUGE_VAL;
+        left = sum_of_rocking(bounces);
+        if (low) left = fmin(left, v > 0 ? sum_of_bounces(run, index, v, a) : 2 * leaving / a);
+    }
+    double tugs = end_of_tugs(run, bounces, unseen, count);
+    return tugs < HUGE_VAL ? tugs : run->state->t + left;
+}
+
+/* Close the meeting for good, as its bounces do in the end; its event comes with that end. */
+bool contacts_end_bounces(struct run *run, int count)
+{
+    bool ended = false;
+    run->contacts.struck = count;
+    for (int i = 0; i < count; i++) {
+        const struct striker *striker = &run->contacts.strikers[i];
+        if (striker->rope || striker->v_n >= 0) continue;
+        int index = tree_of(run)->ties[striker->tie].meeting;
+        const struct bounces *bounces = &run->contacts.bounces[index];
+        if (bounces->count > 0 && bounces->t[0] == run->state->t)
+            continue; /* another corner of the same shapes */
+        double end = end_of_series(run, i, count);
+        if (!(end < HUGE_VAL)) continue;
+        run->contacts.bounces[index].rests_from = end;
+        ended = true;
+    }
+    return ended;
+}
+
+/* A meeting whose series is summed up. */
+static int last_at_rest(const struct run *run)
+{
+    int last = 0;
+    for (int i = 0; i < tree_of(run)->meeting_count; i++)
+        if (run->contacts.bounces[i].rests_from < HUGE_VAL) last = i;
+    return last;
+}
+
+/* Friction -mu p sign(v_t) of what slips; what sticks does so by another row. */
+static double rubbing(const struct contacts_work *work, int i)
+{
+    if (work->strikers[i].rope) return 0;
+    double v_t = work->v[(ptrdiff_t)2 * i + 1];
+    return v_t > 0 ? -work->points[i].mu : v_t < 0 ? work->points[i].mu : 0;
+}
+
+static bool leaves_for_the_last_time(const struct run *run, int i)
+{
+    const struct contacts_work *work = &run->contacts;
+    if (!(work->v[(ptrdiff_t)2 * i] > 0)) return false;
+    if (work->strikers[i].rope) return work->strikers[i].stays;
+    return work->bounces[tree_of(run)->ties[work->strikers[i].tie].meeting].rests_from < HUGE_VAL;
+}
+
+/* The speeds at which surfaces are left, and ropes let go, are taken away by impulses that rub as the weight would have
+ * done that took them away: at rest from now on, surfaces press m a T in the time T of the series, and so they do in it
+ * but for m v. */
+static void take_leaving_speeds(struct run *run, int count)
+{
+    struct contacts_work *work = &run->contacts;
+    size_t n = (size_t)run->model->plan.n, size = 0, all = 2 * (size_t)count;
+    size_t *which = calloc(2 * (size_t)count + 1, sizeof *which), *pivot = which ? which + count : NULL;
+    for (int i = 0; which && i < count; i++)
+        if (leaves_for_the_last_time(run, i)) which[size++] = (size_t)i;
+    double *A = size > 0 ? calloc(size * size + size, sizeof *A) : NULL, *P = A ? A + size * size : NULL;
+    for (size_t i = 0; A && i < size; i++) {
+        const double *row = work->W + 2 * which[i] * all;
+        P[i] = -work->v[2 * which[i]];
+        for (size_t j = 0; j < size; j++)
+            A[i * size + j] = row[2 * which[j]] + rubbing(work, (int)which[j]) * row[2 * which[j] + 1];
+    }
+    if (A && lu_decompose(size, A, pivot)) {
+        lu_solve(size, A, pivot, P);
+        for (size_t i = 0; i < size; i++) {
+            const double *answer = work->answers + 2 * which[i] * n;
+            double f = rubbing(work, (int)which[i]), sign = work->strikers[which[i]].rope ? -1 : 1;
+            for (size_t k = 0; k < n; k++)
+                run->state->y[n + k] += P[i] * (sign * answer[k] + f * answer[n + k]);
+        }
+    }
+    if (!which || (size > 0 && !A)) run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
+    free(A);
+    free(which);
+}
+
+/* The largest speed that is lost, of those whose series are summed up. */
+static double slow_speed(const struct run *run)
+{
+    double slow = 0;
+    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
+        const struct bounces *bounces = &run->contacts.bounces[i];
+        if (bounces->rests_from < HUGE_VAL) slow = fmax(slow, bounces->slow);
+    }
+    return slow;
+}
+
+/* A slip that friction ends within what counts as the same place, as the impacts that are left would. */
+static bool stops_at_once(const struct run *run, int index, double slow)
+{
+    const struct tie *tie = &tree_of(run)->ties[index];
+    const struct instant at = state_instant(run->state);
+    if (run->state->tree->ties[index].feature == no_feature) return false;
+    double mu = formula_value(&run->model->plan.modes[tie->pair].mu_k, &at);
+    double v_t = run->state->tree->rows[tie->first_row + 1].g.x1;
+    return v_t * v_t <= fmin(mu, 1) * slow * slow;
+}
+
+/* What bounces too low to be seen is put on its surface, and its speed from there taken away: what is left of
+ * the series does the same, and its impulses are those of the weight in that time. */
+int contacts_settle_down(struct run *run, int strikers)
+{
+    const struct tree *tree = tree_of(run);
+    struct contacts_work *work = &run->contacts;
+    bool *was_touching = work->touching;
+    double before = jointed_kinetic_energy(run->state);
+    take_leaving_speeds(run, strikers);
+    const double wide = 2 * low_share; /* a corner that is about to come down */
+    for (int i = 0; i < tree->tie_count; i++)
+        was_touching[i] = run->state->tree->ties[i].feature != no_feature;
+    for (int i = 0; i < tree->meeting_count; i++) {
+        double near = meeting_near(run->model, run->state->tree, i);
+        contacts_find_touching(run, i, work->bounces[i].rests_from < HUGE_VAL ? wide * near : near);
+    }
+    impulse_look(run->state);
+    double slow = slow_speed(run);
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (tie->kind != constraint_contact || tie->pair < 0) continue;
+        /* What comes down now holds nothing along its surface; what has stuck sticks. */
+        if (!was_touching[i]) run->state->slip[tie->pair] = slip_plus;
+        if (run->state->slip[tie->pair] == stick || !stops_at_once(run, i, slow)) continue;
+        tie_rezero(run->model, run->state->tree, i);
+        run->state->slip[tie->pair] = stick;
+    }
+    state_project(run->state, false);
+    impulse_look(run->state);
+    int count = contacts_find_strikers(run), last = last_at_rest(run);
+    run->impact_work[tree->ties[tree->meetings[last].first_tie].load] +=
+        jointed_kinetic_energy(run->state) - before;
+    for (int i = 0; i < count; i++) {
+        double *v = work->v + (ptrdiff_t)2 * i;
+        v[0] = 0;
+        v[1] = work->strikers[i].v_t;
+    }
+    return count;
+}
+
+bool contacts_lift_others(struct run *run)
+{
+    const double wide = 2 * low_share;
+    const struct tree *tree = tree_of(run);
+    struct fbd_state *state = run->state;
+    const struct instant at = state_instant(state);
+    bool *was_touching = run->contacts.touching, any = false;
+    for (int i = 0; i < tree->tie_count; i++) was_touching[i] = state->tree->ties[i].feature != no_feature;
+    for (int i = 0; i < tree->meeting_count; i++) {
+        double near = meeting_near(run->model, state->tree, i), deep = meeting_depth(run->model, &at, i);
+        if (!(deep > near && deep < wide * near)) continue;
+        contacts_find_touching(run, i, wide * near);
+        any = true;
+    }
+    if (!any) return false;
+    state_project_position(state);
+    for (int i = 0; i < tree->tie_count; i++) {
+        if (was_touching[i] || state->tree->ties[i].feature == no_feature) continue;
+        state->tree->ties[i].feature = no_feature;
+        state->slip[tree->ties[i].surface] = slip_plus;
+    }
+    return true;
+}
+
+/* ---- their end */
+
+double run_next_rest(const struct run *run)
+{
+    double next = HUGE_VAL;
+    int count = tree_of(run) ? tree_of(run)->meeting_count : 0;
+    for (int i = 0; i < count; i++) next = fmin(next, run->contacts.bounces[i].rests_from);
+    return next;
+}
+
+void run_note_rests(struct run *run)
+{
+    const struct tree *tree = tree_of(run);
+    int count = tree ? tree->meeting_count : 0;
+    for (int i = 0; i < count; i++) {
+        struct bounces *bounces = &run->contacts.bounces[i];
+        if (bounces->rests_from > run->state->t) continue;
+        const struct tie *tie = &tree->ties[tree->meetings[i].first_tie];
+        struct run_event *event = run_note(run, FBD_EVENT_REST, tie->end[0].body, tie->load, -1);
+        if (event) event->limit = bounces->count;
+        bounces->count = 0;
+        bounces->feature = -1;
+        bounces->rests_from = HUGE_VAL;
+        bounces->is_closed = true;
+    }
+}

@@ -1,0 +1,361 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "loop/contacts.h"
+
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dynamics/contact.h"
+#include "dynamics/impulse.h"
+#include "dynamics/tree_system.h"
+#include "loop/run.h"
+#include "rest/start.h"
+
+/* ---- memory */
+
+static bool has_meetings(const struct fbd_model *model)
+{
+    return model->tree && model->tree->meeting_count > 0;
+}
+
+static size_t most_strikers(const struct tree *tree)
+{
+    size_t count = 0;
+    for (int i = 0; i < tree->tie_count; i++)
+        count += tree->ties[i].kind == constraint_contact || tree->ties[i].kind == constraint_rope;
+    return count;
+}
+
+static bool meetings_init(struct contacts_work *work, const struct fbd_model *model)
+{
+    const struct tree *tree = model->tree;
+    size_t ties = (size_t)tree->tie_count, meetings = (size_t)tree->meeting_count;
+    if (!has_meetings(model)) return true;
+    work->bounces = calloc(meetings, sizeof *work->bounces);
+    work->was_closed = calloc(2 * ties, sizeof *work->was_closed);
+    work->asleep = calloc(meetings, sizeof *work->asleep);
+    work->deep = calloc(meetings, sizeof *work->deep);
+    work->trial = state_new(model);
+    if (!work->bounces || !work->was_closed || !work->asleep || !work->deep || !work->trial) return false;
+    work->touching = work->was_closed + ties;
+    for (size_t i = 0; i < meetings; i++)
+        work->bounces[i] = (struct bounces){.feature = -1, .rests_from = HUGE_VAL};
+    return true;
+}
+
+bool contacts_work_init(struct contacts_work *work, const struct fbd_model *model)
+{
+    *work = (struct contacts_work){0};
+    size_t most = model->tree ? most_strikers(model->tree) : 0, n = (size_t)model->plan.n, rows = 2 * most;
+    if (most == 0) return true;
+    work->strikers = calloc(most, sizeof *work->strikers);
+    work->points = calloc(most, sizeof *work->points);
+    work->rows = calloc(rows + model->plan.mode_count, sizeof *work->rows);
+    work->W = calloc(rows * rows + rows * n + 4 * rows + 2 * n + 1, sizeof *work->W);
+    if (!meetings_init(work, model)) return false;
+    if (!work->strikers || !work->points || !work->rows || !work->W) return false;
+    work->modes = work->rows + rows;
+    work->answers = work->W + rows * rows;
+    work->v = work->answers + rows * n;
+    work->P = work->v + rows;
+    work->later = work->P + rows;
+    work->y = work->later + 2 * rows;
+    return true;
+}
+
+void contacts_work_free(struct contacts_work *work)
+{
+    free(work->strikers);
+    free(work->points);
+    free(work->rows);
+    free(work->W);
+    free(work->bounces);
+    free(work->was_closed);
+    free(work->asleep);
+    free(work->deep);
+    state_free(work->trial);
+    *work = (struct contacts_work){0};
+}
+
+/* ---- what touches */
+
+static const struct tree *tree_of(const struct run *run)
+{
+    return run->model->tree;
+}
+
+static void set_feature(struct run *run, int tie, int feature)
+{
+    struct fbd_state *state = run->state;
+    tie_set_feature(run->model, state->tree, tie, feature);
+    state->slip[tree_of(run)->ties[tie].surface] = feature == no_feature ? slip_plus : stick;
+}
+
+/* A closed feature stays while it touches, within its side. */
+static bool still_touches(const struct run *run, int meeting, int feature, double near)
+{
+    const struct fbd_model *model = run->model;
+    const struct tree_work *work = run->state->tree;
+    if (fabs(feature_gap(model, work, meeting, feature).x) > near) return false;
+    for (int end = 0; end < 2; end++)
+        if (feature_end(model, work, meeting, feature, end).x < -near) return false;
+    return true;
+}
+
+/* Two features at one place are one contact. */
+static bool same_place(const struct run *run, int meeting, int a, int b, double near)
+{
+    if (a == b) return true;
+    struct vec p = feature_place(run->model, run->state->tree, meeting, a);
+    struct vec q = feature_place(run->model, run->state->tree, meeting, b);
+    return vec_norm(vec_sub(p, q)) <= 4 * near;
+}
+
+/* Give the ties of a meeting the features that touch; those that they have stay where they can. */
+void contacts_find_touching(struct run *run, int index, double near)
+{
+    const struct meeting *meeting = &tree_of(run)->meetings[index];
+    int found[2], count = meeting_touching(run->model, run->state->tree, index, near, found);
+    for (int k = 0; k < meeting->tie_count; k++) {
+        int tie = meeting->first_tie + k, feature = run->state->tree->ties[tie].feature;
+        if (feature != no_feature && !still_touches(run, index, feature, near))
+            set_feature(run, tie, no_feature);
+    }
+    for (int i = 0; i < count; i++) {
+        bool known = false;
+        int free_tie = -1;
+        for (int k = meeting->tie_count - 1; k >= 0; k--) {
+            int feature = run->state->tree->ties[meeting->first_tie + k].feature;
+            if (feature == no_feature)
+                free_tie = meeting->first_tie + k;
+            else
+                known |= same_place(run, index, feature, found[i], near);
+        }
+        if (!known && free_tie >= 0) set_feature(run, free_tie, found[i]);
+    }
+}
+
+/* ---- who takes part */
+
+/* The speeds that a row's velocity is made of. */
+static double speed_at(const struct run *run, const struct row *row)
+{
+    double size = 0;
+    for (int k = 0; k < row->port_count; k++) {
+        const struct tree_state *s = &run->state->tree->links[row->ports[k].link];
+        size = fmax(size, vec_norm(s->v) + fabs(s->omega) * vec_norm(row->ports[k].arm));
+    }
+    return size;
+}
+
+/* A speed that is nothing: against those that it is made of, and against what the scene has seen. */
+static double no_speed(const struct run *run, const struct row *row)
+{
+    const double rounding = 1e-11, of_all = 1e-13;
+    return fmax(rounding * speed_at(run, row), of_all * run->contacts.speed);
+}
+
+static double normal_rate(const struct run *run, const struct striker *striker)
+{
+    double rate = run->state->tree->rows[tree_of(run)->ties[striker->tie].first_row].g.x1;
+    return striker->rope ? -rate : rate;
+}
+
+/* All contacts that touch, and ropes that are taut. Returns their number. */
+int contacts_find_strikers(struct run *run)
+{
+    const struct tree *tree = tree_of(run);
+    struct contacts_work *work = &run->contacts;
+    int count = 0;
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        bool touches = tie->kind == constraint_contact && run->state->tree->ties[i].feature != no_feature;
+        bool taut = tie->kind == constraint_rope && run->state->slip[tie->pair] == stick;
+        if (!touches && !taut) continue;
+        struct striker *striker = &work->strikers[count++];
+        *striker = (struct striker){.tie = i, .rope = taut};
+        if (tie->reels) striker->reel = rope_reel_rate(run->state, i);
+        const struct row *rows = &run->state->tree->rows[tie->first_row];
+        striker->v_n = normal_rate(run, striker);
+        work->speed = fmax(work->speed, speed_at(run, rows));
+        striker->v_t = touches ? rows[1].g.x1 : 0;
+        /* Rounding of redundant points contradicts itself, and next to a slow impact that is not little. */
+        if (fabs(striker->v_n) <= no_speed(run, rows)) striker->v_n = 0;
+        if (fabs(striker->v_t) <= no_speed(run, rows)) striker->v_t = 0;
+    }
+    return count;
+}
+
+static bool any_closes(const struct run *run, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (run->contacts.strikers[i].v_n < 0) return true;
+    return false;
+}
+
+/* ---- what follows */
+
+/* Does it leave its surface? */
+static bool parts(const struct run *run, int i)
+{
+    const struct striker *striker = &run->contacts.strikers[i];
+    const struct row *row = &run->state->tree->rows[tree_of(run)->ties[striker->tie].first_row];
+    return run->contacts.v[(ptrdiff_t)2 * i] > no_speed(run, row);
+}
+
+static void note_impact(struct run *run, int i)
+{
+    const struct contacts_work *work = &run->contacts;
+    const struct striker *striker = &work->strikers[i];
+    const struct tie *tie = &tree_of(run)->ties[striker->tie];
+    const double *v = work->v + (ptrdiff_t)2 * i, *P = work->P + (ptrdiff_t)2 * i;
+    double p = P[0], tau = P[1];
+    double taken = striker_taken(striker, v, P);
+    run->impact_work[tie->load] += taken;
+    bool struck = striker->v_n < 0 || (p > 0 && parts(run, i));
+    if (striker->rope || !struck) return;
+    int body = tie->end[0].body;
+    struct run_event *event = run_note(run, FBD_EVENT_IMPACT, body, tie->load, -1);
+    if (!event) return;
+    event->impact = (struct impact_record){
+        p, tau, taken, {striker->v_n, v[0]}, {striker->v_t, v[1]}, work->makes && taken > 0};
+}
+
+/* What an impact has made slack is no more taut by its length. */
+static void let_slack(struct run *run, int pair)
+{
+    run->state->slip[pair] = slip_plus;
+    run->decided.slips[pair] = true;
+}
+
+void contacts_open_or_close(struct run *run, int count, bool struck)
+{
+    const struct contacts_work *work = &run->contacts;
+    for (int i = 0; i < count; i++) {
+        const struct striker *striker = &work->strikers[i];
+        const struct tie *tie = &tree_of(run)->ties[striker->tie];
+        bool leaves = struck ? parts(run, i) : striker->v_n > 0;
+        if (striker->rope) {
+            if (leaves && !striker->stays) let_slack(run, tie->pair);
+            continue;
+        }
+        if (leaves) {
+            set_feature(run, striker->tie, no_feature);
+            continue;
+        }
+        if (tie->pair < 0) continue;
+        double v_t = struck ? work->v[2 * i + 1] : striker->v_t;
+        if (fabs(v_t) <= no_speed(run, &run->state->tree->rows[tie->first_row])) v_t = 0;
+        /* What sticks from here on does so where it is. */
+        if (v_t == 0 && run->state->slip[tie->pair] != stick)
+            tie_rezero(run->model, run->state->tree, striker->tie);
+        run->state->slip[tie->pair] = v_t > 0 ? slip_plus : v_t < 0 ? slip_minus : stick;
+    }
+}
+
+/* What stuck and has got a speed slips. */
+static void unstick(struct run *run)
+{
+    const struct fbd_model *model = run->model;
+    struct instant at = state_instant(run->state);
+    for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
+        const struct mode *mode = &model->plan.modes[pair];
+        if (!mode_is_joint_friction(mode) || run->state->slip[pair] != stick) continue;
+        double v = slip_velocity(model, pair, &at),
+               before = run->recent.anchor[3 * model->plan.n + mode->coordinate];
+        if (fabs(v) <= 1e-14 * before) continue;
+        run->state->slip[pair] = v > 0 ? slip_plus : slip_minus;
+    }
+}
+
+/* ---- all of it */
+
+/* What counts as touching; shapes that are in each other by a little more, which was seen late, touch as well. */
+static double reach_of_touch(const struct run *run, int index)
+{
+    const struct instant at = state_instant(run->state);
+    double near = meeting_near(run->model, run->state->tree, index);
+    double deep = meeting_depth(run->model, &at, index);
+    return deep > near && deep <= contacts_late * near ? 1.001 * deep : near;
+}
+
+/* One look at all that touches. True when shapes have been moved, and others are to be looked at. */
+static bool look_at_contacts(struct run *run)
+{
+    const struct tree *tree = tree_of(run);
+    bool moved = false;
+    impulse_look(run->state);
+    for (int i = 0; i < tree->meeting_count; i++) contacts_find_touching(run, i, reach_of_touch(run, i));
+    impulse_look(run->state);
+    int count = contacts_find_strikers(run);
+    bool struck = any_closes(run, count);
+    if (struck) {
+        if (!contacts_strike(run, count)) return false;
+        for (int i = 0; i < count; i++) note_impact(run, i);
+        impulse_look(run->state);
+    }
+    bool rests = struck && contacts_end_bounces(run, count);
+    contacts_open_or_close(run, count, struck);
+    if (rests) {
+        count = contacts_settle_down(run, count);
+        contacts_open_or_close(run, count, true);
+        moved = contacts_lift_others(run);
+    }
+    return moved;
+}
+
+void run_contacts(struct run *run)
+{
+    enum { most_rounds = 8 };
+    if (!has_meetings(run->model)) return;
+    for (int round = 0; round < most_rounds && run->end.outcome == FBD_GOING; round++)
+        if (!look_at_contacts(run)) break;
+}
+
+bool run_start_contacts(struct run *run, struct lack *lack)
+{
+    struct fbd_state *state = run->state;
+    if (!has_meetings(run->model)) return true;
+    bool settled = modes_settle(state, NULL);
+    if (contacts_are_deep(state)) {
+        if (!start_fits(state, run->during, settled, "the start", lack)) return false;
+        contacts_lift_out(state);
+        modes_settle(state, NULL);
+    }
+    run_contacts(run);
+    /* Energies are counted from behind impacts of the start. */
+    memset(run->impact_work, 0, run->model->load_count * sizeof *run->impact_work);
+    return true;
+}
+
+void run_strike_taut(struct run *run)
+{
+    impulse_look(run->state);
+    run_take_in_ropes(run);
+    int count = contacts_find_strikers(run);
+    if (!any_closes(run, count) || !contacts_strike(run, count)) return;
+    for (int i = 0; i < count; i++) note_impact(run, i);
+    impulse_look(run->state);
+    contacts_open_or_close(run, count, true);
+    unstick(run);
+}
+
+static bool is_closed(const struct run *run, const struct fbd_state *state, int tie)
+{
+    return state->slip[tree_of(run)->ties[tie].surface] == stick;
+}
+
+void run_release_contacts(struct run *run)
+{
+    const struct tree *tree = tree_of(run);
+    for (int i = 0; tree && i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (tie->kind != constraint_contact) continue;
+        bool before = run->contacts.was_closed[i], now = is_closed(run, run->state, i);
+        run->contacts.was_closed[i] = now;
+        if (!now) run->state->tree->ties[i].feature = no_feature;
+        if (before == now) continue;
+        run_note(run, now ? FBD_EVENT_CONTACT : FBD_EVENT_LIFT_OFF, tie->end[0].body, tie->load, -1);
+    }
+    if (tree) contacts_note_depths(run);
+}

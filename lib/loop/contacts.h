@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What a run does where shapes meet: impacts, and what closes by them.
+ *
+ * At such an instant all features that touch are found anew. Where one of them closes, all that touches and
+ * all taut ropes have an impact together (holds/impacts.h); what has no speed left stays closed, what has one
+ * opens. Whether what is closed without an impact stays so is for the modes to settle.
+ *
+ * A body that bounces with e < 1 does so infinitely often in finite time. When its bounces are lower than the
+ * tolerance sees, the rest of the series is summed up: the intervals form a geometric series, and with
+ * constant acceleration exactly that. The body then rests on its surface, and the event has the time at which
+ * the series ends, which is when an infinitely patient observer would see it come to rest. So does what
+ * strikes a surface without bouncing and is thrown up again by a rope that gets taut, as in Atwood's machine on the
+ * floor: in the end the surface and the rope hold it together.
+ */
+#ifndef FBD_LOOP_CONTACTS_H
+#define FBD_LOOP_CONTACTS_H
+
+#include "dynamics/state.h"
+#include "holds/impacts.h"
+
+struct lack;
+struct run;
+
+/* The impacts of a meeting so far. */
+struct bounces {
+    int count;         /* since it was last at rest */
+    double t[4];       /* of the last ones, the latest first */
+    int feature;       /* of the last one */
+    double slow;       /* a speed that is lost within what counts as the same place */
+    double rests_from; /* end of a series that is summed up; HUGE_VAL without one */
+    /* What comes back from having been closed, as ropes throw it up: when, the latest first. */
+    bool is_closed;
+    int returns;
+    double returned[12];
+};
+
+/* One row that takes part in an impact. */
+struct striker {
+    int tie;
+    bool rope;
+    double v_n, v_t; /* before */
+    double reel;     /* of a rope: how fast it grows by itself */
+    bool stays;      /* a rope that an impact lets go, for so little that it is kept taut (bounces.c) */
+};
+
+/* The work of its impulses P on the bodies, with the speeds v after. */
+static inline double striker_taken(const struct striker *striker, const double v[2], const double P[2])
+{
+    double across = P[0] * ((striker->v_n + v[0]) / 2 - striker->reel);
+    return striker->rope ? across : across + P[1] * (striker->v_t + v[1]) / 2;
+}
+
+struct contacts_work {
+    struct striker *strikers; /* room for all contacts and ropes */
+    int struck;               /* how many took part in the last impact */
+    struct impacts_point *points;
+    int *rows, *modes;
+    double *W, *answers, *v, *P, *y;
+    double *later;           /* two velocities and impulses of each striker, beside v and P */
+    struct bounces *bounces; /* of each meeting */
+    bool *asleep;            /* of each meeting: too far apart for the step */
+    double *deep;   /* of each meeting: how deep it was left open, at a corner that another side is next to */
+    bool *touching; /* of each tie: scratch */
+    bool *was_closed; /* of each tie, when it was looked at last */
+    struct fbd_state *trial;
+    double speed; /* the largest of what has touched so far */
+    bool due;     /* shapes have met, or what touches has come to the end of a side */
+    bool makes;   /* the last impacts have made energy */
+    bool turned;  /* see run_note_sign */
+    bool plastic; /* the next ones are to be, whatever their e */
+};
+
+/* False when memory is out. */
+bool contacts_work_init(struct contacts_work *work, const struct fbd_model *model);
+void contacts_work_free(struct contacts_work *work);
+
+/* Find what touches, let it have its impacts, and close what stays. To be called before the modes settle. */
+void run_contacts(struct run *run);
+
+/* The first look: what a file's digits have put into each other is moved out before. False, with what is lacking,
+ * when couplings do not fit. */
+bool run_start_contacts(struct run *run, struct lack *lack);
+
+/* No accelerations agree with what touches and slips: let it jam. Without an approach, an impact of all that touches
+ * ends the slip that asks for infinite forces. False where it does not. */
+bool run_jam(struct run *run);
+
+/* Note, for run->during in the modes of the steps that follow, and compare at the end of a step, before its events,
+ * the sign by which normal forces answer to each other and to their friction. Where a step has turned it the forces were
+ * infinite on the way, and the run ends. `evaluated`: run->state is. */
+void run_note_sign(struct run *run);
+void run_check_jam(struct run *run, bool evaluated);
+
+/* A rope has just got taut: it, all other taut ropes and all that touches have an impact together, in which
+ * ropes are plastic. What it makes slack is decided. */
+void run_strike_taut(struct run *run);
+
+/* What has been put on its surface by contacts_settle_down may have got into others that are next to it: they are
+ * moved out. Whether there were any, which may now touch. */
+bool contacts_lift_others(struct run *run);
+
+/* Note how deep in each other shapes are that do not touch: within what counts as touching, where a corner goes
+ * over the end of a side. */
+void contacts_note_depths(struct run *run);
+
+/* Which meetings the step from run->step.from to the state run->work.y at `end` has to look at: those whose shapes
+ * could come near in it. In panels of how many radians the shapes turn. */
+void run_wake_contacts(struct run *run, double end);
+double run_contact_radians(const struct run *run, double span);
+
+/* No shapes are in each other at the end of a step; else the run ends, for it has missed an impact. */
+void run_check_overlap(struct run *run);
+
+/* ---- for the files of contacts */
+
+/* What counts as touching when it is seen late, in `near` of dynamics/contact.h. */
+static const double contacts_late = 1e3;
+
+/* The impact of the first `count` strikers; their velocities after are in work->v, its impulses in work->P. False
+ * after failing the run. (contacts_strike.c) */
+bool contacts_strike(struct run *run, int count);
+
+/* Its two halves. */
+bool contacts_solve_impact(struct run *run, int count);
+void contacts_apply_impulses(struct run *run, int count);
+
+/* What leaves by the velocities in work->v after an impact, or as it is without one, is open; what stays slips or
+ * sticks. */
+void contacts_open_or_close(struct run *run, int count, bool struck);
+
+/* Give the ties of meeting `index` the features that touch within `near`. */
+void contacts_find_touching(struct run *run, int index, double near);
+
+/* All contacts that touch, and ropes that are taut; returns their number. */
+int contacts_find_strikers(struct run *run);
+
+/* e of a meeting at a speed of approach; below zero after failing the run. */
+double contacts_restitution(struct run *run, int meeting, double approach);
+
+/* After an impact of `count` strikers: does a series of bounces end that nobody sees any more? (bounces.c) */
+bool contacts_end_bounces(struct run *run, int count);
+
+/* Put what bounces on its surface; the strikers are then those that touch. Returns their number. */
+int contacts_settle_down(struct run *run, int strikers);
+
+/* ---- the loop */
+
+/* After the modes have settled: what they have opened touches no more. Notes what has closed and opened. */
+void run_release_contacts(struct run *run);
+
+/* The next end of a series of bounces; HUGE_VAL without one. And noting those that end by now. */
+double run_next_rest(const struct run *run);
+void run_note_rests(struct run *run);
+
+#endif

@@ -1,0 +1,206 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Jams: where dry friction and normal forces grow on each other beyond all bounds.
+ *
+ * While a point slips its friction is -mu N sign(v_t), and an acceleration of its normal force may answer to that with
+ * the wrong sign: then no finite forces go with the slip (Painleve's paradox). What rigid bodies do there is known from
+ * the limit of stiff ones and from time stepping: the forces rise without bound while hardly any time passes, an impulse
+ * that ends the slip at once though nothing approaches (a tangential impact, or impact without collision: Genot and
+ * Brogliato, European Journal of Mechanics A 18, 1999; Stewart, SIAM Review 42, 2000).
+ *
+ * So all that touches has the velocities that it would have after a moment without forces between shapes, and a plastic
+ * impact. Without a jam the impulses would be as small as the moment is. They are linear in its length while the modes
+ * are the same, so that a moment and one twice as long tell what they are without any.
+ */
+#include <string.h>
+
+#include "dynamics/impulse.h"
+#include "dynamics/tree_system.h"
+#include "loop/contacts.h"
+#include "loop/run.h"
+
+static const struct tree *tree_of(const struct run *run)
+{
+    return run->model->tree;
+}
+
+/* What a moment does to velocities, as a share of the fastest slip. */
+static const double hint = 1e-7;
+
+/* The accelerations along normal and tangent of striker i where nothing that touches pushes, in work->trial. */
+static void free_accelerations(const struct run *run, int i, double c[2])
+{
+    const struct striker *striker = &run->contacts.strikers[i];
+    const struct row *rows = &run->contacts.trial->tree->rows[tree_of(run)->ties[striker->tie].first_row];
+    c[0] = striker->rope ? -rows[0].g.x2 : rows[0].g.x2;
+    c[1] = striker->rope ? 0 : rows[1].g.x2;
+}
+
+static void let_go(struct run *run, int count)
+{
+    struct fbd_state *trial = run->contacts.trial;
+    state_copy(trial, run->state);
+    for (int i = 0; i < count; i++) {
+        const struct striker *striker = &run->contacts.strikers[i];
+        const struct tie *tie = &tree_of(run)->ties[striker->tie];
+        trial->slip[striker->rope ? tie->pair : tie->surface] = slip_plus;
+    }
+    state_evaluate(trial);
+}
+
+/* A moment that is short against the slips; 0 where nothing slips. */
+static double short_moment(const struct run *run, int count)
+{
+    const struct striker *strikers = run->contacts.strikers;
+    double speed = 0, most = 0, c[2];
+    for (int i = 0; i < count; i++) {
+        free_accelerations(run, i, c);
+        speed = fmax(speed, fabs(strikers[i].v_t));
+        most = fmax(most, fmax(fabs(c[0]), fabs(c[1])));
+    }
+    return most > 0 ? hint * speed / most : 0;
+}
+
+static bool solve_after(struct run *run, int count, double moment)
+{
+    struct striker *strikers = run->contacts.strikers;
+    double c[2];
+    contacts_find_strikers(run);
+    for (int i = 0; i < count; i++) {
+        free_accelerations(run, i, c);
+        strikers[i].v_n += moment * c[0];
+        strikers[i].v_t += moment * c[1];
+    }
+    return contacts_solve_impact(run, count);
+}
+
+/* Impulses and velocities without a moment. */
+static bool solve_jam(struct run *run, int count, double moment)
+{
+    struct contacts_work *work = &run->contacts;
+    size_t size = 2 * (size_t)count;
+    if (!solve_after(run, count, 2 * moment)) return false;
+    memcpy(work->later, work->v, size * sizeof *work->v);
+    memcpy(work->later + size, work->P, size * sizeof *work->P);
+    if (!solve_after(run, count, moment)) return false;
+    for (size_t i = 0; i < size; i++) {
+        work->v[i] = 2 * work->v[i] - work->later[i];
+        work->P[i] = 2 * work->P[i] - work->later[size + i];
+    }
+    return true;
+}
+
+static void note_jam(struct run *run, int i, bool jams)
+{
+    const struct contacts_work *work = &run->contacts;
+    const struct striker *striker = &work->strikers[i];
+    const struct tie *tie = &tree_of(run)->ties[striker->tie];
+    const double *v = work->v + (ptrdiff_t)2 * i, *P = work->P + (ptrdiff_t)2 * i;
+    double taken = striker_taken(striker, v, P);
+    run->impact_work[tie->load] += taken;
+    if (striker->rope || !jams) return;
+    struct run_event *event = run_note(run, FBD_EVENT_JAM, tie->end[0].body, tie->load, -1);
+    if (!event) return;
+    event->impact =
+        (struct impact_record){P[0], P[1], taken, {striker->v_n, v[0]}, {striker->v_t, v[1]}, false};
+}
+
+/* The largest impulse that the moment itself could ask for. */
+static double least_impulse(const struct run *run, int count, double moment)
+{
+    const double far = 1e3;
+    const struct contacts_work *work = &run->contacts;
+    double least = 0, c[2];
+    for (int i = 0; i < count; i++) {
+        double own = work->W[(size_t)(2 * i) * (size_t)(2 * count + 1)];
+        free_accelerations(run, i, c);
+        if (own > 0) least = fmax(least, far * moment * fabs(c[0]) / own);
+    }
+    return least;
+}
+
+bool run_jam(struct run *run)
+{
+    struct contacts_work *work = &run->contacts;
+    bool any = false;
+    if (!run->model->tree || run->model->tree->meeting_count == 0) return false;
+    impulse_look(run->state);
+    int count = contacts_find_strikers(run);
+    let_go(run, count);
+    double moment = short_moment(run, count);
+    if (moment == 0) return false;
+    work->plastic = true;
+    bool solved = solve_jam(run, count, moment);
+    work->plastic = false;
+    if (!solved) return false;
+    double least = least_impulse(run, count, moment);
+    for (size_t i = 0; i < (size_t)count; i++) any |= work->P[2 * i] > least;
+    if (!any) return false;
+    contacts_find_strikers(run); /* with the velocities before */
+    contacts_apply_impulses(run, count);
+    for (size_t i = 0; i < (size_t)count; i++) note_jam(run, (int)i, work->P[2 * i] > least);
+    impulse_look(run->state);
+    contacts_open_or_close(run, count, true);
+    for (int i = 0; i < count; i++) {
+        int pair = tree_of(run)->ties[work->strikers[i].tie].pair;
+        if (pair >= 0) run->decided.slips[pair] = false;
+    }
+    return true;
+}
+
+/* The contact that is rubbed on and presses most; -1 without one. */
+static int pressed_most(const struct run *run)
+{
+    const struct tree *tree = tree_of(run);
+    const struct instant at = state_instant(run->state);
+    double most = -1;
+    int found = -1;
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        double N = fabs(run->state->tree->rows[tie->first_row].lambda);
+        if (tie->kind != constraint_contact || tree_rubbing_share(run->model, &at, tie->first_row) == 0)
+            continue;
+        if (N <= most) continue;
+        most = N;
+        found = i;
+    }
+    return found;
+}
+
+/* Without friction the system of the multipliers is positive definite. Friction that slips may turn the sign of its
+ * determinant; on either side of that there may be a motion, but where it turns the forces are infinite. */
+static bool has_turned(const struct fbd_state *state)
+{
+    const struct tree_work *work = state->tree;
+    int negative = 0;
+    for (int r = 0; r < work->count; r++) negative += work->inverse[r] < 0;
+    return negative % 2 == 1;
+}
+
+static bool has_meetings(const struct run *run)
+{
+    return run->model->tree && run->model->tree->meeting_count > 0;
+}
+
+void run_note_sign(struct run *run)
+{
+    if (!has_meetings(run)) return;
+    state_evaluate_unshared(run->during);
+    run->contacts.turned = has_turned(run->during);
+}
+
+void run_check_jam(struct run *run, bool evaluated)
+{
+    const struct fbd_model *model = run->model;
+    if (!has_meetings(run) || run->end.outcome != FBD_GOING) return;
+    if (!evaluated) state_evaluate_unshared(run->state);
+    int worst = has_turned(run->state) != run->contacts.turned ? pressed_most(run) : -1;
+    if (worst < 0) return;
+    const struct tie *tie = &model->tree->ties[worst];
+    run_fail(run, FBD_FAILED,
+             "at t = %.9g a step has gone over an instant at which the normal force of `%s` on `%s` is "
+             "infinite: as it slips "
+             "its friction has come to press it on (Painleve's paradox). Less friction, or end the run "
+             "before by an event",
+             run_time(run), model->loads[tie->load].source->name, model->bodies[tie->end[0].body].name);
+}

@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Which meetings a step has to look at, and how closely.
+ */
+#include <string.h>
+
+#include "dynamics/contact.h"
+#include "dynamics/impulse.h"
+#include "loop/contacts.h"
+#include "loop/run.h"
+
+static bool has_meetings(const struct fbd_model *model)
+{
+    return model->tree && model->tree->meeting_count > 0;
+}
+
+static const struct tree *tree_of(const struct run *run)
+{
+    return run->model->tree;
+}
+
+/* How fast a shape turns: with its link, but for a circle about its middle, which is alike all round, and with
+ * those that the link moves on. */
+static double turning(const struct run *run, const struct contact_shape *shape)
+{
+    const struct tree_state *links = run->contacts.trial->tree->links;
+    bool round = shape->kind == contact_disc && shape->center.x == 0 && shape->center.y == 0;
+    double turn = round ? 0 : fabs(links[shape->link].omega);
+    for (int i = tree_of(run)->links[shape->link].parent; i > 0; i = tree_of(run)->links[i].parent)
+        turn = fmax(turn, fabs(links[i].omega));
+    return turn;
+}
+
+/* As shapes turn and go past each other: they are in each other no longer than it takes to go by their size. */
+double run_contact_radians(const struct run *run, double span)
+{
+    const struct contacts_work *work = &run->contacts;
+    const struct tree *tree = tree_of(run);
+    double turn = 0, pass = 0;
+    if (!has_meetings(run->model)) return 0;
+    for (int i = 0; i < tree->meeting_count; i++) {
+        const struct contact_shape *shapes = tree->meetings[i].shape;
+        double size = shapes[0].radius + shapes[1].radius;
+        bool flat = shapes[1].kind == contact_line; /* the gap of a line is linear in the place */
+        if (work->asleep[i]) continue;
+        for (int k = 0; k < 2; k++) turn = fmax(turn, turning(run, &shapes[k]));
+        if (flat || size <= 0) continue;
+        pass = fmax(pass, meeting_distance(run->model, work->trial->tree, i).speed / size);
+    }
+    return (2 * turn + 2 * pass) * span; /* both shapes of a meeting may turn */
+}
+
+/* Speeds within a step are those at its ends, or not much more: a factor, and a check at the end of the step,
+ * cover it. */
+void run_wake_contacts(struct run *run, double end)
+{
+    const double speeds = 2;
+    struct contacts_work *work = &run->contacts;
+    struct fbd_state *trial = work->trial;
+    if (!has_meetings(run->model)) return;
+    double span = end - run->step.from;
+    state_copy(trial, run->during);
+    impulse_look(trial);
+    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
+        struct distance at = meeting_distance(run->model, trial->tree, i);
+        work->asleep[i] = at.apart > speeds * span * at.speed;
+    }
+    memcpy(trial->y, run->work.y, plan_size(&run->model->plan) * sizeof *trial->y);
+    trial->t = end;
+    impulse_look(trial);
+    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
+        struct distance at = meeting_distance(run->model, trial->tree, i);
+        work->asleep[i] &= at.apart > speeds * span * at.speed;
+    }
+}
+
+/* Do the shapes of a meeting get no deeper into each other? What has just opened does so from rest, to rounding. */
+static bool parts(const struct run *run, const struct instant *at, int index)
+{
+    const double rounding = 1e-10;
+    const struct meeting *meeting = &tree_of(run)->meetings[index];
+    double least = HUGE_VAL, speed = meeting_speed(run->state->tree, meeting);
+    for (int probe = 0; probe < meeting->probes; probe++) {
+        struct gap gap = meeting_probe(run->model, at, index, probe);
+        if (gap.x < 0) least = fmin(least, gap.rate);
+    }
+    return least >= -rounding * speed;
+}
+
+void contacts_note_depths(struct run *run)
+{
+    const struct fbd_state *state = run->state;
+    const struct instant at = state_instant(run->state);
+    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
+        double deep = meeting_depth(run->model, &at, i), near = meeting_near(run->model, state->tree, i);
+        int features[2];
+        bool beyond =
+            deep > meeting_rounding(run->model, state->tree, i); /* rounding is allowed for anyway */
+        bool leaves = beyond && deep <= contacts_late * near && parts(run, &at, i);
+        bool over_an_end =
+            deep > 0 && deep <= near && meeting_touching(run->model, state->tree, i, near, features) == 0;
+        run->contacts.deep[i] = leaves || over_an_end ? deep : 0;
+    }
+}
+
+void run_check_overlap(struct run *run)
+{
+    double depth;
+    if (!has_meetings(run->model) || run->end.outcome != FBD_GOING) return;
+    int meeting = contacts_overlap(run->state, &depth);
+    if (meeting < 0) return;
+    run_fail(run, FBD_FAILED,
+             "at t = %.9g the shapes of the contact `%s` are in each other by %.3g: the instant at which "
+             "they met was "
+             "missed. Try a smaller tolerance or step",
+             run_time(run), run->model->scene->constraints[tree_of(run)->meetings[meeting].constraint].name,
+             depth);
+}

@@ -1,0 +1,264 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The impact of all that touches: its points, what answers to them, and what it does to the motion.
+ */
+#include <float.h>
+#include <string.h>
+
+#include "dynamics/energy.h"
+#include "dynamics/impulse.h"
+#include "dynamics/tree_driven.h"
+#include "dynamics/tree_system.h"
+#include "loop/contacts.h"
+#include "loop/run.h"
+
+static const struct tree *tree_of(const struct run *run)
+{
+    return run->model->tree;
+}
+
+double contacts_restitution(struct run *run, int meeting, double approach)
+{
+    const struct fbd_model *model = run->model;
+    const struct constraint *source = &model->scene->constraints[tree_of(run)->meetings[meeting].constraint];
+    const struct expr *expr = source->contact.restitution.expr;
+    if (!expr) return source->contact.e;
+    size_t n = plan_size(&model->plan);
+    double *y = run->contacts.y;
+    memcpy(y, run->state->y, n * sizeof *y);
+    y[n] = approach;
+    double e = expr_is_constant(expr) ? expr_value(expr) : expr_eval(expr, run->state->t, y, NULL);
+    if (e >= 0 && e <= 1) return e;
+    run_fail(run, FBD_FAILED, "at t = %.9g the restitution of `%s` is %.6g: it must be between 0 and 1",
+             run_time(run), source->name, e);
+    return -1;
+}
+
+static bool set_point(struct run *run, int i)
+{
+    struct contacts_work *work = &run->contacts;
+    const struct striker *striker = &work->strikers[i];
+    const struct tie *tie = &tree_of(run)->ties[striker->tie];
+    struct instant at = state_instant(run->state);
+    work->points[i] = (struct impacts_point){0, 0};
+    if (striker->rope) return true;
+    if (tie->pair >= 0) work->points[i].mu = formula_value(&run->model->plan.modes[tie->pair].mu_k, &at);
+    if (work->plastic) return true;
+    work->points[i].e = contacts_restitution(run, tie->meeting, fmax(0, -striker->v_n));
+    return work->points[i].e >= 0;
+}
+
+/* The law of the point that closes fastest. */
+static enum impact_law law_of(const struct run *run, int count)
+{
+    const struct contacts_work *work = &run->contacts;
+    int best = -1;
+    for (int i = 0; i < count; i++)
+        if (!work->strikers[i].rope && (best < 0 || work->strikers[i].v_n < work->strikers[best].v_n))
+            best = i;
+    if (best < 0) return impact_stronge;
+    const struct tie *tie = &tree_of(run)->ties[work->strikers[best].tie];
+    return (enum impact_law)run->model->scene->constraints[tie->constraint].contact.law;
+}
+
+/* Rows 2 i and 2 i + 1; a rope has one, and its normal points the other way. */
+static void set_answers(struct run *run, int count)
+{
+    struct contacts_work *work = &run->contacts;
+    int rows = 2 * count;
+    for (int i = 0; i < count; i++) {
+        int first = tree_of(run)->ties[work->strikers[i].tie].first_row;
+        int *row = work->rows + (ptrdiff_t)2 * i;
+        row[0] = first;
+        row[1] = work->strikers[i].rope ? first : first + 1;
+    }
+    impulse_answers(run->state, work->rows, rows, work->modes, work->W, work->answers);
+    for (int i = 0; i < count; i++) {
+        if (!work->strikers[i].rope) continue;
+        for (int k = 0; k < rows; k++) {
+            work->W[(2 * i) * rows + k] *= -1;
+            work->W[k * rows + 2 * i] *= -1;
+            work->W[(2 * i + 1) * rows + k] = work->W[k * rows + 2 * i + 1] = 0;
+        }
+    }
+}
+
+/* The impulse of row i of the strikers; a rope pulls the other way, and has one row. */
+static double impulse_of(const struct contacts_work *work, int i)
+{
+    if (!work->strikers[i / 2].rope) return work->P[i];
+    return i % 2 == 0 ? -work->P[i] : 0;
+}
+
+/* ---- work of drives
+ *
+ * What has a prescribed motion does not give way: its drive takes up the impulse, and does work by it. */
+
+/* The work of a unit impulse of a row on what link `driven` carries along, by the motion that is prescribed to it. */
+static double carried_work(const struct run *run, const struct row *row, int driven)
+{
+    const struct tree *tree = tree_of(run);
+    const struct tree_link *link = &tree->links[driven];
+    const struct tree_state *links = run->state->tree->links, *own = &links[driven];
+    double v = run->state->y[run->model->plan.n + link->coordinate], sum = 0;
+    for (int i = 0; i < row->port_count; i++) {
+        const struct port *port = &row->ports[i];
+        int carrier = port->link;
+        while (carrier > 0 && carrier != driven) carrier = tree->links[carrier].parent;
+        if (carrier != driven) continue;
+        struct vec from_axis = vec_sub(vec_add(links[port->link].p, port->arm), own->p);
+        sum += link->kind == motion_pivot ? v * vec_cross(from_axis, port->force)
+                                          : v * vec_dot(own->e, port->force);
+    }
+    return sum;
+}
+
+/* The impulses of strikers on what drive `friction` moves. */
+static double drive_work(const struct run *run, const struct mode *mode, int count)
+{
+    const struct contacts_work *work = &run->contacts;
+    int driven = run->model->bodies[mode->body].place.link;
+    double sum = 0;
+    for (int i = 0; i < 2 * count; i++) {
+        double P = impulse_of(work, i);
+        if (P != 0) sum -= P * carried_work(run, &run->state->tree->rows[work->rows[i]], driven);
+    }
+    return sum;
+}
+
+/* What the impulses have taken from the bodies along their contacts and ropes. */
+static double taken_by(const struct contacts_work *work, int count)
+{
+    const double *P = work->P, *v = work->v;
+    double taken = 0;
+    for (int i = 0; i < count; i++, P += 2, v += 2) taken += striker_taken(&work->strikers[i], v, P);
+    return taken;
+}
+
+/* The only drive that moves has done what kinetic energy has changed by, less what the impulses have taken. Of several
+ * each has done what the impulses on all that it carries tell, as if that kept its motion on it. */
+static void note_drives(struct run *run, int count, double change)
+{
+    const struct plan *plan = &run->model->plan;
+    const struct mode *only = NULL;
+    int moving = 0;
+    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
+        const struct mode *mode = &plan->modes[pair];
+        if (mode->kind != mode_drive || run->state->y[plan->n + mode->coordinate] == 0) continue;
+        moving++;
+        only = mode;
+    }
+    if (moving == 1) run->impact_work[only->load] += change - taken_by(&run->contacts, count);
+    for (int pair = 0; moving > 1 && pair < (int)plan->mode_count; pair++) {
+        const struct mode *mode = &plan->modes[pair];
+        if (mode->kind == mode_drive) run->impact_work[mode->load] += drive_work(run, mode, count);
+    }
+}
+
+/* How the impulses of others divide round a drum is not followed. */
+static void refuse_rubbing_ropes(struct run *run)
+{
+    const struct tree *tree = tree_of(run);
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (tie->kind != constraint_capstan || run->state->slip[tie->surface] != stick) continue;
+        run_fail(
+            run, FBD_BROKEN,
+            "at t = %.9g something strikes while the rope `%s` is taut round its drum: how much of the blow "
+            "friction takes is not followed. End the run before, by an event",
+            run_time(run), tie->name);
+    }
+}
+
+/* The largest speed that one of the impulses gives a link of its own [m/s]. */
+static double given_to(const struct run *run, int count, const struct tree_link *link)
+{
+    const struct contacts_work *work = &run->contacts;
+    double most = 0;
+    for (int i = 0; i < 2 * count; i++) {
+        const double *answer = work->answers + (size_t)i * (size_t)run->model->plan.n + link->coordinate;
+        most = fmax(most, fabs(impulse_of(work, i)) * hypot(answer[0], answer[1]));
+    }
+    return most;
+}
+
+/* What impulses bring to rest on others has speeds of rounding, as its accelerations are (tree.c): with the square of
+ * the number of those that strike, of the speeds that impulses alone would give. Carried on they would be a drift. */
+static void drop_rounding(struct run *run, int count)
+{
+    const struct tree *tree = tree_of(run);
+    double given = 0, *rates = run->state->y + run->model->plan.n;
+    for (int k = 1; k < tree->count; k++)
+        if (tree->links[k].kind == motion_planar) given = fmax(given, given_to(run, count, &tree->links[k]));
+    double least = (double)count * count * DBL_EPSILON * given;
+    for (int k = 1; k < tree->count; k++) {
+        const struct tree_link *link = &tree->links[k];
+        if (link->kind != motion_planar || given_to(run, count, link) == 0) continue;
+        double *own = rates + link->coordinate, radius = sqrt(link->I_O / link->mass);
+        if (hypot(own[0], own[1]) <= least && radius * fabs(own[2]) <= least) own[0] = own[1] = own[2] = 0;
+    }
+}
+
+void contacts_apply_impulses(struct run *run, int count)
+{
+    refuse_rubbing_ropes(run);
+    struct contacts_work *work = &run->contacts;
+    size_t n = (size_t)run->model->plan.n;
+    bool drives = model_is_driven(run->model);
+    double before = drives ? jointed_kinetic_energy(run->state) : 0;
+    for (int i = 0; i < 2 * count; i++) {
+        double P = impulse_of(work, i);
+        for (size_t k = 0; P != 0 && k < n; k++) run->state->y[n + k] += P * work->answers[(size_t)i * n + k];
+    }
+    drop_rounding(run, count);
+    if (drives) note_drives(run, count, jointed_kinetic_energy(run->state) - before);
+}
+
+static void fail_impact(struct run *run, enum impacts_end end)
+{
+    static const char *const what[] = {
+        [impacts_endless] = "go on among each other without end: try `simulate: {impacts: simultaneous}`",
+        [impacts_unsolvable] = "have no solution by their law: with `law: stronge` they have one",
+        [impacts_lost] = "press against each other so nearly along one line that rounding takes what their "
+                         "impulses do: turn one of the surfaces, or move one of the points",
+    };
+    if (end == impacts_no_memory)
+        run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
+    else
+        run_fail(run, FBD_FAILED, "at t = %.9g impacts at several points %s", run_time(run), what[end]);
+}
+
+bool contacts_solve_impact(struct run *run, int count)
+{
+    struct contacts_work *work = &run->contacts;
+    for (int i = 0; i < count; i++) {
+        if (!set_point(run, i)) return false;
+        double *v = work->v + (ptrdiff_t)2 * i;
+        v[0] = work->strikers[i].v_n;
+        v[1] = work->strikers[i].v_t;
+    }
+    set_answers(run, count);
+    struct impacts impacts = {.count = count,
+                              .propagate = run->model->scene->simulate.propagate && !work->plastic,
+                              .law = work->plastic ? impact_stronge : law_of(run, count),
+                              .points = work->points,
+                              .W = work->W,
+                              .v = work->v,
+                              .P = work->P};
+    enum impacts_end end = impacts_solve(&impacts);
+    if (end != impacts_done) {
+        if (!work->plastic || end == impacts_no_memory) fail_impact(run, end); /* a jam says more */
+        return false;
+    }
+    double size = 0;
+    for (int i = 0; i < 2 * count; i++) size += fabs(work->P[i] * work->v[i]);
+    work->makes = impacts.work > 1e-12 * size;
+    return true;
+}
+
+bool contacts_strike(struct run *run, int count)
+{
+    bool solved = contacts_solve_impact(run, count);
+    if (solved) contacts_apply_impulses(run, count);
+    return solved;
+}

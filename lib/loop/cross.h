@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * An expression passes to another branch.
+ */
+#ifndef FBD_LOOP_CROSS_H
+#define FBD_LOOP_CROSS_H
+
+#include "loop/run.h"
+
+/* Take the branch beyond what `watcher`, a watch_kink, watches, and note it where there is something to see. Ends the
+ * run where a table has no more values. */
+void run_cross(struct run *run, const struct watcher *watcher);
+
+/* End the run where a rounding or a periodic table is past counting (expr.h). */
+void run_check_counts(struct run *run);
+
+/* When all is decided that changes at an event: end the run where a prescribed motion jumps, or its velocity. */
+void run_check_drives(struct run *run);
+
+#endif

@@ -1,0 +1,213 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Couplings come to an end: a rope that is wound on a disc is unwound, or its free end has come to the disc, where it
+ * would turn ever faster; one that is hauled in has come to the end of its way; the point of a slot has come to where
+ * the slot ends. None of these can be passed with the same equations, so that each ends the run by name.
+ *
+ * What is left may have gone to nothing and be back within a step: so a step is looked at in parts, and where the rate
+ * turns within a part its least is found.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "dynamics/constraint.h"
+#include "dynamics/project.h"
+#include "loop/run.h"
+
+struct end {
+    struct run *run;
+    int tie, end;
+};
+
+static const struct tie *tie_of(const struct end *end)
+{
+    return &end->run->model->tree->ties[end->tie];
+}
+
+static void look(struct run *run, double t, const double *y)
+{
+    struct fbd_state *state = run->during;
+    memcpy(state->y, y, 2 * (size_t)run->model->plan.n * sizeof *state->y);
+    state->t = t;
+    state_misfit(state); /* puts the links in their places */
+}
+
+/* What is left before the end, where the links have been looked at. */
+static struct room room_of(const struct end *end)
+{
+    return tie_room(end->run->model, end->run->during->tree, end->tie, end->end);
+}
+
+/* The same within the last step; NAN where that is not known. */
+static struct room room_at(const struct end *end, double t)
+{
+    struct run *run = end->run;
+    if (switcher_partial(run->stepper, moment_at(t), run->work.y, run->work.f) != 0)
+        return (struct room){NAN, NAN, 0};
+    look(run, t, run->work.y);
+    return room_of(end);
+}
+
+/* Used up by more than rounding. */
+static bool is_used_up(struct room room)
+{
+    const double rounding = 1e-12;
+    return room.left < -rounding * room.size;
+}
+
+/* A time in a stretch at which it is used up, where it may be at its least; NAN where it is not. */
+static double used_up_within(const struct end *end, double from, double to)
+{
+    struct room before = room_at(end, from), after = room_at(end, to);
+    if (is_used_up(before)) return from;
+    if (is_used_up(after)) return to;
+    while (before.rate < 0 && after.rate > 0) {
+        double middle = from + (to - from) / 2;
+        if (!(middle > from && middle < to)) break;
+        struct room room = room_at(end, middle);
+        if (is_used_up(room)) return middle;
+        *(room.rate < 0 ? &from : &to) = middle;
+    }
+    return NAN;
+}
+
+/* The time at which nothing is left: between one at which there is something, and one at which it is used up. */
+static double empty_time(const struct end *end, double some, double none)
+{
+    for (;;) {
+        double middle = some + (none - some) / 2;
+        if (!(middle > some && middle < none)) return some;
+        *(is_used_up(room_at(end, middle)) ? &none : &some) = middle;
+    }
+}
+
+/* What has no mode always is. */
+static bool is_taut(const struct fbd_state *state, const struct tie *tie)
+{
+    return tie->pair < 0 || state->slip[tie->pair] == stick;
+}
+
+static const char *name_of(const struct run *run, const struct tie *tie, int k)
+{
+    return tie->end[k].body < 0 ? "the ground" : run->model->bodies[tie->end[k].body].name;
+}
+
+static void fail_at_end(const struct end *end, double t, bool gets_taut)
+{
+    struct run *run = end->run;
+    const struct tie *tie = tie_of(end);
+    if (tie->kind == constraint_slot)
+        run_fail(
+            run, FBD_BROKEN,
+            "at t = %.9g the point in the slot `%s` comes to the end of it. Make it longer, or end the run "
+            "before, by an event",
+            t, tie->name);
+    else
+        run_fail(
+            run, FBD_BROKEN,
+            "at t = %.9g the rope `%s` %s all unwound from `%s`. End the run before, by an event, or wind "
+            "more on it (`length` of `wound`)",
+            t, tie->name, gets_taut ? "gets taut where it is" : "is",
+            name_of(run, tie, end->end == 0 ? 0 : tie->end_count - 1));
+}
+
+static void watch_end(const struct end *end, struct moment *t)
+{
+    enum { parts = 8 };
+    struct run *run = end->run;
+    double from = run->step.from, length = (t->t - from) / parts, used = NAN;
+    if (!isfinite(room_of(end).size)) return;
+    for (int k = 0; k < parts && isnan(used); k++)
+        used = used_up_within(end, from + k * length, k + 1 == parts ? t->t : from + (k + 1) * length);
+    if (!isnan(used)) *t = moment_at(used > from ? empty_time(end, from, used) : from);
+    switcher_partial(run->stepper, *t, run->work.y, run->work.f);
+    if (!isnan(used)) fail_at_end(end, t->t, false);
+}
+
+static double piece_at(struct run *run, int index, int k, double t, double *rate)
+{
+    if (switcher_partial(run->stepper, moment_at(t), run->work.y, run->work.f) != 0) return NAN;
+    look(run, t, run->work.y);
+    return rope_piece(run->model, run->during->tree, index, k, rate);
+}
+
+/* Where a piece is at its shortest within the last step: it may go through nothing and grow again, beyond the rim. */
+static double shortest_at(struct run *run, int index, int k, double little, double to)
+{
+    double from = run->step.from, before = 0, after = 0, rate;
+    piece_at(run, index, k, from, &before);
+    piece_at(run, index, k, to, &after);
+    while (before < 0 && after > 0) {
+        double middle = from + (to - from) / 2;
+        if (!(middle > from && middle < to)) break;
+        double left = piece_at(run, index, k, middle, &rate);
+        if (rate < 0 && left <= little) return middle; /* while it has a direction */
+        *(rate < 0 ? &from : &to) = middle;
+    }
+    return to;
+}
+
+/* A millionth of the disc is left of a straight piece, or a thousandth of the rope that is hauled in, about whose end
+ * a load turns ever faster. */
+static void watch_piece(struct run *run, int index, int k, struct moment *t)
+{
+    const struct tie *tie = &run->model->tree->ties[index];
+    const double little = tie->reels ? 1e-3 : 1e-6;
+    double rate, when = shortest_at(run, index, k, little, t->t), left = piece_at(run, index, k, when, &rate);
+    if (left > little) { /* a number that is none has gone beyond */
+        switcher_partial(run->stepper, *t, run->work.y, run->work.f);
+        return;
+    }
+    *t = moment_at(when);
+    run_fail(
+        run, FBD_BROKEN,
+        "at t = %.9g the rope `%s` is at an end of its way: there is nothing left between `%s` and `%s`. End "
+        "the run before, by an event",
+        t->t, tie->name, name_of(run, tie, k), name_of(run, tie, k + 1));
+}
+
+/* A rope that rubs has become straight, and comes off its drum. */
+static void watch_wrap(struct run *run, int index, struct moment t)
+{
+    const struct tie *tie = &run->model->tree->ties[index];
+    look(run, t.t, run->work.y);
+    const struct instant at = state_instant(run->during);
+    if (capstan_wrap(run->model, &at, index, false, NULL) >= 0) return;
+    run_fail(run, FBD_BROKEN,
+             "by t = %.9g the rope `%s` has come off its drum: its two sides have become one straight line. "
+             "End the "
+             "run before, by an event",
+             t.t, tie->name);
+}
+
+static void watch_tie(struct run *run, int i, struct moment *t)
+{
+    const struct tie *tie = &run->model->tree->ties[i];
+    const struct fbd_state *state = run->during;
+    bool rubs = tie->kind == constraint_capstan && state->slip[tie->surface] == stick;
+    bool winds = tie->wound[0] != 0 || tie->wound[1] != 0;
+    bool hauls = tie->kind == constraint_rope && (winds || tie->reels) && is_taut(state, tie);
+    for (int end = 0; end < 2 && is_taut(state, tie); end++) watch_end(&(struct end){run, i, end}, t);
+    if (rubs) watch_wrap(run, i, *t);
+    for (int k = 0; (rubs || hauls) && k + 1 < tie->end_count; k++) watch_piece(run, i, k, t);
+}
+
+void run_watch_ends(struct run *run, struct moment *t)
+{
+    const struct tree *tree = run->model->tree;
+    for (int i = 0; tree && i < tree->tie_count && run->end.outcome == FBD_GOING; i++) watch_tie(run, i, t);
+}
+
+void run_check_ends(struct run *run)
+{
+    const struct tree *tree = run->model->tree;
+    for (int i = 0; tree && i < tree->tie_count && run->end.outcome == FBD_GOING; i++) {
+        if (tree->ties[i].kind != constraint_rope || !is_taut(run->state, &tree->ties[i])) continue;
+        for (int k = 0; k < 2; k++) {
+            struct end end = {run, i, k};
+            if (!isfinite(room_of(&end).size)) continue;
+            look(run, run->state->t, run->state->y);
+            if (is_used_up(room_of(&end))) fail_at_end(&end, run_time(run), true);
+        }
+    }
+}

@@ -1,0 +1,428 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "loop/ensemble.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dynamics/constraint.h"
+#include "rest/balance.h"
+
+/* ---- making and freeing */
+
+/* The part of the start that is a group's, in two arrays. */
+static void part_of_start(const struct ensemble *ensemble, const struct group *group, double *y, int *branch)
+{
+    const struct fbd_state *whole = ensemble->options.start;
+    const struct plan *plan = &group->model->plan;
+    for (size_t i = 0; i < plan_size(plan); i++) y[i] = whole->y[group_component(ensemble->model, group, i)];
+    for (int i = 0; i < plan->branches; i++) branch[i] = whole->branch[group->branch ? group->branch[i] : i];
+}
+
+/* A run that goes on from the start of the ensemble. */
+static struct run *run_from_start(const struct ensemble *ensemble, const struct group *group)
+{
+    const struct plan *plan = &group->model->plan;
+    double *y = calloc(plan_size(plan) + 1, sizeof *y);
+    int *branch = calloc((size_t)plan->branches + 1, sizeof *branch);
+    struct run *run = NULL;
+    if (y && branch) {
+        const struct fbd_state *whole = ensemble->options.start;
+        const struct state_start part = {whole->t, y, branch, whole};
+        part_of_start(ensemble, group, y, branch);
+        run = run_new(group->model, &ensemble->options, &part);
+    }
+    free(y);
+    free(branch);
+    return run;
+}
+
+bool ensemble_make_run(struct ensemble *ensemble, struct group *group)
+{
+    group->run = ensemble->options.start ? run_from_start(ensemble, group)
+                                         : run_new(group->model, &ensemble->options, NULL);
+    return group->run && group->run->end.outcome != FBD_OUT_OF_MEMORY;
+}
+
+static bool make_group(struct ensemble *ensemble, struct group *group)
+{
+    if (!ensemble_make_run(ensemble, group)) return false;
+    group->probe = state_new(group->model);
+    const struct run *run = group->run;
+    group->quiet = run->watchers.timed.count + run->watchers.moving.count == 0;
+    return group->probe != NULL;
+}
+
+/* Room for the maps of all groups, and for the counts of what is in them while they are made. */
+static bool allocate_maps(struct ensemble *ensemble)
+{
+    const struct fbd_model *whole = ensemble->model;
+    size_t entries = (size_t)whole->plan.branches + whole->plan.mode_count + whole->load_count;
+    int *next = ensemble->maps = calloc(entries + ensemble->count + 1, sizeof(int));
+    if (!next) return false;
+    for (size_t p = 0; p < ensemble->count; p++) {
+        struct group *group = &ensemble->groups[p];
+        group->branch = next;
+        group->pairs = next += group->model->plan.branches;
+        group->loads = next += group->model->plan.mode_count;
+        next += group->model->load_count;
+    }
+    ensemble->counts = next;
+    return true;
+}
+
+static void map_branches(struct ensemble *ensemble)
+{
+    const struct plan *plan = &ensemble->model->plan;
+    const struct division *division = &ensemble->division;
+    size_t watch = 0;
+    for (size_t i = 0; i < plan->kink_count; i++) {
+        const struct kink *kink = &plan->kinks[i];
+        int p = kink->body >= 0 ? division->group_of_body[kink->body] : 0;
+        if (kink->body < 0 &&
+            kink->own < 0) { /* of a user event: the one whose formula begins with this branch */
+            int first = kink->formula.branch;
+            while (plan->watches[watch].left.branch != first && plan->watches[watch].right.branch != first)
+                watch++;
+            p = division->group_of_event[watch];
+        }
+        for (size_t k = 0; k < kink->count; k++)
+            ensemble->groups[p].branch[ensemble->counts[p]++] = kink->formula.branch + (int)k;
+    }
+}
+
+/* Where the branches, friction pairs and loads of the groups stand in the whole. The whole lists each in the
+ * same order as the groups do (loads of bodies, couplings, named ties, drives; switches of loads first and
+ * those of user events last), so what is of a group comes in its order. */
+static bool make_maps(struct ensemble *ensemble)
+{
+    const struct fbd_model *whole = ensemble->model;
+    const int *group_of_body = ensemble->division.group_of_body;
+    if (!allocate_maps(ensemble)) return false;
+    int *counts = ensemble->counts;
+    map_branches(ensemble);
+    memset(counts, 0, ensemble->count * sizeof *counts);
+    for (size_t i = 0; i < whole->plan.mode_count; i++) {
+        int p = group_of_body[whole->plan.modes[i].body];
+        ensemble->groups[p].pairs[counts[p]++] = (int)i;
+    }
+    memset(counts, 0, ensemble->count * sizeof *counts);
+    for (size_t i = 0; i < whole->load_count; i++) {
+        int p = group_of_body[whole->loads[i].body];
+        ensemble->groups[p].loads[counts[p]++] = (int)i;
+    }
+    return true;
+}
+
+static bool make_groups(struct ensemble *ensemble)
+{
+    ensemble->count = 1;
+    if (ensemble->options.structure) {
+        if (!division_make(&ensemble->division, ensemble->model)) return false;
+        if (ensemble->division.count > 1) ensemble->count = ensemble->division.count;
+    }
+    ensemble->groups = calloc(ensemble->count, sizeof *ensemble->groups);
+    ensemble->queue = calloc(2 * ensemble->count, sizeof *ensemble->queue);
+    if (!ensemble->groups || !ensemble->queue) return false;
+    ensemble->due = ensemble->queue + ensemble->count;
+    bool divided = ensemble->count > 1;
+    for (size_t p = 0; p < ensemble->count; p++) {
+        struct group *group = &ensemble->groups[p];
+        group->model = ensemble->model;
+        if (!divided) continue;
+        group->selection = &ensemble->division.selections[p];
+        group->model = group->owned = model_group(ensemble->model, group->selection);
+        if (!group->model) return false;
+    }
+    if (divided && !make_maps(ensemble)) return false;
+    for (size_t p = 0; p < ensemble->count; p++)
+        if (!make_group(ensemble, &ensemble->groups[p])) return false;
+    return true;
+}
+
+struct ensemble *ensemble_new(const struct fbd_model *model, const struct run_options *options)
+{
+    struct ensemble *ensemble = calloc(1, sizeof *ensemble);
+    if (!ensemble) return NULL;
+    ensemble->model = model;
+    ensemble->options = *options;
+    ensemble->reason = "";
+    ensemble->from = ensemble->t = options->start ? options->start->t : 0;
+    ensemble->next_told = HUGE_VAL;
+    ensemble->state = state_new(model);
+    ensemble->arrows = calloc(diagram_most_arrows(model), sizeof *ensemble->arrows);
+    if (!ensemble->state || !ensemble->arrows || !make_groups(ensemble)) {
+        ensemble_free(ensemble);
+        return NULL;
+    }
+    for (size_t p = 0; p < ensemble->count; p++) {
+        const struct run *run = ensemble->groups[p].run;
+        ensemble->due[p] = p;
+        if (run->end.refusal && !ensemble->refused) ensemble->refused = run;
+        if (run->end.outcome != FBD_GOING) ensemble_fail(ensemble, run->end.outcome, run->end.reason);
+    }
+    ensemble_release(ensemble, ensemble->count);
+    return ensemble;
+}
+
+void ensemble_free(struct ensemble *ensemble)
+{
+    if (!ensemble) return;
+    for (size_t p = 0; ensemble->groups && p < ensemble->count; p++) {
+        run_free(ensemble->groups[p].run);
+        state_free(ensemble->groups[p].probe);
+        model_free(ensemble->groups[p].owned);
+    }
+    state_free(ensemble->state);
+    division_free(&ensemble->division);
+    free(ensemble->groups);
+    free(ensemble->maps);
+    free(ensemble->arrows);
+    free(ensemble->queue);
+    free(ensemble->events);
+    free(ensemble);
+}
+
+/* The first early end is the one that counts. */
+void ensemble_fail(struct ensemble *ensemble, fbd_outcome outcome, const char *reason)
+{
+    if (ensemble->outcome != FBD_GOING && ensemble->outcome != FBD_DONE) return;
+    ensemble->outcome = outcome;
+    ensemble->reason = reason;
+}
+
+void ensemble_spoil(struct ensemble *ensemble, const char *format, ...)
+{
+    if (ensemble->outcome == FBD_FAILED || ensemble->outcome == FBD_OUT_OF_MEMORY) return;
+    va_list args;
+    va_start(args, format);
+    /* NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): it is, a line above */
+    vsnprintf(ensemble->own_reason, sizeof ensemble->own_reason, format, args);
+    va_end(args);
+    ensemble->outcome = FBD_FAILED;
+    ensemble->reason = ensemble->own_reason;
+}
+
+/* ---- the log of events */
+
+int group_body(const struct group *group, int index)
+{
+    return index < 0 || !group->selection ? index : group->selection->bodies[index];
+}
+
+int group_load(const struct group *group, int index)
+{
+    return index < 0 || !group->loads ? index : group->loads[index];
+}
+
+static bool add_event(struct ensemble *ensemble, const struct run_event *event)
+{
+    if (ensemble->event_count == ensemble->event_room) {
+        size_t room = ensemble->event_room ? 2 * ensemble->event_room : 16;
+        struct run_event *events = realloc(ensemble->events, room * sizeof *events);
+        if (!events) return false;
+        ensemble->events = events;
+        ensemble->event_room = room;
+    }
+    ensemble->events[ensemble->event_count++] = *event;
+    return true;
+}
+
+static int by_time(const void *a, const void *b)
+{
+    const struct run_event *first = a, *second = b;
+    if (first->t != second->t) return first->t < second->t ? -1 : 1;
+    if (first->group != second->group) return first->group < second->group ? -1 : 1;
+    return first->order < second->order ? -1 : 1;
+}
+
+void ensemble_release(struct ensemble *ensemble, size_t count)
+{
+    size_t before = ensemble->event_count;
+    for (size_t i = 0; i < count; i++) {
+        struct group *group = &ensemble->groups[ensemble->due[i]];
+        const struct run *run = group->run;
+        for (; group->released < run->log.count && run->log.events[group->released].t <= ensemble->t;
+             group->released++) {
+            struct run_event event = run->log.events[group->released];
+            event.body = group_body(group, event.body);
+            event.load = group_load(group, event.load);
+            if (event.watch >= 0 && group->selection) event.watch = group->selection->events[event.watch];
+            event.group = ensemble->due[i];
+            event.order = group->released;
+            if (!add_event(ensemble, &event)) {
+                ensemble_fail(ensemble, FBD_OUT_OF_MEMORY, "out of memory");
+                return;
+            }
+        }
+    }
+    if (count > 1 && ensemble->event_count > before)
+        qsort(ensemble->events + before, ensemble->event_count - before, sizeof *ensemble->events, by_time);
+}
+
+/* ---- looking */
+
+typedef bool look_at_run(struct run *run, double t, struct fbd_state *state);
+
+static bool look_at_end(struct run *run, struct fbd_state *state)
+{
+    state_copy(state, run->state);
+    state_evaluate(state);
+    return true;
+}
+
+static bool look_run(struct run *run, double t, struct fbd_state *state)
+{
+    if (t == run->state->t) return look_at_end(run, state);
+    return t >= run->step.from && t < run->state->t && run_look(run, moment_at(t), state);
+}
+
+/* The double next to the end of a step is the end, whose rest it has not. */
+static bool look_run_before(struct run *run, double t, struct fbd_state *state)
+{
+    return run_look(run, t == run->state->t ? run_end(run) : moment_at(t), state);
+}
+
+struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, struct moment t)
+{
+    struct group *group = &ensemble->groups[index];
+    struct run *run = group->run;
+    bool at_end = moment_equal(t, run_end(run)), within = t.t >= run->step.from && t.t <= run->state->t;
+    bool seen = at_end ? look_at_end(run, group->probe) : within && run_look(run, t, group->probe);
+    return seen ? group->probe : NULL;
+}
+
+/* Put coordinates and rates of a group in their places among those of the whole. */
+static void scatter_coordinates(const struct fbd_model *whole, const struct group *group, double *y)
+{
+    const double *part = group->probe->y;
+    for (size_t b = 0; b < group->model->body_count; b++) {
+        const struct model_body *from = &group->model->bodies[b];
+        const struct model_body *to = &whole->bodies[group_body(group, (int)b)];
+        for (int k = 0; k < from->count; k++) {
+            y[to->first + k] = part[from->first + k];
+            y[to->first_rate + k] = part[from->first_rate + k];
+        }
+    }
+}
+
+/* What a group slides on, with the kinks of the whole and surfaces of its own. */
+static void scatter_slides(const struct group *group, const struct fbd_state *part, struct fbd_state *state)
+{
+    if (!part->sliding || !state->sliding) return;
+    const struct plan *whole = &state->model->plan;
+    struct sliding *to = state->sliding;
+    bool all = !group->selection;
+    for (int i = 0; i < group->model->plan.branches; i++) to->slide_at[all ? i : group->branch[i]] = 0;
+    sliding_drop(to);
+    int units = to->units;
+    for (int j = 0; j < part->sliding->count; j++) {
+        const struct slide *slide = &part->sliding->slides[j];
+        int branch = all ? slide->branch : group->branch[slide->branch], kink = 0;
+        while (whole->kinks[kink].formula.branch + (int)whole->kinks[kink].count <= branch) kink++;
+        sliding_add(to, &whole->kinks[kink], kink, branch - whole->kinks[kink].formula.branch,
+                    units + slide->unit, slide->sign);
+        to->slides[to->count - 1].slack = slide->slack;
+    }
+}
+
+static void scatter_modes(const struct group *group, const struct fbd_state *part, struct fbd_state *state)
+{
+    const struct plan *plan = &group->model->plan;
+    bool whole = !group->selection;
+    for (int i = 0; i < plan->branches; i++) state->branch[whole ? i : group->branch[i]] = part->branch[i];
+    scatter_slides(group, part, state);
+    for (size_t i = 0; i < plan->mode_count; i++) {
+        size_t pair = whole ? i : (size_t)group->pairs[i];
+        state->slip[pair] = part->slip[i];
+        state->pull[pair] = part->pull[i];
+        if (plan->modes[i].kind == mode_contact) /* at which feature it is */
+            state->tree->ties[state->model->plan.modes[pair].tie] = part->tree->ties[plan->modes[i].tie];
+    }
+}
+
+/* Put the state of a group in its place in that of the whole. */
+static void scatter(const struct fbd_model *whole, const struct group *group, struct fbd_state *state)
+{
+    scatter_coordinates(whole, group, state->y);
+    scatter_modes(group, group->probe, state);
+}
+
+static bool run_covers(const struct run *run, double t)
+{
+    return t == run->state->t || (t >= run->step.from && t < run->state->t);
+}
+
+static bool coordinates_of(struct run *run, double t, double *y)
+{
+    return run_coordinates(run, t == run->state->t ? run_end(run) : moment_at(t), y);
+}
+
+bool ensemble_coordinates(struct ensemble *ensemble, double t, double *y)
+{
+    for (size_t p = 0; p < ensemble->count; p++) {
+        struct group *group = &ensemble->groups[p];
+        double *part = ensemble->count == 1 ? y : group->probe->y;
+        if (!run_covers(group->run, t) || !coordinates_of(group->run, t, part)) return false;
+        if (ensemble->count > 1) scatter_coordinates(ensemble->model, group, y);
+    }
+    return true;
+}
+
+size_t group_component(const struct fbd_model *whole, const struct group *group, size_t i)
+{
+    if (!group->selection) return i;
+    size_t n = (size_t)group->model->plan.n, q = i % n;
+    int b = group->model->scene->coordinates[q].body;
+    const struct model_body *from = &group->model->bodies[b];
+    const struct model_body *to = &whole->bodies[group_body(group, b)];
+    return (size_t)(i < n ? to->first : to->first_rate) + q - (size_t)from->first;
+}
+
+void ensemble_pass_on(const struct ensemble *ensemble, size_t index, struct fbd_state *state)
+{
+    const struct group *group = &ensemble->groups[index];
+    const struct run *run = group->run;
+    for (size_t i = 0; i < plan_size(&group->model->plan); i++)
+        state->y[group_component(ensemble->model, group, i)] += run->state->y[i] - run->work.y[i];
+    scatter_modes(group, run->state, state);
+}
+
+static bool look(struct ensemble *ensemble, double t, look_at_run *look_at, struct fbd_state *state)
+{
+    if (ensemble->count == 1) return look_at(ensemble->groups[0].run, t, state);
+    for (size_t p = 0; p < ensemble->count; p++) {
+        if (!look_at(ensemble->groups[p].run, t, ensemble->groups[p].probe)) return false;
+        scatter(ensemble->model, &ensemble->groups[p], state);
+    }
+    state_set_moment(state, moment_at(t));
+    state->settled = true;
+    state_evaluate(state);
+    return true;
+}
+
+bool ensemble_look(struct ensemble *ensemble, double t, struct fbd_state *state)
+{
+    return look(ensemble, t, look_run, state);
+}
+
+bool ensemble_look_before(struct ensemble *ensemble, double t, struct fbd_state *state)
+{
+    return look(ensemble, t, look_run_before, state);
+}
+
+struct fbd_state *ensemble_state(struct ensemble *ensemble)
+{
+    if (!ensemble->current) ensemble_look(ensemble, ensemble->t, ensemble->state);
+    ensemble->current = true;
+    return ensemble->state;
+}
+
+void ensemble_check_balance(struct ensemble *ensemble)
+{
+    struct text lack = {0};
+    if (balance_lack(ensemble_state(ensemble), ensemble->arrows, &lack))
+        ensemble_spoil(ensemble, "%s", lack.failed ? "" : lack.data);
+    text_free(&lack);
+}

@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * A rope runs round a pulley as long as it presses on it. When the angle between its two pieces there has
+ * come down to zero they are one straight line, and the rope comes off: the scene is no longer true, since
+ * what pulls goes on to pull the pulley along with it. While one of the two is slack nothing presses, and the
+ * rope may lie where it likes; it must be back when it gets taut.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "dynamics/constraint.h"
+#include "dynamics/project.h"
+#include "loop/run.h"
+
+/* The angle at pulley `tie` at y. */
+static double wrap_at(struct run *run, int tie, const double *y)
+{
+    struct fbd_state *state = run->during;
+    memcpy(state->y, y, plan_size(&run->model->plan) * sizeof *state->y);
+    state_misfit(state); /* puts the links in their places */
+    return rope_wrap(run->model, state->tree, tie);
+}
+
+/* Off its pulley by more than rounding. */
+static bool is_off(double wrap)
+{
+    const double rounding = 1e-12;
+    return wrap < -rounding;
+}
+
+static bool is_taut(const struct fbd_state *state, const struct tie *tie)
+{
+    return state->slip[tie->pair] == stick;
+}
+
+/* Cut the step back to where the rope is just still on its pulley: halved as long as numbers can tell. */
+static bool cut_step(struct run *run, int tie, struct moment *t)
+{
+    double on = run->step.from, off = t->t;
+    for (;;) {
+        double middle = on + (off - on) / 2;
+        if (!(middle > on && middle < off)) break;
+        if (switcher_partial(run->stepper, moment_at(middle), run->work.y, run->work.f) != 0) return false;
+        if (is_off(wrap_at(run, tie, run->work.y)))
+            off = middle;
+        else
+            on = middle;
+    }
+    *t = moment_at(on > run->step.from ? on : off);
+    return switcher_partial(run->stepper, *t, run->work.y, run->work.f) == 0;
+}
+
+static const char *pulley_of(const struct run *run, int tie)
+{
+    const struct tie *rope = &run->model->tree->ties[tie];
+    return run->model->bodies[rope->end[rope->end_count - 1].body].name;
+}
+
+void run_watch_pulleys(struct run *run, struct moment *t)
+{
+    const struct tree *tree = run->model->tree;
+    for (int i = 0; tree && i + 1 < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (!rope_goes_on(tree, i) || !is_taut(run->during, tie) || !is_taut(run->during, tie + 1)) continue;
+        if (!is_off(wrap_at(run, i, run->work.y)) || !cut_step(run, i, t)) continue;
+        run_fail(
+            run, FBD_BROKEN,
+            "at t = %.9g the rope `%s` comes off its pulley `%s`: its two sides are one straight line there. "
+            "End the run before, by an event, or let the rope run past the pulley",
+            t->t, tie->name, pulley_of(run, i));
+    }
+}
+
+void run_check_pulleys(struct run *run)
+{
+    const struct tree *tree = run->model->tree;
+    for (int i = 0; tree && i + 1 < tree->tie_count && run->end.outcome == FBD_GOING; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (!rope_goes_on(tree, i) || !is_taut(run->state, tie) || !is_taut(run->state, tie + 1)) continue;
+        if (!is_off(wrap_at(run, i, run->state->y))) continue;
+        run_fail(run, FBD_BROKEN,
+                 "at t = %.9g the rope `%s` is taut beside its pulley `%s`, which it came off while it was "
+                 "slack. End the run before, by an event, or let the rope run past the pulley",
+                 run_time(run), tie->name, pulley_of(run, i));
+    }
+}
+
+void run_take_in_ropes(struct run *run)
+{
+    const struct tree *tree = run->model->tree;
+    const struct instant at = state_instant(run->state);
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (tie->kind != constraint_rope || run->state->slip[tie->pair] == stick) continue;
+        struct one_sided rope = one_sided_at(run->model, &at, tie->pair);
+        if (rope.excess >= -rope.rounding) run->state->slip[tie->pair] = stick;
+    }
+}

@@ -1,0 +1,416 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "loop/run.h"
+
+#include <float.h>
+#include <gsl/gsl_errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dynamics/finite.h"
+#include "loop/cross.h"
+#include "rest/start.h"
+
+/* ---- the system that the stepper sees */
+
+static int jacobian(double t, const double y[], double *dfdy, double dfdt[], void *params)
+{
+    struct fbd_state *during = rates_state(params);
+    struct instant at = state_instant_at(during, t, y);
+    state_jacobian(during->model, &at, during->scratch, dfdy, dfdt);
+    return GSL_SUCCESS;
+}
+
+/* The right-hand side in the modes of the step that follows. */
+static void bind_rates(struct run *run)
+{
+    rates_bind(run->rates);
+    run->system.inner.function = rates_call(run->rates, &run->system.inner.params);
+}
+
+/* ---- making and freeing */
+
+static bool make_stepper(struct run *run)
+{
+    size_t n = (size_t)run->model->plan.n;
+    bool *angle = calloc(n + 1, sizeof *angle);
+    if (!angle) return false;
+    for (size_t i = 0; i < n; i++) angle[i] = run->model->scene->coordinates[i].angle;
+    if (run->options.automatic && run->options.structure && run->options.step == 0) {
+        run->kind = structure_of(run->model);
+        run->options.method = structure_method(run->kind);
+    }
+    struct stepper_options options = {.method = run->options.method,
+                                      .layout = {.pairs = n,
+                                                 .extra = (size_t)run->model->plan.own,
+                                                 .angle = angle},
+                                      .tolerance = run->options.tolerance,
+                                      .h_fixed = run->options.step};
+    bool automatic = run->options.automatic && plan_size(&run->model->plan) <= method_most_stiff_states;
+    automatic = automatic && !structure_is_exact(run->kind);
+    run->stepper = switcher_alloc(&options, automatic ? method_find("rodas5p") : NULL);
+    free(angle);
+    return run->stepper != NULL;
+}
+
+static bool make_decided(struct decided *decided, const struct plan *plan)
+{
+    size_t branches = (size_t)plan->branches, pairs = plan->mode_count;
+    decided->branches = calloc(branches + 2 * pairs + 1, sizeof(bool));
+    if (!decided->branches) return false;
+    decided->slips = decided->branches + branches;
+    decided->pulls = decided->slips + pairs;
+    return true;
+}
+
+static bool make_run(struct run *run, const struct state_start *begin)
+{
+    const struct plan *plan = &run->model->plan;
+    size_t n = (size_t)plan->n, size = plan_size(plan);
+    run->state = begin ? state_new_from(run->model, begin) : state_new(run->model);
+    run->during = state_new(run->model);
+    size_t links = run->model->tree ? (size_t)run->model->tree->count : 0;
+    size_t sizes = n + 2 * links + 2 * run->model->body_count;
+    run->work.y = calloc(5 * size + plan_rates(plan) + sizes + 1, sizeof *run->work.y);
+    if (!run->state || !run->during || !run->work.y || !run_make_scans(run)) return false;
+    if (run->state->tree) run->state->tree->accuracy = run->during->tree->accuracy = run->options.tolerance;
+    if (!poles_init(&run->poles, run->model)) return false;
+    if (!mechanisms_init(&run->mechanisms, run->model)) return false;
+    run->work.f = run->work.y + size;
+    run->work.sample = run->work.f + size;
+    run->work.aside = run->work.sample + size;
+    run->grain.along = run->work.aside + 2 * size;
+    run->grain.accelerations = run->grain.along + plan_rates(plan);
+    run->grain.turned = run->grain.accelerations + n;
+    run->grain.cancelled = run->grain.turned + 2 * links;
+    size_t functions = 2 * run->search.moving.count, timed = 3 * run->search.timed.count;
+    run->work.values = calloc((functions > timed ? functions : timed) + 1, sizeof *run->work.values);
+    run->work.kept = calloc(2 * size + 1, sizeof *run->work.kept);
+    run->work.crossed = calloc(run->search.moving.count + 1, sizeof *run->work.crossed);
+    run->recent.anchor = calloc(2 * size + 1, sizeof *run->recent.anchor);
+    run->work.arrows = calloc(diagram_most_arrows(run->model), sizeof *run->work.arrows);
+    if (!contacts_work_init(&run->contacts, run->model) || !passages_init(run)) return false;
+    run->watchers.asleep = run->contacts.asleep;
+    run->watchers.deep = run->contacts.deep;
+    run->impact_work = calloc(run->model->load_count + 1, sizeof *run->impact_work);
+    run->snap.pair = -1;
+    if (!run->work.values || !run->work.kept || !run->work.crossed || !run->recent.anchor ||
+        !run->work.arrows || !run->impact_work)
+        return false;
+    run->rates = rates_new(run->during, rates_by_rows);
+    if (!run->rates) return false;
+    gsl_odeiv2_system system = {.jacobian = jacobian, .dimension = size};
+    system.function = rates_call(run->rates, &system.params);
+    counted_system_init(&run->system, &system);
+    if (!make_decided(&run->decided, plan) || !make_stepper(run)) return false;
+    return run->kind != structure_linear || linear_pace_init(&run->pace, size);
+}
+
+static void refuse(struct run *run, struct lack *lack)
+{
+    if (!lack->id || lack->text.failed) {
+        run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
+    } else {
+        run->end.refusal = lack->id;
+        run->end.refusal_at = lack->at;
+        if (strcmp(lack->id, "leaves-surface") == 0) run_check_contacts(run, NULL); /* an event, too */
+        run_fail(run, FBD_FAILED, "%s", lack->text.data);
+    }
+    text_free(&lack->text);
+}
+
+static void start(struct run *run)
+{
+    struct lack lack;
+    run->step.restart = true;
+    run->step.from = run->state->t;
+    run->recent.moment = run_end(run);
+    if (!run_start_contacts(run, &lack)) {
+        refuse(run, &lack);
+        return;
+    }
+    if (!start_ready(run->state, run->during, "the start", &lack)) {
+        refuse(run, &lack);
+        return;
+    }
+    run_release_contacts(run);
+    run_check_counts(run);
+    watchers_arm(&run->watchers, run->state, 0);
+    if (!(run->options.until > run->state->t)) run->end.outcome = FBD_DONE;
+}
+
+struct run *run_new(const struct fbd_model *model, const struct run_options *options,
+                    const struct state_start *begin)
+{
+    struct run *run = calloc(1, sizeof *run);
+    if (!run) return NULL;
+    run->model = model;
+    run->options = *options;
+    run->recent.time = -HUGE_VAL;
+    if (!make_run(run, begin)) {
+        run_free(run);
+        return NULL;
+    }
+    start(run);
+    return run;
+}
+
+void run_free(struct run *run)
+{
+    if (!run) return;
+    switcher_free(run->stepper);
+    linear_pace_free(&run->pace);
+    scan_free(&run->search.timed);
+    scan_free(&run->search.moving);
+    watchers_free(&run->watchers);
+    course_free(&run->course);
+    poles_free(&run->poles);
+    mechanisms_free(&run->mechanisms);
+    contacts_work_free(&run->contacts);
+    state_free(run->state);
+    state_free(run->during);
+    rates_free(run->rates);
+    free(run->decided.branches);
+    free(run->log.events);
+    free(run->work.y);
+    free(run->work.values);
+    free(run->work.kept);
+    free(run->work.crossed);
+    free(run->recent.anchor);
+    free(run->work.arrows);
+    free(run->impact_work);
+    passages_free(&run->passages);
+    free(run);
+}
+
+/* ---- one turn */
+
+/* Start the stepper at the present state. */
+static bool restart(struct run *run)
+{
+    memcpy(run->work.y, run->state->y, plan_size(&run->model->plan) * sizeof *run->work.y);
+    scan_forget(&run->search.timed);
+    scan_forget(&run->search.moving);
+    if (!structure_is_exact(run->kind)) run_set_noise(run);
+    mechanisms_join(&run->mechanisms, run->state);
+    bind_rates(run);
+    watchers_follow(&run->watchers, run->during);
+    int status = switcher_reset(run->stepper, &run->system, run_end(run), run->work.y, run->work.f,
+                                moment_at(run->options.until), &run->step.h);
+    if (status != GSL_SUCCESS) {
+        run_fail_step(run, stepper_bad_function);
+        return false;
+    }
+    if (run->step.first == 0) run->step.first = run->step.h;
+    if (run->kind == structure_constant) run->step.h = run->options.until - run->state->t;
+    if (run->kind == structure_linear) {
+        linear_pace_start(&run->pace, &run->system, run->state->t, run->work.y);
+        const struct linear_modes *modes = run->pace.now;
+        if (modes && isfinite(modes->rho)) switcher_set_linear(run->stepper, modes->A, modes->rho);
+    }
+    run->step.restart = false;
+    return true;
+}
+
+/* The next event of time alone within reach of a step, or the end of the run. */
+static struct moment next_time(struct run *run, bool *found)
+{
+    const double stretch = 1.02; /* the stepper may lengthen a step by 1 % to end at its limit */
+    double rest = fmin(run_next_rest(run), run->passages.end), until = fmin(run->options.until, rest);
+    double reach = fmin(until, run->state->t + stretch * run->step.h);
+    int status = scan_interval(&run->search.timed, run->state->t, reach);
+    *found = status == 1;
+    /* Where functions of time change too fast for so long a step, it goes to where they have been seen. */
+    if (status == 2 && run->search.timed.clear > run->state->t) return moment_at(run->search.timed.clear);
+    struct moment end = moment_at(until);
+    if (moment_since(end, run_end(run)) <= 0) end.t = nextafter(end.t, HUGE_VAL); /* rests in no time */
+    return *found ? moment_earlier(run_pin_timed(run), end) : end;
+}
+
+/* A coordinate that has grown beyond all numbers, though its rate has not; the step is not taken. */
+static bool is_beyond_numbers(struct run *run, double t)
+{
+    size_t n = (size_t)run->model->plan.n, size = plan_size(&run->model->plan);
+    for (size_t i = 0; i < size; i++) {
+        if (isfinite(run->work.y[i])) continue;
+        if (i >= 2 * n) {
+            run_fail(run, FBD_FAILED,
+                     "the state `%s` is not finite at t = %.9g: %s. The last good state is that at t = %.9g",
+                     run->model->scene->own[i - 2 * n].name, t, not_finite_reason(run->work.y[i]),
+                     run->state->t);
+            return true;
+        }
+        const struct coordinate *c = &run->model->scene->coordinates[i % n];
+        run_fail(run, FBD_FAILED,
+                 "`%s.%s` is not finite at t = %.9g: %s. The last good state is that at t = %.9g",
+                 run->model->bodies[c->body].name, i < n ? c->name : c->rate_name, t,
+                 not_finite_reason(run->work.y[i]), run->state->t);
+        return true;
+    }
+    return false;
+}
+
+static void accept(struct run *run, struct moment t)
+{
+    size_t size = plan_size(&run->model->plan);
+    double *most = run->recent.anchor + size;
+    if (is_beyond_numbers(run, t.t)) return;
+    for (size_t i = 0; i < size; i++) most[i] = fmax(most[i], fabs(run->state->y[i]));
+    state_set_moment(run->state, t);
+    memcpy(run->state->y, run->work.y, size * sizeof *run->work.y);
+    modes_hold(run->state);
+    run_close_step(run);
+    run_check_overlap(run);
+    run->step.restart |= run_has_gone_astray(run);
+    memcpy(run->work.y, run->state->y, size * sizeof *run->work.y);
+}
+
+/* On the brink of a place that cannot be passed, a method without a fine sense of error goes on by roundings
+ * of the time for ever. */
+static bool crawls(struct run *run)
+{
+    enum { most_steps = 100 };
+    bool tiny = moment_since(run_end(run), run_start(run)) <= 8 * DBL_EPSILON * fabs(run->state->t);
+    run->step.crawl = tiny ? run->step.crawl + 1 : 0;
+    return run->step.crawl > most_steps;
+}
+
+/* A run that crawls fails: of events that crowd, where there were any. */
+static void check_crawl(struct run *run)
+{
+    if (!crawls(run)) return;
+    if (run->recent.crowd > 0)
+        run_fail_chatter(run);
+    else
+        run_fail_step(run, stepper_underflow);
+}
+
+/* Keep the next step away from where a force is infinite; false at such a place. */
+static bool heed_poles(struct run *run)
+{
+    const struct pole *nearest;
+    double longest = poles_longest_step(&run->poles, run->state, &nearest);
+    run->step.h = fmin(run->step.h, longest);
+    bool reached = nearest && longest <= 4 * DBL_EPSILON * fabs(run->state->t);
+    if (reached) run_fail_pole(run, nearest);
+    return !reached;
+}
+
+/* An exact method has no error to choose its steps by; they are to show events. */
+static void set_linear_step(struct run *run)
+{
+    double resolved = run->search.moving.resolved;
+    const double other = 0.8;
+    double longest = (run->options.apart ? other : 1) * linear_pace_step(&run->pace, run->step.from);
+    run->step.h = fmin(longest, run->options.until - run->step.from);
+    if (resolved > 0) run->step.h = fmin(run->step.h, resolved);
+}
+
+/* ---- the stages of a turn: each goes on from the one before, and is the last where it ends the run */
+
+struct turn {
+    struct moment t;     /* the end of the step so far */
+    struct moment limit; /* which it does not pass */
+    bool timed;          /* because events of time alone happen there */
+    bool moving;         /* other events happen at its end */
+};
+
+/* From where the step goes, in which modes; after events the stepper starts anew. */
+static bool begin_step(struct run *run)
+{
+    run->step.from = run->state->t;
+    run->step.from_rest = run->state->rest;
+    state_copy(run->during, run->state);
+    if (!run->step.restart) return true;
+    run_note_sign(run);
+    return restart(run);
+}
+
+/* How long the step may be: to the next event of time alone, and not into a pole. */
+static bool limit_step(struct run *run, struct turn *turn)
+{
+    if (run->step.crawl == 0)
+        run->step.not_finite = switcher_counts(run->stepper).rejected[rejected_not_finite];
+    if (run->kind == structure_linear) set_linear_step(run);
+    if (run->kind == structure_constant) run->step.h = run->options.until - run->step.from;
+    run_part_before(run);
+    if (run->options.step == 0 && !heed_poles(run)) return false;
+    turn->limit = next_time(run, &turn->timed);
+    turn->t = run_start(run);
+    run_part_from(run, turn->limit);
+    return true;
+}
+
+/* One accepted step, to y and its slopes. */
+static bool make_step(struct run *run, struct turn *turn)
+{
+    enum stepper_status status = switcher_step(run->stepper, &run->system, &turn->t, run->work.y, run->work.f,
+                                               &run->step.h, turn->limit);
+    if (status != stepper_ok) run_fail_step(run, status);
+    return status == stepper_ok;
+}
+
+/* The first event within it, to which it is cut; likewise where a coupling comes to an end. */
+static bool find_events(struct run *run, struct turn *turn)
+{
+    int found = run_find_event(run, &turn->t);
+    if (found < 0) {
+        run_fail_step(run, stepper_bad_function);
+        return false;
+    }
+    turn->moving = found > 0;
+    run_watch_pulleys(run, &turn->t);
+    run_watch_ends(run, &turn->t);
+    turn->timed = turn->timed && moment_equal(turn->t, turn->limit);
+    return true;
+}
+
+/* The state is that at its end, back on the couplings. */
+static bool accept_step(struct run *run, const struct turn *turn)
+{
+    accept(run, turn->t);
+    check_crawl(run);
+    if (run->end.outcome != FBD_GOING) return false;
+    if (run->projected) counted_system_rhs(&run->system, turn->t.t, run->work.y, run->work.f);
+    return true;
+}
+
+/* What happens there: events, and what they settle; without any the forces are found anew. */
+static bool apply_events(struct run *run, const struct turn *turn)
+{
+    bool happens = turn->moving || turn->timed;
+    if (happens) run_check_jam(run, false);
+    if (run->end.outcome != FBD_GOING) return false;
+    if (happens) {
+        run_apply(run, turn->timed ? run->search.timed.crossed : NULL,
+                  turn->moving ? run->search.moving.crossed : NULL);
+    } else {
+        /* Who shows forces shares them out: run_look, run_check_balance. */
+        state_evaluate_unshared(run->state);
+        run_check_jam(run, true);
+        run_renew_noise(run);
+    }
+    return true;
+}
+
+/* What is noted of the step, and what is watched from now on. */
+static void end_step(struct run *run, const struct turn *turn)
+{
+    bool at_end = turn->t.t >= run->options.until;
+    run_note_rests(run);
+    passages_note(run);
+    if (at_end) run_apply_touched(run, false);
+    if (turn->moving || turn->timed || at_end) run_check_balance(run);
+    if (run->end.outcome == FBD_GOING && at_end) run->end.outcome = FBD_DONE;
+    if (run->end.outcome == FBD_GOING)
+        watchers_arm(&run->watchers, run->state, run->state->t - run->step.from);
+    if (run->projected || run->model->plan.watch_count > 0) scan_forget(&run->search.moving);
+}
+
+fbd_outcome run_advance(struct run *run)
+{
+    struct turn turn;
+    if (run->end.outcome == FBD_GOING && begin_step(run) && limit_step(run, &turn) && make_step(run, &turn) &&
+        find_events(run, &turn) && accept_step(run, &turn) && apply_events(run, &turn))
+        end_step(run, &turn);
+    return run->end.outcome;
+}

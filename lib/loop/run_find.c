@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The first event within a step, and the state there.
+ */
+#include <float.h>
+#include <gsl/gsl_errno.h>
+#include <string.h>
+
+#include "loop/contacts.h"
+#include "loop/run.h"
+
+/* The time that function i of the moving set still has, by its value and rate at an event; negative when it
+ * has passed. */
+static double time_left(const struct run *run, size_t i)
+{
+    double value = run->work.values[i], rate = run->work.values[run->search.moving.count + i];
+    return rate < 0 && value < HUGE_VAL ? -value / rate : HUGE_VAL;
+}
+
+/* Events of one instant that rounding has put a little apart happen together. */
+static double instant_at(double t)
+{
+    return 64 * DBL_EPSILON * fabs(t);
+}
+
+/* Go back to the event that the scan has found and improve its time: the partial step has the full accuracy
+ * of the method, the dense output may have less. Newton on the function that reaches zero first; y and f are
+ * left at the result, which is at *t + *move, the move being of the size of a rounding where it has
+ * converged.
+ */
+static bool polish(struct run *run, double step_end, double *t, double *move)
+{
+    enum { most_steps = 4 };
+    const struct scan *scan = &run->search.moving;
+    for (int step = 0;; step++) {
+        if (switcher_partial(run->stepper, moment_at(*t), run->work.y, run->work.f) != GSL_SUCCESS)
+            return false;
+        watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, moment_at(*t), run->work.y,
+                          run->work.values, run->work.values + scan->count);
+        *move = HUGE_VAL;
+        for (size_t i = 0; i < scan->count; i++)
+            if (scan->crossed[i]) *move = fmin(*move, time_left(run, i));
+        double next = *t + *move;
+        bool there =
+            !(next > run->step.from && next < step_end) || fabs(*move) <= 4 * DBL_EPSILON * fabs(next);
+        if (there || step == most_steps) break;
+        *t = next;
+    }
+    for (size_t i = 0; i < scan->count; i++)
+        if (fabs(time_left(run, i)) <= instant_at(*t)) scan->crossed[i] = true;
+    return true;
+}
+
+/* Does one of the functions that crossed go down at t, and to zero before the step ends? The dense output of
+ * a low-order step may dip below zero where the function rises, as the velocity just after a breakaway, or
+ * stays above it; the state and rate at t, which are those of the motion and not of the interpolant, tell. */
+static bool goes_down(const struct run *run, double t, double end)
+{
+    for (size_t i = 0; i < run->search.moving.count; i++) {
+        double value = run->work.values[i], rate = run->work.values[run->search.moving.count + i];
+        if (!run->search.moving.crossed[i] || rate > 0) continue;
+        if (value <= 0 || t + time_left(run, i) <= end) return true;
+    }
+    return false;
+}
+
+/* Is one of them below zero at the end of the step? Then it has gone there, whatever the inside looks like.
+ * On return y and f are those at t again. */
+static bool is_down_at_end(struct run *run, double t, double end)
+{
+    double *values = run->work.values, *rates = values + run->search.moving.count;
+    bool down = false;
+    if (switcher_partial(run->stepper, moment_at(end), run->work.y, run->work.f) != GSL_SUCCESS) return true;
+    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, moment_at(end), run->work.y, values,
+                      rates);
+    for (size_t i = 0; i < run->search.moving.count; i++)
+        down |= run->search.moving.crossed[i] && values[i] < 0;
+    return switcher_partial(run->stepper, moment_at(t), run->work.y, run->work.f) == GSL_SUCCESS && down;
+}
+
+/* Of functions with kinks, as the gap of the lowest of several corners, one may have gone down before the first that
+ * was found: it is below zero by then. The first of all becomes *t. False when that fails. */
+static bool look_before(struct run *run, double start, double *t, double *move)
+{
+    struct scan *scan = &run->search.moving;
+    bool down = false;
+    for (size_t i = 0; i < scan->count; i++)
+        down |= run->work.values[i] < 0 && !(scan->crossed[i] && fabs(time_left(run, i)) <= instant_at(*t));
+    if (!down) return true;
+    memcpy(run->work.crossed, scan->crossed, scan->count * sizeof *run->work.crossed);
+    double when = *t, others = *move;
+    bool sooner = scan_interval(scan, start, *t) == 1 && scan->t < *t;
+    if (sooner) *t = scan->t;
+    if (sooner && !polish(run, when, t, move)) return false;
+    if (sooner && *t < when) return true;
+    memcpy(scan->crossed, run->work.crossed, scan->count * sizeof *run->work.crossed);
+    *t = when;
+    *move = others;
+    return switcher_partial(run->stepper, moment_at(when), run->work.y, run->work.f) == GSL_SUCCESS;
+}
+
+/* Cut the step to t, where nothing happens. 0, or -1 when that fails. */
+static int cut_step(struct run *run, struct moment t)
+{
+    return switcher_partial(run->stepper, t, run->work.y, run->work.f) == GSL_SUCCESS ? 0 : -1;
+}
+
+/* The longest share of a step that is believed when it has passed a pole: where that was is not asked. */
+static int stay_before_poles(struct run *run, struct moment *t)
+{
+    const double share = 0.25;
+    double h = moment_since(*t, run_start(run)), cut = run->step.from + share * h;
+    if (run->options.step > 0 || !(cut > run->step.from)) return 0;
+    if (!poles_passed(&run->poles, run->during, h, t->t, run->work.y, run->work.f)) return 0;
+    *t = moment_at(cut);
+    run->step.h = share * h;
+    run->step.restart = true;
+    return cut_step(run, *t);
+}
+
+/* Look for the first event in (from, t] that changes the motion; on return *t is its time, with y and f
+ * there. 1 found, 0 none, -1 failed. Where the event functions change so fast that the scan gives up, the
+ * step is cut to what it has seen; one that is noise (it gives up at the very start) is not looked at more
+ * closely. One that dips again and again, as the gaps of a pile that has just bounced do to the last digits, is cut
+ * where it did so last. */
+static int find_change(struct run *run, struct moment *t)
+{
+    enum { most_dips = 8 };
+    const double least_share = 1e-3;
+    double start = run->step.from, end = t->t;
+    run->search.moving.aside = false;
+    for (int dip = 0; dip < most_dips && start < end; dip++) {
+        run->search.moving.resumed = dip > 0;
+        int found = scan_interval(&run->search.moving, start, end);
+        if (run->search.moving.resolved < HUGE_VAL)
+            run->step.h = fmin(run->step.h, run->search.moving.resolved);
+        if (found <= 0) return found;
+        if (found == 2) {
+            if (run->search.moving.clear - run->step.from < least_share * (end - run->step.from)) return 0;
+            *t = moment_at(run->search.moving.clear);
+            run->step.restart = true;
+            return cut_step(run, *t);
+        }
+        double when = run->search.moving.t, move;
+        if (when >= end) return 1;
+        if (!polish(run, end, &when, &move) || !look_before(run, start, &when, &move)) return -1;
+        if (goes_down(run, when, end) || is_down_at_end(run, when, end)) {
+            *t = run_pin_moving(run, when, move, *t);
+            return 1;
+        }
+        if (cut_step(run, *t) < 0) return -1;
+        start = fmax(when, run->search.moving.t);
+    }
+    if (!(start < end) || start - run->step.from <= instant_at(start)) return 0;
+    *t = moment_at(start); /* nothing has happened up to here; beyond nobody has looked */
+    run->step.restart = true;
+    return cut_step(run, *t);
+}
+
+/* Log the user events in (from, t]. They are looked for when it is known how far the step goes, and change
+ * nothing in it, so that a run with them has the bits of one without. One that ends the run cuts the step: 1,
+ * else 0; -1 failed. */
+static int find_told(struct run *run, struct moment *t)
+{
+    enum { most_dips = 8 };
+    double start = run->step.from, end = t->t;
+    run->search.moving.aside = true;
+    for (int dip = 0; dip < most_dips && start < end;) {
+        run->search.moving.resumed = dip > 0;
+        int found = scan_interval(&run->search.moving, start, end);
+        if (found != 1) return found < 0 ? -1 : 0;
+        double when = run->search.moving.t, move = 0;
+        if (when < end && !polish(run, end, &when, &move)) return -1;
+        bool passed = when >= end || goes_down(run, when, end) || is_down_at_end(run, when, end);
+        if (passed && !run_tell(run, when)) {
+            if (when < end) *t = run_pin_moving(run, when, move, *t);
+            return 1;
+        }
+        dip += !(passed && when > start);
+        start = passed ? when : fmax(when, run->search.moving.t);
+    }
+    return 0;
+}
+
+int run_find_event(struct run *run, struct moment *t)
+{
+    if (stay_before_poles(run, t) < 0) return -1;
+    size_t size = plan_size(&run->model->plan), bytes = size * sizeof *run->work.y;
+    course_start(&run->course);
+    run_wake_contacts(run, t->t);
+    int change = find_change(run, t);
+    if (change < 0 || run->model->plan.watch_count == 0) return change;
+    memcpy(run->work.kept, run->work.y, bytes);
+    memcpy(run->work.kept + size, run->work.f, bytes);
+    memcpy(run->work.crossed, run->search.moving.crossed,
+           run->search.moving.count * sizeof *run->work.crossed);
+    int told = find_told(run, t);
+    if (told != 0) return told;
+    memcpy(run->work.y, run->work.kept, bytes);
+    memcpy(run->work.f, run->work.kept + size, bytes);
+    memcpy(run->search.moving.crossed, run->work.crossed,
+           run->search.moving.count * sizeof *run->work.crossed);
+    return change;
+}

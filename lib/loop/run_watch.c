@@ -1,0 +1,318 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What a run watches: event functions at instants and over stretches of time, on the state along the last
+ * step.
+ */
+#include <float.h>
+#include <gsl/gsl_errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dynamics/absolute.h"
+#include "loop/run.h"
+
+static int sample_timed(void *context, double t, double *values, double *rate)
+{
+    struct run *run = context;
+    watchers_evaluate(&run->watchers, &run->watchers.timed, run->during, moment_at(t), run->state->y, values,
+                      rate);
+    return 0;
+}
+
+/* Where a pair sticks its surface leads, at every instant as at the ends of steps (modes_hold): the dense
+ * output says so only to the error of the method, and a difference of the two would change its sign at
+ * random.
+ */
+static bool leads(const struct run *run, size_t pair)
+{
+    const struct mode *mode = &run->model->plan.modes[pair];
+    return mode->surface_speed.expr && mode->tie < 0 && run->during->slip[pair] == stick;
+}
+
+static bool any_leads(const struct run *run)
+{
+    for (size_t i = 0; i < run->model->plan.mode_count; i++)
+        if (leads(run, i)) return true;
+    return false;
+}
+
+/* The state along the last step. */
+static int sample_state(struct run *run, double t, double *y)
+{
+    const struct fbd_state *during = run->during;
+    const struct plan *plan = &run->model->plan;
+    if (switcher_dense(run->stepper, moment_at(t), y) != GSL_SUCCESS) return -1;
+    struct instant at = state_instant_at(during, t, y);
+    double acceleration;
+    for (size_t i = 0; i < plan->mode_count; i++)
+        if (leads(run, i))
+            y[plan->n + plan->modes[i].coordinate] =
+                friction_surface_speed(&plan->modes[i], &at, &acceleration);
+    return 0;
+}
+
+static int sample_moving(void *context, double t, double *values, double *rate)
+{
+    struct run *run = context;
+    if (sample_state(run, t, run->work.sample)) return -1;
+    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, moment_at(t), run->work.sample,
+                      values, rate);
+    return 0;
+}
+
+static void enclose_timed(void *context, size_t group, const struct stretch *stretch, struct enclosure *out)
+{
+    struct run *run = context;
+    watchers_enclose(&run->watchers, &run->watchers.timed, group, run->during, stretch, NULL, out);
+}
+
+static void enclose_moving(void *context, size_t group, const struct stretch *stretch, struct enclosure *out)
+{
+    struct run *run = context;
+    if (stretch->from != run->search.enclosed.from || stretch->to != run->search.enclosed.to) {
+        course_enclose(&run->course, stretch);
+        run->search.enclosed = *stretch;
+    }
+    watchers_enclose(&run->watchers, &run->watchers.moving, group, run->during, stretch, run->course.now,
+                     out);
+}
+
+/* The state along the last step with the places that expressions name. */
+static int sample_course(void *context, double t, double *y)
+{
+    struct run *run = context;
+    const struct fbd_state *during = run->during;
+    if (sample_state(run, t, y)) return -1;
+    if (!run->search.follows_places) return 0;
+    struct instant at = state_instant_at(during, t, y);
+    at = instant_extend(run->model, &at);
+    memcpy(y, at.y, extended_size(run->model) * sizeof *y);
+    return 0;
+}
+
+/* How far the jointed bodies reach from the origin, and how fast they are over the last step. */
+static double measure(const struct run *run, double *speed)
+{
+    const struct tree *tree = run->model->tree;
+    double reach = 0;
+    *speed = 0;
+    for (int i = 1; i < tree->count; i++) {
+        const struct tree_state *link = &run->state->tree->links[i];
+        double arm = vec_norm(link->mr) / tree->links[i].mass;
+        reach = fmax(reach, vec_norm(link->p) + arm);
+        *speed = fmax(*speed, vec_norm(link->v) + fabs(link->omega) * arm);
+    }
+    double fastest = 0;
+    size_t n = (size_t)run->model->plan.n;
+    for (size_t i = 0; i < n; i++)
+        fastest =
+            fmax(fastest, fabs(run->work.f[n + i]) * (run->model->scene->coordinates[i].angle ? reach : 1));
+    *speed += fastest * run->step.h;
+    return reach;
+}
+
+/* Couplings keep coordinates at zero, or at rest, to the rounding of the places and speeds of all that they
+ * join. The sign of such a number means nothing. */
+static void set_noise(struct run *run)
+{
+    const double roundings = 64 * DBL_EPSILON;
+    const struct scene *scene = run->model->scene;
+    size_t n = (size_t)run->model->plan.n;
+    if (!run->model->tree || run->model->tree->tie_count == 0) return;
+    double speed, reach = measure(run, &speed);
+    for (size_t k = 0; k < run->course.count && reach > 0; k++) {
+        size_t i = (size_t)run->course.component[k];
+        if (i >= 2 * n) continue;
+        double size = i < n ? reach : speed;
+        run->course.noise[k] = roundings * (scene->coordinates[i % n].angle ? size / reach : size);
+    }
+}
+
+static double follow_course(void *context, double from, double to, bool coarse)
+{
+    enum { simple = 6 };
+    struct run *run = context;
+    double negligible;
+    int degree = switcher_degree(run->stepper, &negligible);
+    if (run->search.follows_places || any_leads(run)) { /* functions of the motion, and no polynomials */
+        negligible = fmax(negligible, 1e-13);
+        degree = course_most_degree;
+    }
+    run->search.enclosed.from = NAN;
+    set_noise(run);
+    coarse = coarse && degree > simple && run->options.step == 0;
+    int status = coarse ? course_set_coarse(&run->course, from, to, sample_course, run)
+                        : course_set(&run->course, from, to, degree, negligible, sample_course, run);
+    return status ? NAN : run->course.to;
+}
+
+/* ---- panels for functions that are sampled */
+
+/* Formulas of forces and frictions in turn; NULL after the last. */
+static const struct formula *paced_formula(const struct fbd_model *model, size_t index)
+{
+    size_t loads = model->load_count, frictions = model->plan.mode_count;
+    enum { each = 6 };
+    if (index < each * loads) {
+        const struct model_load *load = &model->loads[index / each];
+        const struct formula *all[] = {&load->value, &load->angle,     &load->fx,
+                                       &load->fy,    &load->potential, &load->couple};
+        return all[index % each];
+    }
+    index -= each * loads;
+    if (index >= 4 * frictions) return NULL;
+    const struct mode *mode = &model->plan.modes[index / 4];
+    const struct formula *all[] = {&mode->mu_s, &mode->mu_k, &mode->surface_speed, &mode->position};
+    return all[index % 4];
+}
+
+/* Over how many radians a formula turns at most: its fastest rate against half of its range. That of a narrow
+ * peak is that of its flanks. */
+static double radians_of(const struct run *run, const struct formula *formula, const struct stretch *stretch)
+{
+    const int *branch = formula->branch < 0 ? NULL : run->during->branch + formula->branch;
+    struct enclosure f = expr_enclose(formula->expr, stretch, run->course.now, branch);
+    double range = interval_width(f.value), turn = interval_size(f.rate) * (stretch->to - stretch->from);
+    if (!(range < HUGE_VAL && turn < HUGE_VAL)) return HUGE_VAL;
+    return range > 0 ? 2 * turn / range : 0;
+}
+
+/* The size of component i of the course, where `reach` and `speed` are those of the scene. */
+static double size_of(const struct run *run, size_t i, double reach, double speed)
+{
+    const struct fbd_model *model = run->model;
+    size_t n = (size_t)model->plan.n, all = plan_size(&model->plan);
+    if (i < 2 * n) {
+        double size = i < n ? reach : speed;
+        return model->scene->coordinates[i % n].angle ? size / reach : size;
+    }
+    if (i < all) return 0; /* a state: nothing is known of its size */
+    switch (model->absolutes[i - all - hand_slots].kind) {
+    case absolute_x:
+    case absolute_y: return reach;
+    case absolute_angle: return 1;
+    case absolute_angle_dot: return speed / reach;
+    default: return speed;
+    }
+}
+
+/* What varies by no more than its rounding, or what joints and couplings keep from varying but for theirs,
+ * has bounds of its rate that are those of noise over whatever stretch. */
+static void hold_noise(struct run *run)
+{
+    const double negligible = 1e-10, roundings = 4;
+    double speed = 0, reach = run->model->tree ? measure(run, &speed) : 0;
+    for (size_t k = 0; k < run->course.count; k++) {
+        int i = run->course.component[k];
+        struct enclosure *now = &run->course.now[i];
+        double width = interval_width(now->value), middle = now->middle.low + interval_width(now->middle) / 2;
+        double noise = roundings * run->course.doubt[k];
+        if (reach > 0) noise = fmax(noise, negligible * size_of(run, (size_t)i, reach, speed));
+        if (width <= noise) *now = enclosure_point(middle);
+    }
+}
+
+/* Where a formula has turned by three radians, `to` at most. What turns no less in half of the time, nor in a quarter
+ * of it, goes one way there, faster at one end than at the other, or hardly varies at all, and its bounds are those
+ * of a difference of what is the same. */
+static double end_of_turn(struct run *run, const struct formula *formula, double from, double to)
+{
+    enum { most_halvings = 20, most_in_vain = 2 };
+    const double most = 3, least_fall = 0.75;
+    double before = HUGE_VAL, last = to;
+    int in_vain = 0;
+    for (int halving = 0; halving < most_halvings; halving++) {
+        struct stretch stretch = stretch_between(from, to);
+        if (run->search.paced_by_motion) {
+            course_enclose(&run->course, &stretch);
+            hold_noise(run);
+        }
+        double radians = radians_of(run, formula, &stretch);
+        if (!(radians > most) || !(stretch.middle > from)) return to;
+        bool falls = !(before < HUGE_VAL) || radians <= least_fall * before;
+        if (falls) last = to;
+        in_vain = falls ? 0 : in_vain + 1;
+        if (in_vain == most_in_vain) return last;
+        before = radians;
+        to = stretch.middle;
+    }
+    return to;
+}
+
+static bool varies(const struct formula *formula)
+{
+    const int *slots;
+    return formula->expr && (expr_uses_time(formula->expr) || expr_variables(formula->expr, &slots) > 0);
+}
+
+/* The end of the first panel in which no force or friction, and no body that may meet another,
+ * turns by more than three radians. What joints make
+ * of several of them changes no faster, but where they pass a singular position; there steps are short. */
+static double end_of_panel(void *context, double from, double to)
+{
+    const double most = 3;
+    struct run *run = context;
+    double turned = run_contact_radians(run, to - from);
+    if (turned > most) to = from + (to - from) * (most / turned);
+    if (!run->search.paced) return to;
+    double followed = run->search.paced_by_motion ? follow_course(run, from, to, false) : to;
+    if (followed < to) to = followed; /* NAN: there is no motion to ask */
+    const struct formula *formula;
+    for (size_t k = 0; (formula = paced_formula(run->model, k)); k++)
+        if (varies(formula)) to = end_of_turn(run, formula, from, to);
+    return to;
+}
+
+/* For functions that will be sampled, or may be, what forces are made of is followed as well. */
+static void mark_paced(struct run *run, bool *used)
+{
+    const struct watcher_set *set = &run->watchers.moving;
+    bool samples = false;
+    for (size_t g = 0; g < set->group_count; g++)
+        samples |= !set->groups[g].proved || set->watchers[set->groups[g].first].kind == watch_share;
+    const struct formula *formula;
+    for (size_t k = 0; samples && (formula = paced_formula(run->model, k)); k++) {
+        if (!varies(formula)) continue;
+        const int *slots;
+        size_t count = expr_variables(formula->expr, &slots);
+        for (size_t i = 0; i < count; i++) used[slots[i] - 1] = true;
+        run->search.paced = true;
+        run->search.paced_by_motion |= count > 0;
+    }
+}
+
+static bool make_course(struct run *run)
+{
+    size_t size = extended_size(run->model);
+    bool *used = calloc(size + 1, sizeof *used);
+    if (!used) return false;
+    watchers_mark_used(run->model, &run->watchers.moving, used);
+    mark_paced(run, used);
+    for (size_t i = plan_size(&run->model->plan); i < size; i++) run->search.follows_places |= used[i];
+    bool made = course_init(&run->course, size, used);
+    free(used);
+    return made;
+}
+
+static bool use_enclosures(struct run *run)
+{
+    const struct watcher_set *timed = &run->watchers.timed, *moving = &run->watchers.moving;
+    run->search.timed.horizon = run->options.until;
+    run->search.moving.panel = end_of_panel;
+    return scan_use_enclosures(&run->search.timed, timed->groups, timed->group_count, enclose_timed, NULL) &&
+           scan_use_enclosures(&run->search.moving, moving->groups, moving->group_count, enclose_moving,
+                               follow_course) &&
+           make_course(run);
+}
+
+bool run_make_scans(struct run *run)
+{
+    double tolerance = run->options.tolerance;
+    bool multistep = run->options.method->multistep;
+    if (!watchers_init(&run->watchers, run->model, tolerance, multistep)) return false;
+    const struct watcher_set *timed = &run->watchers.timed, *moving = &run->watchers.moving;
+    if (!scan_init(&run->search.timed, timed->count, sample_timed, run)) return false;
+    if (!scan_init(&run->search.moving, moving->count, sample_moving, run)) return false;
+    if (!use_enclosures(run)) return false;
+    return true;
+}

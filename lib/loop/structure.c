@@ -1,0 +1,260 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "loop/structure.h"
+
+#include "integrate/linear.h"
+#include "integrate/nystrom.h"
+#include "integrate/parabola.h"
+
+/* Methods for structures are not in the table of method.h: for a scene that has not the structure they would
+ * give wrong results, so that nobody should be able to ask for them. */
+static const struct method nystrom_method = {.name = "nystrom",
+                                             .description =
+                                                 "explicit Runge-Kutta-Nystrom, Dormand-El-Mikkawy-Prince "
+                                                 "12(10), dense output of order 10",
+                                             .type = &step_nystrom,
+                                             .order = 12,
+                                             .estimate_order = 11};
+
+static const struct method parabola_method = {.name = "parabola",
+                                              .description = "the exact motion under constant accelerations",
+                                              .type = &step_parabola,
+                                              .order = 8,
+                                              .estimate_order = 8,
+                                              .exact = true};
+
+static const struct method linear_method = {.name = "linear",
+                                            .description = "the exact motion of linear equations",
+                                            .type = &step_linear,
+                                            .order = 8,
+                                            .estimate_order = 8,
+                                            .exact = true};
+
+const struct method *structure_method(enum structure structure)
+{
+    switch (structure) {
+    case structure_velocity_free: return &nystrom_method;
+    case structure_linear: return &linear_method;
+    case structure_constant: return &parabola_method;
+    case structure_general:
+    case structure_kinds: break;
+    }
+    return method_at(0);
+}
+
+/* ---- velocities */
+
+/* Does a slot stand for a velocity? Those above n are rates, above 2 n states and then places in the world and theirs. */
+static bool is_rate(const struct fbd_model *model, int slot)
+{
+    int n = model->plan.n, size = (int)plan_size(&model->plan);
+    if (slot <= size) return slot > n && slot <= 2 * n;
+    enum absolute_kind kind = model->absolutes[slot - 1 - size - hand_slots].kind;
+    return kind != absolute_x && kind != absolute_y && kind != absolute_angle;
+}
+
+static bool reads_rate(const struct fbd_model *model, const struct value *value)
+{
+    const int *slots;
+    size_t count = value->expr ? expr_variables(value->expr, &slots) : 0;
+    for (size_t i = 0; i < count; i++)
+        if (is_rate(model, slots[i])) return true;
+    return false;
+}
+
+/* Friction that slips has the sign of its mode, and depends on the velocity through its coefficients only. */
+static bool depends_on_velocity(const struct fbd_model *model, const struct load *load)
+{
+    enum law_rate rate = load_law(load)->rate;
+    if (rate != rate_by_formulas) return rate == rate_always;
+    struct load copy = *load;
+    struct value *formulas[most_formulas_of_a_load];
+    load_formulas(&copy, formulas);
+    for (size_t k = 0; k < most_formulas_of_a_load; k++)
+        if (reads_rate(model, formulas[k])) return true;
+    return false;
+}
+
+/* A body that turns about another point than its centre of mass, with its axis free to move, has a term
+ * omega^2 r in its equations. */
+static bool has_centrifugal_term(const struct model_body *body)
+{
+    return body->kind == motion_planar && (body->arm.x != 0 || body->arm.y != 0);
+}
+
+/* Does a body move on another one, or is it tied to one or to the ground? Then there are Coriolis forces, and
+ * a mass matrix that varies. */
+static bool has_joints(const struct fbd_model *model)
+{
+    if (model->scene->constraint_count > 0) return true;
+    for (size_t b = 0; b < model->body_count; b++)
+        if (model->bodies[b].parent != ground_body) return true;
+    return false;
+}
+
+/* On a track the normal force grows with v^2, and friction with it; so does what turns a body along. */
+static bool is_pressed_by_speed(const struct model_body *body)
+{
+    return body->kind == motion_track && (body->friction >= 0 || body->inertia.I_G > 0 || body->L > 0);
+}
+
+static bool velocity_free(const struct fbd_model *model)
+{
+    if (has_joints(model)) return false;
+    for (size_t b = 0; b < model->body_count; b++)
+        if (has_centrifugal_term(&model->bodies[b]) || is_pressed_by_speed(&model->bodies[b])) return false;
+    for (size_t i = 0; i < model->load_count; i++)
+        if (depends_on_velocity(model, model->loads[i].source)) return false;
+    return true;
+}
+
+/* ---- how the accelerations vary */
+
+static enum expr_degree worse(enum expr_degree a, enum expr_degree b)
+{
+    return a > b ? a : b;
+}
+
+/* The share of an expression. A place in the world is no coordinate, and need not be linear in them. */
+static enum expr_degree degree_of(const struct fbd_model *model, const struct value *value)
+{
+    const int *slots;
+    size_t count = value->expr ? expr_variables(value->expr, &slots) : 0;
+    enum expr_degree degree = value->expr ? expr_degree(value->expr) : expr_constant_between;
+    bool places = count > 0 && slots[count - 1] > 2 * model->plan.n;
+    return places && degree != expr_constant_between ? expr_nonlinear : degree;
+}
+
+/* An applied force: what it is in the directions of the body's coordinates. Its moment about the frame's
+ * origin or the axis turns with the body unless both the force and its point do, or the point is that origin.
+ */
+static enum expr_degree degree_of_applied(const struct fbd_model *model, const struct model_body *body,
+                                          const struct model_load *load)
+{
+    const struct load *source = load->source;
+    enum expr_degree size = worse(degree_of(model, &source->value),
+                                  worse(degree_of(model, &source->fx), degree_of(model, &source->fy)));
+    if (degree_of(model, &source->angle) != expr_constant_between) return expr_nonlinear;
+    if (body->kind == motion_pivot || body->kind == motion_planar)
+        size = worse(size, degree_of(model, &source->couple));
+    switch (body->kind) {
+    case motion_slide: /* across the line, a force that varies changes the friction as well */
+        if (size != expr_constant_between && body->friction >= 0 && (source->angle.expr || source->fx.expr))
+            return expr_nonlinear;
+        return size;
+    case motion_particle: return size;
+    case motion_pivot: return source->body_frame ? size : expr_nonlinear;
+    case motion_weld:
+    case motion_track: return expr_nonlinear;
+    case motion_planar: break;
+    }
+    bool at_origin = load->point.x == 0 && load->point.y == 0;
+    return !source->body_frame && at_origin ? size : expr_nonlinear;
+}
+
+/* Gravity acts at G, which moves about the axis of a pivot or the origin of a frame. */
+static enum expr_degree degree_of_gravity(const struct model_body *body)
+{
+    bool turns = body->kind == motion_pivot || body->kind == motion_planar;
+    return turns && (body->arm.x != 0 || body->arm.y != 0) ? expr_nonlinear : expr_constant_between;
+}
+
+/* Friction in a mode is a constant force if its normal force is constant, which the loads across the line see
+ * to, and so are its coefficients. */
+static enum expr_degree degree_of_friction(const struct fbd_model *model, const struct load *load)
+{
+    const struct expr *speed = load->surface_speed.expr;
+    bool constant = degree_of(model, &load->mu_s) == expr_constant_between &&
+                    degree_of(model, &load->mu_k) == expr_constant_between &&
+                    (!speed || expr_is_constant(speed));
+    return constant ? expr_constant_between : expr_nonlinear;
+}
+
+/* A spring or damper along the body's coordinate; between two points only the spring without free length on a
+ * particle, f = -k (p - A), is linear. */
+static enum expr_degree degree_of_link(const struct model_body *body, const struct model_load *load)
+{
+    if (!load->linked) return expr_affine;
+    bool linear = load->source->kind == load_spring && load->source->free_length == 0 &&
+                  load->partner == ground_body && body->kind == motion_particle;
+    return linear ? expr_affine : expr_nonlinear;
+}
+
+/* Linear drag on a body of one coordinate (the point keeps its distance from the axis), or that cannot turn,
+ * or at the origin of its frame. */
+static enum expr_degree degree_of_drag(const struct fbd_model *model, const struct model_body *body,
+                                       const struct model_load *load)
+{
+    bool at_origin = load->point.x == 0 && load->point.y == 0;
+    bool linear = load->source->quadratic == 0 && (body->kind != motion_planar || at_origin);
+    enum expr_degree still = linear ? expr_affine : expr_nonlinear;
+    return load_has_wind(load->source) ? worse(still, degree_of_applied(model, body, load)) : still;
+}
+
+/* How the share of a load in the accelerations of its body varies between events. Normal forces come with the
+ * loads that they balance: see accelerations_vary. */
+static enum expr_degree degree_of_load(const struct fbd_model *model, const struct model_body *body,
+                                       const struct model_load *load)
+{
+    const struct load *source = load->source;
+    switch (source->kind) {
+    case load_gravity: return degree_of_gravity(body);
+    case load_normal: return expr_constant_between;
+    case load_friction:
+    case moment_friction: return degree_of_friction(model, source);
+    case load_applied: return degree_of_applied(model, body, load);
+    case moment_applied: return degree_of(model, &source->value);
+    case load_spring:
+    case load_damper: return degree_of_link(body, load);
+    case load_drag: return degree_of_drag(model, body, load);
+    case moment_spring:
+    case moment_damper: return expr_affine;
+    case load_rope:
+    case load_belt:
+    case load_carried:
+    case load_contact:
+    case load_drive:
+    case load_potential:
+    case moment_potential: break;
+    }
+    return expr_nonlinear;
+}
+
+static enum expr_degree accelerations_vary(const struct fbd_model *model)
+{
+    enum expr_degree worst = expr_constant_between;
+    if (has_joints(model)) return expr_nonlinear;
+    for (size_t b = 0; b < model->body_count; b++)
+        if (has_centrifugal_term(&model->bodies[b]) || model->bodies[b].kind == motion_track)
+            return expr_nonlinear;
+    for (size_t i = 0; i < model->load_count; i++) {
+        const struct model_load *load = &model->loads[i];
+        worst = worse(worst, degree_of_load(model, &model->bodies[load->body], load));
+    }
+    return worst;
+}
+
+/* Along a switch that the motion may slide on, the accelerations are what keeps it there: linear where what
+ * it watches is. */
+static enum expr_degree slides_vary(const struct fbd_model *model)
+{
+    enum expr_degree worst = expr_constant_between;
+    for (size_t i = 0; i < model->plan.kink_count; i++) {
+        const struct kink *kink = &model->plan.kinks[i];
+        const struct expr *expr = kink->formula.expr;
+        for (size_t part = 0; kink->slides && part < kink->count; part++) {
+            /* Where it rests on places the accelerations vary as the forces do. */
+            if (!expr_switch_jumps(expr, part) || kink_watches_places(kink, (int)part)) continue;
+            worst = worse(worst, worse(expr_affine, expr_switch_degree(expr, part, 2 * model->plan.n)));
+        }
+    }
+    return worst;
+}
+
+enum structure structure_of(const struct fbd_model *model)
+{
+    if (model->plan.own > 0) return structure_general; /* the exact ways are for coordinates alone */
+    enum expr_degree degree = worse(accelerations_vary(model), slides_vary(model));
+    if (degree == expr_constant_between) return structure_constant;
+    if (degree == expr_affine && model->plan.n <= linear_most_pairs) return structure_linear;
+    return velocity_free(model) ? structure_velocity_free : structure_general;
+}

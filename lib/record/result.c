@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Result: what a run has come to, and what it took.
+ */
+#include "record/result.h"
+
+#include "integrate/switcher.h"
+#include "loop/options.h"
+
+fbd_outcome fbd_result_outcome(const fbd_result *result)
+{
+    if (!result) return FBD_FAILED;
+    return result->simulation->ensemble->outcome;
+}
+
+fbd_state *fbd_result_state(fbd_result *result)
+{
+    if (!result) return NULL;
+    return ensemble_state(result->simulation->ensemble);
+}
+
+fbd_energy fbd_result_energy(fbd_result *result)
+{
+    if (!result) return (fbd_energy){NAN, NAN, NAN, NAN, NAN, NAN};
+    return ledger_energy(&result->ledger, fbd_result_state(result), result->ledger.work);
+}
+
+double fbd_result_residual_explained(fbd_result *result)
+{
+    if (!result) return NAN;
+    fbd_stats stats = fbd_simulation_stats(result->simulation);
+    if (result->simulation->ensemble->options.step > 0) return HUGE_VAL;
+    return ledger_explained(&result->ledger, fbd_result_state(result), stats.tolerance, (double)stats.steps);
+}
+
+double fbd_result_work(fbd_result *result, const char *body, const char *load)
+{
+    if (!result || !body || !load) return NAN;
+    int index = model_find_load(result->ledger.model, body, load);
+    if (index < 0) return NAN;
+    return ledger_work(&result->ledger, fbd_result_state(result), (size_t)index, result->ledger.work);
+}
+
+bool fbd_result_accurate(const fbd_result *result)
+{
+    if (!result) return false;
+    const fbd_simulation *simulation = result->simulation;
+    fbd_outcome outcome = simulation->ensemble->outcome;
+    if (simulation->accuracy == 0) return true;
+    if (simulation->cut || outcome == FBD_FAILED || outcome == FBD_INTERRUPTED ||
+        outcome == FBD_OUT_OF_MEMORY)
+        return false;
+    return companion_global(simulation->bars->companion) <= simulation->accuracy;
+}
+
+/* ---- cost */
+
+static void add_stats(fbd_stats *stats, const struct run *run)
+{
+    const struct stepper_counts counts = switcher_counts(run->stepper);
+    stats->stiff_steps += switcher_stiff_steps(run->stepper);
+    stats->steps += counts.accepted;
+    stats->rhs += run->system.rhs;
+    stats->jacobians += run->system.jacobians;
+    stats->event_samples += (unsigned long)(run->search.timed.samples + run->search.moving.samples);
+    for (int kind = 0; kind < rejection_kinds; kind++) stats->rejected += counts.rejected[kind];
+    stats->linear += run->kind == structure_linear;
+    stats->constant += run->kind == structure_constant;
+    stats->velocity_free += run->kind == structure_velocity_free;
+}
+
+fbd_stats fbd_simulation_stats(const fbd_simulation *simulation)
+{
+    if (!simulation) return (fbd_stats){.method = "", .error_estimate = NAN};
+    struct ensemble *ensemble = simulation->ensemble;
+    const struct run_options *options = &ensemble->options;
+    fbd_stats stats = {.method = options_method(options),
+                       .tolerance = options->tolerance,
+                       .events = ensemble->event_count,
+                       .seconds = simulation->seconds,
+                       .groups = ensemble->count,
+                       .error_estimate = NAN,
+                       .accuracy = simulation->accuracy,
+                       .runs = simulation->runs,
+                       .seconds_spent = simulation->seconds_spent};
+    for (size_t i = 0; i < ensemble->count; i++) add_stats(&stats, ensemble->groups[i].run);
+    if (simulation->bars) {
+        const struct companion *companion = simulation->bars->companion;
+        if (ensemble->outcome != FBD_GOING) bars_catch_up(simulation->bars, ensemble);
+        stats.error_estimate = companion_global(companion);
+        fbd_stats other = {0};
+        for (size_t i = 0; i < companion->ensemble->count; i++)
+            add_stats(&other, companion->ensemble->groups[i].run);
+        stats.companion_steps = other.steps;
+        stats.companion_rhs = other.rhs;
+    }
+    return stats;
+}

@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What rounding explains. A force of a diagram is a sum of products, or an unknown of a solved system: each
+ * is right to `grain` of the largest force that meets it. Forces pass on from body to body, so among jointed
+ * bodies that is the largest of all of them. A moment about G is the force's error times its arm, and the
+ * rounding of the arm, a difference of two places in the world, times the force.
+ */
+#include "rest/balance.h"
+
+#include <assert.h>
+#include <float.h>
+#include <math.h>
+
+#include "dynamics/mass.h"
+#include "dynamics/rest_system.h"
+#include "dynamics/tree.h"
+#include "expr/unit.h"
+
+/* Runs of all models need less than 2 roundings (tests/unit/test_balance.c); what is wrong is off by parts in
+ * a thousand. */
+static const double grain = 1048576 * DBL_EPSILON;
+
+/* What acts on one body, and what it does: residuals, and the sizes of what they are made of. */
+struct sums {
+    struct vec m_a, f; /* mass times acceleration; sum of forces */
+    double I_alpha, M;
+    double force, moment; /* sums of the sizes of all terms */
+    double reach;         /* the longest arm */
+    double place;         /* rounding of arms, as a moment */
+};
+
+/* A force between its branches may be next to nothing, and is right to the rounding of these: what shares can do to
+ * the body's coordinates, as forces or moments. */
+static double slid_size(const struct fbd_state *state, const struct model_body *body)
+{
+    const struct plan *plan = &state->model->plan;
+    const struct sliding *s = state_sliding(state);
+    double size = 0;
+    for (int unit = 0; s && body->place.link == 0 && unit < s->units; unit++)
+        for (int i = body->first; i < body->first + body->count; i++)
+            if (plan->inverse_inertia[i] > 0)
+                size += fabs(s->B[unit * plan->n + i]) / plan->inverse_inertia[i];
+    return size;
+}
+
+static struct sums sums_of(const struct fbd_state *state, int b, struct arrow *arrows)
+{
+    const struct fbd_model *model = state->model;
+    const struct model_body *body = &model->bodies[b];
+    const struct instant at = state_instant(state);
+    const struct pose pose = body_pose(body, &at);
+    const struct vec G = point_motion(body, &pose, body->inertia.G).p;
+    const bool jointed = body->place.link > 0;
+    struct sums sums = {.m_a =
+                            vec_scale(body_mass(body, &at), mass_center_acceleration(body, &at, state->a))};
+    double alpha = jointed                      ? tree_angular_acceleration(body, &at)
+                   : body->kind == motion_pivot ? state->a[body->first]
+                                                : state->a[body->first + body->count - 1];
+    sums.I_alpha = body_inertia(body, &at).I_G * alpha;
+    double slid = slid_size(state, body);
+    sums.force = vec_norm(sums.m_a) + slid;
+    sums.moment = fabs(sums.I_alpha) + slid;
+    size_t count = diagram_fill(model, b, &at, state->a, state->slots, arrows);
+    for (size_t i = 0; i < count; i++) {
+        const struct arrow *arrow = &arrows[i];
+        double size = vec_norm(arrow->force), arm = vec_norm(vec_sub(arrow->point, G));
+        sums.f = vec_add(sums.f, arrow->force);
+        sums.M += arrow_moment(arrow, G);
+        sums.force += size;
+        sums.moment += fabs(arrow->couple) + arm * size;
+        sums.reach = fmax(sums.reach, arm);
+        sums.place += DBL_EPSILON * (vec_norm(arrow->point) + vec_norm(G)) * size;
+    }
+    /* On a slide of the ground, and as a particle, nothing turns, and what keeps it from turning has no
+     * arrow. */
+    if (!jointed && (body->kind == motion_slide || body->kind == motion_particle)) sums.M = sums.I_alpha = 0;
+    return sums;
+}
+
+struct worst {
+    int body;
+    double ratio, is, sum, explained; /* of what rounding explains; left and right side; that */
+    const char *what;
+    bool moment;
+};
+
+static void compare(struct worst *worst, int body, const char *what, bool moment, double is, double sum,
+                    double explained)
+{
+    double off = fabs(is - sum);
+    if (off <= worst->ratio * explained) return; /* what is not a number goes on */
+    *worst =
+        (struct worst){body, explained > 0 ? off / explained : HUGE_VAL, is, sum, explained, what, moment};
+}
+
+/* What forces and moments of jointed bodies are right to. */
+struct grains {
+    double force, moment;
+};
+
+/* The largest that meets any of them counts, and how well directions are known where the bodies are small
+ * against how far away they stand. Accelerations are sums too, of those of the bodies below and of what their
+ * turning adds: a body on which nothing acts has m a = 0 to the rounding of m times these. */
+static struct grains joined_grain(const struct fbd_state *state, struct arrow *arrows)
+{
+    const struct tree *tree = state->model->tree;
+    const struct tree_work *work = state->tree;
+    assert(!tree || work);
+    double force = 0, reach = 0, away = 0, mass = 0, inertia = 0, a = 0, alpha = 0, v = 0, omega = 0;
+    for (int i = 0; tree && i < tree->body_count; i++) {
+        const struct model_body *body = &state->model->bodies[tree->bodies[i]];
+        const struct tree_state *link = &work->links[body->place.link];
+        struct sums sums = sums_of(state, tree->bodies[i], arrows);
+        force = fmax(force, sums.force);
+        reach = fmax(reach, sums.reach);
+        away = fmax(away, vec_norm(link->p));
+        mass = fmax(mass, body->inertia.mass);
+        inertia = fmax(inertia, body->inertia.I_G);
+        a = fmax(a, vec_norm(link->A.a));
+        alpha = fmax(alpha, fabs(link->A.alpha));
+        v = fmax(v, vec_norm(link->v));
+        omega = fmax(omega, fabs(link->omega));
+    }
+    if (tree && work->shared) force = fmax(force, work->shared_size);
+    force += mass * (a + omega * v);
+    force *= grain + (reach > 0 ? 64 * DBL_EPSILON * away / reach : 0);
+    double gyration = mass > 0 ? sqrt(inertia / mass) : 0;
+    return (struct grains){force, force * fmax(reach, gyration) + grain * inertia * (alpha + omega * omega)};
+}
+
+static void say(const struct fbd_state *state, const struct worst *worst, struct text *lack)
+{
+    const struct fbd_model *model = state->model;
+    char unit[48];
+    unit_name(worst->moment ? DIM_MOMENT : DIM_FORCE, model->scene->units, unit, sizeof unit);
+    text_printf(
+        lack,
+        "at t = %.9g the forces on `%s` do not account for its motion: %s is %.9g %s, their sum %.9g %s. "
+        "They differ by %.3g %s, where rounding explains %.1g %s: no forces were found that agree with "
+        "how its couplings and its friction hold or give way",
+        state->t, model->bodies[worst->body].name, worst->what, worst->is, unit, worst->sum, unit,
+        fabs(worst->is - worst->sum), unit, worst->explained, unit);
+}
+
+/* The equation that is farthest off; none within what rounding explains, at least `joined` for a jointed
+ * body. */
+static struct worst find_worst(const struct fbd_state *state, struct arrow *arrows, struct grains joined)
+{
+    struct worst worst = {.ratio = 1};
+    for (int b = 0; b < (int)state->model->body_count; b++) {
+        struct sums sums = sums_of(state, b, arrows);
+        double force = grain * sums.force;
+        bool jointed = state->model->bodies[b].place.link > 0;
+        if (jointed) force = fmax(force, joined.force);
+        double moment = grain * sums.moment + force * sums.reach + 64 * sums.place;
+        if (jointed) moment = fmax(moment, joined.moment);
+        compare(&worst, b, "m a in x", false, sums.m_a.x, sums.f.x, force);
+        compare(&worst, b, "m a in y", false, sums.m_a.y, sums.f.y, force);
+        compare(&worst, b, "I alpha about G", true, sums.I_alpha, sums.M, moment);
+    }
+    return worst;
+}
+
+bool balance_lack(struct fbd_state *state, struct arrow *arrows, struct text *lack)
+{
+    struct instant at = state_instant(state);
+    bool used =
+        state->tree && (!state->tree->complete || (!state->tree->shared && rest_is_open(state->model, &at)));
+    if (used) state_evaluate(state); /* others have used its scratch */
+    struct worst worst = find_worst(state, arrows, (struct grains){0, 0});
+    if (!worst.what) return false; /* nearly always: what the other bodies feel is not needed */
+    worst = find_worst(state, arrows, joined_grain(state, arrows));
+    if (worst.what) say(state, &worst, lack);
+    return worst.what != NULL;
+}

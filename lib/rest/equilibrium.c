@@ -1,0 +1,450 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "rest/equilibrium.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_multiroots.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/call.h"
+#include "base/diag.h"
+#include "dynamics/modes.h"
+#include "dynamics/own.h"
+#include "dynamics/project.h"
+#include "dynamics/rates.h"
+#include "dynamics/statics.h"
+#include "dynamics/tree.h"
+#include "numeric/lu.h"
+#include "rest/independent.h"
+#include "rest/start.h"
+
+struct balance {
+    struct fbd_state *state;
+    double *work;  /* scratch of state_jacobian: dfdy, then dfdt */
+    double *share; /* with couplings 1 - P, n x n, else NULL */
+    double k;      /* acceleration for a length off the couplings */
+    double zero;   /* an acceleration that is none, beside those of the start */
+    double *start; /* unknowns: where the search began */
+    double *scale; /* unknowns: what makes the rates of states as large as accelerations */
+    double *Q;     /* n: generalized forces without those of couplings, which do no work along a step */
+    double *slots, *lambda; /* of rest_forces; lambda is zero */
+};
+
+/* The unknowns: coordinates, and the states of the file's own, whose rates are to be zero beside accelerations. */
+static size_t unknowns_of(const struct balance *balance)
+{
+    return plan_rates(&balance->state->model->plan);
+}
+
+/* Where unknown i is in y. */
+static size_t place_of(const struct fbd_state *state, size_t i)
+{
+    size_t n = (size_t)state->model->plan.n;
+    return i < n ? i : n + i;
+}
+
+static void keep_place(const struct fbd_state *state, double *x)
+{
+    for (size_t i = 0; i < plan_rates(&state->model->plan); i++) x[i] = state->y[place_of(state, i)];
+}
+
+/* At rest there. */
+static void put_place(struct fbd_state *state, const double *x)
+{
+    size_t n = (size_t)state->model->plan.n;
+    for (size_t i = 0; i < plan_rates(&state->model->plan); i++) state->y[place_of(state, i)] = x[i];
+    memset(state->y + n, 0, n * sizeof *state->y);
+}
+
+/* At rest at q, or at the place on the couplings that is nearest to it. */
+static void set_coordinates(struct balance *balance, const gsl_vector *q)
+{
+    struct fbd_state *state = balance->state;
+    size_t n = (size_t)state->model->plan.n;
+    for (size_t i = 0; i < q->size; i++) state->y[place_of(state, i)] = gsl_vector_get(q, i);
+    memset(state->y + n, 0, n * sizeof *state->y);
+    if (balance->share) state_project(state, false);
+}
+
+static int forces(const gsl_vector *q, void *context, gsl_vector *f)
+{
+    struct balance *balance = context;
+    struct fbd_state *state = balance->state;
+    set_coordinates(balance, q);
+    state_evaluate(state);
+    for (size_t i = 0; i < f->size; i++) {
+        double off = balance->share ? state->y[place_of(state, i)] - gsl_vector_get(q, i) : 0;
+        gsl_vector_set(f, i, balance->scale[i] * state->a[i] + balance->k * off);
+    }
+    return GSL_SUCCESS;
+}
+
+/* The slope of residual i with unknown j, as far as the couplings let it go. */
+static double slope_of(const struct balance *balance, size_t i, size_t j)
+{
+    const struct plan *plan = &balance->state->model->plan;
+    size_t n = (size_t)plan->n;
+    const double *row = balance->work + (n + i) * plan_size(plan);
+    if (!balance->share || j >= n) return balance->scale[i] * row[place_of(balance->state, j)];
+    double slope = 0;
+    for (size_t l = 0; l < n; l++) slope += row[l] * balance->share[l * n + j];
+    slope *= balance->scale[i];
+    if (i < n) slope += balance->k * (balance->share[i * n + j] - (i == j));
+    return slope;
+}
+
+/* A state whose rate nothing changes here stays where it is. */
+static void hold_inert(const struct balance *balance, gsl_matrix *J)
+{
+    for (size_t i = (size_t)balance->state->model->plan.n; i < J->size1; i++) {
+        double most = 0;
+        for (size_t j = 0; j < J->size2; j++) most = larger(most, fabs(gsl_matrix_get(J, i, j)));
+        if (most == 0) gsl_matrix_set(J, i, i, -1);
+    }
+}
+
+static int slopes(const gsl_vector *q, void *context, gsl_matrix *J)
+{
+    struct balance *balance = context;
+    struct fbd_state *state = balance->state;
+    size_t size = plan_size(&state->model->plan);
+    double *dfdy = balance->work, *dfdt = dfdy + size * size;
+    set_coordinates(balance, q);
+    if (balance->share) independent_share(state, balance->share);
+    struct instant at = state_instant(state);
+    state_jacobian(state->model, &at, state->scratch, dfdy, dfdt);
+    for (size_t i = 0; i < J->size1; i++)
+        for (size_t j = 0; j < J->size2; j++) gsl_matrix_set(J, i, j, slope_of(balance, i, j));
+    hold_inert(balance, J);
+    return GSL_SUCCESS;
+}
+
+static int both(const gsl_vector *q, void *context, gsl_vector *f, gsl_matrix *J)
+{
+    forces(q, context, f);
+    return slopes(q, context, J);
+}
+
+/* The size that accelerations have at a place where nothing balances: what zero is measured against. */
+double equilibrium_size(const struct fbd_state *state)
+{
+    double most = vec_norm(state->model->scene->gravity);
+    for (int i = 0; i < state->model->plan.n; i++) most = larger(most, fabs(state->a[i]));
+    return most;
+}
+
+static double imbalance(const gsl_vector *f)
+{
+    double most = 0;
+    for (size_t i = 0; i < f->size; i++) most = larger(most, fabs(gsl_vector_get(f, i)));
+    return most;
+}
+
+/* ---- let it down slowly: pseudo-transient continuation (Kelley and Keyes, SIAM J. Numer. Anal. 35, 1998)
+ *
+ * Implicit Euler steps of dq/ds = F(q), (1/h - dF/dq) d = F, whose h grows as they get shorter, so that they
+ * end as Newton's. With forces that have a potential this goes downhill in the sense of the masses, to where
+ * the scene would come to rest, from however far. */
+
+struct newton {
+    size_t n;
+    gsl_vector *q, *f;
+    gsl_matrix *J;
+    double *matrix, *d; /* n x n; n: the step */
+    size_t *pivot;
+};
+
+static void newton_free(struct newton *newton)
+{
+    if (newton->q) gsl_vector_free(newton->q);
+    if (newton->f) gsl_vector_free(newton->f);
+    if (newton->J) gsl_matrix_free(newton->J);
+    free(newton->matrix);
+    free(newton->pivot);
+}
+
+static bool newton_new(struct newton *newton, size_t n)
+{
+    *newton = (struct newton){.n = n,
+                              .q = gsl_vector_alloc(n),
+                              .f = gsl_vector_alloc(n),
+                              .J = gsl_matrix_alloc(n, n),
+                              .matrix = calloc(n * n + n + 1, sizeof(double)),
+                              .pivot = calloc(n + 1, sizeof(size_t))};
+    if (!newton->q || !newton->f || !newton->J || !newton->matrix || !newton->pivot) return false;
+    newton->d = newton->matrix + n * n;
+    return true;
+}
+
+/* The step for h; false when there is none. */
+static bool newton_step(struct newton *newton, double h)
+{
+    size_t n = newton->n;
+    for (size_t i = 0; i < n; i++) {
+        for (size_t j = 0; j < n; j++)
+            newton->matrix[i * n + j] = (i == j ? 1 / h : 0) - gsl_matrix_get(newton->J, i, j);
+        newton->d[i] = gsl_vector_get(newton->f, i);
+    }
+    if (!lu_decompose(n, newton->matrix, newton->pivot)) return false;
+    lu_solve(n, newton->matrix, newton->pivot, newton->d);
+    return true;
+}
+
+/* The size of coordinate i, here or at the start: 1 rad, or the length that it is. */
+static double size_of(const struct balance *balance, size_t i, double q)
+{
+    const struct fbd_model *model = balance->state->model;
+    if (i < (size_t)model->plan.n && model->scene->coordinates[i].angle) return 1;
+    return fmax(fabs(q), 1e-3);
+}
+
+/* Put what the state has, which is on the couplings, back into q. */
+static void take_coordinates(const struct balance *balance, gsl_vector *q)
+{
+    for (size_t i = 0; i < q->size; i++) gsl_vector_set(q, i, balance->state->y[place_of(balance->state, i)]);
+}
+
+/* The work of the forces along the step, as far as the couplings let it go. */
+static double work_along(const struct balance *balance, const struct newton *newton)
+{
+    size_t n = newton->n;
+    double work = 0;
+    for (size_t i = 0; i < n; i++) {
+        double d = balance->share ? 0 : newton->d[i];
+        for (size_t j = 0; balance->share && j < n; j++) d += balance->share[i * n + j] * newton->d[j];
+        work += d * balance->Q[i];
+    }
+    return work;
+}
+
+/* The step for h; its largest part over the 0.3 of its size that it may be, or infinity where it goes uphill:
+ * beyond an h that unstable directions allow it would go to the balance that they leave. */
+static double stride(const struct balance *balance, struct newton *newton, double h)
+{
+    double most = 0;
+    if (!newton_step(newton, h)) return HUGE_VAL;
+    for (size_t i = 0; i < newton->n; i++) {
+        double size = size_of(balance, i, gsl_vector_get(newton->q, i));
+        most = larger(most, fabs(newton->d[i]) / (0.3 * size));
+    }
+    return work_along(balance, newton) > 0 ? most : HUGE_VAL;
+}
+
+/* An h to begin with: a step of F alone goes no farther than 0.1, and half the way to where the slopes could
+ * turn it round. */
+static double first_h(const struct newton *newton)
+{
+    double most = imbalance(newton->f) / 0.1;
+    for (size_t i = 0; i < newton->n; i++) {
+        double sum = 0;
+        for (size_t j = 0; j < newton->n; j++) sum += fabs(gsl_matrix_get(newton->J, i, j));
+        most = larger(most, 2 * sum);
+    }
+    return most > 0 ? 1 / most : 1;
+}
+
+static bool let_down(struct balance *balance, struct newton *newton)
+{
+    enum { most_steps = 2000 };
+    const double shortest = 1e-300, longest = 1e300; /* a step that is infinite is never halved */
+    take_coordinates(balance, newton->q);
+    both(newton->q, balance, newton->f, newton->J);
+    double zero = balance->zero, before = imbalance(newton->f);
+    double h = first_h(newton);
+    for (int step = 0; step < most_steps && before > zero; step++) {
+        take_coordinates(balance, newton->q);
+        both(newton->q, balance, newton->f, newton->J);
+        struct instant at = state_instant(balance->state);
+        rest_forces(balance->state->model, &at, balance->lambda, true, balance->slots, balance->Q);
+        double most = stride(balance, newton, h);
+        while (!(most <= 1) && h > shortest) {
+            h /= 4;
+            most = stride(balance, newton, h);
+        }
+        if (!(most <= 1)) return false;
+        for (size_t i = 0; i < newton->n; i++)
+            gsl_vector_set(newton->q, i, gsl_vector_get(newton->q, i) + newton->d[i]);
+        forces(newton->q, balance, newton->f);
+        double after = imbalance(newton->f);
+        if (after <= 1e4 * zero && after >= before) return true; /* rounding keeps it from getting better */
+        h = fmin(h * fmin(4, 0.6 / most), longest);
+        before = after;
+    }
+    return before <= 1e4 * zero;
+}
+
+/* Newton would not go on from here by more than a hundredth of the size that coordinates had at the start:
+ * else forces have only died out on the way to infinity (K/x^2). */
+static bool arrived(struct balance *balance, struct newton *newton)
+{
+    size_t n = newton->n;
+    double slope = 0;
+    take_coordinates(balance, newton->q);
+    both(newton->q, balance, newton->f, newton->J);
+    for (size_t i = 0; i < n * n; i++) slope = larger(slope, fabs(gsl_matrix_get(newton->J, i / n, i % n)));
+    if (slope == 0) return true;                         /* no force anywhere */
+    if (!newton_step(newton, 1e6 / slope)) return false; /* a little of 1/h for what can move freely */
+    for (size_t i = 0; i < n; i++)
+        if (!(fabs(newton->d[i]) <= 0.01 * size_of(balance, i, balance->start[i]))) return false;
+    return true;
+}
+
+/* ---- the nearest of several */
+
+/* Newton from q, on to where it gets no better; the state is moved to the best place. */
+static bool find_balance_from(struct balance *balance, gsl_vector *q, gsl_multiroot_fdfsolver *solver)
+{
+    enum { most_iterations = 200 };
+    gsl_multiroot_function_fdf function = {forces, slopes, both, q->size, balance};
+    int status = gsl_multiroot_fdfsolver_set(solver, &function, q);
+    double least = imbalance(solver->f);
+    for (int i = 0; i < most_iterations && status == GSL_SUCCESS && least > 0; i++) {
+        status = gsl_multiroot_fdfsolver_iterate(solver);
+        bool better = imbalance(solver->f) < least;
+        if (!better && least <= balance->zero) break;
+        if (!better) continue;
+        least = imbalance(solver->f);
+        gsl_vector_memcpy(q, solver->x);
+    }
+    set_coordinates(balance, q);
+    state_evaluate(balance->state);
+    /* Where rounding keeps it from `zero`, the last digits of a position are at fault: still a balance. */
+    return least <= 1e4 * balance->zero;
+}
+
+/* A start on a ridge has no way down (a rod held level: the slope of its moment is zero), and Newton may leap
+ * from near it. So starts beside it are tried as well, +-0.1, 0.2, ... 1.6 rad and the same share of a
+ * coordinate's size, and the balance nearest to the state counts. */
+static void set_start(gsl_vector *q, const struct fbd_model *model, const double *origin, int trial)
+{
+    double share = trial == 0 ? 0 : ldexp(0.1, (trial - 1) / 2) * (trial % 2 ? -1 : 1);
+    for (size_t i = 0; i < q->size; i++) {
+        bool angle = i < (size_t)model->plan.n && model->scene->coordinates[i].angle;
+        double size = angle ? 1 : fmax(fabs(origin[i]), 1e-3);
+        gsl_vector_set(q, i, origin[i] + share * size);
+    }
+}
+
+static double distance_between(const double *a, const double *b, size_t n)
+{
+    double most = 0;
+    for (size_t i = 0; i < n; i++) most = larger(most, fabs(a[i] - b[i]));
+    return most;
+}
+
+/* 1 found, 0 none near, -1 out of memory. */
+static int search(struct balance *balance)
+{
+    enum { most_trials = 11 };
+    struct fbd_state *state = balance->state;
+    size_t n = unknowns_of(balance);
+    gsl_vector *q = gsl_vector_alloc(n);
+    double *origin = calloc(3 * n + 1, sizeof *origin), *best = origin ? origin + n : NULL,
+           *there = origin ? best + n : NULL, nearest = HUGE_VAL;
+    gsl_multiroot_fdfsolver *solver = gsl_multiroot_fdfsolver_alloc(gsl_multiroot_fdfsolver_hybridsj, n);
+    bool made = q && origin && solver;
+    if (made) keep_place(state, origin);
+    for (int trial = 0; made && trial < most_trials; trial++) {
+        set_start(q, state->model, origin, trial);
+        if (!find_balance_from(balance, q, solver)) continue;
+        keep_place(state, there);
+        double distance = distance_between(there, origin, n);
+        /* Of two that rounding tells apart the first one stays. */
+        if (!(distance < nearest * (1 - 1e-9))) continue;
+        nearest = distance;
+        memcpy(best, there, n * sizeof *best);
+    }
+    if (made && nearest < HUGE_VAL) {
+        put_place(state, best);
+        state_evaluate(state);
+    }
+    if (solver) gsl_multiroot_fdfsolver_free(solver);
+    if (q) gsl_vector_free(q);
+    free(origin);
+    return made ? nearest < HUGE_VAL : -1;
+}
+
+/* The size of the mechanism. */
+static double reach_of(const struct fbd_state *state)
+{
+    double reach = 0;
+    for (int i = 1; i < state->model->tree->count; i++)
+        reach = fmax(reach, vec_norm(state->tree->links[i].p));
+    return reach > 0 ? reach : 1;
+}
+
+/* Accelerations at rest where it starts are what others are measured against; false when they are not finite.
+ */
+static bool measure(struct balance *balance)
+{
+    struct fbd_state *state = balance->state;
+    size_t n = (size_t)state->model->plan.n;
+    memset(state->y + n, 0, n * sizeof *state->y);
+    if (balance->share) state_project(state, false);
+    state_evaluate(state);
+    double size = equilibrium_size(state);
+    balance->zero = 1e-13 * size;
+    for (size_t i = 0; i < unknowns_of(balance); i++) balance->scale[i] = 1;
+    for (size_t i = n; i < unknowns_of(balance); i++) {
+        double rate = fabs(state->a[i]) + own_rate_size(state, (int)(i - n));
+        if (rate > 0 && size > 0 && isfinite(rate)) balance->scale[i] = size / rate;
+    }
+    if (balance->share) balance->k = size / reach_of(state);
+    return isfinite(size);
+}
+
+static void balance_free(struct balance *balance)
+{
+    free(balance->work);
+    free(balance->share);
+    free(balance->start);
+}
+
+/* 1 made, 0 the start is not finite, -1 out of memory. */
+static int balance_new(struct balance *balance, struct fbd_state *state)
+{
+    size_t n = (size_t)state->model->plan.n, size = plan_size(&state->model->plan),
+           unknowns = plan_rates(&state->model->plan);
+    bool tied = state->model->tree && state->model->tree->tie_count > 0;
+    size_t slots = (size_t)state->model->plan.slots;
+    size_t rows = tied ? (size_t)state->model->tree->row_count : 0;
+    *balance = (struct balance){.state = state,
+                                .work = calloc(size * size + size + 1, sizeof(double)),
+                                .share = tied ? calloc(n * n + 1, sizeof(double)) : NULL,
+                                .start = calloc(2 * unknowns + n + slots + rows + 1, sizeof(double))};
+    if (!balance->work || !balance->start || (tied && !balance->share)) return -1;
+    balance->scale = balance->start + unknowns;
+    balance->Q = balance->scale + unknowns;
+    balance->slots = balance->Q + n;
+    balance->lambda = balance->slots + slots;
+    keep_place(state, balance->start);
+    return measure(balance);
+}
+
+int equilibrium_search(struct fbd_state *state)
+{
+    struct balance balance;
+    int made = balance_new(&balance, state), found = made > 0 ? search(&balance) : made;
+    balance_free(&balance);
+    return found;
+}
+
+/* Where it comes to rest; where forces without a potential drive it round and round, the nearest balance. 1
+ * found, 0 none, -1 out of memory. */
+int equilibrium_settle(struct fbd_state *state)
+{
+    struct balance balance;
+    struct newton newton = {0};
+    int made = balance_new(&balance, state);
+    if (made > 0 && !newton_new(&newton, unknowns_of(&balance))) made = -1;
+    bool downhill = state->model->plan.own == 0; /* states have no energy to go down with */
+    int found = made > 0 ? downhill && let_down(&balance, &newton) && arrived(&balance, &newton) : made;
+    if (made > 0 && found == 0) {
+        put_place(state, balance.start);
+        found = search(&balance);
+        if (found > 0) found = arrived(&balance, &newton);
+    }
+    newton_free(&newton);
+    balance_free(&balance);
+    return found;
+}

@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "rest/fit.h"
+
+#include <float.h>
+
+#include "dynamics/constraint.h"
+#include "dynamics/project.h"
+#include "dynamics/tree_system.h"
+
+/* Less than this is no change of component i of a state, in a mechanism of that length: some digits of it, or
+ * the rounding of where it is. */
+static double least_change(const struct fbd_state *state, int i, double length)
+{
+    const double digits = 1e-9, rounding = 64 * DBL_EPSILON;
+    int n = state->model->plan.n;
+    if (i >= n || state->model->scene->coordinates[i].angle) return digits * fmax(1, fabs(state->y[i]));
+    return digits * length + rounding * fabs(state->y[i]);
+}
+
+/* "rod.theta = -0.7, ...": what has to change; false when that is nothing but rounding. */
+static bool list_changes(struct text *text, const struct fbd_state *from, const struct fbd_state *to,
+                         double length)
+{
+    enum { most_listed = 6 };
+    const struct fbd_model *model = from->model;
+    int n = model->plan.n, listed = 0;
+    for (int i = 0; i < 2 * n; i++) {
+        double least = least_change(from, i, length);
+        if (fabs(to->y[i] - from->y[i]) <= least) continue;
+        if (listed++ >= most_listed) continue;
+        const struct coordinate *c = &model->scene->coordinates[i % n]; /* a group has no labels */
+        text_printf(text, "%s%s.%s = ", listed > 1 ? ", " : "", model->bodies[c->body].name,
+                    i < n ? c->name : c->rate_name);
+        text_number(text, fabs(to->y[i]) > 1e-3 * least ? to->y[i] : 0, 9);
+    }
+    if (listed > most_listed) text_add(text, ", ...");
+    return listed > 0;
+}
+
+/* Of the coupling that a row is of. */
+static struct pos place_of(const struct fbd_model *model, int row)
+{
+    return model->scene->constraints[model->tree->ties[model->tree->tie_of_row[row]].constraint].at;
+}
+
+/* A row that is off by more than it may be. */
+struct miss {
+    int row;
+    double off, share; /* as a share of what it may be off by */
+    double length;     /* of what it joins */
+};
+
+static void note_miss(struct miss *miss, int row, double off, double most, double length)
+{
+    double share = off / most;
+    if (off <= most || share <= miss->share) return;
+    *miss = (struct miss){row, off, isnan(share) ? HUGE_VAL : share, length};
+}
+
+/* How large, and how fast, the trees are that a tie joins: from the first link on, wherever in the world. */
+struct size {
+    const struct tie *tie;
+    double extent, place, speed;
+};
+
+static bool joins_the_same(const struct tie *a, const struct tie *b)
+{
+    if (!a || a->root_count != b->root_count) return false;
+    for (int k = 0; k < a->root_count; k++)
+        if (a->root[k] != b->root[k]) return false;
+    return true;
+}
+
+/* Ties that follow each other often join the same trees. */
+static void find_size(const struct fbd_state *state, const struct tie *tie, struct size *size)
+{
+    const struct tree *tree = state->model->tree;
+    if (joins_the_same(size->tie, tie)) return;
+    *size = (struct size){tie, 0, 0, 0};
+    for (int k = 0; k < tie->root_count; k++)
+        for (int i = tie->root[k]; i < tree->links[tie->root[k]].end; i++) {
+            const struct tree_state *s = &state->tree->links[i];
+            struct vec from = state->tree->links[tie->root[0]].p;
+            size->extent = fmax(size->extent, vec_norm(vec_sub(s->p, from)));
+            size->place = fmax(size->place, vec_norm(s->p));
+            size->speed = fmax(size->speed, fmax(vec_norm(s->v), fabs(s->omega)));
+        }
+}
+
+/* What position row j is measured against: the trees, the arms at which they are joined, the length of a rod
+ * or rope. Points alone that are to be one have no size; the digits of their places are all there is. */
+static double length_of(const struct fbd_state *state, const struct tie *tie, int j, const struct size *size)
+{
+    const struct row *row = &state->tree->rows[j];
+    double length = size->extent;
+    for (int k = 0; k < row->port_count; k++)
+        if (row->ports[k].link > 0) length = fmax(length, vec_norm(row->ports[k].arm));
+    if (tie->law->length) length = fmax(length, fabs(state->tree->ties[tie - state->model->tree->ties].zero));
+    return length > 0 ? length : size->place;
+}
+
+/* The rows that are off the most, in position and in velocity. A slack rope may be too short, not too long.
+ */
+static void find_misses(struct fbd_state *state, struct miss *position, struct miss *velocity)
+{
+    const double digits = 2e-6; /* six digits in a file are meant to fit */
+    const double rounding = 64 * DBL_EPSILON;
+    const struct tree *tree = state->model->tree;
+    struct instant at = state_instant(state);
+    struct size size = {NULL, 0, 0, 0};
+    *position = *velocity = (struct miss){-1, 0, 0, 0};
+    state_misfit(state); /* evaluates the rows */
+    for (int j = 0; j < tree->row_count; j++) {
+        const struct tie *tie = &tree->ties[tree->tie_of_row[j]];
+        const struct jet g = state->tree->rows[j].g;
+        bool held = tree_takes_part(tree, &at, j);
+        bool rubs = tie->kind == constraint_capstan && j == tie->first_row; /* slack, or too long */
+        bool on_line = tie->kind == constraint_roll && j == tie->first_row; /* at the start, open or not */
+        if (!held && tie->kind != constraint_rope && !on_line && !rubs) continue;
+        find_size(state, tie, &size);
+        double length = length_of(state, tie, j, &size), most = digits * length + rounding * size.place;
+        note_miss(position, j, held || on_line ? fabs(g.x) : fmax(0, rubs ? -g.x : g.x), most, length);
+        if (held) note_miss(velocity, j, fabs(g.x1), digits * size.speed, length);
+    }
+}
+
+/* Ropes that are too long are pulled taut, what rolls is put on its line. */
+static void pull_taut(struct fbd_state *state)
+{
+    const struct plan *plan = &state->model->plan;
+    for (size_t i = 0; i < plan->mode_count; i++) {
+        const struct mode *hold = &plan->modes[i];
+        if (!mode_is_one_sided(hold)) continue;
+        double g = state->tree->rows[state->model->tree->ties[hold->tie].first_row].g.x;
+        if (hold->kind == mode_surface || g > 0) state->slip[i] = stick;
+    }
+}
+
+/* What is wrong and what is next to it; false when that differs by rounding only, as where everything is at
+ * rest but for rounding and speeds have no size to go by. */
+static bool tell(const struct fbd_state *state, struct fbd_state *other, const char *name,
+                 const struct miss *miss, bool by_velocity, struct text *lack)
+{
+    struct text changes = {0};
+    state_copy(other, state);
+    state_misfit(other);
+    pull_taut(other);
+    bool closed = state_project(other, false),
+         differs = !closed || list_changes(&changes, state, other, miss->length);
+    if (differs) {
+        text_printf(lack, "`%s` is off by %.3g%s. ", name, miss->off, by_velocity ? " in velocity" : "");
+        if (closed)
+            text_printf(lack, "Nearest is %s; or let bodies find their place, `initial: {assemble: true}`",
+                        changes.failed ? "" : changes.data);
+        else
+            text_add(lack, "No state near it fits");
+    }
+    text_free(&changes);
+    return differs;
+}
+
+/* What stands at place k of a rope's way. */
+static const char *name_at(const struct fbd_model *model, const struct tie *tie, int k)
+{
+    return tie->end[k].body < 0 ? "the ground" : model->bodies[tie->end[k].body].name;
+}
+
+/* Both ways round a disc leave it equally far to the side that the file names. */
+static bool unclear_side(const struct fbd_state *state, int index, struct pos *at, struct text *lack)
+{
+    const struct fbd_model *model = state->model;
+    const struct tie *tie = &model->tree->ties[index];
+    for (int end = 0; end < 2; end++) {
+        if (tie->wound[end] == 0 || state->tree->ties[index].side[end] != 0) continue;
+        bool upright = tie->wound[end] == wound_top || tie->wound[end] == wound_bottom;
+        if (at) *at = model->scene->constraints[tie->constraint].at;
+        text_printf(lack, "both ways of `%s` round `%s` leave it equally far to that `side`. Say %s",
+                    tie->name, name_at(model, tie, end == 0 ? 0 : tie->end_count - 1),
+                    upright ? "`left` or `right`" : "`top` or `bottom`");
+        return true;
+    }
+    return false;
+}
+
+/* The point of a slot is beyond an end of it. */
+static bool beyond_end(const struct fbd_state *state, int index, struct pos *at, struct text *lack)
+{
+    const double digits = 1e-6;
+    const struct tie *tie = &state->model->tree->ties[index];
+    for (int end = 0; end < 2; end++) {
+        struct room room = tie_room(state->model, state->tree, index, end);
+        if (room.left >= -digits * room.size) continue;
+        if (at) *at = tie->source->at;
+        text_printf(lack, "the point of `%s` is beyond the end of its slot, by %.6g", tie->name, -room.left);
+        return true;
+    }
+    return false;
+}
+
+bool fit_blocked(struct fbd_state *state, struct pos *at, struct text *lack)
+{
+    const struct fbd_model *model = state->model;
+    const struct tree *tree = model->tree;
+    if (!tree || tree->tie_count == 0) return false;
+    state_misfit(state); /* puts the links in their places */
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (beyond_end(state, i, at, lack)) return true;
+        if (!tie->law->way) continue;
+        if (unclear_side(state, i, at, lack)) return true;
+        int k = rope_blocked_at(model, state->tree, i);
+        if (k < 0) continue;
+        if (at) *at = model->scene->constraints[tie->constraint].at;
+        text_printf(lack,
+                    "`%s` has no way from `%s` to `%s`: they are nearer to each other than the rim of the "
+                    "pulley. Move them apart",
+                    tie->name, name_at(model, tie, k), name_at(model, tie, k + 1));
+        return true;
+    }
+    return false;
+}
+
+bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct pos *at, struct text *lack)
+{
+    const struct tree *tree = state->model->tree;
+    if (!tree || tree->tie_count == 0) return false;
+    struct miss position, velocity;
+    find_misses(state, &position, &velocity);
+    const struct miss *miss = position.row >= 0 ? &position : &velocity;
+    if (miss->row < 0) return false;
+    const char *name = tree->ties[tree->tie_of_row[miss->row]].name;
+    if (at) *at = place_of(state->model, miss->row);
+    if (isfinite(miss->off)) return tell(state, other, name, miss, miss == &velocity, lack);
+    text_printf(lack, "`%s` joins points that are at one place: it has no direction. Move them apart", name);
+    return true;
+}
+
+bool fit_unsolved(struct fbd_state *state, struct pos *at, struct text *lack)
+{
+    const double digits = 1e-6;
+    int row;
+    if (!state->model->tree || state->model->tree->tie_count == 0) return false;
+    state_evaluate(state);
+    double miss = state_acceleration_misfit(state, &row);
+    if (miss <= digits || row < 0) return false;
+    if (at) *at = place_of(state->model, row);
+    text_printf(
+        lack,
+        "the force of `%s` cannot be told: accelerations miss it by %.2g of their size, as the masses that "
+        "it joins are too far apart. Give the lightest body more mass, or let a coupling do without it",
+        tie_row_name(state->model->tree, row), miss);
+    return true;
+}
+
+bool fit_locked(const struct fbd_state *state, struct fbd_state *other, struct pos *at, struct text *lack)
+{
+    int row = state_locked_row(state, other);
+    if (row < 0) return false;
+    if (at) *at = place_of(state->model, row);
+    text_printf(lack,
+                "it is at rest in a singular position: what `%s` joins is in line, so that the coupling does "
+                "not resist at once, and cannot be moved on either. No finite forces hold it there, or it "
+                "could go on in two ways. Start a little beside, or give it a speed",
+                tie_row_name(state->model->tree, row));
+    return true;
+}

@@ -1,0 +1,499 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "rest/linearize.h"
+
+#include <gsl/gsl_eigen.h>
+#include <gsl/gsl_errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/call.h"
+#include "base/diag.h"
+#include "dynamics/finite.h"
+#include "dynamics/friction.h"
+#include "dynamics/modes.h"
+#include "dynamics/project.h"
+#include "dynamics/tree_driven.h"
+#include "rest/equilibrium.h"
+#include "rest/independent.h"
+#include "rest/start.h"
+
+/* ---- eigenvalues */
+
+/* By frequency, then the one with the positive imaginary part first. */
+static int by_frequency(const void *left, const void *right)
+{
+    const fbd_mode *a = left, *b = right;
+    double difference = a->frequency - b->frequency;
+    if (fabs(difference) > 1e-12 * (a->frequency + b->frequency)) return difference < 0 ? -1 : 1;
+    return a->im > b->im ? -1 : a->im < b->im ? 1 : a->re < b->re ? -1 : 1;
+}
+
+/* 1 found, 0 the iteration does not end, -1 out of memory. */
+static int find_modes(struct fbd_linearization *linear)
+{
+    size_t size = linear->size, bytes = size * size * sizeof *linear->A;
+    double *A = malloc(bytes); /* a copy, which is overwritten */
+    gsl_vector_complex *values = gsl_vector_complex_alloc(size);
+    gsl_eigen_nonsymm_workspace *work = gsl_eigen_nonsymm_alloc(size);
+    bool made = A && values && work, done = false;
+    if (made) {
+        memcpy(A, linear->A, bytes);
+        gsl_matrix_view view = gsl_matrix_view_array(A, size, size);
+        gsl_eigen_nonsymm_params(0, 1, work); /* balanced: coordinates have different units */
+        done = gsl_eigen_nonsymm(&view.matrix, values, work) == GSL_SUCCESS;
+        for (size_t i = 0; done && i < size; i++) {
+            gsl_complex lambda = gsl_vector_complex_get(values, i);
+            double re = GSL_REAL(lambda), im = GSL_IMAG(lambda), frequency = hypot(re, im);
+            linear->modes[i] = (fbd_mode){re, im, frequency, frequency > 0 ? -re / frequency : NAN};
+            done = isfinite(frequency) && (frequency == 0 || isfinite(1 / frequency));
+        }
+        if (done) qsort(linear->modes, size, sizeof *linear->modes, by_frequency);
+    }
+    if (work) gsl_eigen_nonsymm_free(work);
+    if (values) gsl_vector_complex_free(values);
+    free(A);
+    return made ? done : -1;
+}
+
+/* ---- the whole */
+
+static bool is_tied(const struct fbd_model *model)
+{
+    return model->tree && model->tree->tie_count > 0;
+}
+
+/* With a prescribed motion there is no state of rest. */
+static bool refuse_driven(const struct fbd_state *state, fbd_errors *errors)
+{
+    const struct fbd_model *model = state->model;
+    for (size_t b = 0; b < model->body_count; b++) {
+        if (model->bodies[b].drive < 0) continue;
+        diag_add(errors, FBD_ERROR, "not-independent", model->bodies[b].source->motion.at,
+                 "simulate it, from a start near the equilibrium",
+                 "the motion of `%s` is prescribed: it is never at rest", model->bodies[b].name);
+        return true;
+    }
+    return equilibrium_refuse_reels(model, errors);
+}
+
+/* What is at rest sticks to a surface at rest; under a surface that moves on it slips, and its friction is a
+ * force like others. What rolls, or stands on its contacts, is held where it touches and may go round there. */
+static bool refuse_sticking(const struct fbd_state *state, fbd_errors *errors)
+{
+    const struct fbd_model *model = state->model;
+    const struct plan *plan = &model->plan;
+    struct instant at = state_instant(state);
+    for (size_t i = 0; i < plan->mode_count; i++) {
+        const struct mode *mode = &plan->modes[i];
+        double acceleration;
+        if (!mode_is_joint_friction(mode)) continue;
+        if (friction_surface_speed(mode, &at, &acceleration) != 0) continue;
+        diag_add(errors, FBD_ERROR, "sticks", model->loads[mode->load].source->at,
+                 "leave the friction out to see the motion about the balance of the other forces",
+                 "`%s` has dry friction: at rest it sticks, and a body that sticks has no linear motion",
+                 model->bodies[mode->body].name);
+        return true;
+    }
+    return false;
+}
+
+/* ---- holds at the equilibrium */
+
+/* The largest force of a coupling, and the weight of all that is jointed. */
+static double size_of_forces(const struct fbd_state *state)
+{
+    const struct tree *tree = state->model->tree;
+    double most = 0;
+    for (int i = 1; i < tree->count; i++) most += tree->links[i].mass;
+    most *= vec_norm(state->model->scene->gravity);
+    for (int j = 0; j < tree->row_count; j++) most = fmax(most, fabs(state->tree->rows[j].lambda));
+    return most;
+}
+
+/* Taut ropes pull and what is closed presses; what could go either way has no linear motion. */
+static bool refuse_limits(struct fbd_state *state, fbd_errors *errors)
+{
+    const double nothing = 1e-9;
+    const struct fbd_model *model = state->model;
+    const struct plan *plan = &model->plan;
+    if (!is_tied(model) || plan->mode_count == 0) return false;
+    int *before = calloc(plan->mode_count, sizeof *before), at_limit = -1;
+    if (!before) {
+        diag_out_of_memory(errors);
+        return true;
+    }
+    memcpy(before, state->slip, plan->mode_count * sizeof *before);
+    bool settled = modes_settle(state, NULL);
+    double size = size_of_forces(state);
+    for (int i = 0; i < (int)plan->mode_count; i++) {
+        const struct mode *hold = &plan->modes[i];
+        bool held = mode_is_one_sided(hold) && state->slip[i] == stick;
+        bool presses = !held || fabs(hold_row(state, hold)->lambda) > nothing * size;
+        if (before[i] != state->slip[i] || !presses || !settled) at_limit = i;
+    }
+    free(before);
+    if (at_limit < 0) return false;
+    const struct mode *hold = &plan->modes[at_limit];
+    struct pos at = hold->tie >= 0 ? model->scene->constraints[model->tree->ties[hold->tie].constraint].at
+                                   : model->bodies[hold->body].source->at;
+    diag_add(
+        errors, FBD_ERROR, "at-limit", at, "start nearer to the equilibrium, or load it so that it holds",
+        "at the equilibrium `%s` is at the limit between holding and giving way: to one side the motion is "
+        "another than to the other",
+        hold->tie >= 0 ? model->tree->ties[hold->tie].name : model->bodies[hold->body].name);
+    return true;
+}
+
+/* ---- slopes */
+
+static fbd_linearization *linearization_new(const struct fbd_model *model)
+{
+    size_t n = (size_t)model->plan.n, size = plan_size(&model->plan);
+    fbd_linearization *linear = calloc(1, sizeof *linear);
+    if (!linear) return NULL;
+    *linear = (struct fbd_linearization){
+        .model = model,
+        .count = n,
+        .size = size,
+        .which = calloc(n + 1, sizeof(int)),
+        .A = calloc(size * size + size + 1, sizeof(double)), /* df/dt behind it */
+        .modes = calloc(size + 1, sizeof(fbd_mode)),
+        .q = calloc(plan_rates(&model->plan) + 1, sizeof(double)),
+    };
+    for (size_t i = 0; linear->which && i < n; i++) linear->which[i] = (int)i;
+    if (linear->which && linear->A && linear->modes && linear->q) return linear;
+    fbd_linearization_free(linear);
+    return NULL;
+}
+
+/* What the slopes are taken by, and those of three places. */
+struct looking {
+    struct fbd_linearization *linear;
+    struct fbd_state *state;
+    struct independent independent; /* with couplings */
+    double *full;                   /* and the Jacobian of all coordinates, df/dt behind it */
+    double *origin, *before, *beside, *there;
+};
+
+static void looking_free(struct looking *looking)
+{
+    independent_free(&looking->independent);
+    free(looking->full);
+    free(looking->origin);
+}
+
+static bool looking_new(struct looking *looking, struct fbd_linearization *linear, struct fbd_state *state)
+{
+    size_t n = (size_t)state->model->plan.n, size = plan_size(&state->model->plan);
+    *looking = (struct looking){.linear = linear, .state = state};
+    looking->origin = calloc(plan_rates(&state->model->plan) + 3 * n + 1, sizeof *looking->origin);
+    if (!looking->origin) return false;
+    looking->before = looking->origin + plan_rates(&state->model->plan);
+    looking->beside = looking->before + n;
+    looking->there = looking->beside + n;
+    if (!is_tied(state->model)) return true;
+    looking->full = calloc(size * size + size + 1, sizeof *looking->full);
+    return looking->full && independent_new(&looking->independent, state);
+}
+
+/* One row of A from that of the Jacobian of all. */
+static void reduce_row(const struct independent *independent, size_t own, const double *full, double *row)
+{
+    size_t n = independent->n, f = independent->count;
+    for (size_t l = 0; l < f; l++)
+        for (size_t j = 0; j < n; j++) {
+            row[l] += full[j] * independent->way[j * f + l];
+            row[f + l] += full[n + j] * independent->way[j * f + l];
+        }
+    for (size_t i = 0; i < own; i++) row[2 * f + i] = full[2 * n + i];
+}
+
+/* A of the independent coordinates and the states from the Jacobian of all. */
+static void reduce(const struct looking *looking)
+{
+    const struct independent *independent = &looking->independent;
+    const struct plan *plan = &looking->state->model->plan;
+    size_t n = independent->n, f = independent->count, own = (size_t)plan->own, size = 2 * f + own,
+           wide = plan_size(plan);
+    double *A = looking->linear->A;
+    memset(A, 0, size * size * sizeof *A);
+    for (size_t k = 0; k < f; k++) {
+        A[k * size + f + k] = 1;
+        reduce_row(independent, own, looking->full + (n + (size_t)independent->which[k]) * wide,
+                   A + (f + k) * size);
+    }
+    for (size_t i = 0; i < own; i++)
+        reduce_row(independent, own, looking->full + (2 * n + i) * wide, A + (2 * f + i) * size);
+}
+
+/* The Jacobian at the state, and the largest slope that each acceleration has along a coordinate. False where
+ * the independent coordinates are not independent. */
+static bool slopes_at(struct looking *looking, double *most)
+{
+    struct fbd_state *state = looking->state;
+    struct fbd_linearization *linear = looking->linear;
+    size_t all = plan_size(&state->model->plan), f = linear->count;
+    if (looking->full) {
+        state_project(state, false);
+        if (!independent_follow(&looking->independent, state)) return false;
+    }
+    struct instant at = state_instant(state);
+    double *work = looking->full ? looking->full : linear->A;
+    state_jacobian(state->model, &at, state->scratch, work, work + all * all);
+    if (looking->full) reduce(looking);
+    for (size_t i = 0; i < f; i++) {
+        most[i] = 0;
+        for (size_t j = 0; j < f; j++) most[i] = fmax(most[i], fabs(linear->A[(f + i) * linear->size + j]));
+    }
+    return true;
+}
+
+/* Where the slope of a force dies out toward the equilibrium (f = -k x^3), Newton never quite arrives, and
+ * what is left of the slope is no frequency: in the limit it is zero. Told by this, that the slope was larger
+ * at the start, and is so already a little of the way back to there. */
+static void drop_dying_slopes(const struct looking *looking, fbd_errors *errors)
+{
+    const double died_out = 1e-4, of_beside = 0.1;
+    struct fbd_linearization *linear = looking->linear;
+    size_t n = linear->count;
+    for (size_t i = 0; i < n; i++) {
+        double there = looking->there[i];
+        if (!(there < died_out * looking->before[i] && there < of_beside * looking->beside[i])) continue;
+        for (size_t j = 0; j < n; j++) linear->A[(n + i) * linear->size + j] = 0;
+        linear->degenerate = true;
+        diag_add(errors, FBD_WARNING, "degenerate-equilibrium", (struct pos){0, 0},
+                 "the motion about it is not linear, however small: simulate it",
+                 "the forces along `%s` have no slope at the equilibrium: it has no linear frequency",
+                 linear->model->labels[linear->which[i]].name);
+    }
+}
+
+static void refuse_singular(const struct fbd_model *model, fbd_errors *errors)
+{
+    const struct tie *tie = &model->tree->ties[0];
+    diag_add(
+        errors, FBD_ERROR, "not-independent", model->scene->constraints[tie->constraint].at,
+        "simulate it, from a start near the equilibrium",
+        "at the equilibrium the couplings, `%s` among them, are in a singular position: they leave no clear "
+        "number of degrees of freedom",
+        tie->name);
+}
+
+/* Which coordinates are independent at the equilibrium, where the state is. */
+static bool choose_coordinates(struct looking *looking, fbd_errors *errors)
+{
+    struct fbd_linearization *linear = looking->linear;
+    struct independent *independent = &looking->independent;
+    const struct tree *tree = linear->model->tree;
+    if (!looking->full) return true;
+    struct pos at = linear->model->scene->constraints[tree->ties[0].constraint].at;
+    if (!independent_choose(independent, looking->state)) {
+        refuse_singular(linear->model, errors);
+        return false;
+    }
+    if (independent->count == 0) {
+        diag_add(errors, FBD_ERROR, "sticks", at, "leave out what holds it, to see it move",
+                 "nothing can move: the couplings, `%s` among them, leave no freedom", tree->ties[0].name);
+        return false;
+    }
+    linear->count = independent->count;
+    linear->size = 2 * independent->count + (size_t)linear->model->plan.own;
+    memcpy(linear->which, independent->which, independent->count * sizeof *linear->which);
+    return true;
+}
+
+/* Keep, or put back, [q, z]. */
+static void move_place(struct fbd_state *state, double *place, bool back)
+{
+    size_t n = (size_t)state->model->plan.n, own = (size_t)state->model->plan.own;
+    double *const ours[] = {state->y, state->y + 2 * n}, *const theirs[] = {place, place + n};
+    const size_t counts[] = {n, own};
+    for (int k = 0; k < 2; k++)
+        memcpy(back ? ours[k] : theirs[k], back ? theirs[k] : ours[k], counts[k] * sizeof *place);
+}
+
+/* From an equilibrium that the start is already, by a little of the size of each independent coordinate, and not alike. */
+static void step_aside(const struct independent *independent, double little, double *q)
+{
+    for (size_t k = 0; k < independent->count; k++) {
+        size_t i = (size_t)independent->which[k];
+        q[i] += little * independent->size[i] * (double)(k + 1) / (double)independent->count;
+    }
+}
+
+/* The slopes where it starts, a little back from the equilibrium, and there, where the state stays. */
+static bool look_around(struct looking *looking)
+{
+    const double little = 1e-3; /* of the way back to the start */
+    struct fbd_state *state = looking->state;
+    double *q = looking->linear->q, *from = looking->origin;
+    move_place(state, from, true);
+    slopes_at(looking, looking->before);
+    bool away = false;
+    for (size_t i = 0; i < plan_rates(&state->model->plan); i++) {
+        away |= from[i] != q[i];
+        from[i] = q[i] + little * (from[i] - q[i]);
+    }
+    if (!away) step_aside(&looking->independent, little, from);
+    move_place(state, from, true);
+    bool regular = slopes_at(looking, looking->beside); /* else there is less freedom beside it */
+    move_place(state, q, true);
+    state_evaluate(state);
+    return slopes_at(looking, looking->there) && regular; /* leaves the Jacobian in A */
+}
+
+/* 1, or what find_matrix says: -1 out of memory, -2 another branch holds there. */
+static int check_branches(const struct fbd_linearization *linear, const struct fbd_state *state,
+                          fbd_errors *errors)
+{
+    size_t n = (size_t)state->model->plan.n;
+    struct fbd_state *there = state_new(state->model);
+    if (!there) return -1;
+    state_copy(there, state);
+    move_place(there, linear->q, true);
+    memset(there->y + n, 0, n * sizeof *there->y);
+    bool holds = equilibrium_holds(there), memory = there->holds.found != holds_no_memory;
+    state_free(there);
+    if (!memory) return -1;
+    if (!holds) equilibrium_refuse(errors);
+    return holds ? 1 : -2;
+}
+
+/* Find the balance and A there; 1 found, 0 none near, -1 out of memory, -2 it is said why not. */
+static int find_matrix(struct fbd_linearization *linear, struct fbd_state *state, fbd_errors *errors)
+{
+    struct looking looking;
+    bool made = looking_new(&looking, linear, state);
+    if (made) move_place(state, looking.origin, false);
+    int found = made ? equilibrium_search(state) : -1;
+    if (found > 0) {
+        move_place(state, linear->q, false);
+        if (refuse_limits(state, errors) || !choose_coordinates(&looking, errors))
+            found = -2;
+        else if (!look_around(&looking)) {
+            refuse_singular(state->model, errors);
+            found = -2;
+        } else
+            drop_dying_slopes(&looking, errors);
+    }
+    if (found > 0) found = check_branches(linear, state, errors);
+    if (found > 0 && looking.full) { /* handed on */
+        linear->way = looking.independent.way;
+        looking.independent.way = NULL;
+    }
+    looking_free(&looking);
+    return found;
+}
+
+const char *linearization_name(const struct fbd_linearization *linear, size_t i)
+{
+    const struct fbd_model *model = linear->model;
+    size_t f = linear->count;
+    if (i >= 2 * f) return model->own_labels[i - 2 * f].name;
+    const struct label *label = &model->labels[linear->which[i % f]];
+    return i < f ? label->name : label->rate_name;
+}
+
+/* The balance, and every slope there. */
+static bool is_finite(const struct fbd_linearization *linear, struct fbd_state *state, fbd_errors *errors)
+{
+    size_t size = linear->size;
+    if (!start_question(state, true, errors)) return false;
+    for (size_t i = 0; i < size * size; i++) {
+        if (isfinite(linear->A[i])) continue;
+        size_t row = i / size, f = linear->count;
+        diag_add(errors, FBD_ERROR, "not-finite", (struct pos){0, 0}, NULL,
+                 "at the equilibrium the slope of %s `%s` with `%s` is not finite: %s",
+                 row < 2 * f ? "the acceleration along" : "the rate of",
+                 linearization_name(linear, row < 2 * f ? row % f : row),
+                 linearization_name(linear, i % size), not_finite_reason(linear->A[i]));
+        return false;
+    }
+    return true;
+}
+
+/* `found` is 0 where there is no balance, or with `balanced` no eigenvalues; else memory is out. */
+static void note_failure(const struct fbd_model *model, bool settled, int found, bool balanced,
+                         fbd_errors *errors)
+{
+    struct pos nowhere = {0, 0};
+    if (!settled)
+        diag_add(errors, FBD_ERROR, "unsettled", nowhere, "look from another state, with --at",
+                 "at the start no choice of branches agrees with the forces");
+    else if (found != 0)
+        diag_out_of_memory(errors);
+    else if (balanced)
+        diag_add(errors, FBD_ERROR, "not-finite", nowhere, NULL,
+                 "the eigenvalues of the motion about the equilibrium (`%s`, ...) are not found, or not "
+                 "finite: its slopes are too far apart",
+                 model->labels[0].name);
+    else
+        diag_add(errors, FBD_ERROR, "no-equilibrium", nowhere,
+                 "start nearer to it: set the initial values, or give --at",
+                 "no equilibrium was found near the start");
+}
+
+static fbd_linearization *linearize(fbd_state *state, fbd_errors *errors)
+{
+    const struct fbd_model *model = state->model;
+    diag_in_file(errors, model->scene->file);
+    size_t n = (size_t)model->plan.n;
+    if (model->plan.mode_count > 0 || is_tied(model)) /* modes of rest */
+        memset(state->y + n, 0, n * sizeof *state->y);
+    bool settled = modes_settle(state, NULL);
+    if (!start_question(state, settled, errors) || refuse_driven(state, errors) ||
+        refuse_sticking(state, errors) || equilibrium_refuse_states(state, errors))
+        return NULL;
+    fbd_linearization *linear = linearization_new(model);
+    int found = linear && settled ? find_matrix(linear, state, errors) : -1;
+    bool said = found == -2 || (found > 0 && !is_finite(linear, state, errors));
+    int modes = found > 0 && !said ? find_modes(linear) : -1;
+    if (modes > 0) return linear;
+    if (!said) note_failure(model, settled, found > 0 ? modes : found, found > 0, errors);
+    fbd_linearization_free(linear);
+    return NULL;
+}
+
+fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    fbd_linearization *linear = state ? linearize(state, errors) : call_refuse(errors, "there is no state");
+    diag_end(&call);
+    return linear;
+}
+
+void fbd_linearization_free(fbd_linearization *linearization)
+{
+    if (!linearization) return;
+    free(linearization->which);
+    free(linearization->way);
+    free(linearization->A);
+    free(linearization->modes);
+    free(linearization->q);
+    free(linearization);
+}
+
+size_t fbd_linearization_size(const fbd_linearization *linearization)
+{
+    if (!linearization) return 0;
+    return linearization->size;
+}
+
+const double *fbd_linearization_matrix(const fbd_linearization *linearization)
+{
+    if (!linearization) return NULL;
+    return linearization->A;
+}
+
+size_t fbd_linearization_coordinate(const fbd_linearization *linearization, size_t index)
+{
+    bool there = linearization && index < linearization->count;
+    return there ? (size_t)linearization->which[index] : (size_t)-1;
+}
+
+fbd_mode fbd_linearization_mode(const fbd_linearization *linearization, size_t index)
+{
+    return linearization && index < linearization->size ? linearization->modes[index]
+                                                        : (fbd_mode){NAN, NAN, NAN, NAN};
+}

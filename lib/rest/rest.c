@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Questions of rest: what never comes to it, and where the scene does.
+ */
+#include <string.h>
+
+#include "base/call.h"
+#include "base/diag.h"
+#include "dynamics/modes.h"
+#include "dynamics/own.h"
+#include "dynamics/statics.h"
+#include "expr/table.h"
+#include "rest/equilibrium.h"
+#include "rest/start.h"
+#include "rest/statics.h"
+
+/* ---- states of the file's own */
+
+/* A state whose rate no place and no state changes, as that of a clock. */
+static bool goes_on(const struct fbd_state *state, int own)
+{
+    const struct plan *plan = &state->model->plan;
+    const int *slots;
+    if (state->a[plan->n + own] == 0) return false;
+    size_t count = plan->rates[own].expr ? expr_variables(plan->rates[own].expr, &slots) : 0;
+    for (size_t k = 0; k < count; k++)
+        if (slots[k] <= plan->n || slots[k] > 2 * plan->n) return false;
+    return true;
+}
+
+bool equilibrium_refuse_states(struct fbd_state *state, fbd_errors *errors)
+{
+    const struct fbd_model *model = state->model;
+    size_t n = (size_t)model->plan.n;
+    if (model->plan.own > 0) {
+        memset(state->y + n, 0, n * sizeof *state->y);
+        state_evaluate(state);
+    }
+    for (int i = 0; i < model->plan.own; i++) {
+        if (!goes_on(state, i)) continue;
+        diag_add(errors, FBD_ERROR, "not-at-rest", model->scene->own[i].rate.at,
+                 "leave the state out, or simulate it",
+                 "the state `%s` is never at rest: nothing brings its rate to zero",
+                 model->scene->own[i].name);
+        return true;
+    }
+    return false;
+}
+
+bool statics_refuse_states(const struct fbd_state *state, fbd_errors *errors)
+{
+    const struct fbd_model *model = state->model;
+    for (int i = 0; i < model->plan.own; i++) {
+        double rate = state->a[model->plan.n + i];
+        if (fabs(rate) <= rest_digits * own_rate_size(state, i)) continue;
+        diag_add(errors, FBD_ERROR, "not-at-rest", model->scene->own[i].rate.at,
+                 "look where it rests (--settle), or give it an `initial` value at which its rate is zero",
+                 "the state `%s` changes while all bodies are at rest, by %.6g %s: forces that depend on it "
+                 "do not last",
+                 model->scene->own[i].name, rate, unit_word(model->own_labels[i].rate_unit));
+        return true;
+    }
+    return false;
+}
+
+/* ---- equilibrium */
+
+bool equilibrium_refuse_reels(const struct fbd_model *model, fbd_errors *errors)
+{
+    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
+        const struct tie *tie = &model->tree->ties[i];
+        if (!tie->reels) continue;
+        diag_add(errors, FBD_ERROR, "not-independent", model->scene->constraints[tie->constraint].reel.at,
+                 "give it a constant `length`",
+                 "the length of the rope `%s` goes with the time: it is never at rest", tie->name);
+        return true;
+    }
+    return false;
+}
+
+/* What has no single place of rest, or none: dry friction holds in a range of places, and a prescribed motion
+ * does not rest. */
+static bool refuse(const struct fbd_state *state, fbd_errors *errors)
+{
+    const struct fbd_model *model = state->model;
+    for (size_t pair = 0; pair < model->plan.mode_count; pair++) {
+        const struct mode *mode = &model->plan.modes[pair];
+        if (mode->tie >= 0) continue;
+        diag_add(errors, FBD_ERROR, mode->kind == mode_drive ? "not-independent" : "sticks",
+                 mode->kind == mode_drive ? model->bodies[mode->body].source->motion.at
+                                          : model->loads[mode->load].source->at,
+                 mode->kind == mode_drive ? "give it a place, --at, or a motion without `theta` or `x`"
+                                          : "leave the friction out to find the balance of the other forces",
+                 mode->kind == mode_drive
+                     ? "the motion of `%s` is prescribed: it is never at rest"
+                     : "`%s` has dry friction: it rests in a range of places, not in one",
+                 model->bodies[mode->body].name);
+        return true;
+    }
+    return equilibrium_refuse_reels(model, errors);
+}
+
+/* Is it beyond the end of a table or a track, where nothing is? */
+static bool is_beyond_an_end(const struct fbd_state *state)
+{
+    const struct plan *plan = &state->model->plan;
+    for (size_t i = 0; i < plan->kink_count; i++)
+        for (size_t part = 0; part < plan->kinks[i].count; part++) {
+            const struct table *table = expr_switch_table(plan->kinks[i].formula.expr, part);
+            int piece = state->branch[(size_t)plan->kinks[i].formula.branch + part];
+            if (table && plan->kinks[i].body >= 0 && table_has_ended(table, piece)) return true;
+        }
+    return false;
+}
+
+bool equilibrium_holds(struct fbd_state *state)
+{
+    const double rounding = 1e-6;
+    double most = 0;
+    if (state->model->plan.kink_count == 0) return true;
+    if (!modes_settle(state, NULL) || is_beyond_an_end(state)) return false;
+    for (int i = 0; i < state->model->plan.n; i++) most = larger(most, fabs(state->a[i]));
+    for (int i = 0; i < state->model->plan.own; i++)
+        if (!(fabs(state->a[state->model->plan.n + i]) <= rounding * own_rate_size(state, i))) return false;
+    return most <= rounding * equilibrium_size(state);
+}
+
+void equilibrium_refuse(fbd_errors *errors)
+{
+    diag_add(errors, FBD_ERROR, "no-equilibrium", (struct pos){0, 0}, "look from another state, with --at",
+             "forces balance only on a branch of an expression that has been left by then");
+}
+
+static bool find_equilibrium(fbd_state *state, fbd_errors *errors)
+{
+    diag_in_file(errors, state->model->scene->file);
+    if (refuse(state, errors)) return false;
+    if (!rest_begin(state)) {
+        if (state->holds.found == holds_no_memory)
+            diag_out_of_memory(errors);
+        else
+            diag_add(errors, FBD_ERROR, "unsettled", (struct pos){0, 0}, "look from another state, with --at",
+                     "at rest no choice of branches agrees with the forces");
+        return false;
+    }
+    if (equilibrium_refuse_states(state, errors)) return false;
+    if (!start_question(state, false, errors)) return false; /* wherever it starts, it is let down */
+    int found = equilibrium_settle(state);
+    if (state->holds.found == holds_no_memory) found = -1;
+    state->settled = false;
+    if (found > 0 && !start_question(state, true, errors)) return false;
+    if (found > 0 && equilibrium_holds(state)) return true;
+    if (found > 0) equilibrium_refuse(errors);
+    if (found < 0) diag_out_of_memory(errors);
+    if (found == 0)
+        diag_add(errors, FBD_ERROR, "no-equilibrium", (struct pos){0, 0},
+                 "start nearer to it: set the initial values, or give --at",
+                 "no equilibrium was found near the start");
+    return false;
+}
+
+bool fbd_find_equilibrium(fbd_state *state, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    bool found = state ? find_equilibrium(state, errors) : call_refuse(errors, "there is no state") != NULL;
+    diag_end(&call);
+    return found;
+}

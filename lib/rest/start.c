@@ -1,0 +1,260 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "rest/start.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "dynamics/contact.h"
+#include "dynamics/finite.h"
+#include "dynamics/modes.h"
+#include "dynamics/project.h"
+#include "events/watchers.h"
+#include "model/model.h"
+#include "rest/balance.h"
+#include "rest/fit.h"
+
+bool start_finite(const struct fbd_state *state, struct lack *lack)
+{
+    struct not_finite found;
+    enum finite finite = finite_check(state, &found);
+    if (finite == finite_all) return true;
+    if (finite == finite_no_memory) return false;
+    lack->id = "not-finite";
+    lack->at = found.at;
+    text_printf(&lack->text, "%s is not finite at t = ", found.what);
+    text_number(&lack->text, state->t, 9);
+    text_printf(&lack->text, ": %s", not_finite_reason(found.value));
+    return false;
+}
+
+/* Shapes that are in each other have no side from which they could meet. */
+static bool overlap_lack(struct fbd_state *state, struct pos *at, struct text *why)
+{
+    const struct fbd_model *model = state->model;
+    double depth;
+    int meeting = contacts_overlap(state, &depth);
+    if (meeting < 0) return false;
+    const struct constraint *source = &model->scene->constraints[model->tree->meetings[meeting].constraint];
+    *at = source->at;
+    text_printf(why, "the shapes of the contact `%s` are in each other by ", source->name);
+    text_number(why, depth, 6);
+    return true;
+}
+
+bool start_fits(struct fbd_state *state, struct fbd_state *other, bool modes, const char *what,
+                struct lack *lack)
+{
+    struct text why = {0};
+    *lack = (struct lack){0};
+    bool fits = !fit_blocked(state, &lack->at, &why) && !overlap_lack(state, &lack->at, &why) &&
+                !(modes && fit_lack(state, other, &lack->at, &why));
+    if (fits) return true;
+    lack->id = "does-not-fit";
+    text_printf(&lack->text, "%s does not fit: %s", what, why.failed ? "" : why.data);
+    lack->text.failed |= why.failed;
+    text_free(&why);
+    return false;
+}
+
+/* Is it friction already? What rolls has its friction under the name of the coupling. */
+static bool is_friction(const struct load *load)
+{
+    return load->kind == load_friction || load->kind == moment_friction || load->kind == load_rope ||
+           strchr(load->name, '.');
+}
+
+const char *unsettled_advice(const struct fbd_model *model, int load)
+{
+    if (load >= 0 && model->loads[load].source->kind == load_contact)
+        return "Bodies meet and part there, or stick and slip, faster than can be followed: less friction or "
+               "restitution may "
+               "end that, or end the run before by an event";
+    bool declared = load >= 0 ? is_friction(model->loads[load].source) : model->plan.kink_count == 0;
+    return declared ? "There what holds has to give at once, and what gives to hold. In a law of friction "
+                      "write the speed over the own surface as `slip`; or end the run before by an event"
+                    : "A force that jumps against the motion, as c*sign(v), is dry friction: declare it as "
+                      "`friction`";
+}
+
+/* A roll without limits has a friction that no normal force goes with: it could hold itself down. */
+static void contradiction_words(const struct fbd_model *model, int pair, const char *when, struct text *text)
+{
+    const struct mode *hold = &model->plan.modes[pair];
+    bool couples = hold->kind == mode_surface || hold->kind == mode_rope;
+    const char *name = couples ? model->scene->constraints[model->tree->ties[hold->tie].constraint].name
+                       : hold->load >= 0 ? model->loads[hold->load].source->name
+                                         : "a hold";
+    bool unlimited = hold->kind == mode_surface && model->tree->ties[hold->tie].pair < 0;
+    text_printf(
+        text,
+        "%s neither way agrees with the forces for `%s` of `%s`: while it holds it would have to give, "
+        "and when it gives, to hold. ",
+        when, name, model->bodies[hold->body].name);
+    text_add(text, unlimited
+                       ? "It rolls without a limit, so that its friction alone could hold it down: give "
+                         "it `static` and `kinetic`"
+                       : "What else holds there decides with it: less friction, or end the run before by "
+                         "an event");
+}
+
+void unsettled_words(const struct fbd_state *state, const char *when, struct text *text)
+{
+    const struct fbd_model *model = state->model;
+    const struct holds_trouble *holds = &state->holds;
+    if (holds->found == holds_none) {
+        text_printf(
+            text, "%s no forces within the limits of what holds agree with the motion: there is no solution",
+            when);
+        if (holds->pair < 0) return;
+        const struct mode *mode = &model->plan.modes[holds->pair];
+        text_printf(
+            text,
+            ", as in Painleve's paradox. On `%s` each newton more of the normal force brings `%s` with it "
+            "that takes ",
+            model->bodies[mode->body].name, model->loads[mode->load].source->name);
+        text_number(text, holds->answer, 4);
+        text_add(
+            text,
+            " N of it away again, or adds as much. Rigid bodies do not tell what follows: less friction, "
+            "or end the run before by an event");
+    } else if (holds->found == holds_lost) {
+        text_printf(
+            text,
+            "%s no forces were found with which all that holds agrees, and there are too many ways to "
+            "hold or give way to try them all",
+            when);
+    } else if (holds->contradicts >= 0) {
+        contradiction_words(model, holds->contradicts, when, text);
+    } else {
+        text_printf(text, "%s no choice of branches and of stick or slip agrees with the forces. %s", when,
+                    unsettled_advice(model, -1));
+    }
+}
+
+static bool is_settled(const struct fbd_state *state, bool settled, struct lack *lack)
+{
+    if (settled) return true;
+    if (state->holds.found == holds_no_memory) return false;
+    lack->id = state->holds.found == holds_none ? "no-solution" : "unsettled";
+    unsettled_words(state, "at the start", &lack->text);
+    return false;
+}
+
+void start_contact_words(const struct fbd_model *model, const struct contact *contact, double t, double N,
+                         struct text *text)
+{
+    const struct load *belt = model->loads[contact->load].source;
+    text_add(text, "at t = ");
+    text_number(text, t, 9);
+    if (belt->kind == load_belt) {
+        text_printf(text, " a strand of the belt `%s` goes slack: its tension is ", belt->name);
+        text_number(text, N, 6);
+        text_add(text,
+                 ". Give it more `tension`, or what pulls its axes apart more force, or end the run before");
+        return;
+    }
+    if (belt->kind == load_contact) {
+        text_printf(text, " `%s` comes off its slot `%s`, which would have to pull (N = ",
+                    model->bodies[contact->body].name, belt->name);
+        text_number(text, N, 6);
+        text_add(text,
+                 "). Leave `side` out if it is held on both sides, press it on by a spring, or end the run "
+                 "before, by an event");
+        return;
+    }
+    text_printf(text, " `%s` leaves its surface: the normal force would have to pull (N = ",
+                model->bodies[contact->body].name);
+    text_number(text, N, 6);
+    /* The surface of a `roll`, known by its name and not by an entry of the body, has no other side. */
+    bool listed = !strchr(model->loads[contact->load].source->name, '.');
+    text_add(text, listed ? "). Declare the normal force `two_sided` if it is a guide, or end the run before"
+                          : "). What rolls is not held to its line: end the run before, by an event");
+}
+
+/* No surface has to pull. */
+static bool rests_on_surfaces(const struct fbd_state *state, struct lack *lack)
+{
+    const struct fbd_model *model = state->model;
+    for (size_t i = 0; i < model->plan.contact_count; i++) {
+        const struct contact *contact = &model->plan.contacts[i];
+        if (contact->pair >= 0) continue;
+        double N = -state->slots[contact->slot];
+        if (N >= -watchers_contact_slack(model, state->tree, contact)) continue;
+        lack->id = "leaves-surface";
+        lack->at = model->loads[contact->load].source->at;
+        start_contact_words(model, contact, state->t, N, &lack->text);
+        return false;
+    }
+    return true;
+}
+
+static bool is_solved(struct fbd_state *state, struct lack *lack)
+{
+    if (!fit_unsolved(state, &lack->at, &lack->text)) return true;
+    lack->id = "masses-apart";
+    return false;
+}
+
+static bool is_free_to_move(struct fbd_state *state, struct fbd_state *other, struct lack *lack)
+{
+    if (!fit_locked(state, other, &lack->at, &lack->text)) return true;
+    lack->id = "singular-start";
+    return false;
+}
+
+/* The forces account for the motion. */
+static bool is_balanced(struct fbd_state *state, struct lack *lack)
+{
+    struct arrow *arrows = calloc(diagram_most_arrows(state->model), sizeof *arrows);
+    bool balanced = arrows && !balance_lack(state, arrows, &lack->text);
+    if (arrows && !balanced) lack->id = "forces-unbalanced";
+    free(arrows);
+    return balanced;
+}
+
+bool start_ready(struct fbd_state *state, struct fbd_state *other, const char *what, struct lack *lack)
+{
+    bool settled = modes_settle(state, NULL);
+    *lack = (struct lack){0};
+    if (state->holds.found == holds_no_memory) return false;
+    if (!start_fits(state, other, settled, what, lack)) return false;
+    if (settled) state_project(state, false); /* what slips is not closed */
+    settled = modes_settle(state, NULL);
+    return start_finite(state, lack) && is_settled(state, settled, lack) && rests_on_surfaces(state, lack) &&
+           is_solved(state, lack) && is_free_to_move(state, other, lack) && is_balanced(state, lack);
+}
+
+bool start_question(struct fbd_state *state, bool modes, fbd_errors *errors)
+{
+    struct lack lack = {0};
+    struct fbd_state *other = state_new(state->model);
+    bool fine = other && start_fits(state, other, modes, "the start", &lack);
+    if (fine) {
+        state_evaluate(state);
+        fine = start_finite(state, &lack);
+    }
+    if (!fine) lack_note(&lack, errors);
+    state_free(other);
+    return fine;
+}
+
+void lack_note(struct lack *lack, fbd_errors *errors)
+{
+    if (!lack->id || lack->text.failed)
+        diag_out_of_memory(errors);
+    else
+        diag_add(errors, FBD_ERROR, lack->id, lack->at, NULL, "%s", lack->text.data);
+    text_free(&lack->text);
+}
+
+bool start_check(struct fbd_state *state, const char *what, fbd_errors *errors)
+{
+    struct lack lack = {0};
+    struct fbd_state *other = state_new(state->model);
+    diag_in_file(errors, state->model->scene->file);
+    bool ready = other && start_ready(state, other, what, &lack);
+    if (!ready) lack_note(&lack, errors);
+    text_free(&lack.text);
+    state_free(other);
+    return ready;
+}

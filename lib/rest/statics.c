@@ -1,0 +1,279 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "rest/statics.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/call.h"
+#include "base/diag.h"
+#include "dynamics/finite.h"
+#include "dynamics/project.h"
+#include "rest/start.h"
+
+/* ---- the start: it has to fit its couplings */
+
+static bool fits(struct fbd_state *state, fbd_errors *errors)
+{
+    if (!start_question(state, true, errors)) return false;
+    if (state_project(state, false)) return true;
+    diag_add(errors, FBD_ERROR, "does-not-fit", (struct pos){0, 0}, NULL,
+             "the start fits its couplings to six digits, and no state near it fits better");
+    return false;
+}
+
+/* At rest, before the forces are found and after. */
+static bool is_finite(const struct fbd_state *state, fbd_errors *errors)
+{
+    struct lack lack = {0};
+    if (start_finite(state, &lack)) return true;
+    lack_note(&lack, errors);
+    return false;
+}
+
+static bool put_to_rest(struct fbd_state *state, fbd_errors *errors)
+{
+    bool settled = rest_begin(state);
+    if (settled && !fits(state, errors)) return false;
+    if (settled && !is_finite(state, errors)) return false;
+    if (settled && rest_begin(state)) /* once more, where the start was brought to */
+        return !statics_refuse_states(state, errors);
+    if (!is_finite(state, errors)) return false; /* nothing settles then */
+    if (state->holds.found == holds_no_memory) {
+        diag_out_of_memory(errors);
+        return false;
+    }
+    diag_add(errors, FBD_ERROR, "unsettled", (struct pos){0, 0}, "look at another state, with --at",
+             "at rest no choice of branches agrees with the forces");
+    return false;
+}
+
+/* ---- what is said about the solution */
+
+/* The feature of shapes that touch whose force is limited; NULL when it is something else. */
+static const struct tie *touching_tie(const struct fbd_model *model, const struct rest_limit *limit)
+{
+    const struct plan *plan = &model->plan;
+    int pair = limit->kind == limit_normal ? plan->contacts[limit->index].pair : limit->index;
+    int tie = pair >= 0 ? plan->modes[pair].tie : -1;
+    return tie >= 0 && model->tree->ties[tie].kind == constraint_contact ? &model->tree->ties[tie] : NULL;
+}
+
+static const char *limit_name(struct fbd_statics *statics, const struct rest_limit *limit)
+{
+    const struct fbd_model *model = statics->model;
+    const struct plan *plan = &model->plan;
+    if (limit->kind == limit_rope) return model->tree->ties[plan->modes[limit->index].tie].name;
+    const struct tie *touching = touching_tie(model, limit);
+    if (touching) return touching->end[0].name[limit->kind == limit_normal ? 0 : 1];
+    int load =
+        limit->kind == limit_normal ? plan->contacts[limit->index].load : plan->modes[limit->index].load;
+    const char *name = model->loads[load].source->name;
+    for (int i = 0; model->tree && i < model->tree->tie_count; i++) { /* of a rolling body */
+        const struct tie *tie = &model->tree->ties[i];
+        if (tie->strands > 0 && tie->load == load)
+            return tie->end[0].name[plan->contacts[limit->index].slot == tie->slack_slot[1]];
+        if (tie_presses(tie) && tie->load == load)
+            return tie_force_name(model->tree, tie->first_row + (limit->kind != limit_normal));
+    }
+    return arena_printf(&statics->arena, "%s.%s", model->bodies[model->loads[load].body].name, name);
+}
+
+/* Is there a limit of this name already? */
+static bool is_limit(const struct fbd_statics *statics, const char *name)
+{
+    size_t i = 0;
+    while (i < statics->limit_count && strcmp(statics->limits[i].name, name) != 0) i++;
+    return i < statics->limit_count;
+}
+
+/* One name each, since they are keys of the output: the pieces of a rope that is cut at pulleys are `cord`,
+ * `cord_2`. NULL when memory is out. */
+static const char *name_limit(struct fbd_statics *statics, const struct rest_limit *limit)
+{
+    const char *name = limit_name(statics, limit), *made = name;
+    for (int number = 2; made && is_limit(statics, made); number++)
+        made = arena_printf(&statics->arena, "%s_%d", name, number);
+    return made;
+}
+
+/* Of the force, or of a bearing's moment. */
+static const char *limit_unit(const struct fbd_model *model, const struct rest_limit *limit)
+{
+    bool si = model->scene->units == unit_si;
+    bool moment = limit->kind == limit_friction && model->plan.modes[limit->index].normal_slot < 0;
+    return moment ? (si ? "N*m" : "lbf*ft") : (si ? "N" : "lbf");
+}
+
+static bool find_limits(struct fbd_statics *statics, const struct rest_system *system)
+{
+    size_t count = rest_limits(system);
+    statics->within_limits = system->within_limits;
+    statics->limits = ARENA_ARRAY(&statics->arena, count + 1, fbd_limit);
+    for (size_t i = 0; statics->limits && i < count; i++) {
+        struct rest_limit limit = rest_limit_at(system, i);
+        if (limit.kind != limit_normal && statics->state->slip[limit.index] != stick) continue;
+        if (limit.kind != limit_normal && !rest_has_limit(&statics->model->plan.modes[limit.index])) continue;
+        double slack = 2e-9 * system->force;
+        bool holds =
+            limit.kind == limit_friction ? limit.needed <= limit.may + slack : limit.needed >= -slack;
+        const char *name = name_limit(statics, &limit);
+        if (!name) return false;
+        statics->limits[statics->limit_count++] = (fbd_limit){.name = name,
+                                                              .unit = limit_unit(statics->model, &limit),
+                                                              .kind = (fbd_limit_kind)limit.kind,
+                                                              .needed = limit.needed,
+                                                              .limit = limit.may,
+                                                              .holds = holds};
+    }
+    return !statics->arena.failed;
+}
+
+static bool draw_diagrams(struct fbd_statics *statics)
+{
+    const struct fbd_model *model = statics->model;
+    struct instant at = state_instant(statics->state);
+    statics->diagrams = ARENA_ARRAY(&statics->arena, model->body_count, struct rest_diagram);
+    for (size_t b = 0; statics->diagrams && b < model->body_count; b++) {
+        struct rest_diagram *diagram = &statics->diagrams[b];
+        diagram->arrows = ARENA_ARRAY(&statics->arena, diagram_arrows(model, (int)b) + 1, struct arrow);
+        if (!diagram->arrows) return false;
+        diagram->count =
+            diagram_fill(model, (int)b, &at, statics->state->a, statics->state->slots, diagram->arrows);
+    }
+    return statics->diagrams != NULL;
+}
+
+static bool solve(struct fbd_statics *statics)
+{
+    struct rest_system system;
+    bool solved = rest_solve(&system, statics->state, &statics->arena);
+    statics->force = system.force;
+    statics->length = system.length;
+    solved = solved && find_limits(statics, &system) && rest_name_undetermined(statics, &system) &&
+             rest_find_unbalanced(statics, &system) && draw_diagrams(statics);
+    rest_free(&system);
+    return solved;
+}
+
+/* What was found beside the forces of the diagrams. */
+static bool is_known(const struct fbd_statics *statics, fbd_errors *errors)
+{
+    struct not_finite found;
+    struct pos nowhere = {0, 0};
+    bool odd = not_finite_note(&found, statics->left, nowhere, "what is out of balance");
+    for (size_t i = 0; !odd && i < statics->limit_count; i++) {
+        const fbd_limit *limit = &statics->limits[i];
+        odd = not_finite_note(&found, limit->needed + limit->limit, nowhere, "what `%s` has to bear, or may",
+                              limit->name);
+    }
+    for (size_t i = 0; !odd && i < statics->unbalanced_count; i++)
+        odd = not_finite_note(&found, statics->unbalanced[i].holding, nowhere, "what would hold `%s`",
+                              statics->unbalanced[i].coordinate);
+    if (odd) diag_add(errors, FBD_ERROR, "not-finite", nowhere, NULL, "%s is not finite at rest", found.what);
+    return !odd && is_finite(statics->state, errors);
+}
+
+static void warn(const struct fbd_statics *statics, fbd_errors *errors)
+{
+    if (statics->indeterminacy == 0 || !fbd_statics_holds(statics)) return;
+    diag_add(errors, FBD_WARNING, "indeterminate", (struct pos){0, 0},
+             "of all reactions that balance those of the least sum of squares are shown; how the parts give "
+             "way decides: springs in place of rigid supports tell",
+             "statically indeterminate to degree %zu: equilibrium alone does not determine `%s`%s",
+             statics->indeterminacy, statics->undetermined_count > 0 ? statics->undetermined[0] : "",
+             statics->undetermined_count > 1 ? " and others" : "");
+}
+
+static fbd_statics *statics_new(const fbd_state *state, fbd_errors *errors)
+{
+    struct fbd_statics *statics = calloc(1, sizeof *statics);
+    diag_in_file(errors, state->model->scene->file);
+    if (statics) statics->state = state_new(state->model);
+    if (!statics || !statics->state) {
+        diag_out_of_memory(errors);
+        free(statics);
+        return NULL;
+    }
+    statics->model = state->model;
+    state_copy(statics->state, state);
+    if (put_to_rest(statics->state, errors)) {
+        bool solved = solve(statics) && statics->state->holds.found != holds_no_memory;
+        if (!solved) diag_out_of_memory(errors);
+        if (solved && is_known(statics, errors)) {
+            warn(statics, errors);
+            return statics;
+        }
+    }
+    fbd_statics_free(statics);
+    return NULL;
+}
+
+fbd_statics *fbd_statics_new(const fbd_state *state, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    fbd_statics *statics = state ? statics_new(state, errors) : call_refuse(errors, "there is no state");
+    diag_end(&call);
+    return statics;
+}
+
+void fbd_statics_free(fbd_statics *statics)
+{
+    if (!statics) return;
+    state_free(statics->state);
+    arena_free(&statics->arena);
+    free(statics);
+}
+
+bool fbd_statics_holds(const fbd_statics *statics)
+{
+    return statics && statics->within_limits && statics->left <= rest_digits;
+}
+
+size_t fbd_statics_indeterminacy(const fbd_statics *statics)
+{
+    if (!statics) return 0;
+    return statics->indeterminacy;
+}
+
+size_t fbd_statics_mobility(const fbd_statics *statics)
+{
+    if (!statics) return 0;
+    return statics->mobility;
+}
+
+size_t fbd_statics_undetermined_count(const fbd_statics *statics)
+{
+    if (!statics) return 0;
+    return statics->undetermined_count;
+}
+
+const char *fbd_statics_undetermined(const fbd_statics *statics, size_t index)
+{
+    return statics && index < statics->undetermined_count ? statics->undetermined[index] : NULL;
+}
+
+size_t fbd_statics_unbalanced_count(const fbd_statics *statics)
+{
+    if (!statics) return 0;
+    return statics->unbalanced_count;
+}
+
+fbd_unbalanced fbd_statics_unbalanced(const fbd_statics *statics, size_t index)
+{
+    return statics && index < statics->unbalanced_count ? statics->unbalanced[index]
+                                                        : (fbd_unbalanced){.holding = NAN};
+}
+
+size_t fbd_statics_limit_count(const fbd_statics *statics)
+{
+    if (!statics) return 0;
+    return statics->limit_count;
+}
+
+fbd_limit fbd_statics_limit(const fbd_statics *statics, size_t index)
+{
+    return statics && index < statics->limit_count ? statics->limits[index]
+                                                   : (fbd_limit){.needed = NAN, .limit = NAN};
+}
