@@ -178,6 +178,21 @@ static const struct row *row_along(const struct fbd_model *model, const struct t
     return &work->rows[model->tree->ties[tie].first_row + 1];
 }
 
+/* By how much more than those of speeds the roundings of places count: a rope goes along its strands as these point, and
+ * that is as well known as where their ends are, over their length. */
+static double remoteness(const struct fbd_model *model, const struct instant *at, int index)
+{
+    const struct tie *tie = &model->tree->ties[index];
+    double place = 0, shortest = HUGE_VAL, rate;
+    if (tie->kind != constraint_capstan) return 0;
+    const struct row *row = row_along(model, at->tree, index);
+    for (int k = 0; k < row->port_count; k++)
+        place = fmax(place, vec_norm(at->tree->links[row->ports[k].link].p));
+    for (int k = 0; k < 2; k++)
+        shortest = fmin(shortest, tie->end[1].radius * rope_piece(model, at->tree, index, k, &rate));
+    return place / shortest;
+}
+
 double tie_slip_velocity(const struct fbd_model *model, const struct instant *at, int tie)
 {
     const struct row *row = row_along(model, at->tree, tie);
@@ -190,7 +205,7 @@ double tie_slip_velocity(const struct fbd_model *model, const struct instant *at
         /* What has come down and rests has no speed to measure rounding against but that of falling over. */
         if (touches) size = fmax(size, sqrt(vec_norm(model->scene->gravity) * arm));
     }
-    return fabs(v) <= 64 * DBL_EPSILON * size ? 0 : v;
+    return fabs(v) <= 64 * DBL_EPSILON * size * (1 + remoteness(model, at, tie)) ? 0 : v;
 }
 
 struct slip_rate tie_slip(const struct fbd_model *model, const struct instant *at, int index, bool varied)

@@ -40,8 +40,10 @@ enum row_kind {
     row_link_pin_x, /* the same of a coupling */
     row_link_pin_y,
     row_rod,
-    row_slot, /* off its curve, on the left of it */
-    row_rope, /* a piece between two places that hold it */
+    row_slot,         /* off its curve, on the left of it */
+    row_rope,         /* a piece between two places that hold it */
+    row_capstan,      /* all of a rope that rubs on a drum */
+    row_capstan_slip, /* half of what its second strand is longer than the first, against the drum */
     row_gear,
     row_belt_turn, /* half of what one strand is longer than the other */
     row_belt_length,
@@ -56,13 +58,14 @@ struct row {
     int from, to;   /* rope: ends of the piece */
     double zero;    /* g of the start, for what is only kept */
     double side;    /* roll, rack: +1 when the circle is on the left of the line; rope: see below */
-    double turn[2]; /* rope: +1 when it runs counter-clockwise round the pulley at its end */
+    double turn[2]; /* rope: +1 when it runs counter-clockwise round the pulley at its end; round the drum */
     const struct formula *drive; /* g is this function of time; or speed of a surface (its rate) */
     int grip;                    /* whose friction this row is when it holds, or -1 */
 };
 
-/* What holds up to a limit: a surface, and dry friction on it, in a bearing, of a rolling body; a rope. */
-enum grip_kind { grip_contact, grip_surface, grip_bearing, grip_tread, grip_rope };
+/* What holds up to a limit: a surface, and dry friction on it, in a bearing, of a rolling body; a rope, and its
+ * friction on a drum, behind it. */
+enum grip_kind { grip_contact, grip_surface, grip_bearing, grip_tread, grip_rope, grip_capstan };
 enum grip_mode { holds = 0, slips_plus = 1, slips_minus = -1, lets_go = 2 };
 
 struct grip {
@@ -124,6 +127,9 @@ double wound_turn(const struct absolute *absolute, const struct coupling *coupli
 
 /* kinematics.c: the straight pieces of a rope, where its discs are those that it is wound on. */
 double straight_way(const struct absolute *absolute, const struct coupling *coupling);
+
+/* By which angle a rope lies on its drum; between -90 and 270 degrees, and whole turns. */
+double wrap_of(const struct absolute *absolute, const struct row *row);
 
 /* kinematics.c: series of bodies and points. `seed`: a maximal coordinate that varies, or one of: */
 enum { seed_motion = -1, seed_path = -2 }; /* with velocities and a = 0; with accelerations too */

@@ -194,7 +194,7 @@ bool scene_fit(struct scene *scene, struct absolute *absolute)
 {
     absolute_start(absolute, scene);
     if (absolute_gap(absolute, true) > 1e-9 || shortest_pull(absolute) < 0.3) return false;
-    absolute_project(absolute, false);
+    for (int i = 0; i < 2; i++) absolute_project(absolute, false); /* once more for the digits */
     keep_start(scene, absolute);
     absolute_start(absolute, scene);
     return absolute_gap(absolute, false) <= 1e-9; /* drives may leave no way to move */

@@ -125,7 +125,7 @@ static bool far_apart(const struct absolute *absolute, const struct coupling *ro
         if (k > 0 && hypot(p[k].x - p[k - 1].x, p[k].y - p[k - 1].y) < 0.9) return false;
     }
     for (int k = 1; k + 1 < rope_between->count; k++) {
-        if (!rope_between->end[k].pulley) continue;
+        if (!rope_between->end[k].pulley && !rope_between->rubs) continue;
         /* Nearly straight over a pulley: on which side it runs would be a matter of rounding. */
         double ax = p[k].x - p[k - 1].x, ay = p[k].y - p[k - 1].y;
         double bx = p[k + 1].x - p[k].x, by = p[k + 1].y - p[k].y;
@@ -192,6 +192,32 @@ static void add_rope(struct random *random, struct scene *scene)
     }
     scene->coupling_count--;
     scene->body_count = before;
+}
+
+/* Round a drum of the ground, or of a body, which may turn, far enough that it stays on it. */
+static void add_capstan(struct random *random, struct scene *scene)
+{
+    struct coupling *coupling = add_coupling(scene, rope);
+    struct absolute absolute;
+    coupling->count = 3;
+    for (int k = 0, last = -2; k < 3; k++) {
+        int b = random_below(random, scene->body_count + 1) - 1;
+        if (b == last || (k == 0 && b < 0)) b = b == 0 ? -1 : b < 0 ? 0 : b - 1;
+        coupling->end[k] = random_end(random, scene, b);
+        if (k == 1 && b >= 0) coupling->end[k].at.point = random_point(random, &scene->body[b]);
+        last = b;
+    }
+    double kinetic = random_between(random, 0.05, 0.5);
+    coupling->rubs = true;
+    coupling->held = random_chance(random, 0.4);
+    coupling->turns = random_chance(random, 0.3) ? 1 + random_below(random, 2) : 0;
+    coupling->radius[0] = random_between(random, 0.05, 0.4);
+    coupling->mu_k = constant_formula(dim_number, kinetic);
+    coupling->mu_s = constant_formula(dim_number, kinetic + random_between(random, 0, 0.3));
+    start(&absolute, scene);
+    if (coupling->end[0].body == coupling->end[1].body || coupling->end[1].body == coupling->end[2].body ||
+        !far_apart(&absolute, coupling))
+        scene->coupling_count--;
 }
 
 /* ---- gears and racks */
@@ -415,7 +441,7 @@ static void add_slot(struct random *random, struct scene *scene)
 void random_coupling(struct random *random, struct scene *scene, const struct taste *taste)
 {
     if (scene->coupling_count == most_couplings) return;
-    switch (random_below(random, 13)) {
+    switch (random_below(random, 15)) {
     case 0: add_between(random, scene, spring_of_two); break;
     case 1: add_between(random, scene, damper_of_two); break;
     case 2:
@@ -429,5 +455,7 @@ void random_coupling(struct random *random, struct scene *scene, const struct ta
     case 10: add_belt(random, scene); break;
     case 11:
     case 12: add_slot(random, scene); break;
+    case 13:
+    case 14: add_capstan(random, scene); break;
     }
 }

@@ -84,6 +84,8 @@ static struct summand random_summand(struct random *random, const struct scene *
     struct summand summand = {.factor = random_between(random, -size, size), .parameter = -1};
     summand.function = random_function(random, kinks);
     summand.shift = random_between(random, -1, 1);
+    if (summand.shift == 0)
+        summand.shift = 0.5; /* the angle of a particle would be on the edge of a step for ever */
     if (scene->table_count > 0 && random_chance(random, 0.5)) {
         summand.function = f_table;
         summand.table = random_below(random, scene->table_count);

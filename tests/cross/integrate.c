@@ -92,6 +92,17 @@ static double step(struct absolute *absolute, double t, double h, const double *
     return error;
 }
 
+/* Far from where the angle by which a rope lies on its drum is no longer known from where its ends are. */
+static bool wraps_stay(const struct absolute *absolute)
+{
+    for (int j = 0; j < absolute->row_count; j++) {
+        if (absolute->row[j].kind != row_capstan) continue;
+        double lies = fmod(wrap_of(absolute, &absolute->row[j]), 6.283185307179586);
+        if (!(lies > 0.1 && lies < 4.6)) return false;
+    }
+    return true;
+}
+
 bool absolute_integrate(struct absolute *absolute, double until, double tolerance)
 {
     double y[most_state], end[most_state], t = absolute->t, h = fmin(0.05, until - t);
@@ -111,6 +122,7 @@ bool absolute_integrate(struct absolute *absolute, double until, double toleranc
         t = last ? until : t + h;
         absolute->t = t;
         if (!absolute_project(absolute, true) || shortest_piece(absolute) < 0.05) return false;
+        if (!wraps_stay(absolute)) return false;
         h *= error < 1e-4 ? 2 : error < 1e-2 ? 1.3 : 1;
     }
     return true;

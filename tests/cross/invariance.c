@@ -234,12 +234,15 @@ static void start_there(struct scene *scene, const struct answers *one)
         }
 }
 
-/* Seen from there a rope may turn on the other side of its pulley: that is another scene. */
+/* Seen from there a rope may turn on the other side of its pulley: that is another scene. And one that is held on its
+ * drum has speeds that cancel to rounding. */
 static bool fits_there(const struct scene *scene)
 {
     static struct absolute start;
+    bool rubs = false;
+    for (int c = 0; c < scene->coupling_count; c++) rubs |= scene->coupling[c].rubs;
     absolute_start(&start, scene);
-    return absolute_gap(&start, false) <= 1e-9;
+    return absolute_gap(&start, false) <= 1e-9 && (!rubs || absolute_settle(&start));
 }
 
 bool scene_compare_variant(const struct scene *scene, const struct absolute *absolute, enum variant variant,

@@ -280,6 +280,47 @@ static struct series rope_value(const struct absolute *absolute, const struct ro
     return length;
 }
 
+/* ---- a rope that rubs on a drum
+ *
+ * Its strands are counted from a mark on the drum: l1 + sR (theta - psi1) and l2 + sR (psi2 - theta). Their sum is
+ * the rope, whichever way the drum turns, and half their difference is by how far it has slipped. With the multipliers
+ * L and S of these, T1 = S/2 - L and T2 = -S/2 - L; and slipping to the second strand, T2 = T1 exp(mu beta) is
+ *
+ *     S = T1 - T2 = -tanh(mu beta/2) (T1 + T2),   T1 + T2 = -2 L
+ *
+ * which is dry friction of the coefficient tanh(mu beta/2), with T1 + T2 as what it presses by. */
+
+static struct straight capstan_strand(const struct absolute *absolute, const struct row *row, int k)
+{
+    const struct coupling *coupling = &absolute->scene->coupling[row->owner];
+    double sR = row->turn[0] * coupling->radius[0];
+    return straight_piece(end_place(absolute, coupling, k), k == 0 ? 0 : sR,
+                          end_place(absolute, coupling, k + 1), k == 0 ? sR : 0);
+}
+
+static struct series capstan_value(const struct absolute *absolute, const struct row *row)
+{
+    const struct coupling *coupling = &absolute->scene->coupling[row->owner];
+    double sR = row->turn[0] * coupling->radius[0], slips = row->kind == row_capstan_slip ? 0.5 : 1;
+    struct series drum = angle_of(absolute, coupling->end[1].body), way[2];
+    for (int k = 0; k < 2; k++) {
+        struct straight piece = capstan_strand(absolute, row, k);
+        struct series round = ser_sub(piece.angle, drum);
+        way[k] = ser_add(piece.length, ser_scale(k == 0 ? -sR : sR, round));
+    }
+    struct series first = ser_scale(row->kind == row_capstan_slip ? -slips : slips, way[0]);
+    struct series g = ser_sub(ser_add(first, ser_scale(slips, way[1])), ser(row->zero));
+    g.u = remainder(g.u, slips * turn * sR); /* angles: but for whole turns */
+    return g;
+}
+
+double wrap_of(const struct absolute *absolute, const struct row *row)
+{
+    double in = capstan_strand(absolute, row, 0).angle.u, out = capstan_strand(absolute, row, 1).angle.u;
+    double quarter = turn / 4, lies = quarter + remainder(row->turn[0] * (out - in) - quarter, turn);
+    return lies + turn * absolute->scene->coupling[row->owner].turns;
+}
+
 /* Of a belt, in each strand, counted as on a rope between where the discs take it along. Strand 0 leaves disc 0 on
  * its right, so that it runs counter-clockwise there, and strand 1 comes back. With the angles of both it is known
  * but for whole turns of the line of centres. */
@@ -341,6 +382,10 @@ double shortest_piece(const struct absolute *absolute)
                                                    end_place(absolute, coupling, k + 1), sR[1]);
             shortest = piece.length.u > 0 ? fmin(shortest, piece.length.u) : 0;
         }
+        for (int k = 0; k < 2 && row->kind == row_capstan; k++) {
+            double length = capstan_strand(absolute, row, k).length.u;
+            shortest = length > 0 ? fmin(shortest, length) : 0;
+        }
     }
     return shortest;
 }
@@ -371,6 +416,8 @@ struct series row_value(const struct absolute *absolute, const struct row *row)
     case row_pin_x: g = off_joint(absolute, row->owner).x; break;
     case row_pin_y: g = off_joint(absolute, row->owner).y; break;
     case row_rope: return rope_value(absolute, row);
+    case row_capstan:
+    case row_capstan_slip: return capstan_value(absolute, row);
     case row_belt_turn:
     case row_belt_length: return belt_value(absolute, row);
     case row_gear: g = gear_value(absolute, coupling); break;
@@ -400,7 +447,8 @@ size_t row_bodies(const struct absolute *absolute, const struct row *row, int *b
         return count;
     }
     const struct coupling *coupling = &absolute->scene->coupling[row->owner];
-    int from = row->kind == row_rope ? row->from : 0, to = row->kind == row_rope ? row->to : 1;
+    bool roped = row->kind == row_rope || row->kind == row_capstan || row->kind == row_capstan_slip;
+    int from = roped ? row->from : 0, to = roped ? row->to : 1;
     for (int k = from; k <= to; k++) {
         bool seen = coupling->end[k].body < 0;
         for (size_t i = 0; i < count; i++) seen |= bodies[i] == coupling->end[k].body;

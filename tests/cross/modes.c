@@ -41,6 +41,7 @@ static bool is_two_sided(const struct absolute *absolute, const struct grip *gri
 static double beyond(const struct absolute *absolute, const struct grip *grip)
 {
     double N = normal_force(absolute, grip), sized = fmax(absolute->acceleration_size, 1e-300);
+    if (grip->kind == grip_capstan && grip->mode == lets_go) return -1e-9; /* as its rope does */
     if (grip->kind == grip_contact) return is_two_sided(absolute, grip) ? -1e-9 : -N / absolute->force_size;
     double relative = slip_acceleration(absolute, grip) / sized;
     if (grip->kind == grip_rope)
@@ -111,32 +112,58 @@ static bool is_consistent(struct absolute *absolute, const bool *open)
     return true;
 }
 
+/* The friction of a rope on its drum goes with the rope. False: a choice that another one is as well. */
+static bool choose_capstan(struct absolute *absolute, struct grip *grip, bool open)
+{
+    bool slack = grip[-1].mode == lets_go;
+    if (open && slack && grip->mode != holds) return false;
+    if (slack)
+        grip->mode = lets_go;
+    else if (!open)
+        grip->mode = slip_velocity(absolute, grip) > 0 ? slips_plus : slips_minus;
+    return true;
+}
+
 /* The choice number `choice`: three modes for each open grip, of a rope two. */
 static bool choose(struct absolute *absolute, const bool *open, int choice)
 {
     for (int i = 0; i < absolute->grip_count; i++) {
-        if (!open[i]) continue;
         struct grip *grip = &absolute->grip[i];
+        if (!open[i] && grip->kind == grip_capstan && !choose_capstan(absolute, grip, false)) return false;
+        if (!open[i]) continue;
         int mode = choice % 3;
         choice /= 3;
         if (grip->kind == grip_rope && mode == 2) return false;
         static const enum grip_mode modes[] = {holds, slips_plus, slips_minus};
         grip->mode = grip->kind == grip_rope && mode == 1 ? lets_go : modes[mode];
+        if (grip->kind == grip_capstan && !choose_capstan(absolute, grip, true)) return false;
     }
     return true;
+}
+
+/* A rope that is to be held on its drum, but whose speeds cancel only to the roundings of a solution: on which side it
+ * begins to slip is a matter of these. */
+static bool creeps(struct absolute *absolute, const struct grip *grip)
+{
+    double v = fabs(slip_velocity(absolute, grip)), size = 0;
+    for (int i = 0; i < absolute->n; i++) size += fabs(absolute->J[grip->row][i] * absolute->v[i]);
+    return grip->kind == grip_capstan && v > 4e-15 * size && v < 1e-9;
 }
 
 bool absolute_settle(struct absolute *absolute)
 {
     bool open[most_grips] = {false};
-    int choices = 1, found = -1;
+    int choices = 1, several = 0, found = -1;
+    absolute_rows(absolute);
     for (int i = 0; i < absolute->grip_count; i++) {
         struct grip *grip = &absolute->grip[i];
         open[i] = is_open(absolute, grip);
+        if (creeps(absolute, grip)) return false;
         grip->mode = holds;
-        if (open[i])
+        if (open[i]) {
             choices *= 3;
-        else if (grip->kind != grip_contact)
+            several += grip->kind != grip_capstan; /* which goes with its rope */
+        } else if (grip->kind != grip_contact)
             grip->mode = slip_velocity(absolute, grip) > 0 ? slips_plus : slips_minus;
     }
     if (choices > 81) return false;
@@ -149,7 +176,7 @@ bool absolute_settle(struct absolute *absolute)
         found = choice;
     }
     /* Several that depend on each other are a matter of their own, unless all of them hold. */
-    if (found < 0 || (choices > 3 && found > 0)) return false;
+    if (found < 0 || (several > 1 && found > 0)) return false;
     choose(absolute, open, found);
     solve_with_guides(absolute);
     return !belts_push(absolute);

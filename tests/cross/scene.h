@@ -241,6 +241,9 @@ struct coupling {
     double length;    /* 0: as at the start */
     bool reels;       /* rope: its length is */
     struct formula reel;
+    bool rubs; /* rope: on a drum of radius[0], the second of its three ends, with mu_s and mu_k; */
+    int turns; /* whole turns beside what the ends tell */
+    bool held; /* and does not slip at the start */
     bool inside;
     bool crossed;   /* belt */
     double tension; /* belt on axes that keep their distance: of both strands while it drives nothing; or 0 */

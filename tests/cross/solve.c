@@ -59,9 +59,10 @@ static void fill(const struct absolute *absolute, const struct scaling *scaling,
 double grip_coefficient(const struct absolute *absolute, const struct grip *grip, bool kinetic)
 {
     const struct scene *scene = absolute->scene;
-    if (grip->kind == grip_tread) {
+    if (grip->kind == grip_tread || grip->kind == grip_capstan) {
         const struct coupling *coupling = &scene->coupling[grip->owner];
-        return formula_value(absolute, kinetic ? &coupling->mu_k : &coupling->mu_s);
+        double mu = formula_value(absolute, kinetic ? &coupling->mu_k : &coupling->mu_s);
+        return grip->kind == grip_tread ? mu : tanh(mu * wrap_of(absolute, &absolute->row[grip->row]) / 2);
     }
     const struct load *load = &scene->body[grip->owner].load[grip->load];
     return formula_value(absolute, kinetic ? &load->second : &load->value);
@@ -197,11 +198,12 @@ static double row_gap(const struct absolute *absolute, int j, bool position)
     return position ? f.u - g.u : f.u1 - g.u1;
 }
 
-/* Friction is no condition on positions, and its speed comes by itself. */
+/* Friction is no condition on positions, and its speed comes by itself; but a rope that is held on its drum stays. */
 static bool is_condition(const struct absolute *absolute, int j)
 {
     int grip = absolute->row[j].grip;
-    return absolute->active[j] && (grip < 0 || absolute->grip[grip].kind == grip_rope);
+    enum grip_kind kind = grip < 0 ? grip_rope : absolute->grip[grip].kind;
+    return absolute->active[j] && (kind == grip_rope || kind == grip_capstan);
 }
 
 double absolute_gap(struct absolute *absolute, bool position)

@@ -131,9 +131,30 @@ static double turn_of(const struct absolute *absolute, const struct coupling *co
                                   : turn_at(absolute, coupling, k);
 }
 
+static void add_capstan(struct absolute *absolute, int c)
+{
+    double side = turn_at(absolute, &absolute->scene->coupling[c], 1);
+    int length = absolute->row_count;
+    for (int k = 0; k < 2; k++) {
+        struct row *row = add_row(absolute, k == 0 ? row_capstan : row_capstan_slip, c, 0);
+        row->to = 2;
+        row->turn[0] = side;
+        row->zero = row_value(absolute, row).u;
+        row->grip = absolute->grip_count;
+        add_grip(absolute, k == 0 ? grip_rope : grip_capstan, c, length + k, k == 0 ? -1 : length);
+    }
+    struct grip *rubbing = &absolute->grip[absolute->grip_count - 1];
+    rubbing->press = -2;
+    if (!absolute->scene->coupling[c].held) rubbing->mode = lets_go; /* until it is settled */
+}
+
 static void add_rope(struct absolute *absolute, int c)
 {
     const struct coupling *coupling = &absolute->scene->coupling[c];
+    if (coupling->rubs) {
+        add_capstan(absolute, c);
+        return;
+    }
     for (int k = 1, from = 0; k < coupling->count; k++) {
         if (k + 1 < coupling->count && !coupling->end[k].pulley) continue;
         struct row *row = add_row(absolute, row_rope, c, 0);

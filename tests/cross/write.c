@@ -361,6 +361,15 @@ static void say_rope(struct writer *w, int c)
         any = true;
     }
     if (any) say(w, "]");
+    if (coupling->rubs) {
+        say(w, ", around: {on: ");
+        say_end(w, c, 1);
+        key_number(w, "radius", coupling->radius[0]);
+        key_formula(w, "static", -1, &coupling->mu_s);
+        key_formula(w, "kinetic", -1, &coupling->mu_k);
+        if (coupling->turns > 0) key_number(w, "turns", coupling->turns);
+        say(w, "}");
+    }
     if (coupling->reels) key_formula(w, "length", -1, &coupling->reel);
 }
 

@@ -10,6 +10,7 @@
 #ifndef TESTS_FUZZ_FUZZ_H
 #define TESTS_FUZZ_FUZZ_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -23,6 +24,10 @@ size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t 
 
 /* Inputs are no longer than this: what is long is slow, and seldom new. */
 enum { fuzz_longest = 4096 };
+
+/* While inputs are invented: then a target does what takes long seldom. A replay, which calls LLVMFuzzerInitialize
+ * without arguments, does all of it. */
+extern bool fuzz_hurries;
 
 /* Print what was found, and abort. */
 _Noreturn void fuzz_fail(const char *what, ...) __attribute__((format(printf, 1, 2)));

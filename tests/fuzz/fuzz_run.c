@@ -19,14 +19,22 @@ enum {
     most_table = 60000, /* bytes of CSV, then the writer refuses */
     waits_a_look = 16,  /* questions between two looks at the clock, which asks the system */
     most_arrows = 64,
+    keeps_plots = 1, /* of sixteen */
+    keeps_page = 2,
 };
 
 struct input {
     const fbd_model *model;
     fbd_errors *errors;
-    bool names_nan; /* it says `nan` itself, or a run failed for one: outputs may repeat that */
-    uint64_t choices;
+    bool names_nan;           /* it says `nan` itself, or a run failed for one: outputs may repeat that */
+    uint64_t choices, rarity; /* the latter of bits that no choice takes */
 };
+
+/* What takes as long as ten other inputs is done for one in four of those that choose it, but in a replay always. */
+static bool seldom(const struct input *input)
+{
+    return !fuzz_hurries || (input->rarity & 3) == 0;
+}
 
 /* ---- how many inputs came how far */
 
@@ -108,12 +116,12 @@ static int watch(void *context, const fbd_progress *progress)
 }
 
 /* Most faults show in the first steps of a run, and the more inputs, the more of them: a few are looked at for long,
- * and these few together for about as long as the rest. Chosen by bits that no other choice takes. */
-static clock_t most_work(uint64_t choices)
+ * and these few together for about half as long as the rest. */
+static clock_t most_work(const struct input *input)
 {
-    uint64_t chosen = choices >> 48;
-    if (chosen % 1024 == 0) return 2 * CLOCKS_PER_SEC;
-    return chosen % 32 == 0 ? CLOCKS_PER_SEC / 10 : CLOCKS_PER_SEC / 125;
+    if (input->rarity % 4096 == 0) return 2 * CLOCKS_PER_SEC;
+    if (input->rarity % 64 == 0) return CLOCKS_PER_SEC / 20;
+    return fuzz_hurries ? CLOCKS_PER_SEC / 250 : CLOCKS_PER_SEC / 50;
 }
 
 static int write_table(void *context, const char *rows, size_t length)
@@ -166,13 +174,13 @@ static void look_at_end(const struct input *input, fbd_simulation *simulation, f
 }
 
 /* What is written of a run that came to an end of any kind. */
-static void write_outputs(const struct input *input, fbd_result *result, unsigned which)
+static void write_outputs(const struct input *input, fbd_result *result, unsigned which, bool keeps)
 {
     if (which & 1) claim_text(input, "report", fbd_result_report(result));
     if (which & 2) claim_object(input, "JSON", fbd_result_json(result));
-    if (which >> 2 == 1)
+    if (keeps && which >> 2 == keeps_plots)
         claim_text(input, "plots", fbd_result_gnuplot(result, "plots.svg", NULL, input->errors));
-    if (which >> 2 == 2) free(fbd_result_html(result, input->errors));
+    if (keeps && which >> 2 == keeps_page) free(fbd_result_html(result, input->errors));
 }
 
 static void claim_csv(const struct text *table)
@@ -182,16 +190,17 @@ static void claim_csv(const struct text *table)
 
 static void run(struct input *input)
 {
-    struct patience patience = {.since = clock(), .most = most_work(input->choices)};
+    struct patience patience = {.since = clock(), .most = most_work(input)};
     struct text table = {0};
     uint64_t *choices = &input->choices;
     fbd_options options = choose_options(choices);
-    unsigned which = fuzz_take(choices, 6); /* plots and page, which keep every row, seldom */
+    unsigned which = fuzz_take(choices, 6);
+    bool keeps = (which >> 2 == keeps_plots || which >> 2 == keeps_page) && seldom(input);
     fbd_recording recording = {.ledger = fuzz_take(choices, 1),
                                .csv = write_table,
                                .csv_context = &table,
                                .motion_only = fuzz_take(choices, 3) == 0,
-                               .keep = which >> 2 == 1 || which >> 2 == 2,
+                               .keep = keeps,
                                .progress = watch,
                                .progress_context = &patience};
     fbd_simulation *simulation = fbd_simulation_new(input->model, &options, input->errors);
@@ -204,7 +213,7 @@ static void run(struct input *input)
     tally.runs += patience.steps > 0;
     tally.ended += ended;
     input->names_nan = input->names_nan || !whole;
-    if (result) write_outputs(input, result, recording.motion_only ? 0 : which);
+    if (result) write_outputs(input, result, recording.motion_only ? 0 : which, keeps);
     if (whole && !recording.motion_only) {
         look_at_end(input, simulation, result);
         claim_csv(&table);
@@ -281,9 +290,9 @@ static void ask(struct input *input)
     const fbd_options options = FBD_OPTIONS_DEFAULT;
     fbd_state *state = fbd_state_new(input->model);
     if (what <= 3) ask_equations(input, state);
-    if (what == 4 || what == 5) ask_statics(input, state);
+    if (what == 4 || (what == 5 && seldom(input))) ask_statics(input, state);
     if (what == 6 || what == 7) ask_linearization(input, state);
-    if (what == 8) ask_hand(input);
+    if (what == 8 && seldom(input)) ask_hand(input);
     if (what == 9) claim_text(input, "explanation", fbd_explain(input->model, &options));
     fbd_state_free(state);
 }
@@ -296,6 +305,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                           .choices = fuzz_choices(text, size)};
     fbd_model *model = fbd_model_parse(text, size, "fuzzed.yaml", NULL, 0, input.errors);
     input.model = model;
+    input.rarity = input.choices >> 48;
     if (tally.inputs++ == 0) atexit(tell_tally);
     if (model) {
         tally.models++;
