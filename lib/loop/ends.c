@@ -111,12 +111,39 @@ static void fail_at_end(const struct end *end, double t, bool gets_taut)
             name_of(run, tie, end->end == 0 ? 0 : tie->end_count - 1));
 }
 
+/* Is there plenty left in a part of a step, as the interpolant tells? Where the rate turns, what is left is above its
+ * tangents at both ends. */
+static bool has_plenty(const struct end *end, struct room before, struct room after, double length)
+{
+    const double share = 0.01, tolerances = 100; /* errors of interpolants are some tens of them */
+    double least = fmax(share, tolerances * end->run->options.tolerance) * after.size;
+    if (!(before.left > least && after.left > least)) return false;
+    bool turns = before.rate < 0 && after.rate > 0;
+    return !turns || fmax(before.left + before.rate * length, after.left - after.rate * length) > least;
+}
+
+/* The same of all parts of the last step, by samples that take no steps. */
+static bool is_far(const struct end *end, double from, double length, int parts)
+{
+    struct run *run = end->run;
+    struct room before = {0};
+    if (run->options.step > 0) return false; /* of no known accuracy */
+    for (int k = 0; k <= parts; k++) {
+        if (switcher_dense(run->stepper, moment_at(from + k * length), run->work.aside) != 0) return false;
+        look(run, from + k * length, run->work.aside);
+        struct room room = room_of(end);
+        if (k > 0 && !has_plenty(end, before, room, length)) return false;
+        before = room;
+    }
+    return true;
+}
+
 static void watch_end(const struct end *end, struct moment *t)
 {
     enum { parts = 8 };
     struct run *run = end->run;
     double from = run->step.from, length = (t->t - from) / parts, used = NAN;
-    if (!isfinite(room_of(end).size)) return;
+    if (!isfinite(room_of(end).size) || is_far(end, from, length, parts)) return;
     for (int k = 0; k < parts && isnan(used); k++)
         used = used_up_within(end, from + k * length, k + 1 == parts ? t->t : from + (k + 1) * length);
     if (!isnan(used)) *t = moment_at(used > from ? empty_time(end, from, used) : from);
