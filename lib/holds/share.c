@@ -220,7 +220,7 @@ static enum holds_found share_within(struct sharing *sharing, const int *modes)
     if (keep_still(problem)) found = share(sharing);
     if (found == holds_lost) set_modes(problem, modes);
     if (found == holds_lost) found = share(sharing);
-    while (found == holds_decided && hold_what_closes(problem, 10 * sharing->rounding))
+    while (found == holds_decided && hold_what_closes(problem, fmax(1e-12, sharing->rounding)))
         found = share(sharing);
     return found;
 }

@@ -82,6 +82,28 @@ static double sum_of_rocking(const struct bounces *bounces)
     return ratio > 0 && ratio < 1 ? ratio * (last + before) / (1 - ratio) : HUGE_VAL;
 }
 
+/* What is left of bounces of one point, by their last intervals: where accelerations change on the way, as others slip and
+ * stick at each bounce, no one of them tells it. */
+static double sum_of_intervals(const struct bounces *bounces)
+{
+    if (bounces->count < 4) return HUGE_VAL;
+    const double *t = bounces->t;
+    double last = t[0] - t[1], before = t[1] - t[2], first = t[2] - t[3];
+    return last < before && before < first ? last * last / (before - last) : HUGE_VAL;
+}
+
+/* Bounces that nobody sees and that do not come to an end: what slips and sticks at each of them may throw the point up
+ * again by as much (chatter, and reverse chatter, of Nordmark, Dankowicz and Champneys, IMA Journal of Applied Mathematics
+ * 76, 2011). Their heights are below the rounding of places, and rest is a motion, too: after so many, at rest. */
+static bool is_crowd(struct bounces *bounces, double leaving, double unseen)
+{
+    enum { many = 20 };
+    double interval = bounces->t[0] - bounces->t[1];
+    bool seen = bounces->count < 2 || leaving * interval > unseen;
+    bounces->unseen = seen ? 0 : bounces->unseen + 1;
+    return bounces->unseen >= many;
+}
+
 static void remember(struct bounces *bounces, double t, int feature)
 {
     for (int k = 3; k > 0; k--) bounces->t[k] = bounces->t[k - 1];
@@ -181,17 +203,17 @@ static double end_of_series(struct run *run, int i, int count)
     remember(bounces, run->state->t, feature);
     bounces->is_closed = !any_leaves(run, i, count);
     if (bounces->is_closed) return end_of_tugs(run, bounces, unseen, count);
-    double interval = bounces->t[0] - bounces->t[1], a = -acceleration_of(run, striker->tie, feature), left;
-    bool low = a > 0 && leaving * leaving <= 2 * a * unseen;
-    bounces->slow = a > 0 ? sqrt(2 * a * unseen) : 0;
+    double a = -acceleration_of(run, striker->tie, feature), left = HUGE_VAL;
+    bool low = a > 0 && leaving * leaving <= 2 * a * unseen, crowd = is_crowd(bounces, leaving, unseen);
+    bounces->slow = a > 0 ? sqrt(2 * a * unseen) : leaving;
+    if (!low && bounces->unseen < 3) return HUGE_VAL;
     if (same && v > 0) {
-        if (!low) return HUGE_VAL;
-        left = sum_of_bounces(run, index, v, a);
+        left = low ? sum_of_bounces(run, index, v, a) : sum_of_intervals(bounces);
     } else {
-        if (!low && (bounces->count < 4 || leaving * interval > unseen)) return HUGE_VAL;
         left = sum_of_rocking(bounces);
         if (low) left = fmin(left, v > 0 ? sum_of_bounces(run, index, v, a) : 2 * leaving / a);
     }
+    if (crowd && !(left < HUGE_VAL)) left = 0;
     double tugs = end_of_tugs(run, bounces, unseen, count);
     return tugs < HUGE_VAL ? tugs : run->state->t + left;
 }
@@ -378,7 +400,7 @@ void run_note_rests(struct run *run)
         const struct tie *tie = &tree->ties[tree->meetings[i].first_tie];
         struct run_event *event = run_note(run, FBD_EVENT_REST, tie->end[0].body, tie->load, -1);
         if (event) event->limit = bounces->count;
-        bounces->count = 0;
+        bounces->count = bounces->unseen = 0;
         bounces->feature = -1;
         bounces->rests_from = HUGE_VAL;
         bounces->is_closed = true;

@@ -27,6 +27,7 @@ struct bounces {
     int count;         /* since it was last at rest */
     double t[4];       /* of the last ones, the latest first */
     int feature;       /* of the last one */
+    int unseen;        /* how many of them have followed each other within bounces that nobody sees */
     double slow;       /* a speed that is lost within what counts as the same place */
     double rests_from; /* end of a series that is summed up; HUGE_VAL without one */
     /* What comes back from having been closed, as ropes throw it up: when, the latest first. */
