@@ -119,7 +119,7 @@ static void write_tie(struct text *text, const struct record *record, const stru
     text_add(text, "\"ends\":[");
     for (int k = 0; k < tie->end_count; k++) write_end(text, model, tie, state, k);
     text_add(text, "],");
-    if (tie->kind == constraint_slot) write_slot(text, model, tie);
+    if (tie->kind == constraint_slot || tie->kind == constraint_groove) write_slot(text, model, tie);
     json_number_member(text, "length", tie->reels ? 0 : state->zero);
     json_vector_member(text, "e", vec_unit(model->scene->constraints[tie->constraint].along));
     text_printf(text, "\"side\":%d,\"force\":%d}", state->side[0], force_column(record, tie));

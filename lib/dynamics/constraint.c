@@ -86,6 +86,7 @@ const struct constraint_form constraint_forms[constraint_kinds] = {
     [constraint_rack] = {.rows = rack, .start = side_start},
     [constraint_roll] = {.rows = roll, .start = side_start},
     [constraint_slot] = {.rows = slot_row, .start = slot_start, .follow = slot_follow, .left = slot_room},
+    [constraint_groove] = {.rows = slot_row, .start = slot_start, .follow = slot_follow, .left = slot_room},
     [constraint_belt] = {.rows = belt_rows,
                          .start = belt_start,
                          .follow = way_follow,

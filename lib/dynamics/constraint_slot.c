@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The row of a slot. With u the point P in the frame of the slot, its foot r(s) is where e(s) . (u - r(s)) = 0, and
+ * The rows of a slot. With u the point P in the frame of the slot, its foot r(s) is where e(s) . (u - r(s)) = 0, and
  * the distance h = n(s) . (u - r(s)) to the left of the curve has the gradient n there:
  *
  *     g = sigma h - R,   sigma = +1 or -1 on its side, R the radius of a roller
@@ -112,6 +112,21 @@ static struct jet length_of(const struct tie *tie, const struct slot_view *slot,
     return s;
 }
 
+/* Of one that rubs: g = s - s_0, which keeps it where it sticks. On the curve (h = 0) its rate is the velocity of the
+ * point along it. */
+static void row_along(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                      const struct slot_view *slot, const struct foot *foot, struct jet s, struct row *row)
+{
+    const struct curve *curve = tie->source->curve;
+    const double period = curve && curve->closed ? curve->length : 0;
+    struct jet_vec e = tangent_along(foot, s), along = jet_vec_times(e.x, slot->x),
+                   across = jet_vec_times(e.y, slot->y);
+    struct jet_vec world = {jet_add(along.x, across.x), jet_add(along.y, across.y)};
+    start_row(row, nearest(jet_sub(s, jet_constant(state->zero)), period));
+    add_port(view, row, tie, 0, slot->P, world);
+    add_port(view, row, tie, 1, slot->P, negative(world));
+}
+
 void slot_row(const struct view *view, const struct tie *tie, const struct tie_state *state, struct row *row)
 {
     struct slot_view slot = look(view, tie);
@@ -126,15 +141,16 @@ void slot_row(const struct view *view, const struct tie *tie, const struct tie_s
     start_row(row, g);
     add_port(view, row, tie, 0, slot.P, world);
     add_port(view, row, tie, 1, slot.P, negative(world));
+    if (tie->row_count > 1) row_along(view, tie, state, &slot, &foot, s, &row[1]);
 }
 
 /* ---- what it keeps */
 
 void slot_start(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *row)
 {
-    (void)row;
     struct vec u = jet_value(look(view, tie).u);
     if (tie->source->curve) state->foot = foot_of(tie, u, curve_near(tie->source->curve, u));
+    if (tie->row_count > 1) zero_start(view, tie, state, row);
 }
 
 void slot_follow(const struct view *view, const struct tie *tie, struct tie_state *state)

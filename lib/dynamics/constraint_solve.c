@@ -124,7 +124,8 @@ double tree_rubbing_share(const struct fbd_model *model, const struct instant *a
     const struct tie *tie = &model->tree->ties[model->tree->tie_of_row[k]];
     if (at->tree->projecting || k != tie->first_row || !is_rubbing(tie, at)) return 0;
     const struct formula *mu = &model->plan.modes[tie->pair].mu_k;
-    return -at->slip[tie->pair] * friction_coefficient(model, tie->pair, mu, at, NULL, NULL);
+    return -at->slip[tie->pair] * at->pull[tie->pair] *
+           friction_coefficient(model, tie->pair, mu, at, NULL, NULL);
 }
 
 static void apply_unknown(const struct fbd_model *model, const struct instant *at, int k, double size)
@@ -440,6 +441,7 @@ void tree_apply_variations(const struct fbd_model *model, const struct instant *
         double d_mu;
         friction_coefficient(model, tie->pair, &model->plan.modes[tie->pair].mu_k, at, along, &d_mu);
         row_apply(&work->rows[tie->first_row + 1],
-                  -at->slip[tie->pair] * d_mu * work->rows[tie->first_row].lambda, work->x);
+                  -at->slip[tie->pair] * at->pull[tie->pair] * d_mu * work->rows[tie->first_row].lambda,
+                  work->x);
     }
 }

@@ -49,6 +49,12 @@ struct friction_values friction_along(const struct fbd_model *model, int pair, c
                                       const double *slots, const struct direction *along,
                                       const double *slots_along);
 
+/* Is there any, where it slips? */
+static inline bool friction_rubs(const struct mode *mode)
+{
+    return mode->mu_k.expr || mode->mu_k.constant > 0;
+}
+
 /* The rounding of the force needed and of its limit: less than this beyond the limit is not beyond it. */
 double friction_rounding(const struct friction_values *now);
 

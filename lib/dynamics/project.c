@@ -268,9 +268,18 @@ int state_locked_row(const struct fbd_state *state, struct fbd_state *other)
     return worst;
 }
 
-bool state_project_velocity(struct fbd_state *state, bool assemble)
+/* What the impulses of the rows take: each is between a velocity along its row and none. */
+static double taken_by_rows(const struct place *place)
 {
-    if (!has_ties(state->model)) return true;
+    double taken = 0;
+    for (int j = 0; j < place->model->tree->row_count; j++)
+        taken -= place->at.tree->z[j] * place->at.tree->rows[j].g.x1 / 2;
+    return taken;
+}
+
+/* `taken` may be NULL. */
+static bool project_velocity(struct fbd_state *state, bool assemble, double *taken)
+{
     struct place place = place_of(state, assemble);
     prepare(&place);
     double speed = speed_of(&place);
@@ -280,11 +289,24 @@ bool state_project_velocity(struct fbd_state *state, bool assemble)
         if (misfit_of(&place).velocity == 0) break;
         factor(&place, least_damping);
         move(&place, true, 1);
+        if (taken) *taken += taken_by_rows(&place);
     }
     prepare(&place);
     bool there = misfit_of(&place).velocity <= 1e-9 * fmax(speed, speed_of(&place));
     release(&place);
     return there;
+}
+
+bool state_project_velocity(struct fbd_state *state, bool assemble)
+{
+    return !has_ties(state->model) || project_velocity(state, assemble, NULL);
+}
+
+double state_strike(struct fbd_state *state)
+{
+    double taken = 0;
+    if (has_ties(state->model)) project_velocity(state, false, &taken);
+    return taken;
 }
 
 static bool project_position(struct fbd_state *state, const struct place *place)

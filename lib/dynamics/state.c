@@ -64,6 +64,14 @@ static struct fbd_state *allocate(const struct fbd_model *model)
     return state;
 }
 
+/* What finds its place may slide along its slots; what rolls, rolls there. */
+static void let_slots_slip(struct fbd_state *state)
+{
+    const struct tree *tree = state->model->tree;
+    for (int i = 0; tree && i < tree->tie_count; i++)
+        if (tree->ties[i].kind == constraint_groove) state->slip[tree->ties[i].pair] = slip_plus;
+}
+
 struct fbd_state *state_new(const struct fbd_model *model)
 {
     size_t n = (size_t)model->plan.n;
@@ -75,6 +83,7 @@ struct fbd_state *state_new(const struct fbd_model *model)
     }
     for (int i = 0; i < model->plan.own; i++) state->y[2 * n + (size_t)i] = model->scene->own[i].initial;
     modes_drive(state);
+    let_slots_slip(state);
     state_start_constraints(state);
     if (model->assembles) state_project(state, true);
     contacts_start(state);

@@ -22,6 +22,15 @@ double tree_hold_acceleration(const struct fbd_state *state, const struct instan
     return state->a[hold->coordinate] - surface;
 }
 
+bool tree_seen_acceleration(const struct fbd_state *state, double a)
+{
+    const double rounding = 1e-9;
+    double size = vec_norm(state->model->scene->gravity);
+    for (int i = 1; i < state->model->tree->count; i++)
+        size = fmax(size, vec_norm(state->tree->links[i].A.a));
+    return fabs(a) > rounding * size;
+}
+
 static double reach_of(const struct fbd_state *state)
 {
     double reach = 0;

@@ -22,6 +22,9 @@ static inline int hold_sign(const struct mode *hold)
     return hold->kind == mode_rope ? -1 : 1;
 }
 
+/* Is an acceleration [m/s^2] more than rounding of those of the links? */
+bool tree_seen_acceleration(const struct fbd_state *state, double a);
+
 /* The acceleration along a hold, evaluated at this instant: of what slips along its surface, of what is
  * one-sided away from it. */
 double tree_hold_acceleration(const struct fbd_state *state, const struct instant *at, int pair);

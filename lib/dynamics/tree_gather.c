@@ -76,7 +76,8 @@ static void add_answers(struct gathered *all, size_t k)
                       tree_row_answer(state->tree, (int)(hold_row(state, hold) - state->tree->rows));
     }
     for (size_t g = 0; g < all->problem.guide_count; g++)
-        all->problem.B[g * count + k] += tree_normal_in(tree, state->tree, all->link[g]);
+        if (mode_of(state, all->guide[g])->tie < 0)
+            all->problem.B[g * count + k] += tree_normal_in(tree, state->tree, link_of(state, all->guide[g]));
 }
 
 /* What the constraints alone do not let move slips by rounding only, and no force along it moves anything. */
@@ -89,6 +90,9 @@ static void hold_still(struct gathered *all, size_t k)
     struct hold *still = &all->problem.holds[k];
     size_t count = all->problem.count;
     double surface, driven = tree_driven(state, all->trial, all->pair[k]);
+    /* A mechanism that passes its dead centre goes on by its momentum. */
+    if (driven == 0 && hold->kind == mode_tangent && tree_seen_acceleration(state, still->free))
+        driven = still->free;
     still->free = still->kind == hold_one_sided ? driven : 0;
     for (size_t i = 0; i < count; i++) all->problem.A[i * count + k] = all->problem.A[k * count + i] = 0;
     if (driven != 0) still->slip = driven > 0 ? 1 : -1;
@@ -117,6 +121,10 @@ static bool add_column(struct gathered *all, size_t k)
         work->z[j] = j < tree->row_count ? -tree_row_answer(work, j) : 0;
     tree_system_solve(state->model, &all->at, work->z);
     add_answers(all, k);
+    for (size_t g = 0; g < all->problem.guide_count; g++) { /* of a slot: the multiplier of its row across */
+        const int tie = mode_of(state, all->guide[g])->tie;
+        if (tie >= 0) all->problem.B[g * all->problem.count + k] = work->z[tree->ties[tie].first_row];
+    }
     return all->problem.A[k * all->problem.count + k] <= immovable * alone;
 }
 
@@ -129,7 +137,7 @@ static void set_free(struct gathered *all)
     for (size_t i = 0; i < all->problem.count; i++)
         all->problem.holds[i].free = tree_hold_acceleration(state, &all->at, all->pair[i]);
     for (size_t g = 0; g < all->problem.guide_count; g++)
-        all->problem.guides[g].free = -slots[state->model->tree->links[all->link[g]].normal_slot];
+        all->problem.guides[g].free = -slots[mode_of(state, all->guide[g])->normal_slot];
 }
 
 /* ---- the problem */
@@ -140,14 +148,20 @@ void gathered_free(struct gathered *all)
     free(all->pair);
 }
 
-/* What presses on friction i: a hold of the same line, or the guide of its slide, which is noted. */
+/* Is what presses on a friction a guide, of a slide or of a slot that holds on both sides? */
+static bool has_guide(const struct fbd_model *model, const struct mode *mode)
+{
+    return mode->normal_slot >= 0 && (mode->tie < 0 || model->tree->ties[mode->tie].surface < 0);
+}
+
+/* What presses on friction i: a hold of the same line, or a guide, which is noted. */
 static void set_press(struct gathered *all, size_t i, size_t *guides)
 {
     struct hold *hold = &all->problem.holds[i];
     const struct mode *mode = mode_of(all->state, all->pair[i]);
     hold->press = press_constant;
     if (mode->normal_slot < 0) return;
-    if (mode->tie >= 0) {
+    if (!has_guide(all->state->model, mode)) {
         int surface = all->state->model->tree->ties[mode->tie].surface;
         hold->press = press_hold;
         hold->presses = all->hold[surface];
@@ -161,7 +175,7 @@ static void set_press(struct gathered *all, size_t i, size_t *guides)
     }
     hold->press = press_guide;
     hold->presses = (int)*guides;
-    all->link[*guides] = link_of(all->state, all->pair[i]);
+    all->guide[*guides] = all->pair[i];
     all->problem.guides[(*guides)++].two_sided = mode->two_sided;
 }
 
@@ -176,15 +190,15 @@ bool gathered_find(struct gathered *all, struct fbd_state *state, const struct d
                              .pair = calloc(5 * pairs + 1, sizeof *all->pair)};
     if (!all->pair) return false;
     all->hold = all->pair + pairs;
-    all->link = all->hold + pairs;
-    all->trial = all->link + pairs;
+    all->guide = all->hold + pairs;
+    all->trial = all->guide + pairs;
     all->still = all->trial + pairs;
     memcpy(all->trial, state->slip, pairs * sizeof *all->trial);
     for (size_t p = 0; p < pairs; p++) {
         all->hold[p] = -1;
         if (!hold_in_question(state, decided, forced, (int)p)) continue;
         const struct mode *hold = &plan->modes[p];
-        guides += hold->tie < 0 && hold->normal_slot >= 0;
+        guides += mode_is_friction(hold) && has_guide(state->model, hold);
         all->hold[p] = (int)count;
         all->pair[count++] = (int)p;
         all->trial[p] = loose;

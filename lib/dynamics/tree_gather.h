@@ -19,7 +19,7 @@ struct gathered {
     struct instant at; /* with all of them loose */
     struct hold_problem problem;
     int *pair, *hold; /* of a hold; of a pair, or -1 */
-    int *link;        /* of a guide: whose slide */
+    int *guide;       /* of a guide: the pair that it presses on */
     int *trial;       /* modes with all of them loose */
     int *still;       /* of a hold: the constraints alone let nothing move along it */
     int *forced;

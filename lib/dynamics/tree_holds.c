@@ -132,6 +132,14 @@ static bool is_on_open_contact(const struct fbd_state *state, const struct mode 
            state->slip[state->model->tree->ties[hold->tie].surface] != stick;
 }
 
+/* Does friction that sticks move all the same? Where a mechanism passes its dead centre nothing along the row moves it,
+ * however large: so the row is redundant, and has no force. */
+static bool moves_on(const struct fbd_state *state, const struct mode *hold)
+{
+    return hold->kind == mode_tangent && hold_row(state, hold)->redundant &&
+           tree_seen_acceleration(state, hold_row(state, hold)->g.x2);
+}
+
 /* What a hold that is in question has to become: itself where it agrees. At its limit to rounding the rate
  * decides, and `by_rate` is set: there what is solved is as likely to have it hold as to have it give. */
 static int next_mode(const struct fbd_state *state, const double *slots, const double *slots_along, int pair,
@@ -162,14 +170,14 @@ static int next_mode(const struct fbd_state *state, const double *slots, const d
     return friction_decide(&now, &rate);
 }
 
-/* Does a slide that rubs press the wrong way? Where it sticks a guide takes the side on which it presses. A
+/* Does a slide that rubs, or a slot, press the wrong way? Where it sticks a guide takes the side on which it presses. A
  * surface with one side that pulls is solved as one that does not press: that it is lost is for others to
  * say. */
 static bool pulls(struct fbd_state *state, const double *slots, const struct decided *decided, bool solved,
                   int pair)
 {
     const struct mode *hold = mode_of(state, pair);
-    if (!mode_is_joint_friction(hold) || hold->normal_slot < 0) return false;
+    if (!(mode_is_joint_friction(hold) || hold->two_sided) || hold->normal_slot < 0) return false;
     double N = -slots[hold->normal_slot];
     if (!hold->two_sided) return N < 0 && !solved;
     if (decided && decided->pulls[pair]) return false;
@@ -200,6 +208,11 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
         bool by_rate;
         const struct mode *hold = mode_of(state, pair);
         if (!hold_in_question(state, decided, forced, pair)) continue;
+        if (state->slip[pair] == stick && moves_on(state, hold)) {
+            found = differs;
+            which = pair;
+            continue;
+        }
         if (shared && margin.of[pair] && state->slip[pair] == stick) continue;
         if (pulls(state, slots, decided, solved, pair)) {
             found = differs;

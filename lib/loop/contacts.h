@@ -97,6 +97,9 @@ void run_check_jam(struct run *run, bool evaluated);
  * ropes are plastic. What it makes slack is decided. */
 void run_strike_taut(struct run *run);
 
+/* A drive that moves, and how many do. */
+const struct mode *run_only_drive(const struct run *run, int *moving);
+
 /* What has been put on its surface by contacts_settle_down may have got into others that are next to it: they are
  * moved out. Whether there were any, which may now touch. */
 bool contacts_lift_others(struct run *run);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "dynamics/energy.h"
+#include "dynamics/friction.h"
 #include "dynamics/impulse.h"
 #include "dynamics/tree_driven.h"
 #include "dynamics/tree_system.h"
@@ -135,19 +136,27 @@ static double taken_by(const struct contacts_work *work, int count)
     return taken;
 }
 
+const struct mode *run_only_drive(const struct run *run, int *moving)
+{
+    const struct plan *plan = &run->model->plan;
+    const struct mode *only = NULL;
+    *moving = 0;
+    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
+        const struct mode *mode = &plan->modes[pair];
+        if (mode->kind != mode_drive || run->state->y[plan->n + mode->coordinate] == 0) continue;
+        ++*moving;
+        only = mode;
+    }
+    return only;
+}
+
 /* The only drive that moves has done what kinetic energy has changed by, less what the impulses have taken. Of several
  * each has done what the impulses on all that it carries tell, as if that kept its motion on it. */
 static void note_drives(struct run *run, int count, double change)
 {
     const struct plan *plan = &run->model->plan;
-    const struct mode *only = NULL;
-    int moving = 0;
-    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
-        const struct mode *mode = &plan->modes[pair];
-        if (mode->kind != mode_drive || run->state->y[plan->n + mode->coordinate] == 0) continue;
-        moving++;
-        only = mode;
-    }
+    int moving;
+    const struct mode *only = run_only_drive(run, &moving);
     if (moving == 1) run->impact_work[only->load] += change - taken_by(&run->contacts, count);
     for (int pair = 0; moving > 1 && pair < (int)plan->mode_count; pair++) {
         const struct mode *mode = &plan->modes[pair];
@@ -155,13 +164,20 @@ static void note_drives(struct run *run, int count, double change)
     }
 }
 
-/* How the impulses of others divide round a drum is not followed. */
-static void refuse_rubbing_ropes(struct run *run)
+/* How the impulses of others divide round a drum is not followed, nor what friction in a slot takes of them. */
+static void refuse_rubbing(struct run *run)
 {
     const struct tree *tree = tree_of(run);
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
-        if (tie->kind != constraint_capstan || run->state->slip[tie->surface] != stick) continue;
+        bool closed = tie->surface < 0 || run->state->slip[tie->surface] == stick;
+        if (tie->kind == constraint_groove && closed && friction_rubs(&run->model->plan.modes[tie->pair]))
+            run_fail(
+                run, FBD_BROKEN,
+                "at t = %.9g something strikes while the slot `%s` holds: how much of the blow its friction "
+                "takes is not followed. End the run before, by an event, or leave out that friction",
+                run_time(run), tie->name);
+        if (tie->kind != constraint_capstan || !closed) continue;
         run_fail(
             run, FBD_BROKEN,
             "at t = %.9g something strikes while the rope `%s` is taut round its drum: how much of the blow "
@@ -201,7 +217,7 @@ static void drop_rounding(struct run *run, int count)
 
 void contacts_apply_impulses(struct run *run, int count)
 {
-    refuse_rubbing_ropes(run);
+    refuse_rubbing(run);
     struct contacts_work *work = &run->contacts;
     size_t n = (size_t)run->model->plan.n;
     bool drives = model_is_driven(run->model);

@@ -96,7 +96,7 @@ static void fail_at_end(const struct end *end, double t, bool gets_taut)
 {
     struct run *run = end->run;
     const struct tie *tie = tie_of(end);
-    if (tie->kind == constraint_slot)
+    if (tie->kind == constraint_slot || tie->kind == constraint_groove)
         run_fail(
             run, FBD_BROKEN,
             "at t = %.9g the point in the slot `%s` comes to the end of it. Make it longer, or end the run "

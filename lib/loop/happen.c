@@ -10,6 +10,7 @@
 #include "dynamics/constraint.h"
 #include "dynamics/energy.h"
 #include "dynamics/finite.h"
+#include "dynamics/friction.h"
 #include "dynamics/modes.h"
 #include "dynamics/project.h"
 #include "dynamics/tree.h"
@@ -86,17 +87,31 @@ static void stop_slipping(struct run *run, int pair)
     run->state->y[run->model->plan.n + mode->coordinate] = friction_surface_speed(mode, &at, &acceleration);
 }
 
-/* The impulses in the strands of a rope that jerks round a drum are not followed. */
+/* The impulses in the strands of a rope that jerks round a drum are not followed, nor is what friction in a slot takes of a
+ * blow, its own landing or that of a rope. */
 static bool refuse_jerk(struct run *run, int pair)
 {
-    int tie = run->model->plan.modes[pair].tie;
-    if (tie < 0 || run->model->tree->ties[tie].kind != constraint_capstan) return false;
-    run_fail(
-        run, FBD_BROKEN,
-        "at t = %.9g the rope `%s` snaps taut round its drum: how much of the jerk friction takes is not "
-        "followed. End the run before, by an event",
-        run_time(run), run->model->tree->ties[tie].name);
-    return true;
+    const struct tree *tree = run->model->tree;
+    const struct tie *tie = &tree->ties[run->model->plan.modes[pair].tie];
+    if (tie->kind == constraint_capstan)
+        run_fail(
+            run, FBD_BROKEN,
+            "at t = %.9g the rope `%s` snaps taut round its drum: how much of the jerk friction takes is not "
+            "followed. End the run before, by an event",
+            run_time(run), tie->name);
+    if (tie->kind == constraint_capstan) return true;
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *slot = &tree->ties[i];
+        if (slot->kind != constraint_groove || !friction_rubs(&run->model->plan.modes[slot->pair])) continue;
+        if (slot != tie && slot->surface >= 0 && run->state->slip[slot->surface] != stick) continue;
+        run_fail(
+            run, FBD_BROKEN,
+            "at t = %.9g `%s` jerks: how much of that the friction in the slot `%s` takes is not followed. "
+            "End the run before, by an event, or leave out that friction",
+            run_time(run), tie->name, slot->name);
+        return true;
+    }
+    return false;
 }
 
 /* A tension that ends is left to settling. A rope that becomes taut takes at once the velocities that would
@@ -113,11 +128,16 @@ static void one_sided_event(struct run *run, int pair)
     bool rope = run->model->plan.modes[pair].kind == mode_rope;
     run->state->slip[pair] = stick;
     if (rope) run_strike_taut(run);
-    state_project_velocity(run->state, false); /* of a rope, rounding only */
+    double taken = state_strike(run->state); /* of a rope, rounding only */
     drop_rounding(run);
+    double change = jointed_kinetic_energy(run->state) - before;
+    int moving;
+    const struct mode *drive = run_only_drive(run, &moving);
     run->snap.pair = pair;
-    run->snap.work = jointed_kinetic_energy(run->state) - before;
-    if (!rope) run->impact_work[run->model->plan.modes[pair].load] += run->snap.work;
+    run->snap.work = rope || moving != 1 ? change : -taken;
+    if (rope) return;
+    run->impact_work[run->model->plan.modes[pair].load] += run->snap.work;
+    if (moving == 1) run->impact_work[drive->load] += change - run->snap.work;
 }
 
 /* Is the way in which the event is passed now one that is asked for? */

@@ -442,7 +442,7 @@ static void mark_strands(struct fbd_model *model)
 {
     for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
         const struct tie *tie = &model->tree->ties[i];
-        if (tie->source->presses != 0) model->plan.slot_constant[tie->normal_slot] = false;
+        if (tie_presses(tie)) model->plan.slot_constant[tie->normal_slot] = false;
         for (int k = 0; k < tie->strands; k++) model->plan.slot_constant[tie->slack_slot[k]] = false;
     }
 }

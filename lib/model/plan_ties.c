@@ -28,7 +28,7 @@ static void add_rubbing(struct builder *builder, struct tie *tie)
     mode->mu_k = builder_formula(builder, &tie->source->mu_k, body, tie->load);
 }
 
-/* A surface is pressed on or left, and rubs while it is closed, where it has coefficients. */
+/* A surface, or what lies on one side of its slot, is pressed on or left, and rubs while it is closed, where it has coefficients. */
 static void plan_surface(struct builder *builder, struct tie *tie)
 {
     struct plan *plan = &builder->model->plan;
@@ -63,13 +63,16 @@ static void plan_belt(struct builder *builder, struct tie *tie)
     }
 }
 
-/* What lies on one side of its slot comes off where that would have to pull. */
-static void plan_slot(struct builder *builder, struct tie *tie)
+/* A slot that holds on both sides rubs on the one that presses, by mu |N|; on one side it is a surface. */
+static void plan_groove(struct builder *builder, struct tie *tie)
 {
-    struct plan *plan = &builder->model->plan;
-    tie->normal_slot = plan->slots++;
-    plan->contacts[plan->contact_count++] =
-        (struct contact){constraint_first_body(tie->source), tie->load, tie->normal_slot, -1};
+    if (tie->source->presses != 0) {
+        plan_surface(builder, tie);
+        return;
+    }
+    tie->normal_slot = builder->model->plan.slots++;
+    add_rubbing(builder, tie);
+    builder->model->plan.modes[tie->pair].two_sided = true;
 }
 
 /* A prescribed motion is a joint that sticks to a surface which moves so. */
@@ -92,8 +95,10 @@ static void plan_drive(struct builder *builder, struct model_body *body)
 
 /* What opens, closes, sticks or must not pull, by kind. */
 static void (*const plans[constraint_kinds])(struct builder *builder, struct tie *tie) = {
-    [constraint_roll] = plan_surface,    [constraint_slot] = plan_slot, [constraint_belt] = plan_belt,
-    [constraint_capstan] = plan_surface, [constraint_rope] = plan_rope, [constraint_contact] = plan_surface,
+    [constraint_roll] = plan_surface,    [constraint_slot] = plan_surface,
+    [constraint_groove] = plan_groove,   [constraint_belt] = plan_belt,
+    [constraint_capstan] = plan_surface, [constraint_rope] = plan_rope,
+    [constraint_contact] = plan_surface,
 };
 
 void plan_ties(struct builder *builder)

@@ -42,7 +42,7 @@ struct tie {
     struct formula reel; /* so */
     int strands;         /* that must not push: 2 of a belt, else 0 */
     int slack_slot[2];   /* where minus their tensions go */
-    int normal_slot;     /* roll, slot that only presses: where minus its normal force goes */
+    int normal_slot;     /* roll, slot that only presses or rubs: where minus its normal force goes */
     int load;            /* roll, rope: its entry in the model's loads */
     int pair;            /* roll, contact: its dry friction; rope: its mode; index into plan.modes, or -1 */
     int surface;         /* roll, contact: the mode of its normal force, closed (`stick`) or open; index into
@@ -71,7 +71,7 @@ bool model_is_driven(const struct fbd_model *model);
  * are, as drives do. */
 bool model_has_speeds_given(const struct fbd_model *model);
 
-/* Does its first row press, so that it cannot pull? */
+/* Is the force of its first row known by itself: of what presses, and cannot pull, or rubs? */
 static inline bool tie_presses(const struct tie *tie)
 {
     return tie->law->surface || tie->source->presses != 0;

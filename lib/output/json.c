@@ -183,12 +183,13 @@ static void write_events(struct text *text, const fbd_simulation *simulation)
     text_add(text, run->event_count ? "\n  ],\n" : "],\n");
 }
 
-/* The friction of a rolling body, whose arrow is called `name`; NULL when it is something else. */
+/* The friction of a rolling body or of a slot, whose arrow is called `name`; NULL when it is something else. */
 static const struct tie *rolling_friction(const struct fbd_model *model, int body, const char *name)
 {
     for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
         const struct tie *tie = &model->tree->ties[i];
-        for (int k = 0; tie->kind == constraint_roll && k < tie->end_count; k++)
+        const bool rubs = tie->kind == constraint_roll || tie->kind == constraint_groove;
+        for (int k = 0; rubs && k < tie->end_count; k++)
             if (tie->end[k].body == body && tie->end[k].name[1] == name) return tie;
     }
     return NULL;

@@ -67,10 +67,12 @@ static bool draw_closed(gsl_rng *rng, struct fbd_state *state, const double *sta
     for (size_t i = 0; i < n; i++)
         state->y[i] += between(rng, -1, 1) * (model->scene->coordinates[i].angle ? 0.3 : 0.1);
     modes_drive(state);
-    /* Round bodies slip as often as they roll. */
-    for (size_t k = 0; k < model->plan.mode_count; k++)
+    /* On their surfaces; round bodies slip as often as they roll. */
+    for (size_t k = 0; k < model->plan.mode_count; k++) {
         if (model->plan.modes[k].kind == mode_tangent)
             state->slip[k] = between(rng, 0, 1) < 0.5 ? stick : slip_plus;
+        if (model->plan.modes[k].kind == mode_surface) state->slip[k] = stick;
+    }
     return state_project(state, false);
 }
 

@@ -34,6 +34,7 @@ enum constraint_kind {
     constraint_rack,    /* a circle and a line move along together */
     constraint_roll,    /* a circle on a line of the ground or of a body */
     constraint_slot,    /* a point on a line or curve of a body */
+    constraint_groove,  /* the same, and it rubs there */
     constraint_belt,    /* a belt round two discs */
     constraint_capstan, /* a rope that rubs on a disc which it goes round */
     constraint_rope,    /* the way through all points, over discs and ground points, has one length */
@@ -88,7 +89,7 @@ struct constraint {
     double length;              /* rod, rope */
     double along;               /* roll, rack: direction of the line in the frame of end 1 */
     struct value mu_s, mu_k;    /* roll: expr NULL for rolling without slip, whatever it takes; contact: expr
-                                   NULL for none */
+                                   NULL for none; groove */
     struct contact_law contact; /* point_absent: the whole body */
 };
 

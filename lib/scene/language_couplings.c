@@ -162,6 +162,10 @@ static const struct field slot_fields[] = {
                  "the side on which the point lies and from which it may come off; default: held on both"),
     FIELD_NUMBER(COUPLING(radius), "radius", a_length, positive,
                  "of a roller about the point, which rolls on that side without friction"),
+    FIELD_VALUE(COUPLING(mu_s), "static", a_number, not_negative | slips_not | stored,
+                "coefficient of static friction; default that of kinetic friction"),
+    FIELD_VALUE(COUPLING(mu_k), "kinetic", a_number, not_negative | slips | stored,
+                "coefficient of kinetic friction; default that of static friction"),
 };
 static const struct group slot_group =
     COUPLING_GROUP("a slot", slot_fields, "a point of a body stays on a line or curve of another one");
@@ -251,6 +255,13 @@ const struct constraint_law constraint_laws[constraint_kinds] = {
         .not_as_c = "a slot is a constraint beside the joints",
         .rows = 1, .line = true,
         .load = load_if_it_presses, .load_kind = load_contact},
+    [constraint_groove] = {
+        .read = slot_read, .drawing = "slot", .letters = {"N", "f"},
+        .words = "slot that rubs: a point stays on a line or curve of another body, sticks or slips",
+        .not_as_c = "a slot is a constraint beside the joints",
+        .rows = 2, .row_names = {{"", ".normal"}, {"", ".friction"}}, .end_names = {".normal", ".friction"},
+        .surface = true, .line = true,
+        .load = always_load, .load_kind = load_normal, .load_name = ".friction"},
     [constraint_belt] = {
         .read = wheels_read, .drawing = "belt", .letters = {"T", "T"},
         .words = "belt: two discs turn together; its length, where the axes move",

@@ -170,13 +170,13 @@ bool rack_read(struct reader *reader, const struct coupling_keys *keys, struct c
            coupling_circle_set(reader, constraint, 0, keys->radius);
 }
 
-/* The coefficients were read before it was known which body rolls. */
+/* The coefficients were read before it was known which body rubs. */
 static void place_slips(struct reader *reader, const struct constraint *constraint)
 {
     struct scene *scene = reader->scene;
     int roll = 1 + (int)(constraint - scene->constraints);
     for (size_t i = 0; i < scene->absolute_count; i++)
-        if (scene->absolutes[i].roll == roll) scene->absolutes[i].body = constraint->body[0];
+        if (scene->absolutes[i].roll == roll) scene->absolutes[i].body = constraint_first_body(constraint);
 }
 
 /* What is given under one key says the other coefficient as well. */
@@ -220,7 +220,6 @@ bool roll_read(struct reader *reader, const struct coupling_keys *keys, struct c
     constraint->point[1] = (struct point){.kind = point_fixed, .at = on->at};
     constraint->mu_s = keys->mu_s;
     constraint->mu_k = keys->mu_k;
-    place_slips(reader, constraint);
     if (node_find(reader->bodies, on->text)) return body_name_read(reader, on, "on", &constraint->body[1]);
     const struct ground_line *line = ground_line_find(reader, on);
     if (!line) return false;
@@ -236,7 +235,9 @@ static bool read_constraint(struct reader *reader, const struct chosen *chosen,
     constraint->at = chosen->at;
     constraint->length = keys->length;
     constraint->length_given = keys->length > 0;
-    return constraint_laws[constraint->kind].read(reader, keys, constraint);
+    const bool fine = constraint_laws[constraint->kind].read(reader, keys, constraint);
+    if (fine) place_slips(reader, constraint);
+    return fine;
 }
 
 /* ---- the list */

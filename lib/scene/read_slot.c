@@ -100,5 +100,11 @@ bool slot_read(struct reader *reader, const struct coupling_keys *keys, struct c
         return refuse(reader, constraint->at, "missing-key", "a roller needs the `side` on which it lies",
                       "add `side: left` or `side: right` of growing length, or let the curve be that of its "
                       "centre");
+    if (keys->mu_k.expr && keys->radius > 0)
+        return refuse(reader, constraint->at, "conflicting-keys", "a roller does not rub",
+                      "leave out its `radius`, or the coefficients of friction");
+    if (keys->mu_k.expr) constraint->kind = constraint_groove;
+    constraint->mu_s = keys->mu_s;
+    constraint->mu_k = keys->mu_k;
     return keys->y || keys->x ? read_curve(reader, keys, constraint) : read_line(reader, keys, constraint);
 }

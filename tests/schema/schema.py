@@ -30,6 +30,7 @@ BEYOND = {
     "cylinder_lying_without_length.yaml": "needed for this axis",
     "belt_without_tension.yaml": "needed where the axes keep their distance",
     "slot_roller_without_side.yaml": "needed beside `radius`",
+    "slot_roller_that_rubs.yaml": "what excludes `radius`",
     "slot_without_range.yaml": "needed for a curve",
     "slot_curve_and_along.yaml": "of a straight slot, which is one without `y`",
     "slot_straight_closed.yaml": "of a curve, which is one with `y`",

@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Friction in slots, against closed forms and against integrations of the equations of one coordinate; tests/unit/test_slots.c
+ * holds random curves that rub against the same curves as tracks.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "joined_checks.h"
+
+static const double g = 9.81, pi = 3.141592653589793;
+
+/* ---- a Scotch yoke whose pin rubs: with x = r cos(theta), v = r omega cos(theta) the velocity along the slot, and N the
+ * force of the pin on the yoke,
+ *
+ *     m x'' = N - k x,   I theta'' = r sin(theta) N - sgn(v) mu |N| r cos(theta)
+ */
+struct yoke {
+    double r, mu, I, m, k;
+};
+
+static double yoke_acceleration(const struct yoke *y, double theta, double omega)
+{
+    double c = cos(theta), s = sin(theta), side = omega * c > 0 ? 1 : -1, a = 0;
+    for (int sign = 1; sign >= -1; sign -= 2) { /* of N */
+        double arm = y->r * s - side * y->mu * sign * y->r * c;
+        double still = -y->m * y->r * omega * omega * c + y->k * y->r * c; /* N = still - m r sin(theta) a */
+        a = arm * still / (y->I + arm * y->m * y->r * s);
+        if (sign * (still - y->m * y->r * s * a) >= 0) break;
+    }
+    return a;
+}
+
+static void yoke_step(const struct yoke *y, double h, double *theta, double *omega)
+{
+    double a1 = yoke_acceleration(y, *theta, *omega), w1 = *omega;
+    double w2 = *omega + h / 2 * a1, a2 = yoke_acceleration(y, *theta + h / 2 * w1, w2);
+    double w3 = *omega + h / 2 * a2, a3 = yoke_acceleration(y, *theta + h / 2 * w2, w3);
+    double w4 = *omega + h * a3, a4 = yoke_acceleration(y, *theta + h * w3, w4);
+    *theta += h / 6 * (w1 + 2 * w2 + 2 * w3 + w4);
+    *omega += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+}
+
+/* It passes its dead centres eleven times in 3 s: there the velocity along the slot and the force of the pin are zero, and
+ * nothing along the slot could hold it. */
+static void a_scotch_yoke_loses_what_its_pin_rubs(void **unused)
+{
+    enum { steps = 30000 };
+    const struct yoke yoke = {0.1, 0.2, 0.01, 2, 200};
+    double theta = 0.3, omega = 20;
+    struct checks checks = {0};
+    (void)unused;
+    struct trial trial = trial_parse(
+        "fbd: 1\n"
+        "bodies:\n"
+        "  crank: {mass: 1, inertia: 0.01, points: {pin: [0.1, 0]}, motion: pivot, initial: {theta: 0.3, "
+        "omega: 20}}\n"
+        "  yoke: {mass: 2, motion: slide, initial: {x: 0.1, assemble: true}, forces: [spring: {stiffness: "
+        "200}]}\n"
+        "couplings: [slot: {name: groove, between: [crank.pin, yoke], along: 90 deg, kinetic: 0.2}]\n"
+        "simulate: {until: 3}\n");
+    trial_start(&trial, NULL);
+    trial_to(&trial, 3);
+    for (int i = 0; i < steps; i++) yoke_step(&yoke, 3.0 / steps, &theta, &omega);
+    check_close(&checks, "theta", trial_get(&trial, "crank.theta"), theta, 1e-8);
+    check_close(&checks, "omega", trial_get(&trial, "crank.omega"), omega, 1e-8);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+/* A bead rests in the slot of an arm that is turned with W, until g sin(W t) - W^2 s = mu g cos(W t). */
+static void a_bead_sticks_until_its_slot_is_steep(void **unused)
+{
+    const double W = 0.5, s = 0.3, mu = 0.4;
+    double low = 0, high = 2;
+    struct checks checks = {0};
+    struct trial trial =
+        trial_parse("fbd: 1\n"
+                    "bodies:\n"
+                    "  arm: {mass: 1, inertia: 0.1, motion: {pivot: {theta: \"0.5[rad/s]*t\"}}}\n"
+                    "  bead: {mass: 0.2, motion: particle, initial: {x: 0.3, vy: 0.15}, forces: [gravity]}\n"
+                    "couplings: [slot: {name: groove, between: [bead, arm], static: 0.4, kinetic: 0.3}]\n"
+                    "simulate: {until: 1}\n");
+    (void)unused;
+    trial_start(&trial, NULL);
+    trial_to(&trial, 0.5); /* it has not moved along the arm */
+    check_close(&checks, "sticks", trial_get(&trial, "bead.x"), s * cos(W * 0.5), 1e-12);
+    check_close(&checks, "holds",
+                hypot(arrow_on(&trial, 1, "groove.friction").fx, arrow_on(&trial, 1, "groove.friction").fy),
+                0.2 * (g * sin(W * 0.5) - W * W * s), 1e-10);
+    trial_to(&trial, 1);
+    for (int i = 0; i < 60; i++) {
+        double t = (low + high) / 2;
+        *(g * sin(W * t) - W * W * s > mu * g * cos(W * t) ? &high : &low) = t;
+    }
+    fbd_event slips = fbd_simulation_event(trial.simulation, 0);
+    check_that(&checks, "breaks away", slips.kind == FBD_EVENT_BREAKAWAY);
+    check_close(&checks, "when", slips.t, low, 1e-9);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+/* The follower of a driven cam with friction: N (cos(alpha) - mu sin(alpha) s) = m (g + y''), where the rim goes by below it
+ * to the side s, and sin(alpha) is as of a cam without; the drive does the rest of the work. */
+static void a_follower_that_rubs_is_pressed_aside(void **unused)
+{
+    const double r0 = 0.04, h = 0.02, m = 0.5, W = 20, mu = 0.1;
+    struct checks checks = {0};
+    struct trial trial =
+        trial_parse("fbd: 1\n"
+                    "parameters: {r0: 40 mm, h: 20 mm, W: 20 rad/s}\n"
+                    "bodies:\n"
+                    "  cam: {mass: 2, inertia: 0.002, motion: {pivot: {theta: W*t}}}\n"
+                    "  follower: {mass: 0.5, motion: {slide: {along: 90 deg}}, initial: {x: r0 + h/2, "
+                    "assemble: true}, forces: [gravity]}\n"
+                    "couplings:\n"
+                    "  - slot: {name: face, between: [follower, cam], side: right, kinetic: 0.1, x: \"(r0 + "
+                    "h*(1 - cos(p))/2)*cos(p)\",\n"
+                    "           y: \"(r0 + h*(1 - cos(p))/2)*sin(p)\", from: 0, to: 360 deg, closed: true}\n"
+                    "simulate: {until: 1}\n");
+    (void)unused;
+    trial_start(&trial, NULL);
+    for (int i = 0; i < 6; i++) {
+        double t = 0.05 + 0.18 * i;
+        trial_to(&trial, t);
+        double s = sin(W * t), lift = r0 + h * (1 - s) / 2, slope = -h * cos(W * t) / 2,
+               along = hypot(lift, slope);
+        /* The rim below goes to the left as the cam turns to the left, and takes the follower along. */
+        double N = m * (g + h * W * W * s / 2) / ((lift - mu * slope) / along);
+        fbd_arrow normal = arrow_on(&trial, 1, "face.normal"),
+                  friction = arrow_on(&trial, 1, "face.friction");
+        check_close(&checks, "lift", trial_get(&trial, "follower.x"), lift, 1e-11);
+        check_close(&checks, "N", hypot(normal.fx, normal.fy), N, 1e-8);
+        check_close(&checks, "friction", hypot(friction.fx, friction.fy), mu * N, 1e-9);
+        check_that(&checks, "to the left", friction.fx < 0);
+        check_close(&checks, "up", normal.fy + friction.fy, m * (g + h * W * W * s / 2), 1e-9);
+    }
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+/* ---- at rest: it holds within the angle of friction, atan(mu), and says how near that is */
+
+static void a_slot_holds_at_rest(void **unused)
+{
+    struct checks checks = {0};
+    (void)unused;
+    for (int steep = 0; steep < 2; steep++) {
+        struct trial trial =
+            trial_parse(steep ? "fbd: 1\nground: {points: {A: [0, 0]}}\n"
+                                "bodies: {bead: {mass: 2, motion: particle, forces: [gravity]}}\n"
+                                "couplings: [slot: {name: groove, between: [bead, ground.A], along: 30 deg, "
+                                "static: 0.57}]\n"
+                              : "fbd: 1\nground: {points: {A: [0, 0]}}\n"
+                                "bodies: {bead: {mass: 2, motion: particle, forces: [gravity]}}\n"
+                                "couplings: [slot: {name: groove, between: [bead, ground.A], along: 30 deg, "
+                                "static: 0.58}]\n");
+        fbd_state *state = fbd_state_new(trial.model);
+        fbd_statics *statics = fbd_statics_new(state, NULL);
+        fbd_limit limit = fbd_statics_limit(statics, 0);
+        check_that(&checks, "holds", fbd_statics_holds(statics) == !steep); /* tan(30 deg) = 0.577 */
+        check_that(&checks, "name", strcmp(limit.name, "groove.friction") == 0);
+        check_close(&checks, "limit", limit.limit, (steep ? 0.57 : 0.58) * 2 * g * cos(pi / 6), 1e-9);
+        if (!steep) check_close(&checks, "needed", limit.needed, g, 1e-9);
+        fbd_statics_free(statics);
+        fbd_state_free(state);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
+/* A blow is not shared out to friction in a slot: it ends the run by name. */
+static void a_blow_on_a_slot_that_rubs_ends_the_run(void **unused)
+{
+    struct checks checks = {0};
+    struct trial trial = trial_parse(
+        "fbd: 1\n"
+        "ground: {points: {A: [0, 0]}, lines: {wall: {through: [1, 0], along: 90 deg}}}\n"
+        "bodies: {bead: {mass: 2, shape: sphere, radius: 0.1, motion: planar, initial: {vx: 2.25}}}\n"
+        "couplings: [slot: {name: groove, between: [bead, ground.A], along: 0, kinetic: 0.1}]\n"
+        "contacts: [{between: [bead, ground.wall], restitution: 0.5}]\n"
+        "simulate: {until: 2}\n");
+    (void)unused;
+    trial_start(&trial, NULL);
+    check_close(&checks, "when", to_its_end(&trial), 0.9 / 2.25, 1e-9);
+    check_that(&checks, "broken", trial.outcome == FBD_BROKEN);
+    check_that(&checks, "why",
+               strstr(fbd_simulation_reason(trial.simulation), "the slot `groove` holds") != NULL);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_scotch_yoke_loses_what_its_pin_rubs),
+        cmocka_unit_test(a_bead_sticks_until_its_slot_is_steep),
+        cmocka_unit_test(a_follower_that_rubs_is_pressed_aside),
+        cmocka_unit_test(a_slot_holds_at_rest),
+        cmocka_unit_test(a_blow_on_a_slot_that_rubs_ends_the_run),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
