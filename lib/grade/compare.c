@@ -29,9 +29,9 @@ struct comparison {
     struct twin *twins; /* of each body of the key */
     struct arrow *arrows;
     gsl_rng *rng;
-    double *start;
-    double length, force; /* units of the answer in those of the key */
-    bool possible;        /* the state of the key */
+    struct random_path path; /* from the start */
+    double length, force;    /* units of the answer in those of the key */
+    bool possible;           /* the state of the key */
 };
 
 /* ---- states */
@@ -86,7 +86,7 @@ static bool start_at_another_time(struct comparison *comparison)
     const struct value *until = &key->scene->simulate.until;
     if (model_is_driven(key)) return false;
     state_copy(state, comparison->fresh);
-    memcpy(state->y, comparison->start, (size_t)key->plan.n * sizeof *state->y);
+    memcpy(state->y, comparison->path.y, (size_t)key->plan.n * sizeof *state->y);
     state->t = gsl_rng_uniform(comparison->rng) * (until->expr ? expr_value(until->expr) : 1);
     return random_admissible(state);
 }
@@ -101,13 +101,15 @@ static void next_state(struct comparison *comparison, size_t s)
     if (s == 0) {
         state_copy(state, comparison->fresh);
         if (comparison->key->assembles) state_project(state, true);
-        memcpy(comparison->start, state->y, (size_t)comparison->key->plan.n * sizeof *state->y);
+        memcpy(comparison->path.y, state->y, (size_t)comparison->key->plan.n * sizeof *state->y);
+        comparison->path.known = 0;
+        comparison->path.ends = false;
         found = random_admissible(state);
     } else if (s % 2 == 0) {
         found = start_at_another_time(comparison);
     }
     for (int k = 0; s > 0 && !found && k < tries; k++)
-        found = random_state(comparison->rng, state, comparison->start) && random_admissible(state);
+        found = random_state(comparison->rng, state, &comparison->path) && random_admissible(state);
     if (!found) state_evaluate(state);
     comparison->possible = found || s == 0;
 }
@@ -375,10 +377,10 @@ static bool open_comparison(struct comparison *comparison)
     comparison->state = state_new(answer);
     comparison->twins = calloc(key->body_count + 1, sizeof *comparison->twins);
     comparison->arrows = calloc((most > other ? most : other) + 1, sizeof *comparison->arrows);
-    comparison->start = calloc((size_t)key->plan.n + 1, sizeof *comparison->start);
+    comparison->path.y = calloc(random_path_room(key), sizeof *comparison->path.y);
     comparison->rng = gsl_rng_alloc(gsl_rng_mt19937);
     return comparison->fresh && comparison->key_state && comparison->state && comparison->twins &&
-           comparison->arrows && comparison->start && comparison->rng;
+           comparison->arrows && comparison->path.y && comparison->rng;
 }
 
 static void close_comparison(struct comparison *comparison)
@@ -391,7 +393,7 @@ static void close_comparison(struct comparison *comparison)
     state_free(comparison->state);
     free(comparison->twins);
     free(comparison->arrows);
-    free(comparison->start);
+    free(comparison->path.y);
 }
 
 static void look_at_states(struct comparison *comparison)

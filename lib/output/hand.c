@@ -199,13 +199,14 @@ static bool sample_model(struct hand_check *check, const fbd_model *model, gsl_r
     const struct hand *hand = &model->scene->bodies[check->body].hands[check->index];
     struct fbd_state *state = state_new(model);
     size_t n = (size_t)model->plan.n, extended = plan_size(&model->plan) + hand_slots + model->absolute_count;
-    double *y = calloc(extended + n + 1, sizeof *y), *start = y ? y + extended : NULL;
+    double *y = calloc(extended + random_path_room(model), sizeof *y);
+    struct random_path path = {.y = y ? y + extended : NULL};
     if (state && model->assembles) state_project(state, true);
-    if (y && state) memcpy(start, state->y, n * sizeof *start);
+    if (y && state) memcpy(path.y, state->y, n * sizeof *y);
     bool done = state && y;
     for (int i = 0; done && i < states_of_a_draw; i++)
         for (int k = 0; k < tries_of_a_state && check->count < most_samples; k++) {
-            if (!random_state(rng, state, start) || !random_admissible(state)) continue;
+            if (!random_state(rng, state, &path) || !random_admissible(state)) continue;
             take_sample(check, hand, state, y);
             break;
         }

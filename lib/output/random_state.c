@@ -40,30 +40,55 @@ bool random_model(const struct document *document, const fbd_model *model, gsl_r
     return done;
 }
 
-/* From the coordinates at t = 0 to those at the state's time: prescribed ones lead there in small steps, the
- * others follow. False where that ends. */
-static bool follow_prescribed(struct fbd_state *state)
+enum { path_steps = 64 };
+
+size_t random_path_room(const struct fbd_model *model)
 {
-    enum { steps = 64 };
-    const double t = state->t;
-    bool fits = true;
-    for (int k = 1; fits && k <= steps; k++) {
-        state->t = t * k / steps;
-        modes_drive(state);
-        fits = state_project(state, false);
+    return (path_steps + 1) * model->scene->coordinate_count + 1;
+}
+
+static double duration_of(const struct scene *scene)
+{
+    const struct value *until = &scene->simulate.until;
+    return until->expr ? expr_value(until->expr) : 1;
+}
+
+/* To time t: prescribed coordinates are there, the others follow. */
+static bool follow_to(struct fbd_state *state, double t)
+{
+    state->t = t;
+    modes_drive(state);
+    return state_project(state, false);
+}
+
+/* Along the path to the state's time, from node to node, the last of which is kept for the states to come. */
+static bool follow_prescribed(struct fbd_state *state, struct random_path *path)
+{
+    const size_t n = state->model->scene->coordinate_count;
+    const double t = state->t, step = duration_of(state->model->scene) / path_steps;
+    const int node = step > 0 ? (int)fmin(path_steps, t / step) : 0;
+    for (int k = path->known + 1; k <= node && !path->ends; k++) {
+        memcpy(state->y, path->y + (size_t)(k - 1) * n, n * sizeof *state->y);
+        path->ends = !follow_to(state, k * step);
+        if (path->ends) break;
+        memcpy(path->y + (size_t)k * n, state->y, n * sizeof *state->y);
+        path->known = k;
     }
-    return fits;
+    state->t = t;
+    if (path->known < node) return false;
+    memcpy(state->y, path->y + (size_t)node * n, n * sizeof *state->y);
+    return follow_to(state, t);
 }
 
 /* Where couplings close loops, most states do not fit: so the start moves by up to 0.3 rad or a tenth of a
  * metre, with random rates, and the nearest state that fits is taken. False when there is none. */
-static bool draw_closed(gsl_rng *rng, struct fbd_state *state, const double *start)
+static bool draw_closed(gsl_rng *rng, struct fbd_state *state, struct random_path *path)
 {
     const struct fbd_model *model = state->model;
     size_t n = model->scene->coordinate_count;
     if (!model->tree || model->tree->tie_count == 0) return true;
-    memcpy(state->y, start, n * sizeof *start);
-    if (model_is_driven(model) && !follow_prescribed(state)) return false;
+    memcpy(state->y, path->y, n * sizeof *path->y);
+    if (model_is_driven(model) && !follow_prescribed(state, path)) return false;
     for (size_t i = 0; i < n; i++)
         state->y[i] += between(rng, -1, 1) * (model->scene->coordinates[i].angle ? 0.3 : 0.1);
     modes_drive(state);
@@ -76,13 +101,11 @@ static bool draw_closed(gsl_rng *rng, struct fbd_state *state, const double *sta
     return state_project(state, false);
 }
 
-bool random_state(gsl_rng *rng, struct fbd_state *state, const double *start)
+bool random_state(gsl_rng *rng, struct fbd_state *state, struct random_path *path)
 {
     const struct scene *scene = state->model->scene;
     size_t n = scene->coordinate_count;
-    const struct value *until = &scene->simulate.until;
-    double duration = until->expr ? expr_value(until->expr) : 1;
-    state->t = between(rng, 0, duration);
+    state->t = between(rng, 0, duration_of(scene));
     for (size_t i = 0; i < n; i++) {
         const struct coordinate *c = &scene->coordinates[i];
         double reach = c->angle ? 3.14159 : fmax(1, 2 * fabs(c->initial)),
@@ -96,7 +119,7 @@ bool random_state(gsl_rng *rng, struct fbd_state *state, const double *start)
         state->y[2 * n + i] = between(rng, -reach, reach);
     }
     state->settled = false;
-    return draw_closed(rng, state, start);
+    return draw_closed(rng, state, path);
 }
 
 bool random_admissible(struct fbd_state *state)

@@ -15,9 +15,19 @@
 bool random_model(const struct document *document, const fbd_model *model, gsl_rng *rng, double spread,
                   fbd_model **drawn);
 
-/* Random coordinates and rates of the size of the initial ones, at least one unit; angles all around. `start`: the
- * coordinates (n) that couplings fit at. False where couplings have no such state. */
-bool random_state(gsl_rng *rng, struct fbd_state *state, const double *start);
+/* Where couplings fit: the coordinates at t = 0, which the caller fills in at `y`, and, where motions are prescribed, those
+ * to which these lead by the nodes of a grid of times; as far as they were asked for. */
+struct random_path {
+    double *y; /* random_path_room(model) numbers */
+    int known; /* nodes behind the first */
+    bool ends; /* there: no state fits further on */
+};
+
+size_t random_path_room(const struct fbd_model *model);
+
+/* Random coordinates and rates of the size of the initial ones, at least one unit; angles all around. False where
+ * couplings have no such state. */
+bool random_state(gsl_rng *rng, struct fbd_state *state, struct random_path *path);
 
 /* Settle the modes: are all forces finite, does no surface have to pull, and does what rolls roll? */
 bool random_admissible(struct fbd_state *state);

@@ -30,9 +30,8 @@ SEED = int(sys.argv[3]) if len(sys.argv) > 3 else 1
 SOURCE = Path(os.environ["FBD_SOURCE_ROOT"])
 TOGETHER = 12  # answers to one key
 
-# A force that acts for less of the run than random states find; forces beside which another is a rounding; a cam, whose
-# random states take a minute for each sheet.
-BEYOND = {"pulse_in_a_coast.yaml", "scales.yaml", "scales_us.yaml", "cam_and_follower.yaml"}
+# A force that acts for less of the run than random states find; forces beside which another is a rounding.
+BEYOND = {"pulse_in_a_coast.yaml", "scales.yaml", "scales_us.yaml"}
 
 
 def is_it(one, expected):
