@@ -3,6 +3,7 @@
  * Parameters, inputs and gravity: constants that are evaluated when they are first named, so that they may stand in
  * any order. What is being evaluated is chained on the stack; naming it again closes a circle.
  */
+#include "expr/number.h"
 #include "scene/reader.h"
 #include "scene/values.h"
 
@@ -313,6 +314,24 @@ static void read_range(struct reader *reader, size_t index)
     reader->varies = outer;
 }
 
+/* `2 kg/s`: is that the unit of a text? */
+static bool has_unit(const char *text, const char *unit)
+{
+    if (!text) return false;
+    text += text[0] == '-' || text[0] == '+';
+    text += number_length(text, strlen(text));
+    text += strspn(text, " ");
+    return strcmp(text, unit) == 0;
+}
+
+/* A mass that flows has the dimension of a damping: what is written as kg/s is shown so, and not as N*s/m. */
+static const char *mass_flow(const struct reader *reader, const struct definition *definition)
+{
+    const char *unit = reader->scene->units == unit_si ? "kg/s" : "slug/s";
+    const bool file = definition->node && has_unit(definition->node->text, unit);
+    return file || (definition->override && has_unit(definition->override->value, unit)) ? unit : NULL;
+}
+
 void parameters_finish(struct reader *reader)
 {
     for (size_t i = 0; i < reader->scene->parameter_count; i++) {
@@ -321,7 +340,8 @@ void parameters_finish(struct reader *reader)
         resolve(reader, i, parameter->at);
         read_range(reader, i);
         unit_name(parameter->dim, reader->scene->units, unit, sizeof unit);
-        parameter->unit = arena_text(reader->arena, unit, strlen(unit));
+        const char *flow = mass_flow(reader, &reader->definitions[i]), *shown = flow ? flow : unit;
+        parameter->unit = arena_text(reader->arena, shown, strlen(shown));
     }
 }
 

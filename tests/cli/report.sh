@@ -70,6 +70,18 @@ check '(30 deg)' sh -c "'$program' --equations --at 'theta=30 deg' '$pendulum' |
 check 'with a unit it is what it says' sh -c "'$program' --degrees --equations --at 'theta=0.5235987755982988 rad' '$pendulum' | cmp - plain"
 check 'and a rate one of degrees in a second' exits 0 run --degrees --svg out.svg --at theta=10 --at omega=30 --quiet "$pendulum"
 check 'alone with --equations it is a mistake' exits 2 run --degrees --equations "$pendulum"
+
+# ---- a mass that flows is kg/s, a damper N*s/m, as the file has them
+flow() { # flow UNIT: a tank that loses mass, and a damper
+    printf 'fbd: 1\nparameters: {b: 0.1 %s, c: 3 N*s/m}\nbodies:\n' "$1"
+    printf '  tank: {mass: "2[kg] - b*t", motion: slide, forces: [damper: c]}\nsimulate: {until: 1 s}\n'
+}
+flow kg/s >flow.yaml
+check 'a flow of mass is shown in kg/s' exits 0 run flow.yaml
+check '(the flow)' says '^  b +=  ?0\.1 kg/s$' out
+check '(the damper)' says '^  c +=  ?3 N\*s/m$' out
+check 'also where it is set by a bare number' exits 0 run --set b=0.2 flow.yaml
+check '(the flow)' says '^  b +=  ?0\.2 kg/s$' out
 program=$FBD_BUILD_ROOT/apps/fbd-sweep
 check 'sweeps have them' exits 0 run --quiet --degrees --vary 'theta0=30,60 deg' --output 'theta,max(omega),t' "$pendulum"
 check '(header)' says '^run,theta0[^,]*,pendulum\.theta \[deg\],max\(pendulum\.omega\) \[deg/s\],t \[s\],' out
