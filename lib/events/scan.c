@@ -420,6 +420,7 @@ static int look_by_series(struct scan *scan, double from, double *limit)
     long most = scan->samples + most_samples;
     for (double begin = from; begin < *limit;) {
         double end = *limit - begin > 1.5 * length ? begin + length : *limit;
+        double wanted = end;
         if (scan->panel) end = scan->panel(scan->context, begin, end);
         scan->clear = begin;
         if (scan->samples >= most) return 2;
@@ -427,7 +428,9 @@ static int look_by_series(struct scan *scan, double from, double *limit)
         if (status < 0) return status;
         double half = begin + (end - begin) / 2;
         halved = status == 2 && half - begin > 64 * DBL_EPSILON * fabs(end);
-        length = halved ? half - begin : 2 * (end - begin);
+        /* What cuts panels are bounds of rates, which are the worse the shorter they are. */
+        double growth = end < wanted ? 16 : 2;
+        length = halved ? half - begin : growth * (end - begin);
         if (halved) scan->resolved = fmin(scan->resolved, 16 * length);
         if (!halved) begin = end;
     }

@@ -167,13 +167,16 @@ static const struct formula *paced_formula(const struct fbd_model *model, size_t
 }
 
 /* Over how many radians a formula turns at most: its fastest rate against half of its range. That of a narrow
- * peak is that of its flanks. */
+ * peak is that of its flanks. Beside an extremum C - b u^2 it is four, however near: so a range that is nothing beside C
+ * is counted as if it were more, or panels would get shorter towards each extremum without end. */
 static double radians_of(const struct run *run, const struct formula *formula, const struct stretch *stretch)
 {
+    const double nothing = 1e-7;
     const int *branch = formula->branch < 0 ? NULL : run->during->branch + formula->branch;
     struct enclosure f = expr_enclose(formula->expr, stretch, run->course.now, branch);
     double range = interval_width(f.value), turn = interval_size(f.rate) * (stretch->to - stretch->from);
     if (!(range < HUGE_VAL && turn < HUGE_VAL)) return HUGE_VAL;
+    range = fmax(range, nothing * interval_size(f.value));
     return range > 0 ? 2 * turn / range : 0;
 }
 
