@@ -300,6 +300,24 @@ static void sand_on_a_sled(void **unused)
     checks_end(&checks);
 }
 
+/* A mass by a table, m = 2 kg - t and then 1 kg, under 1 N: v = ln(2/m) up to 1 s, and t - 1 + ln 2 behind; x(1) = 1 - ln 2. */
+static void a_mass_by_a_table(void **unused)
+{
+    struct checks checks = {0};
+    struct trial trial =
+        trial_parse("fbd: 1\n"
+                    "tables: {m_of: {points: [[0, 2 kg], [1 s, 1 kg]]}}\n"
+                    "bodies: {cart: {mass: m_of(t), motion: slide, forces: [applied: 1 N]}}\n"
+                    "simulate: {until: 2}\n");
+    (void)unused;
+    trial_start(&trial, NULL);
+    trial_to(&trial, 2);
+    check_close(&checks, "v", get(&trial, "cart.v"), 1 + log(2), 1e-9); /* two steps and more at 1e-10 */
+    check_close(&checks, "x", get(&trial, "cart.x"), 1.5, 1e-9);        /* 1 - ln 2 + ln 2 + 1/2 */
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -312,6 +330,7 @@ int main(void)
         cmocka_unit_test(two_rods_that_leak_and_fill),
         cmocka_unit_test(a_hull_with_a_tank),
         cmocka_unit_test(sand_on_a_sled),
+        cmocka_unit_test(a_mass_by_a_table),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
