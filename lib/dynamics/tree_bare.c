@@ -2,6 +2,7 @@
 #include "dynamics/tree_bare.h"
 
 #include "dynamics/tree.h"
+#include "dynamics/tree_short.h"
 
 /* ---- which trees are */
 
@@ -158,6 +159,20 @@ static void chain(const struct tree_link *links, struct tree_bare *s, int count,
     }
 }
 
+static void any_chain(const struct tree_link *links, struct tree_bare *s, int count, const double *y,
+                      const double *v, double *a)
+{
+    bool turns = links->kind == motion_pivot;
+    if (count == 2 && turns)
+        tree_two_pivots(links, s, y, v, a);
+    else if (count == 2)
+        tree_pole(links, s, y, v, a);
+    else if (count == 3 && turns)
+        tree_three_pivots(links, s, y, v, a);
+    else
+        chain(links, s, count, y, v, a);
+}
+
 void tree_bare_rates(const struct fbd_model *model, struct tree_work *work, const double *y, double *dydt)
 {
     const struct tree *tree = model->tree;
@@ -165,5 +180,5 @@ void tree_bare_rates(const struct fbd_model *model, struct tree_work *work, cons
     if (tree->acting_count > 0) set_joint_forces(model, y, work->bare);
     for (int i = 0; i < n; i++) dydt[i] = y[n + i];
     for (int i = 1; i < tree->count; i = tree->links[i].end)
-        chain(&tree->links[i], &work->bare[i], tree->links[i].end - i, y, y + n, dydt + n);
+        any_chain(&tree->links[i], &work->bare[i], tree->links[i].end - i, y, y + n, dydt + n);
 }

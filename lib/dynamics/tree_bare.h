@@ -4,8 +4,8 @@
  * pivots on pivots, the first of them on the ground or on a slide of it. Pendulums, and carts with poles, are such
  * trees, and gravity asks for no place in the world. So of all that tree.h computes, the right-hand side leaves out
  * where the points O are and how fast they move, and of what moves on the ground all that only the ground would
- * feel. Each number that remains is made by the same operations in the same order as there: the bits are those of
- * state_rates.
+ * feel. Short chains have closed forms (tree_short.h), which are state_rates to rounding. In others each number
+ * that remains is made by the same operations in the same order as there: the bits are those of state_rates.
  */
 #ifndef FBD_DYNAMICS_TREE_BARE_H
 #define FBD_DYNAMICS_TREE_BARE_H
