@@ -104,9 +104,21 @@ static bool is_crowd(struct bounces *bounces, double leaving, double unseen)
     return bounces->unseen >= many;
 }
 
+/* What is left of rocking that has struck plastically: the series of the last impacts where they are one, and else the one
+ * hop that is low, `next`. */
+static double sum_of_plastic_rocking(const struct bounces *bounces, double next, bool nothing)
+{
+    const double alike = 0.01; /* accelerations change that little from hop to hop of a series that is low */
+    const double *t = bounces->t;
+    if (bounces->count < 5) return nothing ? next : HUGE_VAL; /* it is known when there have been five */
+    double ratio = (t[0] - t[1]) / (t[2] - t[3]), before = (t[1] - t[2]) / (t[3] - t[4]);
+    double all = sum_of_rocking(bounces);
+    return fabs(ratio - before) <= alike * before ? all : fmin(all, next);
+}
+
 static void remember(struct bounces *bounces, double t, int feature)
 {
-    for (int k = 3; k > 0; k--) bounces->t[k] = bounces->t[k - 1];
+    for (int k = 4; k > 0; k--) bounces->t[k] = bounces->t[k - 1];
     bounces->t[0] = t;
     bounces->feature = feature;
     bounces->count++;
@@ -209,9 +221,12 @@ static double end_of_series(struct run *run, int i, int count)
     if (!low && bounces->unseen < 3) return HUGE_VAL;
     if (same && v > 0) {
         left = low ? sum_of_bounces(run, index, v, a) : sum_of_intervals(bounces);
+    } else if (low && !(v > 0)) {
+        bool nothing = low_share * leaving * leaving <= 2 * a * unseen;
+        left = sum_of_plastic_rocking(bounces, 2 * leaving / a, nothing);
     } else {
         left = sum_of_rocking(bounces);
-        if (low) left = fmin(left, v > 0 ? sum_of_bounces(run, index, v, a) : 2 * leaving / a);
+        if (low) left = fmin(left, sum_of_bounces(run, index, v, a));
     }
     if (crowd && !(left < HUGE_VAL)) left = 0;
     double tugs = end_of_tugs(run, bounces, unseen, count);

@@ -25,7 +25,7 @@ struct run;
 /* The impacts of a meeting so far. */
 struct bounces {
     int count;         /* since it was last at rest */
-    double t[4];       /* of the last ones, the latest first */
+    double t[5];       /* of the last ones, the latest first */
     int feature;       /* of the last one */
     int unseen;        /* how many of them have followed each other within bounces that nobody sees */
     double slow;       /* a speed that is lost within what counts as the same place */

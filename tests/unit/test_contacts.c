@@ -235,6 +235,24 @@ static void a_rocking_block_loses_its_share_at_each_corner(void **unused)
     checks_end(&checks);
 }
 
+/* A block of 0.3 x 1 m let go at 0.05 rad: with p^2 = 3 g/(4 R), alpha = atan(0.3) a quarter takes T(th) = int dth/w, where
+ * w^2 = 2 p^2 (cos(alpha - th) - cos(alpha - th_0)), and a change of corner keeps 0.876146789 of the rate (Housner 1963).
+ * T(th_0) + 2 T(th_1) + 2 T(th_2) + ..., to the end, by Gauss's quadrature. */
+static void a_rocking_block_comes_to_rest_in_time(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct trial trial = trial_parse(
+        "fbd: 1\nground: {lines: {floor: {along: 0}}}\nbodies:\n  block: {shape: prism, a: 0.3, b: "
+        "1, c: 1, mass: 2, motion: planar, initial: {theta: 0.05, y: "
+        "'0.15[m]*sin(0.05) + 0.5[m]*cos(0.05)'}, forces: [gravity]}\ncontacts:\n  - {between: "
+        "[block, ground.floor], static: 1}\nsimulate: {until: 3}\n");
+    trial_run(&trial, NULL);
+    check_close(&checks, "rest", trial_event(&trial, FBD_EVENT_REST, "contact", 0), 2.367619361242, 1e-7);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
 /* Three pendulums in a row that touch, e = 1, one after the other: the last one flies off with what the first
  * one brought, and comes back. */
 static void a_cradle_hands_on_what_it_gets(void **unused)
@@ -365,6 +383,7 @@ int main(void)
         cmocka_unit_test(a_falling_rod_strikes_with_its_end),
         cmocka_unit_test(a_ladder_and_a_disc_leave_where_the_force_ends),
         cmocka_unit_test(a_rocking_block_loses_its_share_at_each_corner),
+        cmocka_unit_test(a_rocking_block_comes_to_rest_in_time),
         cmocka_unit_test(a_cradle_hands_on_what_it_gets),
         cmocka_unit_test(stops_are_surfaces_of_coordinates),
         cmocka_unit_test(a_smooth_drum_may_turn_at_any_rate),
