@@ -177,6 +177,7 @@ static enum impacts_end solve_whole(struct impacts *impacts, const double *befor
     if (has_found || impacts->propagate || impact_by_velocity(impacts->law)) return end;
     take_back(impacts, before);
     end = solve_by(impacts, before, true);
+    impacts->in_turn = true;
     return end == impacts_done || end == impacts_no_memory ? end : impacts_lost;
 }
 
@@ -203,12 +204,14 @@ static enum impacts_end solve_part(struct impacts *all, const int *member, int c
     part.v = v;
     part.P = P;
     part.work = 0;
+    part.in_turn = false;
     enum impacts_end end = closes ? solve_whole(&part, before) : impacts_done;
     for (int i = 0; i < n; i++) {
         all->v[2 * member[i / 2] + i % 2] = v[i];
         all->P[2 * member[i / 2] + i % 2] = P[i];
     }
     all->work += part.work;
+    all->in_turn |= part.in_turn;
     free(points);
     return end;
 }
@@ -221,6 +224,7 @@ enum impacts_end impacts_solve(struct impacts *impacts)
     enum impacts_end end = part && room ? impacts_done : impacts_no_memory;
     memset(impacts->P, 0, n * sizeof *impacts->P);
     impacts->work = 0;
+    impacts->in_turn = false;
     int parts = end == impacts_done ? parts_find(impacts->count, feel_each_other, impacts, part) : 0;
     for (int p = 0; p < parts && end == impacts_done; p++) {
         int members = 0;

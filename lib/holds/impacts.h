@@ -36,6 +36,7 @@ struct impacts {
     double *v;       /* 2 count: velocities before, then after; v_n of a point that lasts is 0 exactly */
     double *P;       /* 2 count: impulses, set */
     double work;     /* set: the change of kinetic energy */
+    bool in_turn;    /* set: some are one after the other, as no impulses of all together were found */
 };
 
 enum impacts_end {

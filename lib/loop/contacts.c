@@ -218,7 +218,7 @@ static void note_impact(struct run *run, int i)
     struct run_event *event = run_note(run, FBD_EVENT_IMPACT, body, tie->load, -1);
     if (!event) return;
     event->impact = (struct impact_record){
-        p, tau, taken, {striker->v_n, v[0]}, {striker->v_t, v[1]}, work->makes && taken > 0};
+        p, tau, taken, {striker->v_n, v[0]}, {striker->v_t, v[1]}, work->makes && taken > 0, work->in_turn};
 }
 
 /* What an impact has made slack is no more taut by its length. */

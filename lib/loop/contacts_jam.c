@@ -102,7 +102,7 @@ static void note_jam(struct run *run, int i, bool jams)
     struct run_event *event = run_note(run, FBD_EVENT_JAM, tie->end[0].body, tie->load, -1);
     if (!event) return;
     event->impact =
-        (struct impact_record){P[0], P[1], taken, {striker->v_n, v[0]}, {striker->v_t, v[1]}, false};
+        (struct impact_record){P[0], P[1], taken, {striker->v_n, v[0]}, {striker->v_t, v[1]}, false, false};
 }
 
 /* The largest impulse that the moment itself could ask for. */

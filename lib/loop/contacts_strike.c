@@ -269,6 +269,7 @@ bool contacts_solve_impact(struct run *run, int count)
     double size = 0;
     for (int i = 0; i < 2 * count; i++) size += fabs(work->P[i] * work->v[i]);
     work->makes = impacts.work > 1e-12 * size;
+    work->in_turn = impacts.in_turn;
     return true;
 }
 

@@ -67,10 +67,12 @@ static void impact_detail(const struct fbd_model *model, const struct run_event 
     double taken = impact->makes ? impact->work : impact->work == 0 ? 0 : -impact->work;
     format_into(detail, size,
                 "%s strikes: v_n %.6g to %.6g %s, v_t %.6g to %.6g %s, impulses %.6g and %.6g %s*s; %s %.6g "
-                "%s%s",
+                "%s%s%s",
                 name, impact->v_n[0], impact->v_n[1], speed, impact->v_t[0], impact->v_t[1], speed, impact->p,
                 impact->tau, of, impact->makes ? "makes" : "takes", taken, energy_unit(model),
-                impact->makes ? ", as its law may: `stronge` does not" : "");
+                impact->makes ? ", as its law may: `stronge` does not" : "",
+                impact->in_turn ? "; one point after the other, as no impulses of all together were found"
+                                : "");
 }
 
 static void jam_detail(const struct fbd_model *model, const struct run_event *event, const char *name,

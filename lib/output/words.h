@@ -8,7 +8,7 @@
 #include "loop/run.h"
 
 /* What happened, in a few words: "friction +4.81 N holds, limit 8.496 N". Writes at most `size` bytes. */
-enum { event_detail_size = 200 };
+enum { event_detail_size = 320 };
 
 void event_detail(const struct fbd_model *model, const struct run_event *event, char *detail, size_t size);
 
