@@ -218,8 +218,10 @@ static enum holds_found share_within(struct sharing *sharing, const int *modes)
     enum holds_found found = holds_lost;
     set_modes(problem, modes);
     if (keep_still(problem)) found = share(sharing);
-    if (found == holds_lost) set_modes(problem, modes);
-    if (found == holds_lost) found = share(sharing);
+    if (found == holds_lost) {
+        set_modes(problem, modes);
+        found = share(sharing);
+    }
     while (found == holds_decided && hold_what_closes(problem, fmax(1e-12, sharing->rounding)))
         found = share(sharing);
     return found;

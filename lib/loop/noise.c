@@ -46,7 +46,7 @@ static void measure_turns(struct run *run, const struct instant *at)
 
 static void add_cancelled(struct run *run, int body, double force, double arm)
 {
-    double *cancelled = &run->grain.cancelled[2 * (size_t)body];
+    double *cancelled = run->grain.cancelled + 2 * (size_t)body;
     cancelled[0] += force;
     cancelled[1] += force * arm;
 }
