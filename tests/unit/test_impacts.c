@@ -235,7 +235,7 @@ struct census {
 static void check_law_of_newton(const struct scene *scene, const double *before, const double *v,
                                 const double *P, double size)
 {
-    const double rounding = 1e-9; /* as holds tell it, and what redundant ones may leave */
+    const double rounding = 1e-10;
     for (int i = 0; i < scene->points; i++) {
         double approach = fmax(0, -before[2 * i]), beyond = v[2 * i] - scene->laws[i].e * approach;
         assert_true(beyond >= -rounding * size);
