@@ -184,13 +184,12 @@ static const struct row *row_along(const struct fbd_model *model, const struct t
 static double remoteness(const struct fbd_model *model, const struct instant *at, int index)
 {
     const struct tie *tie = &model->tree->ties[index];
-    double place = 0, shortest = HUGE_VAL, rate;
+    double place = 0, shortest = HUGE_VAL;
     if (tie->kind != constraint_capstan) return 0;
     const struct row *row = row_along(model, at->tree, index);
     for (int k = 0; k < row->port_count; k++)
         place = fmax(place, vec_norm(at->tree->links[row->ports[k].link].p));
-    for (int k = 0; k < 2; k++)
-        shortest = fmin(shortest, tie->end[1].radius * rope_piece(model, at->tree, index, k, &rate));
+    for (int k = 0; k < 2; k++) shortest = fmin(shortest, rope_piece(model, at->tree, index, k).left);
     return place / shortest;
 }
 

@@ -119,10 +119,8 @@ struct room {
 };
 struct room tie_room(const struct fbd_model *model, const struct tree_work *work, int index, int end);
 
-/* The straight piece of a rope after place k, as a share of the discs there (without one, of what the rope is long), and
- * how fast it grows [m/s]. */
-double rope_piece(const struct fbd_model *model, const struct tree_work *work, int index, int k,
-                  double *rate);
+/* The straight piece of a rope after place k, beside the discs there (without one, what the rope is long). */
+struct room rope_piece(const struct fbd_model *model, const struct tree_work *work, int index, int k);
 
 /* The tensions of the strands of a belt, as its rows have them. */
 void belt_tensions(const struct fbd_model *model, const struct tree_work *work, int index, double tension[2]);

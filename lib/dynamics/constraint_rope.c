@@ -341,7 +341,7 @@ struct room rope_room(const struct view *view, const struct tie *tie, const stru
     return (struct room){spare + way.x - state->laid[end], way.x1, spare};
 }
 
-double rope_piece(const struct fbd_model *model, const struct tree_work *work, int index, int k, double *rate)
+struct room rope_piece(const struct fbd_model *model, const struct tree_work *work, int index, int k)
 {
     const struct tie *tie = &model->tree->ties[index];
     const struct tie_state *state = &work->ties[index];
@@ -349,8 +349,7 @@ double rope_piece(const struct fbd_model *model, const struct tree_work *work, i
     bool rubs = tie->kind == constraint_capstan;
     double R = rubs ? tie->end[1].radius : fmax(fabs(rim(tie, state, k, 0)), fabs(rim(tie, state, k, 1)));
     struct jet t = (rubs ? reach_of(&view, tie, state, k) : piece_of(&view, tie, state, k)).t;
-    *rate = t.x1;
-    return t.x / (R > 0 ? R : tie->length);
+    return (struct room){t.x, t.x1, R > 0 ? R : tie->length};
 }
 
 double rope_reel_rate(const struct fbd_state *state, int index)

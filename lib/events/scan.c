@@ -416,7 +416,7 @@ static int look_by_series(struct scan *scan, double from, double *limit)
     if (!any_sampled(scan)) return 0;
     scan->prover.enclose = enclose_series;
     scan->prover.context = scan;
-    series_start(&scan->series);
+    if (!scan->resumed) series_start(&scan->series);
     long most = scan->samples + most_samples;
     for (double begin = from; begin < *limit;) {
         double end = *limit - begin > 1.5 * length ? begin + length : *limit;

@@ -9,20 +9,21 @@
 
 #include "integrate/stiffness.h"
 
-enum { terms = 26, matrices = 6 };
+enum { terms = 26, rungs = 64, works = 4 };
 
 static const double series_reach = 2 + 1e-9; /* of h rho: a step of 2 / rho may be rounded up */
+static const double lowest_rung = 0.125;     /* its h rho */
 
 struct linear {
     size_t dim;
     bool has_matrix, stepped, has_terms;
     int used; /* terms of the series */
     double rho, h;
-    double kept;                             /* the step size that `phi` belongs to, 0 for none */
-    double *y0, *f0, *work;                  /* dim, dim, 2 dim */
-    double *term;                            /* terms x dim: h^(k+1) A^k f0 / (k+1)! */
-    double *A, *phi, *exponential, *spare;   /* dim x dim */
-    double *phi_within, *exponential_within; /* dim x dim: for dense output */
+    double *y0, *f0, *work; /* dim, dim, works dim */
+    double *term;           /* terms x dim: h^(k+1) A^k f0 / (k+1)! */
+    double *A;              /* dim x dim */
+    int made;               /* rungs of the ladder for this matrix */
+    double *ladder;         /* for each, dim x dim: Phi and the exponential */
     double memory[];
 };
 
@@ -30,20 +31,16 @@ static void *linear_alloc(size_t dim)
 {
     const size_t most = 2 * (size_t)linear_most_pairs;
     if (dim == 0 || dim > most) return NULL;
-    size_t numbers = 4 * dim + terms * dim + matrices * dim * dim;
-    struct linear *s = calloc(1, sizeof *s + numbers * sizeof(double));
+    size_t numbers = (2 + works + terms + dim) * dim, matrices = 2 * rungs * dim * dim;
+    struct linear *s = calloc(1, sizeof *s + (numbers + matrices) * sizeof(double));
     if (!s) return NULL;
     s->dim = dim;
     s->y0 = s->memory;
     s->f0 = s->y0 + dim;
     s->work = s->f0 + dim;
-    s->term = s->work + 2 * dim;
+    s->term = s->work + works * dim;
     s->A = s->term + terms * dim;
-    s->phi = s->A + dim * dim;
-    s->exponential = s->phi + dim * dim;
-    s->spare = s->exponential + dim * dim;
-    s->phi_within = s->spare + dim * dim;
-    s->exponential_within = s->phi_within + dim * dim;
+    s->ladder = s->A + dim * dim;
     return s;
 }
 
@@ -100,37 +97,71 @@ static void multiply(size_t dim, const double *a, const double *b, double *resul
     }
 }
 
-/* exponential = 1 + A phi */
-static void set_exponential(struct linear *s)
+/* ---- the ladder */
+
+static double *phi_of(const struct linear *s, int rung)
 {
-    multiply(s->dim, s->A, s->phi, s->exponential);
-    for (size_t i = 0; i < s->dim; i++) s->exponential[i * s->dim + i] += 1;
+    return s->ladder + 2 * (size_t)rung * s->dim * s->dim;
 }
 
-/* phi = Phi(h) for any h > 0, and its exponential. */
-static void set_phi(struct linear *s, double h)
+static double *exponential_of(const struct linear *s, int rung)
+{
+    return phi_of(s, rung) + s->dim * s->dim;
+}
+
+static double height_of(const struct linear *s, int rung)
+{
+    return ldexp(lowest_rung / s->rho, rung);
+}
+
+/* sum += term, element by element; is the term nothing beside each of them? */
+static bool add_small(size_t size, const double *term, double *sum)
+{
+    const double least = 1e-19;
+    bool small = true;
+    for (size_t i = 0; i < size; i++) {
+        small &= fabs(term[i]) <= least * fabs(sum[i]);
+        sum[i] += term[i];
+    }
+    return small;
+}
+
+/* Phi by its series, and e^(hA) = 1 + A Phi. The room of the next rung holds the terms. */
+static void set_lowest(struct linear *s)
 {
     size_t dim = s->dim, size = dim * dim;
-    int doublings;
-    frexp(h * s->rho, &doublings); /* h rho < 2^doublings */
-    if (doublings < 0 || !(h * s->rho > 0)) doublings = 0;
-    double part = ldexp(h, -doublings);
-    /* Horner: h (1 + hA/2 (1 + hA/3 (1 + ...))) */
-    memset(s->phi, 0, size * sizeof *s->phi);
-    for (int k = terms; k >= 1; k--) {
-        multiply(dim, s->A, s->phi, s->spare);
-        for (size_t i = 0; i < size; i++) s->phi[i] = s->spare[i] * part / (k + 1);
-        for (size_t i = 0; i < dim; i++) s->phi[i * dim + i] += 1;
+    double h = height_of(s, 0), *phi = phi_of(s, 0), *exponential = exponential_of(s, 0);
+    double *term = phi_of(s, 1), *next = exponential_of(s, 1);
+    memset(phi, 0, size * sizeof *phi);
+    for (size_t i = 0; i < dim; i++) phi[i * dim + i] = h;
+    memcpy(term, phi, size * sizeof *phi);
+    for (size_t k = 1; k <= terms; k++) {
+        multiply(dim, s->A, term, next);
+        for (size_t i = 0; i < size; i++) term[i] = next[i] * (h / (double)(k + 1));
+        if (add_small(size, term, phi) && k >= dim) break;
     }
-    for (size_t i = 0; i < size; i++) s->phi[i] *= part;
-    set_exponential(s);
-    for (int k = 0; k < doublings; k++) {
-        multiply(dim, s->exponential, s->phi, s->spare);
-        for (size_t i = 0; i < size; i++) s->phi[i] += s->spare[i];
-        multiply(dim, s->exponential, s->exponential, s->spare);
-        memcpy(s->exponential, s->spare, size * sizeof *s->spare);
+    multiply(dim, s->A, phi, exponential);
+    for (size_t i = 0; i < dim; i++) exponential[i * dim + i] += 1;
+}
+
+static void set_next(struct linear *s, int rung)
+{
+    size_t dim = s->dim, size = dim * dim;
+    const double *phi = phi_of(s, rung - 1), *exponential = exponential_of(s, rung - 1);
+    double *twice = phi_of(s, rung);
+    multiply(dim, exponential, phi, twice);
+    for (size_t i = 0; i < size; i++) twice[i] += phi[i];
+    multiply(dim, exponential, exponential, exponential_of(s, rung));
+}
+
+static void need_rung(struct linear *s, int rung)
+{
+    for (; s->made <= rung; s->made++) {
+        if (s->made == 0)
+            set_lowest(s);
+        else
+            set_next(s, s->made);
     }
-    s->kept = h;
 }
 
 /* ---- steps */
@@ -165,17 +196,46 @@ static void sum_terms(const struct linear *s, double theta, double *y)
     }
 }
 
-/* y0 + Phi(h) f0 for a step longer than the series goes. A step differs from the one before by the rounding
- * of the time, which is made up for along the slope. */
+/* rise += Phi(h) f for |h| below the lowest rung. */
+static void climb_rest(const struct linear *s, double h, const double *f, double *term, double *rise)
+{
+    const double least = 4e-18;
+    double *next = term + s->dim, bound = 1;
+    for (size_t i = 0; i < s->dim; i++) term[i] = h * f[i];
+    for (size_t k = 1; k <= terms; k++) {
+        double factor = h / (double)(k + 1);
+        for (size_t i = 0; i < s->dim; i++) rise[i] += term[i];
+        bound *= fabs(factor) * s->rho;
+        if (bound < least && k >= s->dim) break;
+        apply_matrix(s->dim, s->A, term, next);
+        for (size_t i = 0; i < s->dim; i++) term[i] = next[i] * factor;
+    }
+}
+
+/* y0 + Phi(h) f0 for a step longer than the series goes: by the powers of two that h is made of, the slope f going
+ * along, and what is left by the series. A step of one rung may be shorter by the rounding of the time. */
 static void leap(struct linear *s, double h, double *y)
 {
     const double rounding = 1e-12;
     size_t dim = s->dim;
-    if (!(fabs(h - s->kept) <= rounding * h)) set_phi(s, h);
-    apply_matrix(dim, s->phi, s->f0, y);
-    apply_matrix(dim, s->exponential, s->f0, s->work);
-    double rest = h - s->kept;
-    for (size_t i = 0; i < dim; i++) y[i] = s->y0[i] + (y[i] + rest * s->work[i]);
+    double *f = s->work, *step = f + dim, *rise = step + 2 * dim, rest = h;
+    int rung;
+    frexp(h * s->rho / lowest_rung, &rung);
+    rung = rung > rungs ? rungs - 1 : rung > 0 ? rung - 1 : 0;
+    need_rung(s, rung > 0 ? rung : 1);
+    memcpy(f, s->f0, dim * sizeof *f);
+    memset(rise, 0, dim * sizeof *rise);
+    double height = height_of(s, rung);
+    for (; rung >= 0; rung--, height /= 2) {
+        for (; rest >= (1 - rounding) * height; rest -= height) {
+            apply_matrix(dim, phi_of(s, rung), f, step);
+            for (size_t i = 0; i < dim; i++) rise[i] += step[i];
+            apply_matrix(dim, exponential_of(s, rung), f, step);
+            memcpy(f, step, dim * sizeof *f);
+        }
+    }
+    climb_rest(s, rest, f, step, rise);
+    for (size_t i = 0; i < dim; i++) y[i] = s->y0[i] + rise[i];
 }
 
 void linear_set_matrix(gsl_odeiv2_step *step, const double *A, double rho)
@@ -183,10 +243,10 @@ void linear_set_matrix(gsl_odeiv2_step *step, const double *A, double rho)
     struct linear *s = step->state;
     size_t size = s->dim * s->dim * sizeof *A;
     s->has_matrix = true;
-    if (rho == s->rho && memcmp(A, s->A, size) == 0) return; /* as before the reset, with its Phi */
+    if (rho == s->rho && memcmp(A, s->A, size) == 0) return; /* as before the reset, with its ladder */
     memcpy(s->A, A, size);
     s->rho = rho;
-    s->kept = 0;
+    s->made = 0;
 }
 
 static int set_matrix(struct linear *s, double t, const double *y, const gsl_odeiv2_system *sys)
@@ -196,7 +256,7 @@ static int set_matrix(struct linear *s, double t, const double *y, const gsl_ode
     if (status != GSL_SUCCESS) return status;
     s->rho = stiffness_rate(s->dim, s->A, s->work);
     if (!isfinite(s->rho)) return GSL_FAILURE;
-    s->kept = 0;
+    s->made = 0;
     s->has_matrix = true;
     return GSL_SUCCESS;
 }
@@ -240,16 +300,10 @@ int linear_dense_prepare(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys)
 void linear_dense_eval(const gsl_odeiv2_step *step, double theta, double *y)
 {
     struct linear *s = step->state;
-    if (s->has_terms) {
+    if (s->has_terms)
         sum_terms(s, theta, y);
-        return;
-    }
-    /* The matrix of the whole step is kept for the next one. */
-    struct linear part = *s;
-    part.phi = s->phi_within;
-    part.exponential = s->exponential_within;
-    part.kept = 0;
-    leap(&part, theta * s->h, y);
+    else
+        leap(s, theta * s->h, y);
 }
 
 int linear_dense_degree(const gsl_odeiv2_step *step)

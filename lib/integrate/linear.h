@@ -9,12 +9,13 @@
  * whatever g is, and a state of equilibrium stays where it is to the last bit. Let rho be the bound of
  * stiffness_rate for |A|: there is a weighted maximum norm with ||A|| <= rho. For h rho <= 2 the series with
  * 26 terms errs by less than 2^26/27! = 7e-21 in that norm, is applied to f0 as it stands (as many terms as
- * count in double precision), and its terms are dense output at the same time. For longer steps it is doubled
- * (scaling and squaring):
+ * count in double precision), and its terms are dense output at the same time. Longer steps go up a ladder,
+ * whose rungs are kept as long as the matrix is the same (scaling and squaring):
  *
- *     Phi(2h) = Phi(h) + e^(hA) Phi(h),   e^(hA) = 1 + A Phi(h),
+ *     Phi(2h) = Phi(h) + e^(hA) Phi(h),   e^(hA) = 1 + A Phi(h),   e^(2hA) = e^(hA)^2
  *
- * and kept for the next step of the same size. The error estimate is zero. A step costs one evaluation, for
+ * from h rho = 1/8. A step, or a place within one, is the sum of some of them: along each, y rises by Phi f and f
+ * becomes e^(hA) f; the series goes over what is left. The error estimate is zero. A step costs one evaluation, for
  * the slope at its end; the first one after a reset also a Jacobian.
  *
  * How long steps should be is a matter of what is looked for in them: struct linear_pace.
@@ -50,7 +51,7 @@ enum { linear_most_pairs = 8 };
 /* Steps short enough that event functions and powers are followed by a few samples of each: two radians of
  * the fastest oscillation that is still there. Right after a start that is anything up to rho; a mode with
  * the eigenvalue l has died out after 40 / -Re l (e^-40 = 4e-18). A decaying motion is followed by steps that
- * double. The sizes are powers of two over rho, so that Phi is used again. */
+ * double. The sizes are powers of two over rho: one rung of the ladder each. */
 struct linear_modes;
 
 struct linear_pace {

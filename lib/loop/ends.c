@@ -17,6 +17,7 @@
 struct end {
     struct run *run;
     int tie, end;
+    bool piece; /* not an end but the straight piece after place `end` */
 };
 
 static const struct tie *tie_of(const struct end *end)
@@ -35,7 +36,9 @@ static void look(struct run *run, double t, const double *y)
 /* What is left before the end, where the links have been looked at. */
 static struct room room_of(const struct end *end)
 {
-    return tie_room(end->run->model, end->run->during->tree, end->tie, end->end);
+    const struct tree_work *work = end->run->during->tree;
+    return end->piece ? rope_piece(end->run->model, work, end->tie, end->end)
+                      : tie_room(end->run->model, work, end->tie, end->end);
 }
 
 /* The same within the last step; NAN where that is not known. */
@@ -151,37 +154,33 @@ static void watch_end(const struct end *end, struct moment *t)
     if (!isnan(used)) fail_at_end(end, t->t, false);
 }
 
-static double piece_at(struct run *run, int index, int k, double t, double *rate)
-{
-    if (switcher_partial(run->stepper, moment_at(t), run->work.y, run->work.f) != 0) return NAN;
-    look(run, t, run->work.y);
-    return rope_piece(run->model, run->during->tree, index, k, rate);
-}
-
 /* Where a piece is at its shortest within the last step: it may go through nothing and grow again, beyond the rim. */
-static double shortest_at(struct run *run, int index, int k, double little, double to)
+static double shortest_at(const struct end *piece, double little, double to)
 {
-    double from = run->step.from, before = 0, after = 0, rate;
-    piece_at(run, index, k, from, &before);
-    piece_at(run, index, k, to, &after);
+    enum { parts = 8 };
+    double from = piece->run->step.from;
+    double before = room_at(piece, from).rate, after = room_at(piece, to).rate;
+    if (before < 0 && after > 0 && is_far(piece, from, (to - from) / parts, parts)) return to;
     while (before < 0 && after > 0) {
         double middle = from + (to - from) / 2;
         if (!(middle > from && middle < to)) break;
-        double left = piece_at(run, index, k, middle, &rate);
-        if (rate < 0 && left <= little) return middle; /* while it has a direction */
-        *(rate < 0 ? &from : &to) = middle;
+        struct room room = room_at(piece, middle);
+        if (room.rate < 0 && room.left <= little * room.size) return middle; /* while it has a direction */
+        *(room.rate < 0 ? &from : &to) = middle;
     }
     return to;
 }
 
 /* A millionth of the disc is left of a straight piece, or a thousandth of the rope that is hauled in, about whose end
  * a load turns ever faster. */
-static void watch_piece(struct run *run, int index, int k, struct moment *t)
+static void watch_piece(const struct end *piece, struct moment *t)
 {
-    const struct tie *tie = &run->model->tree->ties[index];
+    struct run *run = piece->run;
+    const struct tie *tie = tie_of(piece);
     const double little = tie->reels ? 1e-3 : 1e-6;
-    double rate, when = shortest_at(run, index, k, little, t->t), left = piece_at(run, index, k, when, &rate);
-    if (left > little) { /* a number that is none has gone beyond */
+    double when = shortest_at(piece, little, t->t);
+    struct room room = room_at(piece, when);
+    if (room.left > little * room.size) { /* a number that is none has gone beyond */
         switcher_partial(run->stepper, *t, run->work.y, run->work.f);
         return;
     }
@@ -190,7 +189,7 @@ static void watch_piece(struct run *run, int index, int k, struct moment *t)
         run, FBD_BROKEN,
         "at t = %.9g the rope `%s` is at an end of its way: there is nothing left between `%s` and `%s`. End "
         "the run before, by an event",
-        t->t, tie->name, name_of(run, tie, k), name_of(run, tie, k + 1));
+        t->t, tie->name, name_of(run, tie, piece->end), name_of(run, tie, piece->end + 1));
 }
 
 /* A rope that rubs has become straight, and comes off its drum. */
@@ -214,9 +213,10 @@ static void watch_tie(struct run *run, int i, struct moment *t)
     bool rubs = tie->kind == constraint_capstan && state->slip[tie->surface] == stick;
     bool winds = tie->wound[0] != 0 || tie->wound[1] != 0;
     bool hauls = tie->kind == constraint_rope && (winds || tie->reels) && is_taut(state, tie);
-    for (int end = 0; end < 2 && is_taut(state, tie); end++) watch_end(&(struct end){run, i, end}, t);
+    for (int end = 0; end < 2 && is_taut(state, tie); end++) watch_end(&(struct end){run, i, end, false}, t);
     if (rubs) watch_wrap(run, i, *t);
-    for (int k = 0; (rubs || hauls) && k + 1 < tie->end_count; k++) watch_piece(run, i, k, t);
+    for (int k = 0; (rubs || hauls) && k + 1 < tie->end_count; k++)
+        watch_piece(&(struct end){run, i, k, true}, t);
 }
 
 void run_watch_ends(struct run *run, struct moment *t)
@@ -231,7 +231,7 @@ void run_check_ends(struct run *run)
     for (int i = 0; tree && i < tree->tie_count && run->end.outcome == FBD_GOING; i++) {
         if (tree->ties[i].kind != constraint_rope || !is_taut(run->state, &tree->ties[i])) continue;
         for (int k = 0; k < 2; k++) {
-            struct end end = {run, i, k};
+            struct end end = {run, i, k, false};
             if (!isfinite(room_of(&end).size)) continue;
             look(run, run->state->t, run->state->y);
             if (is_used_up(room_of(&end))) fail_at_end(&end, run_time(run), true);
