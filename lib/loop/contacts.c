@@ -51,7 +51,7 @@ bool contacts_work_init(struct contacts_work *work, const struct fbd_model *mode
     work->strikers = calloc(most, sizeof *work->strikers);
     work->points = calloc(most, sizeof *work->points);
     work->rows = calloc(rows + model->plan.mode_count, sizeof *work->rows);
-    work->W = calloc(rows * rows + rows * n + 4 * rows + 2 * n + 1, sizeof *work->W);
+    work->W = calloc(rows * rows + rows * n + 4 * rows + plan_size(&model->plan) + 1, sizeof *work->W);
     if (!meetings_init(work, model)) return false;
     if (!work->strikers || !work->points || !work->rows || !work->W) return false;
     work->modes = work->rows + rows;
