@@ -128,17 +128,19 @@ double tree_rubbing_share(const struct fbd_model *model, const struct instant *a
            friction_coefficient(model, tie->pair, mu, at, NULL, NULL);
 }
 
-static void apply_unknown(const struct fbd_model *model, const struct instant *at, int k, double size)
+/* Is it a row by itself? What rubs has its friction in other rows. */
+static bool apply_unknown(const struct fbd_model *model, const struct instant *at, int k, double size)
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
     if (!is_row(tree, k)) {
         work->x[tree->pairs[k - tree->row_count]].g += size;
-        return;
+        return false;
     }
     row_apply(&work->rows[k], size, work->x);
     double share = tree_rubbing_share(model, at, k);
     if (share != 0) row_apply(&work->rows[k + 1], share * size, work->x);
+    return share == 0;
 }
 
 /* The trees that unknown k joins: their first links. */
@@ -169,7 +171,7 @@ static void answer_unit(const struct fbd_model *model, const struct instant *at,
         clear_range(work->x, roots[i], tree->links[roots[i]].end);
         work->mark[roots[i]] = k + 1;
     }
-    apply_unknown(model, at, k, 1);
+    work->symmetric &= apply_unknown(model, at, k, 1);
     for (int i = 0; i < count; i++) {
         tree_inward(tree, work, roots[i], tree->links[roots[i]].end);
         tree_outward(tree, work, roots[i], tree->links[roots[i]].end, work->unit);
@@ -190,9 +192,12 @@ static double entry(const struct fbd_model *model, const struct instant *at, int
  * places in the order of elimination (model/tie_order.c), of those unknowns that take part */
 
 /* Number those that take part. What touches nothing and what slips costs nothing from here on. */
-static void set_places(const struct tree *tree, const struct instant *at)
+static void set_places(const struct fbd_model *model, const struct instant *at)
 {
+    const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
+    for (int j = 0; j < tree->row_count; j++) work->rows[j].redundant = work->rows[j].weak = false;
+    if (work->placed) return;
     int count = 0, all = tree_unknowns(tree);
     size_t size = 0;
     for (int p = 0; p < all; p++) {
@@ -200,7 +205,6 @@ static void set_places(const struct tree *tree, const struct instant *at)
         work->rank[p] = count;
         work->place[k] = -1;
         work->diagonal[k] = 1;
-        if (is_row(tree, k)) work->rows[k].redundant = work->rows[k].weak = false;
         if (!tree_takes_part(tree, at, k)) continue;
         work->place[k] = count;
         work->unknown_at[count] = k;
@@ -214,6 +218,7 @@ static void set_places(const struct tree *tree, const struct instant *at)
     for (int r = 0; r < count; r++) work->reach[r] = work->rank[work->reach[r]];
     work->count = count;
     work->envelope_size = size;
+    work->placed = model->plan.mode_count == 0;
 }
 
 /* Entry k of the row or column j, which is kept from `from` on. */
@@ -230,6 +235,10 @@ static double entry_in(const struct tree_work *work, const double *kept, int j, 
 /* A row that nothing can move, as a rod on the axis of a pivot, has no multiplier: it would be one of
  * rounding. */
 static const double nothing = 1e-15;
+
+/* Epsilon of the header, and the share of its scale below which a pivot is that of a weak row: the shifts of rows before
+ * add to it. */
+static const double shift_of_rows = 1e-8, weak_share = 1e-4;
 
 /* Row and column j up to the diagonal, given those before. */
 static void factor_row(const struct tree *tree, struct tree_work *work, int j, double epsilon)
@@ -251,7 +260,7 @@ static void factor_row(const struct tree *tree, struct tree_work *work, int j, d
     work->inverse[j] = movable && pivot != 0 ? 1 / pivot : 0;
     if (!is_row(tree, unknown)) return;
     work->rows[unknown].redundant = !movable || !(fabs(pivot) > 10 * shift);
-    work->rows[unknown].weak = !movable || !(fabs(pivot) > 1e4 * shift); /* shifts of rows before add to it */
+    work->rows[unknown].weak = !movable || !(fabs(pivot) > weak_share / shift_of_rows * shift);
 }
 
 /* rest = right - S z. */
@@ -288,7 +297,7 @@ static double largest(const double *values, int count)
 static void solve(struct tree_work *work, double *unknowns)
 {
     enum { least_corrections = 2, most_corrections = 8 };
-    int m = work->count, corrections = work->projecting ? 0 : most_corrections;
+    int m = work->count, corrections = work->projecting || work->direct ? 0 : most_corrections;
     double *right = work->right, *rest = work->rest, *z = work->ordered;
     for (int p = 0; p < m; p++) z[p] = right[p] = unknowns[work->unknown_at[p]];
     substitute(work, z);
@@ -355,10 +364,11 @@ static void assemble(const struct fbd_model *model, const struct instant *at)
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
-    set_places(tree, at);
+    set_places(model, at);
     double *lower = work->whole, *upper = lower + work->envelope_size;
     memset(lower, 0, 2 * work->envelope_size * sizeof *lower);
     memset(work->mark, 0, (size_t)tree->count * sizeof *work->mark);
+    work->symmetric = true;
     for (int p = 0; p < work->count; p++) {
         int k = work->unknown_at[p];
         answer_unit(model, at, k);
@@ -373,14 +383,33 @@ static void assemble(const struct fbd_model *model, const struct instant *at)
     set_scales(tree, work);
 }
 
-void tree_system_refactor(const struct tree *tree, struct tree_work *work)
+static void factor_shifted(const struct tree *tree, struct tree_work *work, double epsilon)
 {
     size_t bytes = work->envelope_size * sizeof *work->lower;
-    /* A projection must not throw the state about for what a row with no slope has left. */
-    const double epsilon = work->projecting ? work->damping : 1e-8;
     memcpy(work->lower, work->whole, bytes);
     memcpy(work->upper, work->whole + work->envelope_size, bytes);
     for (int j = 0; j < work->count; j++) factor_row(tree, work, j, epsilon);
+}
+
+/* A few rows of which none is weak: S is positive definite as it stands, and elimination without pivoting is stable for
+ * it (N. J. Higham, Accuracy and Stability of Numerical Algorithms, SIAM 2002, 10.1), so that there is nothing to be
+ * corrected. False where that is not so. */
+static bool factor_as_it_stands(const struct tree *tree, struct tree_work *work)
+{
+    enum { few = 8 };
+    if (!work->symmetric || work->count > few) return false;
+    factor_shifted(tree, work, 0);
+    for (int j = 0; j < work->count; j++)
+        if (!(work->inverse[j] > 0 && work->inverse[j] * weak_share * work->scale[work->unknown_at[j]] < 1))
+            return false;
+    return true;
+}
+
+void tree_system_refactor(const struct tree *tree, struct tree_work *work)
+{
+    work->direct = !work->projecting && factor_as_it_stands(tree, work);
+    /* A projection must not throw the state about for what a row with no slope has left. */
+    if (!work->direct) factor_shifted(tree, work, work->projecting ? work->damping : shift_of_rows);
 }
 
 void tree_system_factor(const struct fbd_model *model, const struct instant *at)

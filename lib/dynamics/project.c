@@ -268,6 +268,18 @@ int state_locked_row(const struct fbd_state *state, struct fbd_state *other)
     return worst;
 }
 
+bool state_is_fixed(struct fbd_state *state)
+{
+    const struct plan *plan = &state->model->plan;
+    const struct tree *tree = state->model->tree;
+    if (!has_ties(state->model) || plan->mode_count + (size_t)plan->own > 0 || tree->row_count < plan->n)
+        return false;
+    int independent = 0;
+    state_evaluate_unshared(state);
+    for (int j = 0; j < tree->row_count; j++) independent += !state->tree->rows[j].weak;
+    return independent == plan->n;
+}
+
 /* What the impulses of the rows take: each is between a velocity along its row and none. */
 static double taken_by_rows(const struct place *place)
 {

@@ -29,6 +29,10 @@ double state_acceleration_misfit(const struct fbd_state *state, int *row);
  * accelerations. The worst row, or -1. The state has been evaluated; `other` is written over. */
 int state_locked_row(const struct fbd_state *state, struct fbd_state *other);
 
+/* Is there no way to move, for good? There are as many independent rows as coordinates, which hold at all times and in
+ * the only modes that there are: J v = 0 leaves v = 0. Evaluates the state. */
+bool state_is_fixed(struct fbd_state *state);
+
 /* The state's positions alone, as they are with the modes of the state. */
 bool state_project_position(struct fbd_state *state);
 

@@ -2,10 +2,13 @@
 #include "dynamics/rates.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "dynamics/laws.h"
 #include "dynamics/own.h"
+#include "dynamics/tree.h"
 #include "dynamics/tree_bare.h"
+#include "dynamics/tree_short.h"
 
 struct row {
     rates_function *function;
@@ -26,6 +29,9 @@ struct row {
     struct expr_part part;
     int u; /* its variable in y, -1 for t */
     bool one_part;
+    struct tree_pole pole;
+    const struct tree_link *links;
+    const struct tree_bare *bare;
 };
 
 struct rates {
@@ -52,6 +58,14 @@ static int held_row(double t, const double y[], double dydt[], void *params)
     (void)t, (void)y;
     dydt[row->q] = row->rate;
     dydt[row->v] = 0;
+    return 0;
+}
+
+static int no_row(double t, const double y[], double dydt[], void *params)
+{
+    const struct row *row = params;
+    (void)t, (void)y;
+    memset(dydt, 0, plan_size(&row->all->state->model->plan) * sizeof *dydt);
     return 0;
 }
 
@@ -188,7 +202,9 @@ static int whole_row(double t, const double y[], double dydt[], void *params)
     const struct row *row = params;
     const struct fbd_state *state = row->all->state;
     struct instant at = state_instant_at(state, t, y);
+    if (at.tree) at.tree->rates_only = !at.sliding;
     state_rates(state->model, &at, state->slots, dydt);
+    if (at.tree) at.tree->rates_only = false;
     return 0;
 }
 
@@ -198,6 +214,35 @@ static int bare_row(double t, const double y[], double dydt[], void *params)
     const struct fbd_state *state = row->all->state;
     (void)t;
     tree_bare_rates(state->model, state->tree, y, dydt);
+    return 0;
+}
+
+static int pole_row(double t, const double y[], double dydt[], void *params)
+{
+    const struct row *row = params;
+    (void)t;
+    dydt[0] = y[2];
+    dydt[1] = y[3];
+    tree_pole(&row->pole, 0, 0, y, y + 2, dydt + 2);
+    return 0;
+}
+
+static int two_pivots_row(double t, const double y[], double dydt[], void *params)
+{
+    const struct row *row = params;
+    (void)t;
+    dydt[0] = y[2];
+    dydt[1] = y[3];
+    tree_two_pivots(row->links, row->bare, y, y + 2, dydt + 2);
+    return 0;
+}
+
+static int three_pivots_row(double t, const double y[], double dydt[], void *params)
+{
+    const struct row *row = params;
+    (void)t;
+    for (int i = 0; i < 3; i++) dydt[i] = y[3 + i];
+    tree_three_pivots(row->links, row->bare, y, y + 3, dydt + 3);
     return 0;
 }
 
@@ -357,12 +402,37 @@ static void bind_body(struct rates *rates, int b)
     rates->count = (int)(next - rates->rows);
 }
 
+static struct row row_of_bare_tree(const struct rates *rates)
+{
+    const struct fbd_model *model = rates->state->model;
+    const struct tree_link *links = &model->tree->links[1];
+    struct row row = {.function = bare_row,
+                      .all = rates,
+                      .links = links,
+                      .bare = &rates->state->tree->bare[1]};
+    switch (tree_bare_form(model)) {
+    case tree_form_pole:
+        row.function = pole_row;
+        row.pole = tree_pole_of(links);
+        break;
+    case tree_form_two_pivots: row.function = two_pivots_row; break;
+    case tree_form_three_pivots: row.function = three_pivots_row; break;
+    case tree_form_none: break;
+    }
+    return row;
+}
+
 void rates_bind(struct rates *rates)
 {
     const struct fbd_model *model = rates->state->model;
     rates->count = 0;
-    if (rates->kind == rates_by_rows && tree_is_bare(model) && !state_sliding(rates->state)) {
-        rates->rows[rates->count++] = (struct row){.function = bare_row, .all = rates};
+    if (rates->kind == rates_none) {
+        rates->rows[rates->count++] = (struct row){.function = no_row, .all = rates};
+        return;
+    }
+    bool free = rates->kind == rates_by_rows && !state_sliding(rates->state);
+    if (free && tree_is_bare(model)) {
+        rates->rows[rates->count++] = row_of_bare_tree(rates);
     } else if (model->tree || model->absolute_count > 0 ||
                state_sliding(rates->state)) { /* one solution for all */
         rates->rows[rates->count++] = (struct row){.function = whole_row, .all = rates};
@@ -414,7 +484,7 @@ struct rates_census rates_census(const struct rates *rates)
                      : function == part_row     ? &census.parts
                      : function == formulas_row ? &census.formulas
                      : function == particle_row ? &census.particles
-                     : function == bare_row     ? &census.bare
+                     : rates->rows[i].links     ? &census.bare
                                                 : &census.bodies;
         (*count)++;
     }

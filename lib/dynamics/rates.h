@@ -31,8 +31,8 @@
 /* As in gsl_odeiv2_system: 0, and dydt[plan_size]. */
 typedef int rates_function(double t, const double y[], double dydt[], void *params);
 
-/* What is asked for: the whole, or always the general path (to hold the rows against). */
-enum rates_kind { rates_by_rows, rates_general };
+/* What is asked for: the whole, or always the general path (to hold the rows against), or none, of what cannot move. */
+enum rates_kind { rates_by_rows, rates_general, rates_none };
 
 struct rates;
 

@@ -223,6 +223,16 @@ static void drop_rounding(const struct tree *tree, struct tree_work *work, doubl
     }
 }
 
+/* What rows ask for before there are multipliers. */
+static void add_accelerations(const struct tree *tree, struct tree_work *work)
+{
+    for (int i = 1; i < tree->count; i++) {
+        struct tree_state *s = &work->links[i];
+        s->A.alpha += work->x[i].A.alpha;
+        s->A.a = vec_add(s->A.a, work->x[i].A.a);
+    }
+}
+
 /* Add the forces of constraints and of slipping slides. */
 static void close_system(const struct fbd_model *model, const struct instant *at, double *a)
 {
@@ -240,6 +250,7 @@ static void close_system(const struct fbd_model *model, const struct instant *at
     tree_take_multipliers(model, at);
     tree_add_unit(tree, work, a);
     if (tree->meeting_count > 0) drop_rounding(tree, work, a);
+    if (work->rates_only) return;
     add_result(tree, work);
     constraints_evaluate(model, at, NULL); /* with the accelerations that they lead to */
 }
@@ -262,11 +273,14 @@ void tree_accelerations(const struct fbd_model *model, const struct instant *at,
     work->complete = work->shared = false;
     work->fastest = -1;
     if (tree->watched_count + tree->tie_count == 0) return;
-    tree_complete(model, work);
+    if (work->rates_only && tree->watched_count == 0)
+        add_accelerations(tree, work);
+    else
+        tree_complete(model, work);
     if (tree->tie_count > 0 || tree_slips(tree, at)) close_system(model, at, a);
     for (int k = 0; k < tree->watched_count; k++) {
         const struct tree_state *s = &work->links[tree->watched[k]];
         if (s->locked) a[tree->links[tree->watched[k]].coordinate] = s->held;
     }
-    tree_slots(model, at, slots);
+    if (!work->rates_only) tree_slots(model, at, slots);
 }

@@ -162,15 +162,24 @@ static void chain(const struct tree_link *links, struct tree_bare *s, int count,
 static void any_chain(const struct tree_link *links, struct tree_bare *s, int count, const double *y,
                       const double *v, double *a)
 {
-    bool turns = links->kind == motion_pivot;
-    if (count == 2 && turns)
+    enum tree_form form = tree_form_of(links, count);
+    if (form == tree_form_two_pivots) {
         tree_two_pivots(links, s, y, v, a);
-    else if (count == 2)
-        tree_pole(links, s, y, v, a);
-    else if (count == 3 && turns)
+    } else if (form == tree_form_pole) {
+        const struct tree_pole pole = tree_pole_of(links);
+        tree_pole(&pole, s[0].g, s[1].g, y, v, a);
+    } else if (form == tree_form_three_pivots) {
         tree_three_pivots(links, s, y, v, a);
-    else
+    } else {
         chain(links, s, count, y, v, a);
+    }
+}
+
+enum tree_form tree_bare_form(const struct fbd_model *model)
+{
+    const struct tree *tree = model->tree;
+    bool alone = tree->acting_count == 0 && tree->links[1].end == tree->count;
+    return alone ? tree_form_of(&tree->links[1], tree->count - 1) : tree_form_none;
 }
 
 void tree_bare_rates(const struct fbd_model *model, struct tree_work *work, const double *y, double *dydt)

@@ -25,6 +25,11 @@ struct tree_bare {
 /* Is it one, and is there nothing in the scene beside it? */
 bool tree_is_bare(const struct fbd_model *model);
 
+enum tree_form { tree_form_none, tree_form_pole, tree_form_two_pivots, tree_form_three_pivots };
+
+/* The closed form (tree_short.h) of such a tree, where it has one, is a single chain and has nothing in its joints. */
+enum tree_form tree_bare_form(const struct fbd_model *model);
+
 /* dydt[2 n] at y; of the workspace only `bare` is used. */
 void tree_bare_rates(const struct fbd_model *model, struct tree_work *work, const double *y, double *dydt);
 

@@ -25,19 +25,31 @@ static inline double square(double x)
     return x * x;
 }
 
-void tree_pole(const struct tree_link *links, const struct tree_bare *s, const double *y, const double *v,
-               double *a)
+struct tree_pole tree_pole_of(const struct tree_link *links)
 {
     const struct tree_link *slide = &links[0], *pole = &links[1];
-    int x = slide->coordinate, q = pole->coordinate;
-    struct vec turn = vec_unit(slide->along + pole->along + y[q]), h = vec_turn(turn, pole->moment);
-    /* The O of the pole goes along e, as one at the end of a d with k x d = e would. */
-    double C = vec_cross(h, slide->e), X = vec_dot(h, slide->e), D = pole->inverse_I_O;
-    double u = D * (s[1].g + moment_of_forces(pole, turn));
-    double force = s[0].g + vec_dot(slide->e, vec_add(slide->force, pole->force)) + square(v[q]) * X;
-    double own = (force - C * u) / (slide->mass + pole->across + D * X * X);
-    a[x] = own;
-    a[q] = u - D * C * own;
+    return (struct tree_pole){.x = slide->coordinate,
+                              .q = pole->coordinate,
+                              .along = slide->along + pole->along,
+                              .P = vec_dot(pole->moment, slide->e),
+                              .Q = vec_cross(pole->moment, slide->e),
+                              .sine = pole->sine,
+                              .cosine = pole->cosine,
+                              .D = pole->inverse_I_O,
+                              .mass = slide->mass + pole->across,
+                              .force = vec_dot(slide->e, vec_add(slide->force, pole->force))};
+}
+
+/* The O of the pole goes along e, as one at the end of a d with k x d = e would: C = h x e, X = h . e. */
+void tree_pole(const struct tree_pole *pole, double force, double moment, const double *y, const double *v,
+               double *a)
+{
+    struct vec turn = vec_unit(pole->along + y[pole->q]);
+    double C = pole->Q * turn.x - pole->P * turn.y, X = pole->P * turn.x + pole->Q * turn.y, D = pole->D;
+    double u = D * (moment + pole->sine * turn.y + pole->cosine * turn.x);
+    double own = (force + pole->force + square(v[pole->q]) * X - C * u) / (pole->mass + D * X * X);
+    a[pole->x] = own;
+    a[pole->q] = u - D * C * own;
 }
 
 void tree_two_pivots(const struct tree_link *links, const struct tree_bare *s, const double *y,

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "dynamics/finite.h"
+#include "dynamics/project.h"
 #include "loop/cross.h"
 #include "rest/start.h"
 
@@ -29,14 +30,19 @@ static void bind_rates(struct run *run)
 
 /* ---- making and freeing */
 
+static bool chooses_structure(const struct run *run)
+{
+    return run->options.automatic && run->options.structure && run->options.step == 0;
+}
+
 static bool make_stepper(struct run *run)
 {
     size_t n = (size_t)run->model->plan.n;
     bool *angle = calloc(n + 1, sizeof *angle);
     if (!angle) return false;
     for (size_t i = 0; i < n; i++) angle[i] = run->model->scene->coordinates[i].angle;
-    if (run->options.automatic && run->options.structure && run->options.step == 0) {
-        run->kind = structure_of(run->model);
+    if (chooses_structure(run)) {
+        if (run->kind != structure_fixed) run->kind = structure_of(run->model);
         run->options.method = structure_method(run->kind);
     }
     struct stepper_options options = {.method = run->options.method,
@@ -118,6 +124,21 @@ static void refuse(struct run *run, struct lack *lack)
     text_free(&lack->text);
 }
 
+/* What cannot move has no equations of motion: one step, whatever it carries. Once it is known how the bodies lie. */
+static bool hold_fixed(struct run *run)
+{
+    size_t n = (size_t)run->model->plan.n;
+    bool asks = chooses_structure(run) && run->kind == structure_general;
+    if (!asks || !state_is_fixed(run->state)) return true;
+    run->kind = structure_fixed;
+    memset(run->state->y + n, 0, n * sizeof *run->state->y);
+    switcher_free(run->stepper);
+    rates_free(run->rates);
+    run->rates = rates_new(run->during, rates_none);
+    run->stepper = NULL;
+    return run->rates && make_stepper(run);
+}
+
 static void start(struct run *run)
 {
     struct lack lack;
@@ -130,6 +151,10 @@ static void start(struct run *run)
     }
     if (!start_ready(run->state, run->during, "the start", &lack)) {
         refuse(run, &lack);
+        return;
+    }
+    if (!hold_fixed(run)) {
+        run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
         return;
     }
     run_release_contacts(run);
@@ -201,7 +226,7 @@ static bool restart(struct run *run)
         return false;
     }
     if (run->step.first == 0) run->step.first = run->step.h;
-    if (run->kind == structure_constant) run->step.h = run->options.until - run->state->t;
+    if (structure_is_one_step(run->kind)) run->step.h = run->options.until - run->state->t;
     if (run->kind == structure_linear) {
         linear_pace_start(&run->pace, &run->system, run->state->t, run->work.y);
         const struct linear_modes *modes = run->pace.now;
@@ -331,7 +356,7 @@ static bool limit_step(struct run *run, struct turn *turn)
     if (run->step.crawl == 0)
         run->step.not_finite = switcher_counts(run->stepper).rejected[rejected_not_finite];
     if (run->kind == structure_linear) set_linear_step(run);
-    if (run->kind == structure_constant) run->step.h = run->options.until - run->step.from;
+    if (structure_is_one_step(run->kind)) run->step.h = run->options.until - run->step.from;
     run_part_before(run);
     if (run->options.step == 0 && !heed_poles(run)) return false;
     turn->limit = next_time(run, &turn->timed);

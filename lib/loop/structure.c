@@ -34,6 +34,7 @@ const struct method *structure_method(enum structure structure)
     switch (structure) {
     case structure_velocity_free: return &nystrom_method;
     case structure_linear: return &linear_method;
+    case structure_fixed:
     case structure_constant: return &parabola_method;
     case structure_general:
     case structure_kinds: break;

@@ -16,6 +16,7 @@ enum structure {
     structure_velocity_free, /* no force depends on a velocity: nystrom.h */
     structure_linear,        /* linear equations with constant coefficients between events: linear.h */
     structure_constant,      /* accelerations are constant between events: parabola.h */
+    structure_fixed, /* there is no way to move, as the bodies lie (state_is_fixed); structure_of never says so */
     structure_kinds
 };
 
@@ -27,7 +28,13 @@ const struct method *structure_method(enum structure structure);
 /* Does that method make steps of any length without error? */
 static inline bool structure_is_exact(enum structure structure)
 {
-    return structure == structure_constant || structure == structure_linear;
+    return structure == structure_constant || structure == structure_fixed || structure == structure_linear;
+}
+
+/* One step goes to the next event. */
+static inline bool structure_is_one_step(enum structure structure)
+{
+    return structure == structure_constant || structure == structure_fixed;
 }
 
 #endif

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "dynamics/project.h"
 #include "loop/division.h"
 #include "loop/structure.h"
 
@@ -17,19 +18,32 @@ static const char *words_for(enum structure structure)
     case structure_linear:
         return "linear equations with constant coefficients between events: propagated exactly";
     case structure_constant: return "constant accelerations between events: exact parabolas, one step each";
+    case structure_fixed: return "no way to move: one step, whatever it carries";
     case structure_general:
     case structure_kinds: break;
     }
     return "nothing in particular: the general method";
 }
 
+/* structure_kinds when memory is out. */
+static enum structure structure_as_it_lies(const struct fbd_model *model)
+{
+    enum structure structure = structure_of(model);
+    if (structure != structure_general) return structure;
+    struct fbd_state *state = state_new(model);
+    if (!state) return structure_kinds;
+    if (state_is_fixed(state)) structure = structure_fixed;
+    state_free(state);
+    return structure;
+}
+
 /* The structure of group `index`; structure_kinds when memory is out. */
 static enum structure structure_of_group(const struct fbd_model *model, const struct division *division,
                                          size_t index)
 {
-    if (division->count <= 1) return structure_of(model);
+    if (division->count <= 1) return structure_as_it_lies(model);
     struct fbd_model *group = model_group(model, &division->selections[index]);
-    enum structure structure = group ? structure_of(group) : structure_kinds;
+    enum structure structure = group ? structure_as_it_lies(group) : structure_kinds;
     model_free(group);
     return structure;
 }

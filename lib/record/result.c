@@ -65,7 +65,7 @@ static void add_stats(fbd_stats *stats, const struct run *run)
     stats->event_samples += (unsigned long)(run->search.timed.samples + run->search.moving.samples);
     for (int kind = 0; kind < rejection_kinds; kind++) stats->rejected += counts.rejected[kind];
     stats->linear += run->kind == structure_linear;
-    stats->constant += run->kind == structure_constant;
+    stats->constant += structure_is_one_step(run->kind);
     stats->velocity_free += run->kind == structure_velocity_free;
 }
 
