@@ -3,6 +3,8 @@
 
 #include <float.h>
 
+#include "expr/curve.h"
+
 /* ---- kinds */
 
 static void pin(const struct view *view, const struct tie *tie, const struct tie_state *state,
@@ -179,18 +181,31 @@ static const struct row *row_along(const struct fbd_model *model, const struct t
     return &work->rows[model->tree->ties[tie].first_row + 1];
 }
 
-/* By how much more than those of speeds the roundings of places count: a rope goes along its strands as these point, and
- * that is as well known as where their ends are, over their length. */
-static double remoteness(const struct fbd_model *model, const struct instant *at, int index)
+static double shortest_strand(const struct fbd_model *model, const struct instant *at, int index)
+{
+    double shortest = HUGE_VAL;
+    for (int k = 0; k < 2; k++) shortest = fmin(shortest, rope_piece(model, at->tree, index, k).left);
+    return shortest;
+}
+
+/* What is as large as speeds of `size` where their roundings count, because of those of places. A rope goes along its
+ * strands as these point, and that is as well known as where their ends are, over their length. The place in a slot is a
+ * difference of places, which turns with the slot, and tells the direction of a curve. */
+static double remoteness(const struct fbd_model *model, const struct instant *at, int index, double size)
 {
     const struct tie *tie = &model->tree->ties[index];
-    double place = 0, shortest = HUGE_VAL;
-    if (tie->kind != constraint_capstan) return 0;
+    const struct curve *curve = tie->source->curve;
     const struct row *row = row_along(model, at->tree, index);
-    for (int k = 0; k < row->port_count; k++)
-        place = fmax(place, vec_norm(at->tree->links[row->ports[k].link].p));
-    for (int k = 0; k < 2; k++) shortest = fmin(shortest, rope_piece(model, at->tree, index, k).left);
-    return place / shortest;
+    double place = 0, turns = 0;
+    for (int k = 0; k < row->port_count; k++) {
+        const struct tree_state *s = &at->tree->links[row->ports[k].link];
+        place = fmax(place, vec_norm(s->p));
+        turns = fmax(turns, fabs(s->omega));
+    }
+    if (tie->kind == constraint_capstan) return size * place / shortest_strand(model, at, index);
+    if (tie->kind != constraint_groove) return 0;
+    double bend = curve ? curve_at(curve, NULL, at->tree->ties[index].foot).bend : 0;
+    return place * (turns + fabs(bend) * size);
 }
 
 double tie_slip_velocity(const struct fbd_model *model, const struct instant *at, int tie)
@@ -205,7 +220,7 @@ double tie_slip_velocity(const struct fbd_model *model, const struct instant *at
         /* What has come down and rests has no speed to measure rounding against but that of falling over. */
         if (touches) size = fmax(size, sqrt(vec_norm(model->scene->gravity) * arm));
     }
-    return fabs(v) <= 64 * DBL_EPSILON * size * (1 + remoteness(model, at, tie)) ? 0 : v;
+    return fabs(v) <= 64 * DBL_EPSILON * (size + remoteness(model, at, tie, size)) ? 0 : v;
 }
 
 struct slip_rate tie_slip(const struct fbd_model *model, const struct instant *at, int index, bool varied)

@@ -84,10 +84,10 @@ static double empty_time(const struct end *end, double some, double none)
     }
 }
 
-/* What has no mode always is. */
+/* What is no rope always is, whatever it rubs. */
 static bool is_taut(const struct fbd_state *state, const struct tie *tie)
 {
-    return tie->pair < 0 || state->slip[tie->pair] == stick;
+    return tie->kind != constraint_rope || tie->pair < 0 || state->slip[tie->pair] == stick;
 }
 
 static const char *name_of(const struct run *run, const struct tie *tie, int k)

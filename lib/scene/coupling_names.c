@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The names of the couplings: as given, or their kind; of further ones of a kind that with the bodies which they join,
- * `rod_crank_slider`, which says which, and numbered where that is taken, too.
+ * The names of the couplings: as given; the kind, of the only one of a kind that has none; where there are several, the
+ * kind with the bodies which they join, `rod_crank_slider`, all alike, and numbered where that is taken, too.
  * Names that are taken are kept sorted: a scene may have a hundred thousand couplings, and as many forces whose names
  * they must not bear.
  */
@@ -144,18 +144,23 @@ static bool name_by_bodies(struct reader *reader, struct coupling_name *names, s
     return true;
 }
 
+/* Is it the only one of its kind that has no name? `unnamed`: how many there are, by kind. */
+static bool is_alone(const size_t *unnamed, const struct coupling_name *name)
+{
+    return !name->name && unnamed[name->kind - coupling_kinds.kinds] == 1;
+}
+
 bool couplings_name(struct reader *reader, struct coupling_name *names, size_t count)
 {
     struct taken_names taken;
-    bool *used = ARENA_ARRAY(reader->arena, coupling_kinds.count, bool);
-    if (!used || !collect(reader, names, count, &taken)) return false;
+    size_t *unnamed = ARENA_ARRAY(reader->arena, coupling_kinds.count, size_t);
+    if (!unnamed || !collect(reader, names, count, &taken)) return false;
     for (size_t i = 0; i < count; i++)
         if (names[i].name && !check_given(reader, &taken, names, i)) return false;
-    for (size_t i = 0; i < count; i++) {
-        bool *kind = &used[names[i].kind - coupling_kinds.kinds];
-        if (names[i].name || *kind) continue;
-        *kind = true; /* the first without a name */
-        if (!find(&taken, names[i].kind->name)) names[i].name = names[i].kind->name;
-    }
+    for (size_t i = 0; i < count; i++)
+        if (!names[i].name) unnamed[names[i].kind - coupling_kinds.kinds]++;
+    for (size_t i = 0; i < count; i++)
+        if (is_alone(unnamed, &names[i]) && !find(&taken, names[i].kind->name))
+            names[i].name = names[i].kind->name;
     return name_by_bodies(reader, names, count, &taken);
 }

@@ -379,6 +379,7 @@ static struct symbol look_up(void *context, const char *name, struct pos at)
     size_t parameter;
     if (own.kind != symbol_unknown) return own;
     if (parameters_find(reader, name, &parameter)) return constant_symbol(names, parameter, at);
+    if (names->tried && strcmp(name, "s") == 0) return variable(DIM_NONE, 0);
     struct symbol state = own_state_symbol(names, name, at);
     if (state.kind != symbol_unknown) return state;
     if (strcmp(name, "g") == 0) return gravity_symbol(reader, at);

@@ -51,9 +51,10 @@ struct names {
     enum place place;
     int body; /* whose coordinates need no prefix, or ground_body */
     enum slip_name slip;
-    bool slip_angular;                   /* it is an angular speed */
-    bool slip_named;                     /* it was looked up */
-    bool along;                          /* `s` is the place along a distributed load, in slot 1 */
+    bool slip_angular; /* it is an angular speed */
+    bool slip_named;   /* it was looked up */
+    bool tried;        /* a constant, unless it names what varies; `s` of a track may be that */
+    bool along;        /* `s` is the place along a distributed load, in slot 1 */
     bool distance_known, distance_named; /* of the size of a force toward a point; it was looked up */
     const char **known;
     size_t known_count;

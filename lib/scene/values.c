@@ -157,9 +157,11 @@ static bool varies(struct reader *reader, const struct node *node, enum quantity
     }
     reader->errors = errors;
     bool outer = reader->varies, outer_names = reader->names_varying;
+    struct names names = {.reader = reader, .place = place_constant, .body = ground_body, .tried = true};
+    const struct scope scope = names_scope(&names);
     struct arena tried = {0};
     if (scalar_check_number(node->text, node->text_at, "value", errors))
-        expr_compile(&tried, node->text, node->text_at, &reader->constants, &want, errors);
+        expr_compile(&tried, node->text, node->text_at, &scope, &want, errors);
     reader->varies = outer;
     reader->names_varying = outer_names;
     reader->errors = given;

@@ -41,6 +41,7 @@ enum row_kind {
     row_link_pin_y,
     row_rod,
     row_slot,         /* off its curve, on the left of it */
+    row_slot_along,   /* the length along its curve */
     row_rope,         /* a piece between two places that hold it */
     row_capstan,      /* all of a rope that rubs on a drum */
     row_capstan_slip, /* half of what its second strand is longer than the first, against the drum */
@@ -63,7 +64,7 @@ struct row {
     int grip;                    /* whose friction this row is when it holds, or -1 */
 };
 
-/* What holds up to a limit: a surface, and dry friction on it, in a bearing, of a rolling body; a rope, and its
+/* What holds up to a limit: a surface, and dry friction on it, in a bearing, of a rolling body or in a slot; a rope, and its
  * friction on a drum, behind it. */
 enum grip_kind { grip_contact, grip_surface, grip_bearing, grip_tread, grip_rope, grip_capstan };
 enum grip_mode { holds = 0, slips_plus = 1, slips_minus = -1, lets_go = 2 };
@@ -87,7 +88,7 @@ struct wrench {
 struct absolute {
     const struct scene *scene;
     int n, row_count, grip_count;
-    struct mass mass[most_bodies];
+    struct mass mass[most_bodies], first_mass[most_bodies]; /* now; at the start */
     struct row row[most_rows];
     struct grip grip[most_grips];
 
@@ -125,7 +126,7 @@ void absolute_coordinates(const struct absolute *absolute, double *q, double *v)
  * much of the radius the other way is less to the side that is named. */
 double wound_turn(const struct absolute *absolute, const struct coupling *coupling, int k, double *margin);
 
-/* kinematics.c: the straight pieces of a rope, where its discs are those that it is wound on. */
+/* ropes.c: the straight pieces of a rope, where its discs are those that it is wound on. */
 double straight_way(const struct absolute *absolute, const struct coupling *coupling);
 
 /* By which angle a rope lies on its drum; between -90 and 270 degrees, and whole turns. */
@@ -136,6 +137,14 @@ enum { seed_motion = -1, seed_path = -2 }; /* with velocities and a = 0; with ac
 void absolute_seed(struct absolute *absolute, int seed);
 struct place point_of(const struct absolute *absolute, int body, struct vec2 point);
 struct place direction_of(const struct absolute *absolute, int body, double angle);
+/* The place of end k of a coupling: of a circle, its centre. */
+struct place end_place(const struct absolute *absolute, const struct coupling *coupling, int k);
+
+/* ropes.c */
+struct series rope_value(const struct absolute *absolute, const struct row *row);
+struct series capstan_value(const struct absolute *absolute, const struct row *row);
+struct series belt_value(const struct absolute *absolute, const struct row *row);
+
 /* paths.c: r(p) or a derivative of it, the foot of a place, how far it is on the left of that, the length from p = 0,
  * and p at such a length. */
 struct place path_place(const struct path *path, struct series p, int derivative);
@@ -157,6 +166,9 @@ void absolute_rows(struct absolute *absolute);
 
 /* From where any force acts to the point that it points to: the shortest way, INFINITY without. */
 double shortest_pull(const struct absolute *absolute);
+
+/* scene.c: the masses of the instant. */
+void absolute_masses(struct absolute *absolute);
 
 /* loads.c: all forces that are no unknowns into `f`, and with `list` as wrenches by name. */
 void absolute_loads(struct absolute *absolute, double *f, bool list);
@@ -199,5 +211,7 @@ bool absolute_integrate(struct absolute *absolute, double t, double tolerance);
 struct series formula_series(const struct absolute *absolute, const struct formula *formula, int own,
                              int seed);
 double formula_value(const struct absolute *absolute, const struct formula *formula);
+/* How fast one changes that names no rates. */
+double formula_rate(const struct absolute *absolute, const struct formula *formula);
 
 #endif

@@ -2,11 +2,11 @@
  *
  * Random scenes by the library and by the independent assembly.
  *
- *     cross_check [--scenes N] [--seed FIRST] [--runs K] [--variants K] [--jobs J] [--tap]
- *     cross_check --show SEED
+ *     cross_check [--scenes N] [--seed FIRST] [--runs K] [--variants K] [--jobs J] [--of KIND] [--tap]
+ *     cross_check [--of KIND] --show SEED
  *
  * Scenes FIRST, FIRST + 1, ...; every K-th (default: each) is also run for a second. Scenes that fail are
- * shrunk and printed. Exit code 1 when any has failed.
+ * shrunk and printed. Exit code 1 when any has failed. KIND: tracks, slots, windings, masses, rolls, spools.
  */
 #include <gsl/gsl_errno.h>
 #include <stdio.h>
@@ -31,6 +31,7 @@ struct counts {
 struct plan {
     uint64_t scenes, first, stride;
     unsigned runs, variants;
+    enum focus focus;
     bool tap;
 };
 
@@ -90,13 +91,13 @@ static unsigned long failures(const struct counts *counts)
     return sum;
 }
 
-static void check_scene(uint64_t seed, bool run, struct counts *counts)
+static void check_scene(uint64_t seed, enum focus focus, bool run, struct counts *counts)
 {
     static struct scene scene;
     static struct absolute absolute;
     struct outcome outcome;
     counts->scenes++;
-    if (!scene_generate(&scene, &absolute, seed)) {
+    if (!scene_generate(&scene, &absolute, seed, focus)) {
         counts->unfit++;
         return;
     }
@@ -127,13 +128,13 @@ static bool varies_alike(void *context, struct scene *scene)
            outcome.verdict == wanted->verdict;
 }
 
-static void check_variants(uint64_t seed, struct counts *counts)
+static void check_variants(uint64_t seed, enum focus focus, struct counts *counts)
 {
     static struct scene scene;
     static struct absolute absolute;
     for (int i = 0; i < variant_count; i++) {
         struct outcome outcome;
-        if (!scene_generate(&scene, &absolute, seed)) return;
+        if (!scene_generate(&scene, &absolute, seed, focus)) return;
         if (!scene_compare_variant(&scene, &absolute, (enum variant)i, &outcome)) continue;
         counts->variants[i]++;
         counts->variant_runs += outcome.ran;
@@ -158,8 +159,8 @@ static void check_share(const struct plan *plan, uint64_t share, struct counts *
 {
     for (uint64_t i = share; i < plan->scenes; i += plan->stride) {
         uint64_t seed = plan->first + i;
-        check_scene(seed, plan->runs > 0 && seed % plan->runs == 0, counts);
-        if (plan->variants > 0 && seed % plan->variants == 0) check_variants(seed, counts);
+        check_scene(seed, plan->focus, plan->runs > 0 && seed % plan->runs == 0, counts);
+        if (plan->variants > 0 && seed % plan->variants == 0) check_variants(seed, plan->focus, counts);
     }
 }
 
@@ -252,12 +253,20 @@ static void report_variants(const struct plan *plan, const struct counts *counts
                    counts->variant_failures[i]);
 }
 
-static int show(uint64_t seed)
+static enum focus focus_called(const char *name)
+{
+    static const char *const names[] = {"", "tracks", "slots", "windings", "masses", "rolls", "spools"};
+    for (int i = 1; i < focus_count; i++)
+        if (strcmp(name, names[i]) == 0) return (enum focus)i;
+    return any_scene;
+}
+
+static int show(uint64_t seed, enum focus focus)
 {
     static struct scene scene;
     static struct absolute absolute;
     static char text[text_room];
-    bool fit = scene_generate(&scene, &absolute, seed);
+    bool fit = scene_generate(&scene, &absolute, seed, focus);
     scene_write(&scene, run_length, text);
     fputs(text, stdout);
     if (!fit) puts("# left out: no consistent or no well-conditioned start");
@@ -271,7 +280,8 @@ int main(int count, char **arguments)
         const char *value = i + 1 < count ? arguments[i + 1] : "";
         uint64_t number = strtoull(value, NULL, 10);
         if (strcmp(arguments[i], "--tap") == 0) plan.tap = true;
-        if (strcmp(arguments[i], "--show") == 0) return show(number);
+        if (strcmp(arguments[i], "--show") == 0) return show(number, plan.focus);
+        if (strcmp(arguments[i], "--of") == 0) plan.focus = focus_called(value);
         if (strcmp(arguments[i], "--scenes") == 0) plan.scenes = number;
         if (strcmp(arguments[i], "--seed") == 0) plan.first = number;
         if (strcmp(arguments[i], "--runs") == 0) plan.runs = (unsigned)number;

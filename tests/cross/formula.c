@@ -61,6 +61,14 @@ static double variable_value(const struct absolute *absolute, const struct varia
     return NAN;
 }
 
+static struct series summand_value(const struct absolute *absolute, const struct summand *s, struct series u)
+{
+    struct formula_function f =
+        s->function == f_table ? by_table(&absolute->scene->table[s->table], u.u) : apply(s->function, u.u);
+    double factor = s->factor * (s->parameter < 0 ? 1 : absolute->scene->parameter[s->parameter]);
+    return ser_scale(factor, ser_chain(f.f, f.f1, f.f2, u));
+}
+
 struct series formula_series(const struct absolute *absolute, const struct formula *formula, int own,
                              int seed)
 {
@@ -75,10 +83,26 @@ struct series formula_series(const struct absolute *absolute, const struct formu
             struct series value = {variable_value(absolute, v), flows, 0};
             u = ser_add(u, ser_scale(v->coefficient, value));
         }
-        struct formula_function f = s->function == f_table ? by_table(&absolute->scene->table[s->table], u.u)
-                                                           : apply(s->function, u.u);
-        double factor = s->factor * (s->parameter < 0 ? 1 : absolute->scene->parameter[s->parameter]);
-        sum = ser_add(sum, ser_scale(factor, ser_chain(f.f, f.f1, f.f2, u)));
+        sum = ser_add(sum, summand_value(absolute, s, u));
+    }
+    return sum;
+}
+
+double formula_rate(const struct absolute *absolute, const struct formula *formula)
+{
+    double sum = 0;
+    for (int k = 0; k < formula->count; k++) {
+        const struct summand *s = &formula->summand[k];
+        struct series u = ser(s->shift);
+        for (int i = 0; i < s->count; i++) {
+            const struct variable *v = &s->variable[i];
+            double rate = v->kind == var_time ? 1 : 0;
+            if (v->kind == var_state) rate = formula_value(absolute, &absolute->scene->state[v->index].rate);
+            if (v->kind == var_coordinate) rate = coordinate_of(absolute, v->body, v->index).u1;
+            struct series value = {variable_value(absolute, v), rate, 0};
+            u = ser_add(u, ser_scale(v->coefficient, value));
+        }
+        sum += summand_value(absolute, s, u).u1;
     }
     return sum;
 }

@@ -117,21 +117,22 @@ struct body *random_body(struct random *random, struct scene *scene, enum motion
     return body;
 }
 
-static enum motion random_motion(struct random *random, int on)
+static enum motion random_motion(struct random *random, int on, enum focus focus)
 {
+    if (focus == of_tracks && random_chance(random, 0.6)) return track;
     static const enum motion motions[] = {slide,    slide,  pivot,  pivot, pivot,
                                           particle, planar, planar, weld,  track};
     enum motion motion = motions[random_below(random, 10)];
     return motion == weld && on < 0 ? pivot : motion;
 }
 
-static void random_tree(struct random *random, struct scene *scene, int count)
+static void random_tree(struct random *random, struct scene *scene, int count, enum focus focus)
 {
     while (scene->body_count < count) {
         int on = scene->body_count > 0 && random_chance(random, 0.65)
                      ? random_below(random, scene->body_count)
                      : -1;
-        struct body *body = random_body(random, scene, random_motion(random, on), on);
+        struct body *body = random_body(random, scene, random_motion(random, on, focus), on);
         if (body->motion != slide && body->motion != pivot && body->motion != track) continue;
         if (!random_chance(random, 0.12)) continue;
         body->driven = true;
@@ -200,20 +201,30 @@ bool scene_fit(struct scene *scene, struct absolute *absolute)
     return absolute_gap(absolute, false) <= 1e-9; /* drives may leave no way to move */
 }
 
-bool scene_generate(struct scene *scene, struct absolute *absolute, uint64_t seed)
+static struct taste random_taste(struct random *random, enum focus focus)
+{
+    struct taste taste = {.focus = focus,
+                          .couplings = random_chance(random, 0.6),
+                          .frictions = random_chance(random, 0.35),
+                          .kinks = random_chance(random, 0.1)};
+    taste.couplings |= focus == of_slots || focus == of_windings || focus == of_rolls || focus == of_spools;
+    if (focus == of_tracks || focus == of_slots) taste.frictions = true;
+    return taste;
+}
+
+bool scene_generate(struct scene *scene, struct absolute *absolute, uint64_t seed, enum focus focus)
 {
     struct random random = {seed * 0x2545f4914f6cdd1du + 1};
-    struct taste taste = {.couplings = random_chance(&random, 0.6),
-                          .frictions = random_chance(&random, 0.35),
-                          .kinks = random_chance(&random, 0.1)};
+    struct taste taste = random_taste(&random, focus);
     memset(scene, 0, sizeof *scene);
     scene->seed = seed;
     random_world(&random, scene);
     if (random_chance(&random, 0.3)) random_tables(&random, scene, taste.kinks);
     if (random_chance(&random, 0.3)) scene->state_count = 1 + random_below(&random, most_states);
-    random_tree(&random, scene, 1 + random_below(&random, 5));
+    random_tree(&random, scene, 1 + random_below(&random, focus == any_scene ? 5 : 3), focus);
     int couplings = taste.couplings ? 1 + random_below(&random, 2) : 0;
     for (int i = 0; i < couplings; i++) random_coupling(&random, scene, &taste);
+    for (int b = 0; b < scene->body_count; b++) random_mass(&random, scene, b, &taste);
     for (int b = 0; b < scene->body_count; b++) random_loads(&random, scene, b, &taste);
     random_states(&random, scene);
     if (!scene_fit(scene, absolute)) return false;

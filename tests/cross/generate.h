@@ -12,15 +12,19 @@
 #include "absolute.h"
 #include "random.h"
 
+/* What a scene is about. */
+enum focus { any_scene, of_tracks, of_slots, of_windings, of_masses, of_rolls, of_spools, focus_count };
+
 /* What may be in a scene. */
 struct taste {
+    enum focus focus;
     bool couplings, frictions, kinks;
     int least_bodies, most_bodies;
 };
 
 /* False when the seed leads to nothing that can be compared (no consistent start, ill-conditioned);
  * `absolute` is then of no use, else at its start, settled and solved. */
-bool scene_generate(struct scene *scene, struct absolute *absolute, uint64_t seed);
+bool scene_generate(struct scene *scene, struct absolute *absolute, uint64_t seed, enum focus focus);
 
 /* Velocities that fit; false when positions do not. `absolute` is at that start. */
 bool scene_fit(struct scene *scene, struct absolute *absolute);
@@ -31,6 +35,8 @@ bool scene_settle(const struct scene *scene, struct absolute *absolute);
 /* generate_loads.c */
 struct formula random_formula(struct random *random, const struct scene *scene, int body,
                               enum dimension dimension, double size, bool kinks);
+/* Perhaps, of a body of one piece: before its loads. */
+void random_mass(struct random *random, struct scene *scene, int body, const struct taste *taste);
 void random_loads(struct random *random, struct scene *scene, int body, const struct taste *taste);
 struct formula random_drive(struct random *random, enum dimension dimension);
 

@@ -359,18 +359,69 @@ static void add_moment(struct random *random, struct scene *scene, int b, const 
     }
 }
 
+/* Of the time, of a coordinate, of a state: never less than a fifth of what it is on the average. */
+static struct formula mass_formula(struct random *random, const struct scene *scene, int b)
+{
+    static const enum function functions[] = {f_sin, f_cos, f_tanh, f_bell};
+    double m = scene->body[b].piece[0].mass;
+    struct formula formula = constant_formula(dim_mass, m);
+    for (int i = random_below(random, 2); i >= 0; i--) {
+        struct summand *summand = &formula.summand[formula.count++];
+        *summand = (struct summand){.factor = random_between(random, -0.4 * m, 0.4 * m),
+                                    .parameter = -1,
+                                    .function = functions[random_below(random, 4)],
+                                    .shift = random_between(random, -1, 1)};
+        int other = random_below(random, scene->body_count);
+        struct variable variable = {.kind = var_time, .body = b};
+        if (scene->state_count > 0 && random_chance(random, 0.4))
+            variable =
+                (struct variable){.kind = var_state, .index = random_below(random, scene->state_count)};
+        else if (coordinate_count(scene->body[other].motion) > 0 && random_chance(random, 0.5))
+            variable = own_coordinate(random, scene, other, false);
+        add_variable(random, summand, variable);
+    }
+    return formula;
+}
+
+void random_mass(struct random *random, struct scene *scene, int b, const struct taste *taste)
+{
+    struct body *body = &scene->body[b];
+    if (body->piece_count > 1 || body->piece[0].shape == given_inertia) return;
+    if (!random_chance(random, taste->focus == of_masses ? 0.9 : 0.1)) return;
+    body->mass_varies = true;
+    body->mass = mass_formula(random, scene, b);
+}
+
+static void add_thrust(struct random *random, struct scene *scene, int b)
+{
+    const struct body *body = &scene->body[b];
+    struct load *load = add_load(scene, b, thrust);
+    if (!load) return;
+    bool along = body->motion == slide || (body->motion == track && !body->keeps_direction);
+    load->at = some_spot(random, &scene->body[b]);
+    load->enters = random_chance(random, 0.5);
+    load->form = load->enters ? components : along_angle;
+    if (along && (!load->enters || body->on < 0) && random_chance(random, 0.5)) load->form = along_slide;
+    load->follows = !load->enters && random_chance(random, 0.4) && !body->keeps_direction;
+    load->value = random_formula(random, scene, b, dim_speed, 3, false);
+    if (load->form == components) load->second = random_formula(random, scene, b, dim_speed, 3, false);
+    if (load->form == along_angle) load->second = random_formula(random, scene, b, dim_angle, 3, false);
+}
+
 void random_loads(struct random *random, struct scene *scene, int b, const struct taste *taste)
 {
     enum motion motion = scene->body[b].motion;
     bool turns = motion == pivot || motion == planar || motion == weld || motion == track;
     bool along = motion == slide || motion == track;
     if (random_chance(random, 0.8)) add_load(scene, b, gravity);
-    if (along && random_chance(random, 0.4)) add_surface(random, scene, b, taste);
+    if (along && random_chance(random, taste->focus == of_tracks ? 0.9 : 0.4))
+        add_surface(random, scene, b, taste);
     if (random_chance(random, 0.4)) add_applied(random, scene, b, taste->kinks);
     if (random_chance(random, 0.3)) add_link(random, scene, b, spring);
     if (random_chance(random, 0.2)) add_link(random, scene, b, damper);
     if (random_chance(random, 0.2)) add_drag(random, scene, b);
     if (random_chance(random, 0.2)) add_distributed(random, scene, b);
+    if (scene->body[b].mass_varies && random_chance(random, 0.6)) add_thrust(random, scene, b);
     if (motion != weld && random_chance(random, 0.2)) add_potential(random, scene, b, false);
     if (turns && random_chance(random, 0.4)) add_moment(random, scene, b, taste);
 }

@@ -240,7 +240,8 @@ static bool fits_there(const struct scene *scene)
 {
     static struct absolute start;
     bool rubs = false;
-    for (int c = 0; c < scene->coupling_count; c++) rubs |= scene->coupling[c].rubs;
+    for (int c = 0; c < scene->coupling_count; c++)
+        rubs |= scene->coupling[c].rubs || scene->coupling[c].kind == slot;
     absolute_start(&start, scene);
     return absolute_gap(&start, false) <= 1e-9 && (!rubs || absolute_settle(&start));
 }

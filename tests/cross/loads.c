@@ -211,6 +211,26 @@ static void put_distributed(const struct target *target, int b, const struct loa
     }
 }
 
+/* Of mass that leaves against its direction, or that has a velocity of its own in the world: dm/dt u. */
+static void put_thrust(const struct target *target, int b, const struct load *load)
+{
+    const struct absolute *absolute = target->absolute;
+    const struct body *body = &absolute->scene->body[b];
+    double gained = formula_rate(absolute, &body->mass), first = formula_value(absolute, &load->value);
+    struct place P = point_of(absolute, b, spot_of(body, &load->at));
+    struct vec2 u;
+    if (load->enters && load->form == along_slide) {
+        struct place e =
+            body->motion == track ? tangent_of(absolute, b) : direction_of(absolute, body->on, body->along);
+        u = times(first - coordinate_of(absolute, b, 0).u1, here(e));
+    } else if (load->enters) {
+        u = (struct vec2){first - P.x.u1, formula_value(absolute, &load->second) - P.y.u1};
+    } else {
+        u = times(-1, applied_force(target, b, load));
+    }
+    put(target, b, load->name, times(gained, u), here(P), 0);
+}
+
 static void put_load(const struct target *target, int b, const struct load *load)
 {
     const struct absolute *absolute = target->absolute;
@@ -231,6 +251,7 @@ static void put_load(const struct target *target, int b, const struct load *load
     case damper: put_spring(target, b, load); break;
     case drag: put_drag(target, b, load); break;
     case distributed: put_distributed(target, b, load); break;
+    case thrust: put_thrust(target, b, load); break;
     case potential:
     case moment_potential: put_potential(target, b, load); break;
     case moment_applied: put(target, b, load->name, none, G, formula_value(absolute, &load->value)); break;

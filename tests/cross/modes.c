@@ -29,6 +29,8 @@ static double normal_force(const struct absolute *absolute, const struct grip *g
 
 static bool is_two_sided(const struct absolute *absolute, const struct grip *grip)
 {
+    if (grip->normal >= 0 && absolute->row[grip->normal].kind == row_slot)
+        return !absolute->scene->coupling[grip->owner].one_sided;
     if (grip->kind != grip_contact && grip->kind != grip_surface) return false;
     if (grip->load < 0) return false;
     const struct body *body = &absolute->scene->body[grip->owner];
@@ -107,6 +109,10 @@ static bool is_consistent(struct absolute *absolute, const bool *open)
         const struct grip *grip = &absolute->grip[i];
         if (is_two_sided(absolute, grip) && normal_force(absolute, grip) < 0) return false; /* no solution */
         bool judged = open[i] || grip->kind == grip_contact;
+        /* Nothing but rounding presses it on: to which side is a matter of that. */
+        double presses = fabs(beyond(absolute, grip));
+        if (grip->kind == grip_contact && presses > 0 && presses < 1e-12) absolute->modes_in_doubt = true;
+        if (absolute->modes_in_doubt) return false;
         if (judged && beyond(absolute, grip) > 0) return false;
     }
     return true;
@@ -141,13 +147,63 @@ static bool choose(struct absolute *absolute, const bool *open, int choice)
     return true;
 }
 
-/* A rope that is to be held on its drum, but whose speeds cancel only to the roundings of a solution: on which side it
+/* A rope that is to be held on its drum, or a pin in its slot, but whose speeds cancel only to the roundings of a solution: on which side it
  * begins to slip is a matter of these. */
 static bool creeps(struct absolute *absolute, const struct grip *grip)
 {
     double v = fabs(slip_velocity(absolute, grip)), size = 0;
     for (int i = 0; i < absolute->n; i++) size += fabs(absolute->J[grip->row][i] * absolute->v[i]);
-    return grip->kind == grip_capstan && v > 4e-15 * size && v < 1e-9;
+    bool aimed = grip->kind == grip_capstan || absolute->row[grip->row].kind == row_slot_along;
+    return aimed && v > 4e-15 * size && v < 1e-9;
+}
+
+static void set_modes(struct absolute *absolute, const enum grip_mode *modes)
+{
+    for (int i = 0; i < absolute->grip_count; i++) absolute->grip[i].mode = modes[i];
+    solve_with_guides(absolute);
+}
+
+/* What rubs may press its own normal force (Painleve): would the same slip do with the force on the other side of a
+ * guide, too? */
+static bool turns_twice(struct absolute *absolute, int contact)
+{
+    struct grip *grip = &absolute->grip[contact];
+    if (!is_two_sided(absolute, grip)) return false;
+    for (int k = 0; k < 2; k++) grip[k].press = -grip[k].press;
+    absolute_solve(absolute, true);
+    bool twice = normal_force(absolute, grip) >= 0;
+    for (int k = 0; k < 2; k++) grip[k].press = -grip[k].press;
+    return twice;
+}
+
+/* Or, where it may let go, does it part if it does? */
+static bool parts_too(struct absolute *absolute, int contact)
+{
+    struct grip *grip = &absolute->grip[contact];
+    if (grip->load >= 0 || is_two_sided(absolute, grip)) return false;
+    enum grip_mode rubs = grip[1].mode;
+    grip[0].mode = grip[1].mode = lets_go;
+    absolute_solve(absolute, true);
+    bool parts = grip->press * slip_acceleration(absolute, grip) > 0;
+    grip[0].mode = holds;
+    grip[1].mode = rubs;
+    return parts;
+}
+
+/* Is there another answer where friction goes with a normal force? Those are a matter of their own. */
+static bool has_another(struct absolute *absolute)
+{
+    enum grip_mode modes[most_grips];
+    bool another = false;
+    for (int i = 0; i < absolute->grip_count; i++) modes[i] = absolute->grip[i].mode;
+    for (int i = 0; i + 1 < absolute->grip_count; i++) {
+        const struct grip *grip = &absolute->grip[i], *rubs = &grip[1];
+        if (grip->kind != grip_contact || rubs->kind == grip_contact || rubs->normal != grip->normal)
+            continue;
+        another |= (rubs->mode != holds && turns_twice(absolute, i)) || parts_too(absolute, i);
+    }
+    set_modes(absolute, modes);
+    return another;
 }
 
 bool absolute_settle(struct absolute *absolute)
@@ -179,5 +235,5 @@ bool absolute_settle(struct absolute *absolute)
     if (found < 0 || (several > 1 && found > 0)) return false;
     choose(absolute, open, found);
     solve_with_guides(absolute);
-    return !belts_push(absolute);
+    return !has_another(absolute) && !belts_push(absolute);
 }

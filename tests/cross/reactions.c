@@ -45,9 +45,9 @@ static void put_coupling(struct absolute *absolute, const struct row *row, const
     int bodies[most_ends + 2];
     size_t count = row_bodies(absolute, row, bodies);
     snprintf(name, sizeof name, "%s%s", coupling->name,
-             row->kind == row_roll_normal  ? ".normal"
-             : row->kind == row_roll_along ? ".friction"
-                                           : "");
+             row->kind == row_roll_normal || (row->kind == row_slot && coupling->has_friction) ? ".normal"
+             : row->kind == row_roll_along || row->kind == row_slot_along                      ? ".friction"
+                                                                                               : "");
     for (size_t i = 0; i < count; i++) put(absolute, bodies[i], name, D, lambda, doubt);
 }
 

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "absolute.h"
+
 int coordinate_count(enum motion motion)
 {
     static const int count[] = {
@@ -90,4 +92,16 @@ bool formula_is_constant(const struct formula *formula)
     for (int i = 0; i < formula->count; i++)
         if (formula->summand[i].function != f_one) return false;
     return true;
+}
+
+/* The body keeps its shape, and its moment of inertia goes with the mass. */
+void absolute_masses(struct absolute *absolute)
+{
+    for (int b = 0; b < absolute->scene->body_count; b++) {
+        const struct body *body = &absolute->scene->body[b];
+        if (!body->mass_varies) continue;
+        double m = formula_value(absolute, &body->mass), first = absolute->first_mass[b].m;
+        absolute->mass[b].m = m;
+        absolute->mass[b].I_G = absolute->first_mass[b].I_G * m / first;
+    }
 }

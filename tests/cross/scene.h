@@ -101,6 +101,7 @@ enum dimension {
     dim_force,
     dim_moment,
     dim_energy,
+    dim_mass,
     dimension_count
 };
 
@@ -160,6 +161,7 @@ enum load_kind {
     drag,
     potential,
     distributed,
+    thrust,
     moment_applied,
     moment_spring,
     moment_damper,
@@ -191,6 +193,8 @@ struct load {
     double per_length
         [2];     /* distributed, from `at` to `end`, `value` times: at both ends, straight between them; */
     bool curved; /* or [0] + [1] s^2 */
+    bool
+        enters; /* thrust: of the velocity (value, second) in the world, or along the slide; else an exhaust */
     double stiffness, neutral, coefficient, quadratic;
     enum side side;
     bool two_sided;
@@ -207,6 +211,8 @@ struct body {
     bool keeps_direction;
     bool driven;
     struct formula drive;
+    bool mass_varies; /* it has one piece then, */
+    struct formula mass;
     int piece_count;
     struct piece piece[most_pieces];
     int point_count;
@@ -243,7 +249,7 @@ struct coupling {
     struct formula reel;
     bool rubs; /* rope: on a drum of radius[0], the second of its three ends, with mu_s and mu_k; */
     int turns; /* whole turns beside what the ends tell */
-    bool held; /* and does not slip at the start */
+    bool held; /* and does not slip at the start; slot: nor does its pin */
     bool inside;
     bool crossed;   /* belt */
     double tension; /* belt on axes that keep their distance: of both strands while it drives nothing; or 0 */

@@ -36,6 +36,7 @@ static void each_formula(struct scene *scene, visit_formula *visit, void *contex
     for (int b = 0; b < scene->body_count; b++) {
         struct body *body = &scene->body[b];
         visit(context, &body->drive);
+        visit(context, &body->mass);
         for (int i = 0; i < body->load_count; i++) {
             visit(context, &body->load[i].value);
             visit(context, &body->load[i].second);
@@ -144,6 +145,10 @@ static void simplify_bodies(struct shrinking *s)
     for (int b = 0; b < s->scene->body_count; b++) {
         if (s->scene->body[b].driven) {
             begin(s)->body[b].driven = false;
+            keep(s);
+        }
+        if (s->scene->body[b].mass_varies) {
+            begin(s)->body[b].mass_varies = false;
             keep(s);
         }
         while (s->scene->body[b].piece_count > 1) {

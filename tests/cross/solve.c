@@ -160,6 +160,7 @@ void absolute_solve(struct absolute *absolute, bool list)
     double f[3 * most_bodies], x[dense_room];
     set_active(absolute);
     absolute_rows(absolute);
+    absolute_masses(absolute);
     set_directions(absolute);
     if (list) {
         absolute->wrench_count = 0;
@@ -198,11 +199,13 @@ static double row_gap(const struct absolute *absolute, int j, bool position)
     return position ? f.u - g.u : f.u1 - g.u1;
 }
 
-/* Friction is no condition on positions, and its speed comes by itself; but a rope that is held on its drum stays. */
+/* Friction is no condition on positions, and its speed comes by itself; but a rope that is held on its drum stays, and
+ * so does a pin in its slot. */
 static bool is_condition(const struct absolute *absolute, int j)
 {
     int grip = absolute->row[j].grip;
     enum grip_kind kind = grip < 0 ? grip_rope : absolute->grip[grip].kind;
+    if (absolute->row[j].kind == row_slot_along) return absolute->active[j];
     return absolute->active[j] && (kind == grip_rope || kind == grip_capstan);
 }
 
@@ -223,6 +226,7 @@ static double correct(struct absolute *absolute, bool position)
     double x[dense_room], most = 0;
     absolute_rows(absolute);
     absolute_seed(absolute, seed_motion);
+    absolute_masses(absolute);
     set_active(absolute);
     for (int j = 0; j < absolute->row_count; j++) absolute->active[j] = is_condition(absolute, j);
     bool known = absolute->condition > 0; /* which rows are spare */

@@ -199,6 +199,23 @@ static void add_roll(struct absolute *absolute, int c)
     add_grip(absolute, grip_tread, c, across + 1, across);
 }
 
+static void add_slot(struct absolute *absolute, int c)
+{
+    const struct coupling *coupling = &absolute->scene->coupling[c];
+    double press = coupling->one_sided && coupling->side == right_side ? -1 : 1;
+    int across = absolute->row_count;
+    add_row(absolute, row_slot, c, 0);
+    if (!coupling->one_sided && !coupling->has_friction) return;
+    add_grip(absolute, grip_contact, c, across, across)->press = press;
+    if (!coupling->has_friction) return;
+    struct row *row = add_row(absolute, row_slot_along, c, 0);
+    row->zero = row_value(absolute, row).u;
+    row->grip = absolute->grip_count;
+    struct grip *rubbing = add_grip(absolute, grip_tread, c, across + 1, across);
+    rubbing->press = press;
+    if (!coupling->held) rubbing->mode = lets_go; /* until it is settled */
+}
+
 static void add_coupling(struct absolute *absolute, int c)
 {
     const struct coupling *coupling = &absolute->scene->coupling[c];
@@ -227,12 +244,7 @@ static void add_coupling(struct absolute *absolute, int c)
         }
         break;
     case roll: add_roll(absolute, c); break;
-    case slot:
-        add_row(absolute, row_slot, c, 0);
-        if (!coupling->one_sided) break;
-        add_grip(absolute, grip_contact, c, absolute->row_count - 1, absolute->row_count - 1)->press =
-            coupling->side == left_side ? 1 : -1;
-        break;
+    case slot: add_slot(absolute, c); break;
     case spring_of_two:
     case damper_of_two: break;
     }
@@ -246,7 +258,7 @@ void absolute_start(struct absolute *absolute, const struct scene *scene)
     absolute->scene = scene;
     absolute->n = 3 * scene->body_count;
     for (int b = 0; b < scene->body_count; b++) {
-        absolute->mass[b] = mass_of(&scene->body[b]);
+        absolute->first_mass[b] = absolute->mass[b] = mass_of(&scene->body[b]);
         for (int i = 0; i < coordinate_count(scene->body[b].motion); i++, k++) {
             q[k] = scene->body[b].q[i];
             v[k] = scene->body[b].v[i];
@@ -255,6 +267,7 @@ void absolute_start(struct absolute *absolute, const struct scene *scene)
     for (int i = 0; i < scene->state_count; i++) absolute->z[i] = scene->state[i].initial;
     absolute_place(absolute, 0, q, v);
     absolute_seed(absolute, seed_motion);
+    absolute_masses(absolute);
     for (int b = 0; b < scene->body_count; b++) add_joint(absolute, b);
     for (int c = 0; c < scene->coupling_count; c++) add_coupling(absolute, c);
 }

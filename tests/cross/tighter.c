@@ -275,7 +275,7 @@ static void study_seed(uint64_t seed, struct counts *counts)
     static struct scene scene;
     static struct absolute absolute;
     static char text[text_room], name[32];
-    if (!scene_generate(&scene, &absolute, seed)) return;
+    if (!scene_generate(&scene, &absolute, seed, any_scene)) return;
     size_t length = scene_write(&scene, scene_length, text);
     fbd_errors *errors = fbd_errors_new();
     fbd_model *model = fbd_model_parse(text, length, "scene", NULL, 0, errors);

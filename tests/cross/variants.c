@@ -112,9 +112,11 @@ static void replace_all(const struct replacing *r, struct formula *formula)
 
 static void replace_in_scene(const struct replacing *r, struct scene *scene)
 {
+    for (int c = 0; c < scene->coupling_count; c++) replace_all(r, &scene->coupling[c].reel);
     for (int i = 0; i < scene->state_count; i++) replace_all(r, &scene->state[i].rate);
     for (int b = 0; b < scene->body_count; b++) {
         replace_all(r, &scene->body[b].drive);
+        replace_all(r, &scene->body[b].mass);
         for (int i = 0; i < scene->body[b].load_count; i++) {
             replace_all(r, &scene->body[b].load[i].value);
             replace_all(r, &scene->body[b].load[i].second);
@@ -127,11 +129,6 @@ static void replace_in_scene(const struct replacing *r, struct scene *scene)
     }
 }
 
-static void scale_formula(struct formula *formula, double factor)
-{
-    for (int k = 0; k < formula->count; k++) formula->summand[k].factor *= factor;
-}
-
 static void add_constant(struct formula *formula, double value)
 {
     formula->summand[formula->count++] =
@@ -139,6 +136,11 @@ static void add_constant(struct formula *formula, double value)
 }
 
 /* ---- mirrored: y, angles and moments change their sign, and left is right */
+
+static bool is_directed(const struct load *load)
+{
+    return load->kind == applied || load->kind == distributed || load->kind == thrust;
+}
 
 /* In the x axis of the frame that it is given in. */
 static void mirror_path(struct path *path)
@@ -153,7 +155,7 @@ static void mirror_load(struct load *load)
     load->at.where.y *= -1;
     load->side = load->side == left_side ? right_side : left_side;
     load->end.where.y *= load->kind == distributed ? -1 : 1;
-    if (load->kind == applied || load->kind == distributed) scale_formula(&load->second, -1);
+    if (is_directed(load)) scale_formula(&load->second, -1);
     scale_formula(&load->offset[1], -1);
     scale_formula(&load->wind[1], -1);
     if (load->kind == moment_applied) scale_formula(&load->value, -1);
@@ -181,6 +183,14 @@ static void mirror_body(struct body *body)
     for (int i = 0; i < body->load_count; i++) mirror_load(&body->load[i]);
 }
 
+/* Top and bottom change places, left and right do not. */
+static void mirror_end(struct end *end)
+{
+    end->at.where.y *= -1;
+    if (end->side == wound_top || end->side == wound_bottom)
+        end->side = end->side == wound_top ? wound_bottom : wound_top;
+}
+
 static void mirror(struct scene *scene)
 {
     scene->gravity.y *= -1;
@@ -191,7 +201,7 @@ static void mirror(struct scene *scene)
     for (int b = 0; b < scene->body_count; b++) mirror_body(&scene->body[b]);
     for (int c = 0; c < scene->coupling_count; c++) {
         struct coupling *coupling = &scene->coupling[c];
-        for (int k = 0; k < coupling->count; k++) coupling->end[k].at.where.y *= -1;
+        for (int k = 0; k < coupling->count; k++) mirror_end(&coupling->end[k]);
         if (coupling->kind != slot) continue;
         mirror_path(&coupling->path);
         coupling->side = coupling->side == left_side ? right_side : left_side;
@@ -227,8 +237,7 @@ static void turn_load(struct load *load, enum motion motion, double world, doubl
     turn_pair(&load->offset[0], &load->offset[1], world);
     turn_pair(&load->wind[0], &load->wind[1], world);
     if (load->kind == distributed) load->end.where = turned(load->end.where, own);
-    bool directed = load->kind == applied || load->kind == distributed;
-    if (!directed || load->form == along_slide || load->form == toward_point) return;
+    if (!is_directed(load) || load->form == along_slide || load->form == toward_point) return;
     if (load->form == along_angle)
         add_constant(&load->second, angle);
     else
@@ -265,6 +274,11 @@ static void turn_body(struct body *body, double world, double base, double own)
     for (int i = 0; i < body->load_count; i++) turn_load(&body->load[i], body->motion, world, base, own);
 }
 
+static bool keeps_axes(const struct body *body)
+{
+    return body->motion == particle || (body->motion == track && body->keeps_direction);
+}
+
 /* A particle keeps its axes, as the ground does: what is said in them is turned. All others turn as a whole.
  */
 static void turn(struct replacing *r, struct scene *scene, double *base, double *own)
@@ -275,8 +289,7 @@ static void turn(struct replacing *r, struct scene *scene, double *base, double 
             int on = scene->body[b].on;
             if (known[b] || (on >= 0 && !known[on])) continue;
             base[b] = on < 0 ? r->angle : own[on];
-            bool keeps = scene->body[b].motion == track && scene->body[b].keeps_direction;
-            own[b] = scene->body[b].motion == particle || keeps ? base[b] : 0;
+            own[b] = keeps_axes(&scene->body[b]) ? base[b] : 0;
             known[b] = true;
         }
     replace_in_scene(r, scene);
@@ -296,13 +309,13 @@ static void turn(struct replacing *r, struct scene *scene, double *base, double 
                 scene->coupling[c].end[k].at.where = turned(scene->coupling[c].end[k].at.where, r->angle);
 }
 
-/* A roll's or rack's x axis of a particle cannot be turned with it. */
-static bool has_axis_of_particle(const struct scene *scene)
+/* The x axis of a particle, or of what keeps its direction on a track, cannot be turned with it for what rolls there. */
+static bool has_axis_that_stays(const struct scene *scene)
 {
     for (int c = 0; c < scene->coupling_count; c++) {
         const struct coupling *coupling = &scene->coupling[c];
         if (coupling->kind != roll || coupling->line >= 0) continue;
-        if (scene->body[coupling->end[1].body].motion == particle) return true;
+        if (keeps_axes(&scene->body[coupling->end[1].body])) return true;
     }
     return false;
 }
@@ -335,104 +348,14 @@ static void move(struct scene *scene, struct vec2 d)
             if (scene->coupling[c].end[k].body < 0) add(&scene->coupling[c].end[k].at.where, d);
 }
 
-/* ---- in other units: lengths by l, forces by f, so masses by f / l */
-
-static void scale_pair(struct vec2 *p, double k)
-{
-    p->x *= k;
-    p->y *= k;
-}
-
-static void scale_by_dimension(struct formula *formula, double l, double f)
-{
-    const double factor[dimension_count] = {1, 1, l, l, 1, f, f * l, f * l};
-    scale_formula(formula, factor[formula->dimension]);
-}
-
-static void convert_path(struct path *path, double l)
-{
-    path->a *= l;
-    if (path->form == path_oval) {
-        path->b *= l;
-        return;
-    }
-    path->wave /= l;
-    path->from *= l;
-    path->to *= l;
-}
-
-static void convert_load(struct load *load, double l, double f)
-{
-    bool moment = load->kind >= moment_applied;
-    scale_pair(&load->to, l);
-    scale_pair(&load->at.where, l);
-    scale_pair(&load->end.where, l);
-    load->per_length[0] *= f / l;
-    load->per_length[1] *= f / l / (load->curved ? l * l : 1);
-    load->stiffness *= moment ? f * l : f / l;
-    load->coefficient *= moment ? f * l : f / l;
-    load->quadratic *= f / (l * l);
-    if (!moment) load->neutral *= l;
-    scale_by_dimension(&load->value, l, f);
-    scale_by_dimension(&load->second, l, f);
-    scale_by_dimension(&load->surface, l, f);
-    load->reach *= l;
-    for (int k = 0; k < 2; k++) {
-        scale_by_dimension(&load->offset[k], l, f);
-        scale_by_dimension(&load->wind[k], l, f);
-    }
-}
-
-static void convert_body(struct body *body, double l, double f)
-{
-    scale_pair(&body->at.where, l);
-    scale_pair(&body->point.where, l);
-    convert_path(&body->path, l);
-    for (int i = 0; i < body->piece_count; i++) {
-        struct piece *piece = &body->piece[i];
-        piece->mass *= f / l;
-        scale_pair(&piece->center, l);
-        for (int k = 0; k < 3; k++) piece->size[k] *= piece->shape == given_inertia && k == 0 ? f * l : l;
-    }
-    for (int i = 0; i < body->point_count; i++) scale_pair(&body->points[i], l);
-    for (int i = 0; i < 3; i++) {
-        bool angle = body->motion == pivot || i == 2;
-        body->q[i] *= angle ? 1 : l;
-        body->v[i] *= angle ? 1 : l;
-    }
-    scale_by_dimension(&body->drive, l, f);
-    for (int i = 0; i < body->load_count; i++) convert_load(&body->load[i], l, f);
-}
-
-static void convert(struct scene *scene, double l, double f)
-{
-    scene->us = !scene->us;
-    scale_pair(&scene->gravity, l);
-    for (int i = 0; i < scene->line_count; i++) scale_pair(&scene->line[i].through, l);
-    for (int b = 0; b < scene->body_count; b++) convert_body(&scene->body[b], l, f);
-    for (int c = 0; c < scene->coupling_count; c++) {
-        struct coupling *coupling = &scene->coupling[c];
-        coupling->stiffness *= f / l;
-        coupling->coefficient *= f / l;
-        coupling->free_length *= l;
-        coupling->length *= l;
-        coupling->radius[0] *= l;
-        coupling->radius[1] *= l;
-        coupling->tension *= f;
-        convert_path(&coupling->path, l);
-        for (int k = 0; k < coupling->count; k++) scale_pair(&coupling->end[k].at.where, l);
-    }
-}
-
 /* ---- all of them */
 
-/* Where a rope leaves its disc, and how long it is when, is said as it is seen at the start. */
-static bool has_side_of_rope(const struct scene *scene)
+/* Where a rope leaves its disc is said as it is seen at the start, and how long it is without what lies there. */
+static bool has_wound_rope(const struct scene *scene)
 {
     for (int c = 0; c < scene->coupling_count; c++) {
         const struct coupling *coupling = &scene->coupling[c];
-        if (coupling->reels || coupling->end[0].wound || coupling->end[coupling->count - 1].wound)
-            return true;
+        if (coupling->end[0].wound || coupling->end[coupling->count - 1].wound) return true;
     }
     return false;
 }
@@ -444,7 +367,8 @@ bool scene_vary(const struct scene *scene, enum variant variant, struct random *
     struct replacing r = {.scene = scene, .variant = variant, .later = later, .base = base, .own = own};
     *view = (struct view){.mirror = 1, .length = 1, .force = 1, .changed = -1};
     *other = *scene;
-    if (has_side_of_rope(scene)) return false;
+    bool seen = variant == variant_turned || variant == variant_split || variant == variant_later;
+    if (seen && has_wound_rope(scene)) return false;
     switch (variant) {
     case variant_mirrored:
         view->mirror = -1;
@@ -452,7 +376,7 @@ bool scene_vary(const struct scene *scene, enum variant variant, struct random *
         mirror(other);
         return true;
     case variant_turned:
-        if (has_axis_of_particle(scene)) return false;
+        if (has_axis_that_stays(scene)) return false;
         r.angle = view->angle = random_between(random, -3, 3);
         turn(&r, other, base, own);
         return true;
@@ -465,7 +389,7 @@ bool scene_vary(const struct scene *scene, enum variant variant, struct random *
         view->length = r.length = scene->us ? 0.3048 : 1 / 0.3048;
         view->force = scene->us ? 4.4482216152605 : 1 / 4.4482216152605;
         replace_in_scene(&r, other);
-        convert(other, view->length, view->force);
+        vary_units(other, view->length, view->force);
         return true;
     case variant_order: vary_order(scene, random, other); return scene->body_count > 1;
     case variant_split: return vary_split(other, random, view);

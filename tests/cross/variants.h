@@ -39,6 +39,10 @@ bool scene_vary(const struct scene *scene, enum variant variant, struct random *
 void vary_order(const struct scene *scene, struct random *random, struct scene *other);
 bool vary_split(struct scene *scene, struct random *random, struct view *view);
 
+/* variants_units.c */
+void scale_formula(struct formula *formula, double factor);
+void vary_units(struct scene *scene, double l, double f);
+
 static inline struct vec2 turned(struct vec2 p, double angle)
 {
     double c = cos(angle), s = sin(angle);

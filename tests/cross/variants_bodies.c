@@ -30,6 +30,7 @@ void vary_order(const struct scene *scene, struct random *random, struct scene *
         *body = scene->body[b];
         if (body->on >= 0) body->on = place[body->on];
         renumber(&body->drive, place);
+        renumber(&body->mass, place);
         for (int i = 0; i < body->load_count; i++) {
             renumber(&body->load[i].value, place);
             renumber(&body->load[i].second, place);

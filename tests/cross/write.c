@@ -15,8 +15,7 @@ void say(struct writer *w, const char *format, ...)
     if (w->length >= text_room) w->length = text_room - 1;
 }
 
-/* The shortest text that gives the number back. */
-static const char *number(double value, char text[32])
+const char *number_text(double value, char text[32])
 {
     for (int digits = 3; digits <= 17; digits++) {
         double back = 0;
@@ -29,21 +28,22 @@ static const char *number(double value, char text[32])
 void say_number(struct writer *w, double value)
 {
     char text[32];
-    say(w, "%s", number(value, text));
+    say(w, "%s", number_text(value, text));
 }
 
 void say_pair(struct writer *w, struct vec2 p)
 {
     char x[32], y[32];
-    say(w, "[%s, %s]", number(p.x, x), number(p.y, y));
+    say(w, "[%s, %s]", number_text(p.x, x), number_text(p.y, y));
 }
 
 /* ---- formulas: each literal with its unit */
 
 static const char *unit_of(const struct scene *scene, enum dimension dimension)
 {
-    static const char *const si[] = {"", "", "[m]", "[m/s]", "[rad/s]", "[N]", "[N*m]", "[J]"};
-    static const char *const us[] = {"", "", "[ft]", "[ft/s]", "[rad/s]", "[lbf]", "[lbf*ft]", "[lbf*ft]"};
+    static const char *const si[] = {"", "", "[m]", "[m/s]", "[rad/s]", "[N]", "[N*m]", "[J]", "[kg]"};
+    static const char *const us[] = {"",      "",         "[ft]",     "[ft/s]", "[rad/s]",
+                                     "[lbf]", "[lbf*ft]", "[lbf*ft]", "[slug]"};
     return (scene->us ? us : si)[dimension];
 }
 
@@ -208,12 +208,15 @@ void say_spot(struct writer *w, int body, const struct spot *spot)
         say_pair(w, spot->where);
 }
 
-static void say_shape(struct writer *w, const struct piece *piece)
+static void say_shape(struct writer *w, int b, const struct piece *piece)
 {
     static const char *const names[] = {"point", "rod", "sphere", "disc", "hollow_cylinder", "prism", "ring"};
     const double *s = piece->size;
     say(w, "mass: ");
-    say_number(w, piece->mass);
+    if (w->scene->body[b].mass_varies)
+        say_formula(w, b, &w->scene->body[b].mass);
+    else
+        say_number(w, piece->mass);
     if (piece->shape == given_inertia && (s[1] != 0 || s[2] != 0)) {
         say(w, "%sinertia: {value: ", w->between);
         say_number(w, s[0] + piece->mass * (s[1] * s[1] + s[2] * s[2]));
@@ -291,7 +294,7 @@ static void say_body(struct writer *w, int b)
     if (body->piece_count == 1) {
         w->between = "\n    ";
         say(w, "    ");
-        say_shape(w, &body->piece[0]);
+        say_shape(w, b, &body->piece[0]);
         say(w, "\n");
         w->between = ", ";
     } else {
@@ -299,7 +302,7 @@ static void say_body(struct writer *w, int b)
     }
     for (int i = 0; i < body->piece_count && body->piece_count > 1; i++) {
         say(w, "      part%d: {", i);
-        say_shape(w, &body->piece[i]);
+        say_shape(w, b, &body->piece[i]);
         say(w, "}\n");
     }
     if (body->point_count > 0) say(w, "    points: {");
@@ -312,110 +315,6 @@ static void say_body(struct writer *w, int b)
     say_initial(w, body);
     say_loads(w, b, false);
     say_loads(w, b, true);
-}
-
-/* ---- couplings: places of the ground have names Q<coupling>_<end> */
-
-static void say_end(struct writer *w, int c, int k)
-{
-    const struct end *end = &w->scene->coupling[c].end[k];
-    if (end->body < 0)
-        say(w, "ground.Q%d_%d", c, k);
-    else if (end->at.point == at_G || end->at.point == at_origin)
-        say(w, "%s", w->scene->body[end->body].name);
-    else
-        say(w, "%s.P%d", w->scene->body[end->body].name, end->at.point);
-}
-
-static void say_roll(struct writer *w, int c)
-{
-    const struct coupling *coupling = &w->scene->coupling[c];
-    say(w, ", body: %s", w->scene->body[coupling->end[0].body].name);
-    if (coupling->line >= 0)
-        say(w, ", on: L%d", coupling->line);
-    else
-        say(w, ", on: %s", w->scene->body[coupling->end[1].body].name);
-    if (coupling->centered) say(w, ", center: ");
-    if (coupling->centered) say_spot(w, coupling->end[0].body, &coupling->end[0].at);
-    if (coupling->has_friction) {
-        key_formula(w, "static", -1, &coupling->mu_s);
-        key_formula(w, "kinetic", -1, &coupling->mu_k);
-    }
-}
-
-static void say_rope(struct writer *w, int c)
-{
-    static const char *const sides[] = {"left", "right", "top", "bottom"};
-    const struct coupling *coupling = &w->scene->coupling[c];
-    const char *between = ", wound: [";
-    bool any = false;
-    for (int k = 0; k < coupling->count; k++) {
-        const struct end *end = &coupling->end[k];
-        if (!end->wound) continue;
-        say(w, "%s{on: ", between);
-        say_end(w, c, k);
-        say(w, ", side: %s", sides[end->side]);
-        if (end->radius > 0) key_number(w, "radius", end->radius);
-        say(w, "}");
-        between = ", ";
-        any = true;
-    }
-    if (any) say(w, "]");
-    if (coupling->rubs) {
-        say(w, ", around: {on: ");
-        say_end(w, c, 1);
-        key_number(w, "radius", coupling->radius[0]);
-        key_formula(w, "static", -1, &coupling->mu_s);
-        key_formula(w, "kinetic", -1, &coupling->mu_k);
-        if (coupling->turns > 0) key_number(w, "turns", coupling->turns);
-        say(w, "}");
-    }
-    if (coupling->reels) key_formula(w, "length", -1, &coupling->reel);
-}
-
-static void say_slot(struct writer *w, const struct coupling *coupling)
-{
-    say_path(w, &coupling->path);
-    if (coupling->path.form == path_oval) say(w, ", closed: true");
-    if (coupling->one_sided || coupling->radius[0] > 0)
-        say(w, ", side: %s", coupling->side == left_side ? "left" : "right");
-    if (coupling->radius[0] > 0) key_number(w, "radius", coupling->radius[0]);
-}
-
-static void say_coupling(struct writer *w, int c)
-{
-    static const char *const kinds[] = {"spring", "damper", "pin",  "rod",  "rope",
-                                        "gear",   "rack",   "roll", "belt", "slot"};
-    const struct coupling *coupling = &w->scene->coupling[c];
-    say(w, "  - %s: {name: %s", kinds[coupling->kind], coupling->name);
-    if (coupling->kind == roll) {
-        say_roll(w, c);
-    } else {
-        say(w, ", %s: [", coupling->kind == rope ? "through" : "between");
-        for (int k = 0; k < coupling->count; k++) {
-            if (k > 0) say(w, ", ");
-            say_end(w, c, k);
-        }
-        say(w, "]");
-    }
-    if (coupling->kind == spring_of_two) {
-        key_number(w, "stiffness", coupling->stiffness);
-        key_number(w, "free_length", coupling->free_length);
-    }
-    if (coupling->kind == damper_of_two) key_number(w, "coefficient", coupling->coefficient);
-    if (coupling->length > 0) key_number(w, "length", coupling->length);
-    if ((coupling->kind == rack || coupling->kind == roll) && coupling->radius[0] > 0)
-        key_number(w, "radius", coupling->radius[0]);
-    if ((coupling->kind == gear || coupling->kind == belt) && coupling->radius[0] > 0) {
-        char one[32], two[32];
-        say(w, ", radii: [%s, %s]", number(coupling->radius[0], one), number(coupling->radius[1], two));
-    }
-    if (coupling->kind == rope) say_rope(w, c);
-    if (coupling->kind == slot) say_slot(w, coupling);
-    if (coupling->inside) say(w, ", inside: true");
-    if (coupling->crossed) say(w, ", crossed: true");
-    if (coupling->tension > 0) key_number(w, "tension", coupling->tension);
-    say(w, "}\n");
 }
 
 static void say_ground(struct writer *w)

@@ -77,6 +77,21 @@ static void say_distributed(struct writer *w, int b, const struct load *load)
     if (load->follows && load->form != along_slide) say(w, ", frame: body");
 }
 
+static void say_thrust(struct writer *w, int b, const struct load *load)
+{
+    if (!load->enters) {
+        key_formula(w, "exhaust", b, &load->value);
+        if (load->form == along_angle) key_formula(w, "angle", b, &load->second);
+        if (load->follows && load->form == along_angle) say(w, ", frame: body");
+    } else if (load->form == along_slide) {
+        key_formula(w, "velocity", b, &load->value);
+    } else {
+        const struct formula pair[2] = {load->value, load->second};
+        key_pair(w, "velocity", b, pair);
+    }
+    say_at(w, b, load);
+}
+
 static void say_friction(struct writer *w, int b, const struct load *load)
 {
     key_formula(w, "static", b, &load->value);
@@ -99,8 +114,8 @@ static void say_link(struct writer *w, int b, const struct load *load)
 static void say_load(struct writer *w, int b, const struct load *load)
 {
     static const char *const kinds[] = {"gravity", "normal", "friction",  "applied",     "spring",
-                                        "damper",  "drag",   "potential", "distributed", "applied",
-                                        "spring",  "damper", "friction",  "potential"};
+                                        "damper",  "drag",   "potential", "distributed", "thrust",
+                                        "applied", "spring", "damper",    "friction",    "potential"};
     say(w, "      - %s: {name: %s", kinds[load->kind], load->name);
     switch (load->kind) {
     case gravity: break;
@@ -125,6 +140,7 @@ static void say_load(struct writer *w, int b, const struct load *load)
     case potential:
     case moment_potential: key_formula(w, "V", b, &load->value); break;
     case distributed: say_distributed(w, b, load); break;
+    case thrust: say_thrust(w, b, load); break;
     case moment_applied: key_formula(w, "value", b, &load->value); break;
     case moment_spring:
         key_number(w, "stiffness", load->stiffness);

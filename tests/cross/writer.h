@@ -23,6 +23,9 @@ void say_summands(struct writer *w, int own, const struct formula *formula);
 void key_formula(struct writer *w, const char *key, int own, const struct formula *formula);
 void key_number(struct writer *w, const char *key, double value);
 
+/* The shortest text that gives the number back. */
+const char *number_text(double value, char text[32]);
+
 /* A point of a body, or of the ground (-1). */
 void say_spot(struct writer *w, int body, const struct spot *spot);
 
@@ -30,6 +33,9 @@ void say_spot(struct writer *w, int body, const struct spot *spot);
 void say_path(struct writer *w, const struct path *path);
 void say_tables(struct writer *w);
 void say_states(struct writer *w);
+
+/* write_couplings.c */
+void say_coupling(struct writer *w, int c);
 
 /* Its forces, or its moments (write_loads.c). */
 void say_loads(struct writer *w, int b, bool moments);

@@ -420,11 +420,12 @@ static void a_rope_on_what_only_turns_holds(void **unused)
     checks_end(&checks);
 }
 
-/* The first of a kind by that alone, others by what they join; what is taken, by a file that means to clash, is left. */
+/* The only one of a kind by that alone, several by what they join; what is taken, by a file that means to clash, is
+ * left. */
 static void names_say_which(void **unused)
 {
-    static const char *const wanted[] = {"gravity",      "spring",     "spring_a_b_2",
-                                         "spring_a_b_3", "spring_a_b", "spring_ground_a"};
+    static const char *const wanted[] = {"gravity",    "spring_a_b_2",    "spring_a_b_3", "spring_a_b_4",
+                                         "spring_a_b", "spring_ground_a", "damper"};
     struct checks checks = {0};
     fbd_arrow arrows[10];
     (void)unused;
@@ -439,6 +440,7 @@ static void names_say_which(void **unused)
                                      "  - spring: {between: [a, b], stiffness: 1}\n"
                                      "  - spring: {name: spring_a_b, between: [a, b], stiffness: 1}\n"
                                      "  - spring: {between: [ground.P, a], stiffness: 1}\n"
+                                     "  - damper: {between: [ground.P, a], coefficient: 1}\n"
                                      "simulate: {until: 1}\n");
     size_t count = fbd_diagram(trial.state, 0, arrows, 10);
     check_that(&checks, "all", count == sizeof wanted / sizeof *wanted);

@@ -195,6 +195,26 @@ static void a_blow_on_a_slot_that_rubs_ends_the_run(void **unused)
     checks_end(&checks);
 }
 
+/* A bead slips along a slot of the ground and comes to its end: v t - mu g t^2 / 2 = l. */
+static void a_slot_that_rubs_has_an_end(void **unused)
+{
+    const double v = 2.25, mu = 0.1, l = 0.4;
+    struct checks checks = {0};
+    struct trial trial = trial_parse(
+        "fbd: 1\n"
+        "ground: {points: {A: [0, 0]}}\n"
+        "bodies: {bead: {mass: 2, motion: particle, initial: {vx: 2.25}, forces: [gravity]}}\n"
+        "couplings: [slot: {name: groove, between: [bead, ground.A], from: -0.2, to: 0.4, kinetic: 0.1}]\n"
+        "simulate: {until: 2}\n");
+    (void)unused;
+    trial_start(&trial, NULL);
+    check_close(&checks, "when", to_its_end(&trial), (v - sqrt(v * v - 2 * mu * g * l)) / (mu * g), 1e-9);
+    check_that(&checks, "broken", trial.outcome == FBD_BROKEN);
+    check_that(&checks, "why", strstr(fbd_simulation_reason(trial.simulation), "the end of it") != NULL);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -203,6 +223,7 @@ int main(void)
         cmocka_unit_test(a_follower_that_rubs_is_pressed_aside),
         cmocka_unit_test(a_slot_holds_at_rest),
         cmocka_unit_test(a_blow_on_a_slot_that_rubs_ends_the_run),
+        cmocka_unit_test(a_slot_that_rubs_has_an_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

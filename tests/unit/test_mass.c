@@ -56,6 +56,25 @@ static void a_chain_out_of_a_heap(void **unused)
     checks_end(&checks);
 }
 
+/* A chain that runs out of a heap down a gutter: as a slide and as a straight track. */
+static void a_chain_on_a_track(void **unused)
+{
+    struct checks checks = {0};
+    (void)unused;
+    struct trial trial =
+        run_of("fbd: 1\nbodies:\n"
+               "  line: {mass: '2[kg/m]*x', motion: {slide: {along: -90 deg}}, initial: {x: 0.1},\n"
+               "    forces: [gravity, thrust: {velocity: 0}]}\n"
+               "  curve: {mass: '2[kg/m]*s', initial: {s: 0.1},\n"
+               "    motion: {track: {x: '0*p', y: -p, from: 0 m, to: 9 m}},\n"
+               "    forces: [gravity, thrust: {velocity: 0}]}\n"
+               "simulate: {until: 1}\n");
+    check_close(&checks, "s", get(&trial, "curve.s"), get(&trial, "line.x"), same);
+    check_close(&checks, "v", get(&trial, "curve.v"), get(&trial, "line.v"), same);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
 static void a_cart_in_the_rain(void **unused)
 {
     const double m = 20 + 0.5 * 20;
@@ -323,6 +342,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_rocket),
         cmocka_unit_test(a_chain_out_of_a_heap),
+        cmocka_unit_test(a_chain_on_a_track),
         cmocka_unit_test(a_cart_in_the_rain),
         cmocka_unit_test(a_bucket_that_leaks),
         cmocka_unit_test(a_stage_that_drops),
