@@ -9,7 +9,7 @@
 
 #include "integrate/stiffness.h"
 
-enum { terms = 26, rungs = 64, works = 4 };
+enum { terms = 26, rungs = 128, works = 4 };
 
 static const double series_reach = 2 + 1e-9; /* of h rho: a step of 2 / rho may be rounded up */
 static const double lowest_rung = 0.125;     /* its h rho */
@@ -31,7 +31,7 @@ static void *linear_alloc(size_t dim)
 {
     const size_t most = 2 * (size_t)linear_most_pairs;
     if (dim == 0 || dim > most) return NULL;
-    size_t numbers = (2 + works + terms + dim) * dim, matrices = 2 * rungs * dim * dim;
+    size_t numbers = (2 + works + terms + dim) * dim, matrices = 2 * (size_t)rungs * dim * dim;
     struct linear *s = calloc(1, sizeof *s + (numbers + matrices) * sizeof(double));
     if (!s) return NULL;
     s->dim = dim;
@@ -226,13 +226,17 @@ static void leap(struct linear *s, double h, double *y)
     memcpy(f, s->f0, dim * sizeof *f);
     memset(rise, 0, dim * sizeof *rise);
     double height = height_of(s, rung);
-    for (; rung >= 0; rung--, height /= 2) {
-        for (; rest >= (1 - rounding) * height; rest -= height) {
-            apply_matrix(dim, phi_of(s, rung), f, step);
-            for (size_t i = 0; i < dim; i++) rise[i] += step[i];
-            apply_matrix(dim, exponential_of(s, rung), f, step);
-            memcpy(f, step, dim * sizeof *f);
+    while (rung >= 0) {
+        if (!(rest >= (1 - rounding) * height)) {
+            rung--;
+            height /= 2;
+            continue;
         }
+        apply_matrix(dim, phi_of(s, rung), f, step);
+        for (size_t i = 0; i < dim; i++) rise[i] += step[i];
+        apply_matrix(dim, exponential_of(s, rung), f, step);
+        memcpy(f, step, dim * sizeof *f);
+        rest -= height;
     }
     climb_rest(s, rest, f, step, rise);
     for (size_t i = 0; i < dim; i++) y[i] = s->y0[i] + rise[i];
@@ -276,6 +280,7 @@ static int linear_apply(void *state, size_t dim, double t, double h, double y[],
     s->has_terms = false;
     memcpy(s->y0, y, dim * sizeof *y);
     memset(yerr, 0, dim * sizeof *yerr);
+    if (!(h * s->rho < ldexp(lowest_rung, rungs))) return GSL_FAILURE; /* beyond the ladder */
     if (h * s->rho <= series_reach) {
         set_terms(s);
         sum_terms(s, 1, y);
