@@ -208,11 +208,11 @@ static double remoteness(const struct fbd_model *model, const struct instant *at
     return place * (turns + fabs(bend) * size);
 }
 
-double tie_slip_velocity(const struct fbd_model *model, const struct instant *at, int tie)
+double tie_slip_rounding(const struct fbd_model *model, const struct instant *at, int tie)
 {
     const struct row *row = row_along(model, at->tree, tie);
     bool touches = model->tree->ties[tie].meeting >= 0;
-    double v = row->g.x1, size = 0;
+    double size = 0;
     for (int k = 0; k < row->port_count; k++) {
         const struct tree_state *s = &at->tree->links[row->ports[k].link];
         double arm = vec_norm(row->ports[k].arm);
@@ -220,7 +220,13 @@ double tie_slip_velocity(const struct fbd_model *model, const struct instant *at
         /* What has come down and rests has no speed to measure rounding against but that of falling over. */
         if (touches) size = fmax(size, sqrt(vec_norm(model->scene->gravity) * arm));
     }
-    return fabs(v) <= 64 * DBL_EPSILON * (size + remoteness(model, at, tie, size)) ? 0 : v;
+    return 64 * DBL_EPSILON * (size + remoteness(model, at, tie, size));
+}
+
+double tie_slip_velocity(const struct fbd_model *model, const struct instant *at, int tie)
+{
+    double v = row_along(model, at->tree, tie)->g.x1;
+    return fabs(v) <= tie_slip_rounding(model, at, tie) ? 0 : v;
 }
 
 struct slip_rate tie_slip(const struct fbd_model *model, const struct instant *at, int index, bool varied)

@@ -39,11 +39,12 @@ struct port {
 
 struct row {
     struct jet g;
+    double lambda; /* the multiplier, when solved */
     int port_count;
-    struct port ports[2 * most_constraint_ends];
-    double lambda;  /* the multiplier, when solved */
     bool redundant; /* it says nothing that the rows before it do not say */
     bool weak;      /* or may say nothing new */
+    /* Behind all that is asked of rows that take no part. */
+    struct port ports[2 * most_constraint_ends];
 };
 
 /* What a tie keeps of the start: zero of its rows, side of the line or of the way round the pulleys, and the
@@ -83,6 +84,9 @@ void tie_set_feature(const struct fbd_model *model, struct tree_work *work, int 
 /* The velocity of a rolling or rubbing body's point of contact against its line, and its acceleration; after
  * accelerations() at the instant. A velocity within rounding of zero is zero. */
 double tie_slip_velocity(const struct fbd_model *model, const struct instant *at, int tie);
+
+/* What of it counts as zero. */
+double tie_slip_rounding(const struct fbd_model *model, const struct instant *at, int tie);
 struct slip_rate {
     double value, variation;
 };

@@ -99,6 +99,7 @@ void contact_rows(const struct view *view, const struct tie *tie, const struct t
 {
     bool are_circles;
     if (state->feature == no_feature) {
+        if (rows[0].port_count == 0) return; /* they are nothing already */
         start_row(&rows[0], jet_constant(0));
         start_row(&rows[1], jet_constant(0));
         return;

@@ -141,11 +141,12 @@ static bool moves_on(const struct fbd_state *state, const struct mode *hold)
 }
 
 /* What a hold that is in question has to become: itself where it agrees. At its limit to rounding the rate
- * decides, and `by_rate` is set: there what is solved is as likely to have it hold as to have it give. */
+ * decides, and `by_rate` is set: there what is solved is as likely to have it hold as to have it give. What holds by
+ * what is solved may be beyond its limit by what accelerations are solved to. */
 static int next_mode(const struct fbd_state *state, const double *slots, const double *slots_along, int pair,
-                     bool *by_rate)
+                     bool solved, bool *by_rate)
 {
-    const double rounding = 1e-12, slacks = 4;
+    const double rounding = 1e-12, slacks = 4, beyond = solved ? 100 : 1;
     const struct fbd_model *model = state->model;
     const struct mode *hold = mode_of(state, pair);
     struct instant at = state_instant(state);
@@ -157,8 +158,8 @@ static int next_mode(const struct fbd_state *state, const double *slots, const d
         double rate = hold_sign(hold) * state->tree->z[model->tree->ties[hold->tie].first_row];
         double least = now.force < -now.slack / 2 ? 0 : now.slack * now.turning;
         double nothing = fmax(small, slacks * now.slack); /* its event function lets it pull, too */
-        *by_rate = fabs(now.force) <= nothing && rate < -least;
-        return now.force < -nothing || *by_rate ? slip_plus : stick;
+        *by_rate = now.force <= nothing && now.force >= -beyond * nothing && rate < -least;
+        return now.force < -beyond * nothing || *by_rate ? slip_plus : stick;
     }
     if (state->slip[pair] != stick) return turns_back(state, pair) ? stick : state->slip[pair];
     struct direction flow = {1, state_scratch(state).dy};
@@ -166,7 +167,7 @@ static int next_mode(const struct fbd_state *state, const double *slots, const d
     struct friction_values rate = friction_along(model, pair, &at, slots, &flow, slots_along);
     double excess = fabs(now.hold) - now.limit;
     if (is_on_contact(state, hold) && excess <= contact_slack(model, hold->tie)) return stick;
-    *by_rate = excess <= rounding * (fabs(now.hold) + now.limit);
+    *by_rate = excess <= beyond * rounding * (fabs(now.hold) + now.limit);
     return friction_decide(&now, &rate);
 }
 
@@ -221,7 +222,7 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
         }
         if (mode_is_friction(hold) && hold_slips_already(state, decided, forced, pair) != 0) continue;
         if (is_on_open_contact(state, hold)) continue;
-        int mode = next_mode(state, slots, slots_along, pair, &by_rate);
+        int mode = next_mode(state, slots, slots_along, pair, solved, &by_rate);
         if (mode == state->slip[pair]) continue;
         found = by_rate ? at_limit : differs;
         which = pair;

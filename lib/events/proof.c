@@ -72,22 +72,24 @@ static enum verdict judge_group(struct prover *prover, const struct proof_group 
 }
 
 static void see_who_waits(struct prover *prover, const struct proof_group *group, size_t index, double from,
-                          bool resumed)
+                          const bool *waits)
 {
     const struct stretch start = {from, from, from};
-    if (resumed) prover->enclose(prover->context, index, &start, prover->now);
-    for (size_t i = 0; i < group->count; i++) prover->waiting[i] = resumed && prover->now[i].value.high < 0;
+    bool any = false;
+    for (size_t i = 0; i < group->count; i++) any |= waits[i];
+    if (any) prover->enclose(prover->context, index, &start, prover->now);
+    for (size_t i = 0; i < group->count; i++) prover->waiting[i] = waits[i] && prover->now[i].value.high < 0;
 }
 
 enum proof_result proof_search(struct prover *prover, struct proof_group *groups, size_t index, double from,
-                               double need, double far, bool resumed)
+                               double need, double far, const bool *waits)
 {
     enum { most_stretches = 20000, most_blind = 8, few = 16, many = 256 };
     struct proof_group *group = &groups[index];
     if (!(group->clear >= from)) {
         group->clear = group->low = from;
         group->high = HUGE_VAL;
-        see_who_waits(prover, group, index, from, resumed);
+        see_who_waits(prover, group, index, from, waits);
     }
     if (group->high < HUGE_VAL) return proof_found;
     double width = group->width > 0 ? group->width : far - group->clear;

@@ -49,9 +49,10 @@ enum proof_result { proof_clear, proof_found, proof_unfinished };
 
 /* Search a group from `from` on, at least to `need` and, where stretches reach further, at most to `far`; go
  * on where the last search ended. A function that is negative at the start and goes on falling becomes
- * negative there; with `resumed` it has to be seen above zero first. Unfinished: after many stretches, or
- * where there are no bounds even for instants; clear up to group->clear. */
+ * negative there; one of those that wait, a flag for each of the group, has to be seen above zero first.
+ * Unfinished: after many stretches, or where there are no bounds even for instants; clear up to
+ * group->clear. */
 enum proof_result proof_search(struct prover *prover, struct proof_group *groups, size_t index, double from,
-                               double need, double far, bool resumed);
+                               double need, double far, const bool *waits);
 
 #endif

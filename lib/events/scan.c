@@ -4,6 +4,9 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+
+#include "events/cubic.h"
 
 /* A function that needs more samples of one interval is too fast for it, or noise. */
 enum { most_samples = 4096, spare_points = 3 };
@@ -26,7 +29,7 @@ bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *cont
     if (count == 0) return true; /* nothing is looked for */
     scan->points = calloc(spare_points, sizeof *scan->points);
     scan->memory = calloc((size_t)2 * spare_points * count + 1, sizeof *scan->memory);
-    scan->crossed = calloc(3 * count + 1, sizeof *scan->crossed);
+    scan->crossed = calloc(5 * count + 1, sizeof *scan->crossed);
     scan->lone = calloc(count + 1, sizeof *scan->lone);
     if (!scan->points || !scan->memory || !scan->crossed || !scan->lone) {
         scan_free(scan);
@@ -34,6 +37,8 @@ bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *cont
     }
     scan->sampled = scan->crossed + count;
     scan->chosen = scan->sampled + count;
+    scan->dipped = scan->chosen + count;
+    scan->waits = scan->dipped + count;
     for (size_t i = 0; i < count; i++) {
         scan->sampled[i] = true;
         scan->lone[i] = (struct proof_group){.first = i, .count = 1};
@@ -83,42 +88,6 @@ bool scan_use_enclosures(struct scan *scan, struct proof_group *groups, size_t c
     return true;
 }
 
-/* ---- the cubic through values and rates at both ends, on s in [0, 1]: c0 + c1 s + c2 s^2 + c3 s^3 */
-
-struct cubic {
-    double c0, c1, c2, c3;
-};
-
-static struct cubic cubic_between(const struct scan_point *a, const struct scan_point *b, size_t i)
-{
-    double h = b->t - a->t, d = b->values[i] - a->values[i], ra = h * a->rates[i], rb = h * b->rates[i];
-    return (struct cubic){a->values[i], ra, 3 * d - 2 * ra - rb, ra + rb - 2 * d};
-}
-
-static double cubic_at(const struct cubic *c, double s)
-{
-    return c->c0 + s * (c->c1 + s * (c->c2 + s * c->c3));
-}
-
-/* A zero of a cubic that changes sign from + to - over [0, 1]: Newton kept inside a shrinking bracket. */
-static double cubic_zero(const struct cubic *c)
-{
-    enum { most_steps = 8 }; /* where more are needed the cubic is rounding */
-    double low = 0, high = 1, s = c->c0 / (c->c0 - cubic_at(c, 1));
-    for (int i = 0; i < most_steps && high - low > DBL_EPSILON; i++) {
-        if (!(s > low && s < high)) s = (low + high) / 2;
-        double value = cubic_at(c, s), slope = c->c1 + s * (2 * c->c2 + s * 3 * c->c3);
-        if (value >= 0)
-            low = s;
-        else
-            high = s;
-        double next = slope != 0 ? s - value / slope : -1;
-        if (fabs(next - s) <= DBL_EPSILON) return s;
-        s = next;
-    }
-    return s;
-}
-
 /* ---- looking */
 
 static int take_sample(struct scan *scan, struct scan_point *point, double t)
@@ -152,7 +121,7 @@ static double first_estimate(const struct scan *scan, const struct scan_point *a
     double first = 1;
     for (size_t i = 0; i < scan->count; i++) {
         if (!scan->chosen[i] || !crosses(a, b, i)) continue;
-        struct cubic c = cubic_between(a, b, i);
+        struct cubic c = cubic_between(b->t - a->t, a->values[i], a->rates[i], b->values[i], b->rates[i]);
         double s = cubic_zero(&c);
         if (s < first) first = s;
     }
@@ -208,7 +177,23 @@ void scan_forget(struct scan *scan)
     }
 }
 
+void scan_pass_over(struct scan *scan)
+{
+    for (size_t i = 0; i < scan->count; i++) scan->dipped[i] |= scan->crossed[i];
+}
+
+void scan_start(struct scan *scan)
+{
+    for (size_t i = 0; i < scan->count; i++) scan->dipped[i] = false;
+}
+
 /* ---- searching with bounds */
+
+/* Panels and pieces begin where the last ones ended: what has been seen positive waits no longer. */
+static void note_seen(struct scan *scan, const struct proof_group *group)
+{
+    for (size_t k = 0; k < group->count; k++) scan->waits[group->first + k] &= scan->prover.waiting[k];
+}
 
 /* The zero that a group has in its bracket, in scan->t. 0 when samples say that there is none: bounds and
  * samples differ by roundings. */
@@ -240,8 +225,10 @@ static int search_group(struct scan *scan, struct proof_group *groups, size_t g,
     bool ahead = groups == scan->groups && !scan->follow;
     for (int refuted = 0; refuted < most_refuted; refuted++) {
         double far = ahead ? fmax(*limit, scan->horizon) : *limit;
-        enum proof_result result = proof_search(&scan->prover, groups, g, from, *limit, far, scan->resumed);
+        enum proof_result result =
+            proof_search(&scan->prover, groups, g, from, *limit, far, scan->waits + group->first);
         group->open = result == proof_unfinished;
+        if (result == proof_clear) note_seen(scan, group);
         if (result != proof_found || group->low >= *limit) return 0;
         int status = locate_in_group(scan, group);
         if (status < 0) return status;
@@ -368,7 +355,9 @@ static int search_series(struct scan *scan, size_t i, double end, double *limit,
 {
     struct proof_group *alone = &scan->lone[i];
     enum series_state state = series_fit(&scan->series, i, halved);
-    alone->open = state != series_inactive && !series_is_positive(&scan->series, i);
+    bool positive = state != series_inactive && series_is_positive(&scan->series, i);
+    scan->waits[i] &= !positive;
+    alone->open = state != series_inactive && !positive;
     if (!alone->open || state == series_unresolved) return 0;
     alone->clear = NAN;
     alone->width = 0;
@@ -407,13 +396,28 @@ static bool any_sampled(const struct scan *scan)
     return any;
 }
 
+/* Functions that take all samples and let the search not get on are rounding there, and left out of it. False where
+ * there are none. */
+static bool leave_out_noise(struct scan *scan)
+{
+    bool any = false;
+    for (size_t i = 0; i < scan->count; i++) {
+        if (!scan->sampled[i] || !scan->lone[i].open) continue;
+        scan->sampled[i] = false;
+        any = true;
+    }
+    return any;
+}
+
 /* Panel by panel. A panel whose functions are not resolved is halved; one that cannot be halved any more is
  * passed over: there the functions are rounding. */
 static int look_by_series(struct scan *scan, double from, double *limit)
 {
+    const double least_share = 1e-3;
     double length = *limit - from;
-    bool halved = false, found = false;
+    bool halved = false, found = false, soon = scan->soon > 0 && scan->soon < length;
     if (!any_sampled(scan)) return 0;
+    if (soon) length = scan->soon;
     scan->prover.enclose = enclose_series;
     scan->prover.context = scan;
     if (!scan->resumed) series_start(&scan->series);
@@ -423,13 +427,17 @@ static int look_by_series(struct scan *scan, double from, double *limit)
         double wanted = end;
         if (scan->panel) end = scan->panel(scan->context, begin, end);
         scan->clear = begin;
-        if (scan->samples >= most) return 2;
+        if (scan->samples >= most) {
+            if (begin - from >= least_share * (*limit - from) || !leave_out_noise(scan)) return 2;
+            most = scan->samples + most_samples;
+        }
         int status = look_at_panel(scan, begin, end, limit, halved, &found);
         if (status < 0) return status;
         double half = begin + (end - begin) / 2;
         halved = status == 2 && half - begin > 64 * DBL_EPSILON * fabs(end);
         /* What cuts panels are bounds of rates, which are the worse the shorter they are. */
-        double growth = end < wanted ? 16 : 2;
+        double growth = end < wanted || soon ? 16 : 2;
+        soon = soon && !halved;
         length = halved ? half - begin : growth * (end - begin);
         if (halved) scan->resolved = fmin(scan->resolved, 16 * length);
         if (!halved) begin = end;
@@ -468,6 +476,7 @@ int scan_interval(struct scan *scan, double from, double to)
     scan->clear = from;
     scan->located = false;
     if (scan->count == 0) return 0;
+    memcpy(scan->waits, scan->dipped, scan->count * sizeof *scan->waits);
     double limit = to;
     int enclosed = look_by_enclosures(scan, from, &limit);
     if (enclosed < 0) return enclosed;

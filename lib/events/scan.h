@@ -51,9 +51,9 @@ struct scan {
     proof_enclose *enclose;
     scan_follower *follow; /* NULL: enclosures are there for all times, and searches may run ahead */
     double horizon;        /* how far ahead at most */
-    bool resumed;          /* see proof_search */
     bool aside;            /* this turn: only groups that are searched aside, else only the others */
     scan_paneller *panel;  /* NULL: any length will do */
+    double soon;           /* how long a first look by samples is to be at most; 0: any length */
 
     struct prover prover;
     struct series series;
@@ -61,6 +61,8 @@ struct scan {
     const struct proof_group *found_in;
     bool located;           /* points[1] is the end of the bracket that was located last */
     bool *sampled, *chosen; /* count: searched by samples; located at present */
+    bool *dipped;           /* count: see scan_pass_over */
+    bool *waits;            /* count: of these, those that have not been seen positive in this interval */
 };
 
 /* With these enclosures; `groups` are in the order of the functions and cover all of them. False when memory
@@ -77,6 +79,11 @@ void scan_free(struct scan *scan);
  * Functions that start at or below zero are looked at once they have been seen positive, except those that
  * are still negative at the end. */
 int scan_interval(struct scan *scan, double from, double to);
+
+/* What has crossed dips below zero and does not go on: in intervals from there on it has to be seen positive before it
+ * counts again, up to scan_start. */
+void scan_pass_over(struct scan *scan);
+void scan_start(struct scan *scan);
 
 /* The functions are others now: an interval that begins where the last one ended is sampled there again. */
 void scan_forget(struct scan *scan);

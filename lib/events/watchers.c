@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "dynamics/absolute.h"
+#include "dynamics/constraint.h"
+#include "dynamics/contact.h"
 #include "dynamics/modes.h"
 #include "dynamics/tree.h"
 
@@ -183,6 +185,31 @@ double watchers_contact_slack(const struct fbd_model *model, const struct tree_w
                               const struct contact *contact)
 {
     return press_slack(model, tree, contact->body);
+}
+
+/* Below zero where nothing is known. */
+static double rounding_of(const struct watcher *watcher, const struct fbd_state *state)
+{
+    const struct fbd_model *model = state->model;
+    const struct tree *tree = model->tree;
+    const struct instant at = state_instant(state);
+    if (watcher->kind == watch_gap) return meeting_rounding(model, state->tree, watcher->index);
+    if (watcher->kind == watch_edge)
+        return meeting_rounding(model, state->tree, tree->ties[watcher->index].meeting);
+    bool of_contact =
+        watcher->kind == watch_lift || watcher->kind == watch_stick_limit || watcher->kind == watch_slip_stop;
+    int tie = of_contact ? model->plan.modes[watcher->index].tie : -1;
+    if (tie < 0 || tree->ties[tie].meeting < 0) return -1;
+    if (watcher->kind == watch_slip_stop) return tie_slip_rounding(model, &at, tie);
+    return contact_slack(model, tie);
+}
+
+void watchers_set_rounding(const struct watcher_set *set, const struct fbd_state *state, double *rounding)
+{
+    for (size_t i = 0; i < set->count; i++) {
+        double all = rounding_of(&set->watchers[i], state);
+        if (all >= 0) rounding[i] = all / 2;
+    }
 }
 
 /* `known`: nothing is slid on, or the shares of what is have enclosures. */

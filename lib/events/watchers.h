@@ -99,6 +99,10 @@ void watchers_enclose(const struct watchers *watchers, const struct watcher_set 
  * have none (outlook.h), these and sums of forces are samples. */
 void watchers_follow(struct watchers *watchers, const struct fbd_state *state);
 
+/* Of functions that are samples, in the modes of `state` where it is now: what is rounding, half of what keeps a zero of
+ * rounding from counting. Entries of others are left as they are. */
+void watchers_set_rounding(const struct watcher_set *set, const struct fbd_state *state, double *rounding);
+
 /* A part of it: set `held`. */
 void watchers_hold(struct watchers *watchers, const struct fbd_state *state);
 

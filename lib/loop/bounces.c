@@ -92,8 +92,8 @@ static double sum_of_intervals(const struct bounces *bounces)
     return last < before && before < first ? last * last / (before - last) : HUGE_VAL;
 }
 
-/* Bounces that nobody sees and that do not come to an end: what slips and sticks at each of them may throw the point up
- * again by as much (chatter, and reverse chatter, of Nordmark, Dankowicz and Champneys, IMA Journal of Applied Mathematics
+/* Bounces that nobody sees and that do not come to an end: what slips and sticks at each of them, or after a plastic one,
+ * may throw the point up again by as much (chatter, and reverse chatter, of Nordmark, Dankowicz and Champneys, IMA Journal of Applied Mathematics
  * 76, 2011). Their heights are below the rounding of places, and rest is a motion, too: after so many, at rest. */
 static bool is_crowd(struct bounces *bounces, double leaving, double unseen)
 {
@@ -214,10 +214,12 @@ static double end_of_series(struct run *run, int i, int count)
     if (bounces->is_closed) note_return(bounces, run->state->t);
     remember(bounces, run->state->t, feature);
     bounces->is_closed = !any_leaves(run, i, count);
-    if (bounces->is_closed) return end_of_tugs(run, bounces, unseen, count);
+    bool crowd = is_crowd(bounces, bounces->is_closed ? -striker->v_n : leaving, unseen);
+    if (bounces->is_closed && !crowd) return end_of_tugs(run, bounces, unseen, count);
     double a = -acceleration_of(run, striker->tie, feature), left = HUGE_VAL;
-    bool low = a > 0 && leaving * leaving <= 2 * a * unseen, crowd = is_crowd(bounces, leaving, unseen);
+    bool low = a > 0 && leaving * leaving <= 2 * a * unseen;
     bounces->slow = a > 0 ? sqrt(2 * a * unseen) : leaving;
+    if (bounces->is_closed) return run->state->t; /* in a crowd */
     if (!low && bounces->unseen < 3) return HUGE_VAL;
     if (same && v > 0) {
         left = low ? sum_of_bounces(run, index, v, a) : sum_of_intervals(bounces);

@@ -225,6 +225,7 @@ static bool restart(struct run *run)
         run_fail_step(run, stepper_bad_function);
         return false;
     }
+    watchers_set_rounding(&run->watchers.moving, run->during, run->search.moving.series.rounding);
     if (run->step.first == 0) run->step.first = run->step.h;
     if (structure_is_one_step(run->kind)) run->step.h = run->options.until - run->state->t;
     if (run->kind == structure_linear) {

@@ -118,6 +118,15 @@ static int stay_before_poles(struct run *run, struct moment *t)
     return cut_step(run, *t);
 }
 
+/* Events that crowd are looked for in a panel about as long as what was between the last ones, before those that the
+ * step would allow; not shorter by so much that values there are rounding. */
+static double soon(const struct run *run, double length)
+{
+    const double intervals = 2, least_share = 1e-3;
+    double last = fmax(run->recent.interval[0], run->recent.interval[1]);
+    return fmax(intervals * last, least_share * length);
+}
+
 /* Look for the first event in (from, t] that changes the motion; on return *t is its time, with y and f
  * there. 1 found, 0 none, -1 failed. Where the event functions change so fast that the scan gives up, the
  * step is cut to what it has seen; one that is noise (it gives up at the very start) is not looked at more
@@ -129,8 +138,9 @@ static int find_change(struct run *run, struct moment *t)
     const double least_share = 1e-3;
     double start = run->step.from, end = t->t;
     run->search.moving.aside = false;
+    run->search.moving.soon = soon(run, end - start);
+    scan_start(&run->search.moving);
     for (int dip = 0; dip < most_dips && start < end; dip++) {
-        run->search.moving.resumed = dip > 0;
         int found = scan_interval(&run->search.moving, start, end);
         if (run->search.moving.resolved < HUGE_VAL)
             run->step.h = fmin(run->step.h, run->search.moving.resolved);
@@ -149,6 +159,7 @@ static int find_change(struct run *run, struct moment *t)
             return 1;
         }
         if (cut_step(run, *t) < 0) return -1;
+        scan_pass_over(&run->search.moving);
         start = fmax(when, run->search.moving.t);
     }
     if (!(start < end) || start - run->step.from <= instant_at(start)) return 0;
@@ -165,8 +176,8 @@ static int find_told(struct run *run, struct moment *t)
     enum { most_dips = 8 };
     double start = run->step.from, end = t->t;
     run->search.moving.aside = true;
+    scan_start(&run->search.moving);
     for (int dip = 0; dip < most_dips && start < end;) {
-        run->search.moving.resumed = dip > 0;
         int found = scan_interval(&run->search.moving, start, end);
         if (found != 1) return found < 0 ? -1 : 0;
         double when = run->search.moving.t, move = 0;
@@ -176,6 +187,7 @@ static int find_told(struct run *run, struct moment *t)
             if (when < end) *t = run_pin_moving(run, when, move, *t);
             return 1;
         }
+        if (!passed) scan_pass_over(&run->search.moving);
         dip += !(passed && when > start);
         start = passed ? when : fmax(when, run->search.moving.t);
     }

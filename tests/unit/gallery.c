@@ -351,8 +351,13 @@ void trial_finish(struct trial *trial)
 
 void trial_run(struct trial *trial, const fbd_options *options)
 {
+    trial_record(trial, options, NULL);
+}
+
+void trial_record(struct trial *trial, const fbd_options *options, const fbd_recording *recording)
+{
     trial_start(trial, options);
-    trial->result = fbd_simulation_run(trial->simulation, NULL);
+    trial->result = fbd_simulation_run(trial->simulation, recording);
     assert_non_null(trial->result);
     trial->outcome = fbd_result_outcome(trial->result);
     double from, to;

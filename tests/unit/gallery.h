@@ -111,6 +111,7 @@ void trial_finish(struct trial *trial);
 
 /* Start and carry through with the ledger: trial->result. */
 void trial_run(struct trial *trial, const fbd_options *options);
+void trial_record(struct trial *trial, const fbd_options *options, const fbd_recording *recording);
 
 /* The instant of event `index` (from 0) of this kind and name among those that have happened; NAN when there
  * is none. `name` may be NULL for any. */

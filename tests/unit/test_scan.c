@@ -33,7 +33,8 @@ static int scan_once(struct scan *scan, struct bench *bench, double from, double
 {
     if (bench->fails_at == 0) bench->fails_at = HUGE_VAL;
     assert_true(scan_init(scan, bench->count, sample, bench));
-    scan->resumed = bench->resumed;
+    for (size_t i = 0; i < bench->count; i++) scan->crossed[i] = bench->resumed;
+    scan_pass_over(scan);
     return scan_interval(scan, from, to);
 }
 
