@@ -13,6 +13,7 @@
 #include "piles.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 static const double weight = 9.81, at_rest = 1e-9, striking = 1e-7;
@@ -207,12 +208,13 @@ static bool solve_modes(struct part *part)
 {
     enum { corrections = 6 };
     const double damping = 1e-7, rounding = 1e-8, far = 1e3;
-    double A[most_unknowns][most_unknowns], b[most_unknowns], rest[most_unknowns], first = 0, last = 0;
+    double A[most_unknowns][most_unknowns] = {{0}}, b[most_unknowns], rest[most_unknowns], first = 0,
+           last = 0;
     int n = 2 * part->count;
     set_equations(part, A, b);
     memset(part->f, 0, sizeof part->f);
     for (int pass = 0; pass < corrections; pass++) {
-        double damped[most_unknowns][most_unknowns];
+        double damped[most_unknowns][most_unknowns] = {{0}};
         for (int i = 0; i < n; i++) {
             rest[i] = b[i];
             for (int k = 0; k < n; k++) rest[i] -= A[i][k] * part->f[k];
@@ -261,7 +263,8 @@ static bool is_lawful(const struct part *part, bool forces)
 {
     const double little = 1e-7;
     for (int i = 0; i < part->count; i++) {
-        double N = part->f[2 * i], T = part->f[2 * i + 1];
+        const double *f = part->f + (ptrdiff_t)2 * i;
+        double N = f[0], T = f[1];
         const double(*a)[3] = (const double(*)[3])part->a;
         double c_n = acceleration_along(part->touches[i], &part->lines[i].of[0], a);
         double c_t = acceleration_along(part->touches[i], &part->lines[i].of[1], a);
@@ -322,7 +325,7 @@ enum pile_verdict pile_try_modes(const struct pile *pile, const struct pile_moti
     double found[most_bodies][3];
     bool agrees = false, undecided = false;
     *solutions = 0;
-    if (!find_part(&part, motion, touches, count, first)) return pile_not_looked;
+    if (!find_part(&part, motion, touches, count, first) || part.count == 0) return pile_not_looked;
     int all = 1;
     for (int i = 0; i < part.count; i++) all *= modes;
     for (int number = 0; number < all; number++) {
