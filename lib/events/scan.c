@@ -180,11 +180,13 @@ void scan_forget(struct scan *scan)
 void scan_pass_over(struct scan *scan)
 {
     for (size_t i = 0; i < scan->count; i++) scan->dipped[i] |= scan->crossed[i];
+    scan->resumed = true;
 }
 
 void scan_start(struct scan *scan)
 {
     for (size_t i = 0; i < scan->count; i++) scan->dipped[i] = false;
+    scan->resumed = false;
 }
 
 /* ---- searching with bounds */

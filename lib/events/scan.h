@@ -60,6 +60,7 @@ struct scan {
     struct proof_group *lone; /* count: each function by itself, for its series */
     const struct proof_group *found_in;
     bool located;           /* points[1] is the end of the bracket that was located last */
+    bool resumed;           /* between scan_pass_over and scan_start */
     bool *sampled, *chosen; /* count: searched by samples; located at present */
     bool *dipped;           /* count: see scan_pass_over */
     bool *waits;            /* count: of these, those that have not been seen positive in this interval */
