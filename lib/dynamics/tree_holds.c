@@ -49,12 +49,18 @@ static void set_pull(struct fbd_state *state, int pair, double N)
 }
 
 /* Where a corner touches two surfaces, what one of them holds by friction the other one presses: how much each of them
- * takes is open, and what is found has one at its limit that does not move. Then it slips, by nothing. */
+ * takes is open, and what is found has one at its limit that does not move. Then it slips, by nothing. Of two surfaces
+ * that press at nearly the same place one may have no force, and open by next to nothing. */
 static int barely_holds(const struct gathered *all, size_t i)
 {
     const double rounding = 1e-9;
     const struct hold *hold = &all->problem.holds[i];
-    if (hold->kind != hold_friction || hold->slip != 0 || hold->mode != hold_keeps) return 0;
+    if (hold->slip != 0 || hold->mode != hold_keeps) return 0;
+    if (hold->kind == hold_one_sided) {
+        double most = 0;
+        for (size_t j = 0; j < all->problem.count; j++) most = fmax(most, fabs(all->problem.holds[j].force));
+        return hold->force <= rounding * most ? hold_gives : 0;
+    }
     if (hold->press != press_hold) return 0;
     double limit = hold->mu_s * all->problem.holds[hold->presses].force;
     if (!(limit > 0) || fabs(hold->force) < (1 - rounding) * limit) return 0;
@@ -247,7 +253,8 @@ static bool decide(struct fbd_state *state, const struct decided *decided, int *
         if (found == agrees) return true;
         bool more = found == at_limit;
         for (int pair = 0; pair < count && found == differs; pair++) {
-            if (barely[pair] == 0) continue;
+            bool contradicts = pair == state->holds.contradicts;
+            if (barely[pair] == 0 || (mode_is_one_sided(mode_of(state, pair)) && !contradicts)) continue;
             forced[pair] = barely[pair];
             more = true;
         }
