@@ -66,9 +66,11 @@ mutants:
 # Random scenes against the independent assembly of tests/cross, with seeds that the tests do not use.
 SCENES = 100000
 SEED = 1000000
+# Scenes of one kind alone: tracks, slots, windings, masses, rolls or spools.
+KIND =
 cross-check: $(BUILD)/.tests
 	ninja -C $(BUILD)
-	$(BUILD)/tests/cross/cross_check --scenes $(SCENES) --seed $(SEED) --variants 10 --jobs 2
+	$(BUILD)/tests/cross/cross_check --scenes $(SCENES) --seed $(SEED) --variants 10 --jobs 2 $(if $(KIND),--of $(KIND))
 
 bench: $(BUILD)/.tests
 	ninja -C $(BUILD)

@@ -281,7 +281,7 @@ static bool take_option(const struct command_line *unused, int option, void *con
     case option_method: options->run.method = optarg; return true;
     case option_tolerance: return take_number("tolerance", tiny, &options->run.tolerance);
     case option_accuracy: return take_number("accuracy", tiny, &options->run.accuracy);
-    case option_step: return take_number("step", tiny, &options->run.step);
+    case option_step: return take_time("step", tiny, &options->run.step);
     case option_no_structure: options->run.no_structure = true; return true;
     case option_until: return take_time("until", -1e300, &options->run.until);
     case option_every: return take_time("every", tiny, &options->every);

@@ -21,6 +21,8 @@ check 'two files are 2' exits 2 run "$incline" "$incline"
 check '--at without anything to look at is 2' exits 2 run --at 1 "$incline"
 check 'a number that is none is 2' exits 2 run --until soon "$incline"
 check 'a time with the unit of a mass is 2' exits 2 run --until '5 kg' "$incline"
+check 'a step may have a unit' exits 0 run --step '10 ms' --method rkf45 "$incline"
+check 'a step with the unit of a mass is 2' exits 2 run --step '5 kg' "$incline"
 check 'an unknown method is 2' exits 2 run --method rk99 "$incline"
 check 'and the nearest one is named' says 'did you mean' err
 check 'an end before the start is 2' exits 2 run --until -1 "$incline"
