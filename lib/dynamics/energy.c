@@ -3,9 +3,9 @@
 
 #include "dynamics/mass.h"
 #include "dynamics/tree.h"
+#include "expr/pieces.h"
+#include "numeric/quadrature.h"
 
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_integration.h>
 #include <string.h>
 
 double kinetic_energy(const struct model_body *body, const struct instant *at)
@@ -60,25 +60,38 @@ static double force_at(double q, void *context)
     return share;
 }
 
+/* From piece to piece of the formulas, so that no pulse between is missed. NAN where it is not known to some digits. */
+static double integrate(struct integrand *integrand, double from, double to)
+{
+    enum { most_halves = 2000, most_pieces = 1000 };
+    const double known = 1e-9;
+    const struct model_load *load = integrand->load;
+    const struct expr *formulas[4],
+        *all[] = {load->value.expr, load->angle.expr, load->fx.expr, load->fy.expr};
+    size_t count = 0;
+    double ends[most_pieces + 1];
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        if (all[i]) formulas[count++] = all[i];
+    int pieces = pieces_cut(formulas, count, integrand->body->first + 1, from, to, most_pieces, ends);
+    if (pieces == pieces_no_memory) return (double)NAN;
+    if (pieces == pieces_too_many) ends[1] = to;
+    gsl_function function = {force_at, integrand};
+    struct quadrature sum = quadrature_over(&function, ends, pieces > 0 ? pieces : 1, most_halves);
+    return sum.error <= known * sum.size ? sum.integral : (double)NAN;
+}
+
 static double by_quadrature(const struct fbd_model *model, const struct model_load *load,
                             const struct instant *at, double *scratch)
 {
-    enum { intervals = 200 };
     const struct model_body *body = &model->bodies[load->body];
+    double from = load->reference, to = at->y[body->first];
     struct integrand integrand = {body, load, *at, scratch};
     memset(scratch, 0, plan_size(&model->plan) * sizeof *scratch);
     integrand.at.y = scratch;
     integrand.at.branch = NULL; /* plain values: the integral crosses kinks */
     integrand.at.sliding = NULL;
-    gsl_function function = {force_at, &integrand};
-    gsl_integration_workspace *workspace = gsl_integration_workspace_alloc(intervals);
-    if (!workspace) return NAN;
-    double work, error;
-    int status = gsl_integration_qag(&function, load->reference, at->y[body->first], 0, 1e-12, intervals,
-                                     GSL_INTEG_GAUSS21, workspace, &work, &error);
-    gsl_integration_workspace_free(workspace);
-    /* Rounding may keep it from 1e-12: the result is still the best that there is. */
-    return status == GSL_SUCCESS || status == GSL_EROUND ? -work : NAN;
+    if (from == to) return 0;
+    return from < to ? -integrate(&integrand, from, to) : integrate(&integrand, to, from);
 }
 
 /* ---- V of a load */

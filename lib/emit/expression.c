@@ -162,6 +162,7 @@ static struct piece switched(const struct reading *reading, const struct instr *
     const char *name = reading->emitter->branch[reading->first + i->extra];
     const char *branch = arena_printf(arena, "s->branch[%s]", name);
     if (reading->switches) reading->switches[i->extra] = (struct emit_switch){i, a.text, b.text, condition};
+    if (i->op == op_levels) return a;
     return piece_of(reading, fill(arena, switch_format(i->op), branch ? branch : "", a.text, b.text),
                     bond_whole);
 }
@@ -172,7 +173,7 @@ static struct piece operate_dual(const struct reading *reading, const struct ins
     struct arena *arena = arena_of(reading);
     const char *a = reading->registers[i->a].text, *b = reading->registers[i->b].text;
     const char *name = emit_dual_name(i->op);
-    if (i->op == op_copy) return reading->registers[i->a];
+    if (i->op == op_copy || i->op == op_levels) return reading->registers[i->a];
     if (i->op == op_whole_power)
         return piece_of(reading, arena_printf(arena, "dual_whole_power(%s, %d)", a, i->extra), bond_whole);
     if (op_is_switch(i->op)) {

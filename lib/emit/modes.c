@@ -61,7 +61,7 @@ static const char *watched_value(struct emitter *emitter, const struct emit_swit
     const char *u = a;
     unsigned op = watched->instr->op;
     if (op_is_by_difference(op)) u = emit_printf(emitter, "(%s) - (%s)", a, b);
-    if (op == op_mod) u = emit_printf(emitter, "(%s)/(%s)", a, b);
+    if (op_is_by_quotient(op)) u = emit_printf(emitter, "(%s)/(%s)", a, b);
     if (op == op_square) u = emit_printf(emitter, "2*(%s)", a);
     return watched->condition ? emit_printf(emitter, "%s ? %s : NAN", watched->condition, u) : u;
 }
@@ -70,6 +70,7 @@ static const char *switch_kind(unsigned op)
 {
     if (op == op_relay) return "by_relay";
     if (op_is_by_sign(op)) return "by_sign";
+    if (op == op_levels) return "by_level";
     return op == op_ceil ? "by_ceil" : op == op_round ? "by_round" : "by_floor";
 }
 
@@ -102,10 +103,11 @@ static void write_switches(struct emitter *emitter)
     text_add(&lines, "    default: return 1;\n    }\n");
     struct text *out = &emitter->rest;
     text_printf(out,
-                "enum { by_sign, by_floor, by_ceil, by_round, by_relay };\n"
+                "enum { by_sign, by_floor, by_ceil, by_round, by_level, by_relay };\n"
+                "enum { most_levels = %d };\n"
                 "static const int switch_kind[branches] = {\n%s};\n"
                 "static const int branch_at_zero[branches] = {\n%s};\n\n",
-                kinds.data ? kinds.data : "    0\n", zeros.data ? zeros.data : "    0\n");
+                most_levels, kinds.data ? kinds.data : "    0\n", zeros.data ? zeros.data : "    0\n");
     emit_function(
         out,
         "/* What a switch watches; NAN in the side of an `if` that is not taken. */\nstatic double watched",

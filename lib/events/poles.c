@@ -69,7 +69,7 @@ static double longest_for(struct poles *poles, size_t k, double change)
 {
     const double share = 0.5;
     double d = poles->start[k], rate = poles->rate[k];
-    if (!isfinite(d)) return HUGE_VAL;
+    if (!isfinite(d) || !isfinite(rate)) return HUGE_VAL;
     poles->most[k] = fmax(poles->most[k], fabs(d));
     if (!(d * rate < 0)) return HUGE_VAL;
     follow(poles, k, change);

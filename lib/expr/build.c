@@ -197,6 +197,15 @@ struct operand build_table(struct builder *b, int base, const struct table *tabl
     return build_instr(b, base, (struct instr){.op = op_table, .table = table}, x, NULL, kind, at);
 }
 
+struct operand build_levels(struct builder *b, int base, const struct operand *x, double unit)
+{
+    const double stretch = 8; /* and the outermost levels are at 36 */
+    struct kind pure = {.failed = x->kind.failed};
+    struct operand length = build_constant(stretch * unit, pure, x->at);
+    if (x->place == place_constant || x->kind.failed) return *x;
+    return build_operation(b, base, op_levels, 0, x, &length, x->kind, x->at);
+}
+
 /* ---- if: the side that is not chosen is jumped over, so that it costs nothing and its switches stay silent
  */
 

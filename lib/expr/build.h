@@ -53,6 +53,12 @@ struct operand build_operation(struct builder *builder, int base, enum op op, in
                                struct pos at);
 
 /* The value of `table` at `x`. */
+/* `x` itself, the argument of a function that changes within a range of about `unit`: with levels, at which steps end.
+ * A step that goes from where the function is asleep to where it is asleep again would see nothing of what is between.
+ * exp(-36) is less than a rounding; from level to level, 8 units, a bell is seen by the stages of a step and the error
+ * control sees to the rest. A constant has none. */
+struct operand build_levels(struct builder *b, int base, const struct operand *x, double unit);
+
 struct operand build_table(struct builder *builder, int base, const struct table *table,
                            const struct operand *x, struct kind kind, struct pos at);
 

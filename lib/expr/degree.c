@@ -28,7 +28,8 @@ static enum expr_degree degree_after(const struct instr *instr, enum expr_degree
     case op_copy:
     case op_negate:
     case op_abs:
-    case op_sawtooth: return a;
+    case op_sawtooth:
+    case op_levels: return a;
     case op_add:
     case op_subtract:
     case op_min:

@@ -56,6 +56,7 @@ static struct interval value_of_switch(const struct instr *i, int n, struct inte
     case op_max: return n < 0 ? b : a;
     case op_mod: return n == 0 ? a : interval_subtract(a, interval_scale(n, b));
     case op_sawtooth: return interval_subtract(a, interval_point(n));
+    case op_levels: return a;
     case op_table: return value_of_piece(i->table, n, a);
     default: return interval_point(switch_value(i, n, 0, 0));
     }
@@ -126,7 +127,8 @@ static struct steepness of_switch(const struct instr *i, int n, struct interval 
     case op_abs: return (struct steepness){interval_point(n < 0 ? -1 : 1), none};
     case op_min: return n < 0 ? (struct steepness){one, none} : (struct steepness){none, one};
     case op_max: return n < 0 ? (struct steepness){none, one} : (struct steepness){one, none};
-    case op_sawtooth: return (struct steepness){one, none};
+    case op_sawtooth:
+    case op_levels: return (struct steepness){one, none};
     case op_mod: return (struct steepness){one, interval_point(-(double)n)};
     case op_table: return (struct steepness){slope_of_piece(i->table, n, a), none};
     default: return (struct steepness){none, none};
@@ -242,7 +244,7 @@ static struct enclosure watched(const struct instr *i, const struct enclosing *e
     if (op_is_by_difference(i->op)) enclosure_centre(&u, e->radius);
     if (i->op == op_square) u = enclosure_scale(2, *a);
     if (i->op == op_relay) u = enclosure_add(*a, enclosure_point(e->branch[i->extra] > 0 ? 1 : -1));
-    if (i->op != op_mod) return u;
+    if (!op_is_by_quotient(i->op)) return u;
     u.value = interval_divide(a->value, b->value);
     u.rate = interval_divide(interval_subtract(a->rate, interval_multiply(u.value, b->rate)), b->value);
     u.middle = interval_divide(a->middle, b->middle);
@@ -278,9 +280,9 @@ static void enclose_margins(const struct instr *i, struct enclosing *e)
         if (isfinite(to.x)) *upper = enclosure_subtract(knot_of(to), u);
     } else if (!op_is_by_sign(i->op)) {
         if (n >= branch_limit || n <= -branch_limit) return;
-        double low = n + (i->op == op_ceil ? -1 : i->op == op_round ? -0.5 : 0);
-        *lower = enclosure_subtract(u, enclosure_point(low));
-        *upper = enclosure_subtract(enclosure_point(low + 1), u);
+        double low = n + switch_offset(i->op);
+        if (switch_has_end(i->op, n, 0)) *lower = enclosure_subtract(u, enclosure_point(low));
+        if (switch_has_end(i->op, n, 1)) *upper = enclosure_subtract(enclosure_point(low + 1), u);
     } else if (n == 0 && (i->op == op_sign || i->op == op_equal)) {
         *lower = with_tolerance(u);
         *upper = with_tolerance(enclosure_negate(u));

@@ -54,6 +54,11 @@ const struct table *expr_switch_table(const struct expr *expr, size_t index)
     return expr->switch_at[index].table;
 }
 
+bool expr_switch_is_silent(const struct expr *expr, size_t index)
+{
+    return expr->switch_at[index].op == op_levels;
+}
+
 const struct expr *expr_renumbered(struct arena *arena, const struct expr *expr, const int *moved)
 {
     if (expr->variables == 0) return expr;

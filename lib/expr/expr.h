@@ -232,6 +232,10 @@ bool expr_switch_depends(const struct expr *expr, size_t index, size_t on);
 /* The table whose pieces are the branches of a switch, or NULL. */
 const struct table *expr_switch_table(const struct expr *expr, size_t index);
 
+/* Is it one at whose ends nothing changes: there that no step goes unseen over what lives in a small range of its
+ * argument, as exp and tanh do? */
+bool expr_switch_is_silent(const struct expr *expr, size_t index);
+
 /* The branch on the other side of end `end` (0 lower, 1 upper) of switch `index`. */
 int expr_branch_beyond(const struct expr *expr, size_t index, int end, int branch);
 

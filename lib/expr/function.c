@@ -163,7 +163,17 @@ struct operand function_power(struct parser *p, int base, const struct operand *
     }
     if (whole && !b->is_broken)
         return build_operation(p->builder, base, op_whole_power, (int)b->value, a, NULL, kind, at);
-    return build_operation(p->builder, base, op_power, 0, a, b, kind, at);
+    /* c^b = exp(b ln c) */
+    double of_exponent = a->place == place_constant && a->value > 0 ? fabs(log(a->value)) : 0;
+    struct operand exponent =
+        of_exponent > 0 ? build_levels(p->builder, p->builder->depth, b, 1 / of_exponent) : *b;
+    return build_operation(p->builder, base, op_power, 0, a, &exponent, kind, at);
+}
+
+/* Is it as good as constant but for arguments of some size? */
+static bool wakes_up(enum op op)
+{
+    return op == op_exp || op == op_sinh || op == op_cosh || op == op_tanh;
 }
 
 /* min(max(u, low), high): the order of u and its bounds is what its two switches watch. */
@@ -294,7 +304,10 @@ static struct operand build_call(struct parser *p, const struct function *functi
     if (function->rule == rule_clamp) return build_clamp(b, base, args, kind, at);
     if (function->rule == rule_relay) return build_relay(p, base, args, kind, at);
     if (function->rule == rule_pulse) return build_pulse(b, base, args, kind, at);
-    if (count == 1) return build_operation(b, base, function->op, 0, &args[0], NULL, kind, at);
+    if (count == 1) {
+        struct operand argument = wakes_up(function->op) ? build_levels(b, base, &args[0], 1) : args[0];
+        return build_operation(b, base, function->op, 0, &argument, NULL, kind, at);
+    }
     struct operand result = args[0];
     for (int i = 1; i < count; i++)
         result = build_operation(b, i == count - 1 ? base : b->depth, function->op, 0, &result, &args[i],

@@ -3,7 +3,7 @@
  * Switches: where a formula changes, on which side a motion goes on, and how far the change is.
  *
  * Each switch watches a smooth function u of the state: a for sign, abs, step and the roundings, a - b for
- * min, max and comparisons, a/b for mod, 2a for square. A switch by sign has the branches u < 0, u > 0 and,
+ * min, max and comparisons, a/b for mod and levels, 2a for square. A switch by sign has the branches u < 0, u > 0 and,
  * for sign and ==, u = 0. A rounding has the branches n with n + offset < u < n + offset + 1. A relay watches the
  * threshold at which it leaves its branch, a - 1 or a + 1; where it is between them its branch stays, whatever
  * that was.
@@ -80,7 +80,7 @@ static struct crossing crossing_at(const struct instr *i, const int *branch, con
     } else if (i->op == op_relay) {
         u = twofold_add(a, (struct twofold){branch && branch[i->extra] > 0 ? 1 : -1, 0});
         error += twofold_rounding * fabs(a.x);
-    } else if (i->op == op_mod) {
+    } else if (op_is_by_quotient(i->op)) {
         u = twofold_divide(a, b);
         rate = (rate - u.x * m->rate[i->b]) / b.x;
         error = (error + fabs(u.x) * m->error[i->b]) / fabs(b.x) + twofold_rounding * fabs(u.x);
@@ -160,12 +160,6 @@ static void run(const struct expr *expr, const int *branch, struct motion *m, vi
     }
 }
 
-/* The lower end of branch 0 of a rounding. */
-static double offset_of(unsigned op)
-{
-    return op == op_ceil ? -1 : op == op_round ? -0.5 : 0;
-}
-
 /* ---- margins */
 
 struct margins {
@@ -193,9 +187,9 @@ static void note_margins(void *context, const struct instr *i, const struct moti
         if (isfinite(to.x)) set_margin(m, upper, twofold_value(twofold_subtract(to, c.exact)), c, -1);
     } else if (!op_is_by_sign(i->op)) {
         if (n >= branch_limit || n <= -branch_limit) return;
-        double low = n + offset_of(i->op);
-        set_margin(m, lower, (c.exact.x - low) + c.exact.rest, c, 1);
-        set_margin(m, upper, (low + 1 - c.exact.x) - c.exact.rest, c, -1);
+        double low = n + switch_offset(i->op);
+        if (switch_has_end(i->op, n, 0)) set_margin(m, lower, (c.exact.x - low) + c.exact.rest, c, 1);
+        if (switch_has_end(i->op, n, 1)) set_margin(m, upper, (low + 1 - c.exact.x) - c.exact.rest, c, -1);
     } else if (n == 0 && (i->op == op_sign || i->op == op_equal)) {
         set_margin(m, lower, c.tolerance + c.u, c, 1);
         set_margin(m, upper, c.tolerance - c.u, c, -1);
@@ -288,7 +282,7 @@ static int branch_by_sign(const struct instr *i, int before, const struct motion
 static int branch_by_rounding(const struct instr *i, const struct motion *at, struct crossing c)
 {
     if (!(isfinite(c.u) && c.tolerance < 0.5)) return plain_branch(i, at);
-    double above = c.exact.x - offset_of(i->op), nearest = round(above);
+    double above = c.exact.x - switch_offset(i->op), nearest = round(above);
     double beyond = (above - nearest) + c.exact.rest;
     if (fabs(beyond) <= c.tolerance) {
         if (c.rate > 0) return counted(nearest);
@@ -324,6 +318,7 @@ static void choose_branch(void *context, const struct instr *i, const struct mot
     *branch = i->op == op_table      ? branch_by_piece(i, at, c)
               : op_is_by_sign(i->op) ? branch_by_sign(i, *branch, at, c)
                                      : branch_by_rounding(i, at, c);
+    if (i->op == op_levels) *branch = (int)levels_clamp(*branch);
 }
 
 void expr_resolve(const struct expr *expr, struct moment t, const double *y, double dt, const double *dy,

@@ -70,6 +70,7 @@ static double plain_switch(const struct instr *instr, double x, double y)
     case op_sawtooth: return x - floor(x);
     case op_square: return square_wave(x);
     case op_table: return table_value(instr->table, table_piece(instr->table, x), x);
+    case op_levels: return x;
     default: return NAN;
     }
 }
@@ -131,6 +132,7 @@ double op_plain_branch(const struct instr *instr, double x, double y)
     case op_mod: return floor(x / y);
     case op_square: return floor(2 * x);
     case op_table: return table_piece(instr->table, x);
+    case op_levels: return levels_clamp(round(x / y));
     default: return 0;
     }
 }
@@ -159,6 +161,7 @@ double switch_value(const struct instr *instr, double n, double x, double y)
     case op_sawtooth: return x - n;
     case op_square: return fmod(n, 2) == 0 ? 1 : -1;
     case op_table: return table_value(instr->table, n, x);
+    case op_levels: return x;
     default: return n; /* sign, floor, ceil, round */
     }
 }

@@ -17,9 +17,10 @@
 #include "expr/table.h"
 
 enum {
-    frame_limit = 1024,       /* registers: 32 KB of stack for hyper-dual numbers */
-    operation_limit = 4096,   /* instructions */
-    branch_limit = 2147483647 /* a branch at +-this is past counting: see switch_branch */
+    frame_limit = 1024,        /* registers: 32 KB of stack for hyper-dual numbers */
+    operation_limit = 4096,    /* instructions */
+    branch_limit = 2147483647, /* a branch at +-this is past counting: see switch_branch */
+    most_levels = 5            /* the branches of op_levels are -5 to 5 */
 };
 
 enum op {
@@ -76,6 +77,10 @@ enum op {
     /* A switch with one branch for each piece of a table (table.h). */
     op_table,
 
+    /* a, as it is, with one branch for each stretch of a that is b long, the middle one around 0, and beyond the
+     * outermost ones none: argument of what wakes up within a few of them and is asleep beside (build_levels). */
+    op_levels,
+
     /* Control: go on `extra` instructions further down. */
     op_jump,
     op_jump_unless, /* when a is 0 */
@@ -123,7 +128,13 @@ struct expr {
 
 static inline bool op_is_switch(unsigned op)
 {
-    return op >= op_sign && op <= op_table;
+    return op >= op_sign && op <= op_levels;
+}
+
+/* What a switch watches is a/b. */
+static inline bool op_is_by_quotient(unsigned op)
+{
+    return op == op_mod || op == op_levels;
 }
 
 static inline bool op_is_by_sign(unsigned op)
@@ -139,6 +150,24 @@ static inline bool op_is_by_difference(unsigned op)
 
 /* x^n by multiplication: exact for small whole numbers, and x^0 is 1 everywhere. */
 double whole_power(double x, int n);
+
+/* The lower end of branch 0 of a rounding. */
+static inline double switch_offset(unsigned op)
+{
+    return op == op_ceil ? -1 : op == op_round || op == op_levels ? -0.5 : 0;
+}
+
+/* The branch within the outermost levels. */
+static inline double levels_clamp(double n)
+{
+    return n > most_levels ? most_levels : n < -most_levels ? -most_levels : n;
+}
+
+/* Does a branch of a rounding end below (0), above (1)? */
+static inline bool switch_has_end(unsigned op, int n, int end)
+{
+    return op != op_levels || (end ? n < most_levels : n > -most_levels);
+}
 
 /* The value of an operation that is no control, at plain values (no branches). */
 double op_value(const struct instr *instr, double x, double y);

@@ -147,7 +147,8 @@ static void slopes_of_switch(const struct instr *instr, double x, double y, cons
     case op_abs: s->a = !branch && x == 0 ? 0 : n < 0 ? -1 : 1; break;
     case op_min: s->a = n < 0; break;
     case op_max: s->a = n >= 0; break;
-    case op_sawtooth: s->a = 1; break;
+    case op_sawtooth:
+    case op_levels: s->a = 1; break;
     case op_mod:
         s->a = 1;
         s->b = -n;

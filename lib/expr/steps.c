@@ -167,13 +167,18 @@ static enum step_op unary_form(const struct instr *instr)
     }
 }
 
-static void add_unary(struct maker *maker, const struct instr *instr)
+/* Its operand, as it is. */
+static void add_same(struct maker *maker, const struct instr *instr)
 {
     struct step_operand a = operand(maker, instr->a);
-    if (maker->latest != instr->a) {
-        keep(maker);
-        emit(maker, (struct step){.op = step_load, .a = a});
-    }
+    if (maker->latest == instr->a) return;
+    keep(maker);
+    emit(maker, (struct step){.op = step_load, .a = a});
+}
+
+static void add_unary(struct maker *maker, const struct instr *instr)
+{
+    add_same(maker, instr);
     /* `any` reads a second operand even where the operation has none. */
     struct step step = {.op = unary_form(instr), .a = {.place = at_time}, .instr = instr};
     struct step *before = &maker->steps[maker->count - 1];
@@ -227,7 +232,9 @@ bool steps_make(struct expr *expr, struct arena *scratch, struct arena *arena)
     for (size_t i = 0; i < expr->operations && !maker.refused; i++) {
         const struct instr *instr = &expr->code[i];
         if (instr->op == op_jump || instr->op == op_jump_unless || instr->op == op_copy) return true;
-        if (is_binary(instr->op))
+        if (instr->op == op_levels)
+            add_same(&maker, instr);
+        else if (is_binary(instr->op))
             add_binary(&maker, instr);
         else
             add_unary(&maker, instr);

@@ -58,6 +58,24 @@ static int euler_slopes(struct counted_system *system, double t, const double *y
     return code;
 }
 
+/* tau_2 by an Euler step of *probe, which is shortened as long as slopes change so much within it that the change says
+ * nothing of the start: an exponential may be beyond all bounds there. */
+static int probe_change(struct counted_system *system, const struct layout *layout, double t, const double *y,
+                        const double *f, const double *scale, double *y1, double *f1, double *probe,
+                        double *tau)
+{
+    enum { attempts = 8 };
+    const double too_long = 1e-4; /* tau_2 of the probe */
+    for (int k = 0;; k++) {
+        int code = euler_slopes(system, t, y, f, probe, y1, f1);
+        if (code != GSL_SUCCESS) return code;
+        *tau = time_of_change(layout, *probe, f, f1, scale);
+        double shorter = fmax(too_long * *probe, 64 * DBL_EPSILON * fabs(t));
+        if (*tau >= too_long * *probe || shorter >= *probe || k == attempts) return GSL_SUCCESS;
+        *probe = shorter;
+    }
+}
+
 int first_step(struct counted_system *system, const struct layout *layout, const gsl_odeiv2_control *control,
                int order, double t, const double *y, const double *f, double h_max, double *work, double *h)
 {
@@ -68,9 +86,10 @@ int first_step(struct counted_system *system, const struct layout *layout, const
     /* Bounded below, as a coordinate that is zero but for rounding may still fake a short time. */
     double shortest = fmax(1e-9 * h_max, 64 * DBL_EPSILON * fabs(t));
     double probe = fmin(h_max, tau < INFINITY ? fmax(0.01 * tau, shortest) : 1e-3 * h_max);
-    int code = euler_slopes(system, t, y, f, &probe, y1, f1);
+    double change;
+    int code = probe_change(system, layout, t, y, f, scale, y1, f1, &probe, &change);
     if (code != GSL_SUCCESS) return code;
-    tau = fmin(fmax(tau, probe), time_of_change(layout, probe, f, f1, scale));
+    tau = fmin(fmax(tau, probe), change);
     double part = pow(0.01 * weights_tolerance(control), 1.0 / (order + 1));
     *h = fmin(h_max, 100 * probe);
     if (tau < INFINITY) *h = fmin(*h, tau * part);

@@ -22,12 +22,14 @@ static int redo(struct stepper *s, double h, double *y, double *f)
 
 /* A part of a step need not be what the whole was: the table of bsimp may agree at the end of a step that is far too
  * long for it, and nowhere inside. So it is held to the error of a step of its own. Methods with the same few stages
- * for every step err less in a shorter one, while their estimates see a stiff layer that is none of theirs. */
+ * for every step err less in a shorter one, while their estimates see a stiff layer that is none of theirs; unless
+ * the part ends where a pulse begins, of which the whole has seen nothing: then it is far off. */
 static bool redo_well(struct stepper *s, double h, double *y, double *f)
 {
     if (redo(s, h, y, f) != GSL_SUCCESS || !all_finite(s->n, y, f)) return false;
-    bool doubtful = *s->method->type == step_bsimp && s->h_fixed == 0;
-    return !doubtful || weights_ratio(s->control, h, y, s->yerr, f) <= 1;
+    const double far_off = 100;
+    double most = *s->method->type == step_bsimp ? 1 : far_off;
+    return s->h_fixed > 0 || weights_ratio(s->control, h, y, s->yerr, f) <= most;
 }
 
 static bool redo_share(void *context, double share, double *y)

@@ -157,6 +157,11 @@ struct stepper_counts switcher_counts(const struct switcher *s)
     return sum;
 }
 
+bool switcher_made_implicitly(const struct switcher *s)
+{
+    return s->methods[s->made]->implicit;
+}
+
 unsigned long switcher_stiff_steps(const struct switcher *s)
 {
     return s->steppers[1] ? stepper_get_counts(s->steppers[1])->accepted : 0;

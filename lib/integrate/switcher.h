@@ -31,6 +31,9 @@ int switcher_walk(struct switcher *switcher, struct moment t, double *y, double 
 /* Counts of both methods together. */
 struct stepper_counts switcher_counts(const struct switcher *switcher);
 
+/* Has an implicit method made the last step? */
+bool switcher_made_implicitly(const struct switcher *switcher);
+
 /* Steps that the stiff method has made. */
 unsigned long switcher_stiff_steps(const struct switcher *switcher);
 

@@ -44,10 +44,12 @@ static bool end_table(struct run *run, const struct kink *kink, const struct tab
     return true;
 }
 
-/* A point of a table at which nothing is to be seen but in the second derivative is no event. */
-static bool is_smooth(const struct table *table, int end, int piece)
+/* A point of a table at which nothing is to be seen but in the second derivative is no event, nor is a level. */
+static bool is_smooth(const struct expr *expr, const struct watcher *watcher, int piece)
 {
-    return table && table_smoothness(table, end ? piece : piece + 1) >= 1;
+    const struct table *table = expr_switch_table(expr, (size_t)watcher->part);
+    return expr_switch_is_silent(expr, (size_t)watcher->part) ||
+           (table && table_smoothness(table, watcher->end ? piece : piece + 1) >= 1);
 }
 
 /* Do two values of a motion differ by more than rounding? `size` is what they are made of. */
@@ -158,7 +160,7 @@ void run_cross(struct run *run, const struct watcher *watcher)
     if (end_table(run, kink, table, watcher->end, next)) return;
     run->state->branch[index] = next;
     if (is_track(run, kink)) return;
-    if (is_smooth(table, watcher->end, next)) return;
+    if (is_smooth(kink->formula.expr, watcher, next)) return;
     passages_remember(run, watcher);
     struct run_event *event = run_note(run, FBD_EVENT_SWITCH, kink->body, kink->load, -1);
     if (event) event->branch = index;

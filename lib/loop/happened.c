@@ -35,6 +35,12 @@ static void note_one_sided(struct run *run, const struct change *change)
     bool snapped = run->snap.pair == change->pair;
     if (snapped) run->snap.pair = -1;
     if (!snapped && (change->before == stick || change->after != stick)) return;
+    if (snapped && !isfinite(run->snap.work)) {
+        run_fail(run, FBD_FAILED,
+                 "at t = %.9g the blow at which `%s` gets taut takes more work than numbers can tell",
+                 run_time(run), run->model->tree->ties[mode->tie].name);
+        return;
+    }
     struct run_event *event =
         run_note(run, rope ? FBD_EVENT_ROPE_TAUT : FBD_EVENT_LANDING, mode->body, mode->load, -1);
     if (event) event->force = snapped ? -run->snap.work : 0;

@@ -366,13 +366,25 @@ static bool limit_step(struct run *run, struct turn *turn)
     return true;
 }
 
-/* One accepted step, to y and its slopes. */
+/* One accepted step, to y and its slopes. One that is torn is made again, shorter. */
 static bool make_step(struct run *run, struct turn *turn)
 {
-    enum stepper_status status = switcher_step(run->stepper, &run->system, &turn->t, run->work.y, run->work.f,
-                                               &run->step.h, turn->limit);
-    if (status != stepper_ok) run_fail_step(run, status);
-    return status == stepper_ok;
+    enum { most_times = 30 };
+    const double shorter = 0.25;
+    for (int time = 0;; time++) {
+        enum stepper_status status = switcher_step(run->stepper, &run->system, &turn->t, run->work.y,
+                                                   run->work.f, &run->step.h, turn->limit);
+        if (status != stepper_ok) run_fail_step(run, status);
+        if (status != stepper_ok || time == most_times || !run_step_is_torn(run, turn->t))
+            return status == stepper_ok;
+        double h = shorter * moment_since(turn->t, run_start(run));
+        if (!(run->step.from + h > run->step.from)) return true;
+        if (!restart(run)) return false;
+        turn->t = run_start(run);
+        turn->limit = moment_at(run->step.from + h);
+        turn->timed = false;
+        run->step.h = fmin(run->step.h, h);
+    }
 }
 
 /* The first event within it, to which it is cut; likewise where a coupling comes to an end. */

@@ -104,6 +104,7 @@ struct event_search {
     struct stretch enclosed;     /* that the course has been enclosed over */
     bool paced, paced_by_motion; /* sampled functions may change as fast as formulas do, of the motion too */
     bool follows_places;         /* the course has places in the world */
+    bool wakes; /* there are levels of what wakes up with the motion (expr_switch_is_silent) */
 };
 
 /* What is known of the rounding of accelerations: see noise.c. */
@@ -228,6 +229,9 @@ struct moment run_pin_moving(struct run *run, double t, double move, struct mome
 /* What options.apart asks for: see run_moment.c. Before a limit is known, and when it is. */
 void run_part_before(struct run *run);
 void run_part_from(struct run *run, struct moment limit);
+
+/* Has the step that has been made to `end` an inside that does not obey the equations? (torn.c) */
+bool run_step_is_torn(struct run *run, struct moment end);
 
 /* The first event in the step that has been made to *t, which becomes its time, with y and f there; where the step has
  * passed a pole it is cut before that. 1 found, 0 none, -1 failed. (run_find.c) */

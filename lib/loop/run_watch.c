@@ -308,6 +308,19 @@ static bool use_enclosures(struct run *run)
            make_course(run);
 }
 
+/* Is there something that wakes up with the motion, not at times alone? */
+static bool any_wakes(const struct run *run)
+{
+    const struct watcher_set *set = &run->watchers.moving;
+    for (size_t i = 0; i < set->count; i++) {
+        const struct watcher *watcher = &set->watchers[i];
+        const struct expr *expr =
+            watcher->kind == watch_kink ? run->model->plan.kinks[watcher->index].formula.expr : NULL;
+        if (expr && expr_switch_is_silent(expr, (size_t)watcher->part)) return true;
+    }
+    return false;
+}
+
 bool run_make_scans(struct run *run)
 {
     double tolerance = run->options.tolerance;
@@ -316,6 +329,6 @@ bool run_make_scans(struct run *run)
     const struct watcher_set *timed = &run->watchers.timed, *moving = &run->watchers.moving;
     if (!scan_init(&run->search.timed, timed->count, sample_timed, run)) return false;
     if (!scan_init(&run->search.moving, moving->count, sample_moving, run)) return false;
-    if (!use_enclosures(run)) return false;
-    return true;
+    run->search.wakes = any_wakes(run);
+    return use_enclosures(run);
 }

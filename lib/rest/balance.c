@@ -88,7 +88,8 @@ static void compare(struct worst *worst, int body, const char *what, bool moment
                     double explained)
 {
     double off = fabs(is - sum);
-    if (off <= worst->ratio * explained) return; /* what is not a number goes on */
+    /* What is not a number goes on; below the least normal number roundings are no shares of numbers. */
+    if (off <= worst->ratio * explained || off <= DBL_MIN) return;
     *worst =
         (struct worst){body, explained > 0 ? off / explained : HUGE_VAL, is, sum, explained, what, moment};
 }

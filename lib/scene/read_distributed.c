@@ -5,11 +5,12 @@
  *     F = integral of w ds,   s_F = integral of s w ds / F,   from `from` towards `to`.
  *
  * On a rigid body they are the same, with every reaction. The integrals are made once, by adaptive quadrature, which
- * closes in on kinks and jumps of w from both sides.
+ * closes in on what varies fast, from piece to piece of w between its kinks and jumps.
  */
-#include <gsl/gsl_integration.h>
 #include <math.h>
 
+#include "expr/pieces.h"
+#include "numeric/quadrature.h"
 #include "scene/load_entry.h"
 #include "scene/values.h"
 
@@ -29,34 +30,18 @@ static double integrand_at(double s, void *context)
     return integrand->moment == of_size ? fabs(w) : integrand->moment == of_arm ? s * w : w;
 }
 
-/* By Gauss and Kronrod's 21 points, halved where their error is too large for the size of the whole: at a kink or a jump
- * some fifty times. Every half counts against `left`. */
-static void integrate_piece(gsl_function *function, double from, double to, double size, int *left,
-                            double *sum, double *error)
-{
-    const double digits = 1e-13; /* the least that it says of itself is a tenth of that */
-    double part, off, magnitude, asymmetry, middle = from + (to - from) / 2;
-    gsl_integration_qk21(function, from, to, &part, &off, &magnitude, &asymmetry);
-    bool fine = off <= digits * fmax(size, magnitude);
-    if (fine || !isfinite(part) || (*left)-- <= 0 || middle == from || middle == to) {
-        *sum += part;
-        *error += off;
-        return;
-    }
-    integrate_piece(function, from, middle, fmax(size, magnitude), left, sum, error);
-    integrate_piece(function, middle, to, fmax(size, magnitude), left, sum, error);
-}
-
 /* A w without a value gives NAN. */
 static void integrate(const struct expr *w, enum moment_of moment, double length, double *integral,
                       double *error)
 {
-    enum { most_halves = 20000 };
+    enum { most_halves = 20000, most_pieces = 1000 };
     struct integrand integrand = {w, moment};
     gsl_function function = {integrand_at, &integrand};
-    int left = most_halves;
-    *integral = *error = 0;
-    integrate_piece(&function, 0, length, 0, &left, integral, error);
+    double ends[most_pieces + 1];
+    int pieces = pieces_cut(&w, 1, 1, 0, length, most_pieces, ends);
+    struct quadrature sum = quadrature_over(&function, ends, pieces, most_halves);
+    *integral = sum.integral;
+    *error = pieces > 0 ? sum.error : HUGE_VAL; /* more pieces than that are not looked at one by one */
 }
 
 /* ---- the file */

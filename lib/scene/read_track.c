@@ -51,6 +51,22 @@ static bool read_bound(struct reader *reader, const struct node *node, const cha
     return true;
 }
 
+/* Numbers must be able to divide it, and squares of its length to be told from 0. */
+static bool check_range(struct reader *reader, const struct node *to, double from, double end)
+{
+    const double share = 1e-9, least = 1e-100, most = 1e100;
+    double range = end - from;
+    if (range >= fmax(share * fmax(fabs(from), fabs(end)), least) && range <= most) return true;
+    if (from < end)
+        diag_add(reader->errors, FBD_ERROR, "out-of-range", to->at,
+                 "choose a parameter of ordinary size, such as x or an angle",
+                 "the range from `from` to `to` is too %s for numbers", range > most ? "long" : "short");
+    else
+        diag_add(reader->errors, FBD_ERROR, "out-of-range", to->at, "let the parameter grow along the track",
+                 "`to` must be above `from`");
+    return false;
+}
+
 /* The range, and the dimension of the parameter: that of its ends. Bare numbers are lengths in y(x). */
 static bool read_range(struct reader *reader, const struct curve_keys *keys, struct curve *curve,
                        struct dim *dim)
@@ -64,10 +80,7 @@ static bool read_range(struct reader *reader, const struct curve_keys *keys, str
     if (!read_bound(reader, keys->to, "to", known, &curve->to, &second, &bare[1])) return false;
     *dim = bare[0] && bare[1] && keys->x ? DIM_NONE : bare[0] ? second : first;
     if (!keys->x) *dim = length;
-    if (curve->from < curve->to) return true;
-    diag_add(reader->errors, FBD_ERROR, "out-of-range", keys->to->at,
-             "let the parameter grow along the track", "`to` must be above `from`");
-    return false;
+    return check_range(reader, keys->to, curve->from, curve->to);
 }
 
 /* ---- the formulas */

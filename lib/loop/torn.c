@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Steps that are torn: at the ends and stages of a step a pulse may be asleep, and awake at a place inside at which the
+ * method looks for nothing but the interpolant that events are searched by. Then the interpolant goes astray over all of
+ * the step, and with it the search for the pulse. It does not obey the equations any more, by far: the slopes that it has
+ * are not those that they give. Implicit methods are not asked: between fast components their interpolants need not.
+ */
+#include <gsl/gsl_errno.h>
+#include <string.h>
+
+#include "loop/run.h"
+
+/* The slopes of the interpolant at a share of the step, by differences, and those of the equations. */
+static bool take_slopes(struct run *run, double share, double h, double *slope, double *f)
+{
+    const double apart = 1e-3; /* of the step */
+    size_t size = plan_size(&run->model->plan);
+    double *above = run->work.kept, *y = above + size, t = run->step.from + share * h;
+    bool taken = switcher_dense(run->stepper, moment_at(t - apart * h), slope) == GSL_SUCCESS &&
+                 switcher_dense(run->stepper, moment_at(t + apart * h), above) == GSL_SUCCESS &&
+                 switcher_dense(run->stepper, moment_at(t), y) == GSL_SUCCESS &&
+                 counted_system_rhs(&run->system, t, y, f) == GSL_SUCCESS;
+    for (size_t i = 0; taken && i < size; i++) slope[i] = (above[i] - slope[i]) / (2 * apart * h);
+    return taken;
+}
+
+/* The largest rate, and state, of a kind: what is less than a rounding of it is nothing. */
+static double largest(const double *most, size_t from, size_t to)
+{
+    double size = 0;
+    for (size_t i = from; i < to; i++) size = fmax(size, most[i]);
+    return size;
+}
+
+static bool obeys(const struct run *run, double h, const double *slope, const double *f, size_t from,
+                  size_t to)
+{
+    const double far_off = 0.01, nothing = 1e-9;
+    const double *most = run->recent.anchor + plan_size(&run->model->plan);
+    double least = nothing * fmax(largest(most, from, to), largest(run->work.y, from, to));
+    for (size_t i = from; i < to; i++) {
+        double size = fmax(fmax(most[i], fabs(run->work.y[i])), least);
+        if (h * fabs(f[i] - slope[i]) > far_off * size + far_off * h * fabs(run->work.f[i])) return false;
+    }
+    return true;
+}
+
+bool run_step_is_torn(struct run *run, struct moment end)
+{
+    const double shares[] = {0.31, 0.72};
+    size_t n = (size_t)run->model->plan.n, size = plan_size(&run->model->plan);
+    double h = moment_since(end, run_start(run)), *slope = run->work.aside, *f = slope + size;
+    bool asked = run->search.wakes && run->options.step == 0 && !structure_is_exact(run->kind);
+    if (!asked || switcher_made_implicitly(run->stepper)) return false;
+    for (size_t k = 0; k < sizeof shares / sizeof *shares; k++) {
+        if (!take_slopes(run, shares[k], h, slope, f)) return false;
+        if (!obeys(run, h, slope, f, n, 2 * n) || !obeys(run, h, slope, f, 2 * n, size)) return true;
+    }
+    return false;
+}
