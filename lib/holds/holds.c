@@ -294,7 +294,7 @@ static double press_of(const struct hold_problem *problem, const struct hold *ho
 /* What counts as no force along hold i. */
 static double force_rounding(const struct hold_problem *problem, size_t i)
 {
-    const double rounding = 1e-9, beside = 1e-2;
+    const double rounding = 1e-9, beside = 1e-4;
     const struct hold *hold = &problem->holds[i];
     double own = problem->A[i * problem->count + i], size = fabs(hold->force);
     if (own > 0) size = fmax(size, fabs(hold->free) / own);
