@@ -102,12 +102,14 @@ static int cut(struct walk *walk, double from, double to, int most, double *ends
     const double narrow = 4 * DBL_EPSILON * fmax(fabs(from), fabs(to));
     int pieces = 0;
     ends[0] = from;
-    for (double at = from, next; at < to; at = next) {
+    double at = from;
+    while (at < to) {
         if (pieces == most) return pieces_too_many;
         resolve(walk, at);
-        next = piece_end(walk, at, to, narrow);
+        double next = piece_end(walk, at, to, narrow);
         /* The start lies on a switch that was taken for the other side: the stretch up to it is nothing. */
         if (next - at > 2 * narrow) ends[++pieces] = next;
+        at = next;
     }
     ends[pieces] = to;
     return pieces;

@@ -26,10 +26,8 @@ static const char *redundant(struct trial *trial)
     size_t count = fbd_redundant(trial->state, names, most);
     assert_true(count <= most);
     all[0] = '\0';
-    for (size_t i = 0; i < count; i++) {
-        if (i > 0) strcat(all, ", ");
-        strcat(all, names[i]);
-    }
+    for (size_t i = 0, length = 0; i < count; i++)
+        length += (size_t)snprintf(all + length, sizeof all - length, "%s%s", i > 0 ? ", " : "", names[i]);
     return all;
 }
 

@@ -87,7 +87,7 @@ static void put_in(const struct bell *bell, const char *argument, char *text)
 static int count_of(int usual)
 {
     const char *wanted = getenv("FBD_PULSES");
-    return wanted ? atoi(wanted) : usual;
+    return wanted ? (int)strtol(wanted, NULL, 10) : usual;
 }
 
 struct pulse {
@@ -112,8 +112,8 @@ static struct trial pulse_trial(const struct pulse *pulse, const char *variable,
 {
     static const char *const bodies[] = {
         "mass: 2, motion: slide, initial: {v: 1}, forces: [applied: {name: p, value: \"%s\"}]",
-        "mass: 2, inertia: 2, motion: {pivot: {at: [0, 0]}}, initial: {omega: 1}, moments: [applied: {name: "
-        "p, value: \"%s\"}]",
+        ("mass: 2, inertia: 2, motion: {pivot: {at: [0, 0]}}, initial: {omega: 1}, "
+         "moments: [applied: {name: p, value: \"%s\"}]"),
         "mass: 2, motion: particle, initial: {vx: 1}, forces: [applied: {name: p, angle: 0, value: \"%s\"}]",
     };
     char argument[200], bell[room], value[2 * room], text[4 * room], whole[5 * room];
