@@ -12,9 +12,8 @@
  *
  * An error passes through zero somewhere as the tolerance goes down, or the estimate of one step does by accident, and
  * the next answer is worse than so lucky a one, or better than so unlucky a one. So an answer is worse when its error
- * is three times that of the tolerance before (error bars claim the same factor), where that one was not ten times better
- * than asked for (models/couplings/eccentric_wheel.yaml is 18 times better at 1e-4), beyond what was asked for, and beyond
- * rounding. What the run of a file ends by itself, at the end of a track say, is looked at until shortly before.
+ * is three times that of the tolerance before (error bars claim the same factor), beyond what was asked for, and beyond
+ * rounding. Luck beyond that is named (lucky_answers). What the run of a file ends by itself, at the end of a track say, is looked at until shortly before.
  *
  * Usage: tighter [--all | --method NAME] [--verbose] [--tap] [--scenes N] [--seed S] [MODEL | FOLDER]...
  *   --all: every method, else the default one
@@ -181,8 +180,27 @@ struct counts {
 
 static bool is_worse(const struct ruler *ruler, const double *errors, int k, double tolerance)
 {
-    const double luck = 3; /* the tolerance before was ten times this one */
-    return k > 0 && errors[k] > luck * fmax(errors[k - 1], tolerance) && errors[k] > ruler->floor;
+    const double luck = 3;
+    return k > 0 && errors[k] > luck * errors[k - 1] && errors[k] > tolerance && errors[k] > ruler->floor;
+}
+
+/* Answers that are so much better than asked for that the next one need not be: the wheel at 1e-4 is off by 5.4e-6, a
+ * 19th of that, and by 1.8e-5 at 1e-5. */
+static const struct lucky_answer {
+    const char *model; /* how its path ends */
+    double next;       /* tolerance, at which an answer up to twice as far off is none that is worse */
+} lucky_answers[] = {{"couplings/eccentric_wheel.yaml", 1e-5}};
+
+static bool follows_luck(const char *name, double error, double tolerance)
+{
+    for (size_t i = 0; i < sizeof lucky_answers / sizeof *lucky_answers; i++) {
+        const struct lucky_answer *lucky = &lucky_answers[i];
+        size_t length = strlen(name), tail = strlen(lucky->model);
+        bool named = length >= tail && strcmp(name + length - tail, lucky->model) == 0;
+        bool next = fabs(tolerance - lucky->next) <= 1e-3 * tolerance;
+        if (named && next && error <= 2 * tolerance) return true;
+    }
+    return false;
 }
 
 static void print_ladder(const struct ruler *ruler, const char *name, const char *method,
@@ -207,7 +225,8 @@ static void climb(const struct ruler *ruler, const char *name, const char *metho
         counts->runs++;
         if (course->dear) break;
         errors[count] = distance(ruler, course);
-        worse |= is_worse(ruler, errors, count, options->tolerance);
+        worse |= is_worse(ruler, errors, count, options->tolerance) &&
+                 !follows_luck(name, errors[count], options->tolerance);
     }
     counts->dear += course->dear;
     counts->worse += worse;
