@@ -193,6 +193,7 @@ int course_set(struct course *course, double from, double to, int degree, double
         course->to = half;
         course->length = half - from;
     }
+    if (course->length < HUGE_VAL) course->length = fmax(course->length, course->to - from);
     return 0;
 }
 

@@ -35,7 +35,7 @@ struct course {
     struct course_grid grids[2]; /* the coarse one, another one */
     const struct course_grid *grid;
     double from, to;       /* of the present piece */
-    double length;         /* of pieces that could be followed */
+    double length;         /* of the last piece that could be followed; the next may be twice as long */
     double *coefficients;  /* count x (most_degree + 1): powers of s in [-1, 1] over the piece */
     double *doubt;         /* count: what values may be off by */
     double *noise;         /* count: the least of that, set by the caller: what the motion itself is off by */

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The motion along a step, followed piece by piece: pieces get short in a layer, and long again behind it, and
+ * what a piece says of the motion is true.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+
+#include "events/course.h"
+#include "random_numbers.h"
+
+/* A slow wave, and beside it a layer of `width` in which something relaxes from the beginning on. */
+struct layer {
+    double from, width, size;
+};
+
+static double layer_value(const struct layer *layer, double t)
+{
+    return layer->size * exp(-(t - layer->from) / layer->width);
+}
+
+static int sample(void *context, double t, double *y)
+{
+    y[0] = sin(t);
+    y[1] = layer_value(context, t);
+    return 0;
+}
+
+static void check_piece(struct course *course, const struct layer *layer)
+{
+    for (int k = 0; k <= 16; k++) {
+        double t = fmin(course->from + (course->to - course->from) * k / 16.0, course->to);
+        course_enclose(course, &(struct stretch){t, t, t});
+        double error = fabs(course->now[1].middle.high - layer_value(layer, t));
+        if (!(error <= 1e-7 * layer->size + interval_width(course->now[1].middle)))
+            fail_msg("off by %g at %.17g of a piece from %.17g to %.17g", error, t, course->from, course->to);
+    }
+}
+
+/* How many pieces it takes from `from` to `to`; far too many are not counted to the end. */
+static size_t follow(struct course *course, struct layer *layer, double from, double to)
+{
+    enum { far_too_many = 2000 };
+    size_t pieces = 0;
+    for (; from < to && pieces < far_too_many; pieces++, from = course->to) {
+        assert_int_equal(course_set(course, from, to, course_most_degree, 1e-9, sample, layer), 0);
+        assert_true(course->to > from);
+        check_piece(course, layer);
+    }
+    return pieces;
+}
+
+/* A search that is cut short by an event it has found looks at the layer by itself first. */
+static size_t pieces_along(struct layer *layer)
+{
+    struct course course;
+    assert_true(course_init(&course, 2, (bool[]){true, true}));
+    course_start(&course);
+    double behind = layer->from + 20 * layer->width;
+    size_t pieces = follow(&course, layer, layer->from, behind) + follow(&course, layer, behind, 1);
+    course_free(&course);
+    return pieces;
+}
+
+static void pieces_get_long_again_behind_a_layer(void **unused)
+{
+    (void)unused;
+    for (size_t i = 0; i < 200; i++) {
+        struct random_numbers numbers = {i};
+        bool at_zero = i % 2 == 0; /* where instants are closer to each other */
+        struct layer layer = {.from = at_zero ? 0 : random_between(&numbers, 0, 0.9)};
+        layer.width = pow(10, random_between(&numbers, at_zero ? -14 : -6, -2));
+        layer.size = pow(10, random_between(&numbers, -3, 3));
+        size_t pieces = pieces_along(&layer), octaves = (size_t)(-log2(layer.width));
+        if (pieces > 40 + 4 * octaves)
+            fail_msg("%zu pieces for a layer of %g at %g (case %zu)", pieces, layer.width, layer.from, i);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pieces_get_long_again_behind_a_layer),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
