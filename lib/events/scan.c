@@ -302,10 +302,17 @@ static bool any_open(const struct scan *scan)
     return any;
 }
 
-/* In pieces that the enclosures reach over; for groups that the coarse look has left open. */
+/* In pieces that the enclosures reach over; for groups that the coarse look has left open. After too many of them
+ * the search ends where it is: whoever asked can be stopped there. */
 static int look_in_pieces(struct scan *scan, double from, double *limit)
 {
+    enum { most_pieces = 10000 };
+    int pieces = 0;
     for (double begin = from; begin < *limit;) {
+        if (pieces++ == most_pieces) {
+            *limit = begin;
+            return 2;
+        }
         double end = scan->follow(scan->context, begin, *limit, false), piece = end;
         if (isnan(end)) return -1;
         int status = search_open(scan, begin, &piece, false);
