@@ -33,7 +33,8 @@ size_t sliding_size(const struct fbd_model *model)
     const struct plan *plan = &model->plan;
     if (plan->slide_count == 0) return 0;
     size_t bytes = (size_t)plan->slide_count * sizeof(struct slide) + double_count(model) * sizeof(double) +
-                   int_count(plan) * sizeof(int) + 3 * (size_t)plan->branches * sizeof(bool);
+                   int_count(plan) * sizeof(int) +
+                   (3 * (size_t)plan->branches + plan->mode_count) * sizeof(bool);
     return (bytes + sizeof(double) - 1) / sizeof(double) * sizeof(double);
 }
 
@@ -84,6 +85,7 @@ void sliding_init(struct sliding *sliding, const struct fbd_model *model, void *
     sliding->keep = (bool *)(sliding->held + room);
     sliding->left = sliding->keep + plan->branches;
     sliding->ended = sliding->left + plan->branches;
+    sliding->slips = sliding->ended + plan->branches;
 }
 
 void sliding_copy(const struct fbd_model *model, struct sliding *to, const struct sliding *from)

@@ -49,6 +49,7 @@ struct sliding {
     bool *keep;    /* plan.branches: not to be chosen by the values, when modes are settled */
     bool *left;    /* plan.branches: its share has just reached an end */
     bool *ended;   /* plan.branches: the passages that are left are as good as none (loop/passages.h) */
+    bool *slips;   /* plan.mode_count: of `decided`, what is not left open */
     int *held; /* units: the one coordinate of the surface, where friction keeps it at rest; else not_held, or
                         all_held where it keeps several */
     bool failed;     /* no shares are found: the branches do not act on the surfaces */

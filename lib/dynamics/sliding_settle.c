@@ -28,7 +28,9 @@ struct question {
     bool without_places; /* there are too many */
     struct asked list[most_asked];
     int count, units;
-    double most; /* of the accelerations tried: what rates are measured by */
+    bool back
+        [most_units]; /* of a surface that slides by more than there is the lower side helps, and comes first */
+    double most;      /* of the accelerations tried: what rates are measured by */
 };
 
 /* ---- surfaces */
@@ -246,11 +248,67 @@ static bool agrees(struct question *q)
     return true;
 }
 
+/* ---- switches beside dry friction on the same coordinate: the switch holds first, and friction what is left */
+
+/* Dry friction of a coordinate that is at rest on its surface; -1 without one. */
+static int friction_at_rest(const struct question *q, int coordinate)
+{
+    const struct fbd_model *model = q->state->model;
+    const struct instant at = state_instant(q->state);
+    for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
+        const struct mode *mode = &model->plan.modes[pair];
+        if (!mode_is_joint_friction(mode) || mode->coordinate != coordinate) continue;
+        if (slip_velocity(model, pair, &at) == 0) return pair;
+    }
+    return -1;
+}
+
+/* Is there friction at rest on all coordinates whose speeds the switch watches? */
+static bool is_held(const struct question *q, const struct asked *asked)
+{
+    bool any = false;
+    size_t n = (size_t)q->state->model->plan.n;
+    if (kink_watches_places(&q->state->model->plan.kinks[asked->kink], asked->part)) return false;
+    for (size_t i = 0; i < n; i++) {
+        if (slope(q, asked, 1 + n + i) == 0) continue;
+        if (friction_at_rest(q, (int)i) < 0) return false;
+        any = true;
+    }
+    return any;
+}
+
+/* What friction on the coordinates of a switch does: it sticks, or with `slips` is no longer decided. */
+static void leave_friction(const struct question *q, const struct asked *asked, bool *slips)
+{
+    size_t n = (size_t)q->state->model->plan.n;
+    for (size_t i = 0; i < n; i++) {
+        int pair = slope(q, asked, 1 + n + i) == 0 ? -1 : friction_at_rest(q, (int)i);
+        if (pair >= 0 && slips) slips[pair] = false;
+        if (pair >= 0 && !slips) q->state->slip[pair] = stick;
+    }
+}
+
+/* What is decided, but for friction that shares its coordinate with a switch. */
+static struct decided without_shared(const struct question *q, const struct decided *decided)
+{
+    struct sliding *s = q->state->sliding;
+    struct decided rest = *decided;
+    rest.slips = s->slips;
+    memcpy(s->slips, decided->slips, q->state->model->plan.mode_count * sizeof *s->slips);
+    for (int i = 0; i < q->count; i++)
+        if (is_held(q, &q->list[i])) leave_friction(q, &q->list[i], s->slips);
+    return rest;
+}
+
 /* Is a sign zero, as it is where nothing moves yet? Then the least push would end that. */
 static bool is_undecided(const struct question *q)
 {
-    for (int i = 0; i < q->count; i++)
-        if (q->state->branch[q->list[i].branch] == 0) return true;
+    for (int i = 0; i < q->count; i++) {
+        const struct asked *asked = &q->list[i];
+        bool slides = q->state->sliding->slide_at[asked->branch] > 0;
+        if (q->state->branch[asked->branch] == 0 || (!slides && !asked->left && is_held(q, asked)))
+            return true;
+    }
     return false;
 }
 
@@ -284,17 +342,19 @@ static bool choose(struct question *q, const struct decided *decided, int choice
     for (int i = 0; i < state->model->plan.branches; i++) s->keep[i] = decided && decided->branches[i];
     for (int i = 0; i < q->count; i++) {
         const struct asked *asked = &q->list[i];
-        int side = digit[asked->unit] == 2 ? -1 : 1;
+        int side = (digit[asked->unit] == 2) == q->back[asked->unit] ? 1 : -1;
         if (digit[asked->unit] == 0 && (asked->left || passing_speed(q, asked) != 0)) return false;
         state->branch[asked->branch] = side * asked->side;
         s->keep[asked->branch] = true;
         if (digit[asked->unit] > 0) continue;
-        lands |= asked->ended;
         const struct kink *kink = &state->model->plan.kinks[asked->kink];
+        lands |= asked->ended || !kink_watches_places(kink, asked->part);
         sliding_add(s, kink, asked->kink, asked->part, asked->unit, asked->side);
     }
     if (s->count > 0) sliding_number(s);
     if (lands) sliding_project(state); /* before friction asks whether it moves */
+    for (int i = 0; i < q->count; i++)
+        if (digit[q->list[i].unit] == 0 && is_held(q, &q->list[i])) leave_friction(q, &q->list[i], NULL);
     return true;
 }
 
@@ -304,6 +364,26 @@ static bool same_accelerations(const struct question *q, const double *a)
     for (int i = 0; i < q->state->model->plan.n; i++)
         if (fabs(q->state->a[i] - a[i]) > rounding * q->most) return false;
     return true;
+}
+
+/* To which side shares would have to be beyond their ends, were all surfaces slid on: that of two branches between
+ * which friction makes no difference leaves the least to it. */
+static void note_sides(struct question *q)
+{
+    const struct sliding *s = q->state->sliding;
+    for (int unit = 0; unit < q->units; unit++) q->back[unit] = !s->failed && s->delta[unit] < 0;
+}
+
+/* Has no switch been chosen otherwise than it was? */
+static bool keeps_sides(const struct question *q)
+{
+    const struct sliding *s = q->state->sliding;
+    bool same = true;
+    for (int i = 0; i < q->count; i++) {
+        int branch = q->list[i].branch;
+        same &= s->slide_at[branch] == 0 && q->state->branch[branch] == s->kept[branch];
+    }
+    return same;
 }
 
 /* The choice that agrees: its number, -1 when there is none, -2 when there are several. */
@@ -317,7 +397,10 @@ static int find_choice(struct question *q, const struct decided *decided,
     keep_modes(state, false);
     for (int choice = 0; choice < choices; choice++) {
         keep_modes(state, true);
-        if (!choose(q, decided, choice) || !settle(state, decided) || !agrees(q)) continue;
+        if (!choose(q, decided, choice) || !settle(state, decided)) continue;
+        bool agreed = agrees(q);
+        if (choice == 0 && !agreed) note_sides(q);
+        if (!agreed) continue;
         if (found >= 0 && !same_accelerations(q, a)) return -2;
         if (found >= 0) continue;
         found = choice;
@@ -376,12 +459,16 @@ bool sliding_settle(struct fbd_state *state, const struct decided *decided, bool
         s->why = "too many switches are at zero at once";
         return false;
     }
+    struct decided open;
+    const struct decided *given = decided;
+    if (given) open = without_shared(&q, given), decided = &open;
     int choice = find_choice(&q, decided, settle);
     /* A share that only just touches its end goes back. */
     for (int i = 0; choice == -1 && i < q.count; i++) q.list[i].left = false;
     if (choice == -1) choice = find_choice(&q, decided, settle);
-    if (choice < 0 && fine) return settle(state, decided);
-    if (choice >= 0) return choose(&q, decided, choice) && settle(state, decided);
+    if (choice < 0 && fine) return settle(state, given);
+    if (choice >= 0)
+        return choose(&q, decided, choice) && settle(state, fine && keeps_sides(&q) ? given : decided);
     s->why = choice == -1 ? "neither a branch nor a share of both agrees with what it leads to"
                           : "several ways to go on agree with what they lead to";
     return false;

@@ -156,7 +156,7 @@ static int held_coordinate(const struct fbd_model *model, const struct instant *
     while (s->slides[first].unit != unit) first++;
     const struct kink *kink = &model->plan.kinks[s->slides[first].kink];
     memset(s->flow, 0, plan_size(&model->plan) * sizeof *s->flow);
-    for (int i = 0; s->slides[first].places && i < n; i++) {
+    for (int i = 0; i < n; i++) {
         s->flow[n + i] = 1;
         double slope = sliding_surface_rate(s, model, at, kink, s->slides[first].part, 0, s->flow);
         s->flow[n + i] = 0;
