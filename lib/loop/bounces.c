@@ -322,6 +322,20 @@ static double slow_speed(const struct run *run)
     return slow;
 }
 
+/* What parts faster than by what is lost goes on to do so: it only touches still. */
+static void let_part(struct run *run, double slow)
+{
+    const struct tree *tree = tree_of(run);
+    struct fbd_state *state = run->state;
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (tie->kind != constraint_contact || state->tree->ties[i].feature == no_feature) continue;
+        if (state->tree->rows[tie->first_row].g.x1 <= slow) continue;
+        state->tree->ties[i].feature = no_feature;
+        state->slip[tie->surface] = slip_plus;
+    }
+}
+
 /* A slip that friction ends within what counts as the same place, as the impacts that are left would. */
 static bool stops_at_once(const struct run *run, int index, double slow)
 {
@@ -351,6 +365,7 @@ int contacts_settle_down(struct run *run, int strikers)
     }
     impulse_look(run->state);
     double slow = slow_speed(run);
+    let_part(run, slow);
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
         if (tie->kind != constraint_contact || tie->pair < 0) continue;

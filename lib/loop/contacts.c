@@ -293,6 +293,7 @@ static bool look_at_contacts(struct run *run)
         if (!contacts_strike(run, count)) return false;
         for (int i = 0; i < count; i++) note_impact(run, i);
         impulse_look(run->state);
+        unstick(run);
     }
     bool rests = struck && contacts_end_bounces(run, count);
     contacts_open_or_close(run, count, struck);
