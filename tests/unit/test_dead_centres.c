@@ -180,9 +180,10 @@ static struct trial parse_flywheel(const struct flywheel *wheel, double until)
     if (wheel->yoke && wheel->mu_g == 0)
         snprintf(coupling, sizeof coupling, "slot: {name: slot, between: [crank.A, slider], along: 90 deg");
     else if (wheel->yoke)
-        snprintf(coupling, sizeof coupling,
-                 "slot: {name: slot, between: [crank.A, slider], along: 90 deg, static: %.17g, kinetic: %.17g",
-                 1.2 * wheel->mu_g, wheel->mu_g);
+        snprintf(
+            coupling, sizeof coupling,
+            "slot: {name: slot, between: [crank.A, slider], along: 90 deg, static: %.17g, kinetic: %.17g",
+            1.2 * wheel->mu_g, wheel->mu_g);
     else
         snprintf(coupling, sizeof coupling, "rod: {name: rod, between: [crank.A, slider], length: %.17g",
                  wheel->L);
@@ -214,7 +215,8 @@ static void check_flywheel(struct checks *checks, const struct flywheel *wheel)
         if (!go_to(wheel, theta, to, &t, &u) || t > until - 1e-6) break;
         theta = to;
         if ((which ? wheel->mu_g : wheel->mu) == 0) continue;
-        double at = trial_event(&trial, FBD_EVENT_REVERSAL, which ? "slot.friction" : "friction", turns[which]++);
+        double at =
+            trial_event(&trial, FBD_EVENT_REVERSAL, which ? "slot.friction" : "friction", turns[which]++);
         check_close(checks, "reversal", at, t, 1e-7 * (1 + t));
     }
     double stick = trial_event(&trial, FBD_EVENT_STICK, NULL, 0);
