@@ -245,6 +245,7 @@ FBD_API void fbd_state_show_degrees(fbd_state *state, bool degrees);
  * normal force would have to pull), `masses-apart` (the forces of couplings cannot be told), `singular-start`
  * (at rest where couplings have no slope, and about to move as they do not allow), or memory is out. */
 FBD_API bool fbd_state_close(fbd_state *state, fbd_errors *errors);
+/* Also the mass of a body as it is there, "rocket.m". False for an unknown name. */
 FBD_API bool fbd_state_get(const fbd_state *state, const char *name, double *value);
 
 /* One named term of an equation. */

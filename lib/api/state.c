@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/call.h"
+#include "dynamics/mass.h"
 #include "dynamics/modes.h"
 #include "dynamics/project.h"
 #include "output/shown.h"
@@ -158,11 +159,26 @@ bool fbd_state_close(fbd_state *state, fbd_errors *list)
     return fits;
 }
 
+/* The body whose mass a name is ("rocket.m"), or NULL. */
+static const struct model_body *massive(const fbd_model *model, const char *name)
+{
+    const char *dot = strrchr(name, '.');
+    if (!dot || strcmp(dot, ".m") != 0) return NULL;
+    for (size_t b = 0; b < model->body_count; b++) {
+        const char *body = model->bodies[b].name;
+        if (strlen(body) == (size_t)(dot - name) && strncmp(body, name, strlen(body)) == 0)
+            return &model->bodies[b];
+    }
+    return NULL;
+}
+
 bool fbd_state_get(const fbd_state *state, const char *name, double *value)
 {
     if (!state || !name || !value) return false;
     const double *place = strcmp(name, "t") == 0 ? &state->t : find(state, name);
-    if (!place) return false;
-    *value = *place;
+    const struct model_body *body = place ? NULL : massive(state->model, name);
+    const struct instant at = state_instant(state);
+    if (!place && !body) return false;
+    *value = place ? *place : body_mass(body, &at);
     return true;
 }
