@@ -187,6 +187,7 @@ static enum exit_code show_state(const fbd_model *model, const struct options *o
 {
     fbd_state *state = fbd_state_new(model);
     if (!state) return no_memory();
+    fbd_state_show_degrees(state, options->degrees);
     enum exit_code code = place(model, options, state, errors);
     if (code == exit_done && options->action == action_equations && !fbd_state_close(state, errors))
         code = exit_failed;
@@ -359,7 +360,17 @@ static fbd_model *leave_out(fbd_model *model, const struct options *options, fbd
     return model;
 }
 
-static enum exit_code read_and_act(const struct options *options)
+/* The scale of the diagrams is a force in the units of the model. */
+static bool find_scale(struct options *options, const fbd_model *model, fbd_errors *errors)
+{
+    double *scale = &options->drawing.scale;
+    if (!options->scale) return true;
+    if (fbd_model_quantity(model, "--scale", options->scale, "N", scale, errors) && *scale > 0) return true;
+    complain("fbd-run: --scale wants a force above 0, as `5` or `2 kN`, not `%s`", options->scale);
+    return false;
+}
+
+static enum exit_code read_and_act(struct options *options)
 {
     fbd_errors *errors = fbd_errors_new();
     if (!errors) return no_memory();
@@ -367,9 +378,10 @@ static enum exit_code read_and_act(const struct options *options)
     if (options->watched) watch_tell(options->watched, errors);
     enum exit_code missing = exit_bad_model;
     model = leave_out(model, options, errors, &missing);
-    enum exit_code code = !model                           ? missing
-                          : options_spare(options, errors) ? act(model, options, errors)
-                                                           : exit_usage;
+    enum exit_code code = !model ? missing
+                          : options_spare(options, errors) && find_scale(options, model, errors)
+                              ? act(model, options, errors)
+                              : exit_usage;
     fflush(stdout);
     fbd_errors_print(errors, stderr);
     code = exit_code_for(code, errors);

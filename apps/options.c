@@ -44,11 +44,11 @@ static const char help[] =
     "  --components         components of forces: there, or with --html, --ledger, --equations\n"
     "  --supports           with the ground and the bearings that the bodies are cut free from\n"
     "  --symbols            arrows labelled m g, N, T_1 instead of names and values\n"
-    "  --scale FORCE        10 mm stand for this force, in N or lbf\n"
+    "  --scale FORCE        10 mm stand for this force, as 5 or '2 kN'\n"
     "  --worksheet          no arrows, and lines to write on\n"
     "  --solution           the worksheet with its arrows, symbols and values\n"
     "  --full               all of the report, where it is short as there are many bodies\n"
-    "  --degrees            angles and their rates in degrees: in the report, CSV, JSON, and for --at\n"
+    "  --degrees            angles and their rates in degrees: in all that is written, and for --at\n"
     "  --quiet              no report\n"
     "  --watch              again whenever the file changes, or data that it reads; a page of --html reloads "
     "itself\n";
@@ -265,7 +265,7 @@ static bool take_drawing(struct options *options, int option)
     case option_components: options->drawing.components = true; return true;
     case option_supports: options->drawing.supports = true; return true;
     case option_symbols: options->drawing.symbols = true; return true;
-    case option_scale: return take_number("scale", tiny, &options->drawing.scale);
+    case option_scale: options->scale = optarg; return true;
     case option_worksheet: options->drawing.worksheet = true; return true;
     case option_solution: options->drawing.solution = true; return true;
     default: return usage("unknown option, or an option without its value", "");
@@ -369,10 +369,11 @@ bool options_use_stdout(const struct options *options)
 }
 
 /* `components`: something else shows these. */
-static bool shapes_drawing(const fbd_drawing *drawing, bool components)
+static bool shapes_drawing(const struct options *options, bool components)
 {
+    const fbd_drawing *drawing = &options->drawing;
     return drawing->body || (drawing->components && !components) || drawing->supports || drawing->symbols ||
-           drawing->scale > 0 || drawing->worksheet || drawing->solution;
+           options->scale || drawing->worksheet || drawing->solution;
 }
 
 /* Neither the key nor an answer is written over. */
@@ -388,8 +389,7 @@ static bool grading_agrees(const struct options *options)
         options->run.no_structure || isfinite(options->run.until) || options->run.error_bars ||
         options->settle || options->fmu_version || options->svg || options->html || options->plot ||
         options->plot_of || options->gnuplot || options->ledger || options->every > 0 || options->latex ||
-        shapes_drawing(&options->drawing, false) || options->without_count || options->full ||
-        options->degrees)
+        shapes_drawing(options, false) || options->without_count || options->full || options->degrees)
         return usage("with --grade go --student, --details, --csv, --json and --quiet only; with --handout "
                      "--student only",
                      "");
@@ -422,7 +422,7 @@ static bool drawing_agrees(const struct options *options)
     const fbd_drawing *drawing = &options->drawing;
     bool eigenvalues = options->action == action_linearize;
     const bool components = options->html || options->ledger || options->action == action_equations;
-    if (shapes_drawing(drawing, components) && (!options->svg || eigenvalues))
+    if (shapes_drawing(options, components) && (!options->svg || eigenvalues))
         return usage(
             "--body, --components, --supports, --symbols, --scale, --worksheet and --solution go with the "
             "diagrams of --svg",
@@ -467,8 +467,8 @@ static bool options_agree(const struct options *options)
         return usage(
             "--full is of the report, which --quiet, data to standard output and what is no run leave out",
             "");
-    if (options->degrees && stands_still && !options->at_count)
-        return usage("--degrees goes with a run, and with --at", "");
+    if (options->degrees && stands_still && !draws && !rests)
+        return usage("--degrees goes with a run, --equations, --linearize or --static", "");
     if (stands_still && options->run.error_bars) return usage("--error-bars belongs to a run", "");
     if (options->emit_c && (options->run.method || options->run.accuracy > 0 || options->run.step > 0 ||
                             options->run.no_structure || options->quiet))

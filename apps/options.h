@@ -36,6 +36,7 @@ struct options {
     const char *plot, *gnuplot, *plot_of;
     const char *emit_c; /* where the program goes, of action_emit_c */
     fbd_drawing drawing;
+    const char *scale; /* of the drawing: a force with its unit, or NULL */
     unsigned seed;
     const char *student; /* of the answer, or NULL */
     bool details;

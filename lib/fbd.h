@@ -229,6 +229,15 @@ FBD_API bool fbd_state_set_text(fbd_state *state, const char *name, const char *
 FBD_API bool fbd_state_set_text_degrees(fbd_state *state, const char *name, const char *text,
                                         fbd_errors *errors);
 
+/* A quantity in the units of the model from text with the dimension of `unit` ("N"): "5 lbf" or "2*3[N]"; a plain number is
+ * in the model's unit. `name` is what messages call it. False with a note in `errors`. */
+FBD_API bool fbd_model_quantity(const fbd_model *model, const char *name, const char *text, const char *unit,
+                                double *value, fbd_errors *errors);
+
+/* From now on what is written of a state, and of its statics and linearisation, has coordinates and their rates in degrees
+ * where they are angles. Equations, matrices and the numbers of structures are in radians. */
+FBD_API void fbd_state_show_degrees(fbd_state *state, bool degrees);
+
 /* Make a state one that a motion can start at: bodies with `assemble` find their place, and the others fit
  * their couplings to six digits. False with a note in `errors` of what a run would be refused for at its
  * start: `does-not-fit` (which coupling is off, and the nearest state that fits), `not-finite` (which force,
@@ -236,6 +245,7 @@ FBD_API bool fbd_state_set_text_degrees(fbd_state *state, const char *name, cons
  * normal force would have to pull), `masses-apart` (the forces of couplings cannot be told), `singular-start`
  * (at rest where couplings have no slope, and about to move as they do not allow), or memory is out. */
 FBD_API bool fbd_state_close(fbd_state *state, fbd_errors *errors);
+/* Also the mass of a body as it is there, "rocket.m". False for an unknown name. */
 FBD_API bool fbd_state_get(const fbd_state *state, const char *name, double *value);
 
 /* One named term of an equation. */
@@ -476,8 +486,8 @@ typedef struct fbd_recording {
     unsigned
         rows; /* of `keep`: at least so many at regular times; 0 for 2000, which play smoothly at any zoom */
     bool
-        degrees; /* CSV, table, report and JSON show angles and their rates in degrees: of coordinates, of what
-                     `assemble` has decided, and their errors. Equations hold in radians, as do pages and plots */
+        degrees; /* CSV, table, report, JSON, page and plots show angles and their rates in degrees: of coordinates, of
+                     what `assemble` has decided, and their errors. Equations hold in radians */
 } fbd_recording;
 
 /* A column of the rows of a run: "t", "block.x", with error bars "block.x ±" beside it; and its unit. */

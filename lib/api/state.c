@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/call.h"
+#include "dynamics/mass.h"
 #include "dynamics/modes.h"
 #include "dynamics/project.h"
 #include "output/shown.h"
@@ -59,6 +60,13 @@ static struct symbol no_name(void *context, const char *name, struct pos at)
     return (struct symbol){.kind = symbol_unknown};
 }
 
+static const struct expr *compile(struct arena *arena, const fbd_model *model, const char *text,
+                                  const struct expr_want *want, fbd_errors *errors)
+{
+    const struct scope scope = {.lookup = no_name, .units = model->scene->units};
+    return expr_compile(arena, text, (struct pos){0, 0}, &scope, want, errors);
+}
+
 static bool set_text(fbd_state *state, const char *name, const char *text, bool degrees, fbd_errors *errors)
 {
     const fbd_model *model = state->model;
@@ -70,7 +78,6 @@ static bool set_text(fbd_state *state, const char *name, const char *text, bool 
                  "there is no coordinate%s `%s`", model->plan.own > 0 ? " and no state" : "", name);
         return false;
     }
-    struct scope scope = {.lookup = no_name, .units = model->scene->units};
     struct expr_want want = {.constant = true, .what = name};
     const struct shown shown = shown_component(model, (size_t)index, degrees);
     if (index < 2 * n) {
@@ -81,7 +88,7 @@ static bool set_text(fbd_state *state, const char *name, const char *text, bool 
         want.dim = model->scene->own[index - 2 * n].dim;
     }
     struct arena arena = {0};
-    const struct expr *expr = expr_compile(&arena, text, (struct pos){0, 0}, &scope, &want, errors);
+    const struct expr *expr = compile(&arena, model, text, &want, errors);
     if (expr) {
         state->y[index] = expr_value(expr) * (expr_is_bare(expr) ? shown.size : 1);
         state->settled = false;
@@ -110,6 +117,31 @@ bool fbd_state_set_text_degrees(fbd_state *state, const char *name, const char *
     return set_named(state, name, text, true, errors);
 }
 
+bool fbd_model_quantity(const fbd_model *model, const char *name, const char *text, const char *unit,
+                        double *value, fbd_errors *list)
+{
+    struct diag_call call;
+    struct arena arena = {0};
+    struct unit of;
+    fbd_errors *errors = diag_begin(&call, list);
+    const struct expr *expr = NULL;
+    if (!model || !name || !text || !unit || !value)
+        call_refuse(errors, "there is no model, name, text, unit or place for the value");
+    else if (unit_parse(unit, strlen(unit), model->scene->units, errors, (struct pos){0, 0}, &of)) {
+        const struct expr_want want = {.dim = of.dim, .constant = true, .what = name};
+        expr = compile(&arena, model, text, &want, errors);
+    }
+    if (expr) *value = expr_value(expr);
+    arena_free(&arena);
+    diag_end(&call);
+    return expr != NULL;
+}
+
+void fbd_state_show_degrees(fbd_state *state, bool degrees)
+{
+    if (state) state->degrees = degrees;
+}
+
 static bool close_state(fbd_state *state, fbd_errors *errors)
 {
     if (!state->settled) modes_settle(state, NULL); /* what does not settle is said by the check */
@@ -127,11 +159,26 @@ bool fbd_state_close(fbd_state *state, fbd_errors *list)
     return fits;
 }
 
+/* The body whose mass a name is ("rocket.m"), or NULL. */
+static const struct model_body *massive(const fbd_model *model, const char *name)
+{
+    const char *dot = strrchr(name, '.');
+    if (!dot || strcmp(dot, ".m") != 0) return NULL;
+    for (size_t b = 0; b < model->body_count; b++) {
+        const char *body = model->bodies[b].name;
+        if (strlen(body) == (size_t)(dot - name) && strncmp(body, name, strlen(body)) == 0)
+            return &model->bodies[b];
+    }
+    return NULL;
+}
+
 bool fbd_state_get(const fbd_state *state, const char *name, double *value)
 {
     if (!state || !name || !value) return false;
     const double *place = strcmp(name, "t") == 0 ? &state->t : find(state, name);
-    if (!place) return false;
-    *value = *place;
+    const struct model_body *body = place ? NULL : massive(state->model, name);
+    const struct instant at = state_instant(state);
+    if (!place && !body) return false;
+    *value = place ? *place : body_mass(body, &at);
     return true;
 }

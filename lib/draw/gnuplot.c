@@ -11,6 +11,7 @@
 #include "base/utf8.h"
 #include "draw/record.h"
 #include "dynamics/modes.h"
+#include "output/shown.h"
 #include "output/words.h"
 
 enum { digits = 10, most_events = 200, plot_width = 900, plot_height = 300 };
@@ -23,6 +24,7 @@ struct choice {
     const struct record *record;
     int *columns;
     size_t count;
+    bool degrees; /* coordinates and rates that are angles are in degrees */
 };
 
 /* ---- names of columns */
@@ -117,6 +119,15 @@ bool fbd_model_has_columns(const fbd_model *model, const char *columns, fbd_erro
 
 /* ---- the script */
 
+/* Of the choice: in which unit it is shown, and what its numbers are divided by for that. */
+static struct shown shown_column(const struct choice *choice, size_t index)
+{
+    const struct record_column *column = &choice->record->columns[choice->columns[index]];
+    const struct shown shown = {column->name, column->unit, 1};
+    const bool moves = column->kind == record_coordinate || column->kind == record_rate;
+    return moves ? shown_in_degrees(shown, choice->degrees) : shown;
+}
+
 /* Between single quotes gnuplot takes everything as it is, commands as well, and '' for one quote; but not at
  * the start, and not for two in a row, where the text would end. So such a quote becomes a typographic one.
  * Gnuplot's SVG has no escape for the end of a CDATA section, which XML does not allow in a text. */
@@ -167,7 +178,10 @@ static void write_row(struct text *text, const struct choice *choice, size_t row
     text_exact(text, record->times[row]);
     for (size_t k = 0; k < choice->count; k++) {
         text_add(text, " ");
-        text_number(text, record->rows[row * record->column_count + (size_t)choice->columns[k]], digits);
+        text_number(text,
+                    record->rows[row * record->column_count + (size_t)choice->columns[k]] /
+                        shown_column(choice, k).size,
+                    digits);
     }
     text_add(text, "\n");
 }
@@ -190,7 +204,10 @@ static void write_data(struct text *text, const struct choice *choice)
         for (size_t i = 0; i < choice->count; i++) {
             for (int end = 0; end < 2; end++) {
                 text_add(text, " ");
-                text_number(text, (double)cells[2 * (size_t)choice->columns[i] + (size_t)end], digits);
+                text_number(text,
+                            (double)cells[2 * (size_t)choice->columns[i] + (size_t)end] /
+                                shown_column(choice, i).size,
+                            digits);
             }
         }
         text_add(text, "\n");
@@ -229,7 +246,7 @@ static void write_event_names(struct text *text, const struct choice *choice, co
 
 static const char *unit_of(const struct choice *choice, size_t index)
 {
-    return choice->record->columns[choice->columns[index]].unit;
+    return shown_column(choice, index).unit;
 }
 
 /* Is this the first column of its unit? */
@@ -343,7 +360,7 @@ static void write_script(struct text *text, const struct choice *choice, const s
 static char *make_script(fbd_result *result, const char *file, const char *columns, fbd_errors *errors)
 {
     const struct ensemble *run = result->simulation->ensemble;
-    struct choice choice = {.record = result->record};
+    struct choice choice = {.record = result->record, .degrees = result->degrees};
     struct text text = {0};
     diag_in_file(errors, run->model->scene->file);
     if (!result->record) {

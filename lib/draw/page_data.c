@@ -2,7 +2,7 @@
  *
  * What the page knows of a run, as one JSON object:
  *
- * - title, units, reason, stats: as in the JSON of the run; start and end [s]
+ * - title, units, angles, reason, stats: as in the JSON of the run; start and end [s]
  * - rows, thinned, bucket, buckets, doubleColumns, floatColumns: of the data
  * - columns: {n: name, u: unit} and one of {c: constant}, {of, a, b: a + b column[of]}, {d | f: number of
  * data}
@@ -441,6 +441,7 @@ static void write_head(struct text *text, fbd_result *result)
     text->failed |= title.failed;
     text_free(&title);
     json_text_member(text, "reason", run->reason);
+    if (result->degrees) json_text_member(text, "angles", "deg");
     json_number_member(text, "start", result->start->t);
     json_number_member(text, "end", run->t);
     text_printf(text, "\"units\":{\"length\":\"%s\",\"force\":\"%s\",\"moment\":\"%s\",\"energy\":\"%s\"},\n",

@@ -266,6 +266,28 @@ static double fastest(const struct tree *tree, struct tree_work *work, double ar
     return fmax(work->fastest, work->spin * arm);
 }
 
+bool slot_is_open(const struct tie *tie, const int *slip)
+{
+    const bool slot = tie->kind == constraint_slot || tie->kind == constraint_groove;
+    return slot && tie->surface >= 0 && slip[tie->surface] != stick;
+}
+
+/* Beyond an end of its slot what flies meets nothing but that end, a point D away, with D^2 = left^2 + h^2: the curve goes
+ * on straight there, and the point is h beside it. On its side D = h where the slot ends, and grows by nothing there. */
+static void look_past_end(const struct fbd_model *model, const struct instant *at, const struct mode *hold,
+                          struct one_sided *state)
+{
+    const struct tie *tie = &model->tree->ties[hold->tie];
+    const double radius = tie->end[0].radius, h = radius - state->excess;
+    for (int end = 0; end < 2; end++) {
+        const struct room room = tie_room(model, at->tree, hold->tie, end);
+        if (!(room.left < -slot_rounding * room.size)) continue;
+        const double D = hypot(room.left, h);
+        state->rate = -(room.left * room.rate - h * state->rate) / D;
+        state->excess = radius - D;
+    }
+}
+
 struct one_sided one_sided_at(const struct fbd_model *model, const struct instant *at, int pair)
 {
     const struct mode *hold = &model->plan.modes[pair];
@@ -279,6 +301,7 @@ struct one_sided one_sided_at(const struct fbd_model *model, const struct instan
                               .rate = sign * row->g.x1,
                               .acceleration = sign * row->g.x2,
                               .force = -sign * row->lambda};
+    if (slot_is_open(tie, at->slip)) look_past_end(model, at, hold, &state);
     for (int k = 0; k < tie->end_count; k++) {
         const struct tree_state *s = &at->tree->links[tie->end[k].link];
         double arm = tie->end[k].radius + vec_norm(tie->end[k].point);

@@ -123,6 +123,11 @@ struct room {
 };
 struct room tie_room(const struct fbd_model *model, const struct tree_work *work, int index, int end);
 
+/* Is a slot that only presses open: does its point fly? It has passed an end where less than minus this share of the
+ * slot's size is left. */
+static const double slot_rounding = 6e-12;
+bool slot_is_open(const struct tie *tie, const int *slip);
+
 /* The straight piece of a rope after place k, beside the discs there (without one, what the rope is long). */
 struct room rope_piece(const struct fbd_model *model, const struct tree_work *work, int index, int k);
 

@@ -115,6 +115,7 @@ void state_copy(struct fbd_state *to, const struct fbd_state *from)
     const struct plan *plan = &from->model->plan;
     state_set_moment(to, state_moment(from));
     to->settled = from->settled;
+    to->degrees = from->degrees;
     memcpy(to->y, from->y, plan_size(plan) * sizeof *to->y);
     memcpy(to->a, from->a, plan_rates(plan) * sizeof *to->a);
     memcpy(to->slots, from->slots, (size_t)plan->slots * sizeof *to->slots);

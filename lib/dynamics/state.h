@@ -24,6 +24,7 @@ struct holds_trouble {
 struct fbd_state {
     const struct fbd_model *model;
     bool settled;               /* the modes agree with t and y */
+    bool degrees;               /* texts of it show angles in degrees (output/shown.h) */
     struct holds_trouble holds; /* of the last settling */
     double t, rest;             /* the time, and what its rounding leaves: see base/moment.h */
     double *y;     /* plan_size: coordinates, rates, states of the file's own; then what absolute.h adds, by

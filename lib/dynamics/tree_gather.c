@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/tree_gather.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -91,7 +92,7 @@ static void hold_still(struct gathered *all, size_t k)
     size_t count = all->problem.count;
     double surface, driven = tree_driven(state, all->trial, all->pair[k]);
     /* A mechanism that passes its dead centre goes on by its momentum. */
-    if (driven == 0 && hold->kind == mode_tangent && tree_seen_acceleration(state, still->free))
+    if (driven == 0 && mode_is_friction(hold) && tree_seen_acceleration(state, still->free))
         driven = still->free;
     still->free = still->kind == hold_one_sided ? driven : 0;
     for (size_t i = 0; i < count; i++) all->problem.A[i * count + k] = all->problem.A[k * count + i] = 0;
@@ -105,6 +106,15 @@ static void hold_still(struct gathered *all, size_t k)
         state->y[state->model->plan.n + hold->coordinate] = friction_surface_speed(hold, &all->at, &surface);
 }
 
+/* What one newton between two points of the links does to them at least [m/s^2], but in a dead centre: 1 over the mass of all. */
+static double least_answer(const struct fbd_state *state, int pair)
+{
+    double mass = 0;
+    if (mode_of(state, pair)->kind != mode_tangent) return 0;
+    for (int i = 1; i < state->model->tree->count; i++) mass += fabs(state->tree->links[i].mass);
+    return mass > 0 ? 1 / mass : 0;
+}
+
 /* The links answer, and then the constraints that do not let them. True when these hold it still. */
 static bool add_column(struct gathered *all, size_t k)
 {
@@ -115,7 +125,7 @@ static bool add_column(struct gathered *all, size_t k)
     tree_inward(tree, work, 1, tree->count);
     tree_outward(tree, work, 1, tree->count, work->unit);
     add_answers(all, k);
-    double alone = all->problem.A[k * all->problem.count + k];
+    double alone = fmax(all->problem.A[k * all->problem.count + k], least_answer(state, all->pair[k]));
     if (tree->tie_count == 0) return false;
     for (int j = 0; j < tree_unknowns(tree); j++)
         work->z[j] = j < tree->row_count ? -tree_row_answer(work, j) : 0;

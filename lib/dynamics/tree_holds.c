@@ -263,15 +263,18 @@ static bool decide(struct fbd_state *state, const struct decided *decided, int *
     return false;
 }
 
-/* Does friction hold what drives or surfaces move, whatever the forces are? No friction is enough for that. */
+/* Does friction hold what drives, surfaces or, in a dead centre, its momentum move, whatever the forces are? No friction
+ * is enough for that. (Of friction along a tie in a dead centre its row tells, see moves_on.) */
 static bool holds_what_is_driven(struct fbd_state *state, const struct decided *decided, int *forced)
 {
     struct gathered all;
     struct instant at = state_instant(state);
     bool may = false, moves = false;
+    const bool given = model_has_speeds_given(state->model);
     for (int pair = 0; pair < (int)state->model->plan.mode_count; pair++)
-        may |= state->slip[pair] == stick && hold_in_question(state, decided, forced, pair);
-    if (!may || !model_has_speeds_given(state->model)) return false;
+        may |= state->slip[pair] == stick && (given || mode_is_joint_friction(mode_of(state, pair))) &&
+               hold_in_question(state, decided, forced, pair);
+    if (!may) return false;
     state_evaluate_unshared(state);
     if (!rest_is_open(state->model, &at)) return false;
     bool gathered = gathered_find(&all, state, decided, forced);

@@ -33,7 +33,7 @@ static const struct quantity quantities[] = {
     {DIM_INIT(1, 2, 0), "moment of inertia", NULL, NULL, "kg*m^2, kg*cm^2, slug*ft^2, lbm*ft^2"},
     {DIM_INIT(1, 0, -2), "stiffness", NULL, NULL, "N/m, kN/m, N/mm, lbf/ft, lbf/in"},
     {DIM_INIT(1, -2, -2), "cubic stiffness", NULL, NULL, "N/m^3, lbf/ft^3"},
-    {DIM_INIT(1, 0, -1), "damping", NULL, NULL, "N*s/m, kg/s, lbf*s/ft"},
+    {DIM_INIT(1, 0, -1), "damping or flow of mass", NULL, NULL, "N*s/m, kg/s, lbf*s/ft"},
     {DIM_INIT(1, 2, -1), "angular damping or angular momentum", NULL, NULL, "N*m*s/rad, N*m*s, lbf*ft*s/rad"},
     {DIM_INIT(1, -1, 0), "quadratic drag or mass per length", NULL, NULL, "N*s^2/m^2, kg/m, lbf*s^2/ft^2"},
     {DIM_INIT(1, 1, -1), "momentum or impulse", NULL, NULL, "N*s, kg*m/s, lbf*s"},

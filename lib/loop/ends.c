@@ -84,9 +84,10 @@ static double empty_time(const struct end *end, double some, double none)
     }
 }
 
-/* What is no rope always is, whatever it rubs. */
+/* What is no rope always is, whatever it rubs, but for a point that is off its slot. */
 static bool is_taut(const struct fbd_state *state, const struct tie *tie)
 {
+    if (slot_is_open(tie, state->slip)) return false;
     return tie->kind != constraint_rope || tie->pair < 0 || state->slip[tie->pair] == stick;
 }
 
@@ -218,6 +219,84 @@ static void watch_tie(struct run *run, int i, struct moment *t)
     for (int k = 0; (rubs || hauls) && k + 1 < tie->end_count; k++)
         watch_piece(&(struct end){run, i, k, true}, t);
 }
+
+/* ---- a point that is off its slot passes an end of it */
+
+/* What is left of the slot, from where rounding cannot tell any more that it is within (half of slot_rounding). */
+static struct room way_at(const struct end *end, double t)
+{
+    struct room room = room_at(end, t);
+    room.left += slot_rounding / 2 * room.size;
+    return room;
+}
+
+/* A time in a stretch at which it is on the other side of the end than it was before; NAN where it is not. */
+static double passed_within(const struct end *end, int side, double from, double to)
+{
+    double before = side * way_at(end, from).rate;
+    const struct room there = way_at(end, to);
+    double after = side * there.rate;
+    if (side * there.left < 0) return to;
+    while (before < 0 && after > 0) {
+        double middle = from + (to - from) / 2;
+        if (!(middle > from && middle < to)) break;
+        struct room room = way_at(end, middle);
+        if (side * room.left < 0) return middle;
+        *(side * room.rate < 0 ? &from : &to) = middle;
+    }
+    return NAN;
+}
+
+/* The last time on the same side, between one at which it is there and one at which it has passed; the first on the other
+ * side where that is where the step begins. */
+static double passing_time(const struct end *end, int side, double not_yet, double passed)
+{
+    for (;;) {
+        double middle = not_yet + (passed - not_yet) / 2;
+        if (!(middle > not_yet && middle < passed)) return not_yet > end->run->step.from ? not_yet : passed;
+        *(side * way_at(end, middle).left < 0 ? &passed : &not_yet) = middle;
+    }
+}
+
+/* What it meets is another thing there, so that one step ends just before, and the next one just behind. It does not come
+ * back from behind. */
+static void watch_passing(const struct end *end, struct moment *t)
+{
+    enum { parts = 8 };
+    struct run *run = end->run;
+    const double from = run->step.from, length = (t->t - from) / parts;
+    const struct row *row = &run->during->tree->rows[tie_of(end)->first_row];
+    double passed = NAN;
+    if (is_far(end, from, length, parts)) return;
+    const int side = way_at(end, from).left < 0 ? -1 : 1;
+    for (int k = 0; k < parts && isnan(passed); k++)
+        passed = passed_within(end, side, from + k * length, k + 1 == parts ? t->t : from + (k + 1) * length);
+    if (!isnan(passed)) {
+        *t = moment_at(passing_time(end, side, from, passed));
+        way_at(end, t->t);
+        if (side < 0 && row->g.x < 0)
+            run_fail(
+                run, FBD_BROKEN,
+                "at t = %.9g the point of the slot `%s` comes back behind it. Make it longer, or end the run "
+                "before, by an event",
+                t->t, tie_of(end)->name);
+    }
+    switcher_partial(run->stepper, *t, run->work.y, run->work.f);
+}
+
+void run_watch_slots(struct run *run, struct moment *t)
+{
+    const struct tree *tree = run->model->tree;
+    for (int i = 0; tree && i < tree->tie_count; i++) {
+        if (!slot_is_open(&tree->ties[i], run->during->slip)) continue;
+        for (int k = 0; k < 2 && run->end.outcome == FBD_GOING; k++) {
+            const struct end end = {run, i, k, false};
+            if (isfinite(tie_room(run->model, run->during->tree, i, k).size)) watch_passing(&end, t);
+        }
+    }
+}
+
+/* ---- the whole */
 
 void run_watch_ends(struct run *run, struct moment *t)
 {

@@ -114,6 +114,26 @@ static bool refuse_jerk(struct run *run, int pair)
     return false;
 }
 
+/* What was off its slot lands on it. A roller that strikes its end would have to go round that. */
+static bool refuse_end_of_slot(struct run *run, int pair)
+{
+    const int index = run->model->plan.modes[pair].tie;
+    const struct tie *tie = &run->model->tree->ties[index];
+    if (!slot_is_open(tie, run->state->slip)) return false;
+    bool beyond = false;
+    for (int end = 0; end < 2; end++) {
+        const struct room room = tie_room(run->model, run->state->tree, index, end);
+        beyond |= room.left < -slot_rounding * room.size;
+    }
+    if (!beyond) return false;
+    run_fail(run, FBD_BROKEN,
+             "at t = %.9g the point of the slot `%s` strikes the end of it, or comes back behind it. Make it "
+             "longer, or end "
+             "the run before, by an event",
+             run_time(run), tie->name);
+    return true;
+}
+
 /* A tension that ends is left to settling. A rope that becomes taut takes at once the velocities that would
  * lengthen it: a plastic impact, with the impulses that every other coupling needs for it. */
 static void one_sided_event(struct run *run, int pair)
@@ -123,7 +143,7 @@ static void one_sided_event(struct run *run, int pair)
         run->decided.slips[pair] = true;
         return;
     }
-    if (refuse_jerk(run, pair)) return;
+    if (refuse_end_of_slot(run, pair) || refuse_jerk(run, pair)) return;
     double before = jointed_kinetic_energy(run->state);
     bool rope = run->model->plan.modes[pair].kind == mode_rope;
     run->state->slip[pair] = stick;

@@ -390,7 +390,8 @@ static bool make_step(struct run *run, struct turn *turn)
 /* The first event within it, to which it is cut; likewise where a coupling comes to an end. */
 static bool find_events(struct run *run, struct turn *turn)
 {
-    int found = run_find_event(run, &turn->t);
+    run_watch_slots(run, &turn->t);
+    int found = run->end.outcome == FBD_GOING ? run_find_event(run, &turn->t) : 0;
     if (found < 0) {
         run_fail_step(run, stepper_bad_function);
         return false;

@@ -258,6 +258,10 @@ void run_watch_pulleys(struct run *run, struct moment *t);
  * is free. */
 void run_check_pulleys(struct run *run);
 
+/* A point that is off its slot, in the air: where it passes an end of the slot within the last step this is cut there, before
+ * events are looked for. Fails the run where it comes back behind the slot. */
+void run_watch_slots(struct run *run, struct moment *t);
+
 /* Where a coupling has come to an end within the step that ends at *t (a rope is unwound, a point is at the end of its
  * slot), cut the step there and end the run (ends.c). */
 void run_watch_ends(struct run *run, struct moment *t);

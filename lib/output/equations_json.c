@@ -6,6 +6,7 @@
 
 #include "dynamics/kinematics.h"
 #include "output/equations.h"
+#include "output/shown.h"
 #include "output/terms.h"
 
 /* A quantity with its name and unit. */
@@ -25,8 +26,9 @@ static void write_coordinates(struct text *text, const struct fbd_state *state)
     text_add(text, "  \"coordinates\": {");
     for (size_t i = 0; i < n; i++) {
         text_add(text, i ? ", " : "");
-        text_json_member(text, model->labels[i].name, state->y[i], ", ");
-        text_json_member(text, model->labels[i].rate_name, state->y[n + i], "");
+        const double size = shown_component(model, i, state->degrees).size;
+        text_json_member(text, model->labels[i].name, state->y[i] / size, ", ");
+        text_json_member(text, model->labels[i].rate_name, state->y[n + i] / size, "");
     }
     text_add(text, "},\n");
 }
@@ -143,6 +145,7 @@ static char *json_of(fbd_state *state, bool components)
         text_add(&text, "{\n  ");
         text_json_words(&text, "title", state->model->scene->title, ",\n  ");
         text_json_words(&text, "units", state->model->scene->units == unit_si ? "SI" : "US", ",\n  ");
+        if (state->degrees) text_json_words(&text, "angles", "deg", ",\n  ");
         text_json_member(&text, "t", state->t, ",\n");
         write_coordinates(&text, state);
         write_states(&text, state);

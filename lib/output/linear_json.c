@@ -3,6 +3,7 @@
  * A linearisation as one JSON object (docs/output.md).
  */
 #include "base/text.h"
+#include "output/shown.h"
 #include "rest/linearize.h"
 
 static void write_equilibrium(struct text *text, const struct fbd_linearization *linear)
@@ -11,7 +12,8 @@ static void write_equilibrium(struct text *text, const struct fbd_linearization 
     const struct fbd_model *model = linear->model;
     const int n = model->plan.n, count = n + model->plan.own;
     for (int i = 0; i < count; i++)
-        text_json_member(text, i < n ? model->labels[i].name : model->own_labels[i - n].name, linear->q[i],
+        text_json_member(text, i < n ? model->labels[i].name : model->own_labels[i - n].name,
+                         linear->q[i] / (i < n ? shown_component(model, (size_t)i, linear->degrees).size : 1),
                          i + 1 < count ? ", " : "");
     text_add(text, "},\n");
 }
@@ -65,7 +67,7 @@ char *fbd_linearization_json(const fbd_linearization *linear)
     text_add(&text, "{\n  ");
     text_json_key(&text, "title");
     text_json_string(&text, linear->model->scene->title);
-    text_add(&text, ",\n");
+    text_add(&text, linear->degrees ? ",\n  \"angles\": \"deg\",\n" : ",\n");
     write_equilibrium(&text, linear);
     write_states(&text, linear);
     write_matrix(&text, "A", linear->A, linear->size, linear->size);

@@ -16,4 +16,7 @@ struct shown {
 /* Coordinate, rate or state `index` of y; angles and their rates in degrees if that is asked for. */
 struct shown shown_component(const struct fbd_model *model, size_t index, bool degrees);
 
+/* Of an angle, or its rate: in degrees if that is asked for. */
+struct shown shown_in_degrees(struct shown shown, bool degrees);
+
 #endif

@@ -4,6 +4,7 @@
  */
 #include "dynamics/spatial.h"
 #include "output/equations.h"
+#include "output/shown.h"
 #include "record/result.h"
 #include "rest/statics.h"
 
@@ -32,7 +33,9 @@ static void write_verdict(struct text *text, const struct fbd_statics *statics)
     text_add(text, "  ");
     text_json_member(text, "t", statics->state->t, ",\n  \"coordinates\": {");
     for (int i = 0; i < statics->model->plan.n; i++)
-        text_json_member(text, statics->model->labels[i].name, statics->state->y[i],
+        text_json_member(text, statics->model->labels[i].name,
+                         statics->state->y[i] /
+                             shown_component(statics->model, (size_t)i, statics->state->degrees).size,
                          i + 1 < statics->model->plan.n ? ", " : "");
     text_add(text, "},\n  ");
     text_json_flag(text, "equilibrium", fbd_statics_holds(statics), ",\n  ");
@@ -137,7 +140,8 @@ char *fbd_statics_json(const fbd_statics *statics)
     struct text text = {0};
     text_add(&text, "{\n  \"title\": ");
     text_json_string(&text, scene->title);
-    text_printf(&text, ",\n  \"units\": \"%s\",\n", scene->units == unit_si ? "SI" : "US");
+    text_printf(&text, ",\n  \"units\": \"%s\",\n%s", scene->units == unit_si ? "SI" : "US",
+                statics->state->degrees ? "  \"angles\": \"deg\",\n" : "");
     write_verdict(&text, statics);
     write_tensions(&text, statics);
     write_bodies(&text, statics);

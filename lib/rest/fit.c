@@ -187,7 +187,7 @@ static bool beyond_end(const struct fbd_state *state, int index, struct pos *at,
 {
     const double digits = 1e-6;
     const struct tie *tie = &state->model->tree->ties[index];
-    for (int end = 0; end < 2; end++) {
+    for (int end = 0; end < 2 && !slot_is_open(tie, state->slip); end++) {
         struct room room = tie_room(state->model, state->tree, index, end);
         if (room.left >= -digits * room.size) continue;
         if (at) *at = tie->source->at;

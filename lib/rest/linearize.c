@@ -445,6 +445,7 @@ static fbd_linearization *linearize(fbd_state *state, fbd_errors *errors)
         refuse_sticking(state, errors) || equilibrium_refuse_states(state, errors))
         return NULL;
     fbd_linearization *linear = linearization_new(model);
+    if (linear) linear->degrees = state->degrees;
     int found = linear && settled ? find_matrix(linear, state, errors) : -1;
     bool said = found == -2 || (found > 0 && !is_finite(linear, state, errors));
     int modes = found > 0 && !said ? find_modes(linear) : -1;

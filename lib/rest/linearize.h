@@ -25,6 +25,7 @@ struct fbd_linearization {
     double *A;    /* size x size, row by row (and df/dt behind it) */
     fbd_mode *modes;
     double *q;       /* plan_rates: the equilibrium, [q, z] */
+    bool degrees;    /* the equilibrium is shown in degrees */
     bool degenerate; /* forces without a slope there have been told, and their rows of A are zero */
 };
 

@@ -304,9 +304,16 @@ static const struct usual usual_forces[] = {
     {"string", a_rope},
     {"cable", a_rope},
     {"reaction", "reactions of joints and couplings are found, not given"},
+    {"N", "it is `normal`, of a slide; of shapes that touch it comes with `contacts`"},
     {"normal_force", "it is `normal`, of a slide; of shapes that touch it comes with `contacts`"},
     {"contact", "what can touch is listed under `contacts`, beside `bodies`"},
     {"air", "it is `drag`"},
+    {"air_resistance", "it is `drag`"},
+    {"resistance", "it is `drag`"},
+    {"wind", "moving air is the `wind` of a `drag`: `drag: {linear: 0.4 N*s/m, wind: [2 m/s, 0]}`"},
+    {"dashpot", "it is a `damper`"},
+    {"viscous", "it is a `damper`"},
+    {"motor", a_push},
 };
 static const struct usual usual_moments[] = {
     {"moment", a_couple},

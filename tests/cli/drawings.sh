@@ -37,6 +37,10 @@ check 'and those of the opposite force' says '>R₂ = 19.66 N, connecting_rod.pi
 check 'all bodies have one scale of forces' sh -c '[ "$(grep -o "forces: 10 mm = [^<]*" out | sort -u | wc -l)" -eq 1 ]'
 check '--scale' exits 0 draw "$crank" --scale 12
 check 'is that of every body' sh -c '[ "$(grep -c "forces: 10 mm = 12 N" out)" -eq 3 ]'
+check 'with its unit' exits 0 draw "$crank" --scale '0.1 kN'
+check 'it is that as well' says 'forces: 10 mm = 100 N<' out
+check 'and in another system' exits 0 draw "$models/kinetics/drop_us.yaml" --scale '10 N'
+check 'what it is there, 10/4.4482216152605 lbf' says 'forces: 10 mm = 2.2480[0-9]* lbf' out
 check 'a body alone has the scale of the scene' exits 0 draw "$crank" --body piston
 check 'as it has among the others' says 'forces: 10 mm = 8 N' out
 foreign_rules() { # rules of the drawing's style that are not for drawings of ours alone
@@ -59,7 +63,13 @@ check '--symbols without --svg is 2' exits 2 run --symbols "$crank"
 check 'and for eigenvalues' exits 2 run --linearize --svg - --symbols "$models/vibration/damped_oscillator.yaml"
 check 'a file that promises another picture is 2' exits 2 run --quiet --svg crank.jpg "$crank"
 check 'and none is written' test ! -e crank.jpg
-check 'a scale is above zero' exits 2 draw "$crank" --scale 0
+for scale in 0 '0 N' '-2 N' '5 kg' '5 Nn' five ''; do
+    check "\`$scale\` is no scale" exits 2 draw "$crank" --scale "$scale"
+    check '(it is said what is)' says '\-\-scale wants a force above 0, as `5` or `2 kN`' err
+done
+check 'of another dimension it is said which' exits 2 draw "$crank" --scale '5 kg'
+check '(which)' says 'needs force \[N\], not mass \[kg\]' err
+check 'it goes with diagrams' exits 2 run --quiet --scale '5 N' "$crank"
 check '--latex goes with --equations' exits 2 run --latex "$crank"
 
 # ---- other formats

@@ -69,7 +69,29 @@ cp out plain
 check '(30 deg)' sh -c "'$program' --equations --at 'theta=30 deg' '$pendulum' | cmp - plain"
 check 'with a unit it is what it says' sh -c "'$program' --degrees --equations --at 'theta=0.5235987755982988 rad' '$pendulum' | cmp - plain"
 check 'and a rate one of degrees in a second' exits 0 run --degrees --svg out.svg --at theta=10 --at omega=30 --quiet "$pendulum"
-check 'alone with --equations it is a mistake' exits 2 run --degrees --equations "$pendulum"
+check '--equations has coordinates in degrees' exits 0 run --degrees --equations --json - --at theta=30 --at omega=90 "$pendulum"
+check '(as it says)' says '"angles": "deg"' out
+check '(theta and omega)' says '"coordinates": \{"pendulum.theta": (30|29\.9999999999999[0-9]*|30\.0000000000000[0-9]*), "pendulum.omega": 90\}' out
+check '(terms hold in radians)' says '"name": "omega_dot", "value": -4.62735849' out
+degrees_of() { # degrees_of ARGUMENT...: the first coordinate in JSON, with and without --degrees, is one angle
+    "$program" "$@" --json rad.json --quiet; "$program" --degrees "$@" --json deg.json --quiet # 1 where it does not balance
+    value() { sed -n 's/.*"\(coordinates\|equilibrium\)": {"[^"]*": \([^,}]*\).*/\2/p' "$1"; }
+    grep -q '"angles": "deg"' deg.json && ! grep -q '"angles"' rad.json &&
+        awk -v d="$(value deg.json)" -v r="$(value rad.json)" 'BEGIN {x = r*57.29577951308232 - d; exit !(d*d > 1 && x*x < 1e-20*d*d)}'
+}
+check '--static has its place in degrees' degrees_of --static --at 'theta=0.3 rad' "$pendulum"
+check '--linearize its equilibrium' degrees_of --linearize --at 'theta=3 rad' "$pendulum"
+check '(in the text as well)' exits 0 run --degrees --linearize --at 'theta=190' "$pendulum"
+check '(180 deg)' says '^  pendulum\.theta = 180 deg$' out
+check '(frequencies are in rad/s)' says 'time constant|rad/s' out
+check '--gnuplot plots them' exits 0 run --quiet --degrees --gnuplot - --plot-of pendulum.theta,pendulum.omega,energy.kinetic "$pendulum"
+check '(axes)' says "^set ylabel 'pendulum\.theta \[deg\]'" out
+check '(rates)' says "^set ylabel 'pendulum\.omega \[deg/s\]'" out
+check '(numbers)' says '^0 60 0 0$' out
+check 'a page knows' exits 0 run --quiet --degrees --html page.html "$pendulum"
+check '(that they are shown so)' sh -c 'grep -q "\"angles\":\"deg\"" page.html'
+check 'where no angle is written it is a mistake' exits 2 run --degrees --check "$pendulum"
+check '(as with --explain)' exits 2 run --degrees --explain "$pendulum"
 
 # ---- a mass that flows is kg/s, a damper N*s/m, as the file has them
 flow() { # flow UNIT: a tank that loses mass, and a damper

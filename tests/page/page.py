@@ -3,6 +3,7 @@
 """The page of --html in a headless Chromium: it plays, scrubs and goes to events, shows the numbers of the CSV, asks
 the network for nothing, and takes what the model says as data."""
 import json
+import math
 import os
 import sys
 import tempfile
@@ -182,6 +183,18 @@ def check_pendulum(browser, folder):
         assert browser.run("return document.querySelectorAll('#events button').length") == len(result(PENDULUM)["events"])
     with claim("the pendulum's page is quiet and asks for nothing"):
         page_is_quiet(browser, path)
+    run("--quiet", "--degrees", "--html", path, PENDULUM)
+    browser.open(path)
+    with claim("with --degrees the plots of angles and their rates are in degrees, and nothing else is"):
+        titles, theta, rows, legend = browser.run("""fbd.seek(0.5); const chart = charts[0];
+            return [charts.map(({ spec }) => `${spec.title} [${spec.unit}]`), fbd.value('pendulum.theta', 0.5),
+                    chartRows(chart.spec.columns, 0, 0.5, chart.spec.size).map((row) => row[1]), chart.values[0].data];""")
+        assert titles[:2] == ["Coordinates [deg]", "Velocities [deg/s]"], titles
+        assert not any("deg" in title for title in titles[2:]), titles
+        row = next(row for row in table("--every", "0.5", PENDULUM) if row["t"] == 0.5)
+        close(theta, row["pendulum.theta"], 1e-6)
+        close(rows[0], math.degrees(table(PENDULUM)[0]["pendulum.theta"]), 1e-6)
+        assert legend.endswith(" deg"), legend
 
 
 def check_joined(browser, folder):

@@ -146,6 +146,12 @@ static void states(void **context)
     REFUSES(fbd_state_set_text, !fbd_state_set_text(state, "block.x", NULL, errors));
     REFUSES(fbd_state_set_text_degrees, !fbd_state_set_text_degrees(NULL, "block.x", "1", errors));
     REFUSES(fbd_state_set_text_degrees, !fbd_state_set_text_degrees(state, "block.x", NULL, errors));
+    REFUSES(fbd_model_quantity, !fbd_model_quantity(NULL, "it", "1 N", "N", &value, errors));
+    REFUSES(fbd_model_quantity, !fbd_model_quantity(model, NULL, "1 N", "N", &value, errors));
+    REFUSES(fbd_model_quantity, !fbd_model_quantity(model, "it", NULL, "N", &value, errors));
+    REFUSES(fbd_model_quantity, !fbd_model_quantity(model, "it", "1 N", NULL, &value, errors));
+    REFUSES(fbd_model_quantity, !fbd_model_quantity(model, "it", "1 N", "N", NULL, errors));
+    ENDURES(fbd_state_show_degrees, fbd_state_show_degrees(NULL, true));
     REFUSES(fbd_state_close, !fbd_state_close(NULL, errors));
     ANSWERS(fbd_state_get, !fbd_state_get(NULL, "block.x", &value));
     ANSWERS(fbd_state_get, !fbd_state_get(state, NULL, &value));

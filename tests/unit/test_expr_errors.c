@@ -307,7 +307,8 @@ static void a_quantity_of_the_wrong_dimension_is_explained(void **state)
     CHECK(forces, &a_force);
     const struct expr_want damping = {.dim = DIM_DAMPING, .what = "coefficient"};
     const struct wrong dampings[] = {{"3 N/m/s", "wrong-dimension", 3, "`N*s/m`"},
-                                     {"3 N/m", "wrong-dimension", 3, "`coefficient` needs damping [N*s/m]"}};
+                                     {"3 N/m", "wrong-dimension", 3,
+                                      "`coefficient` needs damping or flow of mass [N*s/m]"}};
     CHECK(dampings, &damping);
     const struct expr_want gravity = {.dim = DIM_ACCELERATION, .what = "gravity"};
     const struct wrong gravities[] = {{"1 g", "wrong-dimension", 3, "9.80665 m/s^2"}};

@@ -302,6 +302,34 @@ static void texts_that_are_too_long_together(void **unused)
     fbd_errors_free(errors);
 }
 
+/* The spools and seeds of the gallery, by the closed forms in their first lines. */
+static void models_of_the_gallery_go_as_they_say(void **unused)
+{
+    struct checks checks = {0};
+    (void)unused;
+    for (double alpha = 0; alpha <= 90; alpha += 15) {
+        char setting[40];
+        snprintf(setting, sizeof setting, "alpha=%g deg", alpha);
+        struct trial trial = trial_open("couplings/spool_pulled.yaml", SET(setting));
+        trial_run(&trial, NULL);
+        double a = 4 * (cos(alpha * acos(-1) / 180) - 0.5) / 1.5;
+        check_close(&checks, "x", get(&trial, "spool.x"), a * 2, 1e-10);
+        check_close(&checks, "theta", get(&trial, "spool.theta"), -a * 2 / 0.1, 1e-9);
+        trial_close(&trial);
+    }
+    for (double c = 0.01; c < 0.2; c += 0.03) {
+        char setting[40];
+        snprintf(setting, sizeof setting, "c=%g N*s/m", c);
+        struct trial trial = trial_open("plane/drift_in_wind.yaml", SET(setting));
+        trial_run(&trial, NULL);
+        double T = 0.02 / c, way = 3 - T * (1 - exp(-3 / T));
+        check_close(&checks, "drifts", get(&trial, "seed.x"), 3 * way, 1e-9);
+        check_close(&checks, "falls", get(&trial, "seed.y"), -9.81 * T * way, 1e-9);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -312,6 +340,7 @@ int main(void)
         cmocka_unit_test(an_eccentric_wheel_rolls),
         cmocka_unit_test(an_eccentric_wheel_leaves_its_floor),
         cmocka_unit_test(texts_that_are_too_long_together),
+        cmocka_unit_test(models_of_the_gallery_go_as_they_say),
     };
     gsl_set_error_handler_off();
     return cmocka_run_group_tests(tests, NULL, NULL);

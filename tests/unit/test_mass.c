@@ -34,6 +34,7 @@ static void a_rocket(void **unused)
         check_close(&checks, "v", get(&trial, "r.v"), v1 - g * rest, same * size);
         check_close(&checks, "x", get(&trial, "r.x"), x1 + v1 * rest - g * rest * rest / 2,
                     same * size * (T + rest));
+        check_close(&checks, "m at the end", get(&trial, "r.m"), m1, 4e-16 * m1);
         check_close(&checks, "burn-out", trial_event(&trial, FBD_EVENT_SWITCH, "mass", 0), T, same * T);
         check_energy(&checks, &trial);
         trial_close(&trial);
@@ -49,7 +50,10 @@ static void a_chain_out_of_a_heap(void **unused)
     options.tolerance = 1e-12;
     struct trial trial = trial_open("kinetics/falling_chain.yaml", NULL);
     trial_run(&trial, &options);
-    double x = get(&trial, "chain.x"), x0 = 0.1;
+    double x = get(&trial, "chain.x"), x0 = 0.1, none;
+    check_close(&checks, "lambda x", get(&trial, "chain.m"), 2 * x, 1e-15 * x);
+    check_that(&checks, "no other", !fbd_state_get(trial.state, "chai.m", &none));
+    check_that(&checks, "of no body", !fbd_state_get(trial.state, "m", &none));
     check_close(&checks, "v", get(&trial, "chain.v"), sqrt(2 * g / 3 * (x - x0 * x0 * x0 / x / x)), same);
     check_energy(&checks, &trial);
     trial_close(&trial);

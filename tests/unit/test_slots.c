@@ -152,6 +152,104 @@ static void the_end_of_a_slot_ends_the_run(void **unused)
     checks_end(&checks);
 }
 
+/* Thrown over a straight slot, in the frame of which its place is s = s_0 + v t + a t^2/2, h = h_0 + w t + b t^2/2. */
+struct throw
+{
+    double turn, from, to, s[3], h[3];
+};
+
+static double at_time(const double coefficients[3], double t)
+{
+    return coefficients[0] + t * (coefficients[1] + t * coefficients[2] / 2);
+}
+
+static struct throw random_throw(struct random_numbers * numbers)
+{
+    struct throw throw = {.turn = random_between(numbers, -1.3, 1.3),
+                          .from = random_between(numbers, -2, -0.2),
+                          .to = random_between(numbers, 0.2, 2)};
+    throw.s[0] = random_between(numbers, -3, 3);
+    throw.s[1] = random_between(numbers, -6, 6);
+    throw.s[2] = -g * sin(throw.turn);
+    throw.h[0] = random_between(numbers, 0.05, 3);
+    throw.h[1] = random_between(numbers, -3, 3);
+    throw.h[2] = -g * cos(throw.turn);
+    return throw;
+}
+
+static struct trial parse_throw(const struct throw *throw, double until)
+{
+    char text[900];
+    double c = cos(throw->turn), s = sin(throw->turn);
+    snprintf(text, sizeof text,
+             "fbd: 1\nground: {points: {A: [0, 0]}}\n"
+             "bodies: {bead: {mass: 1, motion: particle, initial: {x: %.17g, y: %.17g, vx: %.17g, vy: "
+             "%.17g}, forces: "
+             "[gravity]}}\n"
+             "couplings: [slot: {name: deck, between: [bead, ground.A], along: %.17g rad, from: %.17g, to: "
+             "%.17g, side: "
+             "left}]\nsimulate: {until: %.17g}\n",
+             c * throw->s[0] - s * throw->h[0], s * throw->s[0] + c * throw->h[0],
+             c * throw->s[1] - s * throw->h[1], s * throw->s[1] + c * throw->h[1], throw->turn, throw->from,
+             throw->to, until);
+    return trial_parse(text);
+}
+
+/* The first time after `t` at which s is at an end, coming from outside; INFINITY without. */
+static double comes_within(const struct throw *throw, double t)
+{
+    double first = INFINITY;
+    for (int end = 0; end < 2; end++) {
+        double way = end ? 1 : -1, c = throw->s[0] - (end ? throw->to : throw->from), b = throw->s[1],
+               a = throw->s[2] / 2, root = b * b - 4 * a * c;
+        for (int k = -1; root > 0 && k <= 1; k += 2) {
+            double when = (-b + k * sqrt(root)) / (2 * a);
+            if (when > t && when < first && way * (b + 2 * a * when) < 0) first = when;
+        }
+    }
+    return first;
+}
+
+/* In the air it passes the ends, and lands where the slot is. From behind it does not come back. */
+static void what_flies_passes_the_end_of_its_slot(void **unused)
+{
+    enum { throws = 300 };
+    const double until = 2;
+    struct checks checks = {0};
+    struct random_numbers numbers = {19005};
+    int passed = 0, landed = 0, behind = 0;
+    (void)unused;
+    for (int k = 0; k < throws && !checks.failed; k++) {
+        struct throw throw = random_throw(&numbers);
+        struct trial trial = parse_throw(&throw, until);
+        double w = throw.h[1], b = throw.h[2];
+        double down = (-w - sqrt(w * w - 2 * b * throw.h[0])) / b, s = at_time(throw.s, down);
+        bool lands = down < until && s > throw.from && s < throw.to;
+        double back = comes_within(&throw, down);
+        trial_start(&trial, NULL);
+        double end = to_its_end(&trial), landing = trial_event(&trial, FBD_EVENT_LANDING, NULL, 0);
+        if (lands) {
+            check_close(&checks, "landing", landing, down, 1e-8);
+            landed++;
+        } else if (back < until) {
+            check_that(&checks, "broken", trial.outcome == FBD_BROKEN);
+            check_close(&checks, "when", end, back, 1e-8);
+            behind++;
+        } else {
+            double c = cos(throw.turn), sine = sin(throw.turn), h = at_time(throw.h, until);
+            s = at_time(throw.s, until);
+            check_that(&checks, "done", trial.outcome == FBD_DONE);
+            check_close(&checks, "x", trial_get(&trial, "bead.x"), c * s - sine * h, 1e-9);
+            check_close(&checks, "y", trial_get(&trial, "bead.y"), sine * s + c * h, 1e-9);
+            passed++;
+        }
+        trial_close(&trial);
+    }
+    check_that(&checks, "of each kind", passed > 20 && landed > 20 && behind > 5);
+    printf("# %d passed, %d landed, %d came back behind\n", passed, landed, behind);
+    checks_end(&checks);
+}
+
 /* ---- against tracks */
 
 struct wire {
@@ -301,6 +399,7 @@ int main(void)
         cmocka_unit_test(a_fast_cam_throws_its_follower),
         cmocka_unit_test(a_roller_keeps_its_distance),
         cmocka_unit_test(the_end_of_a_slot_ends_the_run),
+        cmocka_unit_test(what_flies_passes_the_end_of_its_slot),
         cmocka_unit_test(a_slot_is_a_track),
         cmocka_unit_test(a_slot_that_rubs_is_a_track_that_rubs),
     };

@@ -438,6 +438,33 @@ static void states_at_rest(void **unused)
     checks_end(&checks);
 }
 
+/* omega = omega_s + (omega_s l2 exp(l1 t) - omega_s l1 exp(l2 t))/(l1 - l2), with l^2 + (R/L + b/J) l + (R b + k^2)/(L J) = 0 and
+ * omega_s = k U/(R b + k^2): from rest, without a current. */
+static void a_motor_spins_its_flywheel_up(void **unused)
+{
+    struct checks checks = {0};
+    struct random_numbers numbers = {19};
+    (void)unused;
+    for (int i = 0; i < 20; i++) {
+        const double R = 2, k = 0.3, J = 0.1, b = 0.02, t = 3;
+        const double U = random_between(&numbers, 1, 24), L = random_between(&numbers, 0.05, 1);
+        char voltage[40], inductance[40];
+        snprintf(voltage, sizeof voltage, "U=%.17g V", U);
+        snprintf(inductance, sizeof inductance, "L=%.17g H", L);
+        struct trial trial = trial_open("control/dc_motor.yaml", SET(voltage, inductance));
+        trial_run(&trial, NULL);
+        const double p = (R / L + b / J) / 2, q = (R * b + k * k) / (L * J), end = k * U / (R * b + k * k);
+        const complex double root = csqrt(p * p - q), l1 = -p + root, l2 = -p - root;
+        const complex double omega = end * (1 + (l2 * cexp(l1 * t) - l1 * cexp(l2 * t)) / (l1 - l2));
+        const complex double slope = end * l1 * l2 * (cexp(l1 * t) - cexp(l2 * t)) / (l1 - l2);
+        check_close(&checks, "omega", get(&trial, "rotor.omega"), creal(omega), 1e-8 * end);
+        check_close(&checks, "current", get(&trial, "states.current"), creal(J * slope + b * omega) / k,
+                    1e-8 * U);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -454,6 +481,7 @@ int main(void)
         cmocka_unit_test(states_have_names_and_units),
         cmocka_unit_test(a_run_again_is_the_same),
         cmocka_unit_test(states_at_rest),
+        cmocka_unit_test(a_motor_spins_its_flywheel_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

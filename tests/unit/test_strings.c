@@ -325,6 +325,50 @@ static void methods_agree_on_a_rope_from_drum_to_drum(void **unused)
     checks_end(&checks);
 }
 
+/* Atwood's machine whose lighter weight is drawn up past its pulley, on a line that touches the rim. At the height y over
+ * the axle the rope on its side is L = pi R - y below it (y < 0), and R (pi - 2 arctan(y/R)) + y above, the rope being straight
+ * from the rim to the weight. By the energy, with J = I/R^2, v^2 (m2 + (m1 + J) L'^2)/2 = m1 g (L(y0) - L(y)) - m2 g (y - y0); at
+ * y = R the rope is across its way, L' = 0, and the pulley turns back, with all momentum in m2. */
+static double rope_beside(double R, double y, double *slope)
+{
+    *slope = y < 0 ? -1 : 1 - 2 / (1 + y * y / (R * R));
+    return y < 0 ? pi * R - y : R * (pi - 2 * atan(y / R)) + y;
+}
+
+static double speed_beside(double m1, double y)
+{
+    const double m2 = 2, R = 0.1, J = 2, from = -4;
+    double slope, L0 = rope_beside(R, from, &slope), way = rope_beside(R, y, &slope);
+    return sqrt(2 * g * (m1 * (L0 - way) - m2 * (y - from)) / (m2 + (m1 + J) * slope * slope));
+}
+
+static void a_weight_is_drawn_past_its_pulley(void **unused)
+{
+    (void)unused;
+    enum { parts = 2000 };
+    const double m2 = 2, R = 0.1, J = 2;
+    struct checks checks = {0};
+    for (double m1 = 2.5; m1 < 9; m1 += 0.5) {
+        char setting[40];
+        snprintf(setting, sizeof setting, "m_1=%g kg", m1);
+        struct trial trial = trial_open("couplings/atwood.yaml", SET(setting));
+        double h = R / parts, t = sqrt(8 * (m1 + m2 + J) / ((m1 - m2) * g));
+        for (int i = 0; i < parts; i++)
+            t += h / 6 *
+                 (1 / speed_beside(m1, i * h) + 4 / speed_beside(m1, (i + 0.5) * h) +
+                  1 / speed_beside(m1, (i + 1) * h));
+        fbd_options options = FBD_OPTIONS_DEFAULT;
+        options.until = t;
+        trial_run(&trial, &options);
+        check_that(&checks, "done", trial.outcome == FBD_DONE);
+        check_close(&checks, "it has gone up", -trial_get(&trial, "m2.x"), 4 + R, 1e-8);
+        check_close(&checks, "v", -trial_get(&trial, "m2.v"), speed_beside(m1, R), 1e-7);
+        check_close(&checks, "v of m1", trial_get(&trial, "m1.v"), 0, 1e-6);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -338,6 +382,7 @@ int main(void)
         cmocka_unit_test(a_load_falls_into_its_cable),
         cmocka_unit_test(a_winch_that_jerks_ends_the_run),
         cmocka_unit_test(methods_agree_on_a_rope_from_drum_to_drum),
+        cmocka_unit_test(a_weight_is_drawn_past_its_pulley),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

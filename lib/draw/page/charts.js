@@ -10,36 +10,43 @@ function palette(i) {
   return getComputedStyle(document.documentElement).getPropertyValue(`--curve-${i % 8}`).trim();
 }
 
-function byUnit(title, columns) {
+// Angles of coordinates and their rates as they are shown: in degrees where the page was asked for in these.
+function inUnit(text, angles) {
+  const turns = inDegrees && angles && /^rad(\/s)?$/.test(text);
+  return { unit: turns ? text.replace("rad", "deg") : text, size: turns ? Math.PI / 180 : 1 };
+}
+
+function byUnit(title, columns, angles = false) {
   const groups = new Map();
   for (const c of columns) {
     const key = run.columns[c].u;
     groups.set(key, (groups.get(key) || []).concat(c));
   }
-  return [...groups].map(([key, members]) => ({ title, unit: key, columns: members }));
+  return [...groups].map(([key, members]) => ({ title, ...inUnit(key, angles), columns: members }));
 }
 
 // Which plots there are for the chosen bodies.
 function chartSpecs(bodies) {
   const all = (member) => bodies.reduce((list, body) => list.concat(body[member]), []);
   const [kinetic, potential, work, residual] = run.energy;
-  let specs = [...byUnit("Coordinates", all("coordinates")), ...byUnit("Velocities", all("rates"))];
+  let specs = [...byUnit("Coordinates", all("coordinates"), true), ...byUnit("Velocities", all("rates"), true)];
   for (const body of bodies) {
     const columns = body.arrows.reduce((list, arrow) => list.concat(arrow.force), []);
     specs = specs.concat(byUnit("Forces and moments on " + body.name, columns));
   }
   specs = specs.concat(byUnit("States", run.states));
-  specs.push({ title: "Energy", unit: run.units.energy, columns: [kinetic, potential, work] });
-  specs.push({ title: "Energy residual", unit: run.units.energy, columns: [residual] });
+  specs.push({ title: "Energy", unit: run.units.energy, size: 1, columns: [kinetic, potential, work] });
+  specs.push({ title: "Energy residual", unit: run.units.energy, size: 1, columns: [residual] });
   return specs;
 }
 
 // The rows of a window; when they are more than can be seen, the least and greatest values of pieces of it.
-function chartRows(columns, from, to) {
+// `size`: of the unit that they are shown in.
+function chartRows(columns, from, to, size = 1) {
   const most = 6000, pieces = 700, begins = Math.max(rowAt(from) - 1, 0), last = Math.min(rowAt(to) + 1, run.rows - 1);
   const rows = [];
   if (last - begins <= most && !(run.thinned && last - begins > most / 4)) {
-    for (let i = begins; i <= last; i++) rows.push([times[i], ...columns.map((c) => cell(c, i))]);
+    for (let i = begins; i <= last; i++) rows.push([times[i], ...columns.map((c) => cell(c, i) / size)]);
     return rows;
   }
   const width = (to - from) / pieces;
@@ -52,8 +59,8 @@ function chartRows(columns, from, to) {
       return low <= high ? [low, high] : [valueAt(c, start, rowAt(start)), valueAt(c, end, rowAt(end))];
     });
     const first = columns.map((c) => (valueAt(c, start, rowAt(start)) <= valueAt(c, end, rowAt(end)) ? 0 : 1));
-    rows.push([start + width / 4, ...limits.map((limit, i) => limit[first[i]])]);
-    rows.push([start + width * 3 / 4, ...limits.map((limit, i) => limit[1 - first[i]])]);
+    rows.push([start + width / 4, ...limits.map((limit, i) => limit[first[i]] / size)]);
+    rows.push([start + width * 3 / 4, ...limits.map((limit, i) => limit[1 - first[i]] / size)]);
   }
   return rows;
 }
@@ -88,7 +95,7 @@ function setWindow(from, to) {
 function redrawChart(chart) {
   const { from, to } = plotWindow;
   chart.stale = false;
-  chart.graph.updateOptions({ file: chartRows(chart.spec.columns, from, to), dateWindow: [from, to], valueRange: null });
+  chart.graph.updateOptions({ file: chartRows(chart.spec.columns, from, to, chart.spec.size), dateWindow: [from, to], valueRange: null });
 }
 
 // Those out of sight when they come into it.
@@ -132,7 +139,7 @@ function chartsAreOthers() {
 // What a plot of zeros says instead: nothing but rounding in it, or, of the residual, less than a billionth of the energies.
 function emptiness(spec) {
   const most = Math.max(...spec.columns.map(sizeOf)), energies = Math.max(...run.energy.slice(0, 3).map(sizeOf));
-  if (spec.columns.every((c) => sizeOf(c) <= roundingOf(spec.unit))) return "zero throughout";
+  if (spec.columns.every((c) => sizeOf(c) <= roundingOf(run.columns[c].u))) return "zero throughout";
   const residual = spec.columns.length === 1 && spec.columns[0] === run.energy[3];
   return residual && most < 1e-9 * energies ? `at most ${show(most, 2)} ${unit(spec.unit)}, ${show(most / energies, 1)} of the energies` : "";
 }
@@ -155,7 +162,7 @@ function legendItem(chart, c, i) {
 
 function makeGraph(chart) {
   const { spec, holder } = chart;
-  chart.graph = new Dygraph(holder, chartRows(spec.columns, plotWindow.from, plotWindow.to), {
+  chart.graph = new Dygraph(holder, chartRows(spec.columns, plotWindow.from, plotWindow.to, spec.size), {
     labels: ["t", ...spec.columns.map((c) => run.columns[c].n)],
     colors: spec.columns.map((c, i) => palette(i)),
     visibility: chart.hidden.map((hidden) => !hidden),
@@ -255,6 +262,6 @@ function showValues(t) {
   const row = rowAt(t);
   for (const { spec, values, unseen } of charts) {
     if (unseen) continue;
-    spec.columns.forEach((c, i) => write(values[i], `${quantity(run.columns[c].n)} = ${show(readAt(c, t, row))} ${unit(spec.unit)}`));
+    spec.columns.forEach((c, i) => write(values[i], `${quantity(run.columns[c].n)} = ${show(readAt(c, t, row) / spec.size)} ${unit(spec.unit)}`));
   }
 }

@@ -2,7 +2,7 @@
 
 // The run as columns of numbers over rows, and their values between the rows. A live page shows one run after another.
 
-let run, doubles, floats, envelope, times;
+let run, doubles, floats, envelope, times, inDegrees = false;
 
 function decode(base64) {
   const text = atob(base64);
@@ -14,6 +14,7 @@ function decode(base64) {
 // `data` (page_data.c) is what the page shows from now on.
 function takeRun(data) {
   run = data;
+  inDegrees = inDegrees || data.angles === "deg"; // the first run of a live page says it for all
   run.units.speed = `${run.units.length}/s`;
   doubles = new Float64Array(decode(run.doubles));
   floats = new Float32Array(decode(run.floats));
