@@ -8,6 +8,7 @@
 #include "dynamics/own.h"
 #include "dynamics/tree.h"
 #include "dynamics/tree_bare.h"
+#include "dynamics/tree_loop.h"
 #include "dynamics/tree_short.h"
 
 struct row {
@@ -38,6 +39,8 @@ struct rates {
     struct fbd_state *state;
     enum rates_kind kind;
     int count;
+    struct tree_loop loop;
+    double along[3]; /* what acts along its links, where that is constant */
     struct row rows[];
 };
 
@@ -246,6 +249,29 @@ static int three_pivots_row(double t, const double y[], double dydt[], void *par
     return 0;
 }
 
+/* As the tree would have it, to rounding, and by it near singular positions. */
+static int loop_row(double t, const double y[], double dydt[], void *params)
+{
+    const struct row *row = params;
+    if (!tree_loop_rates(&row->all->loop, row->all->along, y, y + 3, dydt + 3))
+        return whole_row(t, y, dydt, params);
+    for (int i = 0; i < 3; i++) dydt[i] = y[3 + i];
+    return 0;
+}
+
+static int driven_loop_row(double t, const double y[], double dydt[], void *params)
+{
+    const struct row *row = params;
+    const struct fbd_state *state = row->all->state;
+    struct instant at = {t, y, state->branch, state->slip, state->pull, state->tree, state->extended, NULL};
+    double f[3];
+    joint_forces(state->model, &at, state->slots, dydt + 3);
+    tree_loop_forces(&row->all->loop, &at, state->slots, f);
+    if (!tree_loop_rates(&row->all->loop, f, y, y + 3, dydt + 3)) return whole_row(t, y, dydt, params);
+    for (int i = 0; i < 3; i++) dydt[i] = y[3 + i];
+    return 0;
+}
+
 /* The states of the file's own. */
 static int own_row(double t, const double y[], double dydt[], void *params)
 {
@@ -422,6 +448,19 @@ static struct row row_of_bare_tree(const struct rates *rates)
     return row;
 }
 
+static struct row row_of_loop(struct rates *rates)
+{
+    struct fbd_state *state = rates->state;
+    const struct fbd_model *model = state->model;
+    const struct instant at = state_instant(state);
+    double a[3];
+    joint_forces(model, &at, state->slots, a);
+    tree_loop_forces(&rates->loop, &at, state->slots, rates->along);
+    return (struct row){.function = tree_loop_is_steady(model) ? loop_row : driven_loop_row,
+                        .all = rates,
+                        .links = &model->tree->links[1]};
+}
+
 void rates_bind(struct rates *rates)
 {
     const struct fbd_model *model = rates->state->model;
@@ -433,6 +472,8 @@ void rates_bind(struct rates *rates)
     bool free = rates->kind == rates_by_rows && !state_sliding(rates->state);
     if (free && tree_is_bare(model)) {
         rates->rows[rates->count++] = row_of_bare_tree(rates);
+    } else if (free && tree_loop_find(model, &rates->loop)) {
+        rates->rows[rates->count++] = row_of_loop(rates);
     } else if (model->tree || model->absolute_count > 0 ||
                state_sliding(rates->state)) { /* one solution for all */
         rates->rows[rates->count++] = (struct row){.function = whole_row, .all = rates};

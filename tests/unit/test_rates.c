@@ -13,6 +13,7 @@
 #include "dynamics/modes.h"
 #include "dynamics/rates.h"
 #include "dynamics/tree_bare.h"
+#include "dynamics/tree_loop.h"
 #include "random_numbers.h"
 #include "scenes.h"
 
@@ -155,6 +156,90 @@ static void short_bare_chains_are_the_general_path_to_rounding(void **unused)
     check_chains(2, 1000);
 }
 
+/* ---- a loop of three links */
+
+/* A link on `motion`, of any mass and shape, under gravity and now and then under what else may act on it. */
+static void add_link(struct random_numbers *numbers, char name, const char *motion, bool slides, FILE *out)
+{
+    fprintf(out, "  %c:\n    mass: %.17g\n    inertia: %.17g\n", name, random_between(numbers, 0.1, 3),
+            random_between(numbers, 0.05, 0.5));
+    fprintf(out, "    center: [%.17g, %.17g]\n    points: {o: [0, 0], p: [%.17g, %.17g]}\n",
+            random_between(numbers, -0.3, 0.5), random_between(numbers, -0.3, 0.3),
+            random_between(numbers, 0.4, 1.5), random_between(numbers, -0.2, 0.2));
+    fprintf(out, "    motion: %s\n    forces:\n      - gravity\n", motion);
+    fprintf(out, "      - applied: {name: f, value: %.17g, angle: 1 rad, at: p}\n",
+            random_between(numbers, -3, 3));
+    if (slides && random_bits(numbers) % 2) fprintf(out, "      - applied: {name: push, value: 3}\n");
+    if (slides && random_bits(numbers) % 2)
+        fprintf(out, "      - applied: {name: gas, value: \"2*sin(3*t) + 3[N/m]*x\"}\n");
+    if (slides && random_bits(numbers) % 2) fprintf(out, "      - spring: {stiffness: 4}\n");
+    if (slides && random_bits(numbers) % 2) fprintf(out, "      - normal: {two_sided: true}\n");
+    if (slides) return;
+    fprintf(out, "    moments:\n      - applied: {name: couple, value: %.17g}\n",
+            random_between(numbers, -1, 1));
+    if (random_bits(numbers) % 2) fprintf(out, "      - damper: {coefficient: 0.3}\n");
+    if (random_bits(numbers) % 2)
+        fprintf(out, "      - applied: {name: drive, value: \"2*sin(3*t) - 1[N*m*s]*omega\"}\n");
+}
+
+/* Two links in a chain and one by itself, or all three in one: slider-cranks, four-bars and elbows. */
+static void write_loop(struct random_numbers *numbers, FILE *out)
+{
+    static const char slide[] = "{slide: {along: 20 deg}}", pivot[] = "{pivot: {at: [0.2, 0.1]}}",
+                      on_a[] = "{pivot: {on: a, at: p}}", on_b[] = "{pivot: {on: b, at: p}}";
+    bool first = random_bits(numbers) % 2, last = random_bits(numbers) % 2,
+         alone_first = random_bits(numbers) % 2;
+    int shape = (int)(random_bits(numbers) % 3);
+    fprintf(out, "fbd: 1\nbodies:\n");
+    if (shape > 0 && alone_first) add_link(numbers, 'c', last ? slide : pivot, last, out);
+    add_link(numbers, 'a', first ? slide : pivot, first, out);
+    add_link(numbers, 'b', on_a, false, out);
+    if (shape > 0 && !alone_first) add_link(numbers, 'c', last ? slide : pivot, last, out);
+    if (shape == 0) add_link(numbers, 'c', on_b, false, out);
+    if (random_bits(numbers) % 2)
+        fprintf(out, "  tip: {shape: point, mass: 0.7, motion: {weld: {on: b, at: p}}, forces: [gravity]}\n");
+    fprintf(out, "ground: {points: {E: [1, 0]}}\ncouplings:\n  - pin: {name: closure, between: [%s]}\n",
+            shape == 0   ? "c.p, ground.E"
+            : shape == 1 ? "b.p, c.o"
+                         : "c.p, b.p");
+    fprintf(out, "simulate: {until: 1}\n");
+}
+
+static int count_by_loop(const fbd_model *model, struct random_numbers *numbers)
+{
+    struct tree_loop loop;
+    int count = 0;
+    assert_true(tree_loop_find(model, &loop));
+    for (int point = 0; point < points; point++) {
+        double y[6], a[3], f[3] = {0, 0, 0};
+        for (int i = 0; i < 6; i++) y[i] = random_between(numbers, -2, 2);
+        count += tree_loop_rates(&loop, f, y, y + 3, a);
+    }
+    return count;
+}
+
+static void loops_are_the_general_path_to_rounding(void **unused)
+{
+    (void)unused;
+    struct random_numbers numbers = {seed};
+    int by_loop = 0, draws = 200;
+    for (int draw = 0; draw < draws; draw++) {
+        char *text;
+        size_t length;
+        FILE *out = open_memstream(&text, &length);
+        assert_non_null(out);
+        write_loop(&numbers, out);
+        assert_int_equal(fclose(out), 0);
+        struct named_scene scene = {text, text};
+        fbd_model *model = model_from(text);
+        by_loop += count_by_loop(model, &numbers);
+        fbd_model_free(model);
+        check_scene(&scene, &numbers, 1e4);
+        free(text);
+    }
+    assert_true(by_loop > draws * points / 2); /* the others are next to singular positions */
+}
+
 /* ---- which rows */
 
 #define BODY(motion, rest)                                                                                   \
@@ -233,6 +318,7 @@ int main(void)
         cmocka_unit_test(rows_give_the_bits_of_the_general_path),
         cmocka_unit_test(long_bare_chains_give_the_bits_of_the_general_path),
         cmocka_unit_test(short_bare_chains_are_the_general_path_to_rounding),
+        cmocka_unit_test(loops_are_the_general_path_to_rounding),
         cmocka_unit_test(every_scene_gets_the_least_row_that_does),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
