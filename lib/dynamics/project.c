@@ -110,7 +110,7 @@ struct misfit state_misfit(struct fbd_state *state)
 {
     if (!has_ties(state->model)) return (struct misfit){0, 0, -1, -1};
     struct place place = place_of(state, false);
-    prepare(&place);
+    look(&place);
     return misfit_of(&place);
 }
 
