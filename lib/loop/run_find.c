@@ -23,11 +23,13 @@ static double instant_at(double t)
     return 64 * DBL_EPSILON * fabs(t);
 }
 
-/* The state at t within the step, as the step would end there: by a step of its own, back on the couplings. What is off
- * them by the error of a long step moves what is next to touch, by much where a body lies almost flat. */
+/* The state at t within the step, as the step would end there: by a step of its own, where drives and surfaces lead, and
+ * back on the couplings. What is off them by the error of a long step moves what is next to touch, by much where a
+ * body lies almost flat. */
 static bool end_at(struct run *run, double t)
 {
     if (switcher_partial(run->stepper, moment_at(t), run->work.y, run->work.f) != GSL_SUCCESS) return false;
+    run_lead(run, t, run->work.y);
     run_close_within(run, t, run->work.y);
     return true;
 }
