@@ -325,6 +325,8 @@ struct one_sided one_sided_at(const struct fbd_model *model, const struct instan
     }
     length += reach;
     state.slack = 1e-12 * size;
+    /* What hangs or stands still has the rates of what swings or falls over that far, in its rounding. */
+    if (length > 0) state.turning = fmax(state.turning, sqrt(vec_norm(model->scene->gravity) / length));
     state.rounding = 16 * DBL_EPSILON * length;
     state.near = 1e-9 * length;
     /* Where all of it stands still there is the rounding of what it is joined to, by whatever way, and the
