@@ -26,7 +26,9 @@ struct row {
     double x_and_y[2][3]; /* particle: c0, kq, kv along x and y, */
     bool sloped;          /* which are not all constant */
     const struct body_terms *terms;
-    double scale; /* of a single formula of one part */
+    const struct link_term *springs; /* springs alone: those of a particle, */
+    int spring_count, driven;        /* and along which axis the formula acts */
+    double scale;                    /* of a single formula of one part */
     struct expr_part part;
     int u; /* its variable in y, -1 for t */
     bool one_part;
@@ -111,6 +113,17 @@ static int sine_row(double t, const double y[], double dydt[], void *params)
     return 0;
 }
 
+/* A pendulum, perhaps with a damper. */
+static int swing_row(double t, const double y[], double dydt[], void *params)
+{
+    const struct row *row = params;
+    double q = y[row->q], v = y[row->v];
+    (void)t;
+    dydt[row->q] = v;
+    dydt[row->v] = row->inverse * (row->s * sin(q) - row->kv * v);
+    return 0;
+}
+
 static int part_row(double t, const double y[], double dydt[], void *params)
 {
     const struct row *row = params;
@@ -186,6 +199,35 @@ static int particle_row(double t, const double y[], double dydt[], void *params)
     struct vec f = pulls(&row->all->state->model->plan, row->terms, p, v);
     dydt[row->q] = v.x;
     dydt[row->q + 1] = v.y;
+    dydt[row->v] = row->inverse * (x_sum + f.x);
+    dydt[row->v + 1] = row->inverse * (y_sum + f.y);
+    return 0;
+}
+
+/* A particle between springs without dampers on its own point, pushed along one axis or not at all: as particle_row,
+ * which does it where the square of a length would not have all digits. */
+static int springs_row(double t, const double y[], double dydt[], void *params)
+{
+    const double least = 1e-280, most = 1e280;
+    const struct row *row = params;
+    double drive = row->one_part ? row->scale * part_value(&row->part, row->u < 0 ? t : y[row->u]) : 0;
+    double x_sum = row->x_and_y[0][0], y_sum = row->x_and_y[1][0];
+    struct vec p = {y[row->q], y[row->q + 1]}, f = {0, 0};
+    double shortest = 1, longest = 1; /* squares */
+    for (const struct link_term *link = row->springs, *end = link + row->spring_count; link < end; link++) {
+        struct vec d = vec_sub(p, link->anchor);
+        double square = d.x * d.x + d.y * d.y, length = sqrt(square);
+        shortest = square < shortest ? square : shortest;
+        longest = square > longest ? square : longest;
+        f = vec_add(f, vec_scale(-(link->stiffness * (length - link->free_length)) / length, d));
+    }
+    if (!(shortest > least && longest < most)) return particle_row(t, y, dydt, params);
+    if (row->driven == 0)
+        x_sum += drive;
+    else
+        y_sum += drive;
+    dydt[row->q] = y[row->v];
+    dydt[row->q + 1] = y[row->v + 1];
     dydt[row->v] = row->inverse * (x_sum + f.x);
     dydt[row->v + 1] = row->inverse * (y_sum + f.y);
     return 0;
@@ -353,6 +395,9 @@ static void choose(struct row *row)
     take_part(row);
     if (row->formula_count > 0)
         row->function = row->one_part && row->s == 0 && row->c == 0 ? part_row : formulas_row;
+    else if (row->c == 0 && row->s != 0 && row->c0 == 0 && row->kq == 0 && row->square == 0 &&
+             row->friction == 0)
+        row->function = swing_row;
     else if (row->s != 0 || row->c != 0)
         row->function = sine_row;
     else if (row->kq != 0 || row->kv != 0 || row->square != 0)
@@ -387,6 +432,18 @@ static bool is_pulled_particle(const struct model_body *body, const struct body_
     return body->kind == motion_particle && terms->forces.count == 0 && terms->potentials.count == 0;
 }
 
+/* Is there nothing but springs without dampers on its own point, and one part of a formula? */
+static bool has_springs_alone(const struct plan *plan, const struct row *row)
+{
+    const struct link_term *link = plan->links + row->terms->links.first,
+                           *end = link + row->terms->links.count;
+    if (row->sloped || row->terms->drags.count > 0 || (row->formula_count > 0 && !row->one_part))
+        return false;
+    for (; link < end; link++)
+        if (link->damping != 0 || link->point.x != 0 || link->point.y != 0) return false;
+    return true;
+}
+
 static struct row row_of_particle(const struct rates *rates, int b)
 {
     const struct fbd_model *model = rates->state->model;
@@ -409,6 +466,12 @@ static struct row row_of_particle(const struct rates *rates, int b)
         row.sloped |= affine[1] != 0 || affine[2] != 0;
     }
     take_part(&row);
+    if (has_springs_alone(plan, &row)) {
+        row.function = springs_row;
+        row.springs = plan->links + terms->links.first;
+        row.spring_count = terms->links.count;
+        row.driven = row.one_part ? row.formulas->slot - first : 0;
+    }
     return row;
 }
 
@@ -517,16 +580,16 @@ struct rates_census rates_census(const struct rates *rates)
     struct rates_census census = {0};
     for (int i = 0; i < rates->count; i++) {
         rates_function *function = rates->rows[i].function;
-        int *count = function == own_row        ? &census.own
-                     : function == steady_row   ? &census.steady
-                     : function == held_row     ? &census.held
-                     : function == affine_row   ? &census.affine
-                     : function == sine_row     ? &census.sine
-                     : function == part_row     ? &census.parts
-                     : function == formulas_row ? &census.formulas
-                     : function == particle_row ? &census.particles
-                     : rates->rows[i].links     ? &census.bare
-                                                : &census.bodies;
+        int *count = function == own_row                                   ? &census.own
+                     : function == steady_row                              ? &census.steady
+                     : function == held_row                                ? &census.held
+                     : function == affine_row                              ? &census.affine
+                     : function == sine_row || function == swing_row       ? &census.sine
+                     : function == part_row                                ? &census.parts
+                     : function == formulas_row                            ? &census.formulas
+                     : function == particle_row || function == springs_row ? &census.particles
+                     : rates->rows[i].links                                ? &census.bare
+                                                                           : &census.bodies;
         (*count)++;
     }
     return census;

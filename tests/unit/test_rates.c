@@ -82,6 +82,35 @@ static void rows_give_the_bits_of_the_general_path(void **unused)
     for (size_t i = 0; i < all_scenes_count; i++) check_scene(&all_scenes[i], &numbers, 0);
 }
 
+/* A particle at the ends of its springs, next to them and so far away that squares of lengths are beyond all numbers. */
+static void springs_have_the_bits_of_the_general_path_anywhere(void **unused)
+{
+    static const double places[] = {0, 5e-324, 1e-170, 1e-140, 1, 1e139, 1e141, 1e160};
+    enum { count = sizeof places / sizeof *places };
+    (void)unused;
+    fbd_model *model =
+        model_from("fbd: 1\nbodies:\n  b:\n    mass: 2\n    motion: {particle: {}}\n    forces:\n"
+                   "      - spring: {name: s1, stiffness: 40, to: [0, 0]}\n"
+                   "      - spring: {name: s2, stiffness: 60, free_length: 0.5, to: [1, 0]}\n"
+                   "      - applied: {name: push, value: 3*sin(7*t), angle: 90 deg}\n"
+                   "simulate: {until: 1}\n");
+    struct fbd_state *state = settled(model);
+    struct rates *rows = rates_new(state, rates_by_rows), *general = rates_new(state, rates_general);
+    assert_true(rows && general);
+    for (int i = 0; i < count * count; i++) {
+        double y[4] = {places[i / count], places[i % count], 1, -2}, got[4], want[4];
+        call(rows, 0.3, y, got);
+        call(general, 0.3, y, want);
+        for (int k = 0; k < 4; k++)
+            if (got[k] != want[k] && !(isnan(got[k]) && isnan(want[k])))
+                fail_msg("at %g, %g: %.17g and %.17g", y[0], y[1], got[k], want[k]);
+    }
+    rates_free(rows);
+    rates_free(general);
+    fbd_state_free(state);
+    fbd_model_free(model);
+}
+
 /* Up to three chains of `least` pivots or one more, on the ground or on a slide, with gravity, constant forces, springs,
  * dampers and moments in joints, and what is welded to a link. */
 static void add_chain(struct random_numbers *numbers, int chain, int least, FILE *out)
@@ -316,6 +345,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_give_the_bits_of_the_general_path),
+        cmocka_unit_test(springs_have_the_bits_of_the_general_path_anywhere),
         cmocka_unit_test(long_bare_chains_give_the_bits_of_the_general_path),
         cmocka_unit_test(short_bare_chains_are_the_general_path_to_rounding),
         cmocka_unit_test(loops_are_the_general_path_to_rounding),
