@@ -43,6 +43,7 @@ void run_lead(const struct run *run, double t, double *y)
     double acceleration;
     for (size_t i = 0; i < plan->mode_count; i++) {
         const struct mode *mode = &plan->modes[i];
+        if (run->during->slip[i] != stick) continue; /* drives always stick */
         if (mode->kind == mode_drive) y[mode->coordinate] = formula_value(&mode->position, &at);
         if (leads(run, i)) y[plan->n + mode->coordinate] = friction_surface_speed(mode, &at, &acceleration);
     }
