@@ -185,17 +185,19 @@ static struct row row_of_bare_tree(const struct rates *rates)
     return row;
 }
 
-static struct row row_of_loop(struct rates *rates)
+static struct row row_of_loop(const struct rates *rates)
 {
     struct fbd_state *state = rates->state;
     const struct fbd_model *model = state->model;
     const struct instant at = state_instant(state);
+    struct row row = {.function = tree_loop_is_steady(model) ? loop_row : driven_loop_row,
+                      .all = rates,
+                      .links = &model->tree->links[1],
+                      .loop = &state->tree->loop};
     double a[3];
     joint_forces(model, &at, state->slots, a);
-    tree_loop_forces(&rates->loop, &at, state->slots, rates->along);
-    return (struct row){.function = tree_loop_is_steady(model) ? loop_row : driven_loop_row,
-                        .all = rates,
-                        .links = &model->tree->links[1]};
+    tree_loop_forces(row.loop, &at, state->slots, row.along);
+    return row;
 }
 
 void rates_bind(struct rates *rates)
@@ -209,7 +211,7 @@ void rates_bind(struct rates *rates)
     bool free = rates->kind == rates_by_rows && !state_sliding(rates->state);
     if (free && tree_is_bare(model)) {
         rates->rows[rates->count++] = row_of_bare_tree(rates);
-    } else if (free && tree_loop_find(model, &rates->loop)) {
+    } else if (free && model->tree && rates->state->tree->is_loop) {
         rates->rows[rates->count++] = row_of_loop(rates);
     } else if (model->tree || model->absolute_count > 0 ||
                state_sliding(rates->state)) { /* one solution for all */

@@ -254,8 +254,7 @@ int three_pivots_row(double t, const double y[], double dydt[], void *params)
 int loop_row(double t, const double y[], double dydt[], void *params)
 {
     const struct row *row = params;
-    if (!tree_loop_rates(&row->all->loop, row->all->along, y, y + 3, dydt + 3))
-        return whole_row(t, y, dydt, params);
+    if (!tree_loop_rates(row->loop, row->along, y, y + 3, dydt + 3)) return whole_row(t, y, dydt, params);
     for (int i = 0; i < 3; i++) dydt[i] = y[3 + i];
     return 0;
 }
@@ -267,8 +266,8 @@ int driven_loop_row(double t, const double y[], double dydt[], void *params)
     struct instant at = {t, y, state->branch, state->slip, state->pull, state->tree, state->extended, NULL};
     double f[3];
     joint_forces(state->model, &at, state->slots, dydt + 3);
-    tree_loop_forces(&row->all->loop, &at, state->slots, f);
-    if (!tree_loop_rates(&row->all->loop, f, y, y + 3, dydt + 3)) return whole_row(t, y, dydt, params);
+    tree_loop_forces(row->loop, &at, state->slots, f);
+    if (!tree_loop_rates(row->loop, f, y, y + 3, dydt + 3)) return whole_row(t, y, dydt, params);
     for (int i = 0; i < 3; i++) dydt[i] = y[3 + i];
     return 0;
 }

@@ -33,14 +33,14 @@ struct row {
     struct tree_pole pole;
     const struct tree_link *links;
     const struct tree_bare *bare;
+    const struct tree_loop *loop;
+    double along[3]; /* what acts along the links of the loop, where that is constant */
 };
 
 struct rates {
     struct fbd_state *state;
     enum rates_kind kind;
     int count;
-    struct tree_loop loop;
-    double along[3]; /* what acts along its links, where that is constant */
     struct row rows[];
 };
 

@@ -12,14 +12,16 @@ static struct vec arm_of(const struct tree_link *link, struct vec point)
 }
 
 /* What an end of the pin at `point` of a link adds to the b of all that move it. */
-static void add_end(const struct tree *tree, struct tree_loop_link **of, int link, struct vec point,
-                    double sign)
+static void add_end(const struct tree *tree, struct tree_loop *loop, int link, struct vec point, double sign)
 {
     for (; link > 0; link = tree->links[link].parent) {
-        struct tree_loop_link *own = of[link];
-        own->b = vec_add(own->b, vec_scale(sign, arm_of(&tree->links[link], point)));
+        struct tree_loop_link *own = loop->of[link];
+        struct vec arm = arm_of(&tree->links[link], point), fixed = vec_turn(tree->links[link].tilt, point);
+        own->b = vec_add(own->b, vec_scale(sign, arm));
+        if (tree->links[link].kind == motion_slide) loop->gap = vec_add(loop->gap, vec_scale(sign, fixed));
         point = tree->links[link].at;
     }
+    loop->gap = vec_add(loop->gap, vec_scale(sign, point));
 }
 
 /* Everything in units of sqrt(inertia). */
@@ -93,8 +95,8 @@ static bool close_loop(const struct tree *tree, struct tree_loop *loop)
     int first = loop->of[end[0].link] == from ? 0 : 1, other = 1 - first;
     if (loop->of[end[first].link] != from || loop->of[end[other].link] != (loop->chain ? NULL : to))
         return false;
-    add_end(tree, loop->of, end[first].link, end[first].point, 1);
-    add_end(tree, loop->of, end[other].link, end[other].point, -1);
+    add_end(tree, loop, end[first].link, end[first].point, 1);
+    add_end(tree, loop, end[other].link, end[other].point, -1);
     return true;
 }
 
@@ -142,12 +144,14 @@ bool tree_loop_find(const struct fbd_model *model, struct tree_loop *loop)
         double inertia = set_link(link, last ? NULL : link + 1, mass, force, of[i]);
         if (!(inertia > 0)) return false;
         scale(of[i], inertia);
+        if (of[i]->turns) loop->size += of[i]->inverse_unit * vec_norm(of[i]->b);
         trace += vec_dot(of[i]->b, of[i]->b);
         mass += link->mass;
         force = vec_add(force, link->force);
     }
     for (size_t i = 0; i < tree->following_count; i++)
         add_following(tree, &tree->following[i], of[tree->following[i].link]);
+    loop->size += vec_norm(loop->gap);
     loop->least = 1e-3 * trace * trace;
     return true;
 }
@@ -211,7 +215,8 @@ INLINE double fit(struct vec G, struct vec b1, struct vec b2, double inverse, do
     return K1 * *u1 + K2 * *u2;
 }
 
-/* The motion along N beside accelerations that fit the pin and leave one link as it is, if it may be the first. All sines and cosines first: numbers that stand in registers do not outlive a call. */
+/* The motion along N beside accelerations that fit the pin and leave one link as it is, if it may be the first. All sines
+ * and cosines first: numbers that stand in registers do not outlive a call. */
 INLINE bool solve(const struct tree_loop *loop, bool chain, bool turns0, bool turns2, const double *f,
                   const double *y, const double *v, double *a)
 {

@@ -38,6 +38,8 @@ struct tree_loop {
     struct tree_loop_link *of[4]; /* of a link of the tree */
     bool chain;                   /* all three in one; else the third stands by itself */
     double least;                 /* |N|^2 below which the rows count as dependent */
+    struct vec gap;               /* what of g does not move */
+    double size;                  /* of what it is a sum of */
     struct tree_loop_link links[3];
 };
 
@@ -54,5 +56,9 @@ void tree_loop_forces(const struct tree_loop *loop, const struct instant *at, co
  * is not written. */
 bool tree_loop_rates(const struct tree_loop *loop, const double *f, const double *y, const double *v,
                      double *a);
+
+/* Bring y[6] back to the pin, positions and then velocities, with the least change in the sense of the mass matrix, as
+ * return_to_constraints does (tree_loop_return.c). False where that has to: y is as it was. */
+bool tree_loop_return(const struct tree_loop *loop, double *y);
 
 #endif
