@@ -7,16 +7,48 @@
 
 /* ---- kinds */
 
-static void pin(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                struct row *rows)
+static void pin_along(const struct view *view, const struct tie *tie, struct row *rows)
 {
-    (void)state;
     struct jet_vec A = point_of(view, &tie->end[0]), B = point_of(view, &tie->end[1]), d = jet_vec_sub(A, B);
     struct jet_vec unit[2] = {{jet_constant(1), jet_constant(0)}, {jet_constant(0), jet_constant(1)}};
     for (int k = 0; k < 2; k++) {
         start_row(&rows[k], k == 0 ? d.x : d.y);
         add_port(view, &rows[k], tie, 0, A, unit[k]);
         add_port(view, &rows[k], tie, 1, B, negative(unit[k]));
+    }
+}
+
+/* A point where it is and how it moves, with its arm: the numbers of point_of without their variations. */
+struct place {
+    struct vec p, v, a, arm;
+};
+
+static struct place place_of(const struct view *view, const struct tie_end *end)
+{
+    const struct tree_state *s = &view->work->links[end->link];
+    struct vec r = vec_turn(s->turn, end->point), k_r = vec_perp(r), p = vec_add(s->p, r);
+    struct vec turning = vec_sub(vec_scale(s->A.alpha, k_r), vec_scale(s->omega * s->omega, r));
+    return (struct place){p, vec_add(s->v, vec_scale(s->omega, k_r)), vec_add(s->A.a, turning),
+                          vec_sub(p, s->p)};
+}
+
+static void pin(const struct view *view, const struct tie *tie, const struct tie_state *state,
+                struct row *rows)
+{
+    (void)state;
+    if (view->varied) {
+        pin_along(view, tie, rows);
+        return;
+    }
+    struct place A = place_of(view, &tie->end[0]), B = place_of(view, &tie->end[1]);
+    struct vec d = vec_sub(A.p, B.p), v = vec_sub(A.v, B.v), a = vec_sub(A.a, B.a), none = {0, 0};
+    start_row(&rows[0], (struct jet){.x = d.x, .x1 = v.x, .x2 = a.x});
+    start_row(&rows[1], (struct jet){.x = d.y, .x1 = v.y, .x2 = a.y});
+    for (int k = 0; k < 2; k++) {
+        struct vec unit = {k == 0, k == 1};
+        rows[k].port_count = 2;
+        rows[k].ports[0] = (struct port){tie->end[0].link, 0, A.arm, unit, none, none};
+        rows[k].ports[1] = (struct port){tie->end[1].link, 1, B.arm, vec_scale(-1, unit), none, none};
     }
 }
 
@@ -316,6 +348,8 @@ struct one_sided one_sided_at(const struct fbd_model *model, const struct instan
     }
     length += reach;
     state.slack = 1e-12 * size;
+    /* What hangs or stands still has the rates of what swings or falls over that far, in its rounding. */
+    if (length > 0) state.turning = fmax(state.turning, sqrt(vec_norm(model->scene->gravity) / length));
     state.rounding = 16 * DBL_EPSILON * length;
     state.near = 1e-9 * length;
     /* Where all of it stands still there is the rounding of what it is joined to, by whatever way, and the

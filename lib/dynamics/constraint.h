@@ -102,10 +102,12 @@ struct one_sided {
     double excess, rate, acceleration; /* and how it changes */
     double force;                      /* tension, or normal force */
     double rounding;                   /* of the excess */
-    double near;       /* what the place of an event leaves of it, against the size of rope and scene */
-    double speed;      /* that the rate is made of */
-    double slack;      /* of the force: a force that is zero throughout is rounding, which opens nothing */
-    double turning;    /* the largest angular velocity there [rad/s]: times the slack, that of its rate */
+    double near;  /* what the place of an event leaves of it, against the size of rope and scene */
+    double speed; /* that the rate is made of */
+    double slack; /* of the force: a force that is zero throughout is rounding, which opens nothing */
+    double
+        turning; /* the largest angular velocity there, or that of swinging so far [rad/s]: times the slack, that of
+                          its rate */
     bool touches;      /* just closed to rounding, in length and rate */
     bool parts, meets; /* it opens, closes with a speed that is not rounding */
 };

@@ -135,6 +135,13 @@ void body_accelerations(const struct fbd_model *model, int b, const struct insta
     if (rubs && !slips) friction_surface_speed(&plan->modes[terms->friction], at, &a[body->first]);
 }
 
+void joint_forces(const struct fbd_model *model, const struct instant *at, double *slots, double *a)
+{
+    memset(slots, 0, (size_t)model->plan.slots * sizeof *slots);
+    for (int k = 0; k < model->tree->acting_count; k++)
+        body_accelerations(model, model->tree->acting[k], at, slots, a);
+}
+
 void accelerations_at_shares(const struct fbd_model *model, const struct instant *given, double *slots,
                              double *a)
 {
@@ -145,8 +152,7 @@ void accelerations_at_shares(const struct fbd_model *model, const struct instant
         for (int b = 0; b < (int)model->body_count; b++) body_accelerations(model, b, at, slots, a);
         return;
     }
-    memset(slots, 0, (size_t)model->plan.slots * sizeof *slots);
-    for (int k = 0; k < tree->acting_count; k++) body_accelerations(model, tree->acting[k], at, slots, a);
+    joint_forces(model, at, slots, a);
     tree_accelerations(model, at, slots, a);
     for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
         const struct mode *mode = &model->plan.modes[pair];

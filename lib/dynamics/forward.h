@@ -35,6 +35,9 @@ void accelerations_along_at_shares(const struct fbd_model *model, const struct i
 void body_accelerations(const struct fbd_model *model, int b, const struct instant *at, double *slots,
                         double *a);
 
+/* What acts in the joints of the tree, and on bodies beside it, in slots[plan.slots]; `a` is written for the latter. */
+void joint_forces(const struct fbd_model *model, const struct instant *at, double *slots, double *a);
+
 /* The variation of the accelerations along a direction. `slots` and `slots_along` (plan.slots each) are
  * scratch. */
 void accelerations_along(const struct fbd_model *model, const struct instant *at,

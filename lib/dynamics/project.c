@@ -110,7 +110,7 @@ struct misfit state_misfit(struct fbd_state *state)
 {
     if (!has_ties(state->model)) return (struct misfit){0, 0, -1, -1};
     struct place place = place_of(state, false);
-    prepare(&place);
+    look(&place);
     return misfit_of(&place);
 }
 
@@ -416,7 +416,7 @@ static void bring_back(const struct place *place)
 
 void return_to_constraints(const struct fbd_model *model, const struct instant *at, double *y)
 {
-    if (!has_ties(model)) return;
+    if (!has_ties(model) || (at->tree->is_loop && tree_loop_return(&at->tree->loop, y))) return;
     struct place place = {.model = model, .at = *at, .returning = true};
     place.at.y = place.y = y;
     bring_back(&place);

@@ -18,6 +18,7 @@
  *     formulas     (... + sum of scale f(t, q, v) - F) / m
  *     body         the stages of forward.h                                everything else
  *     bare tree    tree_bare.h                                            pivots under gravity and the like
+ *     loop         tree_loop.h                                            slider-cranks, four-bars
  *     own          z' = f(t, q, v, z)                                     the states of the file's own
  *
  * Each row adds up in the order of forces.c and multiplies by the same 1/m: the bits are those of

@@ -66,6 +66,7 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->reach = work->first + unknowns;
     work->place = work->reach + unknowns;
     work->rank = work->place + unknowns;
+    work->is_loop = tree_loop_find(model, &work->loop);
     work->damping = 1e-6;
     work->accuracy = 1e-10;
     work->links[0].turn = work->links[0].e = (struct vec){1, 0};

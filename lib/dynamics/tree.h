@@ -21,6 +21,7 @@
 
 #include "dynamics/instant.h"
 #include "dynamics/spatial.h"
+#include "dynamics/tree_loop.h"
 
 /* One right-hand side on its way through the sweeps. */
 struct tree_rhs {
@@ -96,17 +97,19 @@ struct tree_work {
     double damping;      /* of a projection: slopes whose square is less than this share are left alone */
     double accuracy;     /* relative, of the coordinates that are projected */
     bool projecting;     /* the system is set up for a projection: no friction */
-    bool placed;         /* the places of the unknowns are known, for good: there are no modes */
-    bool symmetric;      /* there is no friction in the system */
-    bool direct;         /* it was factored as it stands, and its solution needs no corrections */
-    bool shared;         /* what constraints leave open is shared in them, see rest_system.h */
-    double shared_size;  /* then: the largest force that was there before, which has given its rounding */
-    bool kept;           /* ties_keep: on which side of a line a body is stays as it has been */
-    bool complete;       /* A and F of the links are final, see tree_complete */
-    bool rates_only;     /* nobody asks for anything but the accelerations of the joints */
-    double fastest;      /* the speed of the fastest link; negative: to be found, see constraint.c; */
-    double spin;         /* then with the largest angular speed */
-    double *borne; /* count, where there are contacts: what one force alone would do to a link [m/s^2] */
+    bool is_loop;        /* the scene is the loop of three links that follows, see tree_loop.h */
+    struct tree_loop loop;
+    bool placed;        /* the places of the unknowns are known, for good: there are no modes */
+    bool symmetric;     /* there is no friction in the system */
+    bool direct;        /* it was factored as it stands, and its solution needs no corrections */
+    bool shared;        /* what constraints leave open is shared in them, see rest_system.h */
+    double shared_size; /* then: the largest force that was there before, which has given its rounding */
+    bool kept;          /* ties_keep: on which side of a line a body is stays as it has been */
+    bool complete;      /* A and F of the links are final, see tree_complete */
+    bool rates_only;    /* nobody asks for anything but the accelerations of the joints */
+    double fastest;     /* the speed of the fastest link; negative: to be found, see constraint.c; */
+    double spin;        /* then with the largest angular speed */
+    double *borne;      /* count, where there are contacts: what one force alone would do to a link [m/s^2] */
 };
 
 /* Bytes that a workspace needs (a multiple of the size of a double), and laying it out. */

@@ -14,6 +14,16 @@ static bool acts_in_joints_alone(const struct fbd_model *model, int b)
            terms->across.count == 0 && terms->friction < 0 && terms->offset < 0;
 }
 
+bool tree_is_in_chains(const struct tree *tree)
+{
+    for (int i = 1; i < tree->count; i++) {
+        const struct tree_link *link = &tree->links[i];
+        bool slides = link->kind == motion_slide && link->parent == 0, chained = link->parent == i - 1;
+        if (!(link->kind == motion_pivot || slides) || !(chained || link->parent == 0)) return false;
+    }
+    return true;
+}
+
 bool tree_is_bare(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
@@ -21,12 +31,7 @@ bool tree_is_bare(const struct fbd_model *model)
         return false;
     for (int k = 0; k < tree->acting_count; k++)
         if (!acts_in_joints_alone(model, tree->acting[k])) return false;
-    for (int i = 1; i < tree->count; i++) {
-        const struct tree_link *link = &tree->links[i];
-        bool slides = link->kind == motion_slide && link->parent == 0, chained = link->parent == i - 1;
-        if (!(link->kind == motion_pivot || slides) || !(chained || link->parent == 0)) return false;
-    }
-    return true;
+    return tree_is_in_chains(tree);
 }
 
 /* ---- outward: the courses

@@ -278,6 +278,9 @@ void run_take_in_ropes(struct run *run);
 /* Has the step that ends at run->work.y been brought back so far that its method has to start anew? */
 bool run_has_gone_astray(struct run *run);
 
+/* Put drives, and what sticks, where they are at time t in the modes of the step. */
+void run_lead(const struct run *run, double t, double *y);
+
 /* Bring y[2n] at a time within the last step back to the couplings. */
 void run_close_within(struct run *run, double t, double *y);
 

@@ -23,6 +23,17 @@ static double instant_at(double t)
     return 64 * DBL_EPSILON * fabs(t);
 }
 
+/* The state at t within the step, as the step would end there: by a step of its own, where drives and surfaces lead, and
+ * back on the couplings. What is off them by the error of a long step moves what is next to touch, by much where a
+ * body lies almost flat. */
+static bool end_at(struct run *run, double t)
+{
+    if (switcher_partial(run->stepper, moment_at(t), run->work.y, run->work.f) != GSL_SUCCESS) return false;
+    run_lead(run, t, run->work.y);
+    run_close_within(run, t, run->work.y);
+    return true;
+}
+
 /* Go back to the event that the scan has found and improve its time: the partial step has the full accuracy
  * of the method, the dense output may have less. Newton on the function that reaches zero first; y and f are
  * left at the result, which is at *t + *move, the move being of the size of a rounding where it has
@@ -33,8 +44,7 @@ static bool polish(struct run *run, double step_end, double *t, double *move)
     enum { most_steps = 4 };
     const struct scan *scan = &run->search.moving;
     for (int step = 0;; step++) {
-        if (switcher_partial(run->stepper, moment_at(*t), run->work.y, run->work.f) != GSL_SUCCESS)
-            return false;
+        if (!end_at(run, *t)) return false;
         watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, moment_at(*t), run->work.y,
                           run->work.values, run->work.values + scan->count);
         *move = HUGE_VAL;
@@ -70,12 +80,12 @@ static bool is_down_at_end(struct run *run, double t, double end)
 {
     double *values = run->work.values, *rates = values + run->search.moving.count;
     bool down = false;
-    if (switcher_partial(run->stepper, moment_at(end), run->work.y, run->work.f) != GSL_SUCCESS) return true;
+    if (!end_at(run, end)) return true;
     watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, moment_at(end), run->work.y, values,
                       rates);
     for (size_t i = 0; i < run->search.moving.count; i++)
         down |= run->search.moving.crossed[i] && values[i] < 0;
-    return switcher_partial(run->stepper, moment_at(t), run->work.y, run->work.f) == GSL_SUCCESS && down;
+    return end_at(run, t) && down;
 }
 
 /* Of functions with kinks, as the gap of the lowest of several corners, one may have gone down before the first that
@@ -96,7 +106,7 @@ static bool look_before(struct run *run, double start, double *t, double *move)
     memcpy(scan->crossed, run->work.crossed, scan->count * sizeof *run->work.crossed);
     *t = when;
     *move = others;
-    return switcher_partial(run->stepper, moment_at(when), run->work.y, run->work.f) == GSL_SUCCESS;
+    return end_at(run, when);
 }
 
 /* Cut the step to t, where nothing happens. 0, or -1 when that fails. */

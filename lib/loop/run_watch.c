@@ -19,7 +19,7 @@ static int sample_timed(void *context, double t, double *values, double *rate)
     return 0;
 }
 
-/* Where a pair sticks its surface leads, at every instant as at the ends of steps (modes_hold): the dense
+/* Where a pair sticks its surface leads, and a drive where it says, at every instant as at the ends of steps (modes_hold): the dense
  * output says so only to the error of the method, and a difference of the two would change its sign at
  * random.
  */
@@ -36,18 +36,24 @@ static bool any_leads(const struct run *run)
     return false;
 }
 
+void run_lead(const struct run *run, double t, double *y)
+{
+    const struct plan *plan = &run->model->plan;
+    struct instant at = state_instant_at(run->during, t, y);
+    double acceleration;
+    for (size_t i = 0; i < plan->mode_count; i++) {
+        const struct mode *mode = &plan->modes[i];
+        if (run->during->slip[i] != stick) continue; /* drives always stick */
+        if (mode->kind == mode_drive) y[mode->coordinate] = formula_value(&mode->position, &at);
+        if (leads(run, i)) y[plan->n + mode->coordinate] = friction_surface_speed(mode, &at, &acceleration);
+    }
+}
+
 /* The state along the last step. */
 static int sample_state(struct run *run, double t, double *y)
 {
-    const struct fbd_state *during = run->during;
-    const struct plan *plan = &run->model->plan;
     if (switcher_dense(run->stepper, moment_at(t), y) != GSL_SUCCESS) return -1;
-    struct instant at = state_instant_at(during, t, y);
-    double acceleration;
-    for (size_t i = 0; i < plan->mode_count; i++)
-        if (leads(run, i))
-            y[plan->n + plan->modes[i].coordinate] =
-                friction_surface_speed(&plan->modes[i], &at, &acceleration);
+    run_lead(run, t, y);
     return 0;
 }
 

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The rows of rates.h and their functions.
+ */
+#ifndef FBD_DYNAMICS_RATES_ROW_H
+#define FBD_DYNAMICS_RATES_ROW_H
+
+#include "dynamics/rates.h"
+#include "dynamics/tree_loop.h"
+#include "dynamics/tree_short.h"
+
+struct row {
+    rates_function *function;
+    const struct rates *all;
+    int q, v;       /* where the coordinate and its rate are in y; of a body's row, `q` is the body */
+    double inverse; /* 1/m, 1/I_O or 1/I_G */
+    double c0, kq, kv;
+    double s, c;
+    double square;
+    double friction;     /* against +x, in the present mode */
+    double rate, steady; /* held: dx/dt; steady: dv/dt */
+    const struct formula_term *formulas;
+    int formula_count;
+    double x_and_y[2][3]; /* particle: c0, kq, kv along x and y, */
+    bool sloped;          /* which are not all constant */
+    const struct body_terms *terms;
+    const struct link_term *springs; /* springs alone: those of a particle, */
+    int spring_count, driven;        /* and along which axis the formula acts */
+    double scale;                    /* of a single formula of one part */
+    struct expr_part part;
+    int u; /* its variable in y, -1 for t */
+    bool one_part;
+    struct tree_pole pole;
+    const struct tree_link *links;
+    const struct tree_bare *bare;
+    const struct tree_loop *loop;
+    double along[3]; /* what acts along the links of the loop, where that is constant */
+};
+
+struct rates {
+    struct fbd_state *state;
+    enum rates_kind kind;
+    int count;
+    struct row rows[];
+};
+
+rates_function steady_row, held_row, no_row, affine_row, sine_row, swing_row, part_row, formulas_row,
+    particle_row, springs_row, body_row, whole_row, bare_row, pole_row, two_pivots_row, three_pivots_row,
+    loop_row, driven_loop_row, own_row, all_rows;
+
+#endif
