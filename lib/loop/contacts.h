@@ -114,6 +114,10 @@ void contacts_note_depths(struct run *run);
 void run_wake_contacts(struct run *run, double end);
 double run_contact_radians(const struct run *run, double span);
 
+/* The end of the first stretch of (from, to] of the step in which no gap bends, as where a corner goes past another, but
+ * for those that stay far apart. */
+double run_contact_bend(struct run *run, double from, double to);
+
 /* No shapes are in each other at the end of a step; else the run ends, for it has missed an impact. */
 void run_check_overlap(struct run *run);
 
