@@ -101,8 +101,8 @@ void run_strike_taut(struct run *run);
 /* A drive that moves, and how many do. */
 const struct mode *run_only_drive(const struct run *run, int *moving);
 
-/* What has been put on its surface by contacts_settle_down may have got into others that are next to it: they are
- * moved out. Whether there were any, which may now touch. */
+/* What has been put on its surface by contacts_settle_down may have got into others that are next to it, the deeper the
+ * farther they are from where it turned: they are moved out. Whether there were any, which may now touch. */
 bool contacts_lift_others(struct run *run);
 
 /* Note how deep in each other shapes are that do not touch: within what counts as touching, where a corner goes
