@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "holds/mend.h"
 #include "holds/parts.h"
 #include "numeric/lcp.h"
 #include "numeric/lu.h"
@@ -256,7 +257,7 @@ static void set_modes(struct hold_problem *problem)
     }
 }
 
-static enum holds_found solve_once(struct hold_problem *problem)
+static enum holds_found solve_once(struct hold_problem *problem, int cover)
 {
     struct affine of;
     enum holds_found found = holds_no_memory;
@@ -266,7 +267,7 @@ static enum holds_found solve_once(struct hold_problem *problem)
         if (regular) {
             set_answers(&of);
             set_problem(&of);
-            enum lcp lcp = lcp_solve(of.m, of.M, of.q, of.z, of.w);
+            enum lcp lcp = lcp_solve_from(of.m, of.M, of.q, cover, of.z, of.w);
             found = lcp == lcp_solved ? holds_decided : lcp == lcp_no_memory ? holds_no_memory : holds_lost;
         }
         for (size_t i = 0; found == holds_decided && i < problem->count; i++) {
@@ -305,6 +306,19 @@ static double force_rounding(const struct hold_problem *problem, size_t i)
     return rounding * size;
 }
 
+enum hold_breach holds_breach(const struct hold_problem *problem, size_t i)
+{
+    const struct hold *hold = &problem->holds[i];
+    double c = holds_weight(problem, i) * hold->c, zero = rounding_of(problem, 1e-9);
+    bool rubs = hold->kind == hold_friction;
+    if (holds_is_on_open(problem, hold)) return hold_breaks_nothing;
+    if (hold->mode != hold_keeps)
+        return hold->slip == 0 && hold->mode * c < -zero ? hold_moves_back : hold_breaks_nothing;
+    double over =
+        rubs ? fabs(hold->force) - fmax(hold->mu_s, hold->mu_k) * press_of(problem, hold) : -hold->force;
+    return over > force_rounding(problem, i) ? hold_overloaded : hold_breaks_nothing;
+}
+
 static bool agrees(const struct hold_problem *problem, size_t i, double zero)
 {
     const struct hold *hold = &problem->holds[i];
@@ -330,12 +344,12 @@ bool holds_agree(const struct hold_problem *problem)
 /* ---- the whole */
 
 /* With mu_k < mu_s: what has to slip does so with mu_k, and the others are decided again. */
-static enum holds_found solve(struct hold_problem *problem)
+static enum holds_found solve(struct hold_problem *problem, int cover)
 {
     enum holds_found found = holds_lost;
     for (size_t round = 0; round <= problem->count; round++) {
         bool more = false;
-        found = solve_once(problem);
+        found = solve_once(problem, cover);
         for (size_t i = 0; found == holds_decided && i < problem->count; i++) {
             struct hold *hold = &problem->holds[i];
             if (hold->kind != hold_friction || hold->slip != 0 || hold->mode == hold_keeps) continue;
@@ -397,20 +411,47 @@ static enum holds_found look_for_others(struct hold_problem *problem)
     return solutions > 1 ? holds_several : holds_decided;
 }
 
-static enum holds_found decide(struct hold_problem *problem)
+/* The sides on which holds slip already are as they were. */
+static enum holds_found solve_and_keep(struct hold_problem *problem, int cover)
 {
-    enum { most_modes = 70000 }; /* of eight points with friction */
     int *slips = calloc(problem->count + 1, sizeof *slips);
     if (!slips) return holds_no_memory;
     for (size_t i = 0; i < problem->count; i++) slips[i] = problem->holds[i].slip;
-    enum holds_found found = solve(problem);
+    enum holds_found found = solve(problem, cover);
     for (size_t i = 0; i < problem->count; i++) problem->holds[i].slip = slips[i];
     free(slips);
+    return found;
+}
+
+/* All that is not known to slip keeps. */
+static void keep_all(struct hold_problem *problem)
+{
+    for (size_t i = 0; i < problem->count; i++) problem->holds[i].mode = problem->holds[i].slip;
+}
+
+/* Of holds too many to try all their modes. Where one start of Lemke's method ends in a ray or in rounding another may not,
+ * and of modes that do not agree a few may be wrong. */
+static enum holds_found try_further(struct hold_problem *problem)
+{
+    enum { most_covers = 16 };
+    keep_all(problem);
+    enum holds_found found = holds_mend(problem);
+    for (int cover = 0; cover < most_covers && found == holds_lost; cover++) {
+        found = solve_and_keep(problem, cover);
+        if (found == holds_decided && !holds_agree(problem)) found = holds_mend(problem);
+    }
+    return found;
+}
+
+static enum holds_found decide(struct hold_problem *problem)
+{
+    enum { most_modes = 70000 }; /* of eight points with friction */
+    enum holds_found found = solve_and_keep(problem, 0);
     if (found == holds_no_memory) return found;
     if (found == holds_decided && holds_agree(problem)) return look_for_others(problem);
     int solutions = holds_try_all(problem, most_modes);
     if (solutions == -2) return holds_no_memory;
-    return solutions < 0    ? holds_lost
+    return solutions < 0    ? try_further(problem)
            : solutions == 0 ? holds_none
            : solutions > 1  ? holds_several
                             : holds_decided;

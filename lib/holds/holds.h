@@ -96,6 +96,15 @@ enum holds_found holds_decide(struct hold_problem *problem);
 /* Are the forces and accelerations that are there those of the modes, within limits? O(count). */
 bool holds_agree(const struct hold_problem *problem);
 
+/* What the mode of hold i has come to by its force and acceleration. */
+enum hold_breach {
+    hold_breaks_nothing,
+    hold_overloaded, /* the force that keeps it is beyond its limits */
+    hold_moves_back, /* what gives does so against its own way */
+};
+
+enum hold_breach holds_breach(const struct hold_problem *problem, size_t i);
+
 /* Of forces that are not determined, those of the least size, where they are within their limits; modes are as they
  * were, but that what slips by rounding keeps still. holds_lost where no forces do what the modes say. */
 enum holds_found holds_share(struct hold_problem *problem);

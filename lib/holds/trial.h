@@ -25,6 +25,9 @@ void trial_free(struct trial *trial);
  * apart. */
 void trial_set_system(struct trial *trial, double give);
 
+/* Forces and accelerations in the modes; false where they are not determined. */
+bool trial_find_forces(struct trial *trial);
+
 /* Forces f for the holds, and what accelerations and guides make of them. */
 void trial_take_forces(struct hold_problem *problem, const double *f);
 

@@ -122,8 +122,7 @@ void trial_take_forces(struct hold_problem *problem, const double *f)
 
 static const double touch = 1e-10;
 
-/* Forces and accelerations in the modes; false where they are not determined. */
-static bool find_forces(struct trial *trial)
+bool trial_find_forces(struct trial *trial)
 {
     size_t n = trial->problem->count;
     trial_set_system(trial, touch);
@@ -198,13 +197,14 @@ int holds_try_all(struct hold_problem *problem, size_t most)
     bool made = trial_new(&trial, problem);
     for (size_t number = 0; made && number < all; number++) {
         set_modes(&trial, number);
-        if (is_repeated(problem) || !find_forces(&trial) || !sides_agree(&trial) || !holds_agree(problem))
+        if (is_repeated(problem) || !trial_find_forces(&trial) || !sides_agree(&trial) ||
+            !holds_agree(problem))
             continue;
         if (trial.solutions == 0 || !same_as_first(&trial)) keep_first(&trial, &best, number);
     }
     if (made && trial.solutions > 0) {
         set_modes(&trial, best);
-        find_forces(&trial);
+        trial_find_forces(&trial);
         holds_set_open(problem);
     }
     trial_free(&trial);

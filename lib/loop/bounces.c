@@ -390,7 +390,7 @@ int contacts_settle_down(struct run *run, int strikers)
 
 bool contacts_lift_others(struct run *run)
 {
-    const double wide = 2 * low_share;
+    const double wide = 2 * low_share, levers = 8;
     const struct tree *tree = tree_of(run);
     struct fbd_state *state = run->state;
     const struct instant at = state_instant(state);
@@ -398,8 +398,8 @@ bool contacts_lift_others(struct run *run)
     for (int i = 0; i < tree->tie_count; i++) was_touching[i] = state->tree->ties[i].feature != no_feature;
     for (int i = 0; i < tree->meeting_count; i++) {
         double near = meeting_near(run->model, state->tree, i), deep = meeting_depth(run->model, &at, i);
-        if (!(deep > near && deep < wide * near)) continue;
-        contacts_find_touching(run, i, wide * near);
+        if (!(deep > near && deep < levers * wide * near)) continue;
+        contacts_find_touching(run, i, fmax(wide * near, 1.001 * deep));
         any = true;
     }
     if (!any) return false;

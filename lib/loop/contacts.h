@@ -101,8 +101,8 @@ void run_strike_taut(struct run *run);
 /* A drive that moves, and how many do. */
 const struct mode *run_only_drive(const struct run *run, int *moving);
 
-/* What has been put on its surface by contacts_settle_down may have got into others that are next to it: they are
- * moved out. Whether there were any, which may now touch. */
+/* What has been put on its surface by contacts_settle_down may have got into others that are next to it, the deeper the
+ * farther they are from where it turned: they are moved out. Whether there were any, which may now touch. */
 bool contacts_lift_others(struct run *run);
 
 /* Note how deep in each other shapes are that do not touch: within what counts as touching, where a corner goes
@@ -113,6 +113,10 @@ void contacts_note_depths(struct run *run);
  * could come near in it. In panels of how many radians the shapes turn. */
 void run_wake_contacts(struct run *run, double end);
 double run_contact_radians(const struct run *run, double span);
+
+/* The end of the first stretch of (from, to] of the step in which no gap bends, as where a corner goes past another, but
+ * for those that stay far apart. */
+double run_contact_bend(struct run *run, double from, double to);
 
 /* No shapes are in each other at the end of a step; else the run ends, for it has missed an impact. */
 void run_check_overlap(struct run *run);

@@ -2,10 +2,12 @@
  *
  * Which meetings a step has to look at, and how closely.
  */
+#include <float.h>
 #include <string.h>
 
 #include "dynamics/contact.h"
 #include "dynamics/impulse.h"
+#include "dynamics/tree_system.h"
 #include "loop/contacts.h"
 #include "loop/run.h"
 
@@ -72,6 +74,90 @@ void run_wake_contacts(struct run *run, double end)
         struct distance at = meeting_distance(run->model, trial->tree, i);
         work->asleep[i] &= at.apart > speeds * span * at.speed;
     }
+}
+
+/* ---- kinks
+ *
+ * The gap of two sets of corners is smooth while it is that of one corner over one side, and bends where another takes
+ * over. Series are of smooth functions, and what dips between two samples as a corner goes past another is nothing that
+ * they see. So panels end at bends that could matter. */
+
+/* The gap of a meeting at an instant of the step, and the largest speed of its shapes against each other. */
+struct look {
+    double t, speed;
+    struct gap gap;
+};
+
+static struct look look_at(struct run *run, int index, double t)
+{
+    const struct meeting *meeting = &tree_of(run)->meetings[index];
+    struct fbd_state *trial = run->contacts.trial;
+    if (trial->t != t) {
+        switcher_dense(run->stepper, moment_at(t), trial->y);
+        trial->t = t;
+        const struct instant moved = state_instant(trial);
+        tree_move(run->model, &moved);
+    }
+    const struct instant at = state_instant(trial);
+    double speed = meeting_distance(run->model, trial->tree, index).speed;
+    for (int k = 0; k < 2; k++)
+        speed += fabs(trial->tree->links[meeting->shape[k].link].omega) * meeting->shape[k].radius;
+    return (struct look){t, speed, meeting_probe(run->model, &at, index, 0)};
+}
+
+/* What no gap can have got to within a stretch, at the speeds of its ends and half as much again. */
+static bool stays_apart(const struct look *a, const struct look *b)
+{
+    const double speeds = 1.5;
+    return a->gap.x + b->gap.x > speeds * fmax(a->speed, b->speed) * (b->t - a->t);
+}
+
+/* Does the gap bend between two looks, of which b is the last one, by more than what counts as touching? */
+static bool bends(struct run *run, int index, const struct look *a, const struct look *b)
+{
+    const struct tree_work *work = run->contacts.trial->tree;
+    if (a->gap.feature == b->gap.feature) return false;
+    struct gap before = feature_gap(run->model, work, index, a->gap.feature);
+    return fabs(before.rate - b->gap.rate) * (b->t - a->t) > meeting_near(run->model, work, index);
+}
+
+static double bend_between(struct run *run, int index, struct look a, struct look b)
+{
+    const double share = 1e-6;
+    double least = fmax(share * (b.t - a.t), 4 * DBL_EPSILON * fabs(b.t));
+    while (b.t - a.t > least) {
+        struct look middle = look_at(run, index, a.t + (b.t - a.t) / 2);
+        if (bends(run, index, &a, &middle))
+            b = middle;
+        else
+            a = middle;
+    }
+    return b.t;
+}
+
+/* The first bend that matters in (from, to], else `to`. Where a corner has come and gone it is the same side at both
+ * ends: so quarters are looked at. */
+static double until_bend(struct run *run, int index, double from, double to)
+{
+    enum { pieces = 4 };
+    struct look a = look_at(run, index, from), end = look_at(run, index, to);
+    for (int k = 1; k <= pieces && !stays_apart(&a, &end); k++) {
+        struct look b = k == pieces ? end : look_at(run, index, from + k * (to - from) / pieces);
+        look_at(run, index, b.t);
+        if (!stays_apart(&a, &b) && bends(run, index, &a, &b)) return bend_between(run, index, a, b);
+        a = b;
+    }
+    return to;
+}
+
+double run_contact_bend(struct run *run, double from, double to)
+{
+    for (int i = 0; has_meetings(run->model) && i < tree_of(run)->meeting_count; i++) {
+        const struct meeting *meeting = &tree_of(run)->meetings[i];
+        bool corners = meeting->shape[0].kind == contact_corners && meeting->shape[1].kind == contact_corners;
+        if (corners && meeting->stop == 0 && !run->contacts.asleep[i]) to = until_bend(run, i, from, to);
+    }
+    return to;
 }
 
 /* Do the shapes of a meeting get no deeper into each other? What has just opened does so from rest, to rounding. */

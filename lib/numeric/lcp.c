@@ -50,7 +50,14 @@ static void equilibrate(struct tableau *tableau, const double *M)
     }
 }
 
-static bool tableau_new(struct tableau *tableau, size_t n, const double *M, const double *q)
+/* The entries of the column that makes the start feasible: ones, or others between 1/4 and 7/4. */
+static double cover_of(int cover, size_t i)
+{
+    const double golden = 0.6180339887498949;
+    return cover == 0 ? 1 : 0.25 + 1.5 * fmod(golden * cover * (double)(i + 1), 1);
+}
+
+static bool tableau_new(struct tableau *tableau, size_t n, const double *M, const double *q, int cover)
 {
     *tableau = (struct tableau){.n = n, .width = 2 * n + 2};
     tableau->T = calloc(n * tableau->width + 2 * n + 1, sizeof *tableau->T);
@@ -65,7 +72,7 @@ static bool tableau_new(struct tableau *tableau, size_t n, const double *M, cons
         double *row = row_of(tableau, i);
         row[i] = 1;
         for (size_t k = 0; k < n; k++) row[n + k] = -M[i * n + k] / (tableau->row[i] * tableau->column[k]);
-        row[2 * n] = -1;
+        row[2 * n] = -cover_of(cover, i);
         row[2 * n + 1] = q[i] / (tableau->row[i] * tableau->size);
         tableau->basic[i] = i;
     }
@@ -121,13 +128,17 @@ static size_t leaving_row(const struct tableau *tableau, size_t entering)
     return best;
 }
 
-/* The row that is farthest below zero, or n. */
+/* The row that is farthest below zero, as its cover counts, or n. */
 static size_t lowest_row(const struct tableau *tableau)
 {
     size_t best = tableau->n, last = tableau->width - 1;
+    double lowest = 0;
     for (size_t i = 0; i < tableau->n; i++) {
-        if (!(row_of(tableau, i)[last] < 0)) continue;
-        if (best == tableau->n || row_of(tableau, i)[last] < row_of(tableau, best)[last]) best = i;
+        const double *row = row_of(tableau, i);
+        double low = row[last] / -row[last - 1];
+        if (!(low < lowest)) continue;
+        best = i;
+        lowest = low;
     }
     return best;
 }
@@ -214,9 +225,14 @@ static bool fits(const struct tableau *tableau, const double *z, const double *w
 
 enum lcp lcp_solve(size_t n, const double *M, const double *q, double *z, double *w)
 {
+    return lcp_solve_from(n, M, q, 0, z, w);
+}
+
+enum lcp lcp_solve_from(size_t n, const double *M, const double *q, int cover, double *z, double *w)
+{
     struct tableau tableau;
     enum lcp found = lcp_no_memory;
-    if (tableau_new(&tableau, n, M, q)) found = run(&tableau);
+    if (tableau_new(&tableau, n, M, q, cover)) found = run(&tableau);
     if (found == lcp_solved && !polish(&tableau, M, q, z, w)) found = lcp_no_memory;
     if (found == lcp_solved && !fits(&tableau, z, w)) found = lcp_lost;
     tableau_free(&tableau);

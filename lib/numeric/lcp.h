@@ -27,4 +27,8 @@ enum lcp {
 /* M is n by n, row by row; z and w take n. Of a solution z_i = 0 or w_i = 0 exactly. */
 enum lcp lcp_solve(size_t n, const double *M, const double *q, double *z, double *w);
 
+/* The same from start number `cover`, which is another column in place of the one of ones (0): where one way ends in a ray
+ * or in rounding another may not. */
+enum lcp lcp_solve_from(size_t n, const double *M, const double *q, int cover, double *z, double *w);
+
 #endif

@@ -89,8 +89,11 @@ static void monotone_problems_are_solved(void **unused)
             q[i] = w[i] * scale[i];
             for (size_t k = 0; k < n; k++) q[i] -= M[i * n + k] * z[k] / scale[k];
         }
-        if (lcp_solve(n, M, q, z, w) != lcp_solved) fail_msg("seed %d: not solved", (int)seed);
-        check_solution(n, M, q, z, w, scale);
+        for (int cover = 0; cover < 4; cover++) {
+            if (lcp_solve_from(n, M, q, cover, z, w) != lcp_solved)
+                fail_msg("seed %d: not solved", (int)seed);
+            check_solution(n, M, q, z, w, scale);
+        }
     }
 }
 
