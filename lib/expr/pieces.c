@@ -72,8 +72,11 @@ static bool is_one(struct walk *walk, double from, double to)
         size_t switches = expr_switches(walk->formulas[i]);
         if (switches > 0)
             expr_enclose_margins(walk->formulas[i], &stretch, walk->spans, branch, walk->margins);
-        for (size_t k = 0; k < 2 * switches; k++)
-            if (!(walk->margins[k].value.low > 0)) return false;
+        for (size_t k = 0; k < 2 * switches; k++) {
+            /* What is zero all along, as mod(0*s, 1), stays where it is. */
+            const struct interval margin = walk->margins[k].value;
+            if (!(margin.low > 0 || (margin.low == 0 && margin.high == 0))) return false;
+        }
         branch += switches;
     }
     return true;
@@ -100,15 +103,18 @@ static double piece_end(struct walk *walk, double from, double to, double narrow
 static int cut(struct walk *walk, double from, double to, int most, double *ends)
 {
     const double narrow = 4 * DBL_EPSILON * fmax(fabs(from), fabs(to));
-    int pieces = 0;
+    int pieces = 0, nothing = 0;
     ends[0] = from;
     double at = from;
     while (at < to) {
-        if (pieces == most) return pieces_too_many;
+        if (pieces == most || nothing > most) return pieces_too_many;
         resolve(walk, at);
         double next = piece_end(walk, at, to, narrow);
-        /* The start lies on a switch that was taken for the other side: the stretch up to it is nothing. */
-        if (next - at > 2 * narrow) ends[++pieces] = next;
+        /* The start lies on a switch that was taken for the other side: the stretch up to it is nothing. Many of these
+         * are a function that is at its switch to rounding. */
+        bool is_piece = next - at > 2 * narrow;
+        nothing = is_piece ? 0 : nothing + 1;
+        if (is_piece) ends[++pieces] = next;
         at = next;
     }
     ends[pieces] = to;
