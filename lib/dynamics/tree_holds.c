@@ -196,6 +196,28 @@ static bool pulls(struct fbd_state *state, const double *slots, const struct dec
 
 /* ---- all of them */
 
+/* Friction that sticks to a surface which accelerates, and something closed that does not let it: both have their rows,
+ * and the forces of such rows mean nothing. The friction, or -1. */
+static int pulled_against(const struct fbd_state *state, const struct decided *decided, const int *forced)
+{
+    const struct instant at = state_instant(state);
+    int count = (int)state->model->plan.mode_count, against = -1;
+    for (int pair = 0; pair < count && against < 0; pair++) {
+        double surface = 0;
+        const struct mode *hold = mode_of(state, pair);
+        if (!mode_is_joint_friction(hold) || state->slip[pair] != stick) continue;
+        friction_surface_speed(hold, &at, &surface);
+        if (surface != 0 && hold_in_question(state, decided, forced, pair)) against = pair;
+    }
+    for (int pair = 0; pair < count && against >= 0; pair++) {
+        const struct mode *hold = mode_of(state, pair);
+        if (!mode_is_one_sided(hold) || state->slip[pair] != stick || !hold_in_question(state, decided, forced, pair))
+            continue;
+        if (tree_seen_acceleration(state, hold_row(state, hold)->g.x2)) return against;
+    }
+    return -1;
+}
+
 /* `at_limit`: it differs by rates alone, or by next to nothing; what has to give is in `forced`, and does. */
 static enum agreement look(struct fbd_state *state, const struct decided *decided, int *forced, bool solved)
 {
@@ -210,7 +232,8 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
     bool shared = tree_find_margin(state, &at, true, &flow, slots, slots_along, &arena, &margin);
     if (shared && margin.value < 0) /* that a slide has lost its surface is for others to say */
         shared = tree_find_margin(state, &at, false, &flow, slots, slots_along, &arena, &margin);
-    int which = -1, next = 0;
+    int which = pulled_against(state, decided, forced), next = 0;
+    if (which >= 0) found = differs;
     for (int pair = 0; found != differs && pair < (int)state->model->plan.mode_count; pair++) {
         bool by_rate;
         const struct mode *hold = mode_of(state, pair);

@@ -249,7 +249,9 @@ void run_close_step(struct run *run)
     if (overlong_rope(run, explained(run) * reach)) return;
     /* What has come to the origin has no size of its own there: a stop at zero. */
     bool nothing = misfit.position <= 16 * DBL_EPSILON * run->drift.reach;
-    if (!(misfit.position <= explained(run) * reach) && !nothing && !is_rounding(run, &misfit)) {
+    bool explains = nothing || misfit.position <= explained(run) * reach;
+    nothing |= !explains && is_rounding(run, &misfit);
+    if (!explains && !nothing) {
         run_fail(
             run, FBD_FAILED,
             "at t = %.9g the coupling `%s` is off by %.3g, far more than the error of a step: the mechanism "
