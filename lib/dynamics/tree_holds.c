@@ -211,7 +211,8 @@ static int pulled_against(const struct fbd_state *state, const struct decided *d
     }
     for (int pair = 0; pair < count && against >= 0; pair++) {
         const struct mode *hold = mode_of(state, pair);
-        if (!mode_is_one_sided(hold) || state->slip[pair] != stick || !hold_in_question(state, decided, forced, pair))
+        if (!mode_is_one_sided(hold) || state->slip[pair] != stick ||
+            !hold_in_question(state, decided, forced, pair))
             continue;
         if (tree_seen_acceleration(state, hold_row(state, hold)->g.x2)) return against;
     }

@@ -166,18 +166,29 @@ static double reach_of_couplings(const struct tree *tree)
     return reach;
 }
 
-/* What a rounding of all places at a state does: every force times the distance of its point, and every couple. */
-static double places(struct ledger *ledger, struct fbd_state *state)
+/* What roundings do at a state, as energies. */
+struct rounded {
+    double
+        places; /* every force times the distance of its point, and every couple: one rounding of all places */
+    double ways; /* of unit time: every force times what it moves its body by alone */
+};
+
+static struct rounded rounded_at(struct ledger *ledger, struct fbd_state *state)
 {
     const struct fbd_model *model = ledger->model;
     struct instant at = state_instant(state);
-    double sum = 0, reach = reach_of_couplings(model->tree);
+    struct rounded sum = {0, 0};
+    double reach = reach_of_couplings(model->tree);
     for (size_t b = 0; b < model->body_count; b++) {
         size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, ledger->arrows);
+        double forces = 0, mass = body_mass(&model->bodies[b], &at);
         for (size_t i = 0; i < count; i++) {
             const struct arrow *arrow = &ledger->arrows[i];
-            sum += vec_norm(arrow->force) * fmax(vec_norm(arrow->point), reach) + fabs(arrow->couple);
+            double force = vec_norm(arrow->force);
+            sum.places += force * fmax(vec_norm(arrow->point), reach) + fabs(arrow->couple);
+            forces += force;
         }
+        if (mass > 0) sum.ways += forces * forces / mass;
     }
     return sum;
 }
@@ -190,13 +201,17 @@ double ledger_explained(struct ledger *ledger, struct fbd_state *state, double t
     struct instant at = state_instant(state);
     double size = fmax(ledger->liveliest, ledger->initial_kinetic) + ledger->turnover;
     if (!ledger->works) return NAN;
-    double terms = size + places(ledger, state);
+    struct rounded rounded = rounded_at(ledger, state);
+    double terms = size + rounded.places;
+    /* What rests at the origin has no size there: a rounding of what forces move in a step, for each step. */
+    double nothing = DBL_EPSILON * rounded.ways * at.t * at.t / fmax(steps, 1);
     for (size_t i = 0; i < ledger->model->load_count; i++) {
         if (ledger->integrated[i]) continue;
         double potential = potential_energy(ledger->model, &ledger->model->loads[i], &at, ledger->scratch);
         terms += fabs(ledger->initial_potential[i]) + fabs(potential);
     }
-    return tolerances * (steps + least_steps) * fmax(tolerance, least_tolerance) * size + roundings * terms;
+    return tolerances * (steps + least_steps) * fmax(tolerance, least_tolerance) * size + roundings * terms +
+           nothing;
 }
 
 bool ledger_within(struct ledger *ledger, struct ensemble *ensemble, double t, double *work)
