@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "dynamics/friction.h"
+#include "dynamics/tree.h"
 #include "dynamics/tree_system.h"
 
 void impulse_look(struct fbd_state *state)
@@ -38,26 +40,50 @@ static void let_go(const struct fbd_model *model, int *modes)
     }
 }
 
+static int link_of(const struct fbd_model *model, int pair)
+{
+    return model->bodies[model->plan.modes[pair].body].place.link;
+}
+
 /* x for the impulse alone, and of all rows that hold what answers to it. */
-static void answer(struct fbd_state *state, const struct instant *at, int row, double *velocities)
+static void answer(struct fbd_state *state, const struct instant *at, const struct impulse_lines *lines, int j)
 {
     const struct tree *tree = state->model->tree;
     struct tree_work *work = state->tree;
     memset(work->x, 0, (size_t)tree->count * sizeof *work->x);
-    row_apply(&work->rows[row], 1, work->x);
+    if (j < lines->row_count)
+        row_apply(&work->rows[lines->rows[j]], 1, work->x);
+    else
+        work->x[link_of(state->model, lines->slides[j - lines->row_count])].g = 1;
     tree_inward(tree, work, 1, tree->count);
-    tree_outward(tree, work, 1, tree->count, velocities);
+    tree_outward(tree, work, 1, tree->count, work->unit);
     for (int k = 0; k < tree_unknowns(tree); k++)
         work->z[k] = k < tree->row_count && tree_takes_part(tree, at, k) ? -tree_row_answer(work, k) : 0;
 }
 
-void impulse_answers(struct fbd_state *state, const int *rows, int count, int *modes, double *W,
+/* Add to column j what work->x and work->unit have. */
+static void add_column(struct fbd_state *state, const struct impulse_lines *lines, int j, double *W, double *B,
+                       double *velocities)
+{
+    const struct fbd_model *model = state->model;
+    int rows = lines->row_count, count = rows + lines->slide_count;
+    tree_add_unit(model->tree, state->tree, velocities);
+    for (int i = 0; i < rows; i++) W[i * count + j] += tree_row_answer(state->tree, lines->rows[i]);
+    for (int i = 0; i < lines->slide_count; i++) {
+        int pair = lines->slides[i];
+        W[(rows + i) * count + j] += state->tree->unit[model->plan.modes[pair].coordinate];
+        B[i * count + j] += tree_normal_in(model->tree, state->tree, link_of(model, pair));
+    }
+}
+
+void impulse_answers(struct fbd_state *state, const struct impulse_lines *lines, int *modes, double *W, double *B,
                      double *answers)
 {
     const struct fbd_model *model = state->model;
     struct tree_work *work = state->tree;
-    size_t n = (size_t)model->plan.n;
+    size_t n = (size_t)model->plan.n, count = (size_t)(lines->row_count + lines->slide_count);
     const double exact = 1e-13; /* slopes that are left alone; see project.c */
+    const double immovable = 1e-12;
     struct instant at = state_instant(state);
     factor_tree(state);
     memcpy(modes, state->slip, model->plan.mode_count * sizeof *modes);
@@ -66,14 +92,16 @@ void impulse_answers(struct fbd_state *state, const int *rows, int count, int *m
     work->projecting = true;
     work->damping = exact;
     tree_system_factor(model, &at);
-    for (int j = 0; j < count; j++) {
-        double *velocities = answers + (size_t)j * n;
-        memset(velocities, 0, n * sizeof *velocities);
-        answer(state, &at, rows[j], velocities);
-        for (int i = 0; i < count; i++) W[i * count + j] = tree_row_answer(work, rows[i]);
+    memset(W, 0, count * count * sizeof *W);
+    memset(B, 0, (size_t)lines->slide_count * count * sizeof *B);
+    memset(answers, 0, count * n * sizeof *answers);
+    for (size_t j = 0; j < count; j++) {
+        answer(state, &at, lines, (int)j);
+        add_column(state, lines, (int)j, W, B, answers + j * n);
+        double *own = &W[j * count + j], alone = *own;
         tree_system_solve(model, &at, work->z);
-        tree_add_unit(model->tree, work, velocities);
-        for (int i = 0; i < count; i++) W[i * count + j] += tree_row_answer(work, rows[i]);
+        add_column(state, lines, (int)j, W, B, answers + j * n);
+        if ((int)j >= lines->row_count && *own <= immovable * alone) *own = 0;
     }
     work->projecting = false;
     for (int i = 1; i < model->tree->count; i++) work->links[i].locked = false;

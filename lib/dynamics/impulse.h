@@ -3,19 +3,25 @@
  * What impulses do: the velocities that unit impulses along rows of one-sided ties give to all bodies,
  * through every joint and every coupling that holds both ways.
  *
- * Contacts and ropes are no part of what holds: their impulses are what is asked about. Dry friction of
- * slides and bearings gives way, for its impulse is that of its normal force, which an impact elsewhere has
- * little of.
+ * Contacts and ropes are no part of what holds: their impulses are what is asked about. So are those of dry
+ * friction on slides, which go with the impulses across their guides. A bearing whose friction is a moment
+ * has none.
  */
 #ifndef FBD_DYNAMICS_IMPULSE_H
 #define FBD_DYNAMICS_IMPULSE_H
 
 #include "dynamics/state.h"
 
-/* For `count` rows, the state's rows being evaluated: W[count x count], the velocity of row i by a unit
- * impulse along row j, and answers[count x n], the velocities of the coordinates by each. `modes` has room
- * for plan.mode_count numbers. */
-void impulse_answers(struct fbd_state *state, const int *rows, int count, int *modes, double *W,
+/* Impulses along rows of ties, and behind them along the coordinates of slides, by the pairs of their friction. */
+struct impulse_lines {
+    int row_count, slide_count;
+    const int *rows, *slides;
+};
+
+/* The state's rows being evaluated: W[count x count], the velocity along line i by a unit impulse along line j,
+ * B[slides x count], the impulse across the guide of each slide, and answers[count x n], the velocities of the
+ * coordinates by each. A slide that couplings hold still has W = 0. `modes` has room for plan.mode_count numbers. */
+void impulse_answers(struct fbd_state *state, const struct impulse_lines *lines, int *modes, double *W, double *B,
                      double *answers);
 
 /* Rows and links where the state is, with its velocities. */

@@ -133,7 +133,7 @@ static enum impacts_end propagate_to_the_end(struct impacts *impacts)
 static bool do_what_they_say(const struct impacts *impacts, const double *before)
 {
     const double rounding = 1e-9, of_products = 4 * DBL_EPSILON; /* in W, too */
-    int n = 2 * impacts->count;
+    int n = impacts_size(impacts);
     double wrong = 0, energy = 0;
     for (int i = 0; i < n; i++) {
         double made = before[i], products = 0, own = impacts->W[i * n + i];
@@ -166,6 +166,7 @@ static enum impacts_end solve_by(struct impacts *impacts, const double *before, 
 /* `before` has the velocities, too. */
 static enum impacts_end solve_whole(struct impacts *impacts, const double *before)
 {
+    if (impacts->slides > 0) return solve_by(impacts, before, false);
     if (impacts->count == 1) {
         strike(impacts, 0);
         return impacts_done;
@@ -216,15 +217,29 @@ static enum impacts_end solve_part(struct impacts *all, const int *member, int c
     return end;
 }
 
+/* Slides may press on each other's guides: no parts are looked for. */
+static enum impacts_end solve_with_slides(struct impacts *impacts)
+{
+    size_t n = (size_t)impacts_size(impacts);
+    double *before = calloc(n, sizeof *before);
+    if (!before) return impacts_no_memory;
+    memcpy(before, impacts->v, n * sizeof *before);
+    memset(impacts->P, 0, n * sizeof *impacts->P);
+    enum impacts_end end = solve_whole(impacts, before);
+    free(before);
+    return end;
+}
+
 enum impacts_end impacts_solve(struct impacts *impacts)
 {
+    impacts->work = 0;
+    impacts->in_turn = false;
+    if (impacts->slides > 0) return solve_with_slides(impacts);
     size_t count = (size_t)impacts->count, n = 2 * count;
     int *part = calloc(2 * count + 1, sizeof *part), *member = part ? part + count : NULL;
     double *room = calloc(n * n + 3 * n + 1, sizeof *room);
     enum impacts_end end = part && room ? impacts_done : impacts_no_memory;
     memset(impacts->P, 0, n * sizeof *impacts->P);
-    impacts->work = 0;
-    impacts->in_turn = false;
     int parts = end == impacts_done ? parts_find(impacts->count, feel_each_other, impacts, part) : 0;
     for (int p = 0; p < parts && end == impacts_done; p++) {
         int members = 0;

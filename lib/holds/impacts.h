@@ -13,7 +13,8 @@
  *
  *   propagate     the point that closes fastest has its impact alone, by holds/impact.h, until none closes.
  *
- * One point alone is an impact by holds/impact.h in both.
+ * One point alone is an impact by holds/impact.h in both. Where impulses press slides on their guides, the friction of
+ * these is decided with all points, together.
  */
 #ifndef FBD_HOLDS_IMPACTS_H
 #define FBD_HOLDS_IMPACTS_H
@@ -26,18 +27,31 @@ struct impacts_point {
     double mu, e;
 };
 
-/* Unknowns 2 i and 2 i + 1 belong to point i: along its normal and its tangent. */
+/* Friction of a slide that the impulses press on its guide. */
+struct impacts_slide {
+    double mu;
+    bool two_sided;
+};
+
+/* Unknowns 2 i and 2 i + 1 belong to point i: along its normal and its tangent; those of slides follow. */
 struct impacts {
-    int count;
+    int count, slides;
     bool propagate;
     enum impact_law law;
     const struct impacts_point *points;
-    const double *W; /* 2 count x 2 count, symmetric */
-    double *v;       /* 2 count: velocities before, then after; v_n of a point that lasts is 0 exactly */
-    double *P;       /* 2 count: impulses, set */
+    const struct impacts_slide *slide;
+    const double *W; /* size x size, symmetric */
+    const double *B; /* slides x size: the normal impulse of a guide by each */
+    double *v;       /* size: velocities before, then after; v_n of a point that lasts is 0 exactly */
+    double *P;       /* size: impulses, set */
     double work;     /* set: the change of kinetic energy */
     bool in_turn;    /* set: some are one after the other, as no impulses of all together were found */
 };
+
+static inline int impacts_size(const struct impacts *impacts)
+{
+    return 2 * impacts->count + impacts->slides;
+}
 
 enum impacts_end {
     impacts_done,

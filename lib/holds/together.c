@@ -11,7 +11,7 @@
 /* v += W P for impulses that are added, and the work that they do. */
 static double add_impulses(const struct impacts *impacts, const double *P, double *v)
 {
-    int n = 2 * impacts->count;
+    int n = impacts_size(impacts);
     double work = 0;
     for (int i = 0; i < n; i++) {
         double gain = 0;
@@ -34,16 +34,34 @@ static double normal_work(const struct impacts *impacts, const double *P, const 
 struct together {
     const struct impacts *impacts;
     struct hold_problem problem;
-    double *compressed; /* 2 count: velocities */
-    double *P;          /* 2 count: impulses of compression */
-    double *v, *more;   /* 2 count: velocities after restitution, its impulses */
+    double *compressed; /* of all unknowns: velocities */
+    double *P;          /* impulses of compression */
+    double *v, *more;   /* velocities after restitution, its impulses */
 };
+
+/* Friction of slides, whose guides come behind `first` others. */
+static void set_slides(struct together *together, size_t first)
+{
+    const struct impacts *impacts = together->impacts;
+    size_t n = (size_t)impacts_size(impacts), slides = (size_t)impacts->slides;
+    struct hold_problem *problem = &together->problem;
+    for (size_t i = 0; i < slides; i++) {
+        struct hold *along = &problem->holds[n - slides + i];
+        along->kind = hold_friction;
+        along->mu_s = along->mu_k = impacts->slide[i].mu;
+        along->press = press_guide;
+        along->presses = (int)(first + i);
+        problem->guides[first + i].two_sided = impacts->slide[i].two_sided;
+    }
+    if (slides > 0) memcpy(problem->B + first * n, impacts->B, slides * n * sizeof(double));
+}
 
 static bool together_new(struct together *together, const struct impacts *impacts, bool guides)
 {
-    size_t count = (size_t)impacts->count, n = 2 * count;
+    size_t count = (size_t)impacts->count, n = (size_t)impacts_size(impacts);
+    size_t own = guides ? count : 0; /* of the points */
     *together = (struct together){.impacts = impacts};
-    if (!holds_new(&together->problem, n, guides ? count : 0)) return false;
+    if (!holds_new(&together->problem, n, own + (size_t)impacts->slides)) return false;
     together->compressed = calloc(4 * n + 1, sizeof(double));
     if (!together->compressed) return false;
     together->P = together->compressed + n;
@@ -58,6 +76,7 @@ static bool together_new(struct together *together, const struct impacts *impact
         along->presses = (int)(guides ? i : 2 * i);
         if (guides) together->problem.B[i * n + 2 * i] = 1;
     }
+    set_slides(together, own);
     return true;
 }
 
@@ -78,7 +97,7 @@ static enum impacts_end decide(struct together *together)
 /* What closes no more, or does not slip, has that velocity exactly. */
 static void take(const struct together *together, double *v)
 {
-    for (int i = 0; i < 2 * together->impacts->count; i++) {
+    for (int i = 0; i < impacts_size(together->impacts); i++) {
         const struct hold *hold = &together->problem.holds[i];
         v[i] = hold->mode == hold_keeps ? 0 : hold->c;
     }
@@ -88,16 +107,17 @@ static void take(const struct together *together, double *v)
 static enum impacts_end compress(struct together *together)
 {
     const struct impacts *impacts = together->impacts;
+    const int n = impacts_size(impacts), points = 2 * impacts->count;
     bool newton = impact_by_velocity(impacts->law);
-    for (int i = 0; i < 2 * impacts->count; i++) {
-        bool bounces = newton && i % 2 == 0 && impacts->v[i] < 0;
+    for (int i = 0; i < n; i++) {
+        bool bounces = newton && i < points && i % 2 == 0 && impacts->v[i] < 0;
         together->problem.holds[i].free = (bounces ? 1 + impacts->points[i / 2].e : 1) * impacts->v[i];
     }
     enum impacts_end end = decide(together);
     if (end != impacts_done) return end;
     take(together, together->compressed);
-    for (int i = 0; i < 2 * impacts->count; i++) {
-        bool bounces = newton && i % 2 == 0 && impacts->v[i] < 0;
+    for (int i = 0; i < n; i++) {
+        bool bounces = newton && i < points && i % 2 == 0 && impacts->v[i] < 0;
         if (bounces) together->compressed[i] -= impacts->points[i / 2].e * impacts->v[i];
         together->P[i] = together->problem.holds[i].force;
     }
@@ -120,13 +140,18 @@ static bool is_no_impulse(const struct together *together, int row)
 static enum impacts_end restore(struct together *together, double share)
 {
     const struct impacts *impacts = together->impacts;
-    int count = impacts->count, n = 2 * count;
+    const int count = impacts->count, n = impacts_size(impacts);
     double *given = together->more;
+    memset(given, 0, (size_t)n * sizeof *given);
     for (int i = 0; i < count; i++) {
         int row = 2 * i;
         given[row] = is_no_impulse(together, row) ? 0 : share * impacts->points[i].e * together->P[row];
-        given[row + 1] = 0;
         together->problem.guides[i].free = given[row];
+    }
+    for (int k = 0; k < impacts->slides; k++) {
+        double *N = &together->problem.guides[count + k].free;
+        *N = 0;
+        for (int i = 0; i < n; i++) *N += impacts->B[k * n + i] * given[i];
     }
     memcpy(together->v, together->compressed, (size_t)n * sizeof *together->v);
     add_impulses(impacts, given, together->v);
@@ -154,7 +179,7 @@ static double work_of(const struct impacts *impacts, const double *P, const doub
                       const double *after)
 {
     double work = 0;
-    for (int i = 0; i < 2 * impacts->count; i++) work += P[i] * (before[i] + after[i]) / 2;
+    for (int i = 0; i < impacts_size(impacts); i++) work += P[i] * (before[i] + after[i]) / 2;
     return work;
 }
 
@@ -244,7 +269,7 @@ static bool has_restitution(const struct impacts *impacts)
 static void finish(struct impacts *impacts, const double *P, const double *v)
 {
     impacts->work += work_of(impacts, P, impacts->v, v);
-    for (int i = 0; i < 2 * impacts->count; i++) {
+    for (int i = 0; i < impacts_size(impacts); i++) {
         impacts->P[i] += P[i];
         impacts->v[i] = v[i];
     }
@@ -261,7 +286,7 @@ enum impacts_end impacts_together(struct impacts *impacts, double before)
         end = together_new(&second, impacts, true) ? impacts_done : impacts_no_memory;
         if (end == impacts_done) {
             second.problem.beside_c = before;
-            memcpy(second.compressed, first.compressed, 4 * (size_t)impacts->count * sizeof(double));
+            memcpy(second.compressed, first.compressed, 2 * (size_t)impacts_size(impacts) * sizeof(double));
             end = restore_by_law(&second);
         }
     }

@@ -46,20 +46,25 @@ static bool meetings_init(struct contacts_work *work, const struct fbd_model *mo
 bool contacts_work_init(struct contacts_work *work, const struct fbd_model *model)
 {
     *work = (struct contacts_work){0};
-    size_t most = model->tree ? most_strikers(model->tree) : 0, n = (size_t)model->plan.n, rows = 2 * most;
+    size_t most = model->tree ? most_strikers(model->tree) : 0, n = (size_t)model->plan.n;
+    size_t pairs = model->plan.mode_count, rows = 2 * most, all = rows + pairs;
     if (most == 0) return true;
     work->strikers = calloc(most, sizeof *work->strikers);
     work->points = calloc(most, sizeof *work->points);
-    work->rows = calloc(rows + model->plan.mode_count, sizeof *work->rows);
-    work->W = calloc(rows * rows + rows * n + 4 * rows + plan_size(&model->plan) + 1, sizeof *work->W);
+    work->rows = calloc(rows + 2 * pairs, sizeof *work->rows);
+    work->slide = calloc(pairs + 1, sizeof *work->slide);
+    work->W = calloc(all * (all + pairs + n + 4) + pairs + plan_size(&model->plan) + 1, sizeof *work->W);
     if (!meetings_init(work, model)) return false;
-    if (!work->strikers || !work->points || !work->rows || !work->W) return false;
+    if (!work->strikers || !work->points || !work->rows || !work->slide || !work->W) return false;
     work->modes = work->rows + rows;
-    work->answers = work->W + rows * rows;
-    work->v = work->answers + rows * n;
-    work->P = work->v + rows;
-    work->later = work->P + rows;
-    work->y = work->later + 2 * rows;
+    work->slides = work->modes + pairs;
+    work->B = work->W + all * all;
+    work->answers = work->B + pairs * all;
+    work->v = work->answers + all * n;
+    work->P = work->v + all;
+    work->later = work->P + all;
+    work->slide_before = work->later + 2 * all;
+    work->y = work->slide_before + pairs;
     return true;
 }
 
@@ -68,6 +73,7 @@ void contacts_work_free(struct contacts_work *work)
     free(work->strikers);
     free(work->points);
     free(work->rows);
+    free(work->slide);
     free(work->W);
     free(work->bounces);
     free(work->was_closed);

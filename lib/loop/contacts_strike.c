@@ -62,7 +62,71 @@ static enum impact_law law_of(const struct run *run, int count)
     return (enum impact_law)run->model->scene->constraints[tie->constraint].contact.law;
 }
 
-/* Rows 2 i and 2 i + 1; a rope has one, and its normal points the other way. */
+/* ---- friction of slides that the impulses press on their guides */
+
+/* Those that rub, on a guide across which there may be impulses. */
+static void find_slides(struct run *run)
+{
+    const struct plan *plan = &run->model->plan;
+    struct contacts_work *work = &run->contacts;
+    work->slide_count = 0;
+    for (int pair = 0; pair < (int)plan->mode_count && !work->plastic; pair++) {
+        const struct mode *mode = &plan->modes[pair];
+        if (mode->kind == mode_joint && mode->normal_slot >= 0 && friction_rubs(mode))
+            work->slides[work->slide_count++] = pair;
+    }
+}
+
+/* Is the guide of slide i pressed by what strikes, or by the friction of a slide that is? */
+static bool is_pressed(const struct contacts_work *work, int rows, int i, const int *pressed)
+{
+    const double rounding = 1e-12; /* of a unit impulse */
+    int all = rows + work->slide_count;
+    if (work->W[(rows + i) * (all + 1)] <= 0) return false;
+    for (int j = 0; j < all; j++)
+        if ((j < rows || pressed[j - rows]) && fabs(work->B[i * all + j]) > rounding) return true;
+    return false;
+}
+
+/* Leave out slides that no impulse presses on: what they rub with does not jump. True when there were some. */
+static bool leave_out_slides(struct contacts_work *work, int rows)
+{
+    int *pressed = work->modes, before = -1, found = 0, kept = 0;
+    for (int i = 0; i < work->slide_count; i++) pressed[i] = 0;
+    while (found > before) {
+        before = found;
+        for (int i = 0; i < work->slide_count; i++)
+            if (!pressed[i] && is_pressed(work, rows, i, pressed)) pressed[i] = ++found;
+    }
+    for (int i = 0; i < work->slide_count; i++)
+        if (pressed[i]) work->slides[kept++] = work->slides[i];
+    bool any = kept < work->slide_count;
+    work->slide_count = kept;
+    return any;
+}
+
+static void set_slides(struct run *run, int rows)
+{
+    struct contacts_work *work = &run->contacts;
+    struct instant at = state_instant(run->state);
+    for (int i = 0; i < work->slide_count; i++) {
+        int pair = work->slides[i];
+        const struct mode *mode = &run->model->plan.modes[pair];
+        double mu = friction_coefficient(run->model, pair, &mode->mu_k, &at, NULL, NULL);
+        work->slide[i] = (struct impacts_slide){mu, mode->two_sided};
+        double v = run->state->slip[pair] == stick ? 0 : slip_velocity(run->model, pair, &at);
+        work->v[rows + i] = work->slide_before[i] = v;
+    }
+}
+
+static void find_answers(struct run *run, int rows)
+{
+    struct contacts_work *work = &run->contacts;
+    const struct impulse_lines lines = {rows, work->slide_count, work->rows, work->slides};
+    impulse_answers(run->state, &lines, work->modes, work->W, work->B, work->answers);
+}
+
+/* Rows 2 i and 2 i + 1; a rope has one, and its normal points the other way. Slides come behind. */
 static void set_answers(struct run *run, int count)
 {
     struct contacts_work *work = &run->contacts;
@@ -73,13 +137,21 @@ static void set_answers(struct run *run, int count)
         row[0] = first;
         row[1] = work->strikers[i].rope ? first : first + 1;
     }
-    impulse_answers(run->state, work->rows, rows, work->modes, work->W, work->answers);
+    find_slides(run);
+    find_answers(run, rows);
+    if (leave_out_slides(work, rows)) find_answers(run, rows);
+    set_slides(run, rows);
+    int all = rows + work->slide_count;
     for (int i = 0; i < count; i++) {
         if (!work->strikers[i].rope) continue;
-        for (int k = 0; k < rows; k++) {
-            work->W[(2 * i) * rows + k] *= -1;
-            work->W[k * rows + 2 * i] *= -1;
-            work->W[(2 * i + 1) * rows + k] = work->W[k * rows + 2 * i + 1] = 0;
+        for (int k = 0; k < all; k++) {
+            work->W[(2 * i) * all + k] *= -1;
+            work->W[k * all + 2 * i] *= -1;
+            work->W[(2 * i + 1) * all + k] = work->W[k * all + 2 * i + 1] = 0;
+        }
+        for (int k = 0; k < work->slide_count; k++) {
+            work->B[k * all + 2 * i] *= -1;
+            work->B[k * all + 2 * i + 1] = 0;
         }
     }
 }
@@ -215,6 +287,23 @@ static void drop_rounding(struct run *run, int count)
     }
 }
 
+/* What the friction of slides has come to: their slips, and the work that it takes. */
+static void end_slips(struct run *run, int rows)
+{
+    struct contacts_work *work = &run->contacts;
+    const struct plan *plan = &run->model->plan;
+    struct instant at = state_instant(run->state);
+    for (int i = 0; i < work->slide_count; i++) {
+        int pair = work->slides[i];
+        const struct mode *mode = &plan->modes[pair];
+        double ignored, surface = friction_surface_speed(mode, &at, &ignored);
+        double v = work->v[rows + i], P = work->P[rows + i];
+        run->impact_work[mode->load] += P * ((work->slide_before[i] + v) / 2 + surface);
+        if (v == 0) run->state->y[plan->n + mode->coordinate] = surface;
+        run->state->slip[pair] = v > 0 ? slip_plus : v < 0 ? slip_minus : stick;
+    }
+}
+
 void contacts_apply_impulses(struct run *run, int count)
 {
     refuse_rubbing(run);
@@ -226,6 +315,11 @@ void contacts_apply_impulses(struct run *run, int count)
         double P = impulse_of(work, i);
         for (size_t k = 0; P != 0 && k < n; k++) run->state->y[n + k] += P * work->answers[(size_t)i * n + k];
     }
+    for (int i = 0; i < work->slide_count; i++) {
+        size_t line = (size_t)(2 * count + i);
+        for (size_t k = 0; k < n; k++) run->state->y[n + k] += work->P[line] * work->answers[line * n + k];
+    }
+    end_slips(run, 2 * count);
     drop_rounding(run, count);
     if (drives) note_drives(run, count, jointed_kinetic_energy(run->state) - before);
 }
@@ -258,7 +352,10 @@ bool contacts_solve_impact(struct run *run, int count)
                               .propagate = run->model->scene->simulate.propagate && !work->plastic,
                               .law = work->plastic ? impact_stronge : law_of(run, count),
                               .points = work->points,
+                              .slides = work->slide_count,
+                              .slide = work->slide,
                               .W = work->W,
+                              .B = work->B,
                               .v = work->v,
                               .P = work->P};
     enum impacts_end end = impacts_solve(&impacts);
@@ -267,7 +364,7 @@ bool contacts_solve_impact(struct run *run, int count)
         return false;
     }
     double size = 0;
-    for (int i = 0; i < 2 * count; i++) size += fabs(work->P[i] * work->v[i]);
+    for (int i = 0; i < impacts_size(&impacts); i++) size += fabs(work->P[i] * work->v[i]);
     work->makes = impacts.work > 1e-12 * size;
     work->in_turn = impacts.in_turn;
     return true;

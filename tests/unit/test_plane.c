@@ -449,6 +449,7 @@ static void draw_slide(struct random_numbers *numbers, struct body *slide, bool 
     slide->neutral = random_between(numbers, -0.3, 0.3);
     slide->damper = chance(numbers, 0.2) ? slide->m * random_between(numbers, 0, 2) : 0;
     slide->rub = chance(numbers, 0.7) ? random_between(numbers, 0.02, 0.5) : 0;
+    if (getenv("NORUB")) slide->rub = 0;
     slide->rub_speed = slide->rub > 0 && chance(numbers, 0.2) ? random_between(numbers, -1, 1) : 0;
 }
 
@@ -611,7 +612,7 @@ static const struct kind kinds[] = {
 enum { most_named = 20 };
 struct named {
     int count;
-    char name[most_named][12];
+    char name[most_named][24];
     double value[most_named];
     bool rate[most_named];
 };
