@@ -275,8 +275,8 @@ static double rubbing(const struct contacts_work *work, int i)
 static bool leaves_for_the_last_time(const struct run *run, int i)
 {
     const struct contacts_work *work = &run->contacts;
+    if (work->strikers[i].rope) return work->strikers[i].stays; /* also with those that are not let go */
     if (!(work->v[(ptrdiff_t)2 * i] > 0)) return false;
-    if (work->strikers[i].rope) return work->strikers[i].stays;
     return work->bounces[tree_of(run)->ties[work->strikers[i].tie].meeting].rests_from < HUGE_VAL;
 }
 
@@ -309,6 +309,31 @@ static void take_leaving_speeds(struct run *run, int count)
     if (!which || (size > 0 && !A)) run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
     free(A);
     free(which);
+}
+
+/* Do ropes get taut ever faster, in turn? Compared over two of them, as intervals alternate. */
+static bool hurries(const struct bounces *tugs)
+{
+    const double *t = tugs->returned;
+    return tugs->returns >= 5 && t[0] - t[2] < t[2] - t[4];
+}
+
+void contacts_end_tugs(struct run *run, int count)
+{
+    const double nobody_sees = 1e-9; /* of a rope */
+    struct contacts_work *work = &run->contacts;
+    double leaving = slackening_speed(run, count), length = HUGE_VAL;
+    const double *t = work->tugs.returned;
+    note_return(&work->tugs, run->state->t);
+    for (int i = 0; i < count; i++)
+        if (work->strikers[i].rope)
+            length = fmin(length, run->state->tree->ties[work->strikers[i].tie].zero);
+    if (leaving == 0 || !hurries(&work->tugs) || leaving * (t[0] - t[2]) > nobody_sees * length) return;
+    double before = jointed_kinetic_energy(run->state);
+    for (int i = 0; i < count; i++) work->strikers[i].stays = work->strikers[i].rope;
+    take_leaving_speeds(run, count);
+    run->impact_work[tree_of(run)->ties[work->strikers[0].tie].load] +=
+        jointed_kinetic_energy(run->state) - before;
 }
 
 /* The largest speed that is lost, of those whose series are summed up. */

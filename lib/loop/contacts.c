@@ -342,6 +342,7 @@ void run_strike_taut(struct run *run)
     int count = contacts_find_strikers(run);
     if (!any_closes(run, count) || !contacts_strike(run, count)) return;
     for (int i = 0; i < count; i++) note_impact(run, i);
+    contacts_end_tugs(run, count);
     impulse_look(run->state);
     contacts_open_or_close(run, count, true);
     unstick(run);

@@ -64,6 +64,7 @@ struct contacts_work {
     double *W, *B, *answers, *v, *P, *y;
     double *later;           /* two velocities and impulses of each striker, beside v and P */
     struct bounces *bounces; /* of each meeting */
+    struct bounces tugs;     /* of ropes, which get taut in turn */
     bool *asleep;            /* of each meeting: too far apart for the step */
     double *deep;   /* of each meeting: how deep it was left open, at a corner that another side is next to */
     bool *touching; /* of each tie: scratch */
@@ -141,6 +142,10 @@ void contacts_apply_impulses(struct run *run, int count);
 /* What leaves by the velocities in work->v after an impact, or as it is without one, is open; what stays slips or
  * sticks. */
 void contacts_open_or_close(struct run *run, int count, bool struck);
+
+/* A rope has got taut, and by that lets others go, which do the same to it in turn: once by no more than nobody sees all
+ * stay taut. */
+void contacts_end_tugs(struct run *run, int count);
 
 /* Give the ties of meeting `index` the features that touch within `near`. */
 void contacts_find_touching(struct run *run, int index, double near);

@@ -45,6 +45,7 @@ struct push { /* A sin(w t + phase) + B */
     double A, w, phase, B;
 };
 
+/* Laws of restitution differ where an impact is not of one point alone, without friction: there is none then. */
 static bool chance(struct random_numbers *numbers, double share)
 {
     return random_between(numbers, 0, 1) < share;
@@ -125,8 +126,8 @@ static double length_of(const struct body *link) { return link->r; }
 
 static void draw_links(struct random_numbers *numbers, struct scene *scene)
 {
-    bool plastic = chance(numbers, 0.6);
     scene->count = chance(numbers, 0.35) ? 1 : 2;
+    bool plastic = scene->count == 2 || chance(numbers, 0.5);
     for (int i = 0; i < scene->count; i++) {
         struct body *link = &scene->body[i];
         link->m = exp(random_between(numbers, -1, 1));
@@ -448,8 +449,7 @@ static void draw_slide(struct random_numbers *numbers, struct body *slide, bool 
     slide->spring = chance(numbers, 0.3) ? slide->m * random_between(numbers, 1, 50) : 0;
     slide->neutral = random_between(numbers, -0.3, 0.3);
     slide->damper = chance(numbers, 0.2) ? slide->m * random_between(numbers, 0, 2) : 0;
-    slide->rub = chance(numbers, 0.7) ? random_between(numbers, 0.02, 0.5) : 0;
-    if (getenv("NORUB")) slide->rub = 0;
+    slide->rub = plastic && chance(numbers, 0.8) ? random_between(numbers, 0.02, 0.5) : 0;
     slide->rub_speed = slide->rub > 0 && chance(numbers, 0.2) ? random_between(numbers, -1, 1) : 0;
 }
 
