@@ -14,13 +14,17 @@ static struct vec in_world(const struct tree_work *work, int link, struct vec ow
     return vec_add(work->links[link].p, vec_turn(work->links[link].turn, own));
 }
 
+/* Of a start numbers are as exact as a file has them: 1e-9 of the scene. */
+static const double start_share = 1e3;
+
 /* The side of a line that a body stays on: the one that it says, or that its shape's middle is on. A point
  * that the line goes through but for what a file rounds, within a share of its distance from the centre of
  * mass, is on the side of that centre: set down on the line, a body does not get to its other side by a
- * rounding. */
-static void choose_side(const struct fbd_model *model, struct tree_work *work, const struct meeting *meeting)
+ * rounding; nor does a particle, which has no other point. */
+static void choose_side(const struct fbd_model *model, struct tree_work *work, int index)
 {
     const double share = 1e-6;
+    const struct meeting *meeting = &model->tree->meetings[index];
     const struct contact_shape *body = &meeting->shape[0], *line = &meeting->shape[1];
     if (line->kind != contact_line || work->kept) return;
     const struct tree_link *link = &model->tree->links[body->link];
@@ -30,7 +34,8 @@ static void choose_side(const struct fbd_model *model, struct tree_work *work, c
     double side = vec_dot(n, middle);
     int told = model->scene->constraints[meeting->constraint].contact.side;
     if (fabs(side) <= share * vec_norm(vec_sub(mass, middle))) side = vec_dot(n, mass);
-    if (side == 0) side = n.y >= 0 ? 1 : -1; /* a point on the line is above it */
+    bool on = fabs(side) <= start_share * meeting_near(model, work, index);
+    if (on) side = n.y >= 0 ? 1 : -1; /* a point on the line is above it */
     if (told != 0) side = told;
     for (int k = 0; k < meeting->tie_count; k++)
         work->ties[meeting->first_tie + k].side[0] = side < 0 ? -1 : 1;
@@ -43,9 +48,6 @@ static bool rests(const struct fbd_model *model, const struct tree_work *work, i
     const struct meeting *meeting = &model->tree->meetings[index];
     return fabs(feature_gap(model, work, index, feature).rate) <= share * meeting_speed(work, meeting);
 }
-
-/* Of a start numbers are as exact as a file has them: 1e-9 of the scene. */
-static const double start_share = 1e3;
 
 static void open_meeting(struct fbd_state *state, int index)
 {
@@ -63,7 +65,7 @@ static void start_meeting(struct fbd_state *state, int index)
     const struct tree *tree = model->tree;
     const struct meeting *meeting = &tree->meetings[index];
     open_meeting(state, index);
-    choose_side(model, state->tree, meeting);
+    choose_side(model, state->tree, index);
     double near = start_share * meeting_near(model, state->tree, index);
     int features[2], count = meeting_touching(model, state->tree, index, near, features);
     for (int k = 0; k < count; k++) {
