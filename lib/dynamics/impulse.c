@@ -46,7 +46,8 @@ static int link_of(const struct fbd_model *model, int pair)
 }
 
 /* x for the impulse alone, and of all rows that hold what answers to it. */
-static void answer(struct fbd_state *state, const struct instant *at, const struct impulse_lines *lines, int j)
+static void answer(struct fbd_state *state, const struct instant *at, const struct impulse_lines *lines,
+                   int j)
 {
     const struct tree *tree = state->model->tree;
     struct tree_work *work = state->tree;
@@ -62,8 +63,8 @@ static void answer(struct fbd_state *state, const struct instant *at, const stru
 }
 
 /* Add to column j what work->x and work->unit have. */
-static void add_column(struct fbd_state *state, const struct impulse_lines *lines, int j, double *W, double *B,
-                       double *velocities)
+static void add_column(struct fbd_state *state, const struct impulse_lines *lines, int j, double *W,
+                       double *B, double *velocities)
 {
     const struct fbd_model *model = state->model;
     int rows = lines->row_count, count = rows + lines->slide_count;
@@ -76,8 +77,8 @@ static void add_column(struct fbd_state *state, const struct impulse_lines *line
     }
 }
 
-void impulse_answers(struct fbd_state *state, const struct impulse_lines *lines, int *modes, double *W, double *B,
-                     double *answers)
+void impulse_answers(struct fbd_state *state, const struct impulse_lines *lines, int *modes, double *W,
+                     double *B, double *answers)
 {
     const struct fbd_model *model = state->model;
     struct tree_work *work = state->tree;

@@ -21,8 +21,8 @@ struct impulse_lines {
 /* The state's rows being evaluated: W[count x count], the velocity along line i by a unit impulse along line j,
  * B[slides x count], the impulse across the guide of each slide, and answers[count x n], the velocities of the
  * coordinates by each. A slide that couplings hold still has W = 0. `modes` has room for plan.mode_count numbers. */
-void impulse_answers(struct fbd_state *state, const struct impulse_lines *lines, int *modes, double *W, double *B,
-                     double *answers);
+void impulse_answers(struct fbd_state *state, const struct impulse_lines *lines, int *modes, double *W,
+                     double *B, double *answers);
 
 /* Rows and links where the state is, with its velocities. */
 void impulse_look(struct fbd_state *state);

@@ -326,8 +326,7 @@ void contacts_end_tugs(struct run *run, int count)
     const double *t = work->tugs.returned;
     note_return(&work->tugs, run->state->t);
     for (int i = 0; i < count; i++)
-        if (work->strikers[i].rope)
-            length = fmin(length, run->state->tree->ties[work->strikers[i].tie].zero);
+        if (work->strikers[i].rope) length = fmin(length, run->state->tree->ties[work->strikers[i].tie].zero);
     if (leaving == 0 || !hurries(&work->tugs) || leaving * (t[0] - t[2]) > nobody_sees * length) return;
     double before = jointed_kinetic_energy(run->state);
     for (int i = 0; i < count; i++) work->strikers[i].stays = work->strikers[i].rope;

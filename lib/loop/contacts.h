@@ -57,10 +57,10 @@ struct contacts_work {
     int struck;               /* how many took part in the last impact */
     struct impacts_point *points;
     int *rows, *modes;
-    int *slides;             /* pairs whose friction takes part, behind the strikers; */
-    int slide_count;         /* and how many */
+    int *slides;     /* pairs whose friction takes part, behind the strikers; */
+    int slide_count; /* and how many */
     struct impacts_slide *slide;
-    double *slide_before;    /* their slip before */
+    double *slide_before; /* their slip before */
     double *W, *B, *answers, *v, *P, *y;
     double *later;           /* two velocities and impulses of each striker, beside v and P */
     struct bounces *bounces; /* of each meeting */

@@ -16,12 +16,12 @@ enum moreau_kind { moreau_equal, moreau_gap, moreau_rub };
 struct moreau_row {
     enum moreau_kind kind;
     double w[moreau_most];
-    double e;      /* of a gap: its velocity after is no less than -e times that before */
-    double aim;    /* of what rubs: the velocity at which nothing slips */
-    double most;   /* of what rubs: the force or moment it is up to, if there is no `normal` */
-    double mu;     /* times the impulse of the row `normal` */
-    int normal;    /* -1: none */
-    double p;      /* the impulse, set */
+    double e;    /* of a gap: its velocity after is no less than -e times that before */
+    double aim;  /* of what rubs: the velocity at which nothing slips */
+    double most; /* of what rubs: the force or moment it is up to, if there is no `normal` */
+    double mu;   /* times the impulse of the row `normal` */
+    int normal;  /* -1: none */
+    double p;    /* the impulse, set */
 };
 
 struct moreau_rows {
