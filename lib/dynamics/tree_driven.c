@@ -12,6 +12,7 @@
 #include "dynamics/constraint.h"
 #include "dynamics/friction.h"
 #include "dynamics/project.h"
+#include "dynamics/tree_system.h"
 
 double tree_hold_acceleration(const struct fbd_state *state, const struct instant *at, int pair)
 {
@@ -22,13 +23,27 @@ double tree_hold_acceleration(const struct fbd_state *state, const struct instan
     return state->a[hold->coordinate] - surface;
 }
 
+/* Are the velocities such as the rows that take part let them be, by far and large? Else accelerations along rows tell of
+ * that. What rests has rounding of what its accelerations [m/s^2] of this size would give it. */
+static bool velocities_fit(const struct fbd_state *state, double size)
+{
+    const double large = 0.01, rounding = 1e-9;
+    const struct tree *tree = state->model->tree;
+    const struct instant at = state_instant(state);
+    double fastest = 0, off = 0;
+    for (int i = 1; i < tree->count; i++) fastest = fmax(fastest, vec_norm(state->tree->links[i].v));
+    for (int j = 0; j < tree->row_count; j++)
+        if (tree_takes_part(tree, &at, j)) off = fmax(off, fabs(state->tree->rows[j].g.x1));
+    return off <= large * fastest || off <= rounding * size * fabs(state->t);
+}
+
 bool tree_seen_acceleration(const struct fbd_state *state, double a)
 {
     const double rounding = 1e-9;
     double size = vec_norm(state->model->scene->gravity);
     for (int i = 1; i < state->model->tree->count; i++)
         size = fmax(size, vec_norm(state->tree->links[i].A.a));
-    return fabs(a) > rounding * size;
+    return fabs(a) > rounding * size && velocities_fit(state, size);
 }
 
 static double reach_of(const struct fbd_state *state)

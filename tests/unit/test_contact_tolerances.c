@@ -16,7 +16,7 @@
 #include "gallery.h"
 #include "random_numbers.h"
 
-enum { most_events = 400, tightest = 13, loosest = 3 };
+enum { most_events = 2000, tightest = 13, loosest = 3 };
 
 static const unsigned seed = 1687;
 
@@ -61,8 +61,8 @@ static double apart(const struct history *a, const struct history *b)
     return worst;
 }
 
-/* Between the impacts of dominoes rounding grows to 1e-11 s. */
-static const double rounding = 1e-10;
+/* Between the impacts of dominoes rounding grows: d = 2.32898 cm moved by 1e-15 of itself moves a stick by 4e-10 s. */
+static const double rounding = 1e-9;
 
 static void check_tolerances(struct checks *checks, const char *path, const char *setting)
 {

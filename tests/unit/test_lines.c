@@ -1,0 +1,281 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Random scenes of one to three discs on one line, with stops, contacts, dry friction on surfaces at rest and moving, springs,
+ * dampers and pushes, against a time stepping that knows no events (moreau.h). FBD_LINES=1000 tries so many,
+ * FBD_LINES_SEED=17 begins there.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "gallery.h"
+#include "moreau.h"
+#include "random_numbers.h"
+
+enum { most_discs = 3 };
+
+static const double g = 10, radius = 0.1;
+
+/* A sin(w t + phase) + B, in N. */
+struct push {
+    double A, w, phase, B;
+};
+
+struct disc {
+    double mass, x, v;
+    double mu, surface, shaken; /* the surface goes at surface + shaken sin(3 t) */
+    double k, c;                /* to x = 0 and the ground */
+    double min, max, e;         /* stops, infinite without */
+    double spring;              /* to the next disc, as long as at the start */
+    struct push push;
+};
+
+struct line {
+    int count;
+    double until, e; /* of contacts */
+    struct disc discs[most_discs];
+};
+
+/* ---- draws */
+
+static bool chance(struct random_numbers *numbers, double share)
+{
+    return random_between(numbers, 0, 1) < share;
+}
+
+static double perhaps(struct random_numbers *numbers, double share, double low, double high)
+{
+    double value = random_between(numbers, low, high);
+    return chance(numbers, share) ? value : 0;
+}
+
+static void draw_stops(struct random_numbers *numbers, struct disc *disc, double e)
+{
+    bool below = chance(numbers, 0.4), above = chance(numbers, 0.4);
+    disc->min = below ? disc->x - perhaps(numbers, 0.8, 0.01, 0.4) : -HUGE_VAL;
+    disc->max = above ? disc->x + random_between(numbers, 0.01, 0.4) : HUGE_VAL;
+    disc->e = e;
+    if (disc->min == disc->x) disc->v = fabs(disc->v);
+}
+
+static struct disc draw_disc(struct random_numbers *numbers)
+{
+    double mass = exp(random_between(numbers, -1.5, 1.5));
+    struct disc disc = {.mass = mass,
+                        .x = 2 * radius + perhaps(numbers, 0.7, 0.01, 0.5),
+                        .v = perhaps(numbers, 0.8, -2, 2),
+                        .mu = perhaps(numbers, 0.6, 0.02, 0.6),
+                        .surface = perhaps(numbers, 0.3, -1, 1),
+                        .shaken = perhaps(numbers, 0.2, -1, 1),
+                        .k = perhaps(numbers, 0.3, 1, 100) * mass,
+                        .c = perhaps(numbers, 0.2, 0, 2) * mass,
+                        .spring = perhaps(numbers, 0.3, 1, 100)};
+    disc.push = (struct push){perhaps(numbers, 0.7, 0, 15) * mass, random_between(numbers, 0.5, 15),
+                              random_between(numbers, 0, 6), perhaps(numbers, 0.4, -5, 5) * mass};
+    return disc;
+}
+
+/* Laws of several impacts at one instant differ, so that only single discs bounce. */
+static struct line draw_line(uint64_t seed)
+{
+    struct random_numbers numbers = {seed};
+    struct line line = {.count = 1 + (int)(seed % most_discs), .until = random_between(&numbers, 0.5, 2)};
+    double e = line.count == 1 ? perhaps(&numbers, 0.5, 0, 0.9) : 0, end = 0;
+    for (int i = 0; i < line.count; i++) {
+        struct disc *disc = &line.discs[i];
+        *disc = draw_disc(&numbers);
+        bool touches = i > 0 && disc->x == 2 * radius;
+        disc->x += end;
+        end = disc->x;
+        if (touches) disc->v = fmax(disc->v, line.discs[i - 1].v);
+        draw_stops(&numbers, disc, e);
+        if (touches && disc->v < line.discs[i - 1].v) disc->v = line.discs[i - 1].v;
+    }
+    return line;
+}
+
+/* ---- the model */
+
+static int write_disc(const struct disc *disc, int i, char *text, size_t size)
+{
+    char stops[120] = "", friction[160] = "";
+    if (disc->min > -HUGE_VAL) snprintf(stops, sizeof stops, ", min: %.17g", disc->min);
+    size_t length = strlen(stops);
+    if (disc->max < HUGE_VAL) snprintf(stops + length, sizeof stops - length, ", max: %.17g", disc->max);
+    length = strlen(stops);
+    if (length > 0) snprintf(stops + length, sizeof stops - length, ", restitution: %.17g", disc->e);
+    if (disc->mu > 0)
+        snprintf(friction, sizeof friction,
+                 "      - friction: {coefficient: %.17g, surface_speed: \"%.17g + %.17g*sin(3*t)\"}\n",
+                 disc->mu, disc->surface, disc->shaken);
+    return snprintf(text, size,
+                    "  d%d:\n    shape: sphere\n    radius: %.17g\n    mass: %.17g\n"
+                    "    motion: {slide: {along: 0 deg%s}}\n    initial: {x: %.17g, v: %.17g}\n    forces:\n"
+                    "      - gravity\n      - normal\n%s"
+                    "      - applied: {name: push, value: \"%.17g*sin(%.17g*t + %.17g) + %.17g\"}\n"
+                    "      - spring: {stiffness: %.17g}\n      - damper: {coefficient: %.17g}\n",
+                    i, radius, disc->mass, stops, disc->x, disc->v, friction, disc->push.A, disc->push.w,
+                    disc->push.phase, disc->push.B, disc->k, disc->c);
+}
+
+static void write_line(const struct line *line, char *text, size_t size)
+{
+    int length = snprintf(text, size, "fbd: 1\ngravity: %.17g\nbodies:\n", g);
+    for (int i = 0; i < line->count; i++)
+        length += write_disc(&line->discs[i], i, text + length, size - (size_t)length);
+    if (line->count > 1) length += snprintf(text + length, size - (size_t)length, "couplings:\n");
+    for (int i = 0; i + 1 < line->count; i++)
+        length += snprintf(text + length, size - (size_t)length,
+                           "  - spring: {between: [d%d, d%d], stiffness: %.17g, free_length: %.17g}\n", i,
+                           i + 1, line->discs[i].spring, line->discs[i + 1].x - line->discs[i].x);
+    if (line->count > 1) length += snprintf(text + length, size - (size_t)length, "contacts:\n");
+    for (int i = 0; i + 1 < line->count; i++)
+        length += snprintf(text + length, size - (size_t)length, "  - {between: [d%d, d%d]}\n", i, i + 1);
+    length += snprintf(text + length, size - (size_t)length, "simulate: {until: %.17g}\n", line->until);
+    assert_true((size_t)length < size);
+}
+
+/* ---- the same for the time stepping */
+
+static void forces(const void *scene, double t, const double *q, const double *v, double *f)
+{
+    const struct line *line = scene;
+    for (int i = 0; i < line->count; i++) {
+        const struct disc *disc = &line->discs[i];
+        f[i] = disc->push.A * sin(disc->push.w * t + disc->push.phase) + disc->push.B - disc->k * q[i] -
+               disc->c * v[i];
+    }
+    for (int i = 0; i + 1 < line->count; i++) {
+        const struct disc *disc = &line->discs[i];
+        double pull = disc->spring * (q[i + 1] - q[i] - (disc[1].x - disc->x));
+        f[i] += pull;
+        f[i + 1] -= pull;
+    }
+}
+
+static void solve(const void *scene, const double *q, double *b)
+{
+    const struct line *line = scene;
+    (void)q;
+    for (int i = 0; i < line->count; i++) b[i] /= line->discs[i].mass;
+}
+
+static void add_gap(struct moreau_rows *rows, int i, double side, double e)
+{
+    struct moreau_row row = {.kind = moreau_gap, .e = e, .normal = -1};
+    row.w[i] = side;
+    rows->row[rows->count++] = row;
+}
+
+static void find_rows(const void *scene, double t, const double *q, struct moreau_rows *rows)
+{
+    const struct line *line = scene;
+    for (int i = 0; i < line->count; i++) {
+        const struct disc *disc = &line->discs[i];
+        struct moreau_row rub = {.kind = moreau_rub,
+                                 .aim = disc->surface + disc->shaken * sin(3 * t),
+                                 .most = disc->mu * disc->mass * g,
+                                 .normal = -1};
+        rub.w[i] = 1;
+        if (disc->mu > 0) rows->row[rows->count++] = rub;
+        if (q[i] <= disc->min) add_gap(rows, i, 1, disc->e);
+        if (q[i] >= disc->max) add_gap(rows, i, -1, disc->e);
+        if (i + 1 == line->count || q[i + 1] - q[i] > 2 * radius) continue;
+        add_gap(rows, i, -1, line->e);
+        rows->row[rows->count - 1].w[i + 1] = 1;
+    }
+}
+
+/* The end by so many steps; places, and a tenth of the velocities. */
+static void step_through(const struct line *line, int steps, double *end)
+{
+    const struct moreau_system system = {line->count, line, forces, solve, find_rows};
+    double q[moreau_most] = {0}, v[moreau_most] = {0};
+    for (int i = 0; i < line->count; i++) q[i] = line->discs[i].x, v[i] = line->discs[i].v;
+    moreau_run(&system, line->until, steps, q, v);
+    for (int i = 0; i < line->count; i++) end[2 * i] = q[i], end[2 * i + 1] = v[i] / 10;
+}
+
+static double apart(int count, const double *a, const double *b)
+{
+    double most = 0;
+    for (int i = 0; i < 2 * count; i++) most = fmax(most, fabs(a[i] - b[i]));
+    return most;
+}
+
+/* ---- both */
+
+/* The end of the run, in the same form; false when it does not come to it. */
+static bool run_line(const char *text, int count, double *end)
+{
+    struct trial trial = trial_parse(text);
+    trial_run(&trial, NULL);
+    bool done = trial.outcome == FBD_DONE;
+    if (!done) printf("# %s\n", fbd_simulation_reason(trial.simulation));
+    for (int i = 0; i < count; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "d%d.x", i);
+        end[2 * i] = trial_get(&trial, name);
+        snprintf(name, sizeof name, "d%d.v", i);
+        end[2 * i + 1] = trial_get(&trial, name) / 10;
+    }
+    trial_close(&trial);
+    return done;
+}
+
+/* Does the run end where small steps do? Steps and half steps may agree by chance: then smaller ones are asked. Where
+ * they do not agree nothing is. */
+static bool agrees(uint64_t seed, bool *sensitive)
+{
+    enum { first_steps = 20000, most_steps = 1280000 };
+    const double most = 3e-3, least = 2e-4;
+    struct line line = draw_line(seed);
+    double end[2 * most_discs], fine[2 * most_discs], coarse[2 * most_discs], off = 0, difference = 0;
+    char text[6000];
+    write_line(&line, text, sizeof text);
+    step_through(&line, first_steps / 2, coarse);
+    bool done = run_line(text, line.count, end);
+    for (int steps = first_steps; steps <= most_steps; steps *= 2) {
+        step_through(&line, steps, fine);
+        off = apart(line.count, fine, coarse);
+        difference = apart(line.count, end, fine);
+        *sensitive = off > most;
+        if (*sensitive || (done && difference <= fmax(10 * off, least))) return true;
+        memcpy(coarse, fine, sizeof fine);
+    }
+    printf("# seed %llu: %g apart, where the steps are off by %g\n%s\n", (unsigned long long)seed, difference,
+           off, text);
+    return false;
+}
+
+static void time_stepping_says_the_same(void **unused)
+{
+    (void)unused;
+    const char *given = getenv("FBD_LINES"), *first = getenv("FBD_LINES_SEED");
+    int count = given ? atoi(given) : 90, differ = 0, left_out = 0;
+    uint64_t seed = first ? strtoull(first, NULL, 10) : 1;
+    for (int i = 0; i < count; i++) {
+        bool sensitive;
+        differ += !agrees(seed + (uint64_t)i, &sensitive);
+        left_out += sensitive;
+    }
+    printf("# %d lines, %d too sensitive\n", count, left_out);
+    assert_int_equal(differ, 0);
+    assert_true(10 * left_out <= count);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(time_stepping_says_the_same),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
