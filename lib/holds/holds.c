@@ -257,27 +257,28 @@ static void set_modes(struct hold_problem *problem)
     }
 }
 
+/* Solve what has been set up. */
+static enum holds_found solve_affine(struct affine *of, struct hold_problem *problem, int cover)
+{
+    if (!set_forces(of)) return holds_lost;
+    set_answers(of);
+    set_problem(of);
+    enum lcp lcp = lcp_solve_from(of->m, of->M, of->q, cover, of->z, of->w);
+    if (lcp != lcp_solved) return lcp == lcp_no_memory ? holds_no_memory : holds_lost;
+    for (size_t i = 0; i < problem->count; i++) {
+        problem->holds[i].force = value(of, row(of->f, of, i), of->z);
+        problem->holds[i].c = value(of, row(of->c, of, i), of->z);
+    }
+    for (size_t g = 0; g < problem->guide_count; g++)
+        problem->guides[g].N = value(of, row(of->N, of, g), of->z);
+    set_modes(problem);
+    return holds_decided;
+}
+
 static enum holds_found solve_once(struct hold_problem *problem, int cover)
 {
     struct affine of;
-    enum holds_found found = holds_no_memory;
-    if (affine_new(&of, problem)) {
-        found = holds_lost;
-        bool regular = set_forces(&of);
-        if (regular) {
-            set_answers(&of);
-            set_problem(&of);
-            enum lcp lcp = lcp_solve_from(of.m, of.M, of.q, cover, of.z, of.w);
-            found = lcp == lcp_solved ? holds_decided : lcp == lcp_no_memory ? holds_no_memory : holds_lost;
-        }
-        for (size_t i = 0; found == holds_decided && i < problem->count; i++) {
-            problem->holds[i].force = value(&of, row(of.f, &of, i), of.z);
-            problem->holds[i].c = value(&of, row(of.c, &of, i), of.z);
-        }
-        for (size_t g = 0; found == holds_decided && g < problem->guide_count; g++)
-            problem->guides[g].N = value(&of, row(of.N, &of, g), of.z);
-        if (found == holds_decided) set_modes(problem);
-    }
+    enum holds_found found = affine_new(&of, problem) ? solve_affine(&of, problem, cover) : holds_no_memory;
     affine_free(&of);
     return found;
 }
