@@ -82,7 +82,7 @@ void impulse_answers(struct fbd_state *state, const struct impulse_lines *lines,
 {
     const struct fbd_model *model = state->model;
     struct tree_work *work = state->tree;
-    size_t n = (size_t)model->plan.n, count = (size_t)(lines->row_count + lines->slide_count);
+    size_t n = (size_t)model->plan.n, count = (size_t)lines->row_count + (size_t)lines->slide_count;
     const double exact = 1e-13; /* slopes that are left alone; see project.c */
     const double immovable = 1e-12;
     struct instant at = state_instant(state);

@@ -286,7 +286,7 @@ static bool leaves_for_the_last_time(const struct run *run, int i)
 static void take_leaving_speeds(struct run *run, int count)
 {
     struct contacts_work *work = &run->contacts;
-    size_t n = (size_t)run->model->plan.n, size = 0, all = (size_t)(2 * count + work->slide_count);
+    size_t n = (size_t)run->model->plan.n, size = 0, all = 2 * (size_t)count + (size_t)work->slide_count;
     size_t *which = calloc(2 * (size_t)count + 1, sizeof *which), *pivot = which ? which + count : NULL;
     for (int i = 0; which && i < count; i++)
         if (leaves_for_the_last_time(run, i)) which[size++] = (size_t)i;

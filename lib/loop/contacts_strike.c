@@ -82,9 +82,9 @@ static bool is_pressed(const struct contacts_work *work, int rows, int i, const 
 {
     const double rounding = 1e-12; /* of a unit impulse */
     int all = rows + work->slide_count;
-    if (work->W[(rows + i) * (all + 1)] <= 0) return false;
+    if (work->W[(ptrdiff_t)(rows + i) * (all + 1)] <= 0) return false;
     for (int j = 0; j < all; j++)
-        if ((j < rows || pressed[j - rows]) && fabs(work->B[i * all + j]) > rounding) return true;
+        if ((j < rows || pressed[j - rows]) && fabs(work->B[(ptrdiff_t)i * all + j]) > rounding) return true;
     return false;
 }
 
@@ -316,7 +316,7 @@ void contacts_apply_impulses(struct run *run, int count)
         for (size_t k = 0; P != 0 && k < n; k++) run->state->y[n + k] += P * work->answers[(size_t)i * n + k];
     }
     for (int i = 0; i < work->slide_count; i++) {
-        size_t line = (size_t)(2 * count + i);
+        size_t line = 2 * (size_t)count + (size_t)i;
         for (size_t k = 0; k < n; k++) run->state->y[n + k] += work->P[line] * work->answers[line * n + k];
     }
     end_slips(run, 2 * count);
