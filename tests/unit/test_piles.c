@@ -245,11 +245,11 @@ static void try_pile(struct checks *checks, int number, const struct pile *pile,
     trial_close(&trial);
 }
 
-/* Larger ones, of seed 1: of holds for which no forces were found, of a corner that went past another unseen, and of a box
+/* Larger ones, of seed 1: of holds for which no forces were found, of a corner that other couplings had moved, and of a box
  * that was turned into the next one as its bounces ended. */
 static void piles_of_many_come_to_their_ends(void **unused)
 {
-    const int chosen[] = {14, 194, 201}, tried = thorough() ? 3 : 1;
+    const int chosen[] = {14, 164, 194}, tried = thorough() ? 3 : 1;
     struct random_numbers numbers = {1};
     struct checks checks = {0};
     struct census census = {0};
