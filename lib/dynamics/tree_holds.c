@@ -265,6 +265,13 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
     return found;
 }
 
+/* The contact that friction rubs on, which may hardly press; -1 without one. */
+static int surface_under(const struct fbd_state *state, int pair)
+{
+    if (pair < 0 || !is_on_contact(state, mode_of(state, pair))) return -1;
+    return state->model->tree->ties[mode_of(state, pair)->tie].surface;
+}
+
 /* Solve, and let rates decide what is at its limit, one after the other. False where the forces do not agree
  * with what was solved. */
 static bool decide(struct fbd_state *state, const struct decided *decided, int *forced)
@@ -276,10 +283,11 @@ static bool decide(struct fbd_state *state, const struct decided *decided, int *
         enum agreement found = look(state, decided, forced, true);
         if (found == agrees) return true;
         bool more = found == at_limit;
+        int on = found == differs ? surface_under(state, state->holds.contradicts) : -1;
         for (int pair = 0; pair < count && found == differs; pair++) {
-            bool contradicts = pair == state->holds.contradicts;
+            bool contradicts = pair == state->holds.contradicts || pair == on;
             if (barely[pair] == 0 || (mode_is_one_sided(mode_of(state, pair)) && !contradicts)) continue;
-            forced[pair] = barely[pair];
+            forced[pair] = state->slip[pair] = barely[pair];
             more = true;
         }
         if (!more) return false;
