@@ -85,6 +85,9 @@ static void check_drive(struct run *run, const struct kink *kink, bool rope)
                      : "velocity",
              rope ? model->loads[kink->load].source->name : body->name, place ? x[0] : v[0],
              place ? x[1] : v[1]);
+    memcpy(run->state->branch + kink->formula.branch, before, kink->count * sizeof *before);
+    modes_hold(run->state); /* the last state is that before */
+    state_evaluate(run->state);
 }
 
 /* What drops off at once goes on with the velocity of the body, and takes its kinetic energy along; what would come at
