@@ -88,7 +88,13 @@ static const char *translated(fbd_errors *errors, const struct group *group, con
                                            {"rest_length", "free_length"},
                                            {"U", "V"},
                                            {"energy", "V"},
+                                           {"c", "linear"},
+                                           {"coefficient", "linear"},
+                                           {"k", "quadratic"},
                                            {"magnitude", "value"},
+                                           {"F", "value"},
+                                           {"P", "value"},
+                                           {"M", "value"},
                                            {"force", "value"},
                                            {"moment", "value"},
                                            {"direction", "angle"},
@@ -132,6 +138,18 @@ static const char *translated(fbd_errors *errors, const struct group *group, con
     return NULL;
 }
 
+/* What a force that has no size of its own is given nevertheless. */
+static const char *not_given(const struct group *group)
+{
+    if (strcmp(group->name, "`gravity`") == 0)
+        return "its strength stands at the top of the file, as `gravity: 9.81`; in the list it is `gravity` "
+               "alone";
+    return NULL;
+}
+
+static const char in_quotes[] =
+    "a comma separates entries inside braces: put the expression in quotes, as `\"min(1, 2)\"`";
+
 /* A comma inside braces ends an entry: what comes behind it is a key without a value. */
 static const char *behind_a_comma(const struct pair *pair)
 {
@@ -139,8 +157,7 @@ static const char *behind_a_comma(const struct pair *pair)
     size_t digits = strspn(pair->key, "0123456789");
     if (digits > 0 && (pair->key[digits] == '\0' || pair->key[digits] == ' '))
         return "a comma separates entries inside braces: write a decimal point, as `2.5`";
-    if (strchr(pair->key, ')'))
-        return "a comma separates entries inside braces: put the expression in quotes, as `\"min(1, 2)\"`";
+    if (strchr(pair->key, ')')) return in_quotes;
     return NULL;
 }
 
@@ -153,6 +170,7 @@ static void note_unknown_key(struct reader *reader, const struct group *group, c
     if (strstr(pair->key, "\xC2\xA0"))
         hint = "it holds a no-break space (U+00A0), as pasted text does: type a blank in its place";
     if (!hint) hint = behind_a_comma(pair);
+    if (!hint) hint = not_given(group);
     if (!hint) hint = misplaced(reader->errors, group, pair->key);
     if (!hint) hint = translated(reader->errors, group, pair->key);
     if (!hint) {
@@ -173,9 +191,10 @@ static void note_no_mapping(struct reader *reader, const struct group *group, co
         if (n < 0 || (size_t)n >= sizeof list - used) break;
         used += (size_t)n;
     }
+    const char *hint = not_given(group);
     diag_add(reader->errors, FBD_ERROR, "wrong-type", node->at,
-             diag_hint(reader->errors, "its keys: %s", list), "%s must be a mapping of keys, not %s",
-             group->name, value_found(reader, node));
+             hint ? hint : diag_hint(reader->errors, "its keys: %s", list),
+             "%s must be a mapping of keys, not %s", group->name, value_found(reader, node));
 }
 
 static void note_missing_key(struct reader *reader, const struct group *group, const struct field *field,
@@ -377,6 +396,7 @@ static const struct kind *find_kind(struct reader *reader, const struct kinds *k
         if (strcmp(names[i], name) == 0) return &kinds->kinds[i];
     }
     const char *hint = usual_word(kinds, name);
+    if (!hint && strchr(name, ')')) hint = in_quotes;
     if (!hint) hint = diag_nearest(reader->errors, name, names, kinds->count);
     diag_add(reader->errors, FBD_ERROR, "unknown-kind", at, hint, "no %s is called `%.40s`", kinds->noun,
              name);
