@@ -59,6 +59,13 @@ static const char *misplaced(fbd_errors *errors, const struct group *group, cons
         return diag_hint(errors, "put it into the list of the body: `forces: [%s]`", key);
     if (group == &body_group && is_kind(&motion_kinds, key))
         return diag_hint(errors, "write it under `motion`: `motion: {%s: ...}`", key);
+    if ((has_field(group, "along") || has_field(group, "at")) && has_field(group, "on") &&
+        (strcmp(key, "v") == 0 || strcmp(key, "omega") == 0))
+        return diag_hint(
+            errors,
+            "the rate at the start belongs to `initial: {%s: ...}`; what is prescribed is the place, as "
+            "an expression of t",
+            key);
     if (group == &scene_group && has_field(&body_group, key))
         return "it belongs to a body: indent it below the name of the body, under `bodies`";
     if (group == &scene_group && has_field(&simulate_group, key)) return "it belongs under `simulate`";
@@ -369,6 +376,29 @@ static const struct usual usual_couplings[] = {
     {"rack_and_pinion", "it is a `rack`"},
 };
 
+static const char a_slide[] = "along a line it is a `slide`", a_pivot[] = "about an axis it is a `pivot`",
+                  a_point[] = "without turning it is a `particle`",
+                  a_curve[] = "along a curve it is a `track`: `{track: {y: ..., from: ..., to: ...}}`";
+static const struct usual usual_motions[] = {
+    {"free", "in the plane it is `planar`"},
+    {"fixed", "to another body it is a `weld`; what never moves is the ground"},
+    {"rigid", "to another body it is a `weld`; what never moves is the ground"},
+    {"hinge", a_pivot},
+    {"pin", a_pivot},
+    {"revolute", a_pivot},
+    {"rotation", a_pivot},
+    {"translation", a_slide},
+    {"prismatic", a_slide},
+    {"linear", a_slide},
+    {"point", a_point},
+    {"ball", a_point},
+    {"curve", a_curve},
+    {"wire", a_curve},
+    {"rail", a_curve},
+    {"roll", "it is `planar`, and rolls by a `roll` under `couplings`"},
+    {"rolling", "it is `planar`, and rolls by a `roll` under `couplings`"},
+};
+
 /* NULL when the word is not one of theirs. */
 static const char *usual_word(const struct kinds *kinds, const char *word)
 {
@@ -378,7 +408,8 @@ static const char *usual_word(const struct kinds *kinds, const char *word)
         size_t count;
     } lists[] = {{&force_kinds, FIELDS(usual_forces)},
                  {&moment_kinds, FIELDS(usual_moments)},
-                 {&coupling_kinds, FIELDS(usual_couplings)}};
+                 {&coupling_kinds, FIELDS(usual_couplings)},
+                 {&motion_kinds, FIELDS(usual_motions)}};
     for (size_t k = 0; k < sizeof lists / sizeof *lists; k++)
         for (size_t i = 0; kinds == lists[k].kinds && i < lists[k].count; i++)
             if (strcmp(word, lists[k].words[i].word) == 0) return lists[k].words[i].hint;
