@@ -104,7 +104,8 @@ bool tree_rests(const struct fbd_state *state)
     int n = state->model->plan.n;
     double fastest = 0;
     for (int i = 0; i < n; i++) fastest = fmax(fastest, fabs(state->y[n + i]));
-    return fastest == 0 || (state->t > 0 && fastest <= 64 * DBL_EPSILON * fmin(1, reach_of(state)) / state->t);
+    return fastest == 0 ||
+           (state->t > 0 && fastest <= 64 * DBL_EPSILON * fmin(1, reach_of(state)) / state->t);
 }
 
 /* With q' = a T the rows have q'.H q' left, which says where it goes: by the sign of that, whatever T is. */

@@ -304,7 +304,8 @@ static bool holds_what_is_driven(struct fbd_state *state, const struct decided *
     bool gathered = gathered_find(&all, state, decided, forced);
     if (!gathered) state->holds.found = holds_no_memory;
     for (size_t i = 0; gathered && i < all.problem.count; i++)
-        moves |= all.still[i] == still_stays && all.problem.holds[i].slip != 0 && state->slip[all.pair[i]] == stick;
+        moves |= all.still[i] == still_stays && all.problem.holds[i].slip != 0 &&
+                 state->slip[all.pair[i]] == stick;
     memset(forced, 0, state->model->plan.mode_count * sizeof *forced);
     gathered_free(&all);
     return moves;

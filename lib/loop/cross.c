@@ -169,3 +169,19 @@ void run_cross(struct run *run, const struct watcher *watcher)
     if (event) event->branch = index;
     if (event) event->own = kink->own;
 }
+
+void run_turn_normal(struct run *run, int pair)
+{
+    enum { most_turns = 8 };
+    run->state->pull[pair] = -run->state->pull[pair];
+    run->decided.pulls[pair] = true;
+    if (++run->recent.turns <= most_turns || run->end.outcome != FBD_GOING) return;
+    const struct mode *mode = &run->model->plan.modes[pair];
+    run_fail(run, FBD_FAILED,
+             "at t = %.9g no force agrees with the motion of `%s`: on either side of its guide friction by "
+             "`%s` gives "
+             "the normal force the other sign, as in Painleve's paradox. Rigid bodies do not tell what "
+             "follows: less "
+             "friction, or end the run before by an event",
+             run_time(run), run->model->bodies[mode->body].name, run->model->loads[mode->load].source->name);
+}

@@ -214,24 +214,6 @@ bool run_tell(struct run *run, double t)
     return true;
 }
 
-/* The normal force of a guide with two sides changes its side, and friction goes on with its size. Where it feeds that
- * force by more than all of it, neither side agrees. */
-static void turn_normal(struct run *run, int pair)
-{
-    enum { most_turns = 8 };
-    run->state->pull[pair] = -run->state->pull[pair];
-    run->decided.pulls[pair] = true;
-    if (++run->recent.turns <= most_turns || run->end.outcome != FBD_GOING) return;
-    const struct mode *mode = &run->model->plan.modes[pair];
-    run_fail(run, FBD_FAILED,
-             "at t = %.9g no force agrees with the motion of `%s`: on either side of its guide friction by "
-             "`%s` gives "
-             "the normal force the other sign, as in Painleve's paradox. Rigid bodies do not tell what "
-             "follows: less "
-             "friction, or end the run before by an event",
-             run_time(run), run->model->bodies[mode->body].name, run->model->loads[mode->load].source->name);
-}
-
 /* `crossing`: an expression passes to another branch at the same instant. A force that reaches its limit just
  * there may go down again beyond, so the forces beyond decide (in settling) and not the crossing of the
  * limit, which may be a rounding of the instant. */
@@ -246,7 +228,7 @@ static void happen(struct run *run, const struct watcher *watcher, bool crossing
         run->decided.slips[index] = true;
         break;
     case watch_slip_stop: stop_slipping(run, index); break;
-    case watch_normal_turns: turn_normal(run, index); break;
+    case watch_normal_turns: run_turn_normal(run, index); break;
     case watch_one_sided:
         if (run->state->slip[index] == stick && tree_give_shared(run->state, index, run->decided.slips))
             break;

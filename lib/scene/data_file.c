@@ -273,9 +273,8 @@ static void check_rest(struct data_reader *reader, struct span line, struct span
     const char *hint = reader->separator == ',' ? "a decimal point is written `.`" : NULL;
     for (; next_cell(reader->separator, &rest, &cell); count++) {
         if (count < reader->width || cell.length == 0) continue;
-        complain(
-            reader, place_of(reader, line, cell.text), hint,
-            diag_hint(reader->errors, "the row has more cells than the first one, %zu", reader->width));
+        complain(reader, place_of(reader, line, cell.text), hint,
+                 diag_hint(reader->errors, "the row has more cells than the first one, %zu", reader->width));
         return;
     }
 }
@@ -456,8 +455,8 @@ bool data_file_read(const char *path, const char *const wanted[2], const struct 
     columns->text = file_text(path, &length, errors);
     if (columns->text) {
         struct data_reader reader = {.rest = {columns->text, length}, .errors = errors};
-        bool wide = length >= 2 && (memcmp(columns->text, "\xFF\xFE", 2) == 0 ||
-                                    memcmp(columns->text, "\xFE\xFF", 2) == 0);
+        bool wide = length >= 2 &&
+                    (memcmp(columns->text, "\xFF\xFE", 2) == 0 || memcmp(columns->text, "\xFE\xFF", 2) == 0);
         if (length >= 3 && memcmp(columns->text, "\xEF\xBB\xBF", 3) == 0)
             reader.rest = (struct span){columns->text + 3, length - 3};
         if (wide)

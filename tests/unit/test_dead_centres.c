@@ -38,7 +38,7 @@ struct flywheel {
     bool yoke;
     double R, e, L, I, m, mu, mu_g, theta_0, omega_0, M;
     double rise; /* of the moment, in time */
-    int way; /* in which it turns: 1, -1 */
+    int way;     /* in which it turns: 1, -1 */
 };
 
 static double draw_friction(struct random_numbers *numbers)
@@ -213,8 +213,7 @@ static struct trial parse_flywheel(const struct flywheel *wheel, double until)
              "    initial: {assemble: true, x: %.17g}\n"
              "    forces: [gravity, normal: {two_sided: true}, friction: {static: %.17g, kinetic: %.17g}]\n"
              "couplings: [%s}]\nsimulate: {until: %.17g}\n",
-             wheel->I, wheel->R, wheel->theta_0, wheel->omega_0, wheel->M, wheel->rise, wheel->m, wheel->e,
-             x,
+             wheel->I, wheel->R, wheel->theta_0, wheel->omega_0, wheel->M, wheel->rise, wheel->m, wheel->e, x,
              static_slide * wheel->mu, wheel->mu, coupling, until);
     return trial_parse(text);
 }
