@@ -234,7 +234,7 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
     if (shared && margin.value < 0) /* that a slide has lost its surface is for others to say */
         shared = tree_find_margin(state, &at, false, &flow, slots, slots_along, &arena, &margin);
     int which = pulled_against(state, decided, forced), next = 0;
-    if (which >= 0) found = differs;
+    if (which >= 0 || (!solved && tree_is_locked(state))) found = differs;
     for (int pair = 0; found != differs && pair < (int)state->model->plan.mode_count; pair++) {
         bool by_rate;
         const struct mode *hold = mode_of(state, pair);
@@ -312,7 +312,8 @@ static bool holds_what_is_driven(struct fbd_state *state, const struct decided *
     bool gathered = gathered_find(&all, state, decided, forced);
     if (!gathered) state->holds.found = holds_no_memory;
     for (size_t i = 0; gathered && i < all.problem.count; i++)
-        moves |= all.still[i] && all.problem.holds[i].slip != 0 && state->slip[all.pair[i]] == stick;
+        moves |= all.still[i] == still_stays && all.problem.holds[i].slip != 0 &&
+                 state->slip[all.pair[i]] == stick;
     memset(forced, 0, state->model->plan.mode_count * sizeof *forced);
     gathered_free(&all);
     return moves;

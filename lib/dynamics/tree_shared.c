@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "dynamics/own.h"
+#include "dynamics/tree_gather.h"
 
 struct direction tree_evaluate(struct fbd_state *state)
 {
@@ -71,7 +72,10 @@ bool tree_give_shared(struct fbd_state *state, int pair, bool *decided)
     bool gives =
         tree_find_margin(state, &at, true, &flow, scratch.slots, scratch.slots_along, &arena, &margin) &&
         margin.of[pair];
-    if (gives) give(state, &margin, state->slip_forced);
+    if (gives) {
+        give(state, &margin, state->slip_forced);
+        gathered_set_out(state, margin.gives);
+    }
     for (size_t i = 0; gives && i < state->model->plan.mode_count; i++) decided[i] |= margin.gives[i] != 0;
     arena_free(&arena);
     return gives;

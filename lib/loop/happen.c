@@ -228,10 +228,7 @@ static void happen(struct run *run, const struct watcher *watcher, bool crossing
         run->decided.slips[index] = true;
         break;
     case watch_slip_stop: stop_slipping(run, index); break;
-    case watch_normal_turns:
-        run->state->pull[index] = -run->state->pull[index];
-        run->decided.pulls[index] = true;
-        break;
+    case watch_normal_turns: run_turn_normal(run, index); break;
     case watch_one_sided:
         if (run->state->slip[index] == stick && tree_give_shared(run->state, index, run->decided.slips))
             break;
@@ -382,6 +379,7 @@ static void count_crowd(struct run *run)
     bool crowded = run->state->t - run->recent.time <= run_instant(run) ||
                    fabs(run->state->t) <= instant * run->step.first;
     run->recent.crowd = crowded ? run->recent.crowd + 1 : 0;
+    if (!crowded) run->recent.turns = 0;
     run->recent.time = run->state->t;
     if (run->recent.crowd < most_at_once || run->end.outcome != FBD_GOING) return;
     run_fail_chatter(run);
