@@ -14,7 +14,7 @@
 
 #include "fbd.h"
 
-enum { most_times = 4, most_size = 4 };
+enum { most_times = 4, most_size = 6 };
 
 enum problem_kind {
     smooth,
@@ -66,6 +66,7 @@ struct solver {
     const char *name;
     bool for_stiff, for_others;
     bool ours;
+    bool smooth_only; /* knows no events and no pieces */
     /* The error, or NAN when the run failed. `model` is for ours. */
     double (*run)(const struct problem *problem, const fbd_model *model, double tolerance);
 };

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "accuracy.h"
+#include "dop853_by_hand.h"
 
 /* ---- smooth, and pieces between known times */
 
@@ -136,10 +137,25 @@ static double run_msbdf(const struct problem *problem, const fbd_model *model, d
     return by_driver(problem, gsl_odeiv2_step_msbdf, tolerance);
 }
 
+static double run_dop853(const struct problem *problem, const fbd_model *model, double tolerance)
+{
+    (void)model;
+    struct mode mode = {.problem = problem};
+    double t = 0, y[most_size], error = 0;
+    memcpy(y, problem->y0, sizeof y);
+    for (size_t i = 0; i < problem->time_count; t = problem->times[i++]) {
+        if (dop853_by_hand(problem->rhs, &mode, problem->size, t, problem->times[i], y, tolerance, problem->scale))
+            return NAN;
+        error = fmax(error, problem_error(problem, problem->times[i], y));
+    }
+    return error;
+}
+
 const struct solver gsl_solvers[] = {
-    {"C by hand, GSL rk8pd", true, true, false, run_rk8pd},
-    {"C by hand, GSL rkf45", false, true, false, run_rkf45},
-    {"C by hand, GSL bsimp", true, false, false, run_bsimp},
-    {"C by hand, GSL msbdf", true, false, false, run_msbdf},
+    {.name = "C by hand, dop853", .for_others = true, .smooth_only = true, .run = run_dop853},
+    {.name = "C by hand, GSL rk8pd", .for_stiff = true, .for_others = true, .run = run_rk8pd},
+    {.name = "C by hand, GSL rkf45", .for_others = true, .run = run_rkf45},
+    {.name = "C by hand, GSL bsimp", .for_stiff = true, .run = run_bsimp},
+    {.name = "C by hand, GSL msbdf", .for_stiff = true, .run = run_msbdf},
 };
 const size_t gsl_solver_count = sizeof gsl_solvers / sizeof *gsl_solvers;
