@@ -277,6 +277,7 @@ void run_close_step(struct run *run)
 void run_check_balance(struct run *run)
 {
     struct text lack = {0};
+    run_evaluate(run);
     if (run->end.outcome == FBD_GOING && balance_lack(run->state, run->work.arrows, &lack))
         run_fail(run, FBD_FAILED, "%s", lack.failed ? "" : lack.data);
     text_free(&lack);

@@ -295,6 +295,7 @@ void run_renew_noise(struct run *run)
     const unsigned long steps = 64; /* costs a hundredth of them */
     bool due = run->model->tree && ++run->grain.since >= steps;
     if (!due && !switcher_noise_counts(run->stepper, run->step.h)) return;
+    run_evaluate(run);
     set_noise(run);
     run->grain.since = 0;
 }
