@@ -177,6 +177,43 @@ static void by_reference(const struct problem *problem, double t, double *y)
     for (size_t i = 0; i < problem->size; i++) y[i] = made[at] ? known[at][i] : NAN;
 }
 
+/* ---- eight windows: nine uprights turn together, and eight crossbars go along a circle (IFToMM A02) */
+
+static int windows_rhs(double t, const double y[], double f[], void *context)
+{
+    (void)t, (void)context;
+    f[0] = y[1];
+    f[1] = -(9.0 / 2 + 8) / (9.0 / 3 + 8) * 9.81 * cos(y[0]);
+    return 0;
+}
+
+/* ---- a ball that bounces: the n-th bounce lasts 2 e^n sqrt(2 h / g) */
+
+static int ball_rhs(double t, const double y[], double f[], void *context)
+{
+    (void)t, (void)context;
+    f[0] = y[1];
+    f[1] = -9.81;
+    return 0;
+}
+
+double ball_event(const struct mode *mode, const double *y, double *rate)
+{
+    (void)mode;
+    *rate = y[1];
+    return y[0] - BALL_RADIUS;
+}
+
+static void ball_exact(const struct problem *problem, double t, double *y)
+{
+    const double g = 9.81;
+    double fall = sqrt(2 * (problem->y0[0] - BALL_RADIUS) / g), v = BALL_RESTITUTION * g * fall;
+    double s = t - fall; /* since the last bounce; t is beyond the first */
+    for (; s > 2 * v / g; v *= BALL_RESTITUTION) s -= 2 * v / g;
+    y[0] = BALL_RADIUS + s * (v - g * s / 2);
+    y[1] = v - g * s;
+}
+
 /* ---- slider-crank of one coordinate, y = [theta, omega] */
 
 static int crank_rhs(double t, const double y[], double f[], void *context)
@@ -299,6 +336,29 @@ const struct problem problems[] = {
      .scale = {100, 40},
      .exact = by_reference,
      .rhs = crank_rhs},
+    {.name = "N-four-bar, eight windows, 10 s",
+     .model = "models/couplings/n_four_bar.yaml",
+     .options = "",
+     .size = 2,
+     .names = {"v0.theta", "v0.omega"},
+     .times = {10},
+     .time_count = 1,
+     .y0 = {1.5707963267948966, -1},
+     .scale = {4.71, 6.75},
+     .exact = by_reference,
+     .rhs = windows_rhs},
+    {.name = "bouncing ball, twelve bounces",
+     .model = "models/contact/bouncing_ball.yaml",
+     .options = "--until 3.8",
+     .kind = bounce,
+     .size = 2,
+     .names = {"ball.y", "ball.vy"},
+     .times = {3.8},
+     .time_count = 1,
+     .y0 = {1 + BALL_RADIUS, 0},
+     .scale = {1, 4.43},
+     .exact = ball_exact,
+     .rhs = ball_rhs},
     {.name = "light cart-pole, 10 s",
      .model = "tests/verify/cases/light_cart_pole.yaml",
      .options = "",

@@ -347,7 +347,7 @@ static void hold(struct contest *contest, const struct problem *problem, const c
     fprintf(stderr, "%s\n", problem->name);
     enter(contest, &ours, 1);
     enter(contest, gsl_solvers, gsl_solver_count);
-    enter(contest, sundials_solvers, sundials_solver_count);
+    if (problem->kind != bounce) enter(contest, sundials_solvers, sundials_solver_count);
     for (size_t s = 0; s < contest->count; s++) climb(contest, s);
     want(contest);
     time_in_turn(contest);
