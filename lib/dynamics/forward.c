@@ -237,8 +237,9 @@ void state_rates(const struct fbd_model *model, const struct instant *at, double
 }
 
 /* The variation of accelerations along a direction: of what slides with its own solution each time. */
-typedef void vary_function(const struct fbd_model *model, const struct instant *at, const struct direction *along,
-                           double *slots, double *slots_along, double *a_along);
+typedef void vary_function(const struct fbd_model *model, const struct instant *at,
+                           const struct direction *along, double *slots, double *slots_along,
+                           double *a_along);
 
 void state_jacobian(const struct fbd_model *model, const struct instant *given, double *scratch, double *dfdy,
                     double *dfdt)

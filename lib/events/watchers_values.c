@@ -359,7 +359,8 @@ void watchers_arm(struct watchers *watchers, struct fbd_state *state, double ste
     const struct instant now = state_instant(state), at = instant_extend(state->model, &now);
     for (size_t i = 0; i < plan->watch_count; i++) {
         const struct watch *watch = &plan->watches[i];
-        double value = formula_value(&watch->left, &at) - formula_value(&watch->right, &at), size = fabs(value);
+        double value = formula_value(&watch->left, &at) - formula_value(&watch->right, &at),
+               size = fabs(value);
         if (size > watchers->most[i] && size < HUGE_VAL) watchers->most[i] = size;
         double width = watchers->width * watchers->most[i];
         watchers->band[i] = size <= width ? width : 0;

@@ -245,12 +245,14 @@ static int dense_stages(struct dop853 *s, const gsl_odeiv2_system *sys)
     size_t n = s->n;
     int status;
     for (size_t i = 0; i < n; i++)
-        u[i] = y0[i] + h * (a[14][1] * k1[i] + a[14][7] * k7[i] + a[14][8] * k8[i] + a[14][9] * k9[i] +
-                            a[14][10] * k10[i] + a[14][11] * k11[i] + a[14][12] * k12[i] + a[14][13] * k13[i]);
+        u[i] =
+            y0[i] + h * (a[14][1] * k1[i] + a[14][7] * k7[i] + a[14][8] * k8[i] + a[14][9] * k9[i] +
+                         a[14][10] * k10[i] + a[14][11] * k11[i] + a[14][12] * k12[i] + a[14][13] * k13[i]);
     if ((status = evaluate(s, 14, sys))) return status;
     for (size_t i = 0; i < n; i++)
-        u[i] = y0[i] + h * (a[15][1] * k1[i] + a[15][6] * k6[i] + a[15][7] * k7[i] + a[15][8] * k8[i] +
-                            a[15][11] * k11[i] + a[15][12] * k12[i] + a[15][13] * k13[i] + a[15][14] * k14[i]);
+        u[i] =
+            y0[i] + h * (a[15][1] * k1[i] + a[15][6] * k6[i] + a[15][7] * k7[i] + a[15][8] * k8[i] +
+                         a[15][11] * k11[i] + a[15][12] * k12[i] + a[15][13] * k13[i] + a[15][14] * k14[i]);
     if ((status = evaluate(s, 15, sys))) return status;
     for (size_t i = 0; i < n; i++)
         u[i] = y0[i] + h * (a[16][1] * k1[i] + a[16][6] * k6[i] + a[16][7] * k7[i] + a[16][8] * k8[i] +

@@ -129,15 +129,17 @@ static double by_events(const struct problem *problem, const gsl_odeiv2_step_typ
 static double run_rk8pd(const struct problem *problem, const fbd_model *model, double tolerance)
 {
     (void)model;
-    return problem->kind == belt || problem->kind == bounce ? by_events(problem, gsl_odeiv2_step_rk8pd, tolerance)
-                                 : by_driver(problem, gsl_odeiv2_step_rk8pd, tolerance);
+    return problem->kind == belt || problem->kind == bounce
+               ? by_events(problem, gsl_odeiv2_step_rk8pd, tolerance)
+               : by_driver(problem, gsl_odeiv2_step_rk8pd, tolerance);
 }
 
 static double run_rkf45(const struct problem *problem, const fbd_model *model, double tolerance)
 {
     (void)model;
-    return problem->kind == belt || problem->kind == bounce ? by_events(problem, gsl_odeiv2_step_rkf45, tolerance)
-                                 : by_driver(problem, gsl_odeiv2_step_rkf45, tolerance);
+    return problem->kind == belt || problem->kind == bounce
+               ? by_events(problem, gsl_odeiv2_step_rkf45, tolerance)
+               : by_driver(problem, gsl_odeiv2_step_rkf45, tolerance);
 }
 
 static double run_bsimp(const struct problem *problem, const fbd_model *model, double tolerance)
@@ -159,7 +161,8 @@ static double run_dop853(const struct problem *problem, const fbd_model *model, 
     double t = 0, y[most_size], error = 0;
     memcpy(y, problem->y0, sizeof y);
     for (size_t i = 0; i < problem->time_count; t = problem->times[i++]) {
-        if (dop853_by_hand(problem->rhs, &mode, problem->size, t, problem->times[i], y, tolerance, problem->scale))
+        if (dop853_by_hand(problem->rhs, &mode, problem->size, t, problem->times[i], y, tolerance,
+                           problem->scale))
             return NAN;
         error = fmax(error, problem_error(problem, problem->times[i], y));
     }

@@ -167,8 +167,8 @@ static void by_reference(const struct problem *problem, double t, double *y)
     if (!made[at]) {
         struct mode mode = {.problem = problem};
         gsl_odeiv2_system system = {problem->rhs, NULL, problem->size, &mode};
-        gsl_odeiv2_driver *driver =
-            gsl_odeiv2_driver_alloc_scaled_new(&system, gsl_odeiv2_step_rk8pd, 1e-3, 1e-15, 1e-15, 1, 0, problem->scale);
+        gsl_odeiv2_driver *driver = gsl_odeiv2_driver_alloc_scaled_new(&system, gsl_odeiv2_step_rk8pd, 1e-3,
+                                                                       1e-15, 1e-15, 1, 0, problem->scale);
         double now = 0;
         memcpy(known[at], problem->y0, sizeof known[at]);
         made[at] = driver && gsl_odeiv2_driver_apply(driver, &now, t, known[at]) == GSL_SUCCESS;

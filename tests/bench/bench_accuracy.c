@@ -239,8 +239,9 @@ static void bounds_of_runs(FILE *out, const struct contest *contests)
     static const struct {
         const char *starts;
         double most;
-    } runs[] = {{"pendulum, 100 s", 1.5}, {"double pendulum", 1.5}, {"cart-pole", 1.5}, {"light cart-pole", 1.5},
-                {"three rods", 1.5},    {"slider-crank", 1.5},    {"belt", 1}};
+    } runs[] = {
+        {"pendulum, 100 s", 1.5}, {"double pendulum", 1.5}, {"cart-pole", 1.5}, {"light cart-pole", 1.5},
+        {"three rods", 1.5},      {"slider-crank", 1.5},    {"belt", 1}};
     for (size_t i = 0; i < problem_count; i++)
         for (size_t k = 0; k < sizeof runs / sizeof *runs; k++) {
             const char *name = contests[i].problem->name;
@@ -308,7 +309,8 @@ static void write_document(FILE *out, const struct contest *contests, const stru
         "figure\n"
         "here; times are those of one machine, so compare the ratios. Every program climbs a ladder of "
         "tolerances, "
-        "1e-3 to\n1e-14, and its true error is known, from a closed form (trees and slider-crank: from a run at "
+        "1e-3 to\n1e-14, and its true error is known, from a closed form (trees and slider-crank: from a run "
+        "at "
         "1e-15 by hand); a time at the error 1e-6 or 1e-9 is "
         "interpolated between the rungs\nbeside. Times are medians of repeats taken in turn, of the whole "
         "run "

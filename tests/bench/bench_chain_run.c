@@ -162,8 +162,10 @@ int main(void)
         ours[k].error = distance(y, known);
         double hand = seconds_at(ladder, fmax(ours[k].error, ladder[rungs - 1].error));
         char what[120];
-        printf("%10.0e %10.1e %7.2f ms %7.2f ms\n", ours[k].tolerance, ours[k].error, 1e3 * ours[k].seconds, 1e3 * hand);
-        snprintf(what, sizeof what, "whole run: chain of 64 rods, 1 s, tolerance %.0e, beside C by hand", ours[k].tolerance);
+        printf("%10.0e %10.1e %7.2f ms %7.2f ms\n", ours[k].tolerance, ours[k].error, 1e3 * ours[k].seconds,
+               1e3 * hand);
+        snprintf(what, sizeof what, "whole run: chain of 64 rods, 1 s, tolerance %.0e, beside C by hand",
+                 ours[k].tolerance);
         claim_at_most(what, ours[k].seconds / hand, bound);
     }
     fbd_model_free(model);

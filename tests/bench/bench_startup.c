@@ -60,11 +60,12 @@ int main(int argc, char **argv)
         walls[i] = wall / other;
     }
     double ratio = median(ratios, pairs);
-    printf("fbd-run %.3f ms, parse only %.3f ms, of the processor, median ratio of %d pairs %.2f (quartiles %.2f to "
+    printf("fbd-run %.3f ms, parse only %.3f ms, of the processor, median ratio of %d pairs %.2f (quartiles "
+           "%.2f to "
            "%.2f), of wall time %.2f\n",
            1e3 * median(ours, pairs), 1e3 * median(theirs, pairs), pairs, ratio, ratios[pairs / 4],
            ratios[3 * pairs / 4], median(walls, pairs));
-    claim_at_most("start of fbd-run, beside a program that links the same libraries and parses the same file", ratio,
-                  1.2);
+    claim_at_most("start of fbd-run, beside a program that links the same libraries and parses the same file",
+                  ratio, 1.2);
     return 0;
 }

@@ -87,8 +87,8 @@ static void measure_short(const char *path, const char *vary, double until)
     for (int i = 0; i < pairs; i++)
         rate[i] = (double)fbd_sweep_run_count(sweep) / measure(sweep, 1).processor;
     double runs = median(rate, pairs);
-    printf("%s, %s, until %g s: %.0f runs in a second of processor time, %.1f us each\n", path, vary, until, runs,
-           1e6 / runs);
+    printf("%s, %s, until %g s: %.0f runs in a second of processor time, %.1f us each\n", path, vary, until,
+           runs, 1e6 / runs);
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
     char what[160];
     snprintf(what, sizeof what, "sweep: very short runs of %s (%s) in a second and core", name, vary);

@@ -57,7 +57,8 @@ static void *chain_open(int n)
     fbd_errors_free(errors);
     free(text);
     if (chain && chain->model) chain->state = state_new(chain->model);
-    if (chain && chain->state && modes_settle(chain->state, NULL)) chain->rates = rates_new(chain->state, rates_by_rows);
+    if (chain && chain->state && modes_settle(chain->state, NULL))
+        chain->rates = rates_new(chain->state, rates_by_rows);
     if (chain && chain->rates) {
         chain->function = rates_call(chain->rates, &chain->params);
         return chain;

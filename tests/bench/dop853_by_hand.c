@@ -38,9 +38,11 @@ static int stages(struct pair *p)
     STAGE(9, A(9, 1) + A(9, 4) + A(9, 5) + A(9, 6) + A(9, 7) + A(9, 8));
     STAGE(10, A(10, 1) + A(10, 4) + A(10, 5) + A(10, 6) + A(10, 7) + A(10, 8) + A(10, 9));
     STAGE(11, A(11, 1) + A(11, 4) + A(11, 5) + A(11, 6) + A(11, 7) + A(11, 8) + A(11, 9) + A(11, 10));
-    STAGE(12, A(12, 1) + A(12, 4) + A(12, 5) + A(12, 6) + A(12, 7) + A(12, 8) + A(12, 9) + A(12, 10) + A(12, 11));
+    STAGE(12,
+          A(12, 1) + A(12, 4) + A(12, 5) + A(12, 6) + A(12, 7) + A(12, 8) + A(12, 9) + A(12, 10) + A(12, 11));
     for (size_t c = 0; c < n; c++)
-        p->next[c] = y[c] + h * (A(13, 1) + A(13, 6) + A(13, 7) + A(13, 8) + A(13, 9) + A(13, 10) + A(13, 11) + A(13, 12));
+        p->next[c] = y[c] + h * (A(13, 1) + A(13, 6) + A(13, 7) + A(13, 8) + A(13, 9) + A(13, 10) +
+                                 A(13, 11) + A(13, 12));
     return 0;
 }
 
@@ -56,10 +58,10 @@ static double error_of(const struct pair *p)
     const double *e5 = dop853_e5, *e3 = dop853_e3;
     for (size_t c = 0; c < p->n; c++) {
         double size = size_of(p, c, p->y[c], p->next[c]);
-        double fifth = e5[1] * k[1][c] + e5[6] * k[6][c] + e5[7] * k[7][c] + e5[8] * k[8][c] + e5[9] * k[9][c] +
-                       e5[10] * k[10][c] + e5[11] * k[11][c] + e5[12] * k[12][c];
-        double third = e3[1] * k[1][c] + e3[6] * k[6][c] + e3[7] * k[7][c] + e3[8] * k[8][c] + e3[9] * k[9][c] +
-                       e3[10] * k[10][c] + e3[11] * k[11][c] + e3[12] * k[12][c];
+        double fifth = e5[1] * k[1][c] + e5[6] * k[6][c] + e5[7] * k[7][c] + e5[8] * k[8][c] +
+                       e5[9] * k[9][c] + e5[10] * k[10][c] + e5[11] * k[11][c] + e5[12] * k[12][c];
+        double third = e3[1] * k[1][c] + e3[6] * k[6][c] + e3[7] * k[7][c] + e3[8] * k[8][c] +
+                       e3[9] * k[9][c] + e3[10] * k[10][c] + e3[11] * k[11][c] + e3[12] * k[12][c];
         sum5 += fifth / size * (fifth / size);
         sum3 += third / size * (third / size);
     }
@@ -96,7 +98,8 @@ static int walk(struct pair *p, double until)
         double left = until - p->t;
         if (p->h > left) p->h = left;
         if (p->h < 1e-15 * fabs(p->t) || stages(p)) return -1;
-        double error = error_of(p), factor = fmin(fmax(0.9 * pow(fmax(error, 1e-300), -1.0 / 8), 1.0 / 3), most);
+        double error = error_of(p),
+               factor = fmin(fmax(0.9 * pow(fmax(error, 1e-300), -1.0 / 8), 1.0 / 3), most);
         if (!(error <= 1)) {
             p->h *= isfinite(error) ? fmin(factor, 1) : 0.1;
             most = 1;
@@ -111,10 +114,11 @@ static int walk(struct pair *p, double until)
     return 0;
 }
 
-int dop853_by_hand(rates_by_hand *rates, void *params, size_t n, double t, double until, double *y, double tolerance,
-                   const double *scale)
+int dop853_by_hand(rates_by_hand *rates, void *params, size_t n, double t, double until, double *y,
+                   double tolerance, const double *scale)
 {
-    struct pair pair = {.rates = rates, .params = params, .n = n, .t = t, .tolerance = tolerance, .scale = scale, .y = y};
+    struct pair pair = {
+        .rates = rates, .params = params, .n = n, .t = t, .tolerance = tolerance, .scale = scale, .y = y};
     double *memory = malloc(14 * n * sizeof *memory);
     if (!memory) return -1;
     pair.u = memory;

@@ -13,7 +13,7 @@ typedef int rates_by_hand(double t, const double y[], double dydt[], void *param
 /* From t to `until`, y[n] in place. The local error of component i is at most tolerance * (scale[i] + |y[i]|), as a root
  * mean square; without `scale` 1 stands in its place. 0, or -1 without memory, when the right-hand side fails or the step
  * gets too small. */
-int dop853_by_hand(rates_by_hand *rates, void *params, size_t n, double t, double until, double *y, double tolerance,
-                   const double *scale);
+int dop853_by_hand(rates_by_hand *rates, void *params, size_t n, double t, double until, double *y,
+                   double tolerance, const double *scale);
 
 #endif
