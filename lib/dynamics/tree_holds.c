@@ -287,6 +287,27 @@ static bool decide(struct fbd_state *state, const struct decided *decided, int *
     return false;
 }
 
+/* Nothing has been decided but for friction whose coefficients are zero for now, and go on so: its force is 0 in all its
+ * modes, and it slips to the side that it moves to. */
+static void begin_forced(struct fbd_state *state, const struct decided *decided, int *forced)
+{
+    const struct fbd_model *model = state->model;
+    struct instant at = state_instant(state);
+    memset(forced, 0, model->plan.mode_count * sizeof *forced);
+    const struct direction flow = {1, state_scratch(state).dy};
+    for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
+        const struct mode *hold = mode_of(state, pair);
+        double d_s, d_k;
+        if (!mode_is_friction(hold) || !hold_in_question(state, decided, forced, pair)) continue;
+        if (friction_coefficient(model, pair, &hold->mu_s, &at, &flow, &d_s) != 0 || d_s != 0) continue;
+        if (friction_coefficient(model, pair, &hold->mu_k, &at, &flow, &d_k) != 0 || d_k != 0) continue;
+        int slips = hold_slips_already(state, decided, forced, pair);
+        if (slips != 0 || state->slip[pair] == stick) state->slip[pair] = slips < 0 ? slip_minus : slip_plus;
+        if (slips == 0 && turns_back(state, pair)) state->slip[pair] = -state->slip[pair];
+        forced[pair] = state->slip[pair];
+    }
+}
+
 /* Does friction hold what drives, surfaces or, in a dead centre, its momentum move, whatever the forces are? No friction
  * is enough for that. (Of friction along a tie in a dead centre its row tells, see moves_on.) */
 static bool holds_what_is_driven(struct fbd_state *state, const struct decided *decided, int *forced)
@@ -301,11 +322,14 @@ static bool holds_what_is_driven(struct fbd_state *state, const struct decided *
     if (!may) return false;
     state_evaluate_unshared(state);
     if (!rest_is_open(state->model, &at)) return false;
+    size_t bytes = state->model->plan.mode_count * sizeof *forced;
+    int *begun = state->slip_barely;
+    memcpy(begun, forced, bytes);
     bool gathered = gathered_find(&all, state, decided, forced);
     if (!gathered) state->holds.found = holds_no_memory;
     for (size_t i = 0; gathered && i < all.problem.count; i++)
         moves |= all.still[i] && all.problem.holds[i].slip != 0 && state->slip[all.pair[i]] == stick;
-    memset(forced, 0, state->model->plan.mode_count * sizeof *forced);
+    memcpy(forced, begun, bytes);
     gathered_free(&all);
     return moves;
 }
@@ -330,7 +354,7 @@ bool tree_settle_holds(struct fbd_state *state, const struct decided *decided)
     size_t count = state->model->plan.mode_count, bytes = count * sizeof *before;
     int *forced = state->slip_forced;
     memcpy(before, state->slip, bytes);
-    memset(forced, 0, bytes);
+    begin_forced(state, decided, forced);
     for (int pair = 0; pair < (int)count; pair++) {
         if (state->slip[pair] == stick || !hold_in_question(state, decided, forced, pair)) continue;
         const struct mode *hold = mode_of(state, pair);

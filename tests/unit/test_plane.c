@@ -53,6 +53,7 @@ static void draw_scene(int kind, uint64_t seed, struct scene *scene, struct text
     *scene = (struct scene){.kind = kind, .until = random_between(&numbers, 0.4, 1.5)};
     for (int j = 0; j < 4; j++) scene->rope[j].other = -1;
     kinds[kind]->draw(&numbers, scene);
+    for (int i = 0; i < most_bodies; i++) scene->body[i].lists_zero = chance(&numbers, 0.5);
     text->length = 0;
     add(text, "fbd: 1\ngravity: 10\n");
     kinds[kind]->write(scene, text);
