@@ -22,7 +22,8 @@ static bool keeps_side(const struct rest_system *system, size_t pair)
 {
     const struct mode *mode = &system->state->model->plan.modes[pair];
     return system->base.moves && mode_is_friction(mode) && mode->two_sided && mode->normal_slot >= 0 &&
-           system->at.slip[pair] != stick;
+           system->at.slip[pair] != stick &&
+           friction_coefficient(system->state->model, (int)pair, &mode->mu_k, &system->at, NULL, NULL) != 0;
 }
 
 /* Of friction both sides are limits, of others one; unused ones are empty: 0 >= 0. `slots` and `lambda` may

@@ -343,7 +343,8 @@ static bool decide(struct fbd_state *state, const struct decided *decided, int *
 static void turn_idle(struct fbd_state *state, const struct decided *decided)
 {
     for (int pair = 0; pair < (int)state->model->plan.mode_count; pair++)
-        if (state->slip_idle[pair] != 0 && settling_velocity(state, decided, pair) == 0 && turns_back(state, pair))
+        if (state->slip_idle[pair] != 0 && settling_velocity(state, decided, pair) == 0 &&
+            turns_back(state, pair))
             state->slip[pair] = -state->slip[pair];
 }
 

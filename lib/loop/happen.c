@@ -234,8 +234,7 @@ static void happen(struct run *run, const struct watcher *watcher, bool crossing
         run->decided.pulls[index] = true;
         break;
     case watch_one_sided:
-        if (run->state->slip[index] == stick && tree_give_shared(run->state, index, &run->decided))
-            break;
+        if (run->state->slip[index] == stick && tree_give_shared(run->state, index, &run->decided)) break;
         one_sided_event(run, index);
         break;
     case watch_lift:

@@ -151,7 +151,8 @@ static int find_change(struct run *run, struct moment *t)
     run->search.moving.soon = soon(run, end - start);
     scan_start(&run->search.moving);
     for (int dip = 0; start < end; dip++) {
-        if (dip == most_dips && (start - run->step.from > instant_at(start) || !scan_leave_out(&run->search.moving)))
+        if (dip == most_dips &&
+            (start - run->step.from > instant_at(start) || !scan_leave_out(&run->search.moving)))
             break;
         dip %= most_dips;
         int found = scan_interval(&run->search.moving, start, end);
