@@ -285,7 +285,7 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
     if (shared && margin.value < 0) /* that a slide has lost its surface is for others to say */
         shared = tree_find_margin(state, &at, false, &flow, slots, slots_along, &arena, &margin);
     int which = pulled_against(state, decided, forced), next = 0;
-    if (which >= 0) found = differs;
+    if (which >= 0 || (!solved && tree_is_locked(state))) found = differs;
     for (int pair = 0; found != differs && pair < (int)state->model->plan.mode_count; pair++) {
         bool by_rate;
         const struct mode *hold = mode_of(state, pair);
@@ -317,6 +317,13 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
     return found;
 }
 
+/* The contact that friction rubs on, which may hardly press; -1 without one. */
+static int surface_under(const struct fbd_state *state, int pair)
+{
+    if (pair < 0 || !is_on_contact(state, mode_of(state, pair))) return -1;
+    return state->model->tree->ties[mode_of(state, pair)->tie].surface;
+}
+
 /* Solve, and let rates decide what is at its limit, one after the other. False where the forces do not agree
  * with what was solved. */
 static bool decide(struct fbd_state *state, const struct decided *decided, int *forced)
@@ -328,10 +335,11 @@ static bool decide(struct fbd_state *state, const struct decided *decided, int *
         enum agreement found = look(state, decided, forced, true);
         if (found == agrees) return true;
         bool more = found == at_limit;
+        int on = found == differs ? surface_under(state, state->holds.contradicts) : -1;
         for (int pair = 0; pair < count && found == differs; pair++) {
-            bool contradicts = pair == state->holds.contradicts;
+            bool contradicts = pair == state->holds.contradicts || pair == on;
             if (barely[pair] == 0 || (mode_is_one_sided(mode_of(state, pair)) && !contradicts)) continue;
-            forced[pair] = barely[pair];
+            forced[pair] = state->slip[pair] = barely[pair];
             more = true;
         }
         if (!more) return false;
@@ -365,7 +373,8 @@ static bool holds_what_is_driven(struct fbd_state *state, const struct decided *
     bool gathered = gathered_find(&all, state, decided, forced);
     if (!gathered) state->holds.found = holds_no_memory;
     for (size_t i = 0; gathered && i < all.problem.count; i++)
-        moves |= all.still[i] && all.problem.holds[i].slip != 0 && state->slip[all.pair[i]] == stick;
+        moves |= all.still[i] == still_stays && all.problem.holds[i].slip != 0 &&
+                 state->slip[all.pair[i]] == stick;
     memcpy(forced, state->slip_idle, state->model->plan.mode_count * sizeof *forced);
     if (gathered) find_unpressed(&all, decided, forced);
     gathered_free(&all);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "dynamics/own.h"
+#include "dynamics/tree_gather.h"
 
 struct direction tree_evaluate(struct fbd_state *state)
 {
@@ -80,7 +81,10 @@ bool tree_give_shared(struct fbd_state *state, int pair, struct decided *decided
         bool turns = mode_is_friction(&state->model->plan.modes[i]) && state->slip[i] != stick;
         (turns ? decided->pulls : decided->slips)[i] |= margin.gives[i] != 0;
     }
-    if (gives) give(state, &margin, state->slip_forced);
+    if (gives) {
+        give(state, &margin, state->slip_forced);
+        gathered_set_out(state, margin.gives);
+    }
     arena_free(&arena);
     return gives;
 }

@@ -230,8 +230,7 @@ static void happen(struct run *run, const struct watcher *watcher, bool crossing
     case watch_slip_stop: stop_slipping(run, index); break;
     case watch_normal_turns:
         if (run->state->slip[index] != stick && tree_give_shared(run->state, index, &run->decided)) break;
-        run->state->pull[index] = -run->state->pull[index];
-        run->decided.pulls[index] = true;
+        run_turn_normal(run, index);
         break;
     case watch_one_sided:
         if (run->state->slip[index] == stick && tree_give_shared(run->state, index, &run->decided)) break;
@@ -382,6 +381,7 @@ static void count_crowd(struct run *run)
     bool crowded = run->state->t - run->recent.time <= run_instant(run) ||
                    fabs(run->state->t) <= instant * run->step.first;
     run->recent.crowd = crowded ? run->recent.crowd + 1 : 0;
+    if (!crowded) run->recent.turns = 0;
     run->recent.time = run->state->t;
     if (run->recent.crowd < most_at_once || run->end.outcome != FBD_GOING) return;
     run_fail_chatter(run);

@@ -5,7 +5,8 @@
  * One row a line; cells are parted by `;`, tabs, `,` or blanks, whichever of these, in this order, the first row has.
  * The first row may name the columns, with units in brackets or parentheses: `t [s],force (N)`. Lines that are empty
  * or start with `#` are skipped; where no row names columns, the `#` line just before the numbers may. Cells may stand
- * in double quotes. Numbers have a decimal point; in files parted by `;` a decimal comma will do.
+ * in double quotes. Numbers have a decimal point; in files parted by `;`
+ * or tabs a decimal comma will do. No row has more cells than the first one.
  */
 #ifndef FBD_SCENE_DATA_FILE_H
 #define FBD_SCENE_DATA_FILE_H

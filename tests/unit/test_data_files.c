@@ -63,6 +63,15 @@ static const struct file_case file_cases[] = {
     {"a,0,1\nb,1,3\n", ", x: 2, y: 3", 0.5, 2, NULL},
     {"", "", 0, 0, "table-format"},
     {"t,F\n", "", 0, 0, "table-format"},
+    {"t [ms] F [kN]\n0 1\n1000 3\n", "", 0.5, 2000, NULL},
+    {"t\tF\n0,0\t1,0\n1,0\t3,5\n", "", 1, 3.5, NULL},
+    {"\"t; s\",F\n0,1\n1,3\n", "", 0.5, 2, NULL},
+    {"t [s],F [N],\n0,1,\n1,3,\n", "", 0.5, 2, NULL},
+    {"t [s],F [N]\n0,0,1,0\n1,0,3,5\n", "", 0, 0, "table-format"}, /* decimal commas */
+    {"t [s],F [N]\n0,1\n1,3,5\n", "", 0, 0, "table-format"},
+    {"0,1\n1,3,5\n", "", 0, 0, "table-format"},
+    {"t,F\ns,N\n0,1\n1,3\n", "", 0, 0, "table-format"},
+    {"\xFF\xFEt", "", 0, 0, "table-format"}, /* UTF-16 */
     {"t [s],F [N]\n0,1e300\n1e-300,-1e300\n", "", 0, 0, "table-points"},
 };
 
