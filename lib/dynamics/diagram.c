@@ -279,7 +279,7 @@ static size_t add_guide(const struct fbd_model *model, const struct model_body *
     return count + 1;
 }
 
-size_t diagram_fill(const struct fbd_model *model, int index, const struct instant *at, const double *a,
+size_t diagram_list(const struct fbd_model *model, int index, const struct instant *at, const double *a,
                     const double *slots, struct arrow *arrows)
 {
     const struct model_body *body = &model->bodies[index];
@@ -287,10 +287,15 @@ size_t diagram_fill(const struct fbd_model *model, int index, const struct insta
     size_t count = (size_t)body->load_count;
     for (size_t i = 0; i < count; i++)
         arrows[i] = posed_arrow(model, body->first_load + (int)i, &pose, at, slots);
-    if (body->place.link > 0)
-        count = tree_diagram_add(model, index, at, slots, arrows);
-    else
-        count = add_guide(model, body, at, a, arrows, count);
+    if (body->place.link > 0) return tree_diagram_add(model, index, at, slots, arrows);
+    return add_guide(model, body, at, a, arrows, count);
+}
+
+size_t diagram_fill(const struct fbd_model *model, int index, const struct instant *at, const double *a,
+                    const double *slots, struct arrow *arrows)
+{
+    const struct model_body *body = &model->bodies[index];
+    size_t count = diagram_list(model, index, at, a, slots, arrows);
     for (size_t i = 0; i < count; i++) {
         set_share(model, index, at, &arrows[i]);
         arrows[i].power = power_of(body, at, &arrows[i]);

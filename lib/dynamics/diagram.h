@@ -34,6 +34,10 @@ size_t diagram_most_arrows(const struct fbd_model *model);
 size_t diagram_fill(const struct fbd_model *model, int index, const struct instant *at, const double *a,
                     const double *slots, struct arrow *arrows);
 
+/* The same without shares and powers, for who asks for forces, points and couples alone. */
+size_t diagram_list(const struct fbd_model *model, int index, const struct instant *at, const double *a,
+                    const double *slots, struct arrow *arrows);
+
 /* The world components of an applied force. */
 /* Where a load acts: `point`, the place of its point of the body, or beside it. */
 struct vec load_place(const struct model_load *load, struct vec point, const struct instant *at);

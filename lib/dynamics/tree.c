@@ -234,12 +234,27 @@ static void add_accelerations(const struct tree *tree, struct tree_work *work)
     }
 }
 
+/* Does no row ask for anything, as of what flies? */
+static bool is_free(const struct tree *tree, const struct instant *at)
+{
+    if (tree->watched_count + tree->pair_count > 0) return false;
+    for (int j = 0; j < tree->row_count; j++)
+        if (tree_takes_part(tree, at, j)) return false;
+    return true;
+}
+
 /* Add the forces of constraints and of slipping slides. */
 static void close_system(const struct fbd_model *model, const struct instant *at, double *a)
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
     constraints_evaluate(model, at, NULL);
+    if (work->rates_only && is_free(tree, at)) {
+        for (int j = 0; j < tree->row_count; j++) work->rows[j].lambda = 0;
+        memset(work->unit, 0, (size_t)model->plan.n * sizeof *work->unit);
+        tree_add_unit(tree, work, a); /* no negative zeros, as where something is added */
+        return;
+    }
     for (int j = 0; j < tree->row_count; j++) work->z[j] = -work->rows[j].g.x2;
     for (int k = 0; k < tree->pair_count; k++) {
         int i = tree->pairs[k];

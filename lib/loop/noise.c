@@ -108,8 +108,9 @@ static bool turns(const struct model_body *body, int k)
 static void add_gross_forces(struct run *run, int b, const struct instant *at, double *gross)
 {
     const struct model_body *body = &run->model->bodies[b];
-    size_t count = diagram_fill(run->model, b, at, run->state->a, run->state->slots, run->work.arrows);
     int link = body->place.link;
+    size_t count = (link > 0 ? diagram_list : diagram_fill)(run->model, b, at, run->state->a,
+                                                            run->state->slots, run->work.arrows);
     const struct tree *tree = run->model->tree;
     double angle = tree && link > 0 ? run->grain.turned[tree->count + link] : 0;
     for (size_t i = 0; i < count; i++) {

@@ -60,7 +60,7 @@ static struct sums sums_of(const struct fbd_state *state, int b, struct arrow *a
     double slid = slid_size(state, body);
     sums.force = vec_norm(sums.m_a) + slid;
     sums.moment = fabs(sums.I_alpha) + slid;
-    size_t count = diagram_fill(model, b, &at, state->a, state->slots, arrows);
+    size_t count = diagram_list(model, b, &at, state->a, state->slots, arrows);
     for (size_t i = 0; i < count; i++) {
         const struct arrow *arrow = &arrows[i];
         double size = vec_norm(arrow->force), arm = vec_norm(vec_sub(arrow->point, G));
