@@ -218,7 +218,8 @@ static void set_floors(struct run *run, double lasts)
             double speed = sized ? negligible * all.rate / own.arm : 0;
             if (run->state->y[position] == 0) place = fmax(place, own.place);
             if (run->state->y[rate] == 0) speed = fmax(speed, own.rate);
-            if (tree && tree->row_count > 0 && place == 0 && speed == 0 && run->state->y[position] == 0) {
+            if (tree && tree->row_count > 0 && tree->meeting_count == 0 && place == 0 && speed == 0 &&
+                run->state->y[position] == 0) {
                 place = unseen_place(run, body, k); /* held by a coupling, before anything acts */
                 speed = place / tau;
             }
