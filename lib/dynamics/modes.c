@@ -170,6 +170,7 @@ static int decide_one_sided(const struct settling *settling, int pair)
 /* Moving, friction slips to where it moves. */
 static int decide_friction(const struct settling *settling, int pair)
 {
+    if (friction_is_never(&settling->state->model->plan.modes[pair])) return slip_plus;
     double v = settling_velocity(settling->state, settling->decided, pair);
     return v > 0 ? slip_plus : v < 0 ? slip_minus : together;
 }
