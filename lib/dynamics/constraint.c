@@ -267,9 +267,9 @@ double tie_slip_rounding(const struct fbd_model *model, const struct instant *at
         /* What has come down and rests has no speed to measure rounding against but that of falling over. */
         if (touches) size = fmax(size, sqrt(vec_norm(model->scene->gravity) * arm));
     }
-    /* What rests was brought to rest by a projection, with what moves. */
-    return 64 * DBL_EPSILON * (size + remoteness(model, at, tie, size)) +
-           4 * DBL_EPSILON * fastest(model->tree, at->tree, reach);
+    /* What rests was brought to rest by a projection, with what moves; a contact by its impulses. */
+    double moves = touches ? 0 : fastest(model->tree, at->tree, reach);
+    return 64 * DBL_EPSILON * (size + remoteness(model, at, tie, size)) + 4 * DBL_EPSILON * moves;
 }
 
 double tie_slip_velocity(const struct fbd_model *model, const struct instant *at, int tie)

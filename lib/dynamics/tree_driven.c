@@ -131,9 +131,20 @@ double tree_sets_out(struct fbd_state *state, const int *slip, int pair)
     return along;
 }
 
+/* Of a joint or a coupling; what touches is no mechanism. */
+static bool any_sticks(const struct fbd_state *state)
+{
+    for (int pair = 0; pair < (int)state->model->plan.mode_count; pair++) {
+        const struct mode *mode = mode_of(state, pair);
+        bool touches = mode->tie >= 0 && state->model->tree->ties[mode->tie].meeting >= 0;
+        if (mode_is_friction(mode) && !touches && state->slip[pair] == stick) return true;
+    }
+    return false;
+}
+
 bool tree_is_locked(struct fbd_state *state)
 {
-    if (!tree_rests(state)) return false;
+    if (!tree_rests(state) || !any_sticks(state)) return false;
     struct fbd_state *other = state_new(state->model);
     if (!other) state->holds.found = holds_no_memory;
     bool locked = other && state_locked_row(state, other) >= 0;
