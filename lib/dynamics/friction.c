@@ -68,7 +68,8 @@ struct friction_values friction_at(const struct fbd_model *model, int pair, cons
     double acceleration;
     friction_surface_speed(mode, at, &acceleration);
     values.hold = mode->inertia * acceleration - slots[mode->hold_slot];
-    values.limit = fmax(values.limit_static, values.limit_kinetic);
+    /* A coefficient at its own zero may be rounding below it. */
+    values.limit = fmax(0, fmax(values.limit_static, values.limit_kinetic));
     values.force = at->slip[pair] == stick ? values.hold : -at->slip[pair] * values.limit_kinetic;
     return values;
 }

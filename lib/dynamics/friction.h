@@ -55,6 +55,14 @@ static inline bool friction_rubs(const struct mode *mode)
     return mode->mu_k.expr || mode->mu_k.constant > 0;
 }
 
+/* A coefficient that is zero whatever happens: the force is 0 in each of its modes, so that there is none to decide. It
+ * slips, by convention forwards, and has no events. */
+static inline bool friction_is_never(const struct mode *mode)
+{
+    return mode_is_friction(mode) && !mode->mu_s.expr && !mode->mu_k.expr && mode->mu_s.constant == 0 &&
+           mode->mu_k.constant == 0;
+}
+
 /* The rounding of the force needed and of its limit: less than this beyond the limit is not beyond it. */
 double friction_rounding(const struct friction_values *now);
 

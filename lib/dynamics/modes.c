@@ -41,6 +41,14 @@ double settling_velocity(const struct fbd_state *state, const struct decided *de
     return slip_velocity(state->model, pair, &at);
 }
 
+/* On the branch of the instant: of the time alone, the rates of the state do not matter. */
+static void resolve_drive(struct fbd_state *state, const struct formula *law)
+{
+    if (!formula_is_constant(law))
+        expr_resolve(law->expr, state_moment(state), state->y, 1, state->y, NULL,
+                     state->branch + law->branch);
+}
+
 void modes_drive(struct fbd_state *state)
 {
     const struct plan *plan = &state->model->plan;
@@ -49,13 +57,13 @@ void modes_drive(struct fbd_state *state)
     for (int pair = 0; pair < (int)plan->mode_count; pair++) {
         const struct mode *mode = &plan->modes[pair];
         if (mode->kind != mode_drive) continue;
-        /* Of the time alone: the rates of the state do not matter. */
-        if (!formula_is_constant(&mode->position))
-            expr_resolve(mode->position.expr, state_moment(state), state->y, 1, state->y, NULL,
-                         state->branch + mode->position.branch);
+        resolve_drive(state, &mode->position);
         state->y[mode->coordinate] = formula_value(&mode->position, &at);
         state->y[plan->n + mode->coordinate] = friction_surface_speed(mode, &at, &acceleration);
     }
+    const struct tree *tree = state->model->tree;
+    for (int i = 0; tree && i < tree->tie_count; i++)
+        if (tree->ties[i].reels) resolve_drive(state, &tree->ties[i].reel);
 }
 
 void modes_hold(struct fbd_state *state)
@@ -162,6 +170,7 @@ static int decide_one_sided(const struct settling *settling, int pair)
 /* Moving, friction slips to where it moves. */
 static int decide_friction(const struct settling *settling, int pair)
 {
+    if (friction_is_never(&settling->state->model->plan.modes[pair])) return slip_plus;
     double v = settling_velocity(settling->state, settling->decided, pair);
     return v > 0 ? slip_plus : v < 0 ? slip_minus : together;
 }

@@ -40,7 +40,7 @@ bool tree_find_margin(struct fbd_state *state, const struct instant *at, bool gu
 
 /* A pair has come to the limit of what it shares: what gives with it gives, in state->slip, and is decided.
  * False when it shares nothing. */
-bool tree_give_shared(struct fbd_state *state, int pair, bool *decided);
+bool tree_give_shared(struct fbd_state *state, int pair, struct decided *decided);
 
 /* The velocity of a pair relative to its surface. */
 double slip_velocity(const struct fbd_model *model, int pair, const struct instant *at);

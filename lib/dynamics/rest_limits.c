@@ -17,6 +17,15 @@ size_t rest_limits(const struct rest_system *system)
     return system->state->model->plan.contact_count + system->state->model->plan.mode_count;
 }
 
+/* What rubs on a guide with two sides as the scene moves, by its friction, stays on its side. */
+static bool keeps_side(const struct rest_system *system, size_t pair)
+{
+    const struct mode *mode = &system->state->model->plan.modes[pair];
+    return system->base.moves && mode_is_friction(mode) && mode->two_sided && mode->normal_slot >= 0 &&
+           system->at.slip[pair] != stick &&
+           friction_coefficient(system->state->model, (int)pair, &mode->mu_k, &system->at, NULL, NULL) != 0;
+}
+
 /* Of friction both sides are limits, of others one; unused ones are empty: 0 >= 0. `slots` and `lambda` may
  * be those of a column; without lambda those of the rows. */
 static void limit_values(const struct rest_system *system, const double *slots, size_t stride,
@@ -30,6 +39,7 @@ static void limit_values(const struct rest_system *system, const double *slots, 
     for (size_t i = 0; i < plan->mode_count; i++, next += 2) {
         const struct mode *mode = &plan->modes[i];
         next[0] = next[1] = 0;
+        if (keeps_side(system, i)) next[0] = -at.pull[i] * slots[(size_t)mode->normal_slot * stride];
         if (!rest_has_limit(mode) || at.slip[i] != stick) continue;
         if (mode->kind == mode_rope) {
             int row = system->state->model->tree->ties[mode->tie].first_row;
@@ -142,6 +152,7 @@ static double limit_along(const struct rest_system *system, const double *slots_
     if (mode->kind == mode_rope) return -lambda_along[model->tree->ties[mode->tie].first_row];
     struct friction_values now = friction_at(model, pair, &system->at, system->forces);
     struct friction_values rate = friction_along(model, pair, &system->at, system->forces, flow, slots_along);
+    if (keeps_side(system, (size_t)pair)) return system->at.pull[pair] * rate.N;
     double limit = now.limit_kinetic > now.limit_static ? rate.limit_kinetic : rate.limit_static;
     return (i - plan->contact_count) % 2 == 0 ? limit - rate.hold : limit + rate.hold;
 }

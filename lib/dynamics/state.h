@@ -34,6 +34,7 @@ struct fbd_state {
     int *branch, *slip, *pull;                    /* modes, see instant.h */
     int *branch_before;                           /* scratch for settling: plan.branches */
     int *slip_before, *slip_forced, *slip_barely; /* and plan.mode_count each */
+    int *slip_idle;          /* and: the side on which friction slips that has no force in any of its modes */
     int *slip_driven;        /* and: the side on which drives alone make it slip, 0 where forces do */
     double *scratch;         /* see struct scratch */
     double *extended;        /* scratch of absolute.h */

@@ -14,6 +14,7 @@
 /* -1 or +1 for a surface that moves under the body, 0 when it is at rest as well. */
 static enum slip slip_at_rest(const struct mode *mode, const struct instant *at)
 {
+    if (friction_is_never(mode)) return slip_plus;
     if (mode->tie >= 0 || mode->kind == mode_drive) return stick;
     double acceleration, speed = friction_surface_speed(mode, at, &acceleration);
     return speed > 0 ? slip_minus : speed < 0 ? slip_plus : stick;

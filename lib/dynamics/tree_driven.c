@@ -98,3 +98,45 @@ double tree_driven(struct fbd_state *state, const int *slip, int pair)
     state_free(then);
     return v;
 }
+
+bool tree_rests(const struct fbd_state *state)
+{
+    int n = state->model->plan.n;
+    double fastest = 0;
+    for (int i = 0; i < n; i++) fastest = fmax(fastest, fabs(state->y[n + i]));
+    return fastest == 0 ||
+           (state->t > 0 && fastest <= 64 * DBL_EPSILON * fmin(1, reach_of(state)) / state->t);
+}
+
+/* With q' = a T the rows have q'.H q' left, which says where it goes: by the sign of that, whatever T is. */
+double tree_sets_out(struct fbd_state *state, const int *slip, int pair)
+{
+    const double T = 1e3;
+    size_t n = (size_t)state->model->plan.n, pairs = state->model->plan.mode_count;
+    if (!tree_rests(state)) return 0;
+    struct fbd_state *then = state_new(state->model);
+    double along = 0;
+    if (!then) {
+        state->holds.found = holds_no_memory;
+        return 0;
+    }
+    state_copy(then, state);
+    memcpy(then->slip, slip, pairs * sizeof *slip);
+    for (size_t i = 0; i < n; i++) then->y[n + i] = T * state->a[i];
+    state_evaluate_unshared(then);
+    const struct instant at = state_instant(then);
+    along = tree_hold_acceleration(then, &at, pair);
+    if (!tree_seen_acceleration(then, along)) along = 0;
+    state_free(then);
+    return along;
+}
+
+bool tree_is_locked(struct fbd_state *state)
+{
+    if (!tree_rests(state)) return false;
+    struct fbd_state *other = state_new(state->model);
+    if (!other) state->holds.found = holds_no_memory;
+    bool locked = other && state_locked_row(state, other) >= 0;
+    state_free(other);
+    return locked;
+}

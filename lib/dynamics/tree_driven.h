@@ -38,4 +38,14 @@ double tree_unseen_speed(const struct fbd_state *state, double time);
  * more than rounding; 0 where it stays at rest. Sets state->holds.found when memory is out. */
 double tree_driven(struct fbd_state *state, const int *slip, int pair);
 
+/* Is every velocity zero, but for what may well be rounding of the places? */
+bool tree_rests(const struct fbd_state *state);
+
+/* The same of forces that move a mechanism out of the dead centre in which it rests, as state->a tells: nothing moves
+ * along the hold at once, but to the second order of the motion. 0 where the mechanism does not rest, or stays. */
+double tree_sets_out(struct fbd_state *state, const int *slip, int pair);
+
+/* Does it rest, is it about to move, and does something that sticks not let it, to the second order? */
+bool tree_is_locked(struct fbd_state *state);
+
 #endif

@@ -34,6 +34,7 @@ bool hold_in_question(const struct fbd_state *state, const struct decided *decid
     const struct mode *hold = mode_of(state, pair);
     struct instant at = state_instant(state);
     if (hold->kind == mode_single || hold->kind == mode_drive) return false;
+    if (friction_is_never(hold)) return false;
     if (mode_is_friction(hold)) return is_on_surface(state, decided, forced, hold);
     if (forced[pair] || (decided && decided->slips[pair])) return false;
     if (hold->kind == mode_contact) return state->tree->ties[hold->tie].feature != no_feature;
@@ -94,6 +95,10 @@ static void hold_still(struct gathered *all, size_t k)
     /* A mechanism that passes its dead centre goes on by its momentum. */
     if (driven == 0 && mode_is_friction(hold) && tree_seen_acceleration(state, still->free))
         driven = still->free;
+    if (driven == 0 && mode_is_friction(hold)) {
+        driven = tree_sets_out(state, all->trial, all->pair[k]);
+        if (driven != 0) all->still[k] = still_sets_out;
+    }
     still->free = still->kind == hold_one_sided ? driven : 0;
     for (size_t i = 0; i < count; i++) all->problem.A[i * count + k] = all->problem.A[k * count + i] = 0;
     if (driven != 0) still->slip = driven > 0 ? 1 : -1;
@@ -227,10 +232,23 @@ bool gathered_find(struct gathered *all, struct fbd_state *state, const struct d
     }
     all->at.slip = all->trial;
     set_free(all);
-    for (size_t k = 0; k < count; k++) all->still[k] = add_column(all, k);
+    for (size_t k = 0; k < count; k++) all->still[k] = add_column(all, k) ? still_stays : 0;
     for (size_t k = 0; k < count; k++) {
         state->slip_driven[all->pair[k]] = 0;
         if (all->still[k]) hold_still(all, k);
     }
     return true;
+}
+
+void gathered_set_out(struct fbd_state *state, const int *gives)
+{
+    struct gathered all = {0};
+    int *forced = tree_rests(state) ? calloc(state->model->plan.mode_count, sizeof *forced) : NULL;
+    if (!forced) return;
+    if (!gathered_find(&all, state, NULL, forced)) state->holds.found = holds_no_memory;
+    for (size_t i = 0; i < all.problem.count; i++)
+        if (all.still[i] == still_sets_out && gives[all.pair[i]] != 0)
+            state->slip[all.pair[i]] = all.problem.holds[i].slip;
+    gathered_free(&all);
+    free(forced);
 }

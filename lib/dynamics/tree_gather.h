@@ -14,6 +14,10 @@ enum {
     keeps_still = 2
 }; /* beside the modes that rates decide: nothing moves along it, whatever the forces */
 
+/* The constraints alone let nothing move along a hold: no force does, or forces that take the mechanism out of a dead
+ * centre, to the second order, if nothing else holds it. */
+enum { still_stays = 1, still_sets_out };
+
 struct gathered {
     struct fbd_state *state;
     struct instant at; /* with all of them loose */
@@ -21,7 +25,7 @@ struct gathered {
     int *pair, *hold; /* of a hold; of a pair, or -1 */
     int *guide;       /* of a guide: the pair that it presses on */
     int *trial;       /* modes with all of them loose */
-    int *still;       /* of a hold: the constraints alone let nothing move along it */
+    int *still;       /* of a hold: still_..., 0 where something moves along it */
     int *forced;
 };
 
@@ -41,5 +45,9 @@ int hold_slips_already(const struct fbd_state *state, const struct decided *deci
 /* The problem of all that are in question; false when memory is out. To be freed in either case. */
 bool gathered_find(struct gathered *all, struct fbd_state *state, const struct decided *decided, int *forced);
 void gathered_free(struct gathered *all);
+
+/* What sets out of a dead centre, of what `gives` (modes, 0 where it does not), slips to where it goes to the second
+ * order, whatever the force is that held it. */
+void gathered_set_out(struct fbd_state *state, const int *gives);
 
 #endif

@@ -21,6 +21,56 @@
 #include "dynamics/tree_shared.h"
 #include "dynamics/tree_system.h"
 
+/* ---- friction that has no force in any of its modes: there is nothing to decide */
+
+/* It slips, to the side that it moves to; at rest as before. */
+static void leave_idle(struct fbd_state *state, const struct decided *decided, int *forced, int pair)
+{
+    int side = hold_slips_already(state, decided, forced, pair);
+    if (side == 0) side = state->slip_before[pair];
+    state->slip_idle[pair] = forced[pair] = state->slip[pair] = side < 0 ? slip_minus : slip_plus;
+}
+
+/* Where its coefficients are zero for now, and go on so. */
+static void find_frictionless(struct fbd_state *state, const struct decided *decided, int *forced)
+{
+    const struct fbd_model *model = state->model;
+    struct instant at = state_instant(state);
+    const struct direction flow = {1, state_scratch(state).dy};
+    for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
+        const struct mode *hold = mode_of(state, pair);
+        double d_s, d_k;
+        state->slip_idle[pair] = forced[pair] = 0;
+        if (!mode_is_friction(hold) || !hold_in_question(state, decided, forced, pair)) continue;
+        if (friction_coefficient(model, pair, &hold->mu_s, &at, &flow, &d_s) != 0 || d_s != 0) continue;
+        if (friction_coefficient(model, pair, &hold->mu_k, &at, &flow, &d_k) != 0 || d_k != 0) continue;
+        leave_idle(state, decided, forced, pair);
+    }
+}
+
+/* Where nothing presses on its guide, whatever holds, and goes on so. */
+static void find_unpressed(struct gathered *all, const struct decided *decided, int *forced)
+{
+    const double little = 1e-12, little_rate = 1e-10;
+    struct fbd_state *state = all->state;
+    const double *slots_along = state_scratch(state).slots_along;
+    size_t count = all->problem.count;
+    double fastest = -1;
+    for (size_t g = 0; g < all->problem.guide_count; g++) {
+        int pair = all->guide[g];
+        const struct mode *hold = mode_of(state, pair);
+        double answer = 0, N = all->problem.guides[g].free;
+        for (size_t j = 0; j < count; j++) answer = fmax(answer, fabs(all->problem.B[g * count + j]));
+        if (hold->tie >= 0 || answer > little || fabs(N) > press_slack(state->model, state->tree, hold->body))
+            continue;
+        if (fastest < 0) tree_evaluate(state);
+        for (int k = 0; k < state->model->plan.slots; k++) fastest = fmax(fastest, fabs(slots_along[k]));
+        if (fabs(slots_along[hold->normal_slot]) > little_rate * fastest) continue;
+        leave_idle(state, decided, forced, pair);
+        all->problem.holds[all->hold[pair]].slip = forced[pair];
+    }
+}
+
 /* ---- what is solved */
 
 /* Painleve's paradox has a friction by which its own normal force grows: the one that does so most. */
@@ -74,6 +124,7 @@ static enum holds_found solve(struct fbd_state *state, const struct decided *dec
     struct gathered all;
     enum holds_found found = holds_no_memory;
     if (gathered_find(&all, state, decided, forced)) {
+        find_unpressed(&all, decided, forced);
         found = holds_decide(&all.problem);
         if (found != holds_decided) state->holds = trouble_of(&all, found);
     }
@@ -234,7 +285,7 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
     if (shared && margin.value < 0) /* that a slide has lost its surface is for others to say */
         shared = tree_find_margin(state, &at, false, &flow, slots, slots_along, &arena, &margin);
     int which = pulled_against(state, decided, forced), next = 0;
-    if (which >= 0) found = differs;
+    if (which >= 0 || (!solved && tree_is_locked(state))) found = differs;
     for (int pair = 0; found != differs && pair < (int)state->model->plan.mode_count; pair++) {
         bool by_rate;
         const struct mode *hold = mode_of(state, pair);
@@ -244,8 +295,9 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
             which = pair;
             continue;
         }
-        if (shared && margin.of[pair] && state->slip[pair] == stick) continue;
-        if (pulls(state, slots, decided, solved, pair)) {
+        bool shares = shared && margin.of[pair];
+        if (shares && state->slip[pair] == stick) continue;
+        if (!shares && pulls(state, slots, decided, solved, pair)) {
             found = differs;
             which = pair;
             continue;
@@ -265,6 +317,13 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
     return found;
 }
 
+/* The contact that friction rubs on, which may hardly press; -1 without one. */
+static int surface_under(const struct fbd_state *state, int pair)
+{
+    if (pair < 0 || !is_on_contact(state, mode_of(state, pair))) return -1;
+    return state->model->tree->ties[mode_of(state, pair)->tie].surface;
+}
+
 /* Solve, and let rates decide what is at its limit, one after the other. False where the forces do not agree
  * with what was solved. */
 static bool decide(struct fbd_state *state, const struct decided *decided, int *forced)
@@ -276,15 +335,25 @@ static bool decide(struct fbd_state *state, const struct decided *decided, int *
         enum agreement found = look(state, decided, forced, true);
         if (found == agrees) return true;
         bool more = found == at_limit;
+        int on = found == differs ? surface_under(state, state->holds.contradicts) : -1;
         for (int pair = 0; pair < count && found == differs; pair++) {
-            bool contradicts = pair == state->holds.contradicts;
+            bool contradicts = pair == state->holds.contradicts || pair == on;
             if (barely[pair] == 0 || (mode_is_one_sided(mode_of(state, pair)) && !contradicts)) continue;
-            forced[pair] = barely[pair];
+            forced[pair] = state->slip[pair] = barely[pair];
             more = true;
         }
         if (!more) return false;
     }
     return false;
+}
+
+/* Of those at rest, to the side that they begin to move to. */
+static void turn_idle(struct fbd_state *state, const struct decided *decided)
+{
+    for (int pair = 0; pair < (int)state->model->plan.mode_count; pair++)
+        if (state->slip_idle[pair] != 0 && settling_velocity(state, decided, pair) == 0 &&
+            turns_back(state, pair))
+            state->slip[pair] = -state->slip[pair];
 }
 
 /* Does friction hold what drives, surfaces or, in a dead centre, its momentum move, whatever the forces are? No friction
@@ -304,8 +373,10 @@ static bool holds_what_is_driven(struct fbd_state *state, const struct decided *
     bool gathered = gathered_find(&all, state, decided, forced);
     if (!gathered) state->holds.found = holds_no_memory;
     for (size_t i = 0; gathered && i < all.problem.count; i++)
-        moves |= all.still[i] && all.problem.holds[i].slip != 0 && state->slip[all.pair[i]] == stick;
-    memset(forced, 0, state->model->plan.mode_count * sizeof *forced);
+        moves |= all.still[i] == still_stays && all.problem.holds[i].slip != 0 &&
+                 state->slip[all.pair[i]] == stick;
+    memcpy(forced, state->slip_idle, state->model->plan.mode_count * sizeof *forced);
+    if (gathered) find_unpressed(&all, decided, forced);
     gathered_free(&all);
     return moves;
 }
@@ -330,7 +401,7 @@ bool tree_settle_holds(struct fbd_state *state, const struct decided *decided)
     size_t count = state->model->plan.mode_count, bytes = count * sizeof *before;
     int *forced = state->slip_forced;
     memcpy(before, state->slip, bytes);
-    memset(forced, 0, bytes);
+    find_frictionless(state, decided, forced);
     for (int pair = 0; pair < (int)count; pair++) {
         if (state->slip[pair] == stick || !hold_in_question(state, decided, forced, pair)) continue;
         const struct mode *hold = mode_of(state, pair);
@@ -340,5 +411,6 @@ bool tree_settle_holds(struct fbd_state *state, const struct decided *decided)
     bool agreed = !holds_what_is_driven(state, decided, forced) &&
                   look(state, decided, forced, false) == agrees && !answers_wrongly(state);
     agreed = agreed || decide(state, decided, forced);
+    turn_idle(state, decided);
     return agreed && memcmp(before, state->slip, bytes) == 0;
 }

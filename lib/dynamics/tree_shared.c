@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "dynamics/own.h"
+#include "dynamics/tree_gather.h"
 
 struct direction tree_evaluate(struct fbd_state *state)
 {
@@ -45,11 +46,16 @@ bool tree_find_margin(struct fbd_state *state, const struct instant *at, bool gu
     return found && margin->value < HUGE_VAL;
 }
 
-/* All that is at its limit gives. */
+/* All that is at its limit gives; what rubs on a guide presses on its other side. */
 static void give(struct fbd_state *state, const struct rest_margin *margin, int *forced)
 {
-    for (size_t pair = 0; pair < state->model->plan.mode_count; pair++)
-        if (margin->gives[pair] != 0) forced[pair] = state->slip[pair] = margin->gives[pair];
+    for (size_t pair = 0; pair < state->model->plan.mode_count; pair++) {
+        if (margin->gives[pair] == 0) continue;
+        if (mode_is_friction(&state->model->plan.modes[pair]) && state->slip[pair] != stick)
+            state->pull[pair] = -state->pull[pair];
+        else
+            forced[pair] = state->slip[pair] = margin->gives[pair];
+    }
 }
 
 enum agreement tree_judge(struct fbd_state *state, const struct rest_margin *margin, int *forced)
@@ -61,7 +67,7 @@ enum agreement tree_judge(struct fbd_state *state, const struct rest_margin *mar
     return at_limit;
 }
 
-bool tree_give_shared(struct fbd_state *state, int pair, bool *decided)
+bool tree_give_shared(struct fbd_state *state, int pair, struct decided *decided)
 {
     struct arena arena = {0};
     struct rest_margin margin;
@@ -71,8 +77,14 @@ bool tree_give_shared(struct fbd_state *state, int pair, bool *decided)
     bool gives =
         tree_find_margin(state, &at, true, &flow, scratch.slots, scratch.slots_along, &arena, &margin) &&
         margin.of[pair];
-    if (gives) give(state, &margin, state->slip_forced);
-    for (size_t i = 0; gives && i < state->model->plan.mode_count; i++) decided[i] |= margin.gives[i] != 0;
+    for (size_t i = 0; gives && i < state->model->plan.mode_count; i++) {
+        bool turns = mode_is_friction(&state->model->plan.modes[i]) && state->slip[i] != stick;
+        (turns ? decided->pulls : decided->slips)[i] |= margin.gives[i] != 0;
+    }
+    if (gives) {
+        give(state, &margin, state->slip_forced);
+        gathered_set_out(state, margin.gives);
+    }
     arena_free(&arena);
     return gives;
 }

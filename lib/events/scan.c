@@ -29,7 +29,7 @@ bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *cont
     if (count == 0) return true; /* nothing is looked for */
     scan->points = calloc(spare_points, sizeof *scan->points);
     scan->memory = calloc((size_t)2 * spare_points * count + 1, sizeof *scan->memory);
-    scan->crossed = calloc(5 * count + 1, sizeof *scan->crossed);
+    scan->crossed = calloc(6 * count + 1, sizeof *scan->crossed);
     scan->lone = calloc(count + 1, sizeof *scan->lone);
     if (!scan->points || !scan->memory || !scan->crossed || !scan->lone) {
         scan_free(scan);
@@ -39,6 +39,7 @@ bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *cont
     scan->chosen = scan->sampled + count;
     scan->dipped = scan->chosen + count;
     scan->waits = scan->dipped + count;
+    scan->silent = scan->waits + count;
     for (size_t i = 0; i < count; i++) {
         scan->sampled[i] = true;
         scan->lone[i] = (struct proof_group){.first = i, .count = 1};
@@ -168,27 +169,6 @@ static int locate(struct scan *scan, struct scan_point *a, struct scan_point *b,
     return 1;
 }
 
-void scan_forget(struct scan *scan)
-{
-    series_forget(&scan->series);
-    for (size_t g = 0; g < scan->group_count; g++) {
-        scan->groups[g].clear = NAN;
-        scan->groups[g].stuck = false;
-    }
-}
-
-void scan_pass_over(struct scan *scan)
-{
-    for (size_t i = 0; i < scan->count; i++) scan->dipped[i] |= scan->crossed[i];
-    scan->resumed = true;
-}
-
-void scan_start(struct scan *scan)
-{
-    for (size_t i = 0; i < scan->count; i++) scan->dipped[i] = false;
-    scan->resumed = false;
-}
-
 /* ---- searching with bounds */
 
 /* Panels and pieces begin where the last ones ended: what has been seen positive waits no longer. */
@@ -295,6 +275,13 @@ static int search_open(struct scan *scan, double from, double *limit, bool stric
     return found;
 }
 
+static bool is_silent(const struct scan *scan, const struct proof_group *group)
+{
+    bool all = true;
+    for (size_t i = group->first; i < group->first + group->count; i++) all &= scan->silent[i];
+    return all;
+}
+
 static bool any_open(const struct scan *scan)
 {
     bool any = false;
@@ -335,7 +322,8 @@ static int look_by_enclosures(struct scan *scan, double from, double *limit)
 {
     for (size_t g = 0; g < scan->group_count; g++) {
         struct proof_group *group = &scan->groups[g];
-        bool turn = group->aside == scan->aside, proved = group->proved && !group->stuck;
+        bool turn = group->aside == scan->aside && !is_silent(scan, group),
+             proved = group->proved && !group->stuck;
         group->open = turn && proved;
         leave_to_samples(scan, group, turn && !proved);
     }
@@ -382,7 +370,7 @@ static int look_at_panel(struct scan *scan, double from, double to, double *limi
 {
     bool open = true;
     series_open(&scan->series, from, to);
-    for (size_t i = 0; i < scan->count; i++) scan->lone[i].open = scan->sampled[i];
+    for (size_t i = 0; i < scan->count; i++) scan->lone[i].open = scan->sampled[i] && !scan->silent[i];
     for (int level = 0; level < series_levels && open; level++) {
         int status = series_refine(&scan->series, take_counted, scan);
         if (status) return status;

@@ -63,6 +63,7 @@ struct scan {
     bool resumed;           /* between scan_pass_over and scan_start */
     bool *sampled, *chosen; /* count: searched by samples; located at present */
     bool *dipped;           /* count: see scan_pass_over */
+    bool *silent;           /* count: see scan_leave_out */
     bool *waits;            /* count: of these, those that have not been seen positive in this interval */
 };
 
@@ -84,6 +85,10 @@ int scan_interval(struct scan *scan, double from, double to);
 /* What has crossed dips below zero and does not go on: in intervals from there on it has to be seen positive before it
  * counts again, up to scan_start. */
 void scan_pass_over(struct scan *scan);
+
+/* What has crossed again and again at one place is rounding: it is not looked at, up to scan_start, and the others are.
+ * False where it has been left out already. */
+bool scan_leave_out(struct scan *scan);
 void scan_start(struct scan *scan);
 
 /* The functions are others now: an interval that begins where the last one ended is sampled there again. */

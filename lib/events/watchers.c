@@ -54,6 +54,7 @@ static bool always_the_same(const struct plan *plan, const struct mode *mode)
 static void add_rubbing(struct watchers *watchers, const struct plan *plan, int pair)
 {
     const struct mode *mode = &plan->modes[pair];
+    if (friction_is_never(mode)) return;
     add(&watchers->moving, (struct watcher){watch_slip_stop, pair, 0, 0});
     if (!always_the_same(plan, mode))
         for (int end = 0; end < 2; end++)

@@ -156,13 +156,14 @@ static bool watches_share(const struct watcher *watcher, const struct view *view
     if (watcher->kind == watch_contact) return view->margin.contacts[watcher->index];
     bool limit = watcher->kind == watch_stick_limit || watcher->kind == watch_normal_turns ||
                  watcher->kind == watch_lift || watcher->kind == watch_one_sided;
-    return limit && view->at.slip[watcher->index] == stick && view->margin.of[watcher->index];
+    bool rubs = watcher->kind == watch_normal_turns; /* while it slips its normal force is what is limited */
+    return limit && (view->at.slip[watcher->index] == stick || rubs) && view->margin.of[watcher->index];
 }
 
 static double shared_value(struct view *view, const struct watcher *watcher, double *rate)
 {
-    bool told =
-        view->told || watcher->kind == watch_normal_turns; /* where it turns nothing holds by friction */
+    bool turns = watcher->kind == watch_normal_turns && view->at.slip[watcher->index] == stick;
+    bool told = view->told || turns; /* where it turns nothing holds by friction */
     view->told |= !told;
     *rate = told ? 0 : view->margin.rate;
     return told ? HUGE_VAL : view->margin.value + rest_margin_slack(&view->margin);

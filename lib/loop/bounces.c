@@ -9,7 +9,6 @@
 #include "dynamics/contact.h"
 #include "dynamics/energy.h"
 #include "dynamics/impulse.h"
-#include "dynamics/project.h"
 #include "dynamics/tree_system.h"
 #include "loop/contacts.h"
 #include "loop/run.h"
@@ -197,9 +196,6 @@ static bool any_leaves(const struct run *run, int i, int count)
     return false;
 }
 
-/* Bounces that nobody sees: 1e-9 of the scene, a thousand times what counts as touching. */
-static const double low_share = 1000;
-
 /* The impacts of striker i's meeting: do they end soon, in bounces that nobody sees? Then when. */
 static double end_of_series(struct run *run, int i, int count)
 {
@@ -209,7 +205,7 @@ static double end_of_series(struct run *run, int i, int count)
         feature = run->state->tree->ties[striker->tie].feature;
     struct bounces *bounces = &run->contacts.bounces[index];
     double v = work->v[(ptrdiff_t)2 * i], leaving = leaving_speed(run, index, count),
-           unseen = low_share * meeting_near(run->model, run->state->tree, index);
+           unseen = contacts_low * meeting_near(run->model, run->state->tree, index);
     bool same = bounces->feature == feature && bounces->count > 0;
     if (bounces->is_closed) note_return(bounces, run->state->t);
     remember(bounces, run->state->t, feature);
@@ -224,7 +220,7 @@ static double end_of_series(struct run *run, int i, int count)
     if (same && v > 0) {
         left = low ? sum_of_bounces(run, index, v, a) : sum_of_intervals(bounces);
     } else if (low && !(v > 0)) {
-        bool nothing = low_share * leaving * leaving <= 2 * a * unseen;
+        bool nothing = contacts_low * leaving * leaving <= 2 * a * unseen;
         left = sum_of_plastic_rocking(bounces, 2 * leaving / a, nothing);
     } else {
         left = sum_of_rocking(bounces);
@@ -255,15 +251,6 @@ bool contacts_end_bounces(struct run *run, int count)
     return ended;
 }
 
-/* A meeting whose series is summed up. */
-static int last_at_rest(const struct run *run)
-{
-    int last = 0;
-    for (int i = 0; i < tree_of(run)->meeting_count; i++)
-        if (run->contacts.bounces[i].rests_from < HUGE_VAL) last = i;
-    return last;
-}
-
 /* Friction -mu p sign(v_t) of what slips; what sticks does so by another row. */
 static double rubbing(const struct contacts_work *work, int i)
 {
@@ -280,10 +267,7 @@ static bool leaves_for_the_last_time(const struct run *run, int i)
     return work->bounces[tree_of(run)->ties[work->strikers[i].tie].meeting].rests_from < HUGE_VAL;
 }
 
-/* The speeds at which surfaces are left, and ropes let go, are taken away by impulses that rub as the weight would have
- * done that took them away: at rest from now on, surfaces press m a T in the time T of the series, and so they do in it
- * but for m v. */
-static void take_leaving_speeds(struct run *run, int count)
+void contacts_take_leaving_speeds(struct run *run, int count)
 {
     struct contacts_work *work = &run->contacts;
     size_t n = (size_t)run->model->plan.n, size = 0, all = 2 * (size_t)count + (size_t)work->slide_count;
@@ -330,110 +314,9 @@ void contacts_end_tugs(struct run *run, int count)
     if (leaving == 0 || !hurries(&work->tugs) || leaving * (t[0] - t[2]) > nobody_sees * length) return;
     double before = jointed_kinetic_energy(run->state);
     for (int i = 0; i < count; i++) work->strikers[i].stays = work->strikers[i].rope;
-    take_leaving_speeds(run, count);
+    contacts_take_leaving_speeds(run, count);
     run->impact_work[tree_of(run)->ties[work->strikers[0].tie].load] +=
         jointed_kinetic_energy(run->state) - before;
-}
-
-/* The largest speed that is lost, of those whose series are summed up. */
-static double slow_speed(const struct run *run)
-{
-    double slow = 0;
-    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
-        const struct bounces *bounces = &run->contacts.bounces[i];
-        if (bounces->rests_from < HUGE_VAL) slow = fmax(slow, bounces->slow);
-    }
-    return slow;
-}
-
-/* What parts faster than by what is lost goes on to do so: it only touches still. */
-static void let_part(struct run *run, double slow)
-{
-    const struct tree *tree = tree_of(run);
-    struct fbd_state *state = run->state;
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        if (tie->kind != constraint_contact || state->tree->ties[i].feature == no_feature) continue;
-        if (state->tree->rows[tie->first_row].g.x1 <= slow) continue;
-        state->tree->ties[i].feature = no_feature;
-        state->slip[tie->surface] = slip_plus;
-    }
-}
-
-/* A slip that friction ends within what counts as the same place, as the impacts that are left would. */
-static bool stops_at_once(const struct run *run, int index, double slow)
-{
-    const struct tie *tie = &tree_of(run)->ties[index];
-    const struct instant at = state_instant(run->state);
-    if (run->state->tree->ties[index].feature == no_feature) return false;
-    double mu = formula_value(&run->model->plan.modes[tie->pair].mu_k, &at);
-    double v_t = run->state->tree->rows[tie->first_row + 1].g.x1;
-    return v_t * v_t <= fmin(mu, 1) * slow * slow;
-}
-
-/* What bounces too low to be seen is put on its surface, and its speed from there taken away: what is left of
- * the series does the same, and its impulses are those of the weight in that time. */
-int contacts_settle_down(struct run *run, int strikers)
-{
-    const struct tree *tree = tree_of(run);
-    struct contacts_work *work = &run->contacts;
-    bool *was_touching = work->touching;
-    double before = jointed_kinetic_energy(run->state);
-    take_leaving_speeds(run, strikers);
-    const double wide = 2 * low_share; /* a corner that is about to come down */
-    for (int i = 0; i < tree->tie_count; i++)
-        was_touching[i] = run->state->tree->ties[i].feature != no_feature;
-    for (int i = 0; i < tree->meeting_count; i++) {
-        double near = meeting_near(run->model, run->state->tree, i);
-        contacts_find_touching(run, i, work->bounces[i].rests_from < HUGE_VAL ? wide * near : near);
-    }
-    impulse_look(run->state);
-    double slow = slow_speed(run);
-    let_part(run, slow);
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        if (tie->kind != constraint_contact || tie->pair < 0) continue;
-        /* What comes down now holds nothing along its surface; what has stuck sticks. */
-        if (!was_touching[i]) run->state->slip[tie->pair] = slip_plus;
-        if (run->state->slip[tie->pair] == stick || !stops_at_once(run, i, slow)) continue;
-        tie_rezero(run->model, run->state->tree, i);
-        run->state->slip[tie->pair] = stick;
-    }
-    state_project(run->state, false);
-    impulse_look(run->state);
-    int count = contacts_find_strikers(run), last = last_at_rest(run);
-    run->impact_work[tree->ties[tree->meetings[last].first_tie].load] +=
-        jointed_kinetic_energy(run->state) - before;
-    for (int i = 0; i < count; i++) {
-        double *v = work->v + (ptrdiff_t)2 * i;
-        v[0] = 0;
-        v[1] = work->strikers[i].v_t;
-    }
-    return count;
-}
-
-bool contacts_lift_others(struct run *run)
-{
-    const double wide = 2 * low_share, levers = 8;
-    const struct tree *tree = tree_of(run);
-    struct fbd_state *state = run->state;
-    const struct instant at = state_instant(state);
-    bool *was_touching = run->contacts.touching, any = false;
-    for (int i = 0; i < tree->tie_count; i++) was_touching[i] = state->tree->ties[i].feature != no_feature;
-    for (int i = 0; i < tree->meeting_count; i++) {
-        double near = meeting_near(run->model, state->tree, i), deep = meeting_depth(run->model, &at, i);
-        if (!(deep > near && deep < levers * wide * near)) continue;
-        contacts_find_touching(run, i, fmax(wide * near, 1.001 * deep));
-        any = true;
-    }
-    if (!any) return false;
-    state_project_position(state);
-    for (int i = 0; i < tree->tie_count; i++) {
-        if (was_touching[i] || state->tree->ties[i].feature == no_feature) continue;
-        state->tree->ties[i].feature = no_feature;
-        state->slip[tree->ties[i].surface] = slip_plus;
-    }
-    return true;
 }
 
 /* ---- their end */

@@ -131,6 +131,9 @@ void run_check_overlap(struct run *run);
 /* What counts as touching when it is seen late, in `near` of dynamics/contact.h. */
 static const double contacts_late = 1e3;
 
+/* Bounces that nobody sees, likewise: 1e-9 of the scene. */
+enum { contacts_low = 1000 };
+
 /* The impact of the first `count` strikers; their velocities after are in work->v, its impulses in work->P. False
  * after failing the run. (contacts_strike.c) */
 bool contacts_strike(struct run *run, int count);
@@ -159,7 +162,12 @@ double contacts_restitution(struct run *run, int meeting, double approach);
 /* After an impact of `count` strikers: does a series of bounces end that nobody sees any more? (bounces.c) */
 bool contacts_end_bounces(struct run *run, int count);
 
-/* Put what bounces on its surface; the strikers are then those that touch. Returns their number. */
+/* The speeds at which surfaces are left, and ropes let go, are taken away by impulses that rub as the weight would have
+ * done that took them away: at rest from now on, surfaces press m a T in the time T of the series, and so they do in it
+ * but for m v. */
+void contacts_take_leaving_speeds(struct run *run, int count);
+
+/* Put what bounces on its surface (put_down.c); the strikers are then those that touch. Returns their number. */
 int contacts_settle_down(struct run *run, int strikers);
 
 /* ---- the loop */

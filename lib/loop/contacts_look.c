@@ -189,12 +189,34 @@ void contacts_note_depths(struct run *run)
     }
 }
 
+/* Shapes that nothing has seen go into each other: the projection of other couplings has moved them there, by less than
+ * what counts as touching. Those that part are left as deep as they are; whether there are others. */
+static bool projected_in(struct run *run)
+{
+    struct contacts_work *work = &run->contacts;
+    const struct instant at = state_instant(run->state);
+    bool in = false;
+    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
+        if (work->asleep[i]) continue;
+        double deep = meeting_depth(run->model, &at, i);
+        if (deep <= work->deep[i] + meeting_rounding(run->model, run->state->tree, i)) continue;
+        if (parts(run, &at, i))
+            work->deep[i] = deep;
+        else
+            in = true;
+    }
+    return in;
+}
+
 void run_check_overlap(struct run *run)
 {
     double depth;
     if (!has_meetings(run->model) || run->end.outcome != FBD_GOING) return;
     int meeting = contacts_overlap(run->state, &depth);
-    if (meeting < 0) return;
+    if (meeting < 0) {
+        run->contacts.due |= run->projected && projected_in(run);
+        return;
+    }
     run_fail(run, FBD_FAILED,
              "at t = %.9g the shapes of the contact `%s` are in each other by %.3g: the instant at which "
              "they met was "

@@ -85,6 +85,9 @@ static void check_drive(struct run *run, const struct kink *kink, bool rope)
                      : "velocity",
              rope ? model->loads[kink->load].source->name : body->name, place ? x[0] : v[0],
              place ? x[1] : v[1]);
+    memcpy(run->state->branch + kink->formula.branch, before, kink->count * sizeof *before);
+    modes_hold(run->state); /* the last state is that before */
+    state_evaluate(run->state);
 }
 
 /* What drops off at once goes on with the velocity of the body, and takes its kinetic energy along; what would come at
@@ -165,4 +168,20 @@ void run_cross(struct run *run, const struct watcher *watcher)
     struct run_event *event = run_note(run, FBD_EVENT_SWITCH, kink->body, kink->load, -1);
     if (event) event->branch = index;
     if (event) event->own = kink->own;
+}
+
+void run_turn_normal(struct run *run, int pair)
+{
+    enum { most_turns = 8 };
+    run->state->pull[pair] = -run->state->pull[pair];
+    run->decided.pulls[pair] = true;
+    if (++run->recent.turns <= most_turns || run->end.outcome != FBD_GOING) return;
+    const struct mode *mode = &run->model->plan.modes[pair];
+    run_fail(run, FBD_FAILED,
+             "at t = %.9g no force agrees with the motion of `%s`: on either side of its guide friction by "
+             "`%s` gives "
+             "the normal force the other sign, as in Painleve's paradox. Rigid bodies do not tell what "
+             "follows: less "
+             "friction, or end the run before by an event",
+             run_time(run), run->model->bodies[mode->body].name, run->model->loads[mode->load].source->name);
 }

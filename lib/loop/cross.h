@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * An expression passes to another branch.
+ * An expression passes to another branch, a normal force to the other side.
  */
 #ifndef FBD_LOOP_CROSS_H
 #define FBD_LOOP_CROSS_H
@@ -10,6 +10,10 @@
 /* Take the branch beyond what `watcher`, a watch_kink, watches, and note it where there is something to see. Ends the
  * run where a table has no more values. */
 void run_cross(struct run *run, const struct watcher *watcher);
+
+/* The normal force of a guide with two sides, that of friction `pair`, changes its side, and friction goes on with its
+ * size. Where friction feeds that force by more than all of it neither side agrees, which ends the run. */
+void run_turn_normal(struct run *run, int pair);
 
 /* End the run where a rounding or a periodic table is past counting (expr.h). */
 void run_check_counts(struct run *run);

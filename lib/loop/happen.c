@@ -223,22 +223,21 @@ static void happen(struct run *run, const struct watcher *watcher, bool crossing
     switch (watcher->kind) {
     case watch_kink: run_cross(run, watcher); break;
     case watch_stick_limit:
-        if (crossing || tree_give_shared(run->state, index, run->decided.slips)) break;
+        if (crossing || tree_give_shared(run->state, index, &run->decided)) break;
         run->state->slip[index] = watcher->end == 0 ? slip_minus : slip_plus;
         run->decided.slips[index] = true;
         break;
     case watch_slip_stop: stop_slipping(run, index); break;
     case watch_normal_turns:
-        run->state->pull[index] = -run->state->pull[index];
-        run->decided.pulls[index] = true;
+        if (run->state->slip[index] != stick && tree_give_shared(run->state, index, &run->decided)) break;
+        run_turn_normal(run, index);
         break;
     case watch_one_sided:
-        if (run->state->slip[index] == stick && tree_give_shared(run->state, index, run->decided.slips))
-            break;
+        if (run->state->slip[index] == stick && tree_give_shared(run->state, index, &run->decided)) break;
         one_sided_event(run, index);
         break;
     case watch_lift:
-        if (tree_give_shared(run->state, index, run->decided.slips)) break;
+        if (tree_give_shared(run->state, index, &run->decided)) break;
         run->state->slip[index] = slip_plus;
         run->decided.slips[index] = true;
         break;
@@ -382,6 +381,7 @@ static void count_crowd(struct run *run)
     bool crowded = run->state->t - run->recent.time <= run_instant(run) ||
                    fabs(run->state->t) <= instant * run->step.first;
     run->recent.crowd = crowded ? run->recent.crowd + 1 : 0;
+    if (!crowded) run->recent.turns = 0;
     run->recent.time = run->state->t;
     if (run->recent.crowd < most_at_once || run->end.outcome != FBD_GOING) return;
     run_fail_chatter(run);

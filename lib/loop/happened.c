@@ -35,6 +35,7 @@ static void note_one_sided(struct run *run, const struct change *change)
     bool snapped = run->snap.pair == change->pair;
     if (snapped) run->snap.pair = -1;
     if (!snapped && (change->before == stick || change->after != stick)) return;
+    if (!snapped && run->end.outcome == FBD_BROKEN) return; /* a blow that is not followed has not happened */
     if (snapped && !isfinite(run->snap.work)) {
         run_fail(run, FBD_FAILED,
                  "at t = %.9g the blow at which `%s` gets taut takes more work than numbers can tell",

@@ -193,6 +193,15 @@ static struct motion_size largest_motion(const struct run *run, double tau)
     return all;
 }
 
+/* Couplings bring states back to rounding of a radian, or of the scene: an error that is allowed of this is that. */
+static double unseen_place(const struct run *run, const struct model_body *body, int k)
+{
+    double reach = 0;
+    for (int i = 1; i < run->model->tree->count; i++)
+        reach = fmax(reach, vec_norm(run->state->tree->links[i].p));
+    return DBL_EPSILON / run->options.tolerance * (turns(body, k) ? 1 : reach);
+}
+
 /* A coordinate or rate that is exactly zero has no size that an error could be compared with, and a method of
  * low order needs one (Euler's first step from rest errs by all that the body moves). What the acceleration
  * does in a thousandth of the run is small, and enough; of the time for which it lasts, for a force that is
@@ -215,6 +224,11 @@ static void set_floors(struct run *run, double lasts)
             double speed = sized ? negligible * all.rate / own.arm : 0;
             if (run->state->y[position] == 0) place = fmax(place, own.place);
             if (run->state->y[rate] == 0) speed = fmax(speed, own.rate);
+            if (tree && tree->row_count > 0 && tree->meeting_count == 0 && place == 0 && speed == 0 &&
+                run->state->y[position] == 0) {
+                place = unseen_place(run, body, k); /* held by a coupling, before anything acts */
+                speed = place / tau;
+            }
             switcher_set_floor(run->stepper, position, place);
             switcher_set_floor(run->stepper, rate, speed);
         }

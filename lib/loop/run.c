@@ -425,7 +425,7 @@ static bool accept_step(struct run *run, const struct turn *turn)
 /* What happens there: events, and what they settle; without any the forces are found anew. */
 static bool apply_events(struct run *run, const struct turn *turn)
 {
-    bool happens = turn->moving || turn->timed;
+    bool happens = turn->moving || turn->timed || run->contacts.due;
     if (happens) run_check_jam(run, false);
     if (run->end.outcome != FBD_GOING) return false;
     run->stale = !happens;

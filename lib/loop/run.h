@@ -135,8 +135,8 @@ struct event_log {
 
 /* Events that crowd at one instant, and those that happen around one state again and again. */
 struct recent {
-    double time;          /* of the last one */
-    int crowd;            /* how many at that instant */
+    double time;      /* of the last one */
+    int crowd, turns; /* how many at that instant; how often normal forces have changed their sides there */
     struct moment moment; /* the start, or when events happened last */
     double interval[2];   /* between the last three of these; 0 where there are none */
     double *

@@ -141,7 +141,7 @@ static double soon(const struct run *run, double length)
  * there. 1 found, 0 none, -1 failed. Where the event functions change so fast that the scan gives up, the
  * step is cut to what it has seen; one that is noise (it gives up at the very start) is not looked at more
  * closely. One that dips again and again, as the gaps of a pile that has just bounced do to the last digits, is cut
- * where it did so last. */
+ * where it did so last; where that is its very start the others are looked at without it. */
 static int find_change(struct run *run, struct moment *t)
 {
     enum { most_dips = 8 };
@@ -150,7 +150,11 @@ static int find_change(struct run *run, struct moment *t)
     run->search.moving.aside = false;
     run->search.moving.soon = soon(run, end - start);
     scan_start(&run->search.moving);
-    for (int dip = 0; dip < most_dips && start < end; dip++) {
+    for (int dip = 0; start < end; dip++) {
+        if (dip == most_dips &&
+            (start - run->step.from > instant_at(start) || !scan_leave_out(&run->search.moving)))
+            break;
+        dip %= most_dips;
         int found = scan_interval(&run->search.moving, start, end);
         if (run->search.moving.resolved < HUGE_VAL)
             run->step.h = fmin(run->step.h, run->search.moving.resolved);

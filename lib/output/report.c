@@ -169,8 +169,8 @@ static void write_work(const struct page *page, const struct fbd_state *state, s
     struct text *text = page->text;
     struct ledger *ledger = &page->result->ledger;
     double work = ledger_work(ledger, state, load, ledger->work);
-    text_pad(text, column(page, 60, 92));
-    text_add(text, "work ");
+    text_pad(text, column(page, 60, 92) - 1);
+    text_add(text, " work ");
     if (isnan(work)) {
         text_add(text, "not integrated\n");
         return;
@@ -198,7 +198,8 @@ static void write_force(const struct page *page, const struct fbd_state *state, 
         text_printf(text, ") %s", force_unit(model));
     }
     if (arrow->couple != 0) {
-        text_pad(text, couple_only ? 21 : column(page, 48, 68));
+        text_pad(text, couple_only ? 20 : column(page, 48, 68) - 1);
+        text_add(text, " ");
         force(page, arrow->couple, other->couple);
         text_printf(text, " %s", moment_unit(model));
     }

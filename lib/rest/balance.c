@@ -99,6 +99,15 @@ struct grains {
     double force, moment;
 };
 
+/* Where a curve has its inflection nothing presses and nothing turns, to the rounding of what it bends elsewhere: as fast as
+ * a circle of its length turns. */
+static double turn_of_track(const struct fbd_state *state, const struct model_body *body)
+{
+    if (body->kind != motion_track) return 0;
+    const struct tree_track *track = state->model->tree->links[body->place.link].track;
+    return fabs(state->y[state->model->plan.n + body->first]) / track->curve->length;
+}
+
 /* The largest that meets any of them counts, and how well directions are known where the bodies are small
  * against how far away they stand. Accelerations are sums too, of those of the bodies below and of what their
  * turning adds: a body on which nothing acts has m a = 0 to the rounding of m times these. */
@@ -120,7 +129,7 @@ static struct grains joined_grain(const struct fbd_state *state, struct arrow *a
         a = fmax(a, vec_norm(link->A.a));
         alpha = fmax(alpha, fabs(link->A.alpha));
         v = fmax(v, vec_norm(link->v));
-        omega = fmax(omega, fabs(link->omega));
+        omega = fmax(omega, fmax(fabs(link->omega), turn_of_track(state, body)));
     }
     if (tree && work->shared) force = fmax(force, work->shared_size);
     force += mass * (a + omega * v);

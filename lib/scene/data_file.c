@@ -68,7 +68,9 @@ struct heading heading_read(const char *text, size_t length)
 struct data_reader {
     struct span rest; /* what is not read yet */
     int line;         /* number of the last one read */
+    int first;        /* the line below the headings */
     char separator;   /* ' ' for blanks of any number */
+    size_t width;     /* cells of the first row */
     fbd_errors *errors;
     size_t complaints;
 };
@@ -87,11 +89,18 @@ static bool next_line(struct data_reader *reader, struct span *line)
     return true;
 }
 
+/* The first of these that stands outside of quotes. */
 static char separator_of(struct span line)
 {
     static const char order[] = ";\t,";
-    for (const char *c = order; *c; c++)
-        if (memchr(line.text, *c, line.length)) return *c;
+    bool found[sizeof order] = {false}, quoted = false;
+    for (size_t i = 0; i < line.length; i++) {
+        if (line.text[i] == '"') quoted = !quoted;
+        const char *c = quoted || !line.text[i] ? NULL : strchr(order, line.text[i]);
+        if (c) found[c - order] = true;
+    }
+    for (size_t i = 0; order[i]; i++)
+        if (found[i]) return order[i];
     return ' ';
 }
 
@@ -115,11 +124,11 @@ static bool next_cell(char separator, struct span *line, struct span *cell)
     return true;
 }
 
-/* A number; with `;` between cells its comma is a decimal one. */
+/* A number; with `;` or tabs between cells its comma is a decimal one. */
 static bool read_number(char separator, struct span cell, double *value)
 {
     char plain[64];
-    const char *comma = separator == ';' ? memchr(cell.text, ',', cell.length) : NULL;
+    const char *comma = separator == ';' || separator == '\t' ? memchr(cell.text, ',', cell.length) : NULL;
     if (!comma || cell.length > sizeof plain) return expr_number(cell.text, cell.length, value);
     memcpy(plain, cell.text, cell.length);
     plain[comma - cell.text] = '.';
@@ -148,11 +157,19 @@ struct titles {
     size_t count;
 };
 
+/* Between blanks a unit is a cell of its own, and belongs to the name before it. */
 static void read_titles(char separator, struct span line, struct titles *titles)
 {
-    struct span cell;
-    while (titles->count < most_columns && next_cell(separator, &line, &cell))
-        titles->cells[titles->count++] = cell;
+    struct span cell, *last = NULL;
+    while (titles->count < most_columns && next_cell(separator, &line, &cell)) {
+        bool unit = separator == ' ' && cell.length && (cell.text[0] == '[' || cell.text[0] == '(');
+        if (unit && last && last->text < cell.text && last->text[last->length - 1] != ']') {
+            last->length = (size_t)(cell.text - last->text) + cell.length;
+        } else {
+            last = &titles->cells[titles->count++];
+            *last = cell;
+        }
+    }
 }
 
 static struct span name_of(const struct heading *heading)
@@ -222,6 +239,16 @@ static void complain(struct data_reader *reader, struct pos at, const char *hint
         diag_add(reader->errors, FBD_ERROR, "table-format", at, hint, "%s", message ? message : "");
 }
 
+/* As instruments write them into a row of their own. */
+static bool is_unit(struct span cell)
+{
+    struct unit read;
+    bool closed = cell.length > 2 && ((cell.text[0] == '[' && cell.text[cell.length - 1] == ']') ||
+                                      (cell.text[0] == '(' && cell.text[cell.length - 1] == ')'));
+    if (closed) cell = trim((struct span){cell.text + 1, cell.length - 2});
+    return unit_parse(cell.text, cell.length, unit_si, NULL, (struct pos){0}, &read);
+}
+
 static void read_cell(struct data_reader *reader, struct span line, struct span cell, size_t column,
                       double *value)
 {
@@ -229,12 +256,27 @@ static void read_cell(struct data_reader *reader, struct span line, struct span 
     if (read_number(reader->separator, cell, value)) return;
     struct pos at = place_of(reader, line, cell.text);
     const char *hint = memchr(cell.text, ',', cell.length) ? "a decimal point is written `.`" : NULL;
+    if (reader->line == reader->first && is_unit(cell))
+        hint = "units stand behind the names of the columns: `t [s]`";
     if (cell.length == 0)
         complain(reader, at, NULL, diag_hint(reader->errors, "column %zu is empty here", column + 1));
     else
         complain(reader, at, hint,
                  diag_hint(reader->errors, "column %zu must hold a number, not `%.*s`", column + 1,
                            (int)(cell.length < most_shown ? cell.length : most_shown), cell.text));
+}
+
+/* More cells than the first row has, as where a decimal comma parts a number: what they mean is open. */
+static void check_rest(struct data_reader *reader, struct span line, struct span rest, size_t count)
+{
+    struct span cell;
+    const char *hint = reader->separator == ',' ? "a decimal point is written `.`" : NULL;
+    for (; next_cell(reader->separator, &rest, &cell); count++) {
+        if (count < reader->width || cell.length == 0) continue;
+        complain(reader, place_of(reader, line, cell.text), hint,
+                 diag_hint(reader->errors, "the row has more cells than the first one, %zu", reader->width));
+        return;
+    }
 }
 
 static bool read_row(struct data_reader *reader, struct span line, const size_t columns[2], double values[2])
@@ -252,6 +294,8 @@ static bool read_row(struct data_reader *reader, struct span line, const size_t 
         complain(reader, (struct pos){reader->line, 1}, NULL,
                  diag_hint(reader->errors, "the row has no column %zu",
                            1 + (columns[0] > columns[1] ? columns[0] : columns[1])));
+    else
+        check_rest(reader, line, rest, 1 + (columns[0] > columns[1] ? columns[0] : columns[1]));
     return reader->complaints == before;
 }
 
@@ -324,11 +368,15 @@ static bool open_titles(struct data_reader *reader, struct opening *opening, str
         while (next_cell(reader->separator, &line, &cell)) cells++;
         if (opening->remark.text) read_titles(separator_of(opening->remark), opening->remark, titles);
         if (titles->count != cells) titles->count = 0;
+        reader->width = cells;
         titles_at->line = opening->remark_line;
         return true;
     }
     read_titles(reader->separator, opening->line, titles);
-    return open_rows(reader, opening);
+    reader->width = titles->count;
+    bool any = open_rows(reader, opening);
+    reader->first = reader->line;
+    return any;
 }
 
 static bool choose_columns(const struct titles *titles, const char *path, const char *const wanted[2],
@@ -394,22 +442,40 @@ static bool is_plain_file(const char *path, struct pos at, fbd_errors *errors)
     return false;
 }
 
+void data_text_free(struct data_text *kept)
+{
+    free(kept->text);
+    *kept = (struct data_text){NULL, NULL, 0};
+}
+
+static bool read_once(struct data_text *kept, const char *path, fbd_errors *errors)
+{
+    if (kept->path && strcmp(kept->path, path) == 0) return true;
+    data_text_free(kept);
+    kept->text = file_text(path, &kept->length, errors);
+    kept->path = kept->text ? path : NULL;
+    return kept->text != NULL;
+}
+
 bool data_file_read(const char *path, const char *const wanted[2], const struct data_places *places,
-                    fbd_errors *errors, struct data_columns *columns)
+                    struct data_text *kept, fbd_errors *errors, struct data_columns *columns)
 {
     const char *model_file = errors->file;
-    size_t length = 0;
     bool fine = false;
     *columns = (struct data_columns){.count = 0};
     diag_reads(errors, path);
     if (!is_plain_file(path, places->file, errors)) return false;
     diag_in_file(errors, path);
-    columns->text = file_text(path, &length, errors);
-    if (columns->text) {
-        struct data_reader reader = {.rest = {columns->text, length}, .errors = errors};
-        if (length >= 3 && memcmp(columns->text, "\xEF\xBB\xBF", 3) == 0)
-            reader.rest = (struct span){columns->text + 3, length - 3};
-        fine = read_text(&reader, path, wanted, places->columns, model_file, columns);
+    if (read_once(kept, path, errors)) {
+        const char *text = kept->text;
+        const size_t length = kept->length,
+                     mark = length >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
+        struct data_reader reader = {.rest = {text + mark, length - mark}, .errors = errors};
+        bool wide = length >= 2 && (memcmp(text, "\xFF\xFE", 2) == 0 || memcmp(text, "\xFE\xFF", 2) == 0);
+        if (wide)
+            diag_add(errors, FBD_ERROR, "table-format", (struct pos){1, 1}, "save it as UTF-8",
+                     "the file is a text in UTF-16");
+        fine = !wide && read_text(&reader, path, wanted, places->columns, model_file, columns);
     }
     errors->file = model_file;
     return fine;
@@ -419,5 +485,4 @@ void data_columns_free(struct data_columns *columns)
 {
     for (int k = 0; k < 2; k++) free(columns->values[k]);
     free(columns->lines);
-    free(columns->text);
 }

@@ -2,6 +2,7 @@
 #include "scene/fields.h"
 
 #include "scene/slip_law.h"
+#include "scene/usual_words.h"
 #include "scene/values.h"
 
 #include <assert.h>
@@ -59,6 +60,13 @@ static const char *misplaced(fbd_errors *errors, const struct group *group, cons
         return diag_hint(errors, "put it into the list of the body: `forces: [%s]`", key);
     if (group == &body_group && is_kind(&motion_kinds, key))
         return diag_hint(errors, "write it under `motion`: `motion: {%s: ...}`", key);
+    if ((has_field(group, "along") || has_field(group, "at")) && has_field(group, "on") &&
+        (strcmp(key, "v") == 0 || strcmp(key, "omega") == 0))
+        return diag_hint(
+            errors,
+            "the rate at the start belongs to `initial: {%s: ...}`; what is prescribed is the place, as "
+            "an expression of t",
+            key);
     if (group == &scene_group && has_field(&body_group, key))
         return "it belongs to a body: indent it below the name of the body, under `bodies`";
     if (group == &scene_group && has_field(&simulate_group, key)) return "it belongs under `simulate`";
@@ -74,6 +82,13 @@ static const char *translated(fbd_errors *errors, const struct group *group, con
                                            {"mu_d", "kinetic"},
                                            {"dynamic", "kinetic"},
                                            {"mu", "coefficient"},
+                                           {"mu", "kinetic"},
+                                           {"coefficient", "kinetic"},
+                                           {"friction", "kinetic"},
+                                           {"friction_coefficient", "coefficient"},
+                                           {"friction_coefficient", "kinetic"},
+                                           {"e", "restitution"},
+                                           {"bounce", "restitution"},
                                            {"c", "coefficient"},
                                            {"k", "stiffness"},
                                            {"l0", "free_length"},
@@ -81,10 +96,21 @@ static const char *translated(fbd_errors *errors, const struct group *group, con
                                            {"rest_length", "free_length"},
                                            {"U", "V"},
                                            {"energy", "V"},
+                                           {"c", "linear"},
+                                           {"coefficient", "linear"},
+                                           {"k", "quadratic"},
                                            {"magnitude", "value"},
+                                           {"F", "value"},
+                                           {"P", "value"},
+                                           {"M", "value"},
                                            {"force", "value"},
                                            {"moment", "value"},
                                            {"direction", "angle"},
+                                           {"direction", "along"},
+                                           {"min", "from"},
+                                           {"max", "to"},
+                                           {"start", "from"},
+                                           {"end", "to"},
                                            {"weight", "mass"},
                                            {"m", "mass"},
                                            {"r", "radius"},
@@ -120,6 +146,18 @@ static const char *translated(fbd_errors *errors, const struct group *group, con
     return NULL;
 }
 
+/* What a force that has no size of its own is given nevertheless. */
+static const char *not_given(const struct group *group)
+{
+    if (strcmp(group->name, "`gravity`") == 0)
+        return "its strength stands at the top of the file, as `gravity: 9.81`; in the list it is `gravity` "
+               "alone";
+    return NULL;
+}
+
+static const char in_quotes[] =
+    "a comma separates entries inside braces: put the expression in quotes, as `\"min(1, 2)\"`";
+
 /* A comma inside braces ends an entry: what comes behind it is a key without a value. */
 static const char *behind_a_comma(const struct pair *pair)
 {
@@ -127,8 +165,7 @@ static const char *behind_a_comma(const struct pair *pair)
     size_t digits = strspn(pair->key, "0123456789");
     if (digits > 0 && (pair->key[digits] == '\0' || pair->key[digits] == ' '))
         return "a comma separates entries inside braces: write a decimal point, as `2.5`";
-    if (strchr(pair->key, ')'))
-        return "a comma separates entries inside braces: put the expression in quotes, as `\"min(1, 2)\"`";
+    if (strchr(pair->key, ')')) return in_quotes;
     return NULL;
 }
 
@@ -141,6 +178,7 @@ static void note_unknown_key(struct reader *reader, const struct group *group, c
     if (strstr(pair->key, "\xC2\xA0"))
         hint = "it holds a no-break space (U+00A0), as pasted text does: type a blank in its place";
     if (!hint) hint = behind_a_comma(pair);
+    if (!hint) hint = not_given(group);
     if (!hint) hint = misplaced(reader->errors, group, pair->key);
     if (!hint) hint = translated(reader->errors, group, pair->key);
     if (!hint) {
@@ -161,9 +199,10 @@ static void note_no_mapping(struct reader *reader, const struct group *group, co
         if (n < 0 || (size_t)n >= sizeof list - used) break;
         used += (size_t)n;
     }
+    const char *hint = not_given(group);
     diag_add(reader->errors, FBD_ERROR, "wrong-type", node->at,
-             diag_hint(reader->errors, "its keys: %s", list), "%s must be a mapping of keys, not %s",
-             group->name, value_found(reader, node));
+             hint ? hint : diag_hint(reader->errors, "its keys: %s", list),
+             "%s must be a mapping of keys, not %s", group->name, value_found(reader, node));
 }
 
 static void note_missing_key(struct reader *reader, const struct group *group, const struct field *field,
@@ -275,85 +314,6 @@ bool fields_read(struct reader *reader, const struct group *group, const struct 
 
 /* ---- kinds */
 
-/* What textbooks call it, and what it is here. */
-struct usual {
-    const char *word, *hint;
-};
-
-static const char a_weight[] = "the weight is `gravity`, of the mass of the body",
-                  a_push[] = "a given force is `applied: {value: 5 N, angle: 30 deg}`",
-                  a_torque[] = "a given moment belongs under `moments`: `applied: 3 N*m`",
-                  a_couple[] = "a given moment is `applied: 3 N*m`",
-                  joins[] = "it joins two ends: write it under `couplings`",
-                  a_rope[] = "it is a `rope`, under `couplings`";
-
-static const struct usual usual_forces[] = {
-    {"weight", a_weight},
-    {"mg", a_weight},
-    {"g", a_weight},
-    {"force", a_push},
-    {"push", a_push},
-    {"pull", a_push},
-    {"load", a_push},
-    {"moment", a_torque},
-    {"torque", a_torque},
-    {"couple", a_torque},
-    {"tension", "a tension comes with its `rope` or `rod`, under `couplings`"},
-    {"rope", joins},
-    {"rod", joins},
-    {"string", a_rope},
-    {"cable", a_rope},
-    {"reaction", "reactions of joints and couplings are found, not given"},
-    {"N", "it is `normal`, of a slide; of shapes that touch it comes with `contacts`"},
-    {"normal_force", "it is `normal`, of a slide; of shapes that touch it comes with `contacts`"},
-    {"contact", "what can touch is listed under `contacts`, beside `bodies`"},
-    {"air", "it is `drag`"},
-    {"air_resistance", "it is `drag`"},
-    {"resistance", "it is `drag`"},
-    {"wind", "moving air is the `wind` of a `drag`: `drag: {linear: 0.4 N*s/m, wind: [2 m/s, 0]}`"},
-    {"dashpot", "it is a `damper`"},
-    {"viscous", "it is a `damper`"},
-    {"motor", a_push},
-};
-static const struct usual usual_moments[] = {
-    {"moment", a_couple},
-    {"torque", a_couple},
-    {"couple", a_couple},
-    {"motor", a_couple},
-    {"force", "forces belong under `forces`; those off the axis give their moment by themselves"},
-    {"gravity", "it belongs under `forces`, and gives its moment by itself"},
-    {"torsion", "it is a `spring`"},
-};
-static const struct usual usual_couplings[] = {
-    {"string", "it is a `rope`"},
-    {"cable", "it is a `rope`"},
-    {"cord", "it is a `rope`"},
-    {"bar", "it is a `rod`"},
-    {"link", "it is a `rod`"},
-    {"strut", "it is a `rod`"},
-    {"hinge", "it is a `pin`"},
-    {"joint", "it is a `pin`"},
-    {"chain", "it is a `belt`"},
-    {"rolling", "it is a `roll`"},
-    {"rack_and_pinion", "it is a `rack`"},
-};
-
-/* NULL when the word is not one of theirs. */
-static const char *usual_word(const struct kinds *kinds, const char *word)
-{
-    const struct {
-        const struct kinds *kinds;
-        const struct usual *words;
-        size_t count;
-    } lists[] = {{&force_kinds, FIELDS(usual_forces)},
-                 {&moment_kinds, FIELDS(usual_moments)},
-                 {&coupling_kinds, FIELDS(usual_couplings)}};
-    for (size_t k = 0; k < sizeof lists / sizeof *lists; k++)
-        for (size_t i = 0; kinds == lists[k].kinds && i < lists[k].count; i++)
-            if (strcmp(word, lists[k].words[i].word) == 0) return lists[k].words[i].hint;
-    return NULL;
-}
-
 static const struct kind *find_kind(struct reader *reader, const struct kinds *kinds, const char *name,
                                     struct pos at)
 {
@@ -364,7 +324,8 @@ static const struct kind *find_kind(struct reader *reader, const struct kinds *k
         names[i] = kinds->kinds[i].name;
         if (strcmp(names[i], name) == 0) return &kinds->kinds[i];
     }
-    const char *hint = usual_word(kinds, name);
+    const char *hint = kind_by_usual_word(kinds, name);
+    if (!hint && strchr(name, ')')) hint = in_quotes;
     if (!hint) hint = diag_nearest(reader->errors, name, names, kinds->count);
     diag_add(reader->errors, FBD_ERROR, "unknown-kind", at, hint, "no %s is called `%.40s`", kinds->noun,
              name);

@@ -425,6 +425,7 @@ static void know_all(struct names *names)
     static const char *const of_hand[] = {"m", "I_G", "I_O", "L", "N", "mu_s", "mu_k", "mu"};
     struct reader *reader = names->reader;
     bool constant = names->place == place_constant, moves = !constant && names->place != place_exact;
+    know(names, names->curve);
     if (moves && names->body != ground_body) know_coordinates(names, names->body, false);
     for (size_t i = 0; i < reader->scene->parameter_count; i++)
         if (!constant || !reader->scene->parameters[i].input) know(names, reader->scene->parameters[i].name);

@@ -55,6 +55,7 @@ struct names {
     bool slip_named;   /* it was looked up */
     bool tried;        /* a constant, unless it names what varies; `s` of a track may be that */
     bool along;        /* `s` is the place along a distributed load, in slot 1 */
+    const char *curve; /* the parameter of a curve, for hints; NULL elsewhere */
     bool distance_known, distance_named; /* of the size of a force toward a point; it was looked up */
     const char **known;
     size_t known_count;

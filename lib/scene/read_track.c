@@ -28,9 +28,10 @@ static struct symbol look_up(void *context, const char *name, struct pos at)
 
 static struct track_names names_of(struct reader *reader, int body, const char *parameter, struct dim dim)
 {
-    struct track_names track = {.names = {.reader = reader, .place = place_constant, .body = body},
-                                .parameter = parameter,
-                                .dim = dim};
+    struct track_names track = {
+        .names = {.reader = reader, .place = place_constant, .body = body, .curve = parameter},
+        .parameter = parameter,
+        .dim = dim};
     track.constants = names_scope(&track.names);
     return track;
 }

@@ -38,6 +38,7 @@ struct body { /* of all kinds; lengths in m, masses in kg */
     double min, max, e;
     double spring, neutral, damper;
     double rub, rub_speed; /* a bearing [N m, rad/s], or a coefficient and a speed of the surface */
+    bool lists_zero;       /* friction is listed though rub = 0 */
     double through[2], along;
     int on;
     bool point; /* a particle */

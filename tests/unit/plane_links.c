@@ -58,7 +58,7 @@ static void write_links(const struct scene *scene, struct text *text)
         if (link->spring > 0)
             add(text, "      - spring: {stiffness: %.17g, neutral: %.17g}\n", link->spring, link->neutral);
         if (link->damper > 0) add(text, "      - damper: {coefficient: %.17g}\n", link->damper);
-        if (link->rub > 0)
+        if (link->rub > 0 || link->lists_zero)
             add(text, "      - friction: {coefficient: %.17g, surface_speed: %.17g}\n", link->rub,
                 link->rub_speed);
     }

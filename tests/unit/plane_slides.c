@@ -83,7 +83,7 @@ static void write_slides(const struct scene *scene, struct text *text)
         if (slide->spring > 0)
             add(text, "      - spring: {stiffness: %.17g, neutral: %.17g}\n", slide->spring, slide->neutral);
         if (slide->damper > 0) add(text, "      - damper: {coefficient: %.17g}\n", slide->damper);
-        if (slide->rub > 0)
+        if (slide->rub > 0 || slide->lists_zero)
             add(text, "      - friction: {coefficient: %.17g, surface_speed: %.17g}\n", slide->rub,
                 slide->rub_speed);
     }

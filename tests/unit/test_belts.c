@@ -272,6 +272,33 @@ static void methods_agree_on_a_load_that_swings_round_a_post(void **unused)
     checks_end(&checks);
 }
 
+/* Two weights over a post that fly up fall back on it: the blow is refused, and no event tells of one. */
+static void a_jerk_round_a_post_is_refused(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct trial trial =
+        trial_parse("fbd: 1\n"
+                    "ground: {points: {post: [0, 1]}}\n"
+                    "bodies:\n"
+                    "  a: {mass: 1, motion: {slide: {along: 90 deg, through: [-0.1, 0]}}, initial: {v: 2}, "
+                    "forces: [gravity]}\n"
+                    "  b: {mass: 1, motion: {slide: {along: 90 deg, through: [0.1, 0]}}, initial: {v: 1}, "
+                    "forces: [gravity]}\n"
+                    "couplings:\n"
+                    "  - rope: {name: cord, through: [a, ground.post, b], around: {on: ground.post, radius: "
+                    "0.1, static: 0.35, kinetic: 0.3}}\n"
+                    "simulate: {until: 1}\n");
+    trial_start(&trial, NULL);
+    double end = to_its_end(&trial);
+    check_that(&checks, "it ends", trial.outcome == FBD_BROKEN);
+    /* (2 + 1) t = g t^2 */
+    check_close(&checks, "when", end, 3 / 9.81, 1e-9);
+    check_that(&checks, "no blow", isnan(trial_event(&trial, FBD_EVENT_ROPE_TAUT, NULL, 0)));
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -284,6 +311,7 @@ int main(void)
         cmocka_unit_test(a_rope_holds_up_to_its_limit),
         cmocka_unit_test(a_barrel_is_let_down_round_a_bollard),
         cmocka_unit_test(methods_agree_on_a_load_that_swings_round_a_post),
+        cmocka_unit_test(a_jerk_round_a_post_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,8 +11,11 @@
  *  - by its pin in the upright slot of a yoke, which rubs on it with mu_g: x = R cos theta, the height of the pin is
  *    y = R sin theta, m a = Q - mu |N| sgn x_dot, N = m g - f, f = mu_g |Q| sgn y_dot, I theta_ddot = R (Q sin theta - f cos theta)
  *
- * Between two dead centres all is smooth, so that du/dtheta = 2 theta_ddot and dt/dtheta = 1/theta_dot are integrated
- * from one to the next by the method of Runge.
+ * A moment M on the crank comes to I theta_ddot. Between two dead centres all is smooth, so that du/dtheta = 2 theta_ddot
+ * and dt/dtheta = 1/theta_dot are integrated from one to the next by the method of Runge.
+ *
+ * At rest in a dead centre M moves the crank, and the slider only to the second order: it slips the way of x''. What
+ * presses in the slot is then all that friction holds, so that the yoke rests as long as f = M/R <= mu_g Q, Q <= mu N.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -29,11 +32,13 @@
 #include "thorough.h"
 
 static const double g = 9.81, pi = 3.14159265358979323846;
+static const double static_slide = 1.5, static_slot = 1.2; /* of the kinetic ones */
 
 struct flywheel {
     bool yoke;
-    double R, e, L, I, m, mu, mu_g, theta_0, omega_0;
-    int way; /* in which it turns: 1, -1 */
+    double R, e, L, I, m, mu, mu_g, theta_0, omega_0, M;
+    double rise; /* of the moment, in time */
+    int way;     /* in which it turns: 1, -1 */
 };
 
 static double draw_friction(struct random_numbers *numbers)
@@ -80,9 +85,9 @@ static double yoke_answer(const struct flywheel *wheel, double theta, double u, 
     double c = wheel->R * cos(theta), s = wheel->R * sin(theta), I = wheel->I, m = wheel->m;
     double mu = -copysign(wheel->mu, s * wheel->way) * on.second;
     double mu_g = copysign(wheel->mu_g, c * wheel->way) * on.first, lever = s - mu_g * c;
-    *Q = (mu * m * g - m * c * u) / (1 + mu * mu_g + m * s * lever / I);
+    *Q = (mu * m * g - m * c * u - m * s * wheel->M / I) / (1 + mu * mu_g + m * s * lever / I);
     *N = m * g - mu_g * *Q;
-    return *Q * lever / I;
+    return (*Q * lever + wheel->M) / I;
 }
 
 /* theta_ddot of the slider on a rod. */
@@ -91,9 +96,10 @@ static double rod_answer(const struct flywheel *wheel, double theta, double u, s
     double first, second, I = wheel->I, m = wheel->m, L = wheel->L, q = wheel->R * sin(theta) - wheel->e;
     slopes_at(wheel, theta, &first, &second);
     double p = sqrt(L * L - q * q), mu = copysign(wheel->mu, first * wheel->way) * on.first;
-    double S = -(m * second * u + mu * m * g) / ((p - mu * q) / L + m * first * first * p / (L * I));
+    double S = -(m * second * u + mu * m * g + m * first * wheel->M / I) /
+               ((p - mu * q) / L + m * first * first * p / (L * I));
     *N = m * g - S * q / L;
-    return S * p * first / (L * I);
+    return (S * p * first / L + wheel->M) / I;
 }
 
 /* Of the sides on which both press those that agree with the forces. */
@@ -147,6 +153,18 @@ static bool go_to(const struct flywheel *wheel, double theta, double to, double 
     return true;
 }
 
+/* Out of a dead centre, by steps that are small shares of the way from there: u goes with that way. */
+static void set_out(const struct flywheel *wheel, double *theta, double *t, double *u)
+{
+    const double least = 1e-12, most = 0.1, share = 0.01;
+    struct presses on;
+    double a = fabs(acceleration(wheel, *theta + wheel->way * least, 0, &on)), way = least;
+    *t = sqrt(2 * way / a), *u = 2 * a * way;
+    for (; way < most; way *= 1 + share)
+        step(wheel, wheel->theta_0 + wheel->way * way, wheel->way * share * way, t, u);
+    *theta += wheel->way * way;
+}
+
 /* Dead centre number `k` of the slider, counted by theta. */
 static double dead_centre(const struct flywheel *wheel, int k)
 {
@@ -183,20 +201,20 @@ static struct trial parse_flywheel(const struct flywheel *wheel, double until)
         snprintf(
             coupling, sizeof coupling,
             "slot: {name: slot, between: [crank.A, slider], along: 90 deg, static: %.17g, kinetic: %.17g",
-            1.2 * wheel->mu_g, wheel->mu_g);
+            static_slot * wheel->mu_g, wheel->mu_g);
     else
         snprintf(coupling, sizeof coupling, "rod: {name: rod, between: [crank.A, slider], length: %.17g",
                  wheel->L);
     snprintf(text, sizeof text,
              "fbd: 1\nbodies:\n"
              "  crank: {mass: 1, inertia: {value: %.17g, about: O}, points: {A: [%.17g, 0]}, motion: pivot,\n"
-             "    initial: {theta: %.17g, omega: %.17g}}\n"
+             "    initial: {theta: %.17g, omega: %.17g}, moments: [applied: %.17g + %.17g*t]}\n"
              "  slider:\n    mass: %.17g\n    motion: {slide: {through: [0, %.17g]}}\n"
              "    initial: {assemble: true, x: %.17g}\n"
              "    forces: [gravity, normal: {two_sided: true}, friction: {static: %.17g, kinetic: %.17g}]\n"
              "couplings: [%s}]\nsimulate: {until: %.17g}\n",
-             wheel->I, wheel->R, wheel->theta_0, wheel->omega_0, wheel->m, wheel->e, x, 1.5 * wheel->mu,
-             wheel->mu, coupling, until);
+             wheel->I, wheel->R, wheel->theta_0, wheel->omega_0, wheel->M, wheel->rise, wheel->m, wheel->e, x,
+             static_slide * wheel->mu, wheel->mu, coupling, until);
     return trial_parse(text);
 }
 
@@ -206,6 +224,7 @@ static void check_flywheel(struct checks *checks, const struct flywheel *wheel)
     const double until = 3;
     struct trial trial = parse_flywheel(wheel, until);
     double theta = wheel->theta_0, t = 0, u = wheel->omega_0 * wheel->omega_0;
+    if (u == 0) set_out(wheel, &theta, &t, &u);
     int which = 0, turns[2] = {0, 0};
     trial_start(&trial, NULL);
     trial_finish(&trial);
@@ -242,8 +261,101 @@ static void friction_turns_in_dead_centres(void **unused)
     checks_end(&checks);
 }
 
+/* What the friction of slide and slot holds of a moment in a dead centre: M/R <= mu_g mu (m g - M/R), where the pin
+ * rubs the yoke upwards. */
+static double held_moment(const struct flywheel *wheel)
+{
+    double both = wheel->yoke ? static_slot * wheel->mu_g * static_slide * wheel->mu : 0;
+    double up = wheel->way * cos(wheel->theta_0) > 0 ? 1 : -1;
+    return wheel->R * both * wheel->m * g / (1 + both * up);
+}
+
+/* At rest in a dead centre. */
+static struct flywheel draw_at_rest(struct random_numbers *numbers)
+{
+    struct flywheel wheel = draw_flywheel(numbers);
+    wheel.theta_0 = random_bits(numbers) % 2 ? 0 : pi;
+    wheel.e = wheel.omega_0 = 0;
+    return wheel;
+}
+
+static void what_rests_in_a_dead_centre_sets_out(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct random_numbers numbers = {19112509};
+    int draws = thorough() ? 80 : 20;
+    for (int draw = 0; draw < draws && !checks.failed; draw++) {
+        struct flywheel wheel = draw_at_rest(&numbers);
+        wheel.M = wheel.way * (held_moment(&wheel) * random_between(&numbers, 1.01, 3) +
+                               wheel.m * g * wheel.R * random_between(&numbers, 0.5, 2));
+        check_flywheel(&checks, &wheel);
+        if (checks.failed)
+            print_message("# draw %d: %s, theta_0 %.17g, mu %g, mu_g %g, M %g\n", draw,
+                          wheel.yoke ? "yoke" : "rod", wheel.theta_0, wheel.mu, wheel.mu_g, wheel.M);
+    }
+    checks_end(&checks);
+}
+
+static void the_limit_of_what_rests_in_a_dead_centre(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct random_numbers numbers = {19112510};
+    int draws = thorough() ? 80 : 20;
+    for (int draw = 0; draw < draws && !checks.failed; draw++) {
+        struct flywheel wheel = draw_at_rest(&numbers);
+        bool beyond = draw % 2;
+        if (!wheel.yoke || wheel.mu == 0 || wheel.mu_g == 0) continue;
+        wheel.M = wheel.way * held_moment(&wheel) * (beyond ? 1.001 : 0.999);
+        struct trial trial = parse_flywheel(&wheel, 0.1);
+        trial_start(&trial, NULL);
+        trial_finish(&trial);
+        check_that(&checks, "it runs to the end", trial.outcome == FBD_DONE);
+        const double rounding = 1e-12; /* of what the moment alone would give */
+        bool moved = fabs(trial_get(&trial, "crank.omega")) > rounding * fabs(wheel.M) / wheel.I * 0.1;
+        check_that(&checks, beyond ? "it moves" : "it rests", moved == beyond);
+        if (checks.failed)
+            print_message("# draw %d: theta_0 %.17g, mu %g, mu_g %g, M %g\n", draw, wheel.theta_0, wheel.mu,
+                          wheel.mu_g, wheel.M);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
+/* A moment that rises until it is more than is held: both give at that instant, each the way it goes. */
+static void a_moment_rises_until_it_is_not_held(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct random_numbers numbers = {19112511};
+    int draws = thorough() ? 80 : 20;
+    for (int draw = 0; draw < draws && !checks.failed; draw++) {
+        struct flywheel wheel = draw_at_rest(&numbers);
+        if (!wheel.yoke || wheel.mu == 0 || wheel.mu_g == 0) continue;
+        wheel.rise = wheel.way * held_moment(&wheel);
+        struct trial trial = parse_flywheel(&wheel, 1.3);
+        trial_start(&trial, NULL);
+        trial_finish(&trial);
+        check_that(&checks, "it runs to the end", trial.outcome == FBD_DONE);
+        check_close(&checks, "slide", trial_event(&trial, FBD_EVENT_BREAKAWAY, "friction", 0), 1, 1e-9);
+        check_close(&checks, "slot", trial_event(&trial, FBD_EVENT_BREAKAWAY, "slot.friction", 0), 1, 1e-9);
+        check_that(&checks, "it moves", wheel.way * trial_get(&trial, "crank.omega") > 0);
+        if (checks.failed)
+            print_message("# draw %d: theta_0 %.17g, mu %g, mu_g %g, I %g, R %g, m %g, way %d\n", draw,
+                          wheel.theta_0, wheel.mu, wheel.mu_g, wheel.I, wheel.R, wheel.m, wheel.way);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(friction_turns_in_dead_centres)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(friction_turns_in_dead_centres),
+        cmocka_unit_test(what_rests_in_a_dead_centre_sets_out),
+        cmocka_unit_test(the_limit_of_what_rests_in_a_dead_centre),
+        cmocka_unit_test(a_moment_rises_until_it_is_not_held),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,6 +22,7 @@
 #include <string.h>
 
 #include "gallery.h"
+#include "joined_checks.h"
 #include "random_numbers.h"
 #include "thorough.h"
 
@@ -290,6 +291,52 @@ static void a_drive_beyond_its_reach_ends_the_run_by_name(void **unused)
     checks_end(&checks);
 }
 
+/* A rod of 1 m draws a block along its guide, from a slider that rises with 1 m/s to y = 0.5 + t: with x = sqrt(1 - y^2),
+ * a = -1/x^3, N_0 = m (g + a y/x), N = N_0/(1 + mu y/x) above zero, N_0/(1 - mu y/x) below. Where mu y/x > 1 neither
+ * agrees once N_0 < 0, from y/(1 - y^2)^2 = g on. In a slot it is the same. */
+static void friction_that_feeds_its_normal_force_is_named(void **unused)
+{
+    static const char *const blocks[] = {
+        "b: {mass: 2, motion: slide, initial: {assemble: true, x: 0.866}, forces: [gravity, normal: "
+        "{two_sided: "
+        "true}, friction: %g]}\ncouplings: [rod: {between: [a, b], length: 1}]",
+        "b: {mass: 2, motion: particle, initial: {assemble: true, x: 0.866}, forces: [gravity]}\n"
+        "couplings: [rod: {between: [a, b], length: 1}, slot: {between: [b, ground.O], kinetic: %g}]"};
+    struct checks checks = {0};
+    (void)unused;
+    double least = 0.5, most = 0.95;
+    for (int i = 0; i < 60; i++) {
+        double y = (least + most) / 2;
+        *(y / pow(1 - y * y, 2) < 9.81 ? &least : &most) = y;
+    }
+    for (int i = 0; i < 4; i++) {
+        double mu = i < 2 ? 0.8 : 0.4, y = 0.9, slope = y / sqrt(1 - y * y);
+        char block[400], text[800];
+        snprintf(block, sizeof block, blocks[i % 2], mu);
+        snprintf(text, sizeof text,
+                 "fbd: 1\nground: {points: {O: [0, 0]}}\nbodies:\n"
+                 "  a: {mass: 1, motion: {slide: {along: 90 deg, x: 0.5 + 1*t}}}\n  %s\nsimulate: {until: "
+                 "0.4}\n",
+                 block);
+        struct trial trial = trial_parse(text);
+        trial_start(&trial, NULL);
+        double end = to_its_end(&trial);
+        if (mu * slope > 1) {
+            check_close(&checks, "it ends", end, least - 0.5, 1e-8);
+            check_that(&checks, "and says why",
+                       trial.outcome == FBD_FAILED &&
+                           strstr(fbd_simulation_reason(trial.simulation), "Painleve") != NULL);
+        } else {
+            double x = sqrt(1 - y * y), N_0 = 2 * (9.81 - y / pow(x, 4)), N = N_0 / (1 - mu * slope);
+            fbd_arrow drawn = trial_arrow(&trial, "rod");
+            check_that(&checks, "done", trial.outcome == FBD_DONE);
+            check_close(&checks, "rod", drawn.fy, N - 2 * 9.81, 1e-6);
+        }
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -298,6 +345,7 @@ int main(void)
         cmocka_unit_test(a_drive_with_switches_is_assembled),
         cmocka_unit_test(a_drive_at_a_constant_place_holds),
         cmocka_unit_test(a_drive_beyond_its_reach_ends_the_run_by_name),
+        cmocka_unit_test(friction_that_feeds_its_normal_force_is_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

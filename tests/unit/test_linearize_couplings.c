@@ -16,6 +16,7 @@
 
 #include "looked.h"
 #include "random_numbers.h"
+#include "thorough.h"
 
 static const double g = 9.81;
 
@@ -275,7 +276,7 @@ static void go_to_balance(struct chain *chain)
 static void written_twice(bool loop)
 {
     struct random_numbers numbers = {loop ? 5 : 4};
-    for (int trial = 0; trial < 100; trial++) {
+    for (int trial = 0; trial < (thorough() ? 100 : 15); trial++) {
         struct chain chain;
         draw_chain(&numbers, &chain, loop);
         go_to_balance(&chain);

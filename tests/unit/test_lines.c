@@ -32,6 +32,8 @@ struct push {
 struct disc {
     double mass, x, v;
     double mu, surface, shaken; /* the surface goes at surface + shaken sin(3 t) */
+    double pulse;               /* where not 0, mu is mu max(0, cos(pulse t)): for half of the time it is 0 */
+    bool lists_zero;            /* friction is listed though mu = 0 */
     double k, c;                /* to x = 0 and the ground */
     double min, max, e;         /* stops, infinite without */
     double spring;              /* to the next disc, as long as at the start */
@@ -99,6 +101,10 @@ static struct line draw_line(uint64_t seed)
         draw_stops(&numbers, disc, e);
         if (touches && disc->v < line.discs[i - 1].v) disc->v = line.discs[i - 1].v;
     }
+    for (int i = 0; i < line.count; i++) {
+        line.discs[i].lists_zero = chance(&numbers, 0.5);
+        line.discs[i].pulse = perhaps(&numbers, 0.2, 2, 10);
+    }
     return line;
 }
 
@@ -106,16 +112,17 @@ static struct line draw_line(uint64_t seed)
 
 static int write_disc(const struct disc *disc, int i, char *text, size_t size)
 {
-    char stops[120] = "", friction[160] = "";
+    char stops[120] = "", pulse[60] = "", friction[240] = "";
     if (disc->min > -HUGE_VAL) snprintf(stops, sizeof stops, ", min: %.17g", disc->min);
     size_t length = strlen(stops);
     if (disc->max < HUGE_VAL) snprintf(stops + length, sizeof stops - length, ", max: %.17g", disc->max);
     length = strlen(stops);
     if (length > 0) snprintf(stops + length, sizeof stops - length, ", restitution: %.17g", disc->e);
-    if (disc->mu > 0)
+    if (disc->pulse > 0) snprintf(pulse, sizeof pulse, "*max(0, cos(%.17g*t))", disc->pulse);
+    if (disc->mu > 0 || disc->lists_zero)
         snprintf(friction, sizeof friction,
-                 "      - friction: {coefficient: %.17g, surface_speed: \"%.17g + %.17g*sin(3*t)\"}\n",
-                 disc->mu, disc->surface, disc->shaken);
+                 "      - friction: {coefficient: \"%.17g%s\", surface_speed: \"%.17g + %.17g*sin(3*t)\"}\n",
+                 disc->mu, pulse, disc->surface, disc->shaken);
     return snprintf(text, size,
                     "  d%d:\n    shape: sphere\n    radius: %.17g\n    mass: %.17g\n"
                     "    motion: {slide: {along: 0 deg%s}}\n    initial: {x: %.17g, v: %.17g}\n    forces:\n"
@@ -182,7 +189,7 @@ static void find_rows(const void *scene, double t, const double *q, struct morea
         const struct disc *disc = &line->discs[i];
         struct moreau_row rub = {.kind = moreau_rub,
                                  .aim = disc->surface + disc->shaken * sin(3 * t),
-                                 .most = disc->mu * disc->mass * g,
+                                 .most = disc->mu * fmax(0, cos(disc->pulse * t)) * disc->mass * g,
                                  .normal = -1};
         rub.w[i] = 1;
         if (disc->mu > 0) rows->row[rows->count++] = rub;

@@ -53,6 +53,7 @@ static void draw_scene(int kind, uint64_t seed, struct scene *scene, struct text
     *scene = (struct scene){.kind = kind, .until = random_between(&numbers, 0.4, 1.5)};
     for (int j = 0; j < 4; j++) scene->rope[j].other = -1;
     kinds[kind]->draw(&numbers, scene);
+    for (int i = 0; i < most_bodies; i++) scene->body[i].lists_zero = chance(&numbers, 0.5);
     text->length = 0;
     add(text, "fbd: 1\ngravity: 10\n");
     kinds[kind]->write(scene, text);
@@ -172,25 +173,38 @@ static void time_stepping_says_the_same(void **unused)
     checks_end(&checks);
 }
 
-/* Of the last digit of its place it is below the floor. */
-static void a_particle_on_a_slope_stays_above_it(void **unused)
+/* Scenes that went wrong, and why. */
+static void what_went_wrong_does_not(void **unused)
 {
-    enum { discs = 1, seed = 194 };
+    enum { discs = 1, weights = 2 };
+    static const struct {
+        int kind;
+        unsigned seed;
+    } scenes[] = {
+        {discs, 194},   /* a particle set down on a slope: by the last digit of its place below the floor */
+        {weights, 322}, /* nothing presses on the guide of what a stop holds */
+        {weights, 182}, {weights, 276},
+        {weights, 397}, /* the normal force of what slips is open: a rope and friction share */
+        {weights, 161}, {weights, 314},
+        {weights, 381}, /* friction of coefficient 0 is on no side of its guide */
+    };
     struct checks checks = {0};
-    struct census census = {0};
-    struct scene scene;
-    struct text text;
     (void)unused;
-    draw_scene(discs, seed, &scene, &text);
-    compare(&checks, &scene, &text, kinds[discs]->name, seed, 10000, &census);
-    check_that(&checks, "it is compared", census.agree == 1);
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        struct census census = {0};
+        struct scene scene;
+        struct text text;
+        draw_scene(scenes[i].kind, scenes[i].seed, &scene, &text);
+        compare(&checks, &scene, &text, kinds[scenes[i].kind]->name, scenes[i].seed, 10000, &census);
+        check_that(&checks, "it is compared", census.agree == 1);
+    }
     checks_end(&checks);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_particle_on_a_slope_stays_above_it),
+        cmocka_unit_test(what_went_wrong_does_not),
         cmocka_unit_test(time_stepping_says_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

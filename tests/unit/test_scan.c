@@ -224,6 +224,29 @@ static void a_failing_sample_ends_the_scan(void **unused)
     scan_free(&scan);
 }
 
+static double falling_early(double t, double *rate)
+{
+    *rate = -1;
+    return 1 - t;
+}
+
+static void what_is_left_out_does_not_hide_others(void **unused)
+{
+    (void)unused;
+    struct bench bench = {.functions = {falling_early, falling_line}, .count = 2};
+    struct scan scan;
+    assert_int_equal(scan_once(&scan, &bench, 0, 4), 1);
+    assert_true(scan.crossed[0] && !scan.crossed[1]);
+    assert_true(scan_leave_out(&scan));
+    assert_false(scan_leave_out(&scan));
+    assert_int_equal(scan_interval(&scan, 0, 4), 1);
+    assert_true(scan.crossed[1] && fabs(scan.t - 2.943) < 1e-14);
+    scan_start(&scan);
+    assert_int_equal(scan_interval(&scan, 0, 4), 1);
+    assert_true(scan.crossed[0] && fabs(scan.t - 1) < 1e-14);
+    scan_free(&scan);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -237,6 +260,7 @@ int main(void)
         cmocka_unit_test(zeros_at_one_instant_are_taken_together),
         cmocka_unit_test(the_earlier_of_two_functions_wins),
         cmocka_unit_test(a_function_that_outruns_the_samples_bounds_the_next_interval),
+        cmocka_unit_test(what_is_left_out_does_not_hide_others),
         cmocka_unit_test(a_failing_sample_ends_the_scan),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -17,6 +17,7 @@
 #include "base/text.h"
 #include "gallery.h"
 #include "random_numbers.h"
+#include "thorough.h"
 
 static const double g = 9.81;
 
@@ -109,7 +110,8 @@ static void check_shares(struct checks *checks, struct trial *trial, const struc
 static void two_feet_share_and_give_together(void **unused)
 {
     (void)unused;
-    enum { draws = 60, seed = 2215 };
+    enum { seed = 2215 };
+    const int draws = thorough() ? 60 : 12;
     struct checks checks = {0};
     struct random_numbers numbers = {seed};
     printf("# seed %d\n", seed);
@@ -220,7 +222,8 @@ static void write_row(const struct row_of_feet *row, double until, struct text *
 static void many_feet_give_when_no_share_is_left(void **unused)
 {
     (void)unused;
-    enum { draws = 60, seed = 2217 };
+    enum { seed = 2217 };
+    const int draws = thorough() ? 60 : 12;
     struct checks checks = {0};
     struct random_numbers numbers = {seed};
     int gave = 0;
@@ -249,7 +252,8 @@ static void many_feet_give_when_no_share_is_left(void **unused)
 static void what_a_rod_holds_stands(void **unused)
 {
     (void)unused;
-    enum { draws = 100, seed = 2216 };
+    enum { seed = 2216 };
+    const int draws = thorough() ? 100 : 20;
     struct checks checks = {0};
     struct random_numbers numbers = {seed};
     printf("# seed %d\n", seed);
@@ -354,7 +358,8 @@ static void move_blocks(const struct blocks *blocks, bool rope, double *a)
 static void what_has_no_part_in_a_share_decides_for_itself(void **unused)
 {
     (void)unused;
-    enum { draws = 200, seed = 1048 };
+    enum { seed = 1048 };
+    const int draws = thorough() ? 200 : 40;
     struct checks checks = {0};
     struct random_numbers numbers = {seed};
     printf("# seed %d\n", seed);

@@ -369,6 +369,38 @@ static void a_weight_is_drawn_past_its_pulley(void **unused)
     checks_end(&checks);
 }
 
+/* A load on a cable whose length switches: it is assembled on the branch of the start, and goes on with it. */
+static void a_winch_starts_on_its_branch(void **unused)
+{
+    static const struct {
+        const char *law;
+        double length, rate; /* at t = 0 */
+    } cases[] = {{"2 + 0.1*abs(t - 0.3)", 2.03, -0.1},
+                 {"2 + 0.1*abs(t + 0.3)", 2.03, 0.1},
+                 {"if(t < 0.5, 2.5 - 0.2*t, 3)", 2.5, -0.2},
+                 {"min(2 + 0.1*t, 1.5 - 0.2*t)", 1.5, -0.2},
+                 {"max(2 + 0.1*t, 1.5 - 0.2*t)", 2, 0.1}};
+    struct checks checks = {0};
+    (void)unused;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const double until = 0.2, h = 3 - cases[i].length, v = -cases[i].rate;
+        char text[600];
+        snprintf(text, sizeof text,
+                 "fbd: 1\nground: {points: {P: [0, 3]}}\nbodies: {load: {mass: 1, motion: {slide: {along: 90 "
+                 "deg}}, initial: {assemble: "
+                 "true}, forces: [gravity]}}\ncouplings: [rope: {through: [ground.P, load], length: "
+                 "\"%s\"}]\nsimulate: {until: %g}\n",
+                 cases[i].law, until);
+        struct trial trial = trial_parse(text);
+        check_close(&checks, cases[i].law, trial_get(&trial, "load.x"), h, 1e-12);
+        check_close(&checks, "v", trial_get(&trial, "load.v"), v, 1e-12);
+        trial_run(&trial, NULL);
+        check_close(&checks, "x", trial_get(&trial, "load.x"), h + v * until, 1e-11);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -383,6 +415,7 @@ int main(void)
         cmocka_unit_test(a_winch_that_jerks_ends_the_run),
         cmocka_unit_test(methods_agree_on_a_rope_from_drum_to_drum),
         cmocka_unit_test(a_weight_is_drawn_past_its_pulley),
+        cmocka_unit_test(a_winch_starts_on_its_branch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,6 +18,7 @@
 #include "base/file.h"
 #include "scene/scene.h"
 #include "sweep_table.h"
+#include "thorough.h"
 
 /* The row of a run by itself, its parameter set as --set sets it. */
 static void add_single(const char *text, const char *name, const char *value, struct text *row)
@@ -134,7 +135,8 @@ static void every_parameter_of_every_model_gives_the_bits_of_a_run_by_itself(voi
     snprintf(pattern, sizeof pattern, "%s/models/*/*.yaml", root);
     assert_int_equal(glob(pattern, 0, NULL, &found), 0);
     assert_true(found.gl_pathc > 20);
-    for (size_t i = 0; i < found.gl_pathc; i++) differ += compare_model(found.gl_pathv[i]);
+    const size_t every = thorough() ? 1 : 4;
+    for (size_t i = 0; i < found.gl_pathc; i += every) differ += compare_model(found.gl_pathv[i]);
     globfree(&found);
     assert_int_equal(differ, 0);
 }

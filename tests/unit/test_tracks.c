@@ -301,6 +301,48 @@ static void random_curves_agree(void **unused)
     checks_end(&checks);
 }
 
+/* ---- without gravity: N = m |kappa| v^2, so dv/ds = -mu |kappa| v, and v falls by exp(-mu (all that it turns)) */
+
+/* By how much y = A sin(k x + phase) turns from x to `end`, to the left and to the right. */
+static double turning(double A, double k, double phase, double x, double end)
+{
+    double sum = 0;
+    for (int j = (int)floor((k * x + phase) / pi) + 1; x < end; j++) { /* to the next inflection */
+        double next = fmin(end, (j * pi - phase) / k);
+        sum += fabs(atan(A * k * cos(k * next + phase)) - atan(A * k * cos(k * x + phase)));
+        x = next;
+    }
+    return sum;
+}
+
+/* Where nothing presses, what is left of forces is the rounding of a curvature. */
+static void a_bead_rubs_over_inflections(void **unused)
+{
+    struct checks checks = {0};
+    struct random_numbers numbers = {19112512};
+    (void)unused;
+    for (int i = 0; i < 60; i++) {
+        char text[800];
+        double A = random_between(&numbers, 0.1, 0.6), k = random_between(&numbers, 0.5, 3),
+               phase = random_between(&numbers, -3, 3), mu = random_between(&numbers, 0.05, 0.8),
+               v = random_between(&numbers, 0.5, 3), x = random_between(&numbers, -2, 0);
+        snprintf(text, sizeof text,
+                 "fbd: 1\ngravity: 0\nstates: {clock: {rate: 1, unit: s}}\nbodies:\n"
+                 "  bead: {mass: 1, motion: {track: {y: \"%.17g*sin(%.17g[1/m]*x + (%.17g))\", from: -5, to: "
+                 "9}},\n    initial: {x: %.17g, v: %.17g}, forces: [normal: {two_sided: true}, friction: "
+                 "%.17g]}\nsimulate: {until: 2}\n",
+                 A, k, phase, x, v, mu);
+        struct trial trial = trial_parse(text);
+        run(&trial);
+        check_that(&checks, "done", trial.outcome == FBD_DONE);
+        double end = trial_arrow(&trial, "normal").x;
+        check_close(&checks, "v", trial_get(&trial, "bead.v"), v * exp(-mu * turning(A, k, phase, x, end)),
+                    1e-8 * v);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -310,6 +352,7 @@ int main(void)
         cmocka_unit_test(a_turned_hoop_is_a_pendulum),
         cmocka_unit_test(a_bead_sticks),
         cmocka_unit_test(random_curves_agree),
+        cmocka_unit_test(a_bead_rubs_over_inflections),
     };
     return cmocka_run_group_tests_name("tracks", tests, NULL, NULL);
 }

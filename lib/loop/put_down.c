@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What bounces too low to be seen is put down on its surface.
+ */
+#include <string.h>
+
+#include "dynamics/contact.h"
+#include "dynamics/energy.h"
+#include "dynamics/impulse.h"
+#include "dynamics/project.h"
+#include "dynamics/tree_system.h"
+#include "loop/contacts.h"
+#include "loop/run.h"
+
+/* Within what a corner is about to come down; and what that moves of others, which are farther from where it turns. */
+static const double wide = 2 * contacts_low, levers = 8;
+
+static const struct tree *tree_of(const struct run *run)
+{
+    return run->model->tree;
+}
+
+/* A meeting whose series is summed up. */
+static int last_at_rest(const struct run *run)
+{
+    int last = 0;
+    for (int i = 0; i < tree_of(run)->meeting_count; i++)
+        if (run->contacts.bounces[i].rests_from < HUGE_VAL) last = i;
+    return last;
+}
+
+/* The largest speed that is lost, of those whose series are summed up. */
+static double slow_speed(const struct run *run)
+{
+    double slow = 0;
+    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
+        const struct bounces *bounces = &run->contacts.bounces[i];
+        if (bounces->rests_from < HUGE_VAL) slow = fmax(slow, bounces->slow);
+    }
+    return slow;
+}
+
+/* What parts faster than by what is lost goes on to do so: it only touches still. */
+static void let_part(struct run *run, double slow)
+{
+    const struct tree *tree = tree_of(run);
+    struct fbd_state *state = run->state;
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (tie->kind != constraint_contact || state->tree->ties[i].feature == no_feature) continue;
+        if (state->tree->rows[tie->first_row].g.x1 <= slow) continue;
+        state->tree->ties[i].feature = no_feature;
+        state->slip[tie->surface] = slip_plus;
+    }
+}
+
+/* A slip that friction ends within what counts as the same place, as the impacts that are left would. */
+static bool stops_at_once(const struct run *run, int index, double slow)
+{
+    const struct tie *tie = &tree_of(run)->ties[index];
+    const struct instant at = state_instant(run->state);
+    if (run->state->tree->ties[index].feature == no_feature) return false;
+    double mu = formula_value(&run->model->plan.modes[tie->pair].mu_k, &at);
+    double v_t = run->state->tree->rows[tie->first_row + 1].g.x1;
+    return v_t * v_t <= fmin(mu, 1) * slow * slow;
+}
+
+/* The longest way that shapes have gone since the look before. */
+static double way_since(const struct run *run, const struct tree_work *before)
+{
+    const struct tree *tree = tree_of(run);
+    double way = 0;
+    for (int i = 0; i < tree->meeting_count; i++)
+        for (int k = 0; k < 2; k++) {
+            const struct contact_shape *shape = &tree->meetings[i].shape[k];
+            const struct tree_state *a = &before->links[shape->link],
+                                    *b = &run->state->tree->links[shape->link];
+            double turned = fabs(b->angle - a->angle) * shape->radius;
+            way = fmax(way, vec_norm(vec_sub(b->p, a->p)) + turned);
+        }
+    return way;
+}
+
+/* Move shapes onto what they touch, and their speeds with `all`. False, with the state as it was, when that takes any of
+ * them far, as what leans flat against something while the feet of both stick. */
+static bool move_a_little(struct run *run, bool all)
+{
+    struct fbd_state *state = run->state, *before = run->contacts.trial;
+    double near = 0;
+    for (int i = 0; i < tree_of(run)->meeting_count; i++)
+        near = fmax(near, meeting_near(run->model, state->tree, i));
+    state_copy(before, state);
+    impulse_look(before);
+    if (all)
+        state_project(state, false);
+    else
+        state_project_position(state);
+    impulse_look(state);
+    bool little = way_since(run, before->tree) <= levers * wide * near;
+    if (!little) memcpy(state->y, before->y, plan_size(&run->model->plan) * sizeof *state->y);
+    return little;
+}
+
+/* Open what did not touch before. */
+static void open_others(struct run *run, const bool *was_touching)
+{
+    const struct tree *tree = tree_of(run);
+    struct fbd_state *state = run->state;
+    for (int i = 0; i < tree->tie_count; i++) {
+        if (was_touching[i] || state->tree->ties[i].feature == no_feature) continue;
+        state->tree->ties[i].feature = no_feature;
+        state->slip[tree->ties[i].surface] = slip_plus;
+    }
+}
+
+/* Close what touches; of meetings whose series is summed up within a share of what counts as touching. */
+static void close_within(struct run *run, double share)
+{
+    const struct tree *tree = tree_of(run);
+    const struct contacts_work *work = &run->contacts;
+    for (int i = 0; i < tree->meeting_count; i++) {
+        double near = meeting_near(run->model, run->state->tree, i);
+        contacts_find_touching(run, i, work->bounces[i].rests_from < HUGE_VAL ? share * near : near);
+    }
+    impulse_look(run->state);
+    double slow = slow_speed(run);
+    let_part(run, slow);
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (tie->kind != constraint_contact || tie->pair < 0) continue;
+        /* What comes down now holds nothing along its surface; what has stuck sticks. */
+        if (!work->touching[i]) run->state->slip[tie->pair] = slip_plus;
+        if (run->state->slip[tie->pair] == stick || !stops_at_once(run, i, slow)) continue;
+        tie_rezero(run->model, run->state->tree, i);
+        run->state->slip[tie->pair] = stick;
+    }
+}
+
+/* What bounces too low to be seen is put on its surface, and its speed from there taken away: what is left of
+ * the series does the same, and its impulses are those of the weight in that time. */
+int contacts_settle_down(struct run *run, int strikers)
+{
+    const struct tree *tree = tree_of(run);
+    struct contacts_work *work = &run->contacts;
+    bool *was_touching = work->touching;
+    double before = jointed_kinetic_energy(run->state);
+    contacts_take_leaving_speeds(run, strikers);
+    for (int i = 0; i < tree->tie_count; i++)
+        was_touching[i] = run->state->tree->ties[i].feature != no_feature;
+    close_within(run, wide);
+    if (!move_a_little(run, true)) {
+        open_others(run, was_touching); /* what is farther comes down by itself, later */
+        close_within(run, 1);
+        if (!move_a_little(run, true)) state_project_velocity(run->state, false);
+    }
+    impulse_look(run->state);
+    int count = contacts_find_strikers(run), last = last_at_rest(run);
+    run->impact_work[tree->ties[tree->meetings[last].first_tie].load] +=
+        jointed_kinetic_energy(run->state) - before;
+    for (int i = 0; i < count; i++) {
+        double *v = work->v + (ptrdiff_t)2 * i;
+        v[0] = 0;
+        v[1] = work->strikers[i].v_t;
+    }
+    return count;
+}
+
+bool contacts_lift_others(struct run *run)
+{
+    const struct tree *tree = tree_of(run);
+    struct fbd_state *state = run->state;
+    const struct instant at = state_instant(state);
+    bool *was_touching = run->contacts.touching, any = false;
+    for (int i = 0; i < tree->tie_count; i++) was_touching[i] = state->tree->ties[i].feature != no_feature;
+    for (int i = 0; i < tree->meeting_count; i++) {
+        double near = meeting_near(run->model, state->tree, i), deep = meeting_depth(run->model, &at, i);
+        if (!(deep > near && deep < levers * wide * near)) continue;
+        contacts_find_touching(run, i, fmax(wide * near, 1.001 * deep));
+        any = true;
+    }
+    any = any && move_a_little(run, false);
+    open_others(run, was_touching);
+    return any;
+}

@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/usual_words.h"
+
+#include <string.h>
+
+/* What textbooks call it, and what it is here. */
+struct usual {
+    const char *word, *hint;
+};
+
+static const char a_weight[] = "the weight is `gravity`, of the mass of the body",
+                  a_push[] = "a given force is `applied: {value: 5 N, angle: 30 deg}`",
+                  a_torque[] = "a given moment belongs under `moments`: `applied: 3 N*m`",
+                  a_couple[] = "a given moment is `applied: 3 N*m`",
+                  joins[] = "it joins two ends: write it under `couplings`",
+                  a_rope[] = "it is a `rope`, under `couplings`";
+
+static const struct usual usual_forces[] = {
+    {"weight", a_weight},
+    {"mg", a_weight},
+    {"g", a_weight},
+    {"force", a_push},
+    {"push", a_push},
+    {"pull", a_push},
+    {"load", a_push},
+    {"moment", a_torque},
+    {"torque", a_torque},
+    {"couple", a_torque},
+    {"tension", "a tension comes with its `rope` or `rod`, under `couplings`"},
+    {"rope", joins},
+    {"rod", joins},
+    {"string", a_rope},
+    {"cable", a_rope},
+    {"reaction", "reactions of joints and couplings are found, not given"},
+    {"N", "it is `normal`, of a slide; of shapes that touch it comes with `contacts`"},
+    {"normal_force", "it is `normal`, of a slide; of shapes that touch it comes with `contacts`"},
+    {"contact", "what can touch is listed under `contacts`, beside `bodies`"},
+    {"air", "it is `drag`"},
+    {"air_resistance", "it is `drag`"},
+    {"resistance", "it is `drag`"},
+    {"wind", "moving air is the `wind` of a `drag`: `drag: {linear: 0.4 N*s/m, wind: [2 m/s, 0]}`"},
+    {"dashpot", "it is a `damper`"},
+    {"viscous", "it is a `damper`"},
+    {"motor", a_push},
+};
+static const struct usual usual_moments[] = {
+    {"moment", a_couple},
+    {"torque", a_couple},
+    {"couple", a_couple},
+    {"motor", a_couple},
+    {"force", "forces belong under `forces`; those off the axis give their moment by themselves"},
+    {"gravity", "it belongs under `forces`, and gives its moment by itself"},
+    {"torsion", "it is a `spring`"},
+};
+static const struct usual usual_couplings[] = {
+    {"string", "it is a `rope`"},
+    {"cable", "it is a `rope`"},
+    {"cord", "it is a `rope`"},
+    {"bar", "it is a `rod`"},
+    {"link", "it is a `rod`"},
+    {"strut", "it is a `rod`"},
+    {"hinge", "it is a `pin`"},
+    {"joint", "it is a `pin`"},
+    {"chain", "it is a `belt`"},
+    {"rolling", "it is a `roll`"},
+    {"cam", "it is a `slot` with a closed curve and a `side`"},
+    {"groove", "it is a `slot`"},
+    {"guide", "it is a `slot`"},
+    {"capstan", "it is a `rope` with `around`"},
+    {"drum", "it is a `rope` with `wound`"},
+    {"winch", "it is a `rope` with `wound`, or with a `length` of t"},
+    {"rack_and_pinion", "it is a `rack`"},
+};
+
+static const char a_slide[] = "along a line it is a `slide`", a_pivot[] = "about an axis it is a `pivot`",
+                  a_point[] = "without turning it is a `particle`",
+                  a_curve[] = "along a curve it is a `track`: `{track: {y: ..., from: ..., to: ...}}`";
+static const struct usual usual_motions[] = {
+    {"free", "in the plane it is `planar`"},
+    {"fixed", "to another body it is a `weld`; what never moves is the ground"},
+    {"rigid", "to another body it is a `weld`; what never moves is the ground"},
+    {"hinge", a_pivot},
+    {"pin", a_pivot},
+    {"revolute", a_pivot},
+    {"rotation", a_pivot},
+    {"translation", a_slide},
+    {"prismatic", a_slide},
+    {"linear", a_slide},
+    {"point", a_point},
+    {"ball", a_point},
+    {"curve", a_curve},
+    {"wire", a_curve},
+    {"rail", a_curve},
+    {"roll", "it is `planar`, and rolls by a `roll` under `couplings`"},
+    {"rolling", "it is `planar`, and rolls by a `roll` under `couplings`"},
+};
+
+const char *kind_by_usual_word(const struct kinds *kinds, const char *word)
+{
+    const struct {
+        const struct kinds *kinds;
+        const struct usual *words;
+        size_t count;
+    } lists[] = {{&force_kinds, FIELDS(usual_forces)},
+                 {&moment_kinds, FIELDS(usual_moments)},
+                 {&coupling_kinds, FIELDS(usual_couplings)},
+                 {&motion_kinds, FIELDS(usual_motions)}};
+    for (size_t k = 0; k < sizeof lists / sizeof *lists; k++)
+        for (size_t i = 0; kinds == lists[k].kinds && i < lists[k].count; i++)
+            if (strcmp(word, lists[k].words[i].word) == 0) return lists[k].words[i].hint;
+    return NULL;
+}
