@@ -216,9 +216,9 @@ static double run_dirk(const struct problem *problem, const fbd_model *model, do
 }
 
 const struct solver sundials_solvers[] = {
-    {"CVODE Adams", false, true, false, run_adams},
-    {"CVODE BDF", true, false, false, run_bdf},
-    {"ARKODE, explicit order 8", false, true, false, run_erk},
-    {"ARKODE, DIRK order 5", true, false, false, run_dirk},
+    {.name = "CVODE Adams", .for_others = true, .run = run_adams},
+    {.name = "CVODE BDF", .for_stiff = true, .run = run_bdf},
+    {.name = "ARKODE, explicit order 8", .for_others = true, .run = run_erk},
+    {.name = "ARKODE, DIRK order 5", .for_stiff = true, .run = run_dirk},
 };
 const size_t sundials_solver_count = sizeof sundials_solvers / sizeof *sundials_solvers;
