@@ -185,3 +185,22 @@ void run_turn_normal(struct run *run, int pair)
              "friction, or end the run before by an event",
              run_time(run), run->model->bodies[mode->body].name, run->model->loads[mode->load].source->name);
 }
+
+void run_check_sides(struct run *run)
+{
+    const double slacks = 1e3;
+    const struct fbd_model *model = run->model;
+    for (size_t pair = 0; pair < model->plan.mode_count; pair++) {
+        const struct mode *mode = &model->plan.modes[pair];
+        bool rubs = mode->two_sided && mode->normal_slot >= 0 && friction_rubs(mode);
+        if (!rubs || run->state->slip[pair] == stick) continue;
+        double N = -run->state->slots[mode->normal_slot] * run->state->pull[pair];
+        if (N >= -slacks * press_slack(model, run->state->tree, mode->body)) continue;
+        run_fail(
+            run, FBD_FAILED,
+            "before t = %.9g `%s` jams: friction by `%s` feeds its own normal force, which grows without "
+            "bound. Less friction, or end the run before by an event",
+            run_time(run), model->bodies[mode->body].name, model->loads[mode->load].source->name);
+        return;
+    }
+}

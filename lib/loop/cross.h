@@ -15,6 +15,9 @@ void run_cross(struct run *run, const struct watcher *watcher);
  * size. Where friction feeds that force by more than all of it neither side agrees, which ends the run. */
 void run_turn_normal(struct run *run, int pair);
 
+/* End the run where such a normal force has come to the other side without an event: it has grown beyond all bounds. */
+void run_check_sides(struct run *run);
+
 /* End the run where a rounding or a periodic table is past counting (expr.h). */
 void run_check_counts(struct run *run);
 

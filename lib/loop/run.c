@@ -436,6 +436,7 @@ static bool apply_events(struct run *run, const struct turn *turn)
         /* Who shows forces shares them out: run_look, run_check_balance. */
         if (!run->lazy) run_evaluate(run);
         run_check_jam(run, true);
+        run_check_sides(run);
         run_renew_noise(run);
     }
     return true;

@@ -337,6 +337,48 @@ static void friction_that_feeds_its_normal_force_is_named(void **unused)
     checks_end(&checks);
 }
 
+/* A rod of 1 m pushes a block along its guide, from a slider that sinks to y = 0.9 - 0.2 t: a = -0.04/x^3 and
+ * N = m (g + a y/x)/(1 - mu y/x), with mu = 0.3 + c t. It grows without bound where mu y/x comes to 1: there it jams, and
+ * no run goes on behind. */
+static void what_jams_does_not_go_on(void **unused)
+{
+    static const char *const blocks[] = {
+        "b: {mass: 2, motion: slide, initial: {assemble: true, x: 0.436}, forces: [gravity, normal: "
+        "{two_sided: true}, friction: {static: 9, kinetic: 0.3 + %g*t}]}\ncouplings: [rod: {between: [a, b], "
+        "length: 1}]",
+        "b: {mass: 2, motion: particle, initial: {assemble: true, x: 0.436}, forces: [gravity]}\ncouplings: "
+        "[rod: "
+        "{between: [a, b], length: 1}, slot: {between: [b, ground.O], static: 9, kinetic: 0.3 + %g*t}]"};
+    static const double behind[] = {-1e-3, 1e-4, 1e-3, 0.02, 0.3};
+    struct checks checks = {0};
+    (void)unused;
+    for (int i = 0; i < 20; i++) {
+        double c = 1 + 0.2 * (i / 4), least = 0, most = 1;
+        for (int k = 0; k < 60; k++) {
+            double t = (least + most) / 2, y = 0.9 - 0.2 * t;
+            *((0.3 + c * t) * y / sqrt(1 - y * y) < 1 ? &least : &most) = t;
+        }
+        char block[500], text[900];
+        snprintf(block, sizeof block, blocks[i % 2], c);
+        double until = least + behind[i / 2 % 5], y = 0.9 - 0.2 * until, x = sqrt(1 - y * y);
+        snprintf(text, sizeof text,
+                 "fbd: 1\nground: {points: {O: [0, 0]}}\nbodies:\n  a: {mass: 1, motion: {slide: {along: 90 "
+                 "deg, x: "
+                 "0.9 - 0.2*t}}}\n  %s\nsimulate: {until: %.17g}\n",
+                 block, until);
+        struct trial trial = trial_parse(text);
+        trial_start(&trial, NULL);
+        double end = to_its_end(&trial);
+        bool done = trial.outcome == FBD_DONE;
+        check_that(&checks, "it goes on until it jams", done == (until < least));
+        check_that(&checks, "not before", end > least - 1e-2);
+        double N = 2 * (9.81 - 0.04 / (x * x * x) * y / x) / (1 - (0.3 + c * until) * y / x);
+        if (done) check_close(&checks, "rod", trial_arrow(&trial, "rod").fy, N - 2 * 9.81, 1e-7 * N);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -346,6 +388,7 @@ int main(void)
         cmocka_unit_test(a_drive_at_a_constant_place_holds),
         cmocka_unit_test(a_drive_beyond_its_reach_ends_the_run_by_name),
         cmocka_unit_test(friction_that_feeds_its_normal_force_is_named),
+        cmocka_unit_test(what_jams_does_not_go_on),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
