@@ -3,8 +3,8 @@
 
 #include <string.h>
 
+#include "dynamics/energy.h"
 #include "dynamics/kinematics.h"
-#include "dynamics/rest_system.h"
 #include "dynamics/rest_system.h"
 #include "expr/table.h"
 #include "loop/passages.h"
