@@ -185,6 +185,34 @@ static void find_surfaces(struct question *q)
     }
 }
 
+/* Where friction holds the coordinates of a switch, does the switch go on being zero as their surfaces move? A surface that
+ * is shaken would take them off the switch, which may hold them where they are. Else the sign of what it will be. */
+static int parted_from(const struct question *q, const struct asked *asked)
+{
+    static const double later[] = {1e-6, 1e-3, 0.1, 3.7}; /* s, of no period that anybody shakes with */
+    const double rounding = 1e-9;
+    const struct fbd_model *model = q->state->model;
+    struct sliding *s = q->state->sliding;
+    size_t n = (size_t)model->plan.n;
+    for (size_t k = 0; k < sizeof later / sizeof *later; k++) {
+        struct instant at = state_instant(q->state);
+        double size = 0, acceleration;
+        memcpy(s->shifted, at.y, plan_size(&model->plan) * sizeof *s->shifted);
+        at.t += later[k];
+        for (size_t i = 0; i < n; i++) {
+            double a = slope(q, asked, 1 + n + i);
+            int holder = a == 0 ? -1 : sliding_holder(model, &at, (int)i);
+            if (holder >= 0)
+                s->shifted[n + i] = friction_surface_speed(&model->plan.modes[holder], &at, &acceleration);
+            size += fabs(a * s->shifted[n + i]);
+        }
+        at.y = s->shifted;
+        double u = sliding_surface(s, model, &at, &model->plan.kinks[asked->kink], asked->part);
+        if (fabs(u) > rounding * size) return u > 0 ? 1 : -1;
+    }
+    return 0;
+}
+
 /* ---- does a choice agree? */
 
 /* How large a rate of a surface could be: to rounding it is zero against that. */
@@ -237,6 +265,8 @@ static bool agrees(struct question *q)
         if (slide > 0) {
             double share = s->slides[slide - 1].share;
             if (s->failed || !(share >= -rounding && share <= 1 + rounding)) return false;
+            bool held = s->held[s->slides[slide - 1].unit] != not_held;
+            if (held && parted_from(q, asked) != 0) return false;
             continue;
         }
         double zero = rounding * size_of_rate(q, asked), *flow = s->flow;
@@ -285,6 +315,19 @@ static void leave_friction(const struct question *q, const struct asked *asked, 
         int pair = slope(q, asked, 1 + n + i) == 0 ? -1 : friction_at_rest(q, (int)i);
         if (pair >= 0 && slips) slips[pair] = false;
         if (pair >= 0 && !slips) q->state->slip[pair] = stick;
+    }
+}
+
+/* Friction whose surface moves off the switch slips: the switch holds its coordinate. */
+static void part_friction(const struct question *q, const struct asked *asked)
+{
+    size_t n = (size_t)q->state->model->plan.n;
+    int side = parted_from(q, asked);
+    for (size_t i = 0; i < n && side != 0; i++) {
+        double a = slope(q, asked, 1 + n + i);
+        int pair = a == 0 ? -1 : friction_at_rest(q, (int)i);
+        if (pair >= 0)
+            q->state->sliding->aside[pair] = q->state->slip[pair] = a * side > 0 ? slip_minus : slip_plus;
     }
 }
 
@@ -338,6 +381,7 @@ static bool choose(struct question *q, const struct decided *decided, int choice
     bool lands = false;
     for (int unit = 0; unit < q->units; unit++, choice /= 3) digit[unit] = choice % 3;
     for (int j = 0; j < s->count; j++) s->slide_at[s->slides[j].branch] = 0;
+    memset(s->aside, 0, state->model->plan.mode_count * sizeof *s->aside);
     sliding_drop(s);
     for (int i = 0; i < state->model->plan.branches; i++) s->keep[i] = decided && decided->branches[i];
     for (int i = 0; i < q->count; i++) {
@@ -354,7 +398,10 @@ static bool choose(struct question *q, const struct decided *decided, int choice
     if (s->count > 0) sliding_number(s);
     if (lands) sliding_project(state); /* before friction asks whether it moves */
     for (int i = 0; i < q->count; i++)
-        if (digit[q->list[i].unit] == 0 && is_held(q, &q->list[i])) leave_friction(q, &q->list[i], NULL);
+        if (digit[q->list[i].unit] == 0 && is_held(q, &q->list[i])) {
+            leave_friction(q, &q->list[i], NULL);
+            part_friction(q, &q->list[i]);
+        }
     return true;
 }
 

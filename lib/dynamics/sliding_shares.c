@@ -136,14 +136,14 @@ static void set_shares(struct sliding *s)
     }
 }
 
-bool sliding_is_held(const struct fbd_model *model, const struct instant *at, int coordinate)
+int sliding_holder(const struct fbd_model *model, const struct instant *at, int coordinate)
 {
-    for (size_t pair = 0; pair < model->plan.mode_count; pair++) {
+    for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
         const struct mode *mode = &model->plan.modes[pair];
         if (mode_is_joint_friction(mode) && mode->coordinate == coordinate && at->slip[pair] == stick)
-            return true;
+            return pair;
     }
-    return false;
+    return -1;
 }
 
 /* Friction keeps the coordinates of a surface at rest. Where there is one, the switch holds first and friction what is
@@ -161,8 +161,9 @@ static int held_coordinate(const struct fbd_model *model, const struct instant *
         double slope = sliding_surface_rate(s, model, at, kink, s->slides[first].part, 0, s->flow);
         s->flow[n + i] = 0;
         if (slope == 0) continue;
-        if (!sliding_is_held(model, at, i)) return not_held;
-        held = i;
+        int holder = sliding_holder(model, at, i);
+        if (holder < 0) return not_held;
+        held = model->plan.modes[holder].hold_slot;
         count++;
     }
     return count > 1 ? all_held : held;
@@ -174,7 +175,7 @@ static void find_held(const struct fbd_model *model, const struct instant *at)
     for (int unit = 0; unit < s->units; unit++) s->held[unit] = held_coordinate(model, at, unit);
 }
 
-/* Where a coordinate is held, its sum of forces takes the place of the rate of its surface; where all are, what the
+/* Where a coordinate is held, what its friction would have to hold takes the place of the rate of its surface; where all are, what the
  * share differs from the middle by, here `off`. */
 static void put_held(const struct sliding *s, const double *slots, const double *off, double *rates)
 {
