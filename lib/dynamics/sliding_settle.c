@@ -185,32 +185,10 @@ static void find_surfaces(struct question *q)
     }
 }
 
-/* Where friction holds the coordinates of a switch, does the switch go on being zero as their surfaces move? A surface that
- * is shaken would take them off the switch, which may hold them where they are. Else the sign of what it will be. */
-static int parted_from(const struct question *q, const struct asked *asked)
+static int parted_from(const struct fbd_state *state, const struct asked *asked)
 {
-    static const double later[] = {1e-6, 1e-3, 0.1, 3.7}; /* s, of no period that anybody shakes with */
-    const double rounding = 1e-9;
-    const struct fbd_model *model = q->state->model;
-    struct sliding *s = q->state->sliding;
-    size_t n = (size_t)model->plan.n;
-    for (size_t k = 0; k < sizeof later / sizeof *later; k++) {
-        struct instant at = state_instant(q->state);
-        double size = 0, acceleration;
-        memcpy(s->shifted, at.y, plan_size(&model->plan) * sizeof *s->shifted);
-        at.t += later[k];
-        for (size_t i = 0; i < n; i++) {
-            double a = slope(q, asked, 1 + n + i);
-            int holder = a == 0 ? -1 : sliding_holder(model, &at, (int)i);
-            if (holder >= 0)
-                s->shifted[n + i] = friction_surface_speed(&model->plan.modes[holder], &at, &acceleration);
-            size += fabs(a * s->shifted[n + i]);
-        }
-        at.y = s->shifted;
-        double u = sliding_surface(s, model, &at, &model->plan.kinks[asked->kink], asked->part);
-        if (fabs(u) > rounding * size) return u > 0 ? 1 : -1;
-    }
-    return 0;
+    const struct instant at = state_instant(state);
+    return sliding_parted(state->model, &at, &state->model->plan.kinks[asked->kink], asked->part);
 }
 
 /* ---- does a choice agree? */
@@ -266,7 +244,7 @@ static bool agrees(struct question *q)
             double share = s->slides[slide - 1].share;
             if (s->failed || !(share >= -rounding && share <= 1 + rounding)) return false;
             bool held = s->held[s->slides[slide - 1].unit] != not_held;
-            if (held && parted_from(q, asked) != 0) return false;
+            if (held && parted_from(q->state, asked) != 0) return false;
             continue;
         }
         double zero = rounding * size_of_rate(q, asked), *flow = s->flow;
@@ -322,7 +300,7 @@ static void leave_friction(const struct question *q, const struct asked *asked, 
 static void part_friction(const struct question *q, const struct asked *asked)
 {
     size_t n = (size_t)q->state->model->plan.n;
-    int side = parted_from(q, asked);
+    int side = parted_from(q->state, asked);
     for (size_t i = 0; i < n && side != 0; i++) {
         double a = slope(q, asked, 1 + n + i);
         int pair = a == 0 ? -1 : friction_at_rest(q, (int)i);

@@ -169,6 +169,34 @@ static int held_coordinate(const struct fbd_model *model, const struct instant *
     return count > 1 ? all_held : held;
 }
 
+int sliding_parted(const struct fbd_model *model, const struct instant *given, const struct kink *kink,
+                   int part)
+{
+    static const double later[] = {1e-6, 1e-3, 0.1, 3.7}; /* s, of no period that anybody shakes with */
+    const double rounding = 1e-9;
+    struct sliding *s = given->sliding;
+    size_t n = (size_t)model->plan.n, size = plan_size(&model->plan);
+    for (size_t k = 0; k < sizeof later / sizeof *later; k++) {
+        struct instant at = *given;
+        double speeds = 0, acceleration;
+        memcpy(s->shifted, given->y, size * sizeof *s->shifted);
+        at.t += later[k];
+        for (size_t i = 0; i < n; i++) {
+            memset(s->flow, 0, size * sizeof *s->flow);
+            s->flow[n + i] = 1;
+            double slope = sliding_surface_rate(s, model, given, kink, part, 0, s->flow);
+            int holder = slope == 0 ? -1 : sliding_holder(model, &at, (int)i);
+            if (holder >= 0)
+                s->shifted[n + i] = friction_surface_speed(&model->plan.modes[holder], &at, &acceleration);
+            speeds += fabs(slope * s->shifted[n + i]);
+        }
+        at.y = s->shifted;
+        double u = sliding_surface(s, model, &at, kink, part);
+        if (fabs(u) > rounding * speeds) return u > 0 ? 1 : -1;
+    }
+    return 0;
+}
+
 static void find_held(const struct fbd_model *model, const struct instant *at)
 {
     struct sliding *s = at->sliding;
