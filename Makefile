@@ -72,10 +72,15 @@ cross-check: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	$(BUILD)/tests/cross/cross_check --scenes $(SCENES) --seed $(SEED) --variants 10 --jobs 2 $(if $(KIND),--of $(KIND))
 
+# What is promised of speed, measured: writes docs/accuracy.md and one table of all bounds, $(BUILD)/bench.md; some
+# minutes. `make measurements` is for what judges nothing.
 bench: $(BUILD)/.tests
 	ninja -C $(BUILD)
+	tests/bench/table $(BUILD) docs/accuracy.md
+
+measurements: $(BUILD)/.tests
+	ninja -C $(BUILD)
 	meson test -C $(BUILD) --no-rebuild --benchmark --verbose
-	$(BUILD)/tests/bench/bench_accuracy . docs/accuracy.md
 
 # Counts instructions anew and puts them into docs/effects.md.
 effects: $(BUILD)/.tests
@@ -242,5 +247,5 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run mutants test sanitize tsan valgrind faults cross-check fuzz bench effects error-bars event-bars events late-times implicit tighter methods impacts failures gallery python live live-check site check-format format lint install uninstall dist deb deb-check clean
+.PHONY: all run mutants test sanitize tsan valgrind faults cross-check fuzz bench measurements effects error-bars event-bars events late-times implicit tighter methods impacts failures gallery python live live-check site check-format format lint install uninstall dist deb deb-check clean
 .SECONDARY:

@@ -240,19 +240,36 @@ static double remoteness(const struct fbd_model *model, const struct instant *at
     return place * (turns + fabs(bend) * size);
 }
 
+/* The largest speed of a link, and of what turns with one at the distance `arm`; found once for each
+ * evaluation. */
+static double fastest(const struct tree *tree, struct tree_work *work, double arm)
+{
+    if (work->fastest < 0) {
+        work->fastest = work->spin = 0;
+        for (int i = 1; i < tree->count; i++) {
+            work->fastest = fmax(work->fastest, vec_norm(work->links[i].v));
+            work->spin = fmax(work->spin, fabs(work->links[i].omega));
+        }
+    }
+    return fmax(work->fastest, work->spin * arm);
+}
+
 double tie_slip_rounding(const struct fbd_model *model, const struct instant *at, int tie)
 {
     const struct row *row = row_along(model, at->tree, tie);
     bool touches = model->tree->ties[tie].meeting >= 0;
-    double size = 0;
+    double size = 0, reach = 0;
     for (int k = 0; k < row->port_count; k++) {
         const struct tree_state *s = &at->tree->links[row->ports[k].link];
         double arm = vec_norm(row->ports[k].arm);
+        reach = fmax(reach, arm);
         size = fmax(size, vec_norm(s->v) + fabs(s->omega) * arm);
         /* What has come down and rests has no speed to measure rounding against but that of falling over. */
         if (touches) size = fmax(size, sqrt(vec_norm(model->scene->gravity) * arm));
     }
-    return 64 * DBL_EPSILON * (size + remoteness(model, at, tie, size));
+    /* What rests was brought to rest by a projection, with what moves. */
+    return 64 * DBL_EPSILON * (size + remoteness(model, at, tie, size)) +
+           4 * DBL_EPSILON * fastest(model->tree, at->tree, reach);
 }
 
 double tie_slip_velocity(const struct fbd_model *model, const struct instant *at, int tie)
@@ -283,20 +300,6 @@ void tie_rezero(const struct fbd_model *model, struct tree_work *work, int tie)
 }
 
 /* ---- what is one-sided */
-
-/* The largest speed of a link, and of what turns with one at the distance `arm`; found once for each
- * evaluation. */
-static double fastest(const struct tree *tree, struct tree_work *work, double arm)
-{
-    if (work->fastest < 0) {
-        work->fastest = work->spin = 0;
-        for (int i = 1; i < tree->count; i++) {
-            work->fastest = fmax(work->fastest, vec_norm(work->links[i].v));
-            work->spin = fmax(work->spin, fabs(work->links[i].omega));
-        }
-    }
-    return fmax(work->fastest, work->spin * arm);
-}
 
 bool slot_is_open(const struct tie *tie, const int *slip)
 {

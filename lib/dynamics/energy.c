@@ -28,8 +28,14 @@ double kinetic_energy(const struct model_body *body, const struct instant *at)
 double jointed_kinetic_energy(struct fbd_state *state)
 {
     struct instant at = state_instant(state);
-    double sum = 0;
     tree_move(state->model, &at);
+    return standing_kinetic_energy(state);
+}
+
+double standing_kinetic_energy(struct fbd_state *state)
+{
+    struct instant at = state_instant(state);
+    double sum = 0;
     for (size_t b = 0; b < state->model->body_count; b++)
         if (state->model->bodies[b].place.link > 0) sum += kinetic_energy(&state->model->bodies[b], &at);
     return sum;

@@ -168,14 +168,13 @@ void accelerations(const struct fbd_model *model, const struct instant *at, doub
     if (at->sliding) sliding_clear_rounding(at->sliding, model->plan.n, a);
 }
 
-void accelerations_along_at_shares(const struct fbd_model *model, const struct instant *given,
-                                   const struct direction *direction, double *slots, double *slots_along,
-                                   double *a_along)
+/* Right after force_balance at the same instant, which is extended. */
+static void vary_balance(const struct fbd_model *model, const struct instant *at,
+                         const struct direction *direction, double *slots, double *slots_along,
+                         double *a_along)
 {
     const struct plan *plan = &model->plan;
-    const struct instant extended = instant_extend(model, given), *at = &extended;
     const struct direction extended_along = direction_extend(model, at, direction), *along = &extended_along;
-    force_balance(model, at, slots);
     force_balance_along(model, at, along, slots, slots_along);
     for (int pair = 0; pair < (int)plan->mode_count; pair++) {
         if (at->slip[pair] == stick || plan->modes[pair].kind != mode_single) continue;
@@ -192,6 +191,15 @@ void accelerations_along_at_shares(const struct fbd_model *model, const struct i
         double jerk = friction_surface_jerk(mode, at);
         a_along[mode->coordinate] = jerk * along->dt;
     }
+}
+
+void accelerations_along_at_shares(const struct fbd_model *model, const struct instant *given,
+                                   const struct direction *direction, double *slots, double *slots_along,
+                                   double *a_along)
+{
+    const struct instant at = instant_extend(model, given);
+    force_balance(model, &at, slots);
+    vary_balance(model, &at, direction, slots, slots_along, a_along);
 }
 
 void accelerations_along(const struct fbd_model *model, const struct instant *at,
@@ -228,19 +236,27 @@ void state_rates(const struct fbd_model *model, const struct instant *at, double
                 friction_surface_speed(&plan->modes[pair], at, &acceleration);
 }
 
-void state_jacobian(const struct fbd_model *model, const struct instant *at, double *scratch, double *dfdy,
+/* The variation of accelerations along a direction: of what slides with its own solution each time. */
+typedef void vary_function(const struct fbd_model *model, const struct instant *at,
+                           const struct direction *along, double *slots, double *slots_along,
+                           double *a_along);
+
+void state_jacobian(const struct fbd_model *model, const struct instant *given, double *scratch, double *dfdy,
                     double *dfdt)
 {
     const struct plan *plan = &model->plan;
+    const struct instant extended = instant_extend(model, given), *at = &extended;
+    vary_function *vary = at->sliding ? accelerations_along : vary_balance;
     size_t n = (size_t)plan->n, size = plan_size(plan);
     struct scratch of = scratch_of(plan, scratch);
     double *slots = of.slots, *slots_along = of.slots_along, *dy = of.dy, *column = of.column;
     memset(dfdy, 0, size * size * sizeof *dfdy);
     memset(dy, 0, size * sizeof *dy);
+    if (!at->sliding) force_balance(model, at, slots); /* once for all directions */
     for (size_t j = 0; j < size; j++) {
         struct direction along = {0, dy};
         dy[j] = 1;
-        accelerations_along(model, at, &along, slots, slots_along, column);
+        vary(model, at, &along, slots, slots_along, column);
         if (plan->own > 0) own_rates_along(model, at, &along, column + n);
         dy[j] = 0;
         for (size_t i = 0; i < size - n; i++) dfdy[(n + i) * size + j] = column[i];
@@ -248,7 +264,7 @@ void state_jacobian(const struct fbd_model *model, const struct instant *at, dou
     }
     struct direction in_time = {1, dy};
     memset(dfdt, 0, n * sizeof *dfdt);
-    accelerations_along(model, at, &in_time, slots, slots_along, dfdt + n);
+    vary(model, at, &in_time, slots, slots_along, dfdt + n);
     if (plan->own > 0) own_rates_along(model, at, &in_time, dfdt + 2 * n);
     for (int pair = 0; pair < (int)plan->mode_count; pair++) {
         if (!holds_coordinate(plan, at, pair)) continue;

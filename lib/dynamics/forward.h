@@ -51,7 +51,7 @@ void body_rates(const struct fbd_model *model, int b, const struct instant *at, 
 
 /* The exact Jacobian: dfdy[plan_size x plan_size] row by row and dfdt[plan_size]. `scratch` has 2 plan.slots + 3 n
  * + 2 own entries. */
-void state_jacobian(const struct fbd_model *model, const struct instant *at, double *scratch, double *dfdy,
+void state_jacobian(const struct fbd_model *model, const struct instant *given, double *scratch, double *dfdy,
                     double *dfdt);
 
 #endif

@@ -325,6 +325,15 @@ void watchers_evaluate_timed(const struct watchers *watchers, struct fbd_state *
     }
 }
 
+static double user_rate(const struct watch *watch, struct fbd_state *state)
+{
+    struct view view = {.state = state, .at = state_instant(state)};
+    double rate;
+    set_flow(&view, false);
+    user_value(watch, &view, &rate);
+    return rate;
+}
+
 /* What drives bring to rest smoothly and take on again has a speed of rounding for a while. */
 static void calm_driven(struct watchers *watchers, const struct fbd_state *state, double step)
 {
@@ -348,15 +357,16 @@ void watchers_arm(struct watchers *watchers, struct fbd_state *state, double ste
     const struct plan *plan = &state->model->plan;
     if (state->tree) calm_driven(watchers, state, step);
     if (plan->watch_count == 0) return;
-    struct view view = {.state = state, .at = state_instant(state)};
-    set_flow(&view, false);
+    const struct instant now = state_instant(state), at = instant_extend(state->model, &now);
     for (size_t i = 0; i < plan->watch_count; i++) {
-        double rate, value = user_value(&plan->watches[i], &view, &rate), size = fabs(value);
+        const struct watch *watch = &plan->watches[i];
+        double value = formula_value(&watch->left, &at) - formula_value(&watch->right, &at),
+               size = fabs(value);
         if (size > watchers->most[i] && size < HUGE_VAL) watchers->most[i] = size;
         double width = watchers->width * watchers->most[i];
         watchers->band[i] = size <= width ? width : 0;
         if (watchers->armed[i] != 0) continue;
-        double side = value != 0 ? value : rate;
+        double side = value != 0 ? value : user_rate(watch, state);
         watchers->armed[i] = side > 0 ? 1 : side < 0 ? -1 : 0;
     }
 }

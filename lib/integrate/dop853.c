@@ -232,22 +232,41 @@ static int dop853_apply(void *state, size_t n, double t, double h, double y[], d
     return GSL_SUCCESS;
 }
 
-/* h times the sum over all stages with these coefficients, for component i. For what is not worth writing
- * out. */
-static double weighted(struct dop853 *s, const double *coefficient, size_t i)
+/* The arguments of the stages that dense output alone needs, written out as those of the step: every step with something
+ * to watch makes them. */
+static int dense_stages(struct dop853 *s, const gsl_odeiv2_system *sys)
 {
-    double sum = 0;
-    for (size_t j = 1; j <= dop853_stages; j++)
-        if (coefficient[j] != 0) sum += coefficient[j] * s->v[j * s->n + i];
-    return s->h * sum;
+    const double(*a)[dop853_stages + 1] = dop853_a;
+    const double *k1 = vector(s, 1), *k6 = vector(s, 6), *k7 = vector(s, 7), *k8 = vector(s, 8);
+    const double *k9 = vector(s, 9), *k10 = vector(s, 10), *k11 = vector(s, 11), *k12 = vector(s, 12);
+    const double *k13 = vector(s, 13), *k14 = vector(s, 14), *k15 = vector(s, 15), *y0 = vector(s, v_start);
+    volatile double *u = vector(s, v_argument);
+    double h = s->h;
+    size_t n = s->n;
+    int status;
+    for (size_t i = 0; i < n; i++)
+        u[i] =
+            y0[i] + h * (a[14][1] * k1[i] + a[14][7] * k7[i] + a[14][8] * k8[i] + a[14][9] * k9[i] +
+                         a[14][10] * k10[i] + a[14][11] * k11[i] + a[14][12] * k12[i] + a[14][13] * k13[i]);
+    if ((status = evaluate(s, 14, sys))) return status;
+    for (size_t i = 0; i < n; i++)
+        u[i] =
+            y0[i] + h * (a[15][1] * k1[i] + a[15][6] * k6[i] + a[15][7] * k7[i] + a[15][8] * k8[i] +
+                         a[15][11] * k11[i] + a[15][12] * k12[i] + a[15][13] * k13[i] + a[15][14] * k14[i]);
+    if ((status = evaluate(s, 15, sys))) return status;
+    for (size_t i = 0; i < n; i++)
+        u[i] = y0[i] + h * (a[16][1] * k1[i] + a[16][6] * k6[i] + a[16][7] * k7[i] + a[16][8] * k8[i] +
+                            a[16][9] * k9[i] + a[16][13] * k13[i] + a[16][14] * k14[i] + a[16][15] * k15[i]);
+    return evaluate(s, 16, sys);
 }
 
-static int dense_stage(struct dop853 *s, int row, const gsl_odeiv2_system *sys)
+/* h times the sum with a row d, for the component whose first stage is k; stages are n apart. */
+static inline double high_term(double h, const double *d, const double *k, size_t n)
 {
-    const double *y0 = vector(s, v_start);
-    double *u = vector(s, v_argument);
-    for (size_t i = 0; i < s->n; i++) u[i] = y0[i] + weighted(s, dop853_a[row], i);
-    return evaluate(s, row, sys);
+    const double *k6 = k + 5 * n;
+    return h * (d[1] * k[0] + d[6] * k6[0] + d[7] * k6[n] + d[8] * k6[2 * n] + d[9] * k6[3 * n] +
+                d[10] * k6[4 * n] + d[11] * k6[5 * n] + d[12] * k6[6 * n] + d[13] * k6[7 * n] +
+                d[14] * k6[8 * n] + d[15] * k6[9 * n] + d[16] * k6[10 * n]);
 }
 
 /* The polynomial of dop853_dense_eval from its end values and end slopes, and from the rows d (HNW I,
@@ -265,7 +284,7 @@ static void set_polynomial(struct dop853 *s)
         c[n + i] = rise;
         c[2 * n + i] = bend;
         c[3 * n + i] = rise - s->h * k13[i] - bend;
-        for (size_t m = 0; m < 4; m++) c[(4 + m) * n + i] = weighted(s, dop853_d[m], i);
+        for (size_t m = 0; m < 4; m++) c[(4 + m) * n + i] = high_term(s->h, dop853_d[m], k1 + i, n);
     }
 }
 
@@ -277,7 +296,7 @@ int dop853_dense_prepare(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys)
     if (s->prepared) return GSL_SUCCESS;
     int status = GSL_SUCCESS;
     if (!s->has_end_slope) status = GSL_ODEIV_FN_EVAL(sys, s->t + s->h, vector(s, v_end), vector(s, 13));
-    for (int row = 14; row <= 16 && status == GSL_SUCCESS; row++) status = dense_stage(s, row, sys);
+    if (status == GSL_SUCCESS) status = dense_stages(s, sys);
     if (status != GSL_SUCCESS) return status;
     set_polynomial(s);
     s->prepared = true;

@@ -175,17 +175,20 @@ static bool overlong_rope(struct run *run, double most)
     return false;
 }
 
-/* Bring the end of the step back, and note what that took; returns what is still left. */
-static struct misfit bring_back(struct run *run, struct misfit *misfit)
+/* Bring the end of the step back, and note what that took; returns what is still left. `energy` is that of the motion
+ * before and after. */
+static struct misfit bring_back(struct run *run, struct misfit *misfit, double energy[2])
 {
     struct drift *drift = &run->drift;
     *misfit = state_misfit(run->state);
+    energy[0] = standing_kinetic_energy(run->state);
     if (misfit->row >= 0 && (!drift->worst || misfit->position > drift->position))
         drift->worst = tie_row_name(run->model->tree, misfit->row);
     drift->position = fmax(drift->position, misfit->position);
     drift->velocity = fmax(drift->velocity, misfit->velocity);
     state_return(run->state);
     struct misfit left = state_misfit(run->state);
+    energy[1] = standing_kinetic_energy(run->state);
     drift->left_position = fmax(drift->left_position, left.position);
     drift->left_velocity = fmax(drift->left_velocity, left.velocity);
     return left;
@@ -239,9 +242,9 @@ void run_close_step(struct run *run)
     if (!has_ties(run)) return;
     struct misfit misfit;
     run->projected = true;
-    double before = jointed_kinetic_energy(run->state);
-    struct misfit left = bring_back(run, &misfit);
-    double after = jointed_kinetic_energy(run->state);
+    double energy[2];
+    struct misfit left = bring_back(run, &misfit, energy);
+    const double before = energy[0], after = energy[1];
     constraints_follow(run->model, run->state->tree);
     run->liveliest = fmax(run->liveliest, fmax(before, after));
     double reach = measure(run);
@@ -277,6 +280,7 @@ void run_close_step(struct run *run)
 void run_check_balance(struct run *run)
 {
     struct text lack = {0};
+    run_evaluate(run);
     if (run->end.outcome == FBD_GOING && balance_lack(run->state, run->work.arrows, &lack))
         run_fail(run, FBD_FAILED, "%s", lack.failed ? "" : lack.data);
     text_free(&lack);

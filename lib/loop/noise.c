@@ -4,6 +4,7 @@
 
 #include "dynamics/constraint.h"
 #include "dynamics/own.h"
+#include "dynamics/tree_bare.h"
 #include "loop/run.h"
 
 /* How much the links from the ground to each have turned in all: an angle in the world is their sum, and has
@@ -142,6 +143,10 @@ static void changes(struct run *run, const struct instant *at, bool by_time, dou
 {
     const struct plan *plan = &run->model->plan;
     struct scratch scratch = state_scratch(run->state);
+    if (by_time && tree_is_bare(run->model)) { /* no force names the time, and nothing is prescribed */
+        memset(along, 0, plan_rates(plan) * sizeof *along);
+        return;
+    }
     struct direction flow = state_flow(run->state, run->work.sample);
     if (by_time) take_driven(run, run->work.sample);
     accelerations_along(run->model, at, &flow, scratch.slots, scratch.slots_along, along);
@@ -309,6 +314,7 @@ void run_renew_noise(struct run *run)
     const unsigned long steps = 64; /* costs a hundredth of them */
     bool due = run->model->tree && ++run->grain.since >= steps;
     if (!due && !switcher_noise_counts(run->stepper, run->step.h)) return;
+    run_evaluate(run);
     set_noise(run);
     run->grain.since = 0;
 }

@@ -102,6 +102,8 @@ static bool make_run(struct run *run, const struct state_start *begin)
     if (!run->work.values || !run->work.kept || !run->work.crossed || !run->recent.anchor ||
         !run->work.arrows || !run->impact_work)
         return false;
+    bool meets = run->model->tree && run->model->tree->meeting_count > 0;
+    run->lazy = plan->mode_count == 0 && plan->kink_count == 0 && run->poles.count == 0 && !meets;
     run->rates = rates_new(run->during, rates_by_rows);
     if (!run->rates) return false;
     gsl_odeiv2_system system = {.jacobian = jacobian, .dimension = size};
@@ -209,9 +211,16 @@ void run_free(struct run *run)
 
 /* ---- one turn */
 
+void run_evaluate(struct run *run)
+{
+    if (run->stale) state_evaluate_unshared(run->state);
+    run->stale = false;
+}
+
 /* Start the stepper at the present state. */
 static bool restart(struct run *run)
 {
+    run_evaluate(run);
     memcpy(run->work.y, run->state->y, plan_size(&run->model->plan) * sizeof *run->work.y);
     scan_forget(&run->search.timed);
     scan_forget(&run->search.moving);
@@ -419,12 +428,13 @@ static bool apply_events(struct run *run, const struct turn *turn)
     bool happens = turn->moving || turn->timed || run->contacts.due;
     if (happens) run_check_jam(run, false);
     if (run->end.outcome != FBD_GOING) return false;
+    run->stale = !happens;
     if (happens) {
         run_apply(run, turn->timed ? run->search.timed.crossed : NULL,
                   turn->moving ? run->search.moving.crossed : NULL);
     } else {
         /* Who shows forces shares them out: run_look, run_check_balance. */
-        state_evaluate_unshared(run->state);
+        if (!run->lazy) run_evaluate(run);
         run_check_jam(run, true);
         run_renew_noise(run);
     }
@@ -437,6 +447,7 @@ static void end_step(struct run *run, const struct turn *turn)
     bool at_end = turn->t.t >= run->options.until;
     run_note_rests(run);
     passages_note(run);
+    if (at_end) run_evaluate(run); /* with the places that user events name */
     if (at_end) run_apply_touched(run, false);
     if (turn->moving || turn->timed || at_end) run_check_balance(run);
     if (run->end.outcome == FBD_GOING && at_end) run->end.outcome = FBD_DONE;

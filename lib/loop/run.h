@@ -153,6 +153,8 @@ struct run {
     struct fbd_state *during; /* modes of the last step; its scratch serves samples within it */
     struct stride step;
     struct ending end;
+    bool lazy;  /* no step asks for the forces of `state`: no modes, poles and contacts */
+    bool stale; /* they have not been found for its time */
 
     struct counted_system system;
     struct rates *rates; /* in the modes of `during` */
@@ -183,6 +185,9 @@ struct run {
 struct run *run_new(const struct fbd_model *model, const struct run_options *options,
                     const struct state_start *begin);
 void run_free(struct run *run);
+
+/* Forces and accelerations of run->state, where they are stale. */
+void run_evaluate(struct run *run);
 
 /* One turn of the loop. */
 fbd_outcome run_advance(struct run *run);

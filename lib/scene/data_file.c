@@ -442,23 +442,36 @@ static bool is_plain_file(const char *path, struct pos at, fbd_errors *errors)
     return false;
 }
 
+void data_text_free(struct data_text *kept)
+{
+    free(kept->text);
+    *kept = (struct data_text){NULL, NULL, 0};
+}
+
+static bool read_once(struct data_text *kept, const char *path, fbd_errors *errors)
+{
+    if (kept->path && strcmp(kept->path, path) == 0) return true;
+    data_text_free(kept);
+    kept->text = file_text(path, &kept->length, errors);
+    kept->path = kept->text ? path : NULL;
+    return kept->text != NULL;
+}
+
 bool data_file_read(const char *path, const char *const wanted[2], const struct data_places *places,
-                    fbd_errors *errors, struct data_columns *columns)
+                    struct data_text *kept, fbd_errors *errors, struct data_columns *columns)
 {
     const char *model_file = errors->file;
-    size_t length = 0;
     bool fine = false;
     *columns = (struct data_columns){.count = 0};
     diag_reads(errors, path);
     if (!is_plain_file(path, places->file, errors)) return false;
     diag_in_file(errors, path);
-    columns->text = file_text(path, &length, errors);
-    if (columns->text) {
-        struct data_reader reader = {.rest = {columns->text, length}, .errors = errors};
-        bool wide = length >= 2 &&
-                    (memcmp(columns->text, "\xFF\xFE", 2) == 0 || memcmp(columns->text, "\xFE\xFF", 2) == 0);
-        if (length >= 3 && memcmp(columns->text, "\xEF\xBB\xBF", 3) == 0)
-            reader.rest = (struct span){columns->text + 3, length - 3};
+    if (read_once(kept, path, errors)) {
+        const char *text = kept->text;
+        const size_t length = kept->length,
+                     mark = length >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
+        struct data_reader reader = {.rest = {text + mark, length - mark}, .errors = errors};
+        bool wide = length >= 2 && (memcmp(text, "\xFF\xFE", 2) == 0 || memcmp(text, "\xFE\xFF", 2) == 0);
         if (wide)
             diag_add(errors, FBD_ERROR, "table-format", (struct pos){1, 1}, "save it as UTF-8",
                      "the file is a text in UTF-16");
@@ -472,5 +485,4 @@ void data_columns_free(struct data_columns *columns)
 {
     for (int k = 0; k < 2; k++) free(columns->values[k]);
     free(columns->lines);
-    free(columns->text);
 }

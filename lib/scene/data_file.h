@@ -26,10 +26,17 @@ struct data_columns {
     double *values[2]; /* count each; to be freed */
     size_t count;
     int *lines;              /* count, to be freed: where each row stands */
-    struct heading found[2]; /* in `text` */
+    struct heading found[2]; /* in the text of the file */
     struct pos heading_at[2];
-    char *text; /* to be freed */
 };
+
+/* The file that was read last, for those that want more of its columns; to be freed by data_text_free. */
+struct data_text {
+    const char *path; /* of the caller, or NULL */
+    char *text;
+    size_t length;
+};
+void data_text_free(struct data_text *kept);
 
 /* Where in the model file the columns and the data file itself are named; line 0 where they are not. */
 struct data_places {
@@ -38,9 +45,10 @@ struct data_places {
 
 /* Read the columns called `wanted[0]` and `wanted[1]`; where one is NULL, the first and the second of the file. A
  * number is the place of a column, unless one is called so. False with notes in `errors`, whose file is the data
- * file's for those about its text: `cannot-read`, `unknown-column`, `table-format`. */
+ * file's for those about its text: `cannot-read`, `unknown-column`, `table-format`. `kept` holds the text of the last
+ * file, which is not read again, and then that of this one, until the next call; `path` lives as long. */
 bool data_file_read(const char *path, const char *const wanted[2], const struct data_places *places,
-                    fbd_errors *errors, struct data_columns *columns);
+                    struct data_text *kept, fbd_errors *errors, struct data_columns *columns);
 void data_columns_free(struct data_columns *columns);
 
 #endif

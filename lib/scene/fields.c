@@ -244,7 +244,7 @@ static bool read_formula(struct reader *reader, const struct field *field, const
     if (!(field->flags & (slips | slips_not)))
         return value_formula(reader, node, field->key, field->quantity, field->flags, scope, place);
     enum slip_name slip = field->flags & slips ? slip_moving : slip_resting;
-    return slip_law_read(reader, node, field->key, field->quantity, slip, scope, place);
+    return slip_law_read(reader, node, field->key, field->quantity, field->flags, slip, scope, place);
 }
 
 static bool read_field(struct reader *reader, const struct field *field, const struct pair *pair,

@@ -121,7 +121,7 @@ static bool read_file(struct reader *reader, size_t index, const struct node *ma
     bool given = path && reader->table_drafts[index].override;
     const struct data_places places = {given ? (struct pos){0, 0} : file_place(map),
                                        {key_place(map, "x"), key_place(map, "y")}};
-    if (!path || !data_file_read(path, wanted, &places, reader->errors, columns)) return false;
+    if (!path || !data_file_read(path, wanted, &places, &reader->data, reader->errors, columns)) return false;
     points->count = columns->count;
     points->lines = columns->lines;
     const char *model_file = reader->errors->file;

@@ -12,6 +12,7 @@
 #ifndef FBD_SCENE_READER_H
 #define FBD_SCENE_READER_H
 
+#include "scene/data_file.h"
 #include "scene/language.h"
 #include "scene/names.h"
 #include "scene/node.h"
@@ -83,6 +84,7 @@ struct reader {
     bool without_hands, split_hands; /* see struct document */
     struct definition *definitions;
     struct table_draft *table_drafts;
+    struct data_text data; /* of the table that was read last */
     struct own_draft *own_drafts;
     const struct scene *tables_of; /* an earlier reading of the same text, whose tables serve here, or NULL */
     bool same_parameters;          /* it had the same values of all parameters, */

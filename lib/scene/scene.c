@@ -230,6 +230,7 @@ struct scene *scene_read_by(struct reader *reader, const struct document *docume
     if (!scene) return NULL;
     start(reader, document, scene, keep, record, errors);
     if (check_root(reader)) read_scene(reader, overrides, override_count);
+    data_text_free(&reader->data);
     if (scene->arena.failed || errors->arena.failed) diag_out_of_memory(errors);
     if (scene->coordinates && !errors->out_of_memory) return scene;
     scene_free(scene);

@@ -4,12 +4,12 @@
 #include "scene/values.h"
 
 bool slip_law_read(struct reader *reader, const struct node *node, const char *what, enum quantity quantity,
-                   enum slip_name slip, const struct scope *scope, struct value *value)
+                   unsigned flags, enum slip_name slip, const struct scope *scope, struct value *value)
 {
     struct names *names = scope->context;
     names->slip = slip;
     names->slip_angular = quantity == a_moment;
-    bool fine = value_formula(reader, node, what, quantity, not_negative, scope, value);
+    bool fine = value_formula(reader, node, what, quantity, flags, scope, value);
     names->slip = slip_unknown;
     return fine;
 }
@@ -21,5 +21,5 @@ bool slip_law_share(struct reader *reader, const struct node *node, const char *
     const struct names *names = scope->context;
     *value = *given;
     if (!given->expr || !names->slip_named) return given->expr != NULL;
-    return slip_law_read(reader, node, what, quantity, slip, scope, value);
+    return slip_law_read(reader, node, what, quantity, not_negative, slip, scope, value);
 }

@@ -12,9 +12,9 @@
 #include "scene/names.h"
 #include "scene/reader.h"
 
-/* A coefficient, with `slip` as it says. */
+/* A coefficient, with `slip` as it says; `flags` are those of its field. */
 bool slip_law_read(struct reader *reader, const struct node *node, const char *what, enum quantity quantity,
-                   enum slip_name slip, const struct scope *scope, struct value *value);
+                   unsigned flags, enum slip_name slip, const struct scope *scope, struct value *value);
 
 /* The static coefficient from the other one, of which `node` is the text, or the reverse. */
 bool slip_law_share(struct reader *reader, const struct node *node, const char *what, enum quantity quantity,

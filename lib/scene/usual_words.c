@@ -63,6 +63,12 @@ static const struct usual usual_couplings[] = {
     {"joint", "it is a `pin`"},
     {"chain", "it is a `belt`"},
     {"rolling", "it is a `roll`"},
+    {"cam", "it is a `slot` with a closed curve and a `side`"},
+    {"groove", "it is a `slot`"},
+    {"guide", "it is a `slot`"},
+    {"capstan", "it is a `rope` with `around`"},
+    {"drum", "it is a `rope` with `wound`"},
+    {"winch", "it is a `rope` with `wound`, or with a `length` of t"},
     {"rack_and_pinion", "it is a `rack`"},
 };
 

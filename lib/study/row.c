@@ -262,13 +262,20 @@ static struct patch *make_patch(const struct row_maker *maker)
     return patch;
 }
 
-/* Reading once for a patch costs as much as a few rows, and is tried in a few rows. */
+/* Reading twice for a patch costs as much as a few rows, and is tried in a few rows; again where it has served for some
+ * and the values have come to where it does not fit any more, as beyond zero. */
 static struct scene *patched(struct row_maker *maker)
 {
-    enum { first_row = 3, last_row = 6 };
+    enum { first_row = 3, last_row = 6, worth = 16 };
+    struct scene *scene = maker->patch ? patch_apply(maker->patch, maker->overrides) : NULL;
     maker->rows++;
-    if (!maker->patch && maker->rows >= first_row && maker->rows <= last_row)
-        maker->patch = make_patch(maker);
+    if (scene) maker->served++;
+    if (scene || (maker->patch && maker->served < worth)) return scene;
+    if (!maker->patch && !(maker->rows >= first_row && maker->rows <= last_row)) return NULL;
+    patch_free(maker->patch);
+    maker->served = 0;
+    maker->patch = make_patch(maker);
+    if (!maker->patch) maker->rows = 0; /* to be tried in some of the next rows */
     return maker->patch ? patch_apply(maker->patch, maker->overrides) : NULL;
 }
 

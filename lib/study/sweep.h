@@ -40,7 +40,8 @@ struct row_maker {
     struct text values;
     struct extreme *extremes;
     struct patch *patch; /* a scene that takes the values of one run after the other, or NULL */
-    uint64_t rows;       /* so far */
+    uint64_t rows;       /* since the last one was asked for */
+    uint64_t served;     /* by this patch */
     fbd_stop *stop;      /* asked in every step, or NULL */
     void *stop_context;
 };

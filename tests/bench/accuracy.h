@@ -14,12 +14,13 @@
 
 #include "fbd.h"
 
-enum { most_times = 4, most_size = 4 };
+enum { most_times = 4, most_size = 6 };
 
 enum problem_kind {
     smooth,
     belt,   /* sticks and slips */
     square, /* a force that changes its sign at multiples of half a period */
+    bounce, /* falls, and goes back up from the floor with a share of its speed */
 };
 
 struct problem {
@@ -57,15 +58,23 @@ struct mode {
 #define WAVE_SIZE    5.0 /* m/s^2 */
 #define WAVE_HALF    0.35
 
+/* Ball: r = 0.05 m from 1 m above the floor, e = 0.8. */
+#define BALL_RADIUS      0.05
+#define BALL_RESTITUTION 0.8
+
 double problem_error(const struct problem *problem, double t, const double *y);
 
 /* What is above zero until the mode ends, and its rate: friction left, or velocity left to the belt's. */
 double belt_event(const struct mode *mode, const double *y, double *rate);
 
+/* What is above zero until the ball is at the floor, and its rate. */
+double ball_event(const struct mode *mode, const double *y, double *rate);
+
 struct solver {
     const char *name;
     bool for_stiff, for_others;
     bool ours;
+    bool smooth_only; /* knows no events and no pieces */
     /* The error, or NAN when the run failed. `model` is for ours. */
     double (*run)(const struct problem *problem, const fbd_model *model, double tolerance);
 };

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "accuracy.h"
+#include "lagrange.h"
 
 double problem_error(const struct problem *problem, double t, const double *y)
 {
@@ -157,42 +158,71 @@ static void square_exact(const struct problem *problem, double t, double *y)
     y[1] = s < h ? a * s : a * (h - rest);
 }
 
-/* ---- double pendulum of two rods, m = l = 1: theta of the second is counted from the first. With the angles
- * th1, th2 from the vertical, d = th1 - th2:
- *     (4/3) a1 + (1/2) cos(d) a2 = -(1/2) sin(d) w2^2 - (3/2) g sin(th1)
- *     (1/2) cos(d) a1 + (1/3) a2 =  (1/2) sin(d) w1^2 - (1/2) g sin(th2) */
+/* No closed form: a run of rk8pd at 1e-15, made once for each problem. */
+static void by_reference(const struct problem *problem, double t, double *y)
+{
+    static double known[16][most_size];
+    static bool made[16];
+    size_t at = (size_t)(problem - problems);
+    if (!made[at]) {
+        struct mode mode = {.problem = problem};
+        gsl_odeiv2_system system = {problem->rhs, NULL, problem->size, &mode};
+        gsl_odeiv2_driver *driver = gsl_odeiv2_driver_alloc_scaled_new(&system, gsl_odeiv2_step_rk8pd, 1e-3,
+                                                                       1e-15, 1e-15, 1, 0, problem->scale);
+        double now = 0;
+        memcpy(known[at], problem->y0, sizeof known[at]);
+        made[at] = driver && gsl_odeiv2_driver_apply(driver, &now, t, known[at]) == GSL_SUCCESS;
+        gsl_odeiv2_driver_free(driver);
+    }
+    for (size_t i = 0; i < problem->size; i++) y[i] = made[at] ? known[at][i] : NAN;
+}
 
-static int double_rhs(double t, const double y[], double f[], void *context)
+/* ---- eight windows: nine uprights turn together, and eight crossbars go along a circle (IFToMM A02) */
+
+static int windows_rhs(double t, const double y[], double f[], void *context)
 {
     (void)t, (void)context;
-    const double g = 9.81;
-    double th1 = y[0], th2 = y[0] + y[1], w1 = y[2], w2 = y[2] + y[3], c = cos(th1 - th2) / 2,
-           s = sin(th1 - th2) / 2;
-    double b1 = -s * w2 * w2 - 1.5 * g * sin(th1), b2 = s * w1 * w1 - 0.5 * g * sin(th2),
-           det = 4.0 / 9 - c * c;
-    double a1 = (b1 / 3 - c * b2) / det, a2 = (4.0 / 3 * b2 - c * b1) / det;
-    f[0] = y[2];
-    f[1] = y[3];
-    f[2] = a1;
-    f[3] = a2 - a1;
+    f[0] = y[1];
+    f[1] = -(9.0 / 2 + 8) / (9.0 / 3 + 8) * 9.81 * cos(y[0]);
     return 0;
 }
 
-/* No closed form: a run of rk8pd at 1e-15, made once. */
-static void double_exact(const struct problem *problem, double t, double *y)
+/* ---- a ball that bounces: the n-th bounce lasts 2 e^n sqrt(2 h / g) */
+
+static int ball_rhs(double t, const double y[], double f[], void *context)
 {
-    static double known[most_size];
-    static bool made;
-    if (!made) {
-        gsl_odeiv2_system system = {double_rhs, NULL, problem->size, NULL};
-        gsl_odeiv2_driver *driver =
-            gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-3, 1e-15, 1e-15);
-        double now = 0;
-        memcpy(known, problem->y0, sizeof known);
-        made = driver && gsl_odeiv2_driver_apply(driver, &now, t, known) == GSL_SUCCESS;
-        gsl_odeiv2_driver_free(driver);
-    }
-    for (size_t i = 0; i < problem->size; i++) y[i] = made ? known[i] : NAN;
+    (void)t, (void)context;
+    f[0] = y[1];
+    f[1] = -9.81;
+    return 0;
+}
+
+double ball_event(const struct mode *mode, const double *y, double *rate)
+{
+    (void)mode;
+    *rate = y[1];
+    return y[0] - BALL_RADIUS;
+}
+
+static void ball_exact(const struct problem *problem, double t, double *y)
+{
+    const double g = 9.81;
+    double fall = sqrt(2 * (problem->y0[0] - BALL_RADIUS) / g), v = BALL_RESTITUTION * g * fall;
+    double s = t - fall; /* since the last bounce; t is beyond the first */
+    for (; s > 2 * v / g; v *= BALL_RESTITUTION) s -= 2 * v / g;
+    y[0] = BALL_RADIUS + s * (v - g * s / 2);
+    y[1] = v - g * s;
+}
+
+/* ---- slider-crank of one coordinate, y = [theta, omega] */
+
+static int crank_rhs(double t, const double y[], double f[], void *context)
+{
+    double all[6] = {[0] = y[0], [3] = y[1]}, rates[6];
+    int status = lagrange_slider_crank(t, all, rates, context);
+    f[0] = y[1];
+    f[1] = rates[3];
+    return status;
 }
 
 /* ---- light cart-pole, m = 1e-6 kg under M = 1 kg, l = 1 m, theta from straight down:
@@ -271,8 +301,64 @@ const struct problem problems[] = {
      .time_count = 1,
      .y0 = {1.5707963267948966, -0.7853981633974483, 0, 0},
      .scale = {1.57, 0.961, 4.22, 9.43},
-     .exact = double_exact,
-     .rhs = double_rhs},
+     .exact = by_reference,
+     .rhs = lagrange_double_pendulum},
+    {.name = "three rods, 5 s",
+     .model = "tests/bench/scenes/three_rods.yaml",
+     .options = "",
+     .size = 6,
+     .names = {"a.theta", "b.theta", "c.theta", "a.omega", "b.omega", "c.omega"},
+     .times = {5},
+     .time_count = 1,
+     .y0 = {0, -0.5235987755982988, 0.3490658503988659},
+     .scale = {3, 3, 3, 8, 15, 20},
+     .exact = by_reference,
+     .rhs = lagrange_three_rods},
+    {.name = "cart-pole, 10 s",
+     .model = "tests/bench/scenes/cart_pole.yaml",
+     .options = "",
+     .size = 4,
+     .names = {"cart.x", "pole.theta", "cart.v", "pole.omega"},
+     .times = {10},
+     .time_count = 1,
+     .y0 = {0, 1.5707963267948966, 0, 0},
+     .scale = {1.3, 1.57, 5, 8},
+     .exact = by_reference,
+     .rhs = lagrange_cart_pole},
+    {.name = "slider-crank, 5 s",
+     .model = "tests/bench/scenes/slider_crank.yaml",
+     .options = "",
+     .size = 2,
+     .names = {"crank.theta", "crank.omega"},
+     .times = {5},
+     .time_count = 1,
+     .y0 = {0.5235987755982988, 0},
+     .scale = {100, 40},
+     .exact = by_reference,
+     .rhs = crank_rhs},
+    {.name = "N-four-bar, eight windows, 10 s",
+     .model = "models/couplings/n_four_bar.yaml",
+     .options = "",
+     .size = 2,
+     .names = {"v0.theta", "v0.omega"},
+     .times = {10},
+     .time_count = 1,
+     .y0 = {1.5707963267948966, -1},
+     .scale = {4.71, 6.75},
+     .exact = by_reference,
+     .rhs = windows_rhs},
+    {.name = "bouncing ball, twelve bounces",
+     .model = "models/contact/bouncing_ball.yaml",
+     .options = "--until 3.8",
+     .kind = bounce,
+     .size = 2,
+     .names = {"ball.y", "ball.vy"},
+     .times = {3.8},
+     .time_count = 1,
+     .y0 = {1 + BALL_RADIUS, 0},
+     .scale = {1, 4.43},
+     .exact = ball_exact,
+     .rhs = ball_rhs},
     {.name = "light cart-pole, 10 s",
      .model = "tests/verify/cases/light_cart_pole.yaml",
      .options = "",

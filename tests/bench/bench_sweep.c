@@ -4,13 +4,15 @@
  * how much of a run is the run itself and how much is making its model, and runs of a single step. Processor time beside wall time:
  * on a machine with other work, twice the runs per second of processor time is what two free processors give.
  *
- * Usage: bench_sweep MODEL VARY
+ * Usage: bench_sweep MODEL VARY SMOOTH_MODEL VARY
  */
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "claim.h"
 #include "fbd.h"
 #include "timing.h"
 
@@ -76,17 +78,23 @@ static fbd_sweep *open_sweep(const char *path, const char *vary, double until)
 }
 
 /* Runs of one step: what setting one up, writing its row and freeing it takes. */
-static void measure_short(const char *path, const char *vary)
+static void measure_short(const char *path, const char *vary, double until)
 {
     static double rate[pairs];
-    const double one_step = 1e-6;
-    fbd_sweep *sweep = open_sweep(path, vary, one_step);
+    const double enough = 200000, longest = 5;
+    fbd_sweep *sweep = open_sweep(path, vary, until);
     if (!sweep) exit(1);
     for (int i = 0; i < pairs; i++)
         rate[i] = (double)fbd_sweep_run_count(sweep) / measure(sweep, 1).processor;
     double runs = median(rate, pairs);
-    printf("runs of one step: %.0f in a second of processor time (bound: 200000), %.1f us each\n", runs,
-           1e6 / runs);
+    printf("%s, %s, until %g s: %.0f runs in a second of processor time, %.1f us each\n", path, vary, until,
+           runs, 1e6 / runs);
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    char what[160];
+    snprintf(what, sizeof what, "sweep: very short runs of %s (%s) in a second and core", name, vary);
+    claim_at_least(what, runs, enough);
+    snprintf(what, sizeof what, "sweep: such a run in all, set-up and row, us (bound of the set-up)");
+    claim_at_most(what, 1e6 / runs, longest);
     fbd_sweep_free(sweep);
 }
 
@@ -94,7 +102,7 @@ int main(int argc, char **argv)
 {
     static double rate[pairs], busy[pairs], gain[pairs], loss[pairs];
     gsl_set_error_handler_off();
-    fbd_sweep *sweep = argc == 3 ? open_sweep(argv[1], argv[2], NAN) : NULL;
+    fbd_sweep *sweep = argc == 5 ? open_sweep(argv[1], argv[2], NAN) : NULL;
     if (!sweep) return 2;
     double runs = (double)fbd_sweep_run_count(sweep);
     measure(sweep, 2); /* to warm up */
@@ -118,7 +126,8 @@ int main(int argc, char **argv)
            lost, 2 / lost);
     printf("a run of the sweep: %.1f us; read, compiled and run by itself: %.1f us\n", 1e6 / busy_rate,
            1e6 * alone);
-    measure_short(argv[1], argv[2]);
+    measure_short(argv[1], argv[2], 1e-6);
+    measure_short(argv[3], argv[4], 1e-3);
     fbd_sweep_free(sweep);
     return 0;
 }

@@ -1,18 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The chain as a scene: what a stepper calls, state_rates.
+ * The chain as a scene: what a stepper calls.
  */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "chain.h"
-#include "dynamics/state.h"
+#include "dynamics/modes.h"
+#include "dynamics/rates.h"
 #include "fbd.h"
 
 struct chain {
     fbd_model *model;
     struct fbd_state *state;
+    struct rates *rates;
+    rates_function *function;
+    void *params;
 };
 
 /* The model text; release it with free(). */
@@ -37,6 +41,7 @@ static void chain_close(void *data)
 {
     struct chain *chain = data;
     if (!chain) return;
+    rates_free(chain->rates);
     state_free(chain->state);
     fbd_model_free(chain->model);
     free(chain);
@@ -52,7 +57,12 @@ static void *chain_open(int n)
     fbd_errors_free(errors);
     free(text);
     if (chain && chain->model) chain->state = state_new(chain->model);
-    if (chain && chain->state) return chain;
+    if (chain && chain->state && modes_settle(chain->state, NULL))
+        chain->rates = rates_new(chain->state, rates_by_rows);
+    if (chain && chain->rates) {
+        chain->function = rates_call(chain->rates, &chain->params);
+        return chain;
+    }
     chain_close(chain);
     return NULL;
 }
@@ -60,9 +70,7 @@ static void *chain_open(int n)
 static void chain_rates(void *data, const double *y, double *dydt)
 {
     struct chain *chain = data;
-    struct instant at = state_instant(chain->state);
-    at.y = y;
-    state_rates(chain->model, &at, chain->state->slots, dydt);
+    chain->function(0, y, dydt, chain->params);
 }
 
 const struct chain_solver chain_by_fbd = {"fbd", chain_open, chain_rates, chain_close};

@@ -17,6 +17,7 @@
 
 #include "gallery.h"
 #include "random_numbers.h"
+#include "scene/data_file.h"
 #include "thorough.h"
 
 /* ---- files */
@@ -130,6 +131,34 @@ static void files_that_are_read_are_known(void **unused)
     check_that(&checks, "once, then the next", beside && strcmp(beside, "scenes/h.csv") == 0);
     check_that(&checks, "no more", !fbd_errors_file(errors, 2));
     fbd_errors_free(errors);
+    checks_end(&checks);
+}
+
+/* Two tables of one file read it once: what stands in it meanwhile is not seen. */
+static void a_file_is_read_once(void **unused)
+{
+    char path[] = "/tmp/fbd-table-XXXXXX";
+    const char *const wanted[2][2] = {{"t", "F"}, {"t", "G"}};
+    const struct data_places nowhere = {{0, 0}, {{0, 0}, {0, 0}}};
+    struct checks checks = {0};
+    (void)unused;
+    int descriptor = mkstemp(path);
+    assert_true(descriptor >= 0);
+    close(descriptor);
+    write_file(path, "t,F,G\n0,1,5\n1,3,7\n");
+    fbd_errors *errors = fbd_errors_new();
+    struct data_text kept = {0};
+    for (int i = 0; i < 2; i++) {
+        struct data_columns columns;
+        bool read = data_file_read(path, wanted[i], &nowhere, &kept, errors, &columns);
+        check_that(&checks, "it is read", read && columns.count == 2);
+        if (read) check_close(&checks, "value", columns.values[1][1], i ? 7 : 3, 0);
+        data_columns_free(&columns);
+        write_file(path, "nothing of that\n");
+    }
+    data_text_free(&kept);
+    fbd_errors_free(errors);
+    remove(path);
     checks_end(&checks);
 }
 
@@ -283,6 +312,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_are_read_as_they_are_written),
         cmocka_unit_test(files_that_are_read_are_known),
+        cmocka_unit_test(a_file_is_read_once),
         cmocka_unit_test(a_measured_blow),
         cmocka_unit_test(the_quarter_car_follows_its_road),
     };

@@ -19,7 +19,8 @@
 
 /* ---- the same rows */
 
-enum { rows = 12, most_varied = 2 };
+/* So many that a patch has served for long enough to be made again where it does not fit any more. */
+enum { rows = 40, most_varied = 2 };
 
 static void make_rows(const fbd_sweep *sweep, size_t first, size_t end, struct text *text)
 {
@@ -127,6 +128,12 @@ static const struct patch_case {
     {BEGIN "    parts: {one: {mass: p}, other: {mass: 1}}\n    motion: slide\n    forces: [applied: {value: "
            "'m*t*1[m/s^3]'}]" END,
      true},
+    {BEGIN "    mass: 1\n    motion: slide\n    forces: [normal, friction: {static: 3*p, kinetic: p}]" END,
+     true},
+    {BEGIN "    mass: 1\n    motion: slide\n    forces: [normal, friction: {coefficient: p}]" END, true},
+    {BEGIN "    mass: 1\n    motion: slide\n    forces: [normal, friction: {static: 3*p, kinetic: "
+           "'p*exp(-abs(slip)/1[m/s])'}]" END,
+     false}, /* the same text at rest is another expression */
     {BEGIN "    mass: 1\n    motion: {slide: {through: [p, 0]}}" END, false}, /* a pair may mean anything */
     {BEGIN "    mass: 1\n    motion: slide\n    forces: [power: {value: p}]" END,
      false}, /* another follows from it */
