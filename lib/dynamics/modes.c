@@ -172,7 +172,8 @@ static int decide_friction(const struct settling *settling, int pair)
 {
     if (friction_is_never(&settling->state->model->plan.modes[pair])) return slip_plus;
     double v = settling_velocity(settling->state, settling->decided, pair);
-    return v > 0 ? slip_plus : v < 0 ? slip_minus : together;
+    int aside = settling->state->sliding ? settling->state->sliding->aside[pair] : 0;
+    return v > 0 ? slip_plus : v < 0 ? slip_minus : aside != 0 ? aside : together;
 }
 
 /* At rest what is single sticks as long as friction can hold it (friction_decide). */
@@ -262,6 +263,7 @@ bool modes_settle(struct fbd_state *state, const struct decided *decided)
 {
     struct sliding *sliding = state->sliding;
     if (!sliding) return settle(state, decided);
+    memset(sliding->aside, 0, state->model->plan.mode_count * sizeof *sliding->aside);
     for (int i = 0; i < state->model->plan.branches; i++)
         sliding->keep[i] = sliding->slide_at[i] > 0 || (decided && decided->branches[i]);
     sliding_keep_rest(state);

@@ -25,7 +25,7 @@ static size_t double_count(const struct fbd_model *model)
 
 static size_t int_count(const struct plan *plan)
 {
-    return 4 * (size_t)plan->branches + 2 * plan->mode_count + 2 * (size_t)plan->slide_count;
+    return 4 * (size_t)plan->branches + 3 * plan->mode_count + 2 * (size_t)plan->slide_count;
 }
 
 size_t sliding_size(const struct fbd_model *model)
@@ -82,7 +82,8 @@ void sliding_init(struct sliding *sliding, const struct fbd_model *model, void *
     sliding->kept = sliding->branches + plan->branches;
     sliding->pivot = sliding->kept + 2 * (size_t)plan->branches + 2 * plan->mode_count;
     sliding->held = sliding->pivot + room;
-    sliding->keep = (bool *)(sliding->held + room);
+    sliding->aside = sliding->held + room;
+    sliding->keep = (bool *)(sliding->aside + plan->mode_count);
     sliding->left = sliding->keep + plan->branches;
     sliding->ended = sliding->left + plan->branches;
     sliding->slips = sliding->ended + plan->branches;

@@ -49,9 +49,12 @@ struct sliding {
     bool *keep;    /* plan.branches: not to be chosen by the values, when modes are settled */
     bool *left;    /* plan.branches: its share has just reached an end */
     bool *ended;   /* plan.branches: the passages that are left are as good as none (loop/passages.h) */
-    bool *slips;   /* plan.mode_count: of `decided`, what is not left open */
-    int *held; /* units: the one coordinate of the surface, where friction keeps it at rest; else not_held, or
-                        all_held where it keeps several */
+    int *
+        aside; /* plan.mode_count: the side on which friction slips, as a switch holds its coordinate; else 0 */
+    bool *slips; /* plan.mode_count: of `decided`, what is not left open */
+    int *
+        held; /* units: the slot of what friction holds, where it keeps the one coordinate of the surface at rest; else
+                  not_held, or all_held where it keeps several */
     bool failed;     /* no shares are found: the branches do not act on the surfaces */
     const char *why; /* when modes did not settle for a slide: "none" or "several"; else NULL */
     int blamed;      /* then a kink */
@@ -87,8 +90,14 @@ void sliding_clear_rounding(const struct sliding *sliding, int n, double *a);
 void sliding_solve_along(const struct fbd_model *model, const struct instant *given,
                          const struct direction *direction);
 
-/* Does dry friction of its own keep a coordinate from accelerating against its surface? */
-bool sliding_is_held(const struct fbd_model *model, const struct instant *at, int coordinate);
+/* The dry friction of its own that keeps a coordinate from accelerating against its surface, -1 for none. */
+int sliding_holder(const struct fbd_model *model, const struct instant *at, int coordinate);
+
+/* Where friction holds the coordinates of a switch, does the switch go on being zero as their surfaces move? A surface
+ * that is shaken would take them off the switch, which may hold them where they are. 0, or the sign of what it will
+ * be. */
+int sliding_parted(const struct fbd_model *model, const struct instant *at, const struct kink *kink,
+                   int part);
 
 /* What a switch watches: u. */
 double sliding_watched(struct sliding *sliding, const struct fbd_model *model, const struct instant *given,

@@ -185,6 +185,12 @@ static void find_surfaces(struct question *q)
     }
 }
 
+static int parted_from(const struct fbd_state *state, const struct asked *asked)
+{
+    const struct instant at = state_instant(state);
+    return sliding_parted(state->model, &at, &state->model->plan.kinks[asked->kink], asked->part);
+}
+
 /* ---- does a choice agree? */
 
 /* How large a rate of a surface could be: to rounding it is zero against that. */
@@ -237,6 +243,8 @@ static bool agrees(struct question *q)
         if (slide > 0) {
             double share = s->slides[slide - 1].share;
             if (s->failed || !(share >= -rounding && share <= 1 + rounding)) return false;
+            bool held = s->held[s->slides[slide - 1].unit] != not_held;
+            if (held && parted_from(q->state, asked) != 0) return false;
             continue;
         }
         double zero = rounding * size_of_rate(q, asked), *flow = s->flow;
@@ -285,6 +293,19 @@ static void leave_friction(const struct question *q, const struct asked *asked, 
         int pair = slope(q, asked, 1 + n + i) == 0 ? -1 : friction_at_rest(q, (int)i);
         if (pair >= 0 && slips) slips[pair] = false;
         if (pair >= 0 && !slips) q->state->slip[pair] = stick;
+    }
+}
+
+/* Friction whose surface moves off the switch slips: the switch holds its coordinate. */
+static void part_friction(const struct question *q, const struct asked *asked)
+{
+    size_t n = (size_t)q->state->model->plan.n;
+    int side = parted_from(q->state, asked);
+    for (size_t i = 0; i < n && side != 0; i++) {
+        double a = slope(q, asked, 1 + n + i);
+        int pair = a == 0 ? -1 : friction_at_rest(q, (int)i);
+        if (pair >= 0)
+            q->state->sliding->aside[pair] = q->state->slip[pair] = a * side > 0 ? slip_minus : slip_plus;
     }
 }
 
@@ -338,6 +359,7 @@ static bool choose(struct question *q, const struct decided *decided, int choice
     bool lands = false;
     for (int unit = 0; unit < q->units; unit++, choice /= 3) digit[unit] = choice % 3;
     for (int j = 0; j < s->count; j++) s->slide_at[s->slides[j].branch] = 0;
+    memset(s->aside, 0, state->model->plan.mode_count * sizeof *s->aside);
     sliding_drop(s);
     for (int i = 0; i < state->model->plan.branches; i++) s->keep[i] = decided && decided->branches[i];
     for (int i = 0; i < q->count; i++) {
@@ -354,7 +376,10 @@ static bool choose(struct question *q, const struct decided *decided, int choice
     if (s->count > 0) sliding_number(s);
     if (lands) sliding_project(state); /* before friction asks whether it moves */
     for (int i = 0; i < q->count; i++)
-        if (digit[q->list[i].unit] == 0 && is_held(q, &q->list[i])) leave_friction(q, &q->list[i], NULL);
+        if (digit[q->list[i].unit] == 0 && is_held(q, &q->list[i])) {
+            leave_friction(q, &q->list[i], NULL);
+            part_friction(q, &q->list[i]);
+        }
     return true;
 }
 

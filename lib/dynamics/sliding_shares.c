@@ -136,14 +136,14 @@ static void set_shares(struct sliding *s)
     }
 }
 
-bool sliding_is_held(const struct fbd_model *model, const struct instant *at, int coordinate)
+int sliding_holder(const struct fbd_model *model, const struct instant *at, int coordinate)
 {
-    for (size_t pair = 0; pair < model->plan.mode_count; pair++) {
+    for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
         const struct mode *mode = &model->plan.modes[pair];
         if (mode_is_joint_friction(mode) && mode->coordinate == coordinate && at->slip[pair] == stick)
-            return true;
+            return pair;
     }
-    return false;
+    return -1;
 }
 
 /* Friction keeps the coordinates of a surface at rest. Where there is one, the switch holds first and friction what is
@@ -161,11 +161,40 @@ static int held_coordinate(const struct fbd_model *model, const struct instant *
         double slope = sliding_surface_rate(s, model, at, kink, s->slides[first].part, 0, s->flow);
         s->flow[n + i] = 0;
         if (slope == 0) continue;
-        if (!sliding_is_held(model, at, i)) return not_held;
-        held = i;
+        int holder = sliding_holder(model, at, i);
+        if (holder < 0) return not_held;
+        held = model->plan.modes[holder].hold_slot;
         count++;
     }
     return count > 1 ? all_held : held;
+}
+
+int sliding_parted(const struct fbd_model *model, const struct instant *given, const struct kink *kink,
+                   int part)
+{
+    static const double later[] = {1e-6, 1e-3, 0.1, 3.7}; /* s, of no period that anybody shakes with */
+    const double rounding = 1e-9;
+    struct sliding *s = given->sliding;
+    size_t n = (size_t)model->plan.n, size = plan_size(&model->plan);
+    for (size_t k = 0; k < sizeof later / sizeof *later; k++) {
+        struct instant at = *given;
+        double speeds = 0, acceleration;
+        memcpy(s->shifted, given->y, size * sizeof *s->shifted);
+        at.t += later[k];
+        for (size_t i = 0; i < n; i++) {
+            memset(s->flow, 0, size * sizeof *s->flow);
+            s->flow[n + i] = 1;
+            double slope = sliding_surface_rate(s, model, given, kink, part, 0, s->flow);
+            int holder = slope == 0 ? -1 : sliding_holder(model, &at, (int)i);
+            if (holder >= 0)
+                s->shifted[n + i] = friction_surface_speed(&model->plan.modes[holder], &at, &acceleration);
+            speeds += fabs(slope * s->shifted[n + i]);
+        }
+        at.y = s->shifted;
+        double u = sliding_surface(s, model, &at, kink, part);
+        if (fabs(u) > rounding * speeds) return u > 0 ? 1 : -1;
+    }
+    return 0;
 }
 
 static void find_held(const struct fbd_model *model, const struct instant *at)
@@ -174,7 +203,7 @@ static void find_held(const struct fbd_model *model, const struct instant *at)
     for (int unit = 0; unit < s->units; unit++) s->held[unit] = held_coordinate(model, at, unit);
 }
 
-/* Where a coordinate is held, its sum of forces takes the place of the rate of its surface; where all are, what the
+/* Where a coordinate is held, what its friction would have to hold takes the place of the rate of its surface; where all are, what the
  * share differs from the middle by, here `off`. */
 static void put_held(const struct sliding *s, const double *slots, const double *off, double *rates)
 {

@@ -48,7 +48,8 @@ int hold_slips_already(const struct fbd_state *state, const struct decided *deci
     if (forced[pair]) return forced[pair] == keeps_still ? 0 : forced[pair];
     if (decided && decided->slips[pair]) return state->slip[pair];
     double v = settling_velocity(state, decided, pair);
-    return v > 0 ? 1 : v < 0 ? -1 : 0;
+    int aside = state->sliding ? state->sliding->aside[pair] : 0;
+    return v > 0 ? 1 : v < 0 ? -1 : aside;
 }
 
 /* ---- one unit of a hold, and what answers */

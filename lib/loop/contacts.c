@@ -259,9 +259,43 @@ void contacts_open_or_close(struct run *run, int count, bool struck)
     }
 }
 
+/* How large the speed across a surface that is slid on is, by those that there were. */
+static double size_of_speed(struct run *run, const struct slide *slide)
+{
+    const struct fbd_model *model = run->model;
+    struct sliding *s = run->state->sliding;
+    const struct instant at = state_instant(run->state);
+    const double *most = run->recent.anchor + plan_size(&model->plan);
+    size_t n = (size_t)model->plan.n;
+    double size = 0;
+    for (size_t i = 0; i < n; i++) {
+        memset(s->flow, 0, plan_size(&model->plan) * sizeof *s->flow);
+        s->flow[n + i] = 1;
+        double slope =
+            sliding_surface_rate(s, model, &at, &model->plan.kinks[slide->kink], slide->part, 0, s->flow);
+        size += fabs(slope) * fmax(most[n + i], fabs(run->state->y[n + i]));
+    }
+    return size;
+}
+
+/* What slid on a switch and has got a speed across it is on one of its sides. */
+static void leave_switches(struct run *run)
+{
+    const double rounding = 1e-12;
+    struct sliding *s = run->state->sliding;
+    const struct instant at = state_instant(run->state);
+    for (int j = 0; s && j < s->count; j++) {
+        const struct slide *slide = &s->slides[j];
+        double u = sliding_surface(s, run->model, &at, &run->model->plan.kinks[slide->kink], slide->part);
+        if (fabs(u) > rounding * size_of_speed(run, slide)) s->slide_at[slide->branch] = 0;
+    }
+    if (s) sliding_drop(s);
+}
+
 /* What stuck and has got a speed slips. */
 static void unstick(struct run *run)
 {
+    leave_switches(run);
     const struct fbd_model *model = run->model;
     struct instant at = state_instant(run->state);
     for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {

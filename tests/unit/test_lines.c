@@ -34,6 +34,7 @@ struct disc {
     double mu, surface, shaken; /* the surface goes at surface + shaken sin(3 t) */
     double pulse;               /* where not 0, mu is mu max(0, cos(pulse t)): for half of the time it is 0 */
     bool lists_zero;            /* friction is listed though mu = 0 */
+    double rub, rub_speed;      /* -rub sign(v - rub_speed), in N */
     double k, c;                /* to x = 0 and the ground */
     double min, max, e;         /* stops, infinite without */
     double spring;              /* to the next disc, as long as at the start */
@@ -85,6 +86,16 @@ static struct disc draw_disc(struct random_numbers *numbers)
     return disc;
 }
 
+/* Of single discs: on the speed of the surface or another one. */
+static void draw_rub(struct random_numbers *numbers, struct line *line)
+{
+    struct disc *disc = &line->discs[0];
+    double rub = perhaps(numbers, 0.4, 0.1, 6) * disc->mass, other = perhaps(numbers, 0.5, -1, 1);
+    if (line->count > 1) return;
+    disc->rub = rub;
+    disc->rub_speed = disc->shaken == 0 && chance(numbers, 0.5) ? disc->surface : other;
+}
+
 /* Laws of several impacts at one instant differ, so that only single discs bounce. */
 static struct line draw_line(uint64_t seed)
 {
@@ -105,6 +116,7 @@ static struct line draw_line(uint64_t seed)
         line.discs[i].lists_zero = chance(&numbers, 0.5);
         line.discs[i].pulse = perhaps(&numbers, 0.2, 2, 10);
     }
+    draw_rub(&numbers, &line);
     return line;
 }
 
@@ -112,12 +124,15 @@ static struct line draw_line(uint64_t seed)
 
 static int write_disc(const struct disc *disc, int i, char *text, size_t size)
 {
-    char stops[120] = "", pulse[60] = "", friction[240] = "";
+    char stops[120] = "", pulse[60] = "", friction[240] = "", rub[120] = "";
     if (disc->min > -HUGE_VAL) snprintf(stops, sizeof stops, ", min: %.17g", disc->min);
     size_t length = strlen(stops);
     if (disc->max < HUGE_VAL) snprintf(stops + length, sizeof stops - length, ", max: %.17g", disc->max);
     length = strlen(stops);
     if (length > 0) snprintf(stops + length, sizeof stops - length, ", restitution: %.17g", disc->e);
+    if (disc->rub > 0)
+        snprintf(rub, sizeof rub, "      - applied: {name: rub, value: \"-%.17g*sign(v - %.17g)\"}\n",
+                 disc->rub, disc->rub_speed);
     if (disc->pulse > 0) snprintf(pulse, sizeof pulse, "*max(0, cos(%.17g*t))", disc->pulse);
     if (disc->mu > 0 || disc->lists_zero)
         snprintf(friction, sizeof friction,
@@ -127,10 +142,10 @@ static int write_disc(const struct disc *disc, int i, char *text, size_t size)
                     "  d%d:\n    shape: sphere\n    radius: %.17g\n    mass: %.17g\n"
                     "    motion: {slide: {along: 0 deg%s}}\n    initial: {x: %.17g, v: %.17g}\n    forces:\n"
                     "      - gravity\n      - normal\n%s"
-                    "      - applied: {name: push, value: \"%.17g*sin(%.17g*t + %.17g) + %.17g\"}\n"
+                    "      - applied: {name: push, value: \"%.17g*sin(%.17g*t + %.17g) + %.17g\"}\n%s"
                     "      - spring: {stiffness: %.17g}\n      - damper: {coefficient: %.17g}\n",
                     i, radius, disc->mass, stops, disc->x, disc->v, friction, disc->push.A, disc->push.w,
-                    disc->push.phase, disc->push.B, disc->k, disc->c);
+                    disc->push.phase, disc->push.B, rub, disc->k, disc->c);
 }
 
 static void write_line(const struct line *line, char *text, size_t size)
@@ -193,6 +208,9 @@ static void find_rows(const void *scene, double t, const double *q, struct morea
                                  .normal = -1};
         rub.w[i] = 1;
         if (disc->mu > 0) rows->row[rows->count++] = rub;
+        rub.aim = disc->rub_speed;
+        rub.most = disc->rub;
+        if (disc->rub > 0) rows->row[rows->count++] = rub;
         if (q[i] <= disc->min) add_gap(rows, i, 1, disc->e);
         if (q[i] >= disc->max) add_gap(rows, i, -1, disc->e);
         if (i + 1 == line->count || q[i + 1] - q[i] > 2 * radius) continue;
