@@ -448,8 +448,10 @@ static void end_step(struct run *run, const struct turn *turn)
     bool at_end = turn->t.t >= run->options.until;
     run_note_rests(run);
     passages_note(run);
-    if (at_end) run_evaluate(run); /* with the places that user events name */
-    if (at_end) run_apply_touched(run, false);
+    if (at_end) {
+        run_evaluate(run); /* with the places that user events name */
+        run_apply_touched(run, false);
+    }
     if (turn->moving || turn->timed || at_end) run_check_balance(run);
     if (run->end.outcome == FBD_GOING && at_end) run->end.outcome = FBD_DONE;
     if (run->end.outcome == FBD_GOING)
