@@ -52,6 +52,16 @@ double friction_surface_jerk(const struct mode *mode, const struct instant *at)
     return jerk;
 }
 
+double friction_below_zero(const struct fbd_model *model, int pair, const struct instant *at)
+{
+    const double rounding = 1e-12; /* of coefficients of 1, or of a bearing's limit of 1 N m */
+    const struct mode *mode = &model->plan.modes[pair];
+    if (!mode_is_friction(mode) || !(mode->mu_s.expr || mode->mu_k.expr)) return 0;
+    double least = fmin(friction_coefficient(model, pair, &mode->mu_s, at, NULL, NULL),
+                        friction_coefficient(model, pair, &mode->mu_k, at, NULL, NULL));
+    return least < -rounding ? least : 0;
+}
+
 struct friction_values friction_at(const struct fbd_model *model, int pair, const struct instant *at,
                                    const double *slots)
 {

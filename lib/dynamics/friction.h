@@ -63,6 +63,10 @@ static inline bool friction_is_never(const struct mode *mode)
            mode->mu_k.constant == 0;
 }
 
+/* Is a coefficient below zero, by more than sums round that come to zero, as 1 + cos(x) does? Friction would push then. The
+ * lower one of the two, else 0. */
+double friction_below_zero(const struct fbd_model *model, int pair, const struct instant *at);
+
 /* The rounding of the force needed and of its limit: less than this beyond the limit is not beyond it. */
 double friction_rounding(const struct friction_values *now);
 

@@ -96,7 +96,7 @@ int sliding_holder(const struct fbd_model *model, const struct instant *at, int 
 /* Where friction holds the coordinates of a switch, does the switch go on being zero as their surfaces move? A surface
  * that is shaken would take them off the switch, which may hold them where they are. 0, or the sign of what it will
  * be. */
-int sliding_parted(const struct fbd_model *model, const struct instant *at, const struct kink *kink,
+int sliding_parted(const struct fbd_model *model, const struct instant *given, const struct kink *kink,
                    int part);
 
 /* What a switch watches: u. */

@@ -4,10 +4,12 @@
 #include <string.h>
 
 #include "dynamics/energy.h"
+#include "dynamics/friction.h"
 #include "dynamics/kinematics.h"
 #include "dynamics/rest_system.h"
 #include "expr/table.h"
 #include "loop/passages.h"
+#include "rest/start.h"
 
 /* Pieces of a curve are switches of its body, and of no load. */
 static bool is_track(const struct run *run, const struct kink *kink)
@@ -110,6 +112,20 @@ static void check_mass(struct run *run, const struct kink *kink)
         return;
     }
     run->impact_work[body->carried] += (after - before) / after * kinetic_energy(body, &at);
+}
+
+void run_check_friction(struct run *run)
+{
+    const struct fbd_model *model = run->model;
+    const struct instant at = state_instant(run->state);
+    for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
+        struct text why = {0};
+        double mu = friction_below_zero(model, pair, &at);
+        if (mu == 0 || run->end.outcome != FBD_GOING) continue;
+        negative_friction_words(model, pair, mu, run_time(run), &why);
+        run_fail(run, FBD_FAILED, "%s", why.data);
+        text_free(&why);
+    }
 }
 
 void run_check_counts(struct run *run)

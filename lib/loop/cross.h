@@ -18,6 +18,9 @@ void run_turn_normal(struct run *run, int pair);
 /* End the run where such a normal force has come to the other side without an event: it has grown beyond all bounds. */
 void run_check_sides(struct run *run);
 
+/* End the run where a coefficient of friction has come below zero. */
+void run_check_friction(struct run *run);
+
 /* End the run where a rounding or a periodic table is past counting (expr.h). */
 void run_check_counts(struct run *run);
 

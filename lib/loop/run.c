@@ -446,6 +446,7 @@ static bool apply_events(struct run *run, const struct turn *turn)
 static void end_step(struct run *run, const struct turn *turn)
 {
     bool at_end = turn->t.t >= run->options.until;
+    run_check_friction(run);
     run_note_rests(run);
     passages_note(run);
     if (at_end) {

@@ -6,6 +6,7 @@
 
 #include "dynamics/contact.h"
 #include "dynamics/finite.h"
+#include "dynamics/friction.h"
 #include "dynamics/modes.h"
 #include "dynamics/project.h"
 #include "events/watchers.h"
@@ -212,6 +213,32 @@ static bool is_balanced(struct fbd_state *state, struct lack *lack)
     return balanced;
 }
 
+void negative_friction_words(const struct fbd_model *model, int pair, double mu, double t, struct text *text)
+{
+    const struct mode *mode = &model->plan.modes[pair];
+    const char *name = mode->load >= 0
+                           ? model->loads[mode->load].source->name
+                           : model->scene->constraints[model->tree->ties[mode->tie].constraint].name;
+    text_add(text, "at t = ");
+    text_number(text, t, 9);
+    text_printf(text, " a coefficient of `%s` is ", name);
+    text_number(text, mu, 4);
+    text_add(text, ": below zero friction would push; write `max(0, ...)` where it is to end");
+}
+
+static bool rubs_against_motion(const struct fbd_state *state, struct lack *lack)
+{
+    const struct instant at = state_instant(state);
+    for (int pair = 0; pair < (int)state->model->plan.mode_count; pair++) {
+        double mu = friction_below_zero(state->model, pair, &at);
+        if (mu == 0) continue;
+        lack->id = "negative-friction";
+        negative_friction_words(state->model, pair, mu, state->t, &lack->text);
+        return false;
+    }
+    return true;
+}
+
 bool start_ready(struct fbd_state *state, struct fbd_state *other, const char *what, struct lack *lack)
 {
     bool settled = modes_settle(state, NULL);
@@ -220,8 +247,9 @@ bool start_ready(struct fbd_state *state, struct fbd_state *other, const char *w
     if (!start_fits(state, other, settled, what, lack)) return false;
     if (settled) state_project(state, false); /* what slips is not closed */
     settled = modes_settle(state, NULL);
-    return start_finite(state, lack) && is_settled(state, settled, lack) && rests_on_surfaces(state, lack) &&
-           is_solved(state, lack) && is_free_to_move(state, other, lack) && is_balanced(state, lack);
+    return start_finite(state, lack) && rubs_against_motion(state, lack) &&
+           is_settled(state, settled, lack) && rests_on_surfaces(state, lack) && is_solved(state, lack) &&
+           is_free_to_move(state, other, lack) && is_balanced(state, lack);
 }
 
 bool start_question(struct fbd_state *state, bool modes, fbd_errors *errors)

@@ -44,6 +44,9 @@ void start_contact_words(const struct fbd_model *model, const struct contact *co
 /* What is lacking, as a note in `errors`. */
 void lack_note(struct lack *lack, fbd_errors *errors);
 
+/* A coefficient of friction that is below zero at t. */
+void negative_friction_words(const struct fbd_model *model, int pair, double mu, double t, struct text *text);
+
 /* Why the holds and branches of a state do not settle, from what its last settling found. */
 void unsettled_words(const struct fbd_state *state, const char *when, struct text *text);
 

@@ -400,6 +400,39 @@ static void energy_beside_a_slide_is_that_of_plain_values(void **unused)
     checks_end(&checks);
 }
 
+/* mu = 0.3 - c t: below zero it would push, which ends the run; `max(0, ...)` goes on, at v_0 - g (0.3 t - c t^2/2). */
+static void friction_does_not_push(void **unused)
+{
+    static const char scene[] =
+        "fbd: 1\nbodies:\n  b: {mass: 1, motion: slide, initial: {v: 3}, forces: [gravity, normal, "
+        "friction: {coefficient: \"%s(0%s %.17g - %.17g[1/s]*t)\"}]}\nsimulate: {until: 2}\n";
+    struct random_numbers numbers = {20261125};
+    struct checks checks = {0};
+    (void)unused;
+    for (int i = 0; i < 20; i++) {
+        double c = random_between(&numbers, 0.3, 3), end = 0.3 / c;
+        char text[400];
+        snprintf(text, sizeof text, scene, "max", ",", 0.3, c);
+        struct trial trial = trial_parse(text);
+        trial_run(&trial, NULL);
+        check_that(&checks, "it goes on", trial.outcome == FBD_DONE);
+        check_close(&checks, "v", trial_get(&trial, "b.v"), 3 - 9.81 * 0.3 * end / 2, 1e-9);
+        trial_close(&trial);
+        snprintf(text, sizeof text, scene, "", " +", 0.3, c);
+        trial = trial_parse(text);
+        trial_run(&trial, NULL);
+        check_that(&checks, "it ends", trial.outcome == FBD_FAILED);
+        check_that(&checks, "by name", strstr(fbd_simulation_reason(trial.simulation), "below zero") != NULL);
+        trial_close(&trial);
+        snprintf(text, sizeof text, scene, "", " +", -0.3, -c);
+        trial = trial_parse(text);
+        trial_run(&trial, NULL);
+        check_that(&checks, "it does not start", trial.outcome == FBD_FAILED);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -411,6 +444,7 @@ int main(void)
         cmocka_unit_test(the_jacobian_of_a_slide_is_that_of_differences),
         cmocka_unit_test(it_rests_until_the_push_is_too_large),
         cmocka_unit_test(what_is_passed_is_no_slide),
+        cmocka_unit_test(friction_does_not_push),
         cmocka_unit_test(energy_beside_a_slide_is_that_of_plain_values),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
