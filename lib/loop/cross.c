@@ -117,8 +117,10 @@ static void check_mass(struct run *run, const struct kink *kink)
 void run_check_friction(struct run *run)
 {
     const struct fbd_model *model = run->model;
-    const struct instant at = state_instant(run->state);
     for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
+        const struct mode *mode = &model->plan.modes[pair];
+        if (!mode->mu_s.expr && !mode->mu_k.expr) continue;
+        const struct instant at = state_instant(run->state);
         struct text why = {0};
         double mu = friction_below_zero(model, pair, &at);
         if (mu == 0 || run->end.outcome != FBD_GOING) continue;
@@ -207,13 +209,13 @@ void run_check_sides(struct run *run)
 {
     const double slacks = 1e3;
     const struct fbd_model *model = run->model;
-    const struct instant at = state_instant(run->state);
     for (size_t pair = 0; pair < model->plan.mode_count; pair++) {
         const struct mode *mode = &model->plan.modes[pair];
         bool rubs = mode->two_sided && mode->normal_slot >= 0 && friction_rubs(mode);
         if (!rubs || run->state->slip[pair] == stick) continue;
         double N = -run->state->slots[mode->normal_slot] * run->state->pull[pair];
         if (N >= -slacks * press_slack(model, run->state->tree, mode->body)) continue;
+        const struct instant at = state_instant(run->state);
         if (rest_is_open(model, &at)) continue; /* with forces that are shared, which keep their side */
         run_fail(
             run, FBD_FAILED,
