@@ -290,7 +290,8 @@ static void piles_fall_down_and_come_to_rest(void **unused)
     print_message(
         "# all modes tried of %d bodies: %d agree, %d have forces that are open, %d have several answers\n",
         census.tried_modes, census.agree, census.undecided, census.several);
-    check_that(&checks, "many rest", only >= 0 || 4 * census.quiet > census.tried);
+    /* Of a few there may be none: so it is said of as many as the plain build draws. */
+    check_that(&checks, "many rest", census.tried < 40 || 4 * census.quiet > census.tried);
     check_that(&checks, "all do", census.done == census.tried);
     checks_end(&checks);
 }
