@@ -52,6 +52,16 @@ double friction_surface_jerk(const struct mode *mode, const struct instant *at)
     return jerk;
 }
 
+bool friction_is_idle(const struct fbd_model *model, int pair, const struct instant *at,
+                      const struct direction *along)
+{
+    const struct mode *mode = &model->plan.modes[pair];
+    double d_s, d_k;
+    if (!mode_is_friction(mode) || !(mode->mu_s.expr || mode->mu_k.expr)) return false;
+    if (friction_coefficient(model, pair, &mode->mu_s, at, along, &d_s) != 0 || d_s != 0) return false;
+    return friction_coefficient(model, pair, &mode->mu_k, at, along, &d_k) == 0 && d_k == 0;
+}
+
 double friction_below_zero(const struct fbd_model *model, int pair, const struct instant *at)
 {
     const double rounding = 1e-12; /* of coefficients of 1, or of a bearing's limit of 1 N m */

@@ -63,6 +63,11 @@ static inline bool friction_is_never(const struct mode *mode)
            mode->mu_k.constant == 0;
 }
 
+/* Coefficients by expressions that are zero for now and go on so: the force is 0 in each mode until they do not, and that
+ * the body stops or turns back is no event of friction. */
+bool friction_is_idle(const struct fbd_model *model, int pair, const struct instant *at,
+                      const struct direction *along);
+
 /* Is a coefficient below zero, by more than sums round that come to zero, as 1 + cos(x) does? Friction would push then. The
  * lower one of the two, else 0. */
 double friction_below_zero(const struct fbd_model *model, int pair, const struct instant *at);

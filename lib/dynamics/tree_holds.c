@@ -39,11 +39,9 @@ static void find_frictionless(struct fbd_state *state, const struct decided *dec
     const struct direction flow = {1, state_scratch(state).dy};
     for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
         const struct mode *hold = mode_of(state, pair);
-        double d_s, d_k;
         state->slip_idle[pair] = forced[pair] = 0;
         if (!mode_is_friction(hold) || !hold_in_question(state, decided, forced, pair)) continue;
-        if (friction_coefficient(model, pair, &hold->mu_s, &at, &flow, &d_s) != 0 || d_s != 0) continue;
-        if (friction_coefficient(model, pair, &hold->mu_k, &at, &flow, &d_k) != 0 || d_k != 0) continue;
+        if (!friction_is_idle(model, pair, &at, &flow)) continue;
         leave_idle(state, decided, forced, pair);
     }
 }

@@ -103,10 +103,20 @@ struct enclosure outlook_slot(const struct outlook *o, int body, int slot)
 
 /* ---- friction */
 
+static bool stays_zero(const struct outlook *o, const struct formula *mu)
+{
+    const struct enclosure f = outlook_formula(o, mu);
+    return f.value.low == 0 && f.value.high == 0;
+}
+
+/* Friction that is idle throughout (friction_is_idle) has none. */
 static struct enclosure slip_stop(const struct outlook *o, int pair)
 {
     const struct fbd_model *model = o->state->model;
     const struct mode *mode = &model->plan.modes[pair];
+    bool may_idle = mode->mu_s.expr || mode->mu_k.expr;
+    if (may_idle && stays_zero(o, &mode->mu_s) && stays_zero(o, &mode->mu_k))
+        return enclosure_point(HUGE_VAL);
     struct enclosure speed = outlook_formula(o, &mode->surface_speed);
     struct enclosure slip = enclosure_subtract(o->y[model->plan.n + mode->coordinate], speed);
     return outlook_centred(o, enclosure_scale(o->state->slip[pair], slip));
@@ -280,13 +290,13 @@ static void mark_body(const struct plan *plan, int body, bool *used)
 static void mark_friction(const struct plan *plan, const struct watcher *watcher, bool *used)
 {
     const struct mode *mode = &plan->modes[watcher->index];
+    mark_formula(&mode->mu_s, used);
+    mark_formula(&mode->mu_k, used);
     if (watcher->kind == watch_slip_stop) {
         used[plan->n + mode->coordinate] = true;
         mark_formula(&mode->surface_speed, used);
         return;
     }
-    mark_formula(&mode->mu_s, used);
-    mark_formula(&mode->mu_k, used);
     mark_body(plan, mode->body, used);
 }
 

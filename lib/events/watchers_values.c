@@ -121,7 +121,7 @@ static double friction_value(const struct watchers *watchers, const struct watch
     *rate = 0;
     if (is_off_its_surface(view, mode)) return HUGE_VAL;
     if (watcher->kind == watch_slip_stop) {
-        if (slip == stick) return HUGE_VAL;
+        if (slip == stick || friction_is_idle(model, watcher->index, &view->at, &view->flow)) return HUGE_VAL;
         if (mode->tie >= 0) {
             *rate = slip * tie_slip_acceleration(model, &view->at, mode->tie);
             return slip * tie_slip_velocity(model, &view->at, mode->tie) + watchers->quiet[watcher->index];

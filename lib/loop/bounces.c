@@ -14,6 +14,9 @@
 #include "loop/run.h"
 #include "numeric/lu.h"
 
+/* Speeds after an impact below this share of those before it are rounding. */
+static const double leaving_rounding = 1e-9;
+
 static const struct tree *tree_of(const struct run *run)
 {
     return run->model->tree;
@@ -93,12 +96,14 @@ static double sum_of_intervals(const struct bounces *bounces)
 
 /* Bounces that nobody sees and that do not come to an end: what slips and sticks at each of them, or after a plastic one,
  * may throw the point up again by as much (chatter, and reverse chatter, of Nordmark, Dankowicz and Champneys, IMA Journal of Applied Mathematics
- * 76, 2011). Their heights are below the rounding of places, and rest is a motion, too: after so many, at rest. */
-static bool is_crowd(struct bounces *bounces, double leaving, double unseen)
+ * 76, 2011). Their heights are below the rounding of places, and rest is a motion, too: after so many, at rest. Of an
+ * impact that leaves nothing, plastic ones for example, the speed that it took tells what is to be seen: those of a disc
+ * that comes and goes are far apart, and no series. */
+static bool is_crowd(struct bounces *bounces, double speed, double unseen)
 {
     enum { many = 20 };
     double interval = bounces->t[0] - bounces->t[1];
-    bool seen = bounces->count < 2 || leaving * interval > unseen;
+    bool seen = bounces->count < 2 || speed * interval > unseen;
     bounces->unseen = seen ? 0 : bounces->unseen + 1;
     return bounces->unseen >= many;
 }
@@ -188,11 +193,10 @@ static double end_of_tugs(struct run *run, const struct bounces *bounces, double
 /* Does any contact open by the impact of striker i, by more than rounding? */
 static bool any_leaves(const struct run *run, int i, int count)
 {
-    const double rounding = 1e-9;
     const struct contacts_work *work = &run->contacts;
     const double *v = work->v;
     for (int k = 0; k < count; k++, v += 2)
-        if (!work->strikers[k].rope && *v > -rounding * work->strikers[i].v_n) return true;
+        if (!work->strikers[k].rope && *v > -leaving_rounding * work->strikers[i].v_n) return true;
     return false;
 }
 
@@ -210,7 +214,8 @@ static double end_of_series(struct run *run, int i, int count)
     if (bounces->is_closed) note_return(bounces, run->state->t);
     remember(bounces, run->state->t, feature);
     bounces->is_closed = !any_leaves(run, i, count);
-    bool crowd = is_crowd(bounces, bounces->is_closed ? -striker->v_n : leaving, unseen);
+    bool stops = bounces->is_closed || leaving <= -leaving_rounding * striker->v_n;
+    bool crowd = is_crowd(bounces, stops ? -striker->v_n : leaving, unseen);
     if (bounces->is_closed && !crowd) return end_of_tugs(run, bounces, unseen, count);
     double a = -acceleration_of(run, striker->tie, feature), left = HUGE_VAL;
     bool low = a > 0 && leaving * leaving <= 2 * a * unseen;
