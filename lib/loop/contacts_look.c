@@ -135,8 +135,30 @@ static double bend_between(struct run *run, int index, struct look a, struct loo
     return b.t;
 }
 
-/* The first bend that matters in (from, to], else `to`. Where a corner has come and gone it is the same side at both
- * ends: so quarters are looked at. */
+/* Shapes that come nearer and part again between two looks: they may have been in each other in between. */
+static bool may_dip(const struct look *a, const struct look *b)
+{
+    return a->gap.x > 0 && b->gap.x > 0 && a->gap.rate < 0 && b->gap.rate > 0;
+}
+
+/* An instant at which they are, on the way to where they are nearest; the end of the stretch where there is none. */
+static double dip_between(struct run *run, int index, struct look a, struct look b)
+{
+    const double share = 1e-6, end = b.t;
+    double least = fmax(share * (b.t - a.t), 4 * DBL_EPSILON * fabs(b.t));
+    while (b.t - a.t > least && !stays_apart(&a, &b)) {
+        struct look middle = look_at(run, index, a.t + (b.t - a.t) / 2);
+        if (middle.gap.x <= 0) return middle.t;
+        if (middle.gap.rate < 0)
+            a = middle;
+        else
+            b = middle;
+    }
+    return end;
+}
+
+/* The first bend that matters or dip in (from, to], else `to`. Where a corner has come and gone it is the same side at
+ * both ends: so quarters are looked at. */
 static double until_bend(struct run *run, int index, double from, double to)
 {
     enum { pieces = 4 };
@@ -144,19 +166,26 @@ static double until_bend(struct run *run, int index, double from, double to)
     for (int k = 1; k <= pieces && !stays_apart(&a, &end); k++) {
         struct look b = k == pieces ? end : look_at(run, index, from + k * (to - from) / pieces);
         look_at(run, index, b.t);
-        if (!stays_apart(&a, &b) && bends(run, index, &a, &b)) return bend_between(run, index, a, b);
+        bool near = !stays_apart(&a, &b);
+        if (near && bends(run, index, &a, &b)) return bend_between(run, index, a, b);
+        double dip = near && may_dip(&a, &b) ? dip_between(run, index, a, b) : b.t;
+        if (dip < b.t) return dip;
         a = b;
     }
     return to;
 }
 
+/* Is its gap a function that bends, or is sharply curved, as one shape goes past the other? */
+static bool goes_past(const struct meeting *meeting)
+{
+    return meeting->stop == 0 && meeting->shape[1].kind != contact_line;
+}
+
 double run_contact_bend(struct run *run, double from, double to)
 {
-    for (int i = 0; has_meetings(run->model) && i < tree_of(run)->meeting_count; i++) {
-        const struct meeting *meeting = &tree_of(run)->meetings[i];
-        bool corners = meeting->shape[0].kind == contact_corners && meeting->shape[1].kind == contact_corners;
-        if (corners && meeting->stop == 0 && !run->contacts.asleep[i]) to = until_bend(run, i, from, to);
-    }
+    for (int i = 0; has_meetings(run->model) && i < tree_of(run)->meeting_count; i++)
+        if (goes_past(&tree_of(run)->meetings[i]) && !run->contacts.asleep[i])
+            to = until_bend(run, i, from, to);
     return to;
 }
 
