@@ -101,7 +101,7 @@ void absolutes_write(const struct fbd_model *model, const struct instant *at, do
 struct instant instant_extend(const struct fbd_model *model, const struct instant *at)
 {
     struct instant extended = *at;
-    if (model->absolute_count == 0) return extended;
+    if (!model->names_places) return extended;
     if (at->y != at->extended) memcpy(at->extended, at->y, plan_size(&model->plan) * sizeof *at->extended);
     extended.y = at->extended;
     if (model->tree) tree_move(model, &extended);
@@ -146,7 +146,7 @@ static double varied(const struct fbd_model *model, const struct model_absolute 
 struct direction direction_extend(const struct fbd_model *model, const struct instant *at,
                                   const struct direction *along)
 {
-    if (model->absolute_count == 0) return *along;
+    if (!model->names_places) return *along;
     size_t size = plan_size(&model->plan);
     double *dy = at->extended + extended_size(model);
     if (along->dy != dy) memcpy(dy, along->dy, size * sizeof *dy);

@@ -3,7 +3,8 @@
  * Places in the world that expressions name: `rod.right.x`, `rod.angle`. They are functions of coordinates
  * and rates, and follow these in an extended vector: [q, v, z, the slots of derivations by hand, places].
  *
- * A model without such names has none of this: an instant then stays as it is.
+ * A model without such names has none of this: an instant then stays as it is. Where derivations by hand alone have them
+ * it does, too, and the places are written with the forces only (state_evaluate).
  */
 #ifndef FBD_DYNAMICS_ABSOLUTE_H
 #define FBD_DYNAMICS_ABSOLUTE_H
@@ -21,7 +22,7 @@ struct instant instant_extend(const struct fbd_model *model, const struct instan
 static inline const struct instant *instant_with_places(const struct fbd_model *model,
                                                         const struct instant *at, struct instant *room)
 {
-    if (model->absolute_count == 0) return at;
+    if (!model->names_places) return at;
     *room = instant_extend(model, at);
     return room;
 }

@@ -213,8 +213,7 @@ void rates_bind(struct rates *rates)
         rates->rows[rates->count++] = row_of_bare_tree(rates);
     } else if (free && model->tree && rates->state->tree->is_loop) {
         rates->rows[rates->count++] = row_of_loop(rates);
-    } else if (model->tree || model->absolute_count > 0 ||
-               state_sliding(rates->state)) { /* one solution for all */
+    } else if (model->tree || model->names_places || state_sliding(rates->state)) { /* one solution for all */
         rates->rows[rates->count++] = (struct row){.function = whole_row, .all = rates};
     } else {
         for (int b = 0; b < (int)rates->state->model->body_count; b++) bind_body(rates, b);

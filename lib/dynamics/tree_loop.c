@@ -120,7 +120,7 @@ bool tree_loop_is_steady(const struct fbd_model *model)
 /* Expressions that name places in the world or accelerations need the tree. */
 static bool names_others(const struct fbd_model *model)
 {
-    return model->absolute_count > 0 && (model->plan.own > 0 || !tree_loop_is_steady(model));
+    return model->names_places && (model->plan.own > 0 || !tree_loop_is_steady(model));
 }
 
 bool tree_loop_find(const struct fbd_model *model, struct tree_loop *loop)

@@ -56,7 +56,7 @@ static void count_zeros(const struct watchers *watchers, const struct fbd_state 
                         const struct kink *kink, double t, const double *y, int *zeros)
 {
     struct instant at = state_instant_at(state, t, y);
-    if (state->model->absolute_count > 0 && !state->model->tree) at = instant_extend(state->model, &at);
+    if (state->model->names_places && !state->model->tree) at = instant_extend(state->model, &at);
     double *margins = watchers->scratch, *roundings = margins + 4 * kink->count;
     const double *still = watchers->place + extended_size(state->model);
     expr_margins(kink->formula.expr, moment_at(t), at.y, 0, still, state->branch + kink->formula.branch,

@@ -232,7 +232,7 @@ static void set_flow(struct view *view, bool forces)
     state_rates(state->model, &view->at, slots, dy);
     if (plan->own > 0) own_rates(state->model, &view->at, dy + plan_own_place(plan));
     view->flow = (struct direction){1, dy};
-    if (state->model->absolute_count > 0) {
+    if (state->model->names_places) {
         view->at = instant_extend(state->model, &view->at);
         view->flow = direction_extend(state->model, &view->at, &view->flow);
     }

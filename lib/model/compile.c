@@ -254,6 +254,7 @@ static bool set_absolutes(struct fbd_model *model)
         model->absolutes[k] = (struct model_absolute){
             absolute->body, point, absolute->kind, model->bodies[absolute->body].first + absolute->part, -1,
             false};
+        model->names_places |= absolute->moves;
     }
     return model->absolutes != NULL;
 }

@@ -100,6 +100,7 @@ struct fbd_model {
     const struct own_label *own_labels; /* of the states of the file's own */
     size_t absolute_count;
     struct model_absolute *absolutes;
+    bool names_places; /* not in derivations by hand alone: where they are has to be known as bodies move */
     struct vec *output_points; /* scene->output_points, in the frames of their bodies */
     struct plan plan;
     struct tree *tree; /* the jointed bodies; NULL when there are none */

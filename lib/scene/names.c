@@ -95,7 +95,7 @@ static struct symbol coordinate_symbol(const struct names *names, int body, cons
 }
 
 /* The slot of a place in the world, the same one for every mention. */
-static struct symbol absolute_slot(struct reader *reader, const struct absolute *wanted)
+static struct symbol absolute_slot(struct reader *reader, enum place place, const struct absolute *wanted)
 {
     enum { most_absolutes = 1000 };
     struct scene *scene = reader->scene;
@@ -114,6 +114,7 @@ static struct symbol absolute_slot(struct reader *reader, const struct absolute 
         if (!scene->absolutes) return failed_before;
         scene->absolutes[scene->absolute_count++] = *wanted;
     }
+    scene->absolutes[k].moves |= place != place_hand;
     int derivative = wanted->kind == absolute_acceleration
                          ? 2
                          : wanted->kind == absolute_vx || wanted->kind == absolute_vy ||
@@ -136,7 +137,8 @@ static struct symbol mass_symbol(const struct names *names, int body, const char
                                   .point = {.kind = point_fixed},
                                   .kind = rate ? absolute_mass_rate : absolute_mass};
     if (!rate && strcmp(name, "m") != 0) return unknown;
-    if (draft->mass_varies && names->place != place_exact) return absolute_slot(names->reader, &mass);
+    if (draft->mass_varies && names->place != place_exact)
+        return absolute_slot(names->reader, names->place, &mass);
     if (draft->mass_varies || rate) return unknown;
     if (!draft->mass_known) return failed_before;
     return (struct symbol){.kind = symbol_constant, .dim = DIM_MASS, .value = draft->mass};
@@ -146,7 +148,7 @@ struct symbol name_of_place(struct reader *reader, int body, const struct point 
                             enum absolute_kind kind)
 {
     const struct absolute absolute = {.body = body, .point = *point, .kind = kind};
-    return absolute_slot(reader, &absolute);
+    return absolute_slot(reader, place_load, &absolute);
 }
 
 /* `angle`, `x`, `y` and their rates in the world; with `of_point` not `angle`. */
@@ -181,7 +183,7 @@ static struct symbol absolute_symbol(const struct names *names, int body, const 
     const char *dot = strrchr(name, '.'); /* points of parts have dots themselves */
     if (!dot) {
         if (!absolute_kind_of(name, false, &absolute.kind)) return unknown;
-        return absolute_slot(reader, &absolute);
+        return absolute_slot(reader, names->place, &absolute);
     }
     size_t length = (size_t)(dot - name);
     if (!absolute_kind_of(dot + 1, true, &absolute.kind)) return unknown;
@@ -196,7 +198,7 @@ static struct symbol absolute_symbol(const struct names *names, int body, const 
         absolute.point.where = owner->points[i].where;
         found = true;
     }
-    return found ? absolute_slot(reader, &absolute) : unknown;
+    return found ? absolute_slot(reader, names->place, &absolute) : unknown;
 }
 
 static struct symbol acceleration_symbol(const struct names *names, const char *name)
@@ -221,7 +223,7 @@ static struct symbol other_acceleration(const struct names *names, int body, con
         struct absolute absolute = {.body = body, .kind = absolute_acceleration, .part = i};
         if (matches(name, list[i].acceleration, list[i].acceleration) ||
             matches(name, list[i].acceleration_alias[0], list[i].acceleration_alias[1]))
-            return absolute_slot(names->reader, &absolute);
+            return absolute_slot(names->reader, names->place, &absolute);
     }
     return unknown;
 }
@@ -273,7 +275,7 @@ static struct symbol slip_symbol(struct names *names)
                             .kind = absolute_slip,
                             .roll = roll ? 1 + (int)reader->scene->constraint_count : 0,
                             .angular = names->slip_angular};
-    return absolute_slot(reader, &slip);
+    return absolute_slot(reader, names->place, &slip);
 }
 
 /* `slip` where there is none to speak of. */

@@ -97,6 +97,7 @@ struct absolute {
     int part;
     int roll; /* absolute_slip of a rolling body: 1 + index of its constraint; 0: of the body's own pair */
     bool angular; /* absolute_slip of a bearing */
+    bool moves;   /* what moves names it, or an event; else derivations by hand alone do */
 };
 
 /* A state of the file's own: z' = rate. */
