@@ -55,11 +55,11 @@ static struct fbd_state *allocate(const struct fbd_model *model)
     state->branch = behind_doubles;
     state->slip = state->branch + plan->branches;
     state->pull = state->slip + plan->mode_count;
-    state->branch_before = state->pull + plan->mode_count;
+    state->slip_driven = state->pull + plan->mode_count;
+    state->branch_before = state->slip_driven + plan->mode_count;
     state->slip_before = state->branch_before + plan->branches;
     state->slip_forced = state->slip_before + plan->mode_count;
-    state->slip_driven = state->slip_forced + plan->mode_count;
-    state->slip_barely = state->slip_driven + plan->mode_count;
+    state->slip_barely = state->slip_forced + plan->mode_count;
     state->slip_idle = state->slip_barely + plan->mode_count;
     for (size_t i = 0; i < plan->mode_count; i++) state->pull[i] = 1;
     return state;
@@ -114,18 +114,15 @@ void state_free(struct fbd_state *state)
 void state_copy(struct fbd_state *to, const struct fbd_state *from)
 {
     const struct plan *plan = &from->model->plan;
+    size_t modes = (size_t)plan->branches + 3 * plan->mode_count; /* branch, slip, pull and slip_driven */
     state_set_moment(to, state_moment(from));
     to->settled = from->settled;
     to->degrees = from->degrees;
-    memcpy(to->y, from->y, plan_size(plan) * sizeof *to->y);
-    memcpy(to->a, from->a, plan_rates(plan) * sizeof *to->a);
-    memcpy(to->slots, from->slots, (size_t)plan->slots * sizeof *to->slots);
-    memcpy(to->branch, from->branch, (size_t)plan->branches * sizeof *to->branch);
-    memcpy(to->slip, from->slip, plan->mode_count * sizeof *to->slip);
+    memcpy(to->y, from->y, (size_t)(from->scratch - from->y) * sizeof *to->y); /* with a and slots */
+    if (modes > 0) memcpy(to->branch, from->branch, modes * sizeof *to->branch);
     if (to->sliding) sliding_copy(from->model, to->sliding, from->sliding);
-    if (to->tree) memcpy(to->tree->ties, from->tree->ties, tie_bytes(from->model));
-    memcpy(to->pull, from->pull, plan->mode_count * sizeof *to->pull);
-    memcpy(to->slip_driven, from->slip_driven, plan->mode_count * sizeof *to->slip_driven);
+    if (to->tree && from->model->tree->tie_count > 0)
+        memcpy(to->tree->ties, from->tree->ties, tie_bytes(from->model));
 }
 
 void state_still(struct fbd_state *state, double duration)

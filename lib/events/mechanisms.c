@@ -23,7 +23,8 @@ bool mechanisms_init(struct mechanisms *mechanisms, const struct fbd_model *mode
     size_t links = (size_t)model->tree->count;
     mechanisms->of = calloc(links, sizeof *mechanisms->of);
     mechanisms->members = calloc(links, sizeof *mechanisms->members);
-    mechanisms->start = calloc((size_t)model->plan.n + 1, sizeof *mechanisms->start);
+    mechanisms->start = calloc(3 * (size_t)model->plan.n + 1, sizeof *mechanisms->start);
+    mechanisms->given = mechanisms->start ? mechanisms->start + model->plan.n : NULL;
     return mechanisms->of && mechanisms->members && mechanisms->start;
 }
 
@@ -110,8 +111,16 @@ static void measure_link(const struct mechanisms *mechanisms, const struct fbd_s
     }
 }
 
-static void give_floors(const struct mechanism *mechanism, const struct fbd_state *state, int link,
-                        struct switcher *stepper)
+/* The stepper keeps a floor for good. */
+static void raise_floor(double *given, struct switcher *stepper, size_t i, double floor)
+{
+    if (!(floor > given[i])) return;
+    given[i] = floor;
+    switcher_set_floor(stepper, i, floor);
+}
+
+static void give_floors(const struct mechanisms *mechanisms, const struct mechanism *mechanism,
+                        const struct fbd_state *state, int link, struct switcher *stepper)
 {
     const double share = 1e-3;
     const struct tree_link *joint = &state->model->tree->links[link];
@@ -122,8 +131,8 @@ static void give_floors(const struct mechanism *mechanism, const struct fbd_stat
         double per = coordinates[i].angle ? mechanism->arm : 1;
         if (!(per > 0)) continue; /* particles on rods turn nothing */
         double way = coordinates[i].angle ? fmin(1, mechanism->way / per) : mechanism->way;
-        switcher_set_floor(stepper, i, share * way);
-        switcher_set_floor(stepper, n + i, share * mechanism->speed / per);
+        raise_floor(mechanisms->given, stepper, i, share * way);
+        raise_floor(mechanisms->given, stepper, n + i, share * mechanism->speed / per);
     }
 }
 
@@ -135,6 +144,6 @@ void mechanisms_give_floors(struct mechanisms *mechanisms, const struct fbd_stat
         if (mechanism_of(mechanisms, i)->coupled) measure_link(mechanisms, state, i);
     for (int i = 1; i < state->model->tree->count; i++) {
         const struct mechanism *mechanism = mechanism_of(mechanisms, i);
-        if (mechanism->coupled) give_floors(mechanism, state, i, stepper);
+        if (mechanism->coupled) give_floors(mechanisms, mechanism, state, i, stepper);
     }
 }

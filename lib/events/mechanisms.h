@@ -21,6 +21,7 @@ struct mechanisms {
     int *of;                   /* for each link one that stands for its mechanism */
     struct mechanism *members; /* for each link that does: sizes */
     double *start;             /* the coordinates when they were joined */
+    double *given;             /* the floors that the stepper has, of coordinates and rates */
 };
 
 /* False when memory is out. Nothing is allocated for a model without couplings. */

@@ -146,6 +146,12 @@ int switcher_walk(struct switcher *s, struct moment t, double *y, double *f)
     return stepper_walk(s->steppers[s->made], t, y, f);
 }
 
+unsigned long switcher_rejected(const struct switcher *s, enum rejection why)
+{
+    unsigned long more = s->steppers[1] ? stepper_get_counts(s->steppers[1])->rejected[why] : 0;
+    return stepper_get_counts(s->steppers[0])->rejected[why] + more;
+}
+
 struct stepper_counts switcher_counts(const struct switcher *s)
 {
     struct stepper_counts sum = *stepper_get_counts(s->steppers[0]);

@@ -28,8 +28,9 @@ int switcher_degree(const struct switcher *switcher, double *negligible);
 int switcher_partial(struct switcher *switcher, struct moment t, double *y, double *f);
 int switcher_walk(struct switcher *switcher, struct moment t, double *y, double *f);
 
-/* Counts of both methods together. */
+/* Counts of both methods together, or one of them. */
 struct stepper_counts switcher_counts(const struct switcher *switcher);
+unsigned long switcher_rejected(const struct switcher *switcher, enum rejection why);
 
 /* Has an implicit method made the last step? */
 bool switcher_made_implicitly(const struct switcher *switcher);

@@ -12,13 +12,12 @@ struct weights {
     size_t pairs, size; /* of the layout: number of q, number of all components */
     double tolerance;
     struct step_law law;
-    double *scale;        /* size: running maximum of |y| and of the floors given */
-    double *cap;          /* pairs: 1 rad for angles, no bound for others */
-    double *acceleration; /* pairs: |a| of the last accepted state */
-    double *noise;        /* pairs: rounding error of a */
-    double *floor;        /* pairs: of the rates, as given */
-    double *amplitude;    /* pairs: of the rates, over the last accepted step */
-    double *before;       /* 3 pairs: q, v and a of the last accepted state */
+    double *scale;   /* size: running maximum of |y| and of the floors given */
+    double *cap;     /* pairs: 1 rad for angles, no bound for others */
+    double *noise;   /* pairs: rounding error of a */
+    double *floor;   /* pairs: of the rates, as given */
+    double *before;  /* 3 pairs: q, v and a of the last accepted state, */
+    double *earlier; /* and of the one before it */
     double memory[];
 };
 
@@ -55,14 +54,14 @@ static inline double scale_of_q(const struct weights *w, size_t i, double q, dou
     return smaller(scale_of(w, i, q, motion), w->cap[i]);
 }
 
-/* What a rate has in the harmonic motion through the last accepted state and this one: from a = -w^2 q, which
+/* What a rate has in the harmonic motion through the state `before` and this one: from a = -w^2 q, which
  * gives 1 / w^2 = |dq / da|, v^2 + a^2 / w^2 at any time, here with the larger v and the mean a. Without bound
  * where a does not change, and for methods of variable order, whose steps carry the errors of those before along:
  * estimates of msadams on a decaying oscillation were low by half with it (tests/unit/test_accuracy.c). */
-static double amplitude(const struct weights *w, size_t i, double q, double v, double a)
+static double amplitude(const struct weights *w, const double *before, size_t i, double q, double v, double a)
 {
     if (w->law.estimate_order == 0) return INFINITY;
-    const double *q0 = w->before, *v0 = q0 + w->pairs, *a0 = v0 + w->pairs;
+    const double *q0 = before, *v0 = q0 + w->pairs, *a0 = v0 + w->pairs;
     double fast = larger(fabs(v), fabs(v0[i])), mean = (a0[i] + a) / 2;
     double square = fast * fast + mean * mean * fabs((q - q0[i]) / (a - a0[i]));
     return square >= 0 ? sqrt(square) : INFINITY;
@@ -116,7 +115,8 @@ double weights_ratio(const gsl_odeiv2_control *control, double h, const double *
         double noise_v = w->noise[i] * fabs(h), noise_q = noise_v * fabs(h);
         ratio = raised(ratio, yerr[i], level(w, scale_of_q(w, i, q, q_motion), q, q_motion, 4 * noise_q),
                        noise_q);
-        double scale_v = scale_of_v(w, i, scale_of(w, n + i, v, v_motion), amplitude(w, i, q, v, a));
+        double scale_v =
+            scale_of_v(w, i, scale_of(w, n + i, v, v_motion), amplitude(w, w->before, i, q, v, a));
         ratio = raised(ratio, yerr[n + i], level(w, scale_v, v, v_motion, hidden_in_v(w, i, h, q)), noise_v);
         probe += 0 * (q + v + a + yerr[i] + yerr[n + i]);
     }
@@ -181,12 +181,11 @@ void weights_update(gsl_odeiv2_control *control, const double *y, const double *
     struct weights *w = control->state;
     for (size_t i = 0; i < w->size; i++) w->scale[i] = larger(w->scale[i], fabs(y[i]));
     size_t n = w->pairs;
-    for (size_t i = 0; i < n; i++) {
-        w->acceleration[i] = fabs(f[n + i]);
-        w->amplitude[i] = amplitude(w, i, y[i], y[n + i], f[n + i]);
-    }
-    memcpy(w->before, y, 2 * n * sizeof *y);
-    memcpy(w->before + 2 * n, f + n, n * sizeof *f);
+    double *now = w->earlier;
+    w->earlier = w->before;
+    w->before = now;
+    memcpy(now, y, 2 * n * sizeof *y);
+    memcpy(now + 2 * n, f + n, n * sizeof *f);
 }
 
 void weights_set_floor(gsl_odeiv2_control *control, size_t i, double floor)
@@ -206,9 +205,13 @@ void weights_set_noise(gsl_odeiv2_control *control, size_t i, double noise)
 bool weights_noise_counts(const gsl_odeiv2_control *control, double h)
 {
     const struct weights *w = control->state;
-    for (size_t i = 0; i < w->pairs; i++) {
-        double scale = scale_of_v(w, i, w->scale[w->pairs + i], w->amplitude[i]);
-        if (allowed_by_noise(w, i, h) > w->tolerance * scale) return true;
+    size_t n = w->pairs;
+    const double *q = w->before, *v = q + n, *a = v + n;
+    for (size_t i = 0; i < n; i++) {
+        double allowed = allowed_by_noise(w, i, h), scale = w->scale[n + i];
+        if (!(allowed > w->tolerance * scale_of_v(w, i, scale, 0))) continue; /* by no swing */
+        double swing = amplitude(w, w->earlier, i, q[i], v[i], a[i]);
+        if (allowed > w->tolerance * scale_of_v(w, i, scale, swing)) return true;
     }
     return false;
 }
@@ -256,7 +259,7 @@ static int control_errlevel(void *state, const double y, const double dydt, cons
 {
     const struct weights *w = state;
     size_t n = w->pairs;
-    double motion = i < n ? motion_of_q(h, dydt, w->acceleration[i]) : motion_of(h, dydt);
+    double motion = i < n ? motion_of_q(h, dydt, w->before[2 * n + i]) : motion_of(h, dydt);
     double scale = i < n ? scale_of_q(w, i, y, motion) : scale_of(w, i, y, motion);
     double hidden = i >= n && i < 2 * n ? hidden_in_v(w, i - n, h, w->scale[i - n]) : 0;
     *errlev = level(w, scale, y, motion, hidden);
@@ -325,17 +328,16 @@ static struct weights *weights_state(const struct layout *layout)
 {
     size_t pairs = layout->pairs, size = layout_size(layout);
     if (size == 0 || size > (SIZE_MAX - sizeof(struct weights)) / (8 * sizeof(double))) return NULL;
-    struct weights *w = calloc(1, sizeof *w + (size + 8 * pairs) * sizeof(double));
+    struct weights *w = calloc(1, sizeof *w + (size + 9 * pairs) * sizeof(double));
     if (!w) return NULL;
     w->pairs = pairs;
     w->size = size;
     w->scale = w->memory;
     w->cap = w->scale + size;
-    w->acceleration = w->cap + pairs;
-    w->noise = w->acceleration + pairs;
+    w->noise = w->cap + pairs;
     w->floor = w->noise + pairs;
-    w->amplitude = w->floor + pairs;
-    w->before = w->amplitude + pairs;
+    w->before = w->floor + pairs;
+    w->earlier = w->before + 3 * pairs;
     for (size_t i = 0; i < pairs; i++) w->cap[i] = layout->angle && layout->angle[i] ? 1.0 : INFINITY;
     return w;
 }

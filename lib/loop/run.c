@@ -102,8 +102,10 @@ static bool make_run(struct run *run, const struct state_start *begin)
     if (!run->work.values || !run->work.kept || !run->work.crossed || !run->recent.anchor ||
         !run->work.arrows || !run->impact_work)
         return false;
-    bool meets = run->model->tree && run->model->tree->meeting_count > 0;
+    const struct tree *tree = run->model->tree;
+    bool meets = tree && tree->meeting_count > 0, couples = tree && tree->tie_count > 0;
     run->lazy = plan->mode_count == 0 && plan->kink_count == 0 && run->poles.count == 0 && !meets;
+    run->plain = run->lazy && !couples && run->watchers.timed.count + run->watchers.moving.count == 0;
     run->rates = rates_new(run->during, rates_by_rows);
     if (!run->rates) return false;
     gsl_odeiv2_system system = {.jacobian = jacobian, .dimension = size};
@@ -292,6 +294,7 @@ static void accept(struct run *run, struct moment t)
     for (size_t i = 0; i < size; i++) most[i] = fmax(most[i], fabs(run->state->y[i]));
     state_set_moment(run->state, t);
     memcpy(run->state->y, run->work.y, size * sizeof *run->work.y);
+    if (run->plain) return;
     modes_hold(run->state);
     run_close_step(run);
     run_check_overlap(run);
@@ -363,8 +366,7 @@ static bool begin_step(struct run *run)
 /* How long the step may be: to the next event of time alone, and not into a pole. */
 static bool limit_step(struct run *run, struct turn *turn)
 {
-    if (run->step.crawl == 0)
-        run->step.not_finite = switcher_counts(run->stepper).rejected[rejected_not_finite];
+    if (run->step.crawl == 0) run->step.not_finite = switcher_rejected(run->stepper, rejected_not_finite);
     if (run->kind == structure_linear) set_linear_step(run);
     if (structure_is_one_step(run->kind)) run->step.h = run->options.until - run->step.from;
     run_part_before(run);
@@ -399,6 +401,8 @@ static bool make_step(struct run *run, struct turn *turn)
 /* The first event within it, to which it is cut; likewise where a coupling comes to an end. */
 static bool find_events(struct run *run, struct turn *turn)
 {
+    turn->moving = false;
+    if (run->plain) return true;
     run_watch_slots(run, &turn->t);
     int found = run->end.outcome == FBD_GOING ? run_find_event(run, &turn->t) : 0;
     if (found < 0) {
@@ -435,8 +439,8 @@ static bool apply_events(struct run *run, const struct turn *turn)
     } else {
         /* Who shows forces shares them out: run_look, run_check_balance. */
         if (!run->lazy) run_evaluate(run);
-        run_check_jam(run, true);
-        run_check_sides(run);
+        if (!run->plain) run_check_jam(run, true);
+        if (!run->plain) run_check_sides(run);
         run_renew_noise(run);
     }
     return true;
@@ -446,16 +450,18 @@ static bool apply_events(struct run *run, const struct turn *turn)
 static void end_step(struct run *run, const struct turn *turn)
 {
     bool at_end = turn->t.t >= run->options.until;
-    run_check_friction(run);
-    run_note_rests(run);
-    passages_note(run);
+    if (!run->plain) {
+        run_check_friction(run);
+        run_note_rests(run);
+        passages_note(run);
+    }
     if (at_end) {
         run_evaluate(run); /* with the places that user events name */
         run_apply_touched(run, false);
     }
     if (turn->moving || turn->timed || at_end) run_check_balance(run);
     if (run->end.outcome == FBD_GOING && at_end) run->end.outcome = FBD_DONE;
-    if (run->end.outcome == FBD_GOING)
+    if (run->end.outcome == FBD_GOING && !run->plain)
         watchers_arm(&run->watchers, run->state, run->state->t - run->step.from);
     if (run->projected || run->model->plan.watch_count > 0) scan_forget(&run->search.moving);
 }

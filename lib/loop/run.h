@@ -154,6 +154,7 @@ struct run {
     struct stride step;
     struct ending end;
     bool lazy;  /* no step asks for the forces of `state`: no modes, poles and contacts */
+    bool plain; /* nor can anything cut a step or bring it back: no events and couplings */
     bool stale; /* they have not been found for its time */
 
     struct counted_system system;
