@@ -8,8 +8,11 @@
 
 #include "events/cubic.h"
 
-/* A function that needs more samples of one interval is too fast for it, or noise. */
+/* A function that needs more samples of one interval is too fast for it, or noise. Nor are they worth more right-hand
+ * sides than two thousand attempts of a step by bsimp at its longest: where the inside of a step is walked again for each
+ * sample that may be 64 of them, and one interval took minutes in which nobody could interrupt the run. */
 enum { most_samples = 4096, spare_points = 3 };
+static const unsigned long most_work = 500000;
 
 struct scan_point {
     double t;
@@ -406,6 +409,22 @@ static bool leave_out_noise(struct scan *scan)
     return any;
 }
 
+/* Where looking by samples is given up. */
+struct budget {
+    long samples;
+    unsigned long work;
+};
+
+static struct budget budget_from_here(const struct scan *scan)
+{
+    return (struct budget){scan->samples + most_samples, scan->work ? *scan->work + most_work : 0};
+}
+
+static bool is_spent(const struct scan *scan, const struct budget *budget)
+{
+    return scan->samples >= budget->samples || (scan->work && *scan->work >= budget->work);
+}
+
 /* Panel by panel. A panel whose functions are not resolved is halved; one that cannot be halved any more is
  * passed over: there the functions are rounding. */
 static int look_by_series(struct scan *scan, double from, double *limit)
@@ -418,15 +437,15 @@ static int look_by_series(struct scan *scan, double from, double *limit)
     scan->prover.enclose = enclose_series;
     scan->prover.context = scan;
     if (!scan->resumed) series_start(&scan->series);
-    long most = scan->samples + most_samples;
+    struct budget budget = budget_from_here(scan);
     for (double begin = from; begin < *limit;) {
         double end = *limit - begin > 1.5 * length ? begin + length : *limit;
         double wanted = end;
         if (scan->panel) end = scan->panel(scan->context, begin, end);
         scan->clear = begin;
-        if (scan->samples >= most) {
+        if (is_spent(scan, &budget)) {
             if (begin - from >= least_share * (*limit - from) || !leave_out_noise(scan)) return 2;
-            most = scan->samples + most_samples;
+            budget = budget_from_here(scan);
         }
         int status = look_at_panel(scan, begin, end, limit, halved, &found);
         if (status < 0) return status;

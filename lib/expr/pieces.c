@@ -102,7 +102,8 @@ static double piece_end(struct walk *walk, double from, double to, double narrow
 
 static int cut(struct walk *walk, double from, double to, int most, double *ends)
 {
-    const double narrow = 4 * DBL_EPSILON * fmax(fabs(from), fabs(to));
+    /* Below the smallest normal number halves are no halves any more, and in the end nothing: the search would not end. */
+    const double narrow = fmax(4 * DBL_EPSILON * fmax(fabs(from), fabs(to)), DBL_MIN);
     int pieces = 0, nothing = 0;
     ends[0] = from;
     double at = from;
@@ -117,6 +118,7 @@ static int cut(struct walk *walk, double from, double to, int most, double *ends
         if (is_piece) ends[++pieces] = next;
         at = next;
     }
+    if (pieces == 0) pieces = 1; /* all of it is next to nothing */
     ends[pieces] = to;
     return pieces;
 }

@@ -309,6 +309,7 @@ static bool use_enclosures(struct run *run)
     const struct watcher_set *timed = &run->watchers.timed, *moving = &run->watchers.moving;
     run->search.timed.horizon = run->options.until;
     run->search.moving.panel = end_of_panel;
+    run->search.moving.work = &run->system.rhs;
     return scan_use_enclosures(&run->search.timed, timed->groups, timed->group_count, enclose_timed, NULL) &&
            scan_use_enclosures(&run->search.moving, moving->groups, moving->group_count, enclose_moving,
                                follow_course) &&

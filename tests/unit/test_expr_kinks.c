@@ -4,6 +4,9 @@
  */
 #include "expr_scope.h"
 
+#include <float.h>
+
+#include "expr/pieces.h"
 #include "random_numbers.h"
 
 enum { most_switches = 16 };
@@ -334,6 +337,27 @@ static void resolved_branches_give_the_plain_value_and_positive_margins(void **s
     }
 }
 
+/* ---- pieces of a stretch */
+
+/* The variable x in slot 1. Halves of the smallest number are nothing: the search did not end. */
+static void stretches_next_to_nothing_are_one_piece(void **state)
+{
+    (void)state;
+    const double ends[][2] = {{0, DBL_TRUE_MIN},
+                              {0, 8 * DBL_TRUE_MIN},
+                              {-DBL_TRUE_MIN, DBL_TRUE_MIN},
+                              {0, DBL_MIN / 2},
+                              {1, 1 + DBL_EPSILON}};
+    struct trial trial = must_compile("sign(x)");
+    const struct expr *formula = trial.expr;
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
+        double cut[9];
+        assert_int_equal(pieces_cut(&formula, 1, 1, ends[i][0], ends[i][1], 8, cut), 1);
+        assert_true(cut[0] == ends[i][0] && cut[1] == ends[i][1]);
+    }
+    end_trial(&trial);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -353,6 +377,7 @@ int main(void)
         cmocka_unit_test(steps_beyond_counting_are_smooth_and_silent),
         cmocka_unit_test(switches_of_the_side_not_chosen_are_silent_until_it_is_chosen),
         cmocka_unit_test(a_switch_knows_whether_only_time_moves_it),
+        cmocka_unit_test(stretches_next_to_nothing_are_one_piece),
         cmocka_unit_test(resolved_branches_give_the_plain_value_and_positive_margins),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -19,11 +19,13 @@ struct bench {
     size_t count;
     double fails_at;
     bool resumed;
+    unsigned long work, dear; /* right-hand sides so far, and of each sample */
 };
 
 static int sample(void *context, double t, double *values, double *rates)
 {
-    const struct bench *bench = context;
+    struct bench *bench = context;
+    bench->work += bench->dear;
     if (t >= bench->fails_at) return -7;
     for (size_t i = 0; i < bench->count; i++) values[i] = bench->functions[i](t, &rates[i]);
     return 0;
@@ -35,6 +37,7 @@ static int scan_once(struct scan *scan, struct bench *bench, double from, double
     assert_true(scan_init(scan, bench->count, sample, bench));
     for (size_t i = 0; i < bench->count; i++) scan->crossed[i] = bench->resumed;
     scan_pass_over(scan);
+    if (bench->dear > 0) scan->work = &bench->work;
     return scan_interval(scan, from, to);
 }
 
@@ -224,6 +227,27 @@ static void a_failing_sample_ends_the_scan(void **unused)
     scan_free(&scan);
 }
 
+static double noise(double t, double *rate)
+{
+    double many = 1e12 * sin(1e9 * t);
+    *rate = 0;
+    return many - floor(many) - 0.1;
+}
+
+/* A step whose inside is walked again for each sample: some seconds of work went into one interval of noise. */
+static void dear_samples_are_given_up_sooner(void **unused)
+{
+    (void)unused;
+    for (unsigned long dear = 0; dear <= 100000; dear = dear > 0 ? 10 * dear : 100) {
+        struct bench bench = {.functions = {noise}, .count = 1, .dear = dear};
+        struct scan scan;
+        assert_true(scan_once(&scan, &bench, 0, 1) >= 0);
+        if (dear <= 100) assert_true(scan.samples >= 4096);
+        assert_true(scan.samples < 8192 + 200 && bench.work < 1200000 + 200 * dear);
+        scan_free(&scan);
+    }
+}
+
 static double falling_early(double t, double *rate)
 {
     *rate = -1;
@@ -262,6 +286,7 @@ int main(void)
         cmocka_unit_test(a_function_that_outruns_the_samples_bounds_the_next_interval),
         cmocka_unit_test(what_is_left_out_does_not_hide_others),
         cmocka_unit_test(a_failing_sample_ends_the_scan),
+        cmocka_unit_test(dear_samples_are_given_up_sooner),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
